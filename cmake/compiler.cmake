@@ -1,0 +1,43 @@
+# What every target is compiled with. Options that only some targets need stay with those targets.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "" FORCE)
+endif()
+
+# Never -DNDEBUG: Debian's Simbody is compiled without it, and the layout of SimTK::State differs.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2")
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")
+# The same sources give the same bits on every x86-64: no fused multiply-add behind our back.
+add_compile_options(-ffp-contract=off)
+
+option(NAO_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
+option(NAO_SANITIZE "Build with address and undefined-behaviour sanitizers" OFF)
+
+add_compile_options(-Wall -Wextra -Wpedantic)
+if(NAO_WARNINGS_AS_ERRORS)
+  add_compile_options(-Werror)
+endif()
+if(NAO_SANITIZE)
+  # Not vptr: it stops at every message, inside LCM's own header, on an object that is sound.
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
+                      -fno-sanitize=vptr -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+option(NAO_FUZZ "Build fuzzers with clang's libFuzzer" OFF)
+if(NAO_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined
+                      -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+
+namespace nao {
+
+/** Channels that belong to the simulated world and to the programs; see lcmtypes/README.md. */
+inline constexpr const char* kWorldTruthChannel = "WORLD_TRUTH";
+inline constexpr const char* kWorldCommandChannel = "WORLD_COMMAND";
+inline constexpr const char* kDaemonStatusChannel = "DAEMON_STATUS";
+
+/** Channels of one robot: every name begins with the robot's own, so that several share a bus. */
+struct RobotChannels {
+  /** @param robot  Name of the robot, "NAO" by default: 1 to 20 of A-Z, 0-9 and '_'. */
+  explicit RobotChannels(const std::string& robot = "NAO")
+      : sensor_state(robot + "_SENSOR_STATE"),
+        joint_command(robot + "_JOINT_COMMAND"),
+        robot_state(robot + "_ROBOT_STATE"),
+        motion_state(robot + "_MOTION_STATE"),
+        walk_command(robot + "_WALK_COMMAND"),
+        move_to_command(robot + "_MOVE_TO_COMMAND"),
+        posture_command(robot + "_POSTURE_COMMAND"),
+        joint_change_command(robot + "_JOINT_CHANGE_COMMAND"),
+        action_command(robot + "_ACTION_COMMAND"),
+        stop_command(robot + "_STOP_COMMAND"),
+        command_result(robot + "_COMMAND_RESULT"),
+        head_camera_image(robot + "_HEAD_CAMERA_IMAGE"),
+        head_camera_command(robot + "_HEAD_CAMERA_COMMAND") {}
+
+  std::string sensor_state;
+  std::string joint_command;
+  std::string robot_state;
+  std::string motion_state;
+  std::string walk_command;
+  std::string move_to_command;
+  std::string posture_command;
+  std::string joint_change_command;
+  std::string action_command;
+  std::string stop_command;
+  std::string command_result;
+  std::string head_camera_image;
+  std::string head_camera_command;
+};
+
+}  // namespace nao

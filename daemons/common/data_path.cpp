@@ -1,0 +1,23 @@
+#include "common/data_path.h"
+
+#include <cstdlib>
+
+#include "common/error.h"
+
+namespace nao {
+
+std::filesystem::path data_path() {
+  const char* override_path = std::getenv("NAO_REMOTE_DATA");
+  const std::filesystem::path path =
+      override_path != nullptr
+          ? std::filesystem::path(override_path)
+          : std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "share" /
+                "nao-remote";
+  if (!std::filesystem::is_directory(path)) {
+    throw ConfigError("no data folder " + path.string() +
+                      ": build or install the project whole, or set NAO_REMOTE_DATA");
+  }
+  return path;
+}
+
+}  // namespace nao

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+
+namespace nao {
+
+/** Folder with the files that programs read (robots/, web/): NAO_REMOTE_DATA if set, else
+ * ../share/nao-remote beside the running program, in the build tree as after installation.
+ * @throws ConfigError  if it is no folder. */
+std::filesystem::path data_path();
+
+}  // namespace nao

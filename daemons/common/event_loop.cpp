@@ -1,0 +1,96 @@
+#include "common/event_loop.h"
+
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+
+#include "common/error.h"
+
+namespace nao {
+namespace {
+
+timespec to_timespec(double seconds) {
+  timespec result{};
+  result.tv_sec = static_cast<time_t>(seconds);
+  result.tv_nsec =
+      static_cast<long>(std::lround((seconds - static_cast<double>(result.tv_sec)) * 1e9));
+  return result;
+}
+
+}  // namespace
+
+EventLoop::EventLoop() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  signal_descriptor_ = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
+  if (signal_descriptor_ < 0) {
+    throw Error(std::string("cannot listen for signals: ") + std::strerror(errno));
+  }
+}
+
+EventLoop::~EventLoop() {
+  for (const Source& source : sources_) {
+    if (source.is_timer) close(source.descriptor);
+  }
+  close(signal_descriptor_);
+}
+
+void EventLoop::on_readable(int descriptor, std::function<void()> handler) {
+  sources_.push_back({descriptor, false, std::move(handler)});
+}
+
+void EventLoop::every(double period, std::function<void()> handler) {
+  const int descriptor = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+  const itimerspec timing{to_timespec(period), to_timespec(period)};
+  if (descriptor < 0 || timerfd_settime(descriptor, 0, &timing, nullptr) != 0) {
+    throw Error(std::string("cannot start a timer: ") + std::strerror(errno));
+  }
+  sources_.push_back({descriptor, true, std::move(handler)});
+}
+
+std::string EventLoop::run() {
+  std::vector<pollfd> polled;
+  while (!is_stopped_) {
+    polled.clear();
+    polled.push_back({signal_descriptor_, POLLIN, 0});
+    for (const Source& source : sources_) polled.push_back({source.descriptor, POLLIN, 0});
+    if (poll(polled.data(), polled.size(), -1) < 0) {
+      if (errno == EINTR) continue;
+      throw Error(std::string("cannot wait for events: ") + std::strerror(errno));
+    }
+    if (polled[0].revents != 0) {
+      signalfd_siginfo signal{};
+      if (read(signal_descriptor_, &signal, sizeof signal) == sizeof signal) {
+        stop(signal.ssi_signo == SIGINT ? "SIGINT" : "SIGTERM");
+        break;
+      }
+    }
+    // By index: a handler may add sources.
+    for (size_t i = 1; i < polled.size() && !is_stopped_; ++i) {
+      if (polled[i].revents == 0) continue;
+      if (sources_[i - 1].is_timer) {
+        uint64_t expirations = 0;
+        if (read(sources_[i - 1].descriptor, &expirations, sizeof expirations) < 0) continue;
+      }
+      sources_[i - 1].handler();
+    }
+  }
+  is_stopped_ = false;
+  return reason_;
+}
+
+void EventLoop::stop(const std::string& reason) {
+  is_stopped_ = true;
+  reason_ = reason;
+}
+
+}  // namespace nao

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace nao {
+
+/** Options that every program on the bus takes. */
+struct CommonOptions {
+  /** Bus to meet the other programs on. Default: LCM_DEFAULT_URL, or this machine only. */
+  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  /** Least severe log line to print: trace, debug, info, warning, error. */
+  std::string log_level = "info";
+  /** Name of the robot, which its channels begin with. */
+  std::string robot = "NAO";
+};
+
+/** Version of the whole project, such as "0.1.0". */
+const char* version();
+
+/** Adds --version, --lcm-url, --log-level and --robot to a program's options. */
+void add_common_options(CLI::App& app, CommonOptions& options);
+
+/** Runs a program: parses the command line, sets up logging to stderr, runs the body.
+ *
+ * @param app     Options, all added; its name is the program's.
+ * @param common  The options that add_common_options() bound to `app`; read after parsing.
+ * @param body    The program itself; what it throws becomes one line on stderr.
+ * @return Exit status: 0 the body returned (or --help), 1 it threw, 2 the command line is wrong. */
+int run_program(CLI::App& app, const CommonOptions& common, int argc, char** argv,
+                const std::function<void()>& body);
+
+/** As above for programs whose body decides the exit status itself (command-line clients). */
+int run_program_with_status(CLI::App& app, const CommonOptions& common, int argc, char** argv,
+                            const std::function<int()>& body);
+
+}  // namespace nao

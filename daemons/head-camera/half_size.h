@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace nao {
+
+/** Halves both sides of a picture: each pixel becomes the rounded mean of four.
+ * @param pixels  4 bytes a pixel, rows after one another. @param width, height  Even, pixels.
+ * @param half  Resized to hold the result. */
+void halve(const std::vector<uint8_t>& pixels, int width, int height, std::vector<uint8_t>& half);
+
+}  // namespace nao

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/robot_model.h"
+#include "head_camera_options.h"
+#include "scene/egl_context.h"
+#include "scene/gl_objects.h"
+#include "scene/robot_visual.h"
+#include "scene/scene_renderer.h"
+#include "scene/world_state.h"
+
+namespace nao {
+
+/** What a head camera saw: one picture in its three sizes. */
+struct CameraFrame {
+  /** Robot time of the state shown, microseconds. */
+  int64_t utime = 0;
+  /** "top" or "bottom". */
+  std::string camera;
+  /** Of the largest picture. */
+  PinholeCamera pinhole;
+  Eigen::Isometry3d pose_camera_in_world = Eigen::Isometry3d::Identity();
+  /** 640x480, 320x240, 160x120: rows from the bottom up, 4 bytes a pixel (blue, green, red, 255).
+   */
+  std::array<std::vector<uint8_t>, 3> bgrx;
+
+  /** Index into bgrx for a width of 640, 320 or 160. */
+  static int level(int width) { return width == 640 ? 0 : width == 320 ? 1 : 2; }
+};
+
+/** The robot's two head cameras: from a state of the world to what they see of it. Knows no bus and
+ * no clock. Each robot of the world looks like the one of the model. */
+class HeadCamera {
+ public:
+  /** Opens a graphics context of its own, which stays current in this thread.
+   * @param model  Must outlive this.
+   * @throws Error  if there is no way to draw. */
+  HeadCamera(const RobotModel& model, const HeadCameraOptions& options);
+
+  /** Draws what a camera sees into the frame that last_frame() tells of.
+   * @param camera  "top" or "bottom".
+   * @param least_width  Smaller sizes than this are left out.
+   * @throws Error  if the own robot is not in the world or has no such camera. */
+  const CameraFrame& take(const WorldState& world, const std::string& camera, int least_width);
+
+  /** The parts of take(), for measuring them: drawing alone, reading back, the smaller sizes. */
+  void draw(const WorldState& world, const std::string& camera);
+  void read_back();
+  void make_smaller(int least_width);
+
+  const CameraFrame& frame() const { return frame_; }
+
+  /** Way to the graphics driver and its name, for the log. */
+  std::string driver() const;
+  /** Meshes that are missing, scenes that are unknown: one sentence each, told once. */
+  std::vector<std::string> take_problems();
+
+ private:
+  void set_scene(const std::string& name);
+
+  const RobotModel& model_;
+  HeadCameraOptions options_;
+  EglContext context_;
+  SceneRenderer renderer_;
+  RobotVisual visual_;
+  gl::Framebuffer framebuffer_;
+  Scene scene_;
+  SceneFile scene_file_;
+  std::optional<std::string> scene_name_;
+  std::vector<std::string> problems_;
+  CameraFrame frame_;
+};
+
+}  // namespace nao

@@ -1,0 +1,54 @@
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "common/bus.h"
+#include "common/data_path.h"
+#include "common/error.h"
+#include "common/event_loop.h"
+#include "common/program.h"
+#include "common/robot_model.h"
+#include "head_camera_daemon.h"
+#include "head_camera_options.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Shows what the robot's head camera sees, without a screen", "nao-head-camera");
+  nao::CommonOptions common;
+  nao::HeadCameraOptions options;
+  nao::add_common_options(app, common);
+  std::string model_name = "nao";
+  app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
+      ->capture_default_str();
+  app.add_flag("--always", options.always, "Send pictures whether or not somebody watches");
+  app.add_option("--camera", options.camera, "Camera of --always: top or bottom")
+      ->capture_default_str();
+  app.add_option("--width", options.width, "Width of --always, pixels: 640, 320 or 160")
+      ->capture_default_str();
+  app.add_option("--rate", options.rate, "Pictures a second of --always, 1 to 30")
+      ->capture_default_str();
+  app.add_option("--quality", options.quality, "JPEG quality unless a watcher asks, 1 to 95")
+      ->capture_default_str();
+  app.add_option("--shadow-size", options.shadow_size, "Side of the shadow map, texels; 0: none")
+      ->capture_default_str();
+  app.add_option("--egl-platform", options.egl_platform,
+                 "Way to the graphics driver: auto, device, surfaceless or default")
+      ->capture_default_str();
+
+  return nao::run_program(app, common, argc, argv, [&] {
+    options.robot = common.robot;
+    options.validate();
+    nao::EventLoop loop;
+    nao::Bus bus(common.lcm_url);
+    const auto model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
+    spdlog::info("version {}, bus {}, robot {} from {}", nao::version(), common.lcm_url,
+                 options.robot, model.folder().string());
+    nao::HeadCameraDaemon daemon(bus, model, options);
+    daemon.attach(loop);
+    const std::string reason = loop.run();
+    spdlog::info("{}: {} pictures taken, {} messages in, {} out, {} dropped", reason,
+                 daemon.num_frames(), bus.counters().num_in, bus.counters().num_out,
+                 bus.counters().num_dropped);
+  });
+}

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nao::motion {
+
+/** A kick as robots/NAME/actions/kick.yaml describes it; the members carry the file's keys, and the
+ * file says what each means. */
+struct Kick {
+  struct Phase {
+    std::string name;
+    double duration = 0;
+    Eigen::Vector2d mass = Eigen::Vector2d::Zero();
+    Eigen::Vector3d foot = Eigen::Vector3d::Zero();
+    double pitch = 0;
+  };
+
+  Eigen::Vector2d ball = Eigen::Vector2d::Zero();
+  Eigen::Vector2d ball_reach = Eigen::Vector2d::Zero();
+  /** At strength 0 and 1. */
+  std::array<double, 2> strike_duration{};
+  double strength = 0;
+  double balance_gain = 0;
+  std::vector<Phase> phases;
+
+  /** @throws ModelError  naming the line and what is wrong with it. */
+  static Kick load(const std::filesystem::path& file);
+};
+
+}  // namespace nao::motion

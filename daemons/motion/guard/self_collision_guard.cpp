@@ -1,0 +1,132 @@
+#include "motion/guard/self_collision_guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/error.h"
+
+namespace nao::motion {
+namespace {
+
+// Links keep this far from each other: the servos' lag and the encoders' steps, m.
+constexpr double kClearance = 0.003;
+// Links that touch already may come this much closer before it counts, m.
+constexpr double kTouchTolerance = 0.0005;
+// The way is looked at every so many rad of the joint that turns most: an arm's end then moves 1
+// cm, less than any link is thick.
+constexpr double kSampleAngle = 0.05;
+constexpr int kMaxSamples = 100;
+// Edges of boxes are rounded by this much, m.
+constexpr double kEdgeRadius = 0.004;
+
+}  // namespace
+
+SelfCollisionGuard::SelfCollisionGuard(const RobotModel& model) : kinematics_(model) {
+  for (int link = 0; link < static_cast<int>(model.links().size()); ++link) {
+    for (const Shape& shape : model.links()[link].collisions) {
+      Part part{link, shape.pose_in_link, Eigen::Vector3d::Zero(), shape.radius, 0};
+      switch (shape.kind) {
+        case Shape::Kind::kSphere:
+          break;
+        case Shape::Kind::kCapsule:
+          part.half.z() = shape.length / 2;
+          break;
+        case Shape::Kind::kBox:
+          part.radius = std::min(kEdgeRadius, shape.size.minCoeff() / 4);
+          part.half = shape.size / 2 - Eigen::Vector3d::Constant(part.radius);
+          break;
+        default:
+          throw ModelError("link " + model.links()[link].name + ": collision shape \"" +
+                           shape.name + "\" must be a box, a sphere or a capsule");
+      }
+      part.bounding_radius = part.half.norm() + part.radius;
+      parts_.push_back(part);
+    }
+  }
+  const auto& allowed = model.allowed_contacts();
+  for (int a = 0; a < static_cast<int>(parts_.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(parts_.size()); ++b) {
+      if (parts_[a].link == parts_[b].link) continue;
+      const std::pair<int, int> links = std::minmax(parts_[a].link, parts_[b].link);
+      if (std::find(allowed.begin(), allowed.end(), links) == allowed.end()) {
+        pairs_.emplace_back(a, b);
+      }
+    }
+  }
+  placed_.resize(parts_.size());
+}
+
+void SelfCollisionGuard::place(const std::vector<double>& position) {
+  kinematics_.update(position);
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    const Eigen::Isometry3d pose = kinematics_.link_pose(parts_[i].link) * parts_[i].pose_in_link;
+    placed_[i].center = pose.translation();
+    placed_[i].rotation = pose.linear();
+    placed_[i].half = parts_[i].half;
+    placed_[i].radius = parts_[i].radius;
+  }
+}
+
+double SelfCollisionGuard::distance(const std::pair<int, int>& pair, double enough) const {
+  const auto [a, b] = pair;
+  const double bound = (placed_[a].center - placed_[b].center).norm() - parts_[a].bounding_radius -
+                       parts_[b].bounding_radius;
+  return bound > enough ? bound : closest_points(placed_[a], placed_[b]).distance;
+}
+
+double SelfCollisionGuard::calc_clearance(const std::vector<double>& position) {
+  place(position);
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& pair : pairs_) least = std::min(least, distance(pair, least));
+  return least;
+}
+
+double SelfCollisionGuard::find_safe_share(const std::vector<double>& from,
+                                           const std::vector<double>& to,
+                                           SelfCollision& collision) {
+  double largest = 0;
+  for (size_t i = 0; i < from.size(); ++i) largest = std::max(largest, std::abs(to[i] - from[i]));
+  const int num_samples =
+      std::clamp(static_cast<int>(std::ceil(largest / kSampleAngle)), 1, kMaxSamples);
+  place(from);
+  std::vector<double> needed;
+  for (const auto& pair : pairs_) {
+    needed.push_back(std::min(kClearance, distance(pair, kClearance) - kTouchTolerance));
+  }
+  std::vector<double> position = from;
+  for (int k = 1; k <= num_samples; ++k) {
+    const double share = static_cast<double>(k) / num_samples;
+    for (size_t i = 0; i < from.size(); ++i) position[i] = from[i] + share * (to[i] - from[i]);
+    place(position);
+    for (size_t i = 0; i < pairs_.size(); ++i) {
+      if (distance(pairs_[i], kClearance) >= needed[i]) continue;
+      const std::vector<Link>& links = kinematics_.model().links();
+      collision.link_a = links[parts_[pairs_[i].first].link].name;
+      collision.link_b = links[parts_[pairs_[i].second].link].name;
+      for (size_t m = 0; m < from.size(); ++m) position[m] = to[m] - from[m];
+      collision.motor = find_mover(pairs_[i], position);
+      return static_cast<double>(k - 1) / num_samples;
+    }
+  }
+  return 1;
+}
+
+int SelfCollisionGuard::find_mover(const std::pair<int, int>& pair,
+                                   const std::vector<double>& change) const {
+  const Proximity proximity = closest_points(placed_[pair.first], placed_[pair.second]);
+  const Eigen::Matrix3Xd parting =
+      kinematics_.calc_point_jacobian(parts_[pair.first].link, proximity.point) -
+      kinematics_.calc_point_jacobian(parts_[pair.second].link, proximity.point);
+  int mover = -1;
+  double fastest = 0;
+  for (int motor = 0; motor < static_cast<int>(change.size()); ++motor) {
+    const double closing = -proximity.normal.dot(parting.col(motor)) * change[motor];
+    if (mover >= 0 && closing <= fastest) continue;
+    fastest = closing;
+    mover = motor;
+  }
+  return mover;
+}
+
+}  // namespace nao::motion

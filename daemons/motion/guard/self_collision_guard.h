@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/closest_points.h"
+#include "common/robot_model.h"
+#include "motion/kinematics/kinematics.h"
+
+namespace nao::motion {
+
+/** Two links that would hit each other. */
+struct SelfCollision {
+  std::string link_a;
+  std::string link_b;
+  /** Joint of the way that moves them towards each other fastest; index of a motor. */
+  int motor = -1;
+};
+
+/** Foresees whether joint angles bring the robot's links into each other, by the collision
+ * primitives of its URDF. Links that may touch (RobotModel::allowed_contacts()) are left out. */
+class SelfCollisionGuard {
+ public:
+  /** @throws ModelError  for a collision shape that is no box, sphere or capsule. */
+  explicit SelfCollisionGuard(const RobotModel& model);
+
+  /** Least distance between any two links that should not touch, m; negative if they overlap. */
+  double calc_clearance(const std::vector<double>& position);
+
+  /** Share of the straight way from one set of angles to another without self-collision. Links that
+   * touch at its beginning may go on touching, no deeper.
+   * @param collision  Set if the answer is below 1. @return 0..1. */
+  double find_safe_share(const std::vector<double>& from, const std::vector<double>& to,
+                         SelfCollision& collision);
+
+ private:
+  struct Part {
+    int link;
+    Eigen::Isometry3d pose_in_link;
+    Eigen::Vector3d half;
+    double radius;
+    /** Of a ball about its centre that holds it, m. */
+    double bounding_radius;
+  };
+
+  void place(const std::vector<double>& position);
+  /** Distance of a pair, or a lower bound of it if that is above `enough`. */
+  double distance(const std::pair<int, int>& pair, double enough) const;
+  /** Motor whose part of a change closes the gap of a pair most, where the parts are placed now. */
+  int find_mover(const std::pair<int, int>& pair, const std::vector<double>& change) const;
+
+  Kinematics kinematics_;
+  std::vector<Part> parts_;
+  std::vector<std::pair<int, int>> pairs_;
+  std::vector<RoundedBox> placed_;
+};
+
+}  // namespace nao::motion

@@ -1,0 +1,39 @@
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "common/bus.h"
+#include "common/data_path.h"
+#include "common/event_loop.h"
+#include "common/program.h"
+#include "common/robot_model.h"
+#include "motion/motion_daemon.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Decides where the robot's joints go: postures, joint changes, balance.",
+               "nao-motion");
+  nao::CommonOptions common;
+  nao::add_common_options(app, common);
+  std::string model_name = "nao";
+  nao::motion::MotionOptions options;
+  app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
+      ->capture_default_str();
+  app.add_option("--default-speed", options.default_speed,
+                 "Speed of motions that nobody gave one for, fraction of the maximum")
+      ->capture_default_str();
+  return nao::run_program(app, common, argc, argv, [&] {
+    const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
+    nao::EventLoop loop;
+    nao::Bus bus(common.lcm_url);
+    const nao::motion::MotionDaemon daemon(bus, loop, model, options, common.robot);
+    spdlog::info("version {}, bus {}, channels {}_*, model {}", nao::version(), common.lcm_url,
+                 common.robot, model.folder().string());
+    const std::string reason = loop.run();
+    spdlog::info("stopped by {} after {} steps; {} messages in, {} out, {} dropped", reason,
+                 daemon.num_steps(), bus.counters().num_in, bus.counters().num_out,
+                 bus.counters().num_dropped);
+  });
+}

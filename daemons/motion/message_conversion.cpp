@@ -1,0 +1,212 @@
+#include "motion/message_conversion.h"
+
+#include <cmath>
+
+#include "common/error.h"
+
+namespace nao::motion {
+namespace {
+
+constexpr double kOrientationTolerance = 0.01;
+
+void require_finite(double value, const char* what, const std::string& name) {
+  if (!std::isfinite(value)) throw Error(std::string(what) + " " + name + " is not a number");
+}
+
+void require_finite(const double* values, int count, const char* what) {
+  for (int i = 0; i < count; ++i) require_finite(values[i], what, "reading");
+}
+
+template <class Message>
+Command command_from(const Message& message) {
+  Command command;
+  command.source = message.source;
+  command.id = message.command_id;
+  return command;
+}
+
+}  // namespace
+
+Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& message) {
+  Sensors sensors;
+  sensors.utime = message.utime;
+  sensors.tick = message.tick;
+
+  const size_t num_motors = model.num_motors();
+  sensors.position.assign(num_motors, 0);
+  sensors.velocity.assign(num_motors, 0);
+  sensors.torque.assign(num_motors, 0);
+  std::vector<bool> is_known(num_motors, false);
+  for (int i = 0; i < message.num_joints; ++i) {
+    const std::string& name = message.joint_names[i];
+    const int motor = model.find_motor(name);
+    if (motor < 0) throw Error("the robot has no joint " + quoted(name));
+    if (is_known[motor]) throw Error("joint " + name + " is listed twice");
+    is_known[motor] = true;
+    sensors.position[motor] = message.joint_position[i];
+    sensors.velocity[motor] = message.joint_velocity[i];
+    sensors.torque[motor] = message.joint_torque[i];
+    require_finite(message.joint_position[i], "position of", name);
+    require_finite(message.joint_velocity[i], "velocity of", name);
+    require_finite(message.joint_torque[i], "torque of", name);
+  }
+  for (size_t motor = 0; motor < num_motors; ++motor) {
+    if (!is_known[motor]) {
+      throw Error("joint " + model.motor_joint(static_cast<int>(motor)).name + " is missing");
+    }
+  }
+
+  require_finite(message.accelerometer_torso, 3, "accelerometer");
+  require_finite(message.gyroscope_torso, 3, "gyroscope");
+  require_finite(message.orientation_torso_in_world, 4, "orientation");
+  sensors.accelerometer_torso = Eigen::Vector3d(message.accelerometer_torso);
+  sensors.gyroscope_torso = Eigen::Vector3d(message.gyroscope_torso);
+  const double* q = message.orientation_torso_in_world;
+  sensors.orientation_torso_in_world = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  if (std::abs(sensors.orientation_torso_in_world.norm() - 1) > kOrientationTolerance) {
+    throw Error("orientation is no unit quaternion");
+  }
+
+  sensors.foot_force.assign(model.foot_sensors().size(), 0);
+  std::vector<bool> is_listed(model.foot_sensors().size(), false);
+  for (int i = 0; i < message.num_foot_sensors; ++i) {
+    const std::string& name = message.foot_sensor_names[i];
+    size_t index = 0;
+    while (index < model.foot_sensors().size() &&
+           model.links()[model.foot_sensors()[index]].name != name) {
+      ++index;
+    }
+    if (index == model.foot_sensors().size()) {
+      throw Error("the robot has no foot sensor " + quoted(name));
+    }
+    if (is_listed[index]) throw Error("foot sensor " + name + " is listed twice");
+    is_listed[index] = true;
+    require_finite(message.foot_force[i], "force on", name);
+    sensors.foot_force[index] = std::max(0.0, message.foot_force[i]);
+  }
+  for (size_t index = 0; index < is_listed.size(); ++index) {
+    if (!is_listed[index]) {
+      throw Error("foot sensor " + model.links()[model.foot_sensors()[index]].name + " is missing");
+    }
+  }
+  return sensors;
+}
+
+Command to_command(const naolcm::walk_command_t& message) {
+  Command command = command_from(message);
+  command.request = WalkCommand{message.vx, message.vy, message.wz};
+  return command;
+}
+
+Command to_command(const naolcm::move_to_command_t& message) {
+  Command command = command_from(message);
+  command.request = MoveToCommand{message.x, message.y, message.theta};
+  return command;
+}
+
+Command to_command(const naolcm::posture_command_t& message) {
+  Command command = command_from(message);
+  command.request = PostureCommand{message.posture, message.speed};
+  return command;
+}
+
+Command to_command(const naolcm::joint_change_command_t& message) {
+  Command command = command_from(message);
+  command.request =
+      JointChangeCommand{message.joint_names, message.joint_position, message.is_relative != 0,
+                         message.speed, message.allow_tipping != 0};
+  return command;
+}
+
+Command to_command(const naolcm::action_command_t& message) {
+  Command command = command_from(message);
+  command.request = ActionCommand{message.action, message.ball_x, message.ball_y, message.strength};
+  return command;
+}
+
+Command to_command(const naolcm::stop_command_t& message) {
+  Command command = command_from(message);
+  command.request = StopCommand{};
+  return command;
+}
+
+naolcm::joint_command_t to_message(const JointTargets& targets, const RobotState& state,
+                                   const std::vector<std::string>& names) {
+  naolcm::joint_command_t message;
+  message.utime = state.utime;
+  message.tick = state.tick;
+  message.num_joints = static_cast<int>(names.size());
+  message.joint_names = names;
+  message.joint_position = targets.position;
+  message.joint_stiffness = targets.stiffness;
+  return message;
+}
+
+naolcm::robot_state_t to_message(const RobotState& state, const std::vector<std::string>& names) {
+  naolcm::robot_state_t message;
+  message.utime = state.utime;
+  message.tick = state.tick;
+  message.num_joints = static_cast<int>(names.size());
+  message.joint_names = names;
+  message.joint_position = state.joint_position;
+  message.joint_velocity = state.joint_velocity;
+  const Eigen::Quaterniond q(state.torso_in_odometry.linear());
+  message.orientation_torso_in_odometry[0] = q.w();
+  message.orientation_torso_in_odometry[1] = q.x();
+  message.orientation_torso_in_odometry[2] = q.y();
+  message.orientation_torso_in_odometry[3] = q.z();
+  for (int i = 0; i < 3; ++i) {
+    message.position_torso_in_odometry[i] = state.torso_in_odometry.translation()[i];
+    message.velocity_torso_in_heading[i] = state.velocity_torso_in_heading[i];
+    message.angular_velocity_torso[i] = state.angular_velocity_torso[i];
+    message.center_of_mass_in_odometry[i] = state.center_of_mass_in_odometry[i];
+  }
+  message.center_of_pressure_in_odometry[0] = state.center_of_pressure_in_odometry.x();
+  message.center_of_pressure_in_odometry[1] = state.center_of_pressure_in_odometry.y();
+  message.left_foot_force = state.left_foot_force;
+  message.right_foot_force = state.right_foot_force;
+  message.num_support_corners = static_cast<int>(state.support_polygon_in_odometry.size());
+  for (const Eigen::Vector2d& corner : state.support_polygon_in_odometry) {
+    message.support_corner_in_odometry.push_back({corner.x(), corner.y()});
+  }
+  return message;
+}
+
+naolcm::motion_state_t to_message(const MotionState& state) {
+  naolcm::motion_state_t message;
+  message.utime = state.utime;
+  message.mode = to_string(state.mode);
+  message.posture = state.posture;
+  message.command = state.command;
+  message.command_detail = state.command_detail;
+  message.command_source = state.command_source;
+  message.command_id = state.command_id;
+  message.command_progress = state.command_progress;
+  message.balance_margin = state.balance_margin;
+  for (int i = 0; i < 3; ++i) message.walk_velocity[i] = state.walk_velocity[i];
+  message.stiffness = state.stiffness;
+  message.last_refusal = state.last_refusal;
+  message.num_footsteps = static_cast<int>(state.footsteps.size());
+  for (const Footstep& footstep : state.footsteps) {
+    naolcm::footstep_t part;
+    part.is_left = footstep.is_left ? 1 : 0;
+    part.position_in_odometry[0] = footstep.position_in_odometry.x();
+    part.position_in_odometry[1] = footstep.position_in_odometry.y();
+    part.heading_in_odometry = footstep.heading_in_odometry;
+    message.footsteps.push_back(part);
+  }
+  return message;
+}
+
+naolcm::command_result_t to_message(const CommandResult& result, int64_t utime) {
+  naolcm::command_result_t message;
+  message.utime = utime;
+  message.source = result.source;
+  message.command_id = result.id;
+  message.command = to_string(result.kind);
+  message.status = to_string(result.status);
+  message.reason = result.reason;
+  return message;
+}
+
+}  // namespace nao::motion

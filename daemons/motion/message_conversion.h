@@ -1,0 +1,47 @@
+#pragma once
+
+#include <naolcm/action_command_t.hpp>
+#include <naolcm/command_result_t.hpp>
+#include <naolcm/joint_change_command_t.hpp>
+#include <naolcm/joint_command_t.hpp>
+#include <naolcm/motion_state_t.hpp>
+#include <naolcm/move_to_command_t.hpp>
+#include <naolcm/posture_command_t.hpp>
+#include <naolcm/robot_state_t.hpp>
+#include <naolcm/sensor_state_t.hpp>
+#include <naolcm/stop_command_t.hpp>
+#include <naolcm/walk_command_t.hpp>
+#include <string>
+#include <vector>
+
+#include "common/robot_model.h"
+#include "motion/command.h"
+#include "motion/joint_targets.h"
+#include "motion/motion_state.h"
+#include "motion/robot_state.h"
+#include "motion/sensors.h"
+
+namespace nao::motion {
+
+/** Between the messages of the bus and the core's types. */
+
+/** @throws Error  saying which joint or sensor is missing, unknown or listed twice, or which number
+ * is none: such a message must not reach the core. */
+Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& message);
+
+Command to_command(const naolcm::walk_command_t& message);
+Command to_command(const naolcm::move_to_command_t& message);
+Command to_command(const naolcm::posture_command_t& message);
+Command to_command(const naolcm::joint_change_command_t& message);
+Command to_command(const naolcm::action_command_t& message);
+Command to_command(const naolcm::stop_command_t& message);
+
+/** @param names  Of all motors, in motor order. */
+naolcm::joint_command_t to_message(const JointTargets& targets, const RobotState& state,
+                                   const std::vector<std::string>& names);
+naolcm::robot_state_t to_message(const RobotState& state, const std::vector<std::string>& names);
+naolcm::motion_state_t to_message(const MotionState& state);
+/** @param utime  Robot time, microseconds. */
+naolcm::command_result_t to_message(const CommandResult& result, int64_t utime);
+
+}  // namespace nao::motion

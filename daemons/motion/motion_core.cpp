@@ -1,0 +1,491 @@
+#include "motion/motion_core.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/error.h"
+#include "motion/acceptance.h"
+#include "motion/actions/kick_motion.h"
+#include "motion/command_check.h"
+#include "motion/falls/fall_motion.h"
+#include "motion/joint_change_motion.h"
+#include "motion/posture_motion.h"
+#include "motion/rest_motion.h"
+#include "motion/sequence_motion.h"
+#include "motion/transitions/body_state.h"
+#include "motion/transitions/journey_motion.h"
+#include "motion/walk/walk_motion.h"
+
+namespace nao::motion {
+namespace {
+
+constexpr const char* kFirstPosture = "StandInit";
+constexpr const char* kGaitFile = "gait.yaml";
+constexpr const char* kKickFile = "actions/kick.yaml";
+constexpr const char* kRestPosture = "Crouch";
+
+// Time after taking over in which the estimate settles before the first motion is chosen, s.
+constexpr double kTakeOverTime = 0.1;
+// A joint that turned this much farther in one tick than its motor can was not turned by it:
+// somebody has placed the robot anew, rad.
+constexpr double kPlacedAngle = 0.5;
+// Servos hold a load by lagging behind their targets; a lag of more than this is no load, rad.
+constexpr double kMaxServoLag = 0.1;
+// Measured angles may be this far off a posture that the robot is said to be in, rad (5 degrees:
+// the servos' lag and the encoders' steps).
+constexpr double kInPostureTolerance = 0.09;
+// Torso height below which a robot does not stand, m; a crouch has 0.229.
+constexpr double kLeastStandingHeight = 0.15;
+
+bool has_changed(const MotionState& a, const MotionState& b) {
+  return a.mode != b.mode || a.posture != b.posture || a.command != b.command ||
+         a.command_source != b.command_source || a.command_id != b.command_id ||
+         a.command_detail != b.command_detail || a.last_refusal != b.last_refusal;
+}
+
+}  // namespace
+
+MotionCore::MotionCore(const RobotModel& model, const MotionOptions& options)
+    : model_(&model),
+      options_(options),
+      limiter_(model),
+      graph_(TransitionGraph::load(model, model.folder() / "transitions.yaml")),
+      estimator_(model, options.foot_contact_force),
+      tipping_guard_(model),
+      collision_guard_(model),
+      fall_monitor_(options.lying_tilt) {
+  options_.validate();
+  if (model.find_posture(kFirstPosture) == nullptr) {
+    throw ModelError(model.name() + " has no posture " + kFirstPosture);
+  }
+  // A robot without a gait is a robot that does not walk.
+  gait_ = options.gait;
+  const std::filesystem::path file = model.folder() / kGaitFile;
+  if (!gait_ && std::filesystem::exists(file)) gait_ = Gait::load(file);
+  const std::filesystem::path kick = model.folder() / kKickFile;
+  if (std::filesystem::exists(kick)) kick_ = Kick::load(kick);
+}
+
+Output MotionCore::step(const Input& input, double dt) {
+  output_ = Output();
+  if (input.sensors) {
+    take_sensors(*input.sensors, dt);
+  } else {
+    silence_ += dt;
+    if (has_robot_ && silence_ >= options_.sensor_timeout) lose_robot();
+  }
+  for (const Command& command : input.commands) receive(command);
+  if (input.sensors) {
+    move(dt);
+    output_.joint_targets = targets_;
+    output_.robot_state = estimator_.state();
+  }
+  report(dt);
+  return std::move(output_);
+}
+
+void MotionCore::take_sensors(const Sensors& sensors, double dt) {
+  bool is_another_robot = !has_robot_ || sensors.tick < sensors_.tick;
+  if (!is_another_robot) {
+    for (int motor = 0; motor < model_->num_motors(); ++motor) {
+      const double farthest = model_->motor_joint(motor).max_velocity * dt + kPlacedAngle;
+      is_another_robot = is_another_robot ||
+                         std::abs(sensors.position[motor] - sensors_.position[motor]) > farthest;
+    }
+  }
+  sensors_ = sensors;
+  silence_ = 0;
+  if (is_another_robot) take_over(sensors);
+  estimator_.update(sensors, dt);
+}
+
+void MotionCore::lose_robot() {
+  has_robot_ = false;
+  end_running(ResultStatus::kFailed, refusal_in(Mode::kNoRobot));
+  if (waiting_) {
+    if (waiting_->command) {
+      answer(*waiting_->command, ResultStatus::kFailed, refusal_in(Mode::kNoRobot));
+    }
+    waiting_.reset();
+  }
+}
+
+void MotionCore::take_over(const Sensors& sensors) {
+  if (has_robot_) lose_robot();
+  has_robot_ = true;
+  time_with_robot_ = 0;
+  has_first_motion_ = false;
+  estimator_.reset();
+  // The servos' torques go on as they are if the targets lie ahead of the measured angles by the
+  // lag that these torques make.
+  targets_.position = sensors.position;
+  for (int motor = 0; motor < model_->num_motors(); ++motor) {
+    const double gain = model_->motor(motor).stiffness_gain;
+    const double lag = gain > 0 ? sensors.torque[motor] / gain : 0.0;
+    targets_.position[motor] += std::clamp(lag, -kMaxServoLag, kMaxServoLag);
+  }
+  clip_to_limits(*model_, targets_.position);
+  targets_.velocity.assign(model_->num_motors(), 0.0);
+  targets_.stiffness.assign(model_->num_motors(), 1.0);
+}
+
+void MotionCore::choose_first_motion() {
+  has_first_motion_ = true;
+  was_lying_ = is_lying();
+  if (running_ || waiting_) return;
+  const std::string state = find_body_state(*model_, estimator_.state(), options_.lying_tilt);
+  for (const Posture& posture : model_->postures()) {
+    if (deviation_from(posture, sensors_.position).angle >= kInPostureTolerance) continue;
+    if (state_of(posture) != state) continue;
+    assign({std::make_unique<PostureMotion>(posture, options_.default_speed), std::nullopt,
+            posture.name});
+    return;
+  }
+  if (was_lying_) {
+    has_fallen_ = true;
+    return;
+  }
+  assign({std::make_unique<JourneyMotion>(graph_, *model_->find_posture(kFirstPosture),
+                                          options_.default_speed),
+          std::nullopt, kFirstPosture});
+}
+
+void MotionCore::receive(const Command& command) {
+  if (const auto fault = find_sender_fault(command)) {
+    answer(command, ResultStatus::kRefused, *fault, false);
+    return;
+  }
+  if (const CommandResult* known = ledger_.find(command.source, command.id)) {
+    const bool is_running = running_ && running_->command &&
+                            running_->command->source == command.source &&
+                            running_->command->id == command.id;
+    const bool is_waiting = waiting_ && waiting_->command &&
+                            waiting_->command->source == command.source &&
+                            waiting_->command->id == command.id;
+    if (!find_fault(*model_, command)) {
+      if (is_running) running_->generator->adopt(command);
+      if (is_waiting) waiting_->generator->adopt(command);
+    }
+    output_.results.push_back(*known);
+    return;
+  }
+  if (const auto fault = find_fault(*model_, command)) {
+    answer(command, ResultStatus::kRefused, *fault);
+    return;
+  }
+  const Mode mode = current_mode();
+  if (acceptance_of(kind_of(command), mode) == Acceptance::kRefuse) {
+    answer(command, ResultStatus::kRefused, refusal_in(mode));
+    return;
+  }
+  if (adopt_walk(command)) return;
+  Plan planned = plan(command);
+  if (const auto* refusal = std::get_if<std::string>(&planned)) {
+    answer(command, ResultStatus::kRefused, *refusal);
+    return;
+  }
+  answer(command, ResultStatus::kAccepted, "");
+  assign(
+      {std::move(std::get<std::unique_ptr<MotionGenerator>>(planned)), command, describe(command)});
+}
+
+bool MotionCore::adopt_walk(const Command& command) {
+  const auto* walk = std::get_if<WalkCommand>(&command.request);
+  if (walk == nullptr || waiting_) return false;
+  const bool is_walking =
+      running_ && running_->command && kind_of(*running_->command) == CommandKind::kWalk;
+  if (!is_walking) {
+    if (walk->vx != 0 || walk->vy != 0 || walk->wz != 0) return false;
+    answer(command, ResultStatus::kAccepted, "");
+    answer(command, ResultStatus::kDone, "The robot does not walk.");
+    return true;
+  }
+  if (!running_->generator->adopt(command)) return false;
+  answer(*running_->command, ResultStatus::kInterrupted, "Replaced by a newer walk.");
+  answer(command, ResultStatus::kAccepted, "");
+  running_->command = command;
+  running_->detail = describe(command);
+  return true;
+}
+
+MotionCore::Plan MotionCore::plan(const Command& command) {
+  return std::visit([this](const auto& request) { return plan_request(request); }, command.request);
+}
+
+std::optional<std::string> MotionCore::refuse_walk() const {
+  if (!gait_) return model_->name() + " has no gait.";
+  if (is_lying()) return "The robot lies on the ground; let it get up first.";
+  return find_walk_obstacle(LegKinematics(*model_), estimator_.state(), targets_.stiffness);
+}
+
+std::unique_ptr<MotionGenerator> MotionCore::plan_stand() const {
+  return std::make_unique<JourneyMotion>(graph_, *model_->find_posture(kFirstPosture),
+                                         options_.default_speed);
+}
+
+MotionCore::Plan MotionCore::plan_request(const WalkCommand& walk) {
+  if (const auto refusal = refuse_walk()) return *refusal;
+  return std::make_unique<WalkMotion>(*model_, *gait_, plan_stand(), walk);
+}
+
+MotionCore::Plan MotionCore::plan_request(const MoveToCommand& move_to) {
+  if (const auto refusal = refuse_walk()) return *refusal;
+  return std::make_unique<MoveToMotion>(*model_, *gait_, plan_stand(), move_to);
+}
+
+MotionCore::Plan MotionCore::plan_request(const PostureCommand& posture) {
+  const Posture& goal = *model_->find_posture(posture.posture);
+  const std::string state = find_body_state(*model_, estimator_.state(), options_.lying_tilt);
+  const bool is_there = state == state_of(goal);
+  if (!is_there && !state.empty() && graph_.find_way(state, state_of(goal)).empty()) {
+    return "There is no safe way from here to " + goal.name + " yet.";
+  }
+  return std::make_unique<JourneyMotion>(graph_, goal, posture.speed);
+}
+
+MotionCore::Plan MotionCore::plan_request(const JointChangeCommand& change) {
+  std::string danger = find_danger(change);
+  if (!danger.empty()) return danger;
+  return std::make_unique<JointChangeMotion>(change);
+}
+
+MotionCore::Plan MotionCore::plan_request(const ActionCommand& action) {
+  const Posture& stand = *model_->find_posture(kFirstPosture);
+  const double speed = options_.default_speed;
+  if (action.action == "get-up" || action.action == "wake-up") {
+    return std::make_unique<JourneyMotion>(graph_, stand, speed);
+  }
+  if (action.action == "rest") {
+    return std::make_unique<RestMotion>(graph_, *model_->find_posture(kRestPosture), speed);
+  }
+  if (action.action == "kick-left" || action.action == "kick-right") {
+    return plan_kick(action.action == "kick-left", action);
+  }
+  const KeyframeSequence* sequence = graph_.find(action.action);
+  if (sequence == nullptr) return "The action " + action.action + " is not built yet.";
+  const std::string state = find_body_state(*model_, estimator_.state(), options_.lying_tilt);
+  if (sequence->from != state) return "The robot can " + action.action + " only while it stands.";
+  return std::make_unique<SequenceMotion>(*sequence);
+}
+
+MotionCore::Plan MotionCore::plan_kick(bool is_left, const ActionCommand& action) {
+  if (!kick_) return model_->name() + " has no kick.";
+  if (const auto refusal = refuse_walk()) return *refusal;
+  const Eigen::Vector2d ball(action.ball_x, action.ball_y);
+  if (const auto refusal = KickMotion::find_obstacle(*kick_, is_left, ball)) return *refusal;
+  return std::make_unique<KickMotion>(*model_, *kick_, *gait_, plan_stand(), is_left, ball,
+                                      action.strength);
+}
+
+MotionCore::Plan MotionCore::plan_request(const StopCommand& /*stop*/) {
+  return std::make_unique<StopMotion>();
+}
+
+std::string MotionCore::find_danger(const JointChangeCommand& change) {
+  const std::vector<double> goal = JointChangeMotion::calc_goal(*model_, change, targets_.position);
+  const auto how_far = [&](int motor, double share) {
+    const double way = share * (goal[motor] - targets_.position[motor]);
+    const long degrees = std::lround(std::trunc(way * 180 / M_PI));
+    if (degrees == 0) return std::string("it cannot turn that way from here.");
+    return "it may turn by " + std::to_string(degrees) + " degrees at most.";
+  };
+  SelfCollision collision;
+  const double free_share = collision_guard_.find_safe_share(targets_.position, goal, collision);
+  if (free_share < 1) {
+    return model_->motor_joint(collision.motor).name + " would bring " + collision.link_a +
+           " into " + collision.link_b + "; " + how_far(collision.motor, free_share);
+  }
+  const bool stands =
+      find_body_state(*model_, estimator_.state(), options_.lying_tilt) == "on-feet";
+  if (change.allow_tipping || !stands) return "";
+  Rest tipping;
+  const Eigen::Vector3d up = estimator_.state().torso_in_odometry.linear().row(2);
+  const double safe_share = tipping_guard_.find_safe_share(targets_.position, goal, up, tipping);
+  if (safe_share >= 1) return "";
+  // Of the joints named, the one that turns the body over its feet most: legs before all others.
+  const Eigen::Matrix3Xd left = estimator_.kinematics().calc_angular_jacobian(model_->left_sole());
+  const Eigen::Matrix3Xd right =
+      estimator_.kinematics().calc_angular_jacobian(model_->right_sole());
+  int culprit = -1;
+  double largest = -1;
+  for (const std::string& name : change.joint_names) {
+    const int motor = model_->find_motor(name);
+    const bool is_leg = !left.col(motor).isZero(0) || !right.col(motor).isZero(0);
+    const double weight = std::abs(goal[motor] - targets_.position[motor]) * (is_leg ? 1.0 : 1e-3);
+    if (weight <= largest) continue;
+    largest = weight;
+    culprit = motor;
+  }
+  const Eigen::Vector3d& direction = tipping.tipping_direction;
+  const char* where = std::abs(direction.x()) >= std::abs(direction.y())
+                          ? (direction.x() > 0 ? "forwards" : "backwards")
+                          : (direction.y() > 0 ? "to the left" : "to the right");
+  return model_->motor_joint(culprit).name + " would tip the robot over " + where + "; " +
+         how_far(culprit, safe_share);
+}
+
+void MotionCore::assign(Assignment assignment) {
+  if (waiting_ && waiting_->command) {
+    answer(*waiting_->command, ResultStatus::kInterrupted, "A newer command came first.");
+  }
+  waiting_ = std::move(assignment);
+}
+
+void MotionCore::start_waiting() {
+  if (!waiting_) return;
+  if (running_ && !running_->generator->can_be_replaced()) {
+    running_->generator->finish();
+    return;
+  }
+  end_running(ResultStatus::kInterrupted,
+              waiting_->command ? "Replaced by a newer command: " + waiting_->detail + "."
+                                : "Replaced by " + waiting_->detail + ".");
+  running_ = std::exchange(waiting_, std::nullopt);
+  running_->generator->start(context(0), targets_);
+}
+
+void MotionCore::end_running(ResultStatus status, const std::string& reason) {
+  if (!running_) return;
+  if (running_->command) answer(*running_->command, status, reason);
+  running_.reset();
+}
+
+void MotionCore::move(double dt) {
+  time_with_robot_ += dt;
+  if (!has_first_motion_ && time_with_robot_ >= kTakeOverTime) choose_first_motion();
+  const std::vector<double> last = targets_.position;
+  watch_for_falls(dt);
+  start_waiting();
+  if (running_) {
+    const MotionGenerator::Phase phase = running_->generator->step(context(dt), targets_);
+    if (phase != MotionGenerator::Phase::kRunning) {
+      const std::string remark = running_->generator->remark();
+      if (phase == MotionGenerator::Phase::kDone && running_->generator->mode() != Mode::kFalling) {
+        has_fallen_ = false;
+        was_lying_ = is_lying();
+      }
+      end_running(
+          phase == MotionGenerator::Phase::kDone ? ResultStatus::kDone : ResultStatus::kFailed,
+          remark);
+    }
+  }
+  limiter_.limit(last, dt, targets_.position);
+  for (size_t i = 0; i < last.size(); ++i) {
+    targets_.velocity[i] = dt > 0 ? (targets_.position[i] - last[i]) / dt : 0.0;
+  }
+}
+
+bool MotionCore::means_to_stand() const {
+  if (!has_first_motion_ || has_fallen_) return false;
+  if (running_ && !running_->generator->means_to_stand()) return false;
+  return !was_lying_;
+}
+
+void MotionCore::watch_for_falls(double dt) {
+  if (!has_first_motion_) return;
+  const RobotState& state = estimator_.state();
+  if (means_to_stand()) {
+    const bool is_on_feet = state.torso_in_odometry.translation().z() > kLeastStandingHeight;
+    const bool steps = running_ && running_->generator->mode() == Mode::kWalking;
+    if (is_on_feet && fall_monitor_.update(state, steps, dt)) {
+      fall_monitor_.reset();
+      has_fallen_ = true;
+      time_fallen_ = 0;
+      end_running(ResultStatus::kFailed, "The robot fell.");
+      if (waiting_ && waiting_->command) {
+        answer(*waiting_->command, ResultStatus::kFailed, "The robot fell.");
+      }
+      waiting_.reset();
+      running_ = Assignment{std::make_unique<FallMotion>(), std::nullopt, "fall"};
+      running_->generator->start(context(0), targets_);
+      return;
+    }
+  }
+  if (running_ || waiting_) {
+    time_fallen_ = 0;
+    return;
+  }
+  // Nothing runs: whoever lies now and did not before was knocked over.
+  const bool lies = is_lying();
+  if (lies && !was_lying_) has_fallen_ = true;
+  was_lying_ = lies;
+  if (!has_fallen_) return;
+  time_fallen_ += dt;
+  if (!options_.gets_up || time_fallen_ < options_.get_up_delay) return;
+  time_fallen_ = 0;
+  assign({std::make_unique<JourneyMotion>(graph_, *model_->find_posture(kFirstPosture),
+                                          options_.default_speed),
+          std::nullopt, "get-up"});
+}
+
+void MotionCore::answer(const Command& command, ResultStatus status, const std::string& reason,
+                        bool is_remembered) {
+  const CommandResult result{command.source, command.id, kind_of(command), status, reason};
+  if (is_remembered) ledger_.note(result);
+  if (status == ResultStatus::kRefused) last_refusal_ = reason;
+  output_.results.push_back(result);
+}
+
+MotionContext MotionCore::context(double dt) const {
+  return {*model_, options_, sensors_, estimator_.state(), estimator_.kinematics(), dt};
+}
+
+bool MotionCore::is_lying() const {
+  const Eigen::Vector3d up = estimator_.state().torso_in_odometry.linear().row(2);
+  return up.z() < std::cos(options_.lying_tilt);
+}
+
+Mode MotionCore::current_mode() const {
+  if (!has_robot_) return Mode::kNoRobot;
+  if (running_) return running_->generator->mode();
+  if (has_fallen_) return Mode::kFallen;
+  const auto& stiffness = targets_.stiffness;
+  const bool is_limp =
+      std::all_of(stiffness.begin(), stiffness.end(), [](double share) { return share == 0; });
+  return is_limp ? Mode::kRelaxed : Mode::kHolding;
+}
+
+void MotionCore::report(double dt) {
+  MotionState state;
+  state.utime = sensors_.utime;
+  state.mode = current_mode();
+  state.last_refusal = last_refusal_;
+  if (has_robot_) {
+    state.balance_margin = estimator_.state().balance_margin;
+    double sum = 0;
+    for (double share : targets_.stiffness) sum += share;
+    state.stiffness = sum / model_->num_motors();
+    if (!running_) {
+      for (const Posture& posture : model_->postures()) {
+        if (deviation_from(posture, sensors_.position).angle >= kInPostureTolerance) continue;
+        if (state_of(posture) !=
+            find_body_state(*model_, estimator_.state(), options_.lying_tilt)) {
+          continue;
+        }
+        state.posture = posture.name;
+        break;
+      }
+    }
+  }
+  if (running_) {
+    if (running_->command) {
+      state.command = to_string(kind_of(*running_->command));
+      state.command_source = running_->command->source;
+      state.command_id = running_->command->id;
+    }
+    state.command_detail = running_->detail;
+    state.command_progress = running_->generator->progress();
+    running_->generator->describe(state);
+  }
+  since_motion_state_ += dt;
+  // A hair less than the period, so that rounding does not make it one tick longer.
+  const bool is_due = since_motion_state_ >= options_.motion_state_period - 1e-6;
+  if (is_due || has_changed(state, state_)) {
+    since_motion_state_ = 0;
+    output_.motion_state = state;
+  }
+  state_ = std::move(state);
+}
+
+}  // namespace nao::motion

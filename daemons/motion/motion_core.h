@@ -1,0 +1,153 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/robot_model.h"
+#include "motion/actions/kick.h"
+#include "motion/command.h"
+#include "motion/command_ledger.h"
+#include "motion/estimator/state_estimator.h"
+#include "motion/falls/fall_monitor.h"
+#include "motion/guard/self_collision_guard.h"
+#include "motion/guard/tipping_guard.h"
+#include "motion/joint_limits.h"
+#include "motion/joint_targets.h"
+#include "motion/motion_generator.h"
+#include "motion/motion_options.h"
+#include "motion/motion_state.h"
+#include "motion/robot_state.h"
+#include "motion/sensors.h"
+#include "motion/transitions/transition_graph.h"
+#include "motion/walk/gait.h"
+
+namespace nao::motion {
+
+/** What reaches the core in one step. */
+struct Input {
+  /** Nothing while the robot is silent. */
+  std::optional<Sensors> sensors;
+  /** In the order in which they came. */
+  std::vector<Command> commands;
+};
+
+/** What the core answers with. */
+struct Output {
+  /** Present exactly if there were sensors: the answer to this tick, and what was estimated. */
+  std::optional<JointTargets> joint_targets;
+  std::optional<RobotState> robot_state;
+  /** Present when it is due: at each change, and ten times a second. */
+  std::optional<MotionState> motion_state;
+  /** In the order in which they came about. */
+  std::vector<CommandResult> results;
+};
+
+/** Everything that decides where the joints go: takes over a robot wherever its joints are, keeps
+ * it standing, carries out commands one after the other, and says what became of them.
+ *
+ * No clock, thread, file, socket or log: the same inputs give the same outputs, bit for bit.
+ *
+ * Before the first command it takes the robot over without a jump (targets start at the measured
+ * angles) and brings a standing robot to StandInit, unless it is in a known posture already. A
+ * robot that has fallen, or lies in no known posture when it is taken over, gets up by itself. */
+class MotionCore {
+ public:
+  /** @param model  Must outlive this.
+   * @throws ConfigError  if the options make no sense; ModelError  if the robot has no StandInit.
+   */
+  MotionCore(const RobotModel& model, const MotionOptions& options);
+
+  /** One control step.
+   * @param dt  Robot time since the last step, s, above 0; while the robot is silent any clock's.
+   */
+  Output step(const Input& input, double dt);
+
+  const MotionState& motion_state() const { return state_; }
+  const RobotModel& model() const { return *model_; }
+
+ private:
+  /** A motion and the command that asked for it; nobody's for what the core does by itself. */
+  struct Assignment {
+    std::unique_ptr<MotionGenerator> generator;
+    std::optional<Command> command;
+    std::string detail;
+  };
+
+  /** A motion that carries out a command, or why there is none. */
+  using Plan = std::variant<std::unique_ptr<MotionGenerator>, std::string>;
+
+  void take_sensors(const Sensors& sensors, double dt);
+  void lose_robot();
+  void take_over(const Sensors& sensors);
+  void choose_first_motion();
+
+  void receive(const Command& command);
+  /** A walk's new velocity goes to the walk that runs already; one that asks for no velocity starts
+   * none. @return false if the command needs a motion of its own. */
+  bool adopt_walk(const Command& command);
+  std::optional<std::string> refuse_walk() const;
+  Plan plan_kick(bool is_left, const ActionCommand& action);
+  /** The way to the stand that walks begin in. */
+  std::unique_ptr<MotionGenerator> plan_stand() const;
+  Plan plan(const Command& command);
+  Plan plan_request(const WalkCommand& walk);
+  Plan plan_request(const MoveToCommand& move_to);
+  Plan plan_request(const PostureCommand& posture);
+  Plan plan_request(const JointChangeCommand& change);
+  Plan plan_request(const ActionCommand& action);
+  Plan plan_request(const StopCommand& stop);
+  /** Why a joint change would end badly, as a sentence; empty if it would not. */
+  std::string find_danger(const JointChangeCommand& change);
+  void assign(Assignment assignment);
+
+  void move(double dt);
+  void watch_for_falls(double dt);
+  bool means_to_stand() const;
+  void start_waiting();
+  void end_running(ResultStatus status, const std::string& reason);
+  void answer(const Command& command, ResultStatus status, const std::string& reason,
+              bool is_remembered = true);
+
+  MotionContext context(double dt) const;
+  Mode current_mode() const;
+  bool is_lying() const;
+  void report(double dt);
+
+  const RobotModel* model_;
+  MotionOptions options_;
+  std::optional<Gait> gait_;
+  std::optional<Kick> kick_;
+  TargetLimiter limiter_;
+  TransitionGraph graph_;
+  StateEstimator estimator_;
+  TippingGuard tipping_guard_;
+  SelfCollisionGuard collision_guard_;
+  FallMonitor fall_monitor_;
+  CommandLedger ledger_;
+
+  bool has_robot_ = false;
+  double silence_ = 0;
+  /** s since the robot was taken over; the first motion is chosen a moment later. */
+  double time_with_robot_ = 0;
+  bool has_first_motion_ = false;
+  Sensors sensors_;
+
+  JointTargets targets_;
+  /** Lies where it did not mean to; s since it lies still. */
+  bool has_fallen_ = false;
+  double time_fallen_ = 0;
+  bool was_lying_ = false;
+  std::optional<Assignment> running_;
+  std::optional<Assignment> waiting_;
+
+  MotionState state_;
+  std::string last_refusal_;
+  double since_motion_state_ = 0;
+  Output output_;
+};
+
+}  // namespace nao::motion

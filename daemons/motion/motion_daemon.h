@@ -1,0 +1,56 @@
+#pragma once
+
+#include <naolcm/joint_command_t.hpp>
+#include <naolcm/sensor_state_t.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/event_loop.h"
+#include "common/robot_model.h"
+#include "common/status_reporter.h"
+#include "motion/motion_core.h"
+
+namespace nao::motion {
+
+/** The motion core on the bus: one step for every NAO_SENSOR_STATE, answered with the same tick. A
+ * repeated state gets the same answer again, without another step. */
+class MotionDaemon {
+ public:
+  /** Subscribes. @param bus, loop, model  Must outlive this. @param robot  Prefix of its channels.
+   */
+  MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model, const MotionOptions& options,
+               const std::string& robot);
+
+  /** Control steps taken since the start. */
+  int64_t num_steps() const { return num_steps_; }
+
+ private:
+  template <class Message>
+  void subscribe_to_command(const std::string& channel);
+  void take_sensor_state(const naolcm::sensor_state_t& message);
+  void watch_for_silence();
+  void step(std::optional<Sensors> sensors, double dt);
+  void publish_status();
+
+  Bus& bus_;
+  const RobotModel& model_;
+  RobotChannels channels_;
+  StatusReporter status_;
+  MotionCore core_;
+  std::vector<std::string> joint_names_;
+  std::vector<Command> commands_;
+  int64_t num_steps_ = 0;
+  int64_t num_missed_ticks_ = 0;
+  int64_t last_utime_ = 0;
+  int64_t last_tick_ = -1;
+  /** Answer to the state of `last_tick_`. */
+  std::optional<naolcm::joint_command_t> last_answer_;
+  double last_step_time_ = 0;
+  double last_silent_check_ = 0;
+  double worst_step_seconds_ = 0;
+};
+
+}  // namespace nao::motion

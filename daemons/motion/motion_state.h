@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "motion/mode.h"
+
+namespace nao::motion {
+
+/** A planned footprint: sole origin on the ground, m, and heading, rad, in the odometry frame. */
+struct Footstep {
+  bool is_left = false;
+  Eigen::Vector2d position_in_odometry = Eigen::Vector2d::Zero();
+  double heading_in_odometry = 0;
+};
+
+/** What the motion core is doing; see motion_state_t for every field. */
+struct MotionState {
+  int64_t utime = 0;
+  Mode mode = Mode::kNoRobot;
+  std::string posture;
+  std::string command;
+  std::string command_detail;
+  std::string command_source;
+  int64_t command_id = 0;
+  double command_progress = std::numeric_limits<double>::quiet_NaN();
+  double balance_margin = std::numeric_limits<double>::quiet_NaN();
+  Eigen::Vector3d walk_velocity = Eigen::Vector3d::Zero();
+  double stiffness = 0;
+  std::string last_refusal;
+  std::vector<Footstep> footsteps;
+};
+
+}  // namespace nao::motion

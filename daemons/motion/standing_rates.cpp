@@ -1,0 +1,22 @@
+#include "motion/standing_rates.h"
+
+#include "motion/joint_limits.h"
+
+namespace nao::motion {
+
+std::vector<JointRates> standing_rates(const MotionContext& context, double speed) {
+  const double leg_speed = speed * context.options.posture_leg_speed;
+  std::vector<JointRates> rates =
+      joint_rates(context.model, speed, context.options.max_acceleration);
+  const std::vector<JointRates> leg_rates =
+      joint_rates(context.model, leg_speed, context.options.max_acceleration * leg_speed);
+  for (int sole : {context.model.left_sole(), context.model.right_sole()}) {
+    const Eigen::Matrix3Xd jacobian = context.kinematics.calc_angular_jacobian(sole);
+    for (int motor = 0; motor < context.model.num_motors(); ++motor) {
+      if (!jacobian.col(motor).isZero(0)) rates[motor] = leg_rates[motor];
+    }
+  }
+  return rates;
+}
+
+}  // namespace nao::motion

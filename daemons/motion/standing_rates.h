@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "motion/joint_trajectory.h"
+#include "motion/motion_generator.h"
+
+namespace nao::motion {
+
+/** Rates at which joints turn while the robot stands: all at a fraction of their maximum speed, the
+ * legs' slowed so that the body's own momentum cannot tip it.
+ * @param speed  (0, 1]. @return (num_motors). */
+std::vector<JointRates> standing_rates(const MotionContext& context, double speed);
+
+}  // namespace nao::motion

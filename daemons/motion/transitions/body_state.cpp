@@ -1,0 +1,43 @@
+#include "motion/transitions/body_state.h"
+
+#include <cmath>
+#include <limits>
+
+#include "motion/posture_motion.h"
+#include "motion/transitions/transition_graph.h"
+
+namespace nao::motion {
+namespace {
+
+// Torso height from which on an upright robot is on its feet and not on its seat, m: a crouch has
+// 0.229, a seat 0.12.
+constexpr double kLeastStandingHeight = 0.19;
+// A sitting posture is told by its joints, as far as they are off, rad.
+constexpr double kSittingDeviation = 0.6;
+
+}  // namespace
+
+std::string find_body_state(const RobotModel& model, const RobotState& state, double lying_tilt) {
+  const Eigen::Vector3d up = state.torso_in_odometry.linear().row(2);
+  const bool lies = up.z() < std::cos(lying_tilt);
+  if (lies) {
+    if (std::abs(up.y()) > std::abs(up.x())) return up.y() < 0 ? "left" : "right";
+    return up.x() < 0 ? "belly" : "back";
+  }
+  const bool has_feet_down = state.left_foot_carries || state.right_foot_carries;
+  if (has_feet_down && state.torso_in_odometry.translation().z() > kLeastStandingHeight) {
+    return "on-feet";
+  }
+  std::string nearest;
+  double least = kSittingDeviation;
+  for (const Posture& posture : model.postures()) {
+    if (posture.family != "sitting") continue;
+    const double deviation = deviation_from(posture, state.joint_position).angle;
+    if (deviation >= least) continue;
+    least = deviation;
+    nearest = state_of(posture);
+  }
+  return nearest;
+}
+
+}  // namespace nao::motion

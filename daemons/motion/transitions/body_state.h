@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/robot_model.h"
+#include "motion/robot_state.h"
+
+namespace nao::motion {
+
+/** Where the body is, as a state of the TransitionGraph: "on-feet", "belly", "back", "left",
+ * "right", a sitting posture's name, or "" if it is nothing of these.
+ *
+ * @param lying_tilt  Torso tilted more than this lies, rad. */
+std::string find_body_state(const RobotModel& model, const RobotState& state, double lying_tilt);
+
+}  // namespace nao::motion

@@ -1,0 +1,146 @@
+#include "motion/transitions/journey_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/transitions/body_state.h"
+
+namespace nao::motion {
+namespace {
+
+constexpr int kMaxTries = 6;
+// A way has few legs; more than this is going round in circles.
+constexpr int kMaxLegs = 16;
+// Motors that were limp become stiff over this time, s.
+constexpr double kStiffeningTime = 0.5;
+// A body that lies must have lain still this long before it moves, and is not waited for longer, s.
+constexpr double kStillTime = 0.15;
+constexpr double kLongestRest = 0.6;
+
+bool is_lying(const std::string& state) {
+  return state == "belly" || state == "back" || state == "left" || state == "right";
+}
+
+std::string in_words(const std::string& state) {
+  if (state.empty()) return "where it is now";
+  if (state == "on-feet") return "standing";
+  if (is_lying(state))
+    return "lying on its " + state + (state.size() == 4 || state[0] == 'b' ? "" : " side");
+  return state;
+}
+
+}  // namespace
+
+void JourneyMotion::start(const MotionContext& /*context*/, const JointTargets& targets) {
+  const bool is_stiff = std::all_of(targets.stiffness.begin(), targets.stiffness.end(),
+                                    [](double share) { return share >= 1; });
+  leg_ = is_stiff ? Leg::kResting : Leg::kStiffening;
+  time_ = 0;
+}
+
+bool JourneyMotion::can_be_replaced() const {
+  return leg_ != Leg::kTransition;
+}
+
+Mode JourneyMotion::mode() const {
+  return leg_ == Leg::kTransition && is_from_lying_ ? Mode::kGettingUp : Mode::kMoving;
+}
+
+double JourneyMotion::progress() const {
+  if (leg_ == Leg::kDirect) return direct_->progress();
+  if (leg_ == Leg::kTransition) return std::min(1.0, time_ / player_.duration()) * 0.5;
+  return 0;
+}
+
+MotionGenerator::Phase JourneyMotion::step(const MotionContext& context, JointTargets& targets) {
+  time_ += context.dt;
+  switch (leg_) {
+    case Leg::kStiffening:
+      for (double& share : targets.stiffness) {
+        share = std::min(1.0, share + context.dt / kStiffeningTime);
+      }
+      if (time_ >= kStiffeningTime) {
+        leg_ = Leg::kResting;
+        time_ = 0;
+      }
+      return Phase::kRunning;
+    case Leg::kResting: {
+      if (is_finishing_) return Phase::kRunning;
+      const std::string state =
+          find_body_state(context.model, context.state, context.options.lying_tilt);
+      const bool must_rest = state != "on-feet" && time_ < kLongestRest;
+      if (must_rest && context.state.rest_time < kStillTime) return Phase::kRunning;
+      return choose_leg(context, targets);
+    }
+    case Leg::kTransition:
+      return step_transition(context, targets);
+    case Leg::kDirect: {
+      const Phase phase = direct_->step(context, targets);
+      if (phase == Phase::kFailed) remark_ = direct_->remark();
+      if (phase != Phase::kDone) return phase;
+      if (find_body_state(context.model, context.state, context.options.lying_tilt) ==
+          state_of(*goal_)) {
+        return Phase::kDone;
+      }
+      leg_ = Leg::kResting;
+      time_ = 0;
+      return Phase::kRunning;
+    }
+  }
+  return Phase::kFailed;
+}
+
+MotionGenerator::Phase JourneyMotion::choose_leg(const MotionContext& context,
+                                                 const JointTargets& targets) {
+  time_ = 0;
+  const std::string state =
+      find_body_state(context.model, context.state, context.options.lying_tilt);
+  stands_ = state == "on-feet" && state_of(*goal_) == state;
+  if (++num_legs_ > kMaxLegs) {
+    remark_ = "The way to " + goal_->name + " leads nowhere.";
+    return Phase::kFailed;
+  }
+  if (state == state_of(*goal_)) {
+    leg_ = Leg::kDirect;
+    direct_.emplace(*goal_, speed_);
+    direct_->start(context, targets);
+    return Phase::kRunning;
+  }
+  const auto way = graph_->find_way(state, state_of(*goal_));
+  if (way.empty()) {
+    remark_ = "There is no safe way from " + in_words(state) + " to " + goal_->name + ".";
+    return Phase::kFailed;
+  }
+  is_from_lying_ = is_lying(state);
+  if (is_from_lying_ && ++num_tries_ > kMaxTries) {
+    remark_ = "It did not get up in " + std::to_string(kMaxTries) + " tries; it needs help.";
+    return Phase::kFailed;
+  }
+  leg_ = Leg::kTransition;
+  sequence_ = way.front();
+  stage_ = 0;
+  player_ = KeyframePlayer(context.model, *sequence_, targets.position, 1.0);
+  return Phase::kRunning;
+}
+
+MotionGenerator::Phase JourneyMotion::step_transition(const MotionContext& context,
+                                                      JointTargets& targets) {
+  player_.sample(time_, targets.position, targets.stiffness);
+  const bool is_over = time_ >= player_.duration();
+  const int stage = player_.stage_at(time_);
+  bool has_failed = false;
+  if (stage != stage_ || is_over) {
+    const Keyframe& ended = sequence_->keyframes[stage_];
+    const Eigen::Vector3d up = context.state.torso_in_odometry.linear().row(2);
+    for (int axis = 0; axis < 3; ++axis) has_failed |= !ended.up[axis].has(up[axis]);
+    stage_ = stage;
+  }
+  if (!is_over && !has_failed) return Phase::kRunning;
+  // Where the body is now, the next leg sees.
+  std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
+  leg_ = Leg::kResting;
+  time_ = 0;
+  return Phase::kRunning;
+}
+
+}  // namespace nao::motion

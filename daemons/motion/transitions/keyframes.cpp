@@ -1,0 +1,134 @@
+#include "motion/transitions/keyframes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nao::motion {
+namespace {
+
+// The spline's greatest velocity is up to 1.5 times the mean of a stage that starts and ends at
+// rest.
+constexpr double kPeakOverMean = 1.5;
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/** Motor on the other side, and the sign of its angle there. Facts sheet: rolls and yaws change
+ * sign, pitches, the hip's yaw-pitch and the hands do not. */
+struct Mirror {
+  int motor;
+  double sign;
+};
+
+Mirror mirror_of(const RobotModel& model, int motor) {
+  std::string name = model.motor_joint(motor).name;
+  const bool changes_sign = ends_with(name, "Roll") || ends_with(name, "Yaw");
+  if (name[0] == 'L' || name[0] == 'R') {
+    name[0] = name[0] == 'L' ? 'R' : 'L';
+    const int other = model.find_motor(name);
+    if (other >= 0) return {other, changes_sign ? -1.0 : 1.0};
+  }
+  return {motor, changes_sign ? -1.0 : 1.0};
+}
+
+}  // namespace
+
+double KeyframeSequence::duration() const {
+  double sum = 0;
+  for (const Keyframe& keyframe : keyframes) sum += keyframe.duration + keyframe.pause;
+  return sum;
+}
+
+std::vector<double> mirrored(const RobotModel& model, const std::vector<double>& position) {
+  std::vector<double> result = position;
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    const Mirror mirror = mirror_of(model, motor);
+    result[mirror.motor] = mirror.sign * position[motor];
+  }
+  return result;
+}
+
+KeyframeSequence mirrored(const RobotModel& model, const KeyframeSequence& sequence) {
+  KeyframeSequence result = sequence;
+  for (Keyframe& keyframe : result.keyframes) {
+    keyframe.position = mirrored(model, keyframe.position);
+    const std::vector<double> stiffness = keyframe.stiffness;
+    for (int motor = 0; motor < model.num_motors(); ++motor) {
+      keyframe.stiffness[mirror_of(model, motor).motor] = stiffness[motor];
+    }
+    std::swap(keyframe.up[1].least, keyframe.up[1].greatest);
+    keyframe.up[1].least *= -1;
+    keyframe.up[1].greatest *= -1;
+  }
+  return result;
+}
+
+KeyframePlayer::KeyframePlayer(const RobotModel& model, const KeyframeSequence& sequence,
+                               const std::vector<double>& start, double speed) {
+  const size_t num_motors = start.size();
+  std::vector<double> last = start;
+  double time = 0;
+  for (const Keyframe& keyframe : sequence.keyframes) {
+    Stage stage;
+    stage.from = last;
+    stage.to = last;
+    double duration = keyframe.duration / speed;
+    for (size_t i = 0; i < num_motors; ++i) {
+      if (!std::isnan(keyframe.position[i])) stage.to[i] = keyframe.position[i];
+      const double distance = std::abs(stage.to[i] - stage.from[i]);
+      duration = std::max(
+          duration, kPeakOverMean * distance / model.motor_joint(static_cast<int>(i)).max_velocity);
+    }
+    stage.stiffness = keyframe.stiffness;
+    stage.start = time;
+    stage.arrival = time + duration;
+    stage.end = stage.arrival + keyframe.pause;
+    stage.from_velocity.assign(num_motors, 0.0);
+    stage.to_velocity.assign(num_motors, 0.0);
+    time = stage.end;
+    last = stage.to;
+    stages_.push_back(std::move(stage));
+  }
+  for (size_t k = 0; k + 1 < stages_.size(); ++k) {
+    Stage& before = stages_[k];
+    Stage& after = stages_[k + 1];
+    if (before.end > before.arrival) continue;
+    const double duration_before = before.arrival - before.start;
+    const double duration_after = after.arrival - after.start;
+    if (duration_before <= 0 || duration_after <= 0) continue;
+    for (size_t i = 0; i < num_motors; ++i) {
+      const double slope_before = (before.to[i] - before.from[i]) / duration_before;
+      const double slope_after = (after.to[i] - after.from[i]) / duration_after;
+      if (slope_before * slope_after <= 0) continue;
+      const double velocity = 2 * slope_before * slope_after / (slope_before + slope_after);
+      before.to_velocity[i] = velocity;
+      after.from_velocity[i] = velocity;
+    }
+  }
+}
+
+int KeyframePlayer::stage_at(double time) const {
+  int stage = 0;
+  while (stage + 1 < num_stages() && time >= stages_[stage].end) ++stage;
+  return stage;
+}
+
+void KeyframePlayer::sample(double time, std::vector<double>& position,
+                            std::vector<double>& stiffness) const {
+  if (stages_.empty()) return;
+  const Stage& stage = stages_[stage_at(time)];
+  const double duration = stage.arrival - stage.start;
+  const double s = duration > 0 ? std::clamp((time - stage.start) / duration, 0.0, 1.0) : 1.0;
+  // Hermite basis.
+  const double to_share = s * s * (3 - 2 * s);
+  const double from_slope = s * (1 - s) * (1 - s) * duration;
+  const double to_slope = -s * s * (1 - s) * duration;
+  for (size_t i = 0; i < position.size(); ++i) {
+    position[i] = stage.from[i] + to_share * (stage.to[i] - stage.from[i]) +
+                  from_slope * stage.from_velocity[i] + to_slope * stage.to_velocity[i];
+    if (!std::isnan(stage.stiffness[i])) stiffness[i] = stage.stiffness[i];
+  }
+}
+
+}  // namespace nao::motion

@@ -1,0 +1,172 @@
+#include "motion/transitions/transition_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "common/error.h"
+#include "common/yaml_entry.h"
+
+namespace nao::motion {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/** A joint's name or, for both sides at once, the name without its side. */
+struct Motors {
+  int left = -1;
+  int right = -1;
+};
+
+Motors find_motors(const RobotModel& model, const std::string& name) {
+  const int motor = model.find_motor(name);
+  if (motor >= 0) return {motor, -1};
+  return {model.find_motor("L" + name), model.find_motor("R" + name)};
+}
+
+void read_joints(const RobotModel& model, const YamlEntry& joints, std::vector<double>& position) {
+  for (const auto& [name, value] : joints.entries()) {
+    const Motors motors = find_motors(model, name);
+    if (motors.left < 0) joints.fail("no joint " + name);
+    // Mirrored by way of a list in which only this joint has a value.
+    std::vector<double> single(model.num_motors(), kNan);
+    single[motors.left] = value.number();
+    position[motors.left] = single[motors.left];
+    if (motors.right >= 0) position[motors.right] = mirrored(model, single)[motors.right];
+  }
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    const Joint& joint = model.motor_joint(motor);
+    if (position[motor] < joint.lower - 1e-9 || position[motor] > joint.upper + 1e-9) {
+      joints.fail(joint.name + " is beyond its limits");
+    }
+  }
+}
+
+void read_stiffness(const RobotModel& model, const YamlEntry& shares,
+                    std::vector<double>& stiffness) {
+  for (const auto& [name, value] : shares.entries()) {
+    const double share = value.number();
+    if (share < 0 || share > 1) value.fail("must be 0 to 1");
+    if (name == "all") {
+      std::fill(stiffness.begin(), stiffness.end(), share);
+      continue;
+    }
+    const Motors motors = find_motors(model, name);
+    if (motors.left < 0) shares.fail("no joint " + name);
+    stiffness[motors.left] = share;
+    if (motors.right >= 0) stiffness[motors.right] = share;
+  }
+}
+
+Keyframe read_keyframe(const RobotModel& model, const YamlEntry& entry) {
+  entry.allow_only({"duration", "posture", "joints", "stiffness", "pause", "up"});
+  Keyframe keyframe;
+  keyframe.duration = entry.at("duration").number();
+  if (keyframe.duration < 0) entry.at("duration").fail("must not be negative");
+  keyframe.position.assign(model.num_motors(), kNan);
+  keyframe.stiffness.assign(model.num_motors(), kNan);
+  if (entry.has("posture")) {
+    const Posture* posture = model.find_posture(entry.at("posture").text());
+    if (posture == nullptr) entry.at("posture").fail("no such posture");
+    keyframe.position = posture->position;
+  }
+  if (entry.has("joints")) read_joints(model, entry.at("joints"), keyframe.position);
+  if (entry.has("stiffness")) read_stiffness(model, entry.at("stiffness"), keyframe.stiffness);
+  if (entry.has("pause")) keyframe.pause = entry.at("pause").number();
+  if (entry.has("up")) {
+    const YamlEntry up = entry.at("up");
+    up.allow_only({"x", "y", "z"});
+    for (const auto& [axis, range] : up.entries()) {
+      const std::vector<double> limits = range.numbers(2);
+      keyframe.up[axis[0] - 'x'] = {limits[0], limits[1]};
+    }
+  }
+  return keyframe;
+}
+
+}  // namespace
+
+std::string state_of(const Posture& posture) {
+  if (posture.family == "standing" || posture.family == "crouching") return "on-feet";
+  if (posture.family == "lying-back") return "back";
+  if (posture.family == "lying-belly") return "belly";
+  return posture.name;
+}
+
+TransitionGraph TransitionGraph::load(const RobotModel& model, const std::filesystem::path& file) {
+  TransitionGraph graph;
+  const YamlEntry root = YamlEntry::load(file);
+  root.allow_only({"transitions"});
+  std::set<std::string> states = {"on-feet", "belly", "back", "left", "right"};
+  for (const Posture& posture : model.postures()) states.insert(state_of(posture));
+  for (const YamlEntry& entry : root.at("transitions").items()) {
+    entry.allow_only({"name", "from", "to", "mirrors", "keyframes"});
+    KeyframeSequence sequence;
+    if (entry.has("mirrors")) {
+      const KeyframeSequence* original = graph.find(entry.at("mirrors").text());
+      if (original == nullptr) entry.at("mirrors").fail("no such transition above");
+      sequence = mirrored(model, *original);
+    } else {
+      for (const YamlEntry& keyframe : entry.at("keyframes").items()) {
+        sequence.keyframes.push_back(read_keyframe(model, keyframe));
+      }
+      if (sequence.keyframes.empty()) entry.at("keyframes").fail("has no keyframe");
+    }
+    sequence.name = entry.at("name").text();
+    sequence.from = entry.at("from").text();
+    sequence.to = entry.at("to").text();
+    if (states.count(sequence.from) == 0) entry.at("from").fail("no such state");
+    if (states.count(sequence.to) == 0) entry.at("to").fail("no such state");
+    if (graph.find(sequence.name) != nullptr) entry.at("name").fail("is there twice");
+    graph.sequences_.push_back(std::move(sequence));
+  }
+  return graph;
+}
+
+const KeyframeSequence* TransitionGraph::find(const std::string& name) const {
+  for (const KeyframeSequence& sequence : sequences_) {
+    if (sequence.name == name) return &sequence;
+  }
+  return nullptr;
+}
+
+std::vector<const KeyframeSequence*> TransitionGraph::find_way(const std::string& from,
+                                                               const std::string& to) const {
+  // Dijkstra; the graph has a dozen nodes.
+  struct Reached {
+    double duration = 0;
+    const KeyframeSequence* last = nullptr;
+    bool is_settled = false;
+  };
+  std::map<std::string, Reached> reached = {{from, Reached{}}};
+  for (;;) {
+    auto nearest = reached.end();
+    for (auto it = reached.begin(); it != reached.end(); ++it) {
+      if (it->second.is_settled) continue;
+      if (nearest == reached.end() || it->second.duration < nearest->second.duration) nearest = it;
+    }
+    if (nearest == reached.end() || nearest->first == to) break;
+    nearest->second.is_settled = true;
+    for (const KeyframeSequence& sequence : sequences_) {
+      if (sequence.from != nearest->first) continue;
+      const double duration = nearest->second.duration + sequence.duration();
+      const auto [other, is_new] = reached.try_emplace(sequence.to);
+      if (is_new || duration < other->second.duration) {
+        other->second.duration = duration;
+        other->second.last = &sequence;
+      }
+    }
+  }
+  std::vector<const KeyframeSequence*> way;
+  auto node = reached.find(to);
+  while (node != reached.end() && node->second.last != nullptr) {
+    way.push_back(node->second.last);
+    node = reached.find(node->second.last->from);
+  }
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+}  // namespace nao::motion

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/robot_model.h"
+#include "motion/transitions/keyframes.h"
+
+namespace nao::motion {
+
+/** Where the body can be, and the verified ways between: robots/NAME/transitions.yaml.
+ *
+ * States are "on-feet" for any upright stand on both soles, "belly", "back", "left" and "right" for
+ * how a body lies, whatever its joints do, and the sitting postures by their names. */
+class TransitionGraph {
+ public:
+  /** @throws ModelError  naming the file, the line and what is wrong. */
+  static TransitionGraph load(const RobotModel& model, const std::filesystem::path& file);
+
+  const std::vector<KeyframeSequence>& sequences() const { return sequences_; }
+  /** @return nullptr if there is none of that name. */
+  const KeyframeSequence* find(const std::string& name) const;
+
+  /** Quickest chain of sequences from one state to another.
+   * @return Empty if there is none, or if the two are the same. */
+  std::vector<const KeyframeSequence*> find_way(const std::string& from,
+                                                const std::string& to) const;
+
+ private:
+  std::vector<KeyframeSequence> sequences_;
+};
+
+/** State of a posture in the graph: "on-feet" for the standing and crouching ones, "back" and
+ * "belly" for the lying ones, else the posture's own name. Between two postures in one state all
+ * joints may go straight. */
+std::string state_of(const Posture& posture);
+
+}  // namespace nao::motion

@@ -1,0 +1,33 @@
+#include "motion/walk/swing_foot.h"
+
+#include <algorithm>
+
+namespace nao::motion {
+
+void SwingFoot::start(const Pose2& start, double height) {
+  pose_ = start;
+  velocity_.setZero();
+  start_height_ = height;
+  height_ = height;
+}
+
+void SwingFoot::step(const Pose2& goal, double remaining, double phase, double lift, double dt) {
+  const Eigen::Vector3d at(pose_.position.x(), pose_.position.y(), pose_.heading);
+  const Eigen::Vector3d to(goal.position.x(), goal.position.y(), goal.heading);
+  Eigen::Vector3d next = to;
+  if (remaining > 1.5 * dt) {
+    // Cubic from (at, velocity) to (to, 0): its acceleration now, and its change over the tick.
+    const double t = remaining;
+    const Eigen::Vector3d acceleration = 6 / (t * t) * (to - at) - 4 / t * velocity_;
+    const Eigen::Vector3d jerk = -12 / (t * t * t) * (to - at) + 6 / (t * t) * velocity_;
+    next = at + dt * velocity_ + dt * dt / 2 * acceleration + dt * dt * dt / 6 * jerk;
+    velocity_ += dt * acceleration + dt * dt / 2 * jerk;
+  } else {
+    velocity_ = (to - at) / dt;
+  }
+  pose_ = {next.head<2>(), next.z()};
+  const double s = std::clamp(phase, 0.0, 1.0);
+  height_ = (1 - s) * start_height_ + lift * 16 * s * s * (1 - s) * (1 - s);
+}
+
+}  // namespace nao::motion

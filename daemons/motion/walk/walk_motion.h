@@ -1,0 +1,108 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/robot_model.h"
+#include "motion/motion_generator.h"
+#include "motion/walk/gait.h"
+#include "motion/walk/walk_engine.h"
+
+namespace nao::motion {
+
+/** Why the robot must not start to walk, or not go on, as a sentence; nothing if it may.
+ * @param stiffness  Of all motors, motor order. */
+std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
+                                              const std::vector<double>& stiffness);
+
+/** Whether the walk can begin in the pose that these targets make: both soles flat on one level,
+ * side by side, below bent knees. */
+bool is_walking_stance(const RobotModel& model, const std::vector<double>& position);
+
+/** What walk and move-to have in common: a stand before, the engine, and the reasons to stop. */
+class WalkingMotion : public MotionGenerator {
+ public:
+  /** @param gait       Must outlive this.
+   * @param stand_up   Way to the posture that a walk begins and ends in; taken if the robot does
+   * not stand already. */
+  WalkingMotion(const RobotModel& model, const Gait& gait,
+                std::unique_ptr<MotionGenerator> stand_up);
+
+  void start(const MotionContext& context, const JointTargets& targets) override;
+  Phase step(const MotionContext& context, JointTargets& targets) override;
+  bool can_be_replaced() const override;
+  void finish() override;
+  Mode mode() const override { return Mode::kWalking; }
+  std::string remark() const override { return remark_; }
+  void describe(MotionState& state) const override;
+
+ protected:
+  /** Once, when the engine begins, and in every tick before the engine's: wishes a velocity or the
+   * end. */
+  virtual void start_steering(const MotionContext& /*context*/) {}
+  virtual void steer(const MotionContext& context) = 0;
+  /** What is to be said when the walk has ended by itself. @return false if it failed. */
+  virtual bool conclude(const MotionContext& /*context*/, std::string& /*remark*/) { return true; }
+
+  WalkEngine& engine() { return engine_; }
+
+ private:
+  std::optional<std::string> find_trouble(const MotionContext& context);
+
+  WalkEngine engine_;
+  std::unique_ptr<MotionGenerator> stand_up_;
+  bool is_standing_up_ = false;
+  bool is_finishing_ = false;
+  bool has_ended_ = false;
+  double time_in_air_ = 0;
+  std::string remark_;
+};
+
+/** Walks at the velocity of the newest walk command, until it asks for none, until it is too old,
+ * or until something else waits. */
+class WalkMotion : public WalkingMotion {
+ public:
+  WalkMotion(const RobotModel& model, const Gait& gait, std::unique_ptr<MotionGenerator> stand_up,
+             const WalkCommand& command);
+
+  bool adopt(const Command& command) override;
+
+ protected:
+  void steer(const MotionContext& context) override;
+  bool conclude(const MotionContext& context, std::string& remark) override;
+
+ private:
+  WalkCommand command_;
+  /** s since the command came. */
+  double age_ = 0;
+};
+
+/** Walks to a pose and stops there, by odometry. */
+class MoveToMotion : public WalkingMotion {
+ public:
+  MoveToMotion(const RobotModel& model, const Gait& gait, std::unique_ptr<MotionGenerator> stand_up,
+               const MoveToCommand& command);
+
+  double progress() const override { return progress_; }
+
+ protected:
+  void start_steering(const MotionContext& context) override;
+  void steer(const MotionContext& context) override;
+  bool conclude(const MotionContext& context, std::string& remark) override;
+
+ private:
+  /** Goal seen from the torso's ground projection. */
+  Pose2 remaining(const MotionContext& context) const;
+
+  MoveToCommand command_;
+  Pose2 goal_in_odometry_;
+  WalkLimits limits_;
+  double way_ = 0;
+  double time_ = 0;
+  double time_limit_ = 0;
+  double progress_ = 0;
+  bool is_there_ = false;
+};
+
+}  // namespace nao::motion

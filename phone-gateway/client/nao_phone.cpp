@@ -1,0 +1,252 @@
+// nao-phone: a phone for the command line. Speaks the protocol over raw TCP; see README.md.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <string>
+
+#include "client/phone_client.h"
+#include "common/program.h"
+
+namespace nao {
+namespace {
+
+using naoremote::Notice;
+using naoremote::Response;
+
+constexpr double kOutcomeTimeout = 60;
+constexpr double kWalkPeriod = 0.1;
+constexpr double kPollPeriod = 0.1;
+constexpr int kPictureTries = 50;
+
+/** Everything that the command line can say. */
+struct PhoneOptions {
+  PhoneClient::Options client;
+  std::string posture;
+  std::string action;
+  std::string group;
+  std::string file;
+  double x = 0;
+  double y = 0;
+  double theta = 0;
+  double yaw = 0;
+  double pitch = 0;
+  double roll = 0;
+  double speed = 0;
+  double duration = 5;
+  double rate = 10;
+  double picture_rate = 0;
+};
+
+void print_state(const naoremote::State& state, const naoremote::RobotDescription& robot) {
+  std::printf("time %.2f s, age %.0f ms, mode %s, posture %s, torso height %.3f m\n",
+              static_cast<double>(state.utime()) * 1e-6, state.age_ms(), state.mode().c_str(),
+              state.posture().empty() ? "-" : state.posture().c_str(), state.torso_position(2));
+  for (int i = 0; i < state.joint_position_size(); ++i) {
+    std::printf("%-16s %8.4f\n", robot.joints(i).name().c_str(),
+                static_cast<double>(state.joint_position(i)));
+  }
+}
+
+/** @return Exit status: 0 if the gateway said yes. */
+int report(const Response& response) {
+  if (response.error() == naoremote::OK) return 0;
+  std::cerr << naoremote::ErrorCode_Name(response.error()) << ": " << response.message() << "\n";
+  return 1;
+}
+
+/** Takes control, asks for a motion, and waits for its end. */
+int command(PhoneClient& client, const std::function<Response(PhoneClient&)>& ask) {
+  if (const int status = report(client.take_control()); status != 0) return status;
+  const Response response = ask(client);
+  if (const int status = report(response); status != 0) return status;
+  const auto outcome = client.wait_for_outcome(response.request_id(), kOutcomeTimeout);
+  if (!outcome) {
+    std::cerr << "nothing was heard of its end within 60 s\n";
+    return 1;
+  }
+  std::cout << Notice::Outcome_Name(outcome->outcome())
+            << (outcome->message().empty() ? "" : ": " + outcome->message()) << "\n";
+  return outcome->outcome() == Notice::DONE ? 0 : 1;
+}
+
+int walk(PhoneClient& client, const PhoneOptions& options) {
+  if (const int status = report(client.take_control()); status != 0) return status;
+  const int num_commands = static_cast<int>(options.duration / kWalkPeriod);
+  for (int i = 0; i < num_commands; ++i) {
+    const Response response = client.walk_turn(options.x, options.y, options.theta);
+    if (const int status = report(response); status != 0) return status;
+    client.run_for(kWalkPeriod);
+  }
+  return report(client.walk_turn(0, 0, 0));
+}
+
+int show_state(PhoneClient& client) {
+  const Response response = client.get_state(false);
+  if (const int status = report(response); status != 0) return status;
+  print_state(response.state_and_picture().state(), client.robot());
+  return 0;
+}
+
+int save_picture(PhoneClient& client, const std::string& file) {
+  // The camera starts when somebody watches: the first picture takes a moment.
+  Response response = client.get_state(true);
+  for (int i = 0; i < kPictureTries && response.error() == naoremote::OK &&
+                  !response.state_and_picture().has_picture();
+       ++i) {
+    client.run_for(kPollPeriod);
+    response = client.get_state(true);
+  }
+  if (const int status = report(response); status != 0) return status;
+  if (!response.state_and_picture().has_picture()) {
+    std::cerr << "the head camera sends no picture\n";
+    return 1;
+  }
+  const naoremote::Picture& picture = response.state_and_picture().picture();
+  std::ofstream(file, std::ios::binary) << picture.jpeg();
+  std::cout << file << ": " << picture.width() << "x" << picture.height() << ", age "
+            << picture.age_ms() << " ms\n";
+  return 0;
+}
+
+/** Prints a line for each state and picture, and every notice, until the time is over. */
+int watch(const PhoneOptions& options) {
+  PhoneClient::Handlers handlers;
+  handlers.on_state = [](const naoremote::State& state) {
+    std::printf(
+        "%.3f s  %-10s %-10s height %.3f m  walk %+.2f %+.2f m/s %+.2f rad/s  age %.0f ms\n",
+        static_cast<double>(state.utime()) * 1e-6, state.mode().c_str(), state.posture().c_str(),
+        static_cast<double>(state.torso_position(2)), static_cast<double>(state.walk_velocity(0)),
+        static_cast<double>(state.walk_velocity(1)), static_cast<double>(state.walk_velocity(2)),
+        state.age_ms());
+  };
+  handlers.on_notice = [](const Notice& notice) {
+    std::printf("%s %s\n", Notice::Kind_Name(notice.kind()).c_str(), notice.message().c_str());
+  };
+  handlers.on_picture = [](const naoremote::Picture& picture) {
+    std::printf("picture %ux%u, %zu bytes, age %.0f ms\n", picture.width(), picture.height(),
+                picture.jpeg().size(), picture.age_ms());
+  };
+  PhoneClient client(options.client, handlers);
+  if (const int status = report(client.subscribe(options.rate, options.picture_rate)); status != 0)
+    return status;
+  client.run_for(options.duration);
+  return 0;
+}
+
+int list_clients(const PhoneOptions& options) {
+  const Response response =
+      operate(options.client.host, options.client.port, naoremote::Operate::LIST);
+  if (const int status = report(response); status != 0) return status;
+  for (const auto& client : response.clients().clients()) {
+    std::printf("%4u  %-20s %-16s %-10s%s\n", client.client_id(), client.name().c_str(),
+                client.address().c_str(), client.transport().c_str(),
+                client.is_driver() ? " drives" : "");
+  }
+  return 0;
+}
+
+/** A walk is refused in a notice, after its commands were passed on. */
+void print_refusal(const Notice& notice) {
+  const bool is_bad = notice.kind() == Notice::COMMAND_OUTCOME &&
+                      (notice.outcome() == Notice::REFUSED || notice.outcome() == Notice::FAILED);
+  if (is_bad) std::cerr << notice.message() << "\n";
+}
+
+/** A subcommand that drives: connects, then does `act`. */
+CLI::App* add_action(CLI::App& app, PhoneOptions& options, std::function<int()>& chosen,
+                     const std::string& name, const std::string& description,
+                     std::function<int(PhoneClient&)> act) {
+  CLI::App* subcommand = app.add_subcommand(name, description);
+  subcommand->callback([&options, &chosen, act = std::move(act)] {
+    chosen = [&options, act] {
+      PhoneClient::Handlers handlers;
+      handlers.on_notice = print_refusal;
+      PhoneClient client(options.client, handlers);
+      return act(client);
+    };
+  });
+  return subcommand;
+}
+
+void add_subcommands(CLI::App& app, PhoneOptions& o, std::function<int()>& chosen) {
+  app.require_subcommand(1);
+  add_action(app, o, chosen, "state", "Show the robot's state", show_state);
+  CLI::App* picture =
+      add_action(app, o, chosen, "picture", "Save a picture of the head camera",
+                 [&o](PhoneClient& client) { return save_picture(client, o.file); });
+  picture->add_option("file", o.file, "JPEG file to write")->required();
+
+  CLI::App* posture =
+      add_action(app, o, chosen, "posture", "Go to a posture", [&o](PhoneClient& c) {
+        return command(
+            c, [&o](PhoneClient& client) { return client.go_to_posture(o.posture, o.speed); });
+      });
+  posture->add_option("name", o.posture, "Posture, such as Crouch")->required();
+  posture->add_option("--speed", o.speed, "Fraction of the maximum speed; 0: as the gateway likes");
+
+  CLI::App* joints = add_action(app, o, chosen, "joints", "Turn joints", [&o](PhoneClient& c) {
+    return command(c, [&o](PhoneClient& client) {
+      return client.change_joints(o.group, o.yaw, o.pitch, o.roll, o.speed);
+    });
+  });
+  joints->add_option("group", o.group, "Joint group, such as head or \"left shoulder\"")
+      ->required();
+  joints->add_option("--yaw", o.yaw, "Change about this axis, rad");
+  joints->add_option("--pitch", o.pitch, "Change about this axis, rad (hands: opening)");
+  joints->add_option("--roll", o.roll, "Change about this axis, rad");
+  joints->add_option("--speed", o.speed, "Fraction of the maximum speed; 0: as the gateway likes");
+
+  CLI::App* action = add_action(app, o, chosen, "action", "Do an action", [&o](PhoneClient& c) {
+    return command(c, [&o](PhoneClient& client) { return client.do_action(o.action); });
+  });
+  action->add_option("name", o.action, "Action, such as wave")->required();
+
+  CLI::App* walking = add_action(app, o, chosen, "walk", "Walk and turn",
+                                 [&o](PhoneClient& client) { return walk(client, o); });
+  CLI::App* move = add_action(app, o, chosen, "move", "Walk to a place", [&o](PhoneClient& c) {
+    return command(c, [&o](PhoneClient& client) { return client.move_to(o.x, o.y, o.theta); });
+  });
+  walking->add_option("x", o.x, "Ahead, share of the greatest speed, -1 to 1")->required();
+  walking->add_option("y", o.y, "To the left, share of the greatest speed, -1 to 1");
+  walking->add_option("theta", o.theta, "Turning to the left, share of the greatest rate, -1 to 1");
+  walking->add_option("--duration", o.duration, "How long, s")->capture_default_str();
+  move->add_option("x", o.x, "Ahead, m")->required();
+  move->add_option("y", o.y, "To the left, m");
+  move->add_option("theta", o.theta, "Heading there relative to the present one, rad");
+
+  add_action(app, o, chosen, "stop", "End any motion",
+             [](PhoneClient& client) { return report(client.stop()); });
+
+  CLI::App* watching = app.add_subcommand("watch", "Print states and notices as they come");
+  watching->add_option("--duration", o.duration, "How long, s")->capture_default_str();
+  watching->add_option("--rate", o.rate, "States a second, up to 60")->capture_default_str();
+  watching->add_option("--pictures", o.picture_rate, "Pictures a second, up to 30")
+      ->capture_default_str();
+  watching->callback([&] { chosen = [&o] { return watch(o); }; });
+  app.add_subcommand("list", "Show who is connected (on the gateway's host only)")->callback([&] {
+    chosen = [&o] { return list_clients(o); };
+  });
+}
+
+}  // namespace
+}  // namespace nao
+
+int main(int argc, char** argv) {
+  CLI::App app("A phone for the command line: drives the robot through nao-phone-gateway",
+               "nao-phone");
+  nao::CommonOptions common;
+  nao::PhoneOptions options;
+  options.client.name = "nao-phone";
+  options.client.software = std::string("nao-phone ") + nao::version();
+  app.set_version_flag("--version", app.get_name() + " " + nao::version());
+  app.add_option("--host", options.client.host, "The gateway's host")->capture_default_str();
+  app.add_option("--port", options.client.port, "Its TCP port")->capture_default_str();
+  app.add_option("--token", options.client.token, "Its token; not needed on its own host");
+  app.add_option("--name", options.client.name, "What others shall call this phone")
+      ->capture_default_str();
+  std::function<int()> chosen;
+  nao::add_subcommands(app, options, chosen);
+  return nao::run_program_with_status(app, common, argc, argv, [&] { return chosen(); });
+}

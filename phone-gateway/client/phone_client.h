@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/message_socket.h"
+#include "remote.pb.h"
+
+namespace nao {
+
+/** The gateway refused a Connect; the text is its sentence. */
+struct RefusedError : Error {
+  RefusedError(naoremote::ErrorCode error_code, const std::string& message)
+      : Error(message), code(error_code) {}
+  naoremote::ErrorCode code;
+};
+
+/** A phone in C++: one connection to nao-phone-gateway over raw TCP.
+ *
+ * Blocking, without a thread: messages are handled, and signs of life sent, inside the calls that
+ * wait; call one of them at least every 4 s. One thread only. */
+class PhoneClient {
+ public:
+  struct Options {
+    std::string host = "127.0.0.1";
+    uint16_t port = 7668;
+    /** From the gateway's URL; may be empty on its own host. */
+    std::string token;
+    /** What others shall call it; empty: the gateway makes a name. */
+    std::string name;
+    std::string software = "nao_phone_client";
+    /** For connecting and for each answer, s. */
+    double timeout = 5;
+  };
+
+  /** What the gateway sends unasked; empty ones are ignored. Called inside the calls that wait. */
+  struct Handlers {
+    std::function<void(const naoremote::State&)> on_state;
+    std::function<void(const naoremote::Picture&)> on_picture;
+    std::function<void(const naoremote::Notice&)> on_notice;
+  };
+
+  /** Connects and introduces itself.
+   * @throws ConnectionError  if there is no gateway. @throws RefusedError  if it says no. */
+  explicit PhoneClient(const Options& options, Handlers handlers = {});
+
+  /** What the gateway said about itself and the robot. */
+  const naoremote::Connected& connected() const { return connected_; }
+  const naoremote::RobotDescription& robot() const { return connected_.robot(); }
+
+  /** Sends a request and waits for its answer.
+   * @param request  Its request_id is set here.
+   * @throws ConnectionError  if the connection closes, or no answer comes in time. */
+  naoremote::Response request(naoremote::Request request);
+
+  /** Sends a request without waiting; its answer is kept until take_response().
+   * @return Its request_id. */
+  uint32_t send(naoremote::Request request);
+
+  /** @return The answer to a request sent with send(), once it has come. */
+  [[nodiscard]] std::optional<naoremote::Response> take_response(uint32_t request_id);
+
+  /** Handles messages for `time` seconds, and sends a Ping where nothing else was sent for 1 s.
+   * @throws ConnectionError  if the connection closes. */
+  void run_for(double time);
+
+  /** Waits until `is_done()`, handling messages. @return false if it was not in time. */
+  bool run_until(const std::function<bool()>& is_done, double timeout);
+
+  /** Waits for the end of a command: DONE, REFUSED, INTERRUPTED or FAILED.
+   * @return nothing if none came in time. */
+  std::optional<naoremote::Notice> wait_for_outcome(uint32_t request_id, double timeout);
+
+  // The use cases, each waiting for its answer.
+  naoremote::Response take_control();
+  naoremote::Response release_control();
+  naoremote::Response get_state(bool with_picture);
+  naoremote::Response subscribe(double state_rate, double picture_rate);
+  naoremote::Response walk_turn(double x, double y, double theta);
+  naoremote::Response move_to(double x, double y, double theta);
+  naoremote::Response go_to_posture(const std::string& posture, double speed = 0);
+  naoremote::Response change_joints(const std::string& group, double yaw, double pitch, double roll,
+                                    double speed = 0);
+  naoremote::Response do_action(const std::string& action);
+  naoremote::Response stop();
+  naoremote::Response ping();
+
+ private:
+  /** Handles one message if one comes in time. */
+  void handle_one(double timeout);
+
+  Options options_;
+  Handlers handlers_;
+  MessageSocket socket_;
+  naoremote::Connected connected_;
+  uint32_t last_request_id_ = 0;
+  double last_sent_ = 0;
+  std::map<uint32_t, naoremote::Response> responses_;
+  /** The latest outcomes told in notices, oldest first. */
+  std::vector<naoremote::Notice> outcomes_;
+  /** Pings that the client sent by itself, whose answers nobody waits for. */
+  uint32_t own_ping_ = 0;
+};
+
+/** The operator's console: one operation, without introducing itself. Works on the gateway's own
+ * host only. @throws ConnectionError  if there is no gateway. */
+naoremote::Response operate(const std::string& host, uint16_t port,
+                            naoremote::Operate::Operation operation, uint32_t client_id = 0);
+
+}  // namespace nao

@@ -1,0 +1,77 @@
+#pragma once
+
+// <utility> first: Boost 1.74's coroutine headers rely on it with GCC 12.
+#include <utility>
+//
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <string>
+
+#include "server/network.h"
+
+namespace nao {
+
+namespace asio = boost::asio;
+using Tcp = asio::ip::tcp;
+
+/** Connections that have not said Connect yet. There is room for so many; one more closes the
+ * oldest, so that a crowd of half-open connections cannot keep others out. */
+class WaitingRoom {
+ public:
+  using Place = std::list<std::function<void()>>::iterator;
+
+  explicit WaitingRoom(size_t num_places) : num_places_(num_places) {}
+
+  /** @param evict  Closes the connection, which leaves then or soon after.
+   * @return true if another connection was closed for it. */
+  bool enter(std::function<void()> evict, Place& place) {
+    waiting_.push_back(std::move(evict));
+    place = std::prev(waiting_.end());
+    if (waiting_.size() <= num_places_) return false;
+    const std::function<void()> evict_oldest = waiting_.front();
+    evict_oldest();
+    return true;
+  }
+  void leave(Place place) { waiting_.erase(place); }
+
+ private:
+  size_t num_places_;
+  std::list<std::function<void()>> waiting_;
+};
+
+/** What every connection of the gateway works with. */
+struct Hub {
+  asio::io_context& io;
+  GatewayCore& core;
+  WebPages& pages;
+  AccessRules rules;
+  /** Null without https. */
+  std::unique_ptr<asio::ssl::context> tls;
+  WaitingRoom waiting_room;
+  NetworkCounters counters;
+  /** The network is being taken down: connections end without a word. */
+  bool is_ending = false;
+};
+
+/** The other end of a socket. */
+Peer make_peer(const Tcp::socket& socket, const std::string& transport);
+
+/** Sets up an accepted socket: no delay, and little room for what has not been sent, so that a slow
+ * client's next picture is chosen late. */
+void prepare_socket(Tcp::socket& socket);
+
+/** The system's estimate of the time to the other end and back, s; 0 if it has none. */
+double measure_round_trip(Tcp::socket& socket);
+
+/** Serves a connection of the raw TCP port until it ends. */
+void serve_tcp(Hub& hub, Tcp::socket socket);
+
+/** Serves a connection of the HTTP port until it ends: pages, and WebSockets. */
+void serve_http(Hub& hub, Tcp::socket socket);
+
+}  // namespace nao

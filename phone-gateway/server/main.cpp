@@ -1,0 +1,174 @@
+// nao-phone-gateway: lets phones drive the robot. See README.md.
+#include <google/protobuf/stubs/logging.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+
+#include "common/bus.h"
+#include "common/data_path.h"
+#include "common/error.h"
+#include "common/program.h"
+#include "common/wall_clock.h"
+#include "server/certificate.h"
+#include "server/gateway_daemon.h"
+#include "server/gateway_options.h"
+#include "server/network.h"
+#include "server/own_addresses.h"
+#include "server/qr_code.h"
+#include "server/secret.h"
+#include "server/web_pages.h"
+
+namespace nao {
+namespace {
+
+constexpr double kStepPeriod = 0.02;
+constexpr double kStatusPeriod = 1.0;
+/** What is said last needs a moment to get out. */
+constexpr double kDrainTime = 0.2;
+/** Pixels per module of the code in a file. */
+constexpr int kQrScale = 8;
+
+void add_gateway_options(CLI::App& app, GatewayOptions& options) {
+  NetworkOptions& network = options.network;
+  app.add_option("--http-port", network.http_port, "Port of the app and of WebSockets; 0: any free")
+      ->capture_default_str();
+  app.add_option("--tcp-port", network.tcp_port, "Port of raw TCP clients; 0: any free")
+      ->capture_default_str();
+  app.add_option("--bind", network.bind, "Address to listen on; 0.0.0.0: all")
+      ->capture_default_str();
+  app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
+      ->capture_default_str();
+  app.add_option("--token", options.token,
+                 "What phones must say to connect; default: a new one at each start");
+  app.add_option("--host-name", options.host_names,
+                 "Another name of this host that browsers may use (repeatable)");
+  app.add_option(
+      "--allow-origin", options.origins,
+      "Another site whose pages may connect, such as http://localhost:5173 (repeatable)");
+  app.add_flag("--tls", options.uses_tls,
+               "Serve https beside http, on the same port: phones give tilt to secure pages only");
+  app.add_option("--tls-dir", options.tls_folder,
+                 "Folder of the gateway's own certificate; default: ~/.local/state/nao-remote");
+  app.add_option("--key", network.key_file, "Key of --certificate, PEM")->check(CLI::ExistingFile);
+  app.add_option("--certificate", network.certificate_file,
+                 "Certificate chain to use in place of an own one, PEM")
+      ->needs("--tls")
+      ->needs("--key")
+      ->check(CLI::ExistingFile);
+  app.add_option("--audit-log", options.audit_file,
+                 "File to append who connected, drove and was refused to, as JSON lines");
+  app.add_flag("--print-qr", options.prints_qr, "Print the address for phones as a QR code");
+  app.add_option("--qr-png", options.qr_file, "Write it to this file");
+}
+
+AccessRules make_access_rules(const GatewayOptions& options) {
+  std::vector<std::string> names = options.host_names;
+  const std::string own_name = own_host_name();
+  names.push_back(own_name);
+  names.push_back(own_name + ".local");
+  return AccessRules(names, options.origins);
+}
+
+/** Makes sure that there is a certificate, if https is wanted. */
+void prepare_tls(GatewayOptions& options) {
+  if (!options.uses_tls) return;
+  NetworkOptions& network = options.network;
+  if (network.certificate_file.empty()) {
+    CertificateNames names;
+    names.host_names = {own_host_name(), own_host_name() + ".local", "localhost"};
+    names.host_names.insert(names.host_names.end(), options.host_names.begin(),
+                            options.host_names.end());
+    names.addresses = own_addresses();
+    names.addresses.push_back("127.0.0.1");
+    const CertificateFiles files = own_certificate(
+        options.tls_folder.empty() ? state_folder() : std::filesystem::path(options.tls_folder),
+        names);
+    network.certificate_file = files.certificate;
+    network.key_file = files.key;
+  }
+  spdlog::info("https with {}, SHA-256 {}", network.certificate_file,
+               certificate_fingerprint(network.certificate_file));
+}
+
+/** What a person types into the phone's browser, or scans. */
+std::vector<std::string> phone_urls(const GatewayOptions& options, uint16_t port) {
+  std::vector<std::string> addresses = {options.network.bind};
+  if (options.network.bind == "0.0.0.0" || options.network.bind == "::") {
+    addresses = own_addresses();
+    if (addresses.empty()) addresses = {"localhost"};
+  }
+  const std::string scheme = options.uses_tls ? "https://" : "http://";
+  std::vector<std::string> urls;
+  for (const std::string& address : addresses) {
+    const bool is_v6 = address.find(':') != std::string::npos;
+    urls.push_back(scheme + (is_v6 ? "[" + address + "]" : address) + ":" + std::to_string(port) +
+                   "/#token=" + options.token);
+  }
+  return urls;
+}
+
+/** Shows the first address as a code to be scanned, where that is wanted. */
+void show_qr_code(const GatewayOptions& options, const std::string& url) {
+  if (options.prints_qr) {
+    std::cout << draw_on_terminal(make_qr_code(url)) << url << std::endl;
+  }
+  if (options.qr_file.empty()) return;
+  std::ofstream file(options.qr_file, std::ios::binary);
+  file << draw_as_png(make_qr_code(url), kQrScale);
+  if (!file.flush()) throw Error("cannot write " + options.qr_file);
+}
+
+void run_gateway(const CommonOptions& common, GatewayOptions options) {
+  // The library prints a line for every message that it cannot parse: anybody could fill the log.
+  google::protobuf::SetLogHandler(nullptr);
+  if (options.token.empty()) options.token = make_token();
+  prepare_tls(options);
+  const std::filesystem::path folder = data_path() / "robots" / options.model;
+  Bus bus(common.lcm_url);
+  GatewayDaemon daemon(bus, common.robot, describe_robot(RobotModel::load(folder)), options.limits,
+                       options.token, options.audit_file);
+  WebPages pages(data_path());
+  pages.add_page("/metrics",
+                 {"text/plain; version=0.0.4", true, [&daemon] { return daemon.metrics_text(); }});
+  Network network(options.network, make_access_rules(options), daemon.core(), pages);
+
+  network.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
+  network.every(kStepPeriod, [&daemon] { daemon.step(monotonic_seconds()); });
+  network.every(kStatusPeriod, [&daemon] { daemon.publish_status(monotonic_seconds()); });
+  spdlog::info("version {}, bus {}, robot {} from {}", version(), common.lcm_url, common.robot,
+               folder.string());
+  spdlog::info("HTTP and WebSocket on {}:{}, TCP on {}:{}", options.network.bind,
+               network.http_port(), options.network.bind, network.tcp_port());
+  const std::vector<std::string> urls = phone_urls(options, network.http_port());
+  for (const std::string& url : urls) spdlog::info("phones: {}", url);
+  show_qr_code(options, urls.front());
+  pages.add_page("/qr.png", {"image/png", true, [url = urls.front()] {
+                               return draw_as_png(make_qr_code(url), kQrScale);
+                             }});
+  daemon.publish_status(monotonic_seconds());
+
+  const std::string reason = network.run();
+  daemon.shut_down(monotonic_seconds());
+  network.drain(kDrainTime);
+  const NetworkCounters& counters = network.counters();
+  spdlog::info("stopped: {}; {} connections, {} web requests, {} violations, {} messages dropped",
+               reason, counters.num_accepted, counters.num_http_requests, counters.num_violations,
+               bus.counters().num_dropped);
+}
+
+}  // namespace
+}  // namespace nao
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Lets phones drive the robot: the app over HTTP, the protocol over WebSocket and TCP",
+      "nao-phone-gateway");
+  nao::CommonOptions common;
+  nao::GatewayOptions options;
+  nao::add_common_options(app, common);
+  nao::add_gateway_options(app, options);
+  return nao::run_program(app, common, argc, argv,
+                          [&] { nao::run_gateway(common, std::move(options)); });
+}

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace nao {
+
+/** What waits to be sent to one client: answers and notices in order, and at most one state and one
+ * picture, which are made only when the connection can take them, so that a slow client gets fewer
+ * of them but always the newest. */
+class Outbox {
+ public:
+  enum class Next { kNothing, kMessage, kState, kPicture };
+
+  void push(std::string message) { messages_.push_back(std::move(message)); }
+  void want_state() { num_skipped_ += std::exchange(wants_state_, true) ? 1 : 0; }
+  void want_picture() { num_skipped_ += std::exchange(wants_picture_, true) ? 1 : 0; }
+
+  /** What the connection shall send next. States and pictures take turns. */
+  Next next() const {
+    if (!messages_.empty()) return Next::kMessage;
+    if (wants_state_ && !(wants_picture_ && last_was_state_)) return Next::kState;
+    return wants_picture_ ? Next::kPicture : Next::kNothing;
+  }
+
+  /** Takes out what next() told: the message itself, or the mark that one shall be made. */
+  std::string take_message() {
+    std::string message = std::move(messages_.front());
+    messages_.pop_front();
+    return message;
+  }
+  void take_state() {
+    wants_state_ = false;
+    last_was_state_ = true;
+  }
+  void take_picture() {
+    wants_picture_ = false;
+    last_was_state_ = false;
+  }
+
+  size_t num_messages() const { return messages_.size(); }
+  /** States and pictures that a newer one replaced before they could be sent. */
+  uint64_t num_skipped() const { return num_skipped_; }
+
+ private:
+  std::deque<std::string> messages_;
+  bool wants_state_ = false;
+  bool wants_picture_ = false;
+  bool last_was_state_ = false;
+  uint64_t num_skipped_ = 0;
+};
+
+}  // namespace nao

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "common/robot_model.h"
+#include "remote.pb.h"
+
+namespace nao {
+
+/** The robot as phones see it. */
+struct PhoneRobot {
+  naoremote::RobotDescription description;
+  WalkLimits walk_limits;
+};
+
+/** What the robot's files say, in the protocol's terms. */
+PhoneRobot describe_robot(const RobotModel& model);
+
+}  // namespace nao

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "remote.pb.h"
+#include "server/gateway_limits.h"
+#include "server/motion_command.h"
+#include "server/phone_robot.h"
+
+namespace nao {
+
+/** What is wrong with a request, as a sentence for a person. */
+struct Refusal {
+  std::string message;
+};
+
+/** Turns a phone's motion request into a command, checking every field: finite, in range, naming
+ * something that the robot has. One function for each use case that moves the robot. */
+[[nodiscard]] std::variant<WalkVelocity, Refusal> check(const naoremote::WalkTurn& request,
+                                                        const PhoneRobot& robot);
+[[nodiscard]] std::variant<MotionCommand, Refusal> check(const naoremote::MoveTo& request);
+[[nodiscard]] std::variant<MotionCommand, Refusal> check(const naoremote::GoToPosture& request,
+                                                         const PhoneRobot& robot);
+[[nodiscard]] std::variant<MotionCommand, Refusal> check(const naoremote::ChangeJoints& request,
+                                                         const PhoneRobot& robot);
+[[nodiscard]] std::variant<MotionCommand, Refusal> check(const naoremote::DoAction& request,
+                                                         const PhoneRobot& robot);
+
+/** Which picture a client wishes for, checked, with the defaults filled in. */
+struct PictureChoice {
+  naoremote::Camera camera = naoremote::CAMERA_TOP;
+  uint32_t width = 320;
+  /** JPEG quality, 1 to 95; 0 leaves it to the camera. */
+  uint32_t quality = 0;
+
+  bool shows_same(const PictureChoice& other) const {
+    return camera == other.camera && width == other.width;
+  }
+};
+
+[[nodiscard]] std::variant<PictureChoice, Refusal> check(const naoremote::PictureWish& wish);
+
+/** A checked Subscribe. Rates in 1/s. */
+struct Subscription {
+  double state_rate = 0;
+  double picture_rate = 0;
+  PictureChoice picture;
+};
+
+[[nodiscard]] std::variant<Subscription, Refusal> check(const naoremote::Subscribe& request,
+                                                        const GatewayLimits& limits);
+
+}  // namespace nao

@@ -1,0 +1,37 @@
+#include "server/robot_mirror.h"
+
+#include <cmath>
+
+namespace nao {
+
+int64_t RobotMirror::calc_robot_utime(double now) const {
+  if (!has_robot_) return 0;
+  return robot_.utime + std::llround((now - robot_time_) * 1e6);
+}
+
+void RobotMirror::write(naoremote::State& state, bool is_available, double now) const {
+  state.set_utime(static_cast<uint64_t>(robot_.utime));
+  state.set_age_ms((now - robot_time_) * 1e3);
+  state.mutable_joint_position()->Reserve(static_cast<int>(robot_.joint_position.size()));
+  for (const double position : robot_.joint_position) {
+    state.add_joint_position(static_cast<float>(position));
+  }
+  for (const double w : robot_.torso_orientation) {
+    state.add_torso_orientation(static_cast<float>(w));
+  }
+  for (const double x : robot_.torso_position) state.add_torso_position(static_cast<float>(x));
+  if (!is_available) {
+    state.set_mode("no-robot");
+    state.set_progress(-1);
+    for (int i = 0; i < 3; ++i) state.add_walk_velocity(0);
+    return;
+  }
+  state.set_mode(motion_.mode);
+  state.set_posture(motion_.posture);
+  state.set_activity(motion_.activity);
+  state.set_progress(static_cast<float>(motion_.progress));
+  for (const double v : motion_.walk_velocity) state.add_walk_velocity(static_cast<float>(v));
+  state.set_stiffness(static_cast<float>(motion_.stiffness));
+}
+
+}  // namespace nao

@@ -1,0 +1,109 @@
+#include "server/beast_streams.h"
+//
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+
+#include "common/program.h"
+#include "protocol/framing.h"
+#include "server/phone_connection.h"
+
+namespace nao {
+namespace {
+
+namespace websocket = beast::websocket;
+using boost::system::error_code;
+
+/** A phone's WebSocket: one message per binary frame. */
+template <class Stream>
+class WebSocketConnection : public PhoneConnection {
+ public:
+  WebSocketConnection(Hub& hub, Stream stream) : PhoneConnection(hub), socket_(std::move(stream)) {}
+
+  void start(WebRequest request) {
+    beast::get_lowest_layer(socket_).expires_never();
+    // Silence is the core's business; these bound the handshakes at both ends of its life.
+    socket_.set_option(websocket::stream_base::timeout{std::chrono::seconds(5),
+                                                       websocket::stream_base::none(), false});
+    socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+      response.set(http::field::server, std::string("nao-phone-gateway/") + version());
+    }));
+    socket_.read_message_max(kMaxRequestBytes);
+    socket_.auto_fragment(false);
+    socket_.binary(true);
+    request_ = std::move(request);
+    socket_.async_accept(request_, [self = self()](const error_code& error) {
+      if (error) return;
+      self->open(make_peer(beast::get_lowest_layer(self->socket_).socket(), "websocket"));
+      self->read();
+    });
+  }
+
+ private:
+  std::shared_ptr<WebSocketConnection> self() {
+    return std::static_pointer_cast<WebSocketConnection>(shared_from_this());
+  }
+
+  void read() {
+    socket_.async_read(buffer_, [self = self()](const error_code& error, size_t) {
+      if (error == websocket::error::message_too_big) ++self->hub_.counters.num_violations;
+      if (error) {
+        self->abort(error == websocket::error::closed ? "closed by the client" : error.message());
+        return;
+      }
+      self->on_message();
+    });
+  }
+
+  void on_message() {
+    if (!socket_.got_binary()) {
+      close_code_ = websocket::close_code::unknown_data;
+      violate("Messages travel in binary frames.");
+    }
+    bool goes_on = true;
+    if (!is_closing()) {
+      goes_on = receive({static_cast<const char*>(buffer_.data().data()), buffer_.size()});
+    }
+    buffer_.consume(buffer_.size());
+    if (goes_on) read();
+  }
+
+  void take_more() override { read(); }
+
+  void write(const std::string& message) override {
+    outgoing_ = message;
+    socket_.async_write(asio::buffer(outgoing_), [self = self()](const error_code& error, size_t) {
+      self->on_written(error.failed());
+    });
+  }
+
+  void shut_down() override {
+    socket_.async_close(websocket::close_reason(close_code_), [self = self()](const error_code&) {
+      self->abort("closed by the gateway");
+    });
+  }
+
+  Tcp::socket& socket() override { return beast::get_lowest_layer(socket_).socket(); }
+
+  void close_socket() override { beast::get_lowest_layer(socket_).close(); }
+
+  websocket::stream<Stream> socket_;
+  WebRequest request_;
+  beast::flat_buffer buffer_;
+  std::string outgoing_;
+  websocket::close_code close_code_ = websocket::close_code::policy_error;
+};
+
+}  // namespace
+
+void serve_websocket(Hub& hub, PlainStream stream, WebRequest request) {
+  std::make_shared<WebSocketConnection<PlainStream>>(hub, std::move(stream))
+      ->start(std::move(request));
+}
+
+void serve_websocket(Hub& hub, SecureStream stream, WebRequest request) {
+  std::make_shared<WebSocketConnection<SecureStream>>(hub, std::move(stream))
+      ->start(std::move(request));
+}
+
+}  // namespace nao

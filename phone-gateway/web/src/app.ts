@@ -1,0 +1,363 @@
+/** The app: which screen is seen, and how the parts hang together. */
+import {Commander} from "./commander";
+import {Connection} from "./connection";
+import {sticksFromPad, driveFromKeys, stickFromKeys} from "./controls/keys";
+import type {PadButton} from "./controls/keys";
+import {Gamepads, listenToKeys} from "./controls/held_keys";
+import {JointDriver} from "./controls/joint_driver";
+import {PictureView} from "./controls/picture_view";
+import {driveFromSticks} from "./controls/stick";
+import {TiltSensor} from "./controls/tilt_sensor";
+import {WalkSender} from "./controls/walk_sender";
+import {exposeAutomation} from "./automation";
+import {el} from "./dom";
+import {Messages} from "./messages";
+import type {Connected} from "./protocol/generated/remote_pb";
+import * as useCases from "./protocol/use_cases";
+import {JointBalls} from "./robot/joint_balls";
+import {loadFieldLines} from "./robot/load_field";
+import {loadRobot} from "./robot/load_robot";
+import {PoseMirror} from "./robot/pose_mirror";
+import type {RobotTree} from "./robot/robot_tree";
+import {kDriveView, kJointsView, Stage} from "./robot/stage";
+import {attachGestures} from "./robot/stage_gestures";
+import {ConnectionScreen} from "./screens/connection_screen";
+import type {ConnectionWish} from "./screens/connection_screen";
+import {ControllerScreen, linkInWords, linkQuality} from "./screens/controller_screen";
+import {JointsPanel} from "./screens/joints_panel";
+import {LoadingScreen} from "./screens/loading_screen";
+import {MenuSheet} from "./screens/menu_sheet";
+import {WalkHere} from "./screens/walk_here";
+import {pageUrl, remember, saveSettings, tokenFromUrl} from "./settings";
+import type {Settings} from "./settings";
+import {storage} from "./storage";
+import {Store} from "./store";
+import {say} from "./text/texts";
+import type {Language} from "./text/texts";
+import {WebSocketTransport} from "./transport";
+
+const kSoftware = "nao-phone-app 0.1.0";
+/** As often as the screen is drawn: a thumb sees its joint move 8 ms sooner than at half the rate, for 20 kB/s. */
+const kStateRateHz = 60;
+const kPictureRateHz = 15;
+
+/** Group that the picture's drag turns, and posture that "reset" goes to. */
+const kHeadGroup = "head";
+const kResetPosture = "StandInit";
+/** Felt: a tap that did something, the end of a joint's range, a refusal; ms on, off, on. */
+const kTapPattern = 12;
+const kLimitPattern = 30;
+const kRefusalPattern = [25, 60, 25];
+
+type ScreenName = "loading" | "connection" | "controller";
+
+export class App {
+  private readonly store = new Store();
+  private readonly messages = new Messages(this.store);
+  private readonly connection: Connection;
+  private readonly commander: Commander;
+  private readonly walk: WalkSender;
+  private readonly stage: Stage;
+  private readonly picture = new PictureView(() => this.subscribe(), (yaw, pitch) =>
+      this.commander.stream(useCases.changeJoints({group: kHeadGroup, yaw, pitch, roll: 0})));
+  private readonly jointDriver = new JointDriver((change) =>
+      this.commander.stream(useCases.changeJoints(change)));
+  private readonly tilt = new TiltSensor();
+  private readonly gamepads = new Gamepads();
+  private readonly walkHere: WalkHere;
+  private readonly menu: MenuSheet;
+  private readonly connectionScreen: ConnectionScreen;
+  private readonly controllerScreen: ControllerScreen;
+  private token = "";
+  private robot: RobotTree | null = null;
+  private robotPath = "";
+  private mirror: PoseMirror | null = null;
+  private balls: JointBalls | null = null;
+  private isPadHeld = false;
+  private isShown = false;
+
+  constructor(private readonly root: HTMLElement, private settings: Settings) {
+    this.connection = new Connection(
+        new WebSocketTransport(new URL(location.href)), this.store, {
+          connected: (connected) => void this.connected(connected),
+          state: (state) => {
+            this.mirror?.setTarget(state);
+            this.store.set({state});
+          },
+          picture: (picture) => {
+            this.store.set({picture});
+            this.picture.show(picture);
+          },
+          notice: (notice) => this.commander.notice(notice),
+        });
+    this.commander = new Commander(this.connection, this.store, this.messages);
+    this.walk = new WalkSender(({x, y, theta}) =>
+        this.commander.stream(useCases.walkTurn(x, y, theta)));
+    const canvas = el("canvas", {class: "stage", role: "img", "aria-label": say("drive.stage")});
+    root.append(canvas);
+    this.stage = new Stage(canvas);
+    this.stage.onFrame = (dt) => this.frame(dt);
+    this.stage.orbit.isGliding = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    attachGestures(this.stage, (x, y) => this.tapped(x, y));
+    this.jointDriver.isInFront = () => this.stage.orbit.isInFront;
+    this.walkHere = new WalkHere(this.stage, ({x, y, theta}) =>
+        void this.commander.command(useCases.moveTo(x, y, theta)));
+    this.commander.onRefusal = () => vibrate(kRefusalPattern);
+    this.connectionScreen = new ConnectionScreen(this.store, {
+      connect: (wish) => this.connect(wish),
+      cancel: () => this.connection.disconnect(),
+      retryNow: () => this.connection.retryNow(),
+    });
+    const joints = new JointsPanel(this.store, this.jointDriver, {
+      reset: () => void this.commander.command(useCases.goToPosture(kResetPosture)),
+      select: (selectedGroup) => this.store.set({selectedGroup}),
+      atLimit: () => vibrate(kLimitPattern),
+    });
+    this.controllerScreen = new ControllerScreen(this.store, this.commander, this.walk, this.picture,
+                                                 joints, this.tilt, this.walkHere.element, {
+      openMenu: () => this.openMenu(),
+      setJointsMode: (isJointsMode) => this.setJointsMode(isJointsMode),
+      stop: () => this.stop(),
+      explainLink: () => this.explainLink(),
+    });
+    this.controllerScreen.setSwapped(settings.isSwapped);
+    this.menu = new MenuSheet(settings.isSwapped, {
+      setTilt: (isOn) => this.setTilt(isOn),
+      setSwapped: (isSwapped) => {
+        this.keep({isSwapped});
+        this.controllerScreen.setSwapped(isSwapped);
+      },
+      setLanguage: (language) => this.setLanguage(language),
+      leave: () => this.leave(),
+    });
+    root.append(new LoadingScreen(this.store, () => void this.prepareRobot()).element,
+                this.connectionScreen.element, this.controllerScreen.element, this.menu.element);
+    this.controllerScreen.observeFreeArea((area) => this.stage.setFreeArea(area));
+  }
+
+  start(): void {
+    exposeAutomation(this.store, this.stage, this.picture, () => this.robot, () => this.balls);
+    listenToKeys(() => this.root.dataset["screen"] === "controller", {
+      heldChanged: (held, isSlow) => this.keysChanged(held, isSlow),
+      pressed: (button) => this.pressed(button),
+    });
+    this.store.watch((state) => state.isJointsMode, (isOn) => this.balls?.show(isOn));
+    this.store.watch((state) => state.selectedGroup, (group) => this.balls?.select(group));
+    this.store.watch((state) => state.state?.mode ?? "", (mode) => {
+      if (mode === "falling" || mode === "fallen") this.messages.tell("info", say("fall.calm"));
+    });
+    void loadFieldLines(location.href).then((lines) => {
+      if (lines) this.stage.floor.setField(lines);
+    });
+    this.store.watch((state) => `${state.phase} ${state.loading.done} ${state.loading.error}`,
+                     () => this.chooseScreen());
+    window.addEventListener("online", () => this.connection.retryNow());
+    document.addEventListener("visibilitychange", () => this.visibilityChanged());
+    window.addEventListener("pagehide", () => this.letGo());
+    this.openFromUrl();
+  }
+
+  /** A link with a token, or an address used before, connects at once. */
+  private openFromUrl(): void {
+    const known = this.settings.recent.find((recent) => recent.address === location.host);
+    const fromUrl = tokenFromUrl(new URL(location.href));
+    this.token = fromUrl || (known?.token ?? "");
+    // The token does not stay in sight, nor in a screenshot of the address bar.
+    if (fromUrl) history.replaceState(null, "", location.pathname);
+    this.connectionScreen.fill(location.host, this.token, this.settings);
+    if (fromUrl || known || isLoopback(location.hostname)) this.open();
+  }
+
+  private connect({address, token, clientName}: ConnectionWish): void {
+    this.keep({clientName});
+    this.token = token;
+    const url = pageUrl(address, token);
+    // Another robot's page comes from that robot: its gateway lets no foreign page in.
+    if (url && url.host !== location.host) location.assign(url);
+    else this.open();
+  }
+
+  private open(): void {
+    this.connection.connect({token: this.token, clientName: this.settings.clientName,
+                             clientSoftware: kSoftware});
+  }
+
+  private leave(): void {
+    this.letGo();
+    this.connection.disconnect();
+  }
+
+  private async connected({robot}: Connected): Promise<void> {
+    this.keep(remember(this.settings, location.host, this.token));
+    this.connectionScreen.fill(location.host, this.token, this.settings);
+    this.subscribe();
+    if (robot && robot.urdfPath !== this.robotPath) await this.prepareRobot();
+    else this.makeMirror();
+  }
+
+  private async prepareRobot(): Promise<void> {
+    const path = this.store.get().robot?.urdfPath ?? "";
+    this.store.set({loading: {done: 0, total: 0, error: ""}});
+    try {
+      const robot = await loadRobot(new URL(path, location.href), (done, total) =>
+          this.store.set({loading: {done, total, error: ""}}));
+      this.robot = robot;
+      this.robotPath = path;
+      this.stage.setRobot(robot);
+      this.balls = new JointBalls(robot, this.store.get().robot?.jointGroups ?? []);
+      this.balls.show(this.store.get().isJointsMode);
+      this.makeMirror();
+    } catch (error) {
+      const why = error instanceof Error ? error.message : String(error);
+      this.store.set({loading: {done: 0, total: 0, error: why}});
+    }
+  }
+
+  private makeMirror(): void {
+    const {robot, state} = this.store.get();
+    if (!robot || !this.robot) return;
+    this.mirror = new PoseMirror(this.robot, robot.joints);
+    if (state) this.mirror.setTarget(state);
+  }
+
+  private subscribe(): void {
+    if (this.store.get().phase !== "connected") return;
+    const isHidden = document.visibilityState === "hidden";
+    const wish = {camera: this.picture.camera, width: this.picture.isLarge ? 640 : 320};
+    void this.connection.request(useCases.subscribe(isHidden ? 0 : kStateRateHz,
+                                                    isHidden ? 0 : kPictureRateHz, wish));
+  }
+
+  private visibilityChanged(): void {
+    if (document.visibilityState === "hidden") this.letGo();
+    else this.connection.retryNow();
+    this.subscribe();
+  }
+
+  private frame(dt: number): void {
+    this.mirror?.step(dt);
+    if (!this.isShown && this.mirror && this.store.get().state) this.markShown();
+    this.balls?.update();
+    const axes = this.gamepads.poll((button) => this.pressed(button));
+    if (axes) this.padMoved(axes);
+  }
+
+  /** For measurements: when the robot was first drawn in its pose, on the page's clock. */
+  private markShown(): void {
+    this.isShown = true;
+    performance.mark("robot-shown");
+  }
+
+  private tapped(x: number, y: number): void {
+    if (!this.store.get().isJointsMode) return this.walkHere.tapped(x, y);
+    const {width, height} = this.stage.size;
+    const group = this.balls?.pick(x, y, this.stage.camera, width, height) ?? "";
+    if (group) {
+      vibrate(kTapPattern);
+      this.store.set({selectedGroup: group});
+    }
+  }
+
+  private setJointsMode(isJointsMode: boolean): void {
+    this.letGo();
+    this.walkHere.clear();
+    this.store.set({isJointsMode, selectedGroup: ""});
+    this.stage.orbit.setView(isJointsMode ? kJointsView : kDriveView);
+  }
+
+  private stop(): void {
+    this.letGo();
+    vibrate(kTapPattern);
+    void this.commander.stop();
+  }
+
+  private keysChanged(held: ReadonlySet<string>, isSlow: boolean): void {
+    const isJointsMode = this.store.get().isJointsMode;
+    this.jointDriver.setStick(isJointsMode ? stickFromKeys(held, isSlow) : null);
+    this.walk.set("keys", isJointsMode ? null : driveFromKeys(held, isSlow));
+  }
+
+  private padMoved(axes: readonly number[]): void {
+    const {walk, turn} = sticksFromPad(axes);
+    const drive = driveFromSticks(walk, turn);
+    const isHeld = drive.x !== 0 || drive.y !== 0 || drive.theta !== 0;
+    const isJointsMode = this.store.get().isJointsMode;
+    if (isHeld || this.isPadHeld) {
+      this.walk.set("gamepad", isHeld && !isJointsMode ? drive : null);
+      if (isJointsMode) this.jointDriver.setStick(isHeld ? walk : null);
+    }
+    this.isPadHeld = isHeld;
+  }
+
+  private pressed(button: PadButton): void {
+    switch (button) {
+      case "stop": return this.stop();
+      case "lock": return this.setJointsMode(!this.store.get().isJointsMode);
+      case "ready": return void this.commander.command(useCases.goToPosture("StandInit"));
+      case "stand": return void this.commander.command(useCases.goToPosture("Stand"));
+      case "crouch": return void this.commander.command(useCases.goToPosture("Crouch"));
+      case "kick-left":
+      case "kick-right": return void this.commander.command(useCases.doAction(button));
+    }
+  }
+
+  private openMenu(): void {
+    this.letGo();
+    this.menu.open();
+  }
+
+  private async setTilt(isOn: boolean): Promise<boolean> {
+    const isTilting = isOn && (await this.tilt.switchOn());
+    if (!isTilting) this.tilt.switchOff();
+    this.controllerScreen.setTilt(isTilting);
+    return isTilting;
+  }
+
+  /** Words are put in place once; another language starts the page again, which connects by itself. */
+  private setLanguage(language: Language): void {
+    this.keep({language});
+    this.letGo();
+    location.reload();
+  }
+
+  private explainLink(): void {
+    const state = this.store.get();
+    const words = linkInWords(state);
+    this.messages.tell("info", linkQuality(state) === "poor" ? `${words}. ${say("drive.linkPoor")}` : words);
+  }
+
+  private keep(settings: Partial<Settings>): void {
+    this.settings = {...this.settings, ...settings};
+    saveSettings(storage(), this.settings);
+  }
+
+  /** Nothing drives any more: the fingers may be anywhere. */
+  private letGo(): void {
+    this.controllerScreen.release();
+    this.jointDriver.setStick(null);
+    this.walk.release();
+  }
+
+  private chooseScreen(): void {
+    const {phase, loading} = this.store.get();
+    const isLoaded = loading.total > 0 && loading.done === loading.total;
+    const screen: ScreenName = phase !== "connected" ? "connection" :
+        isLoaded ? "controller" : "loading";
+    if (this.root.dataset["screen"] === screen) return;
+    this.root.dataset["screen"] = screen;
+    if (screen === "controller") this.stage.start();
+    else {
+      this.letGo();
+      this.stage.stop();
+    }
+  }
+}
+
+function isLoopback(host: string): boolean {
+  return host === "localhost" || host === "127.0.0.1" || host === "[::1]";
+}
+
+/** Felt where the phone can; silently nothing where it cannot. */
+function vibrate(pattern: VibratePattern): void {
+  navigator.vibrate?.(pattern);
+}

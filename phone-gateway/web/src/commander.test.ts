@@ -1,0 +1,132 @@
+import {create} from "@bufbuild/protobuf";
+import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
+import {Commander} from "./commander";
+import {Messages} from "./messages";
+import type {UseCase} from "./protocol/codec";
+import {ControlSchema, ErrorCode, Notice_Kind, Notice_Outcome, NoticeSchema, ResponseSchema} from "./protocol/generated/remote_pb";
+import type {Response} from "./protocol/generated/remote_pb";
+import * as useCases from "./protocol/use_cases";
+import {Store} from "./store";
+import {setLanguage} from "./text/texts";
+
+const mine = create(ControlSchema, {driverId: 7, driverName: "Ana", isMine: true});
+const bens = create(ControlSchema, {driverId: 8, driverName: "Ben", isMine: false});
+const free = create(ControlSchema, {});
+
+describe("Commander", () => {
+  let store: Store;
+  let asked: UseCase["case"][];
+  let answer: (useCase: UseCase) => Partial<Response>;
+  let isCongested: boolean;
+  let commander: Commander;
+  let refusals: number;
+
+  beforeEach(() => {
+    vi.useFakeTimers();
+    setLanguage("en");
+    store = new Store();
+    store.set({control: free});
+    asked = [];
+    refusals = 0;
+    isCongested = false;
+    answer = ({case: name}) => name === "takeControl" ? {result: {case: "control", value: mine}} : {};
+    commander = new Commander({
+      request: (useCase) => {
+        asked.push(useCase.case);
+        const {error = ErrorCode.OK, message = "", result} = answer(useCase);
+        return Promise.resolve(create(ResponseSchema, {error, message, result}));
+      },
+      isCongested: () => isCongested,
+    }, store, new Messages(store));
+    commander.onRefusal = () => refusals++;
+  });
+  afterEach(() => {
+    vi.useRealTimers();
+  });
+
+  const texts = () => store.get().messages.map(({text}) => text);
+
+  it("takes the wheel with the first command where nobody has it, and once for two thumbs", async () => {
+    await Promise.all([commander.command(useCases.walkTurn(1, 0, 0)),
+                       commander.command(useCases.goToPosture("Stand"))]);
+    expect(asked).toEqual(["takeControl", "walkTurn", "goToPosture"]);
+    expect(store.get().control?.isMine).toBe(true);
+  });
+
+  it("commands nothing while somebody else drives, and says who", async () => {
+    store.set({control: bens});
+    expect(await commander.command(useCases.goToPosture("Stand"))).toBe(false);
+    expect(asked).toEqual([]);
+    expect(texts()).toEqual(["Ben drives"]);
+  });
+
+  it("stops the robot whoever drives", async () => {
+    store.set({control: bens});
+    expect(await commander.stop()).toBe(true);
+    expect(asked).toEqual(["stop"]);
+  });
+
+  it("shows a refusal in the gateway's words, once however often it comes", async () => {
+    store.set({control: mine});
+    answer = () => ({error: ErrorCode.STOPPED, message: "Let go first."});
+    for (let i = 0; i < 20; i++) {
+      await commander.command(useCases.walkTurn(1, 0, 0));
+      vi.advanceTimersByTime(100);
+    }
+    expect(texts()).toEqual(["Let go first."]);
+    expect(refusals).toBe(1);
+    vi.advanceTimersByTime(6000);
+    expect(texts()).toEqual([]);
+  });
+
+  it("asks for the wheel again after the gateway has forgotten that we hold it", async () => {
+    store.set({control: mine});
+    answer = () => ({error: ErrorCode.NO_CONTROL, message: "You do not drive."});
+    await commander.command(useCases.goToPosture("Stand"));
+    answer = ({case: name}) => name === "takeControl" ? {result: {case: "control", value: mine}} : {};
+    expect(await commander.command(useCases.goToPosture("Stand"))).toBe(true);
+    expect(asked).toEqual(["goToPosture", "takeControl", "goToPosture"]);
+  });
+
+  it("leaves out what is repeated anyway while the link is behind", () => {
+    store.set({control: mine});
+    isCongested = true;
+    commander.stream(useCases.walkTurn(1, 0, 0));
+    expect(asked).toEqual([]);
+  });
+
+  it("never leaves out the end of a walk", async () => {
+    store.set({control: mine});
+    isCongested = true;
+    commander.stream(useCases.walkTurn(0, 0, 0));
+    await vi.advanceTimersByTimeAsync(0);
+    expect(asked).toEqual(["walkTurn"]);
+  });
+
+  it("tells of failed and refused commands, not of those that went well", () => {
+    const outcome = (value: Notice_Outcome, message: string) => commander.notice(create(
+        NoticeSchema, {kind: Notice_Kind.COMMAND_OUTCOME, outcome: value, message}));
+    outcome(Notice_Outcome.ACCEPTED, "a");
+    outcome(Notice_Outcome.DONE, "b");
+    outcome(Notice_Outcome.INTERRUPTED, "c");
+    outcome(Notice_Outcome.REFUSED, "It would tip over.");
+    outcome(Notice_Outcome.FAILED, "It fell.");
+    expect(texts()).toEqual(["It would tip over.", "It fell."]);
+  });
+
+  it("tells who took the wheel from us", () => {
+    store.set({control: mine});
+    commander.notice(create(NoticeSchema, {kind: Notice_Kind.CONTROL_CHANGED, control: bens}));
+    expect(texts()).toEqual(["Ben drives now."]);
+    expect(store.get().control?.driverName).toBe("Ben");
+  });
+
+  it("keeps a list of the parts that are away", () => {
+    const change = (part: string, available: boolean) => commander.notice(create(
+        NoticeSchema, {kind: Notice_Kind.PART_CHANGED, part, available, message: `${part} ${available}`}));
+    change("camera", false);
+    change("motion", false);
+    change("camera", true);
+    expect(store.get().missingParts).toEqual(["motion"]);
+  });
+});

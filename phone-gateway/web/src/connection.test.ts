@@ -1,0 +1,158 @@
+import {create} from "@bufbuild/protobuf";
+import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
+import {FakeTransport} from "../test_support/fake_transport";
+import {Connection, kOpenTimeoutMs, kSilenceMs} from "./connection";
+import {ErrorCode, PongSchema, StateSchema} from "./protocol/generated/remote_pb";
+import type {State} from "./protocol/generated/remote_pb";
+import * as useCases from "./protocol/use_cases";
+import {Store} from "./store";
+
+const kIdentity = {token: "secret", clientName: "Ana", clientSoftware: "test"};
+
+describe("Connection", () => {
+  let transport: FakeTransport;
+  let store: Store;
+  let connection: Connection;
+  let states: State[];
+
+  beforeEach(() => {
+    vi.useFakeTimers();
+    transport = new FakeTransport();
+    store = new Store();
+    states = [];
+    connection = new Connection(transport, store, {
+      connected: () => {},
+      state: (state) => states.push(state),
+      picture: () => {},
+      notice: () => {},
+    }, () => Date.now());
+    connection.connect(kIdentity);
+  });
+  afterEach(() => {
+    connection.disconnect();
+    vi.useRealTimers();
+  });
+
+  async function pass(ms: number): Promise<void> {
+    await vi.advanceTimersByTimeAsync(ms);
+  }
+
+  async function welcome(): Promise<void> {
+    transport.welcome();
+    await pass(0);
+  }
+
+  it("greets with version and token before anything else", () => {
+    transport.opened();
+    expect(transport.sent).toHaveLength(1);
+    const {useCase} = transport.sent[0]!;
+    expect(useCase.case).toBe("connect");
+    expect(useCase.value).toMatchObject({protocolVersion: 1, token: "secret", clientName: "Ana"});
+  });
+
+  it("is connected once the gateway says so", async () => {
+    await welcome();
+    expect(store.get()).toMatchObject({phase: "connected", clientId: 7, problem: null});
+  });
+
+  it("gives up on a wrong token and says so", async () => {
+    transport.opened();
+    transport.answer("connect", ErrorCode.WRONG_TOKEN, "No.");
+    await pass(60_000);
+    expect(store.get()).toMatchObject({phase: "idle", problem: "wrong-token", problemDetail: "No."});
+    expect(transport.numOpens).toBe(1);
+  });
+
+  it("tries again when all places are taken", async () => {
+    transport.opened();
+    transport.answer("connect", ErrorCode.TOO_MANY_CLIENTS);
+    await pass(0);
+    expect(store.get()).toMatchObject({phase: "waiting", problem: "too-many"});
+    await pass(600);
+    expect(transport.numOpens).toBe(2);
+  });
+
+  it("tells an absent host from one that refuses", async () => {
+    transport.broken(false);
+    await pass(0);
+    expect(store.get().problem).toBe("unreachable");
+    await pass(600);
+    transport.answers = true;
+    transport.broken(false);
+    await pass(0);
+    expect(store.get().problem).toBe("not-a-robot");
+  });
+
+  it("gives up an attempt that hangs, and tries again", async () => {
+    await pass(kOpenTimeoutMs);
+    expect(store.get()).toMatchObject({phase: "waiting", problem: "unreachable"});
+    await pass(600);
+    expect(transport.numOpens).toBe(2);
+  });
+
+  it("waits longer after each failure, at most 5 s", async () => {
+    const pauses: number[] = [];
+    for (let i = 0; i < 6; i++) {
+      transport.broken(false);
+      await pass(0);
+      const pause = store.get().nextAttemptMs - Date.now();
+      pauses.push(pause);
+      await pass(pause);
+    }
+    expect(pauses).toEqual([500, 1000, 2000, 4000, 5000, 5000]);
+  });
+
+  it("leaves after 5 s of silence and comes back by itself", async () => {
+    await welcome();
+    await pass(kSilenceMs - 500);
+    expect(store.get().phase).toBe("connected");
+    await pass(1000);
+    expect(store.get()).toMatchObject({phase: "waiting", problem: "silent"});
+    expect(transport.isOpen).toBe(false);
+    await pass(600);
+    await welcome();
+    expect(store.get()).toMatchObject({phase: "connected", problem: null, attempts: 0});
+  });
+
+  it("stays while anything arrives", async () => {
+    await welcome();
+    for (let i = 0; i < 10; i++) {
+      await pass(2000);
+      transport.receive({case: "state", value: create(StateSchema, {mode: "holding"})});
+    }
+    expect(store.get().phase).toBe("connected");
+    expect(states).toHaveLength(10);
+  });
+
+  it("pings each second and shows the round trip", async () => {
+    await welcome();
+    await pass(40);
+    transport.answer("ping", ErrorCode.OK, "", {case: "pong", value: create(PongSchema, {numClients: 3})});
+    await pass(0);
+    expect(store.get()).toMatchObject({latencyMs: 40, numClients: 3});
+    await pass(1100);
+    expect(transport.sent.filter((one) => one.useCase.case === "ping")).toHaveLength(2);
+  });
+
+  it("answers open requests with null when the link breaks", async () => {
+    await welcome();
+    const answer = connection.request(useCases.stop());
+    transport.broken(true);
+    await expect(answer).resolves.toBeNull();
+    expect(store.get().problem).toBe("closed");
+  });
+
+  it("survives bytes that are no message", async () => {
+    await welcome();
+    transport.receive({case: undefined});
+    expect(store.get().phase).toBe("connected");
+  });
+
+  it("stays away once told to disconnect", async () => {
+    await welcome();
+    connection.disconnect();
+    await pass(60_000);
+    expect(store.get()).toMatchObject({phase: "idle", problem: null});
+    expect(transport.numOpens).toBe(1);
+  });
+});

@@ -1,0 +1,225 @@
+/** The link to the gateway: opens it, greets, keeps it alive, opens it again, and says why not. */
+import {retryDelayMs} from "./backoff";
+import {decodeServerMessage, encodeRequest} from "./protocol/codec";
+import type {UseCase} from "./protocol/codec";
+import {ErrorCode} from "./protocol/generated/remote_pb";
+import type {Connected, Notice, Picture, Response, State} from "./protocol/generated/remote_pb";
+import * as useCases from "./protocol/use_cases";
+import type {Problem, Store} from "./store";
+import type {Transport} from "./transport";
+
+/** Silence after which the link counts as lost, both here and in the gateway. */
+export const kSilenceMs = 5000;
+/** A transport that has not opened by then will not. */
+export const kOpenTimeoutMs = 5000;
+/** Signs of life, and samples of the latency. */
+export const kPingPeriodMs = 1000;
+const kCheckPeriodMs = 250;
+const kNumLatencySamples = 5;
+/** A state that waits behind this many bytes would come too late to be of use. */
+const kMaxBacklogBytes = 16384;
+
+/** What the connection tells the rest of the app. */
+export interface ConnectionListener {
+  connected(connected: Connected): void;
+  state(state: State): void;
+  picture(picture: Picture): void;
+  notice(notice: Notice): void;
+}
+
+export interface Identity {
+  token: string;
+  clientName: string;
+  clientSoftware: string;
+}
+
+/** Refusals that another attempt would meet again. */
+const kFinalProblems: readonly Problem[] = ["wrong-token", "wrong-version"];
+
+export class Connection {
+  private identity: Identity = {token: "", clientName: "", clientSoftware: ""};
+  private nextRequestId = 1;
+  private readonly pending = new Map<number, (response: Response | null) => void>();
+  private readonly latencySamples: number[] = [];
+  private lastReceivedMs = 0;
+  private lastPingMs = 0;
+  private retryTimer: ReturnType<typeof setTimeout> | undefined;
+  private openTimer: ReturnType<typeof setTimeout> | undefined;
+  private checkTimer: ReturnType<typeof setInterval> | undefined;
+  /** Counts attempts, so that what belongs to an older one is recognised. */
+  private attempt = 0;
+  private closingReason = "";
+
+  /** @param now  ms on a clock that never jumps. */
+  constructor(private readonly transport: Transport, private readonly store: Store,
+              private readonly listener: ConnectionListener,
+              private readonly now: () => number = () => performance.now()) {}
+
+  /** Connects now and stays connected until disconnect(). */
+  connect(identity: Identity): void {
+    this.identity = identity;
+    this.store.set({attempts: 0});
+    this.open();
+  }
+
+  /** Ends the link and every attempt. */
+  disconnect(): void {
+    this.stopTimers();
+    this.transport.close();
+    this.dropPending();
+    this.store.set({phase: "idle", problem: null, problemDetail: "", nextAttemptMs: 0});
+  }
+
+  /** Skips what is left of the pause, for example when the phone is back on the network. */
+  retryNow(): void {
+    if (this.store.get().phase === "waiting") this.open();
+  }
+
+  /** Asks the gateway for something. @return its answer, or null if the link broke before. */
+  request(useCase: UseCase): Promise<Response | null> {
+    const phase = this.store.get().phase;
+    if (phase !== "connected" && useCase.case !== "connect") return Promise.resolve(null);
+    return new Promise((resolve) => {
+      const id = this.nextRequestId++;
+      this.pending.set(id, resolve);
+      this.transport.send(encodeRequest(id, useCase));
+    });
+  }
+
+  /** True while what is sent now would wait behind much else; repeated commands are left out then. */
+  isCongested(): boolean {
+    return this.transport.backlogBytes() > kMaxBacklogBytes;
+  }
+
+  private open(): void {
+    this.stopTimers();
+    this.dropPending();
+    this.closingReason = "";
+    const attempt = ++this.attempt;
+    this.store.set({phase: "connecting", nextAttemptMs: 0});
+    this.openTimer = setTimeout(() => void this.failed("unreachable"), kOpenTimeoutMs);
+    this.transport.open({
+      opened: () => void this.greet(attempt),
+      received: (bytes) => this.received(bytes),
+      closed: (wasOpen) => void this.closed(wasOpen, attempt),
+    });
+  }
+
+  private async greet(attempt: number): Promise<void> {
+    this.lastReceivedMs = this.now();
+    const {token, clientName, clientSoftware} = this.identity;
+    const response = await this.request(useCases.connect(token, clientName, clientSoftware));
+    if (!response || attempt !== this.attempt) return;
+    if (response.error === ErrorCode.OK && response.result.case === "connected") {
+      this.welcome(response.result.value);
+    } else {
+      this.failed(problemOf(response.error), response.message);
+    }
+  }
+
+  private welcome(connected: Connected): void {
+    this.stopTimers();
+    this.latencySamples.length = 0;
+    this.store.set({
+      phase: "connected", problem: null, problemDetail: "", attempts: 0,
+      clientId: connected.clientId, clientName: connected.clientName,
+      robot: connected.robot ?? null, control: connected.control ?? null,
+      state: null, missingParts: [], latencyMs: -1,
+    });
+    this.ping();
+    this.checkTimer = setInterval(() => this.check(), kCheckPeriodMs);
+    this.listener.connected(connected);
+  }
+
+  private check(): void {
+    const now = this.now();
+    if (now - this.lastReceivedMs > kSilenceMs) {
+      this.failed("silent");
+    } else if (now - this.lastPingMs >= kPingPeriodMs) {
+      this.ping();
+    }
+  }
+
+  private ping(): void {
+    const sentMs = this.now();
+    this.lastPingMs = sentMs;
+    void this.request(useCases.ping(Math.round(sentMs * 1000))).then((response) => {
+      if (response?.result.case !== "pong") return;
+      this.latencySamples.push(this.now() - sentMs);
+      if (this.latencySamples.length > kNumLatencySamples) this.latencySamples.shift();
+      const sorted = [...this.latencySamples].sort((a, b) => a - b);
+      this.store.set({latencyMs: sorted[sorted.length >> 1] ?? -1,
+                      numClients: response.result.value.numClients});
+    });
+  }
+
+  private received(bytes: Uint8Array): void {
+    this.lastReceivedMs = this.now();
+    const {message} = decodeServerMessage(bytes) ?? {message: {case: undefined}};
+    switch (message.case) {
+      case "response": {
+        const resolve = this.pending.get(message.value.requestId);
+        this.pending.delete(message.value.requestId);
+        resolve?.(message.value);
+        break;
+      }
+      case "state": this.listener.state(message.value); break;
+      case "picture": this.listener.picture(message.value); break;
+      case "notice": this.listener.notice(message.value); break;
+      case undefined: break;
+    }
+  }
+
+  /** Keeps the gateway's own words for the moment when it closes. */
+  noteClosing(reason: string): void {
+    this.closingReason = reason;
+  }
+
+  private async closed(wasOpen: boolean, attempt: number): Promise<void> {
+    if (wasOpen) {
+      // Whoever was connected saw a link break; whoever was not met something that is no gateway.
+      const problem = this.store.get().phase === "connected" ? "closed" : "not-a-robot";
+      this.failed(problem, this.closingReason);
+      return;
+    }
+    const answers = await this.transport.somethingAnswers();
+    if (attempt === this.attempt) this.failed(answers ? "not-a-robot" : "unreachable");
+  }
+
+  private failed(problem: Problem, detail = ""): void {
+    this.stopTimers();
+    this.attempt++;
+    this.transport.close();
+    this.dropPending();
+    const attempts = this.store.get().attempts + 1;
+    if (kFinalProblems.includes(problem)) {
+      this.store.set({phase: "idle", problem, problemDetail: detail, nextAttemptMs: 0, attempts});
+      return;
+    }
+    const delay = retryDelayMs(attempts);
+    this.retryTimer = setTimeout(() => this.open(), delay);
+    this.store.set({phase: "waiting", problem, problemDetail: detail, attempts,
+                    nextAttemptMs: this.now() + delay});
+  }
+
+  private stopTimers(): void {
+    clearTimeout(this.retryTimer);
+    clearTimeout(this.openTimer);
+    clearInterval(this.checkTimer);
+  }
+
+  private dropPending(): void {
+    const waiting = [...this.pending.values()];
+    this.pending.clear();
+    for (const resolve of waiting) resolve(null);
+  }
+}
+
+function problemOf(error: ErrorCode): Problem {
+  switch (error) {
+    case ErrorCode.WRONG_TOKEN: return "wrong-token";
+    case ErrorCode.WRONG_VERSION: return "wrong-version";
+    case ErrorCode.TOO_MANY_CLIENTS: return "too-many";
+    default: return "not-a-robot";
+  }
+}

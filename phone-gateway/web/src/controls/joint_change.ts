@@ -1,0 +1,29 @@
+/** From a thumb's place to a change of a joint group; pure. */
+import type {JointGroup} from "../protocol/generated/remote_pb";
+import type {JointChange} from "../protocol/use_cases";
+import type {StickValue} from "./stick";
+
+/** Speed at the rim of the pad, rad/s: half a turn of the head in two seconds. */
+export const kJointRate = 0.9;
+/** A hand opens in about a second; 1/s. */
+const kHandRate = 1;
+
+/** What the pad asks of a group within `dt` seconds. The ball moves where the thumb goes: up lifts
+ * (negative pitch), and left turns to the left of the screen, which is the robot's right when it is
+ * seen from the front. Hands open upwards. */
+export function changeFromStick(group: JointGroup, stick: StickValue, isInFront: boolean,
+                                dt: number): JointChange {
+  const isHand = group.pitchJoint.endsWith("Hand");
+  const side = isInFront ? 1 : -1;
+  return {
+    group: group.name,
+    yaw: group.yawJoint ? side * stick.right * kJointRate * dt : 0,
+    pitch: !group.pitchJoint ? 0 : isHand ? stick.up * kHandRate * dt : -stick.up * kJointRate * dt,
+    roll: 0,
+  };
+}
+
+/** True if it asks for nothing. */
+export function isNoChange({yaw, pitch, roll}: JointChange): boolean {
+  return yaw === 0 && pitch === 0 && roll === 0;
+}

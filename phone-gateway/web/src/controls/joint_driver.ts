@@ -1,0 +1,49 @@
+/** Turns the chosen joint group while a thumb is on the pad or the slider. */
+import type {JointGroup} from "../protocol/generated/remote_pb";
+import type {JointChange} from "../protocol/use_cases";
+import {changeFromStick, isNoChange} from "./joint_change";
+import type {StickValue} from "./stick";
+
+export const kJointPeriodMs = 50;
+
+export class JointDriver {
+  group: JointGroup | null = null;
+  /** True: the other side does the same as in a mirror. */
+  isMirrored = false;
+  isInFront: () => boolean = () => false;
+  private stick: StickValue | null = null;
+  private timer: ReturnType<typeof setInterval> | undefined;
+
+  /** @param send  takes a change to the robot. */
+  constructor(private readonly send: (change: JointChange) => void) {}
+
+  /** Where the thumb is on the pad; null: let go. The first push out of the middle goes out at once. */
+  setStick(stick: StickValue | null): void {
+    const wasPushed = isPushed(this.stick);
+    this.stick = stick;
+    if (isPushed(stick) && !wasPushed) {
+      this.step();
+      this.timer = setInterval(() => this.step(), kJointPeriodMs);
+    } else if (!isPushed(stick) && wasPushed) {
+      clearInterval(this.timer);
+    }
+  }
+
+  /** Turns about one axis by `change` rad at once. */
+  turn(axis: "yaw" | "pitch" | "roll", change: number): void {
+    if (this.group) this.sendChange({group: this.group.name, yaw: 0, pitch: 0, roll: 0, [axis]: change});
+  }
+
+  private step(): void {
+    if (!this.group || !this.stick) return;
+    this.sendChange(changeFromStick(this.group, this.stick, this.isInFront(), kJointPeriodMs / 1000));
+  }
+
+  private sendChange(change: JointChange): void {
+    if (!isNoChange(change)) this.send({...change, bothSides: this.isMirrored});
+  }
+}
+
+function isPushed(stick: StickValue | null): boolean {
+  return stick !== null && (stick.right !== 0 || stick.up !== 0);
+}

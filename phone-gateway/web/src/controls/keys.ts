@@ -1,0 +1,63 @@
+/** Keyboard and gamepad to the same commands as the thumbs; pure. */
+import {stickValue} from "./stick";
+import type {Drive, StickValue} from "./stick";
+
+/** Keys that walk, by their place on the keyboard, and what each adds to the drive. */
+const kDriveKeys: Record<string, Drive> = {
+  KeyW: {x: 1, y: 0, theta: 0}, ArrowUp: {x: 1, y: 0, theta: 0},
+  KeyS: {x: -1, y: 0, theta: 0}, ArrowDown: {x: -1, y: 0, theta: 0},
+  KeyA: {x: 0, y: 1, theta: 0}, KeyD: {x: 0, y: -1, theta: 0},
+  KeyQ: {x: 0, y: 0, theta: 1}, ArrowLeft: {x: 0, y: 0, theta: 1},
+  KeyE: {x: 0, y: 0, theta: -1}, ArrowRight: {x: 0, y: 0, theta: -1},
+};
+
+export function isDriveKey(code: string): boolean {
+  return code in kDriveKeys;
+}
+
+/** What the held keys ask for; null if none of them walks. `isSlow`: Shift is held. */
+export function driveFromKeys(held: ReadonlySet<string>, isSlow: boolean): Drive | null {
+  const sum: Drive = {x: 0, y: 0, theta: 0};
+  let isAny = false;
+  for (const code of held) {
+    const drive = kDriveKeys[code];
+    if (!drive) continue;
+    isAny = true;
+    sum.x += drive.x;
+    sum.y += drive.y;
+    sum.theta += drive.theta;
+  }
+  const scale = isSlow ? 0.4 : 1;
+  const cut = (value: number) => Math.min(1, Math.max(-1, value)) * scale;
+  return isAny ? {x: cut(sum.x), y: cut(sum.y), theta: cut(sum.theta)} : null;
+}
+
+/** The same keys on a joint: where the pad would be. */
+export function stickFromKeys(held: ReadonlySet<string>, isSlow: boolean): StickValue | null {
+  const drive = driveFromKeys(held, isSlow);
+  return drive && {up: drive.x, right: -(drive.y || drive.theta)};
+}
+
+export type PadButton = "stop" | "ready" | "stand" | "crouch" | "lock" | "kick-left" | "kick-right";
+
+/** Buttons of the standard layout, by their number there. */
+const kPadButtons: Record<number, PadButton> = {
+  0: "ready", 1: "stop", 2: "crouch", 3: "stand", 4: "kick-left", 5: "kick-right", 9: "lock",
+};
+
+/** Left and right stick of a gamepad with the standard layout (axes: right and down, -1 to 1). */
+export function sticksFromPad(axes: readonly number[]): {walk: StickValue; turn: StickValue} {
+  const [x = 0, y = 0, turn = 0] = axes;
+  return {walk: stickValue(x, y, 1), turn: stickValue(turn, 0, 1)};
+}
+
+/** Buttons that went down since the last look. @param before  is brought up to date. */
+export function pressedButtons(pressed: readonly boolean[], before: boolean[]): PadButton[] {
+  const found: PadButton[] = [];
+  pressed.forEach((isPressed, i) => {
+    const button = kPadButtons[i];
+    if (isPressed && !before[i] && button) found.push(button);
+    before[i] = isPressed;
+  });
+  return found;
+}

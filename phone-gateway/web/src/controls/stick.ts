@@ -1,0 +1,51 @@
+/** From a thumb's place on a round pad to a command; pure. */
+
+/** Thumbs tremble: nothing below this share of the radius. */
+export const kDeadZone = 0.12;
+
+export interface StickValue {
+  /** To the right and up, each -1 to 1; never outside the unit circle. */
+  right: number;
+  up: number;
+}
+
+/** @param dx,dy  px from the pad's centre, y down as on screens. @param radius  px.
+ * @return shares with the dead zone taken out, so that they begin at 0 at its edge; finer near the
+ * middle than at the rim (square law), for slow steps. */
+export function stickValue(dx: number, dy: number, radius: number): StickValue {
+  const reach = Math.hypot(dx, dy) / radius;
+  if (!(reach > kDeadZone)) return {right: 0, up: 0};
+  const share = (Math.min(reach, 1) - kDeadZone) / (1 - kDeadZone);
+  const strength = 0.35 * share + 0.65 * share * share;
+  const length = Math.hypot(dx, dy);
+  return {right: strength * dx / length, up: strength * -dy / length};
+}
+
+/** A drive command: shares of the greatest speeds, ahead, to the left, turning to the left. */
+export interface Drive {
+  x: number;
+  y: number;
+  theta: number;
+}
+
+export const kNoDrive: Drive = {x: 0, y: 0, theta: 0};
+
+/** Up on the walk stick is ahead, right is to the right; right on the turn stick turns right. */
+export function driveFromSticks(walk: StickValue, turn: StickValue): Drive {
+  return {x: unsigned(walk.up), y: unsigned(-walk.right), theta: unsigned(-turn.right)};
+}
+
+/** Sum of several sources (sticks, keys, gamepad, tilt), each axis cut at full speed. */
+export function addDrives(drives: readonly Drive[]): Drive {
+  const sum = {...kNoDrive};
+  for (const drive of drives) {
+    sum.x += drive.x;
+    sum.y += drive.y;
+    sum.theta += drive.theta;
+  }
+  return {x: cut(sum.x), y: cut(sum.y), theta: cut(sum.theta)};
+}
+
+const cut = (value: number) => Math.min(1, Math.max(-1, value));
+/** No -0. */
+const unsigned = (value: number) => value === 0 ? 0 : value;

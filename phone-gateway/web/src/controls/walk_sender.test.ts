@@ -1,0 +1,54 @@
+import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
+import type {Drive} from "./stick";
+import {kWalkPeriodMs, WalkSender} from "./walk_sender";
+
+const ahead = {x: 1, y: 0, theta: 0};
+const zero = {x: 0, y: 0, theta: 0};
+
+describe("WalkSender", () => {
+  let sent: Drive[];
+  let sender: WalkSender;
+
+  beforeEach(() => {
+    vi.useFakeTimers();
+    sent = [];
+    sender = new WalkSender((drive) => sent.push(drive), () => Date.now());
+  });
+  afterEach(() => {
+    vi.useRealTimers();
+  });
+
+  it("sends at once, then at least every 0.2 s while held", () => {
+    sender.set("sticks", ahead);
+    expect(sent).toEqual([ahead]);
+    vi.advanceTimersByTime(1000);
+    expect(kWalkPeriodMs).toBeLessThanOrEqual(200);
+    expect(sent.length).toBe(1 + 1000 / kWalkPeriodMs);
+  });
+
+  it("ends the walk at once, and once, when let go", () => {
+    sender.set("sticks", ahead);
+    sender.set("sticks", null);
+    expect(sent.at(-1)).toEqual(zero);
+    const count = sent.length;
+    vi.advanceTimersByTime(1000);
+    sender.release();
+    expect(sent.length).toBe(count);
+  });
+
+  it("goes on while another source is held", () => {
+    sender.set("sticks", ahead);
+    sender.set("keys", {x: 0, y: 0, theta: 0.5});
+    sender.set("sticks", null);
+    vi.advanceTimersByTime(kWalkPeriodMs);
+    expect(sent.at(-1)).toEqual({x: 0, y: 0, theta: 0.5});
+  });
+
+  it("does not flood the link when a thumb moves fast", () => {
+    for (let i = 0; i < 200; i++) {
+      sender.set("sticks", {x: i / 200, y: 0, theta: 0});
+      vi.advanceTimersByTime(5);
+    }
+    expect(sent.length).toBeLessThanOrEqual(50);
+  });
+});

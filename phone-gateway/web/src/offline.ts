@@ -1,0 +1,6 @@
+/** Secure pages keep a copy of the app, so that it opens without the robot and says that it is away. */
+export function registerOfflineShell(): void {
+  if (!import.meta.env.PROD || !("serviceWorker" in navigator)) return;
+  // A certificate that the phone only tolerates allows no service worker: the app does without.
+  navigator.serviceWorker.register("/sw.js").catch(() => {});
+}

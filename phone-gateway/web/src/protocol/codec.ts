@@ -1,0 +1,24 @@
+/** Bytes to messages and back; the only file that knows how protobuf is called. */
+import {create, fromBinary, toBinary} from "@bufbuild/protobuf";
+import {RequestSchema, ServerMessageSchema} from "./generated/remote_pb";
+import type {Request, ServerMessage} from "./generated/remote_pb";
+
+/** Version of the protocol that this app speaks. */
+export const kProtocolVersion = 1;
+
+/** What a Request may ask for: `{case: "stop", value: {...}}`. */
+export type UseCase = Exclude<Request["useCase"], {case: undefined}>;
+
+/** Bytes of one Request, for one binary WebSocket frame. */
+export function encodeRequest(requestId: number, useCase: UseCase): Uint8Array {
+  return toBinary(RequestSchema, create(RequestSchema, {requestId, useCase}));
+}
+
+/** The message in one binary WebSocket frame, or null if the bytes are none. */
+export function decodeServerMessage(bytes: Uint8Array): ServerMessage | null {
+  try {
+    return fromBinary(ServerMessageSchema, bytes);
+  } catch {
+    return null;
+  }
+}

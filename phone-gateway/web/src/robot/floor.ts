@@ -1,0 +1,126 @@
+/** The ground: dark turf with the lines of the field, fading out around the robot. Lines are computed
+ * per pixel, as in the head camera's picture, so that they stay sharp without a texture. */
+import {
+  Group, Mesh, MeshBasicMaterial, PlaneGeometry, RingGeometry, ShaderMaterial, ShadowMaterial,
+  Vector2, Vector4,
+} from "three";
+
+/** The lines of a field, m; see scenes/soccer.yaml for the meaning. */
+export interface FieldLines {
+  length: number;
+  width: number;
+  lineWidth: number;
+  centreCircleDiameter: number;
+  penaltyAreaLength: number;
+  penaltyAreaWidth: number;
+}
+
+/** Beyond this distance from the robot the ground has faded out, m. */
+const kVisibleRadius = 3.2;
+
+const kVertexShader = `
+  varying vec2 place;
+  void main() {
+    vec4 world = modelMatrix * vec4(position, 1.0);
+    place = vec2(world.x, -world.z);
+    gl_Position = projectionMatrix * viewMatrix * world;
+  }`;
+
+const kFragmentShader = `
+  varying vec2 place;
+  uniform vec2 centre;
+  uniform float radius;
+  uniform float hasField;
+  uniform vec4 field;    // half length, half width, half line width, circle radius
+  uniform vec2 penalty;  // penalty area: length, half width
+
+  // Share of a pixel that lies within half the line width of the line at distance d.
+  float line(float d, float halfWidth) {
+    float pixel = fwidth(d) + 1e-6;
+    float share = clamp((halfWidth - abs(d)) / pixel + 0.5, 0.0, 1.0);
+    return share * min(1.0, 2.0 * halfWidth / pixel + 0.15);
+  }
+  float grid(vec2 p) {
+    vec2 d = abs(fract(p / 0.25 + 0.5) - 0.5) * 0.25;
+    return max(line(d.x, 0.002), line(d.y, 0.002));
+  }
+  float fieldLines(vec2 p) {
+    vec2 a = abs(p);
+    float w = field.z;
+    float inside = step(a.x, field.x + w) * step(a.y, field.y + w);
+    float l = max(line(a.x - field.x, w), line(a.y - field.y, w)) * inside;
+    l = max(l, line(p.x, w) * inside);
+    l = max(l, line(length(p) - field.w, w));
+    float depth = field.x - a.x;
+    float box = max(line(depth - penalty.x, w) * step(a.y, penalty.y + w),
+                    line(a.y - penalty.y, w) * step(depth, penalty.x + w));
+    return max(l, box * inside);
+  }
+  void main() {
+    float d = distance(place, centre) / radius;
+    float fade = 1.0 - smoothstep(0.25, 1.0, d);
+    vec3 turf = mix(vec3(0.010, 0.022, 0.032), vec3(0.009, 0.036, 0.034), hasField);
+    vec3 color = turf + vec3(0.010, 0.017, 0.020) * grid(place);
+    color = mix(color, vec3(0.30, 0.38, 0.42), hasField * 0.85 * fieldLines(place));
+    gl_FragColor = vec4(color, fade);
+    #include <colorspace_fragment>
+  }`;
+
+export class Floor {
+  readonly object = new Group();
+  private readonly material: ShaderMaterial;
+  private readonly ground = new Group();
+  /** Ring around a spot that was tapped. */
+  private readonly marker = new Mesh(
+      new RingGeometry(0.06, 0.075, 40).rotateX(-Math.PI / 2),
+      new MeshBasicMaterial({color: 0x6cc8ff, transparent: true, opacity: 0.9, depthWrite: false}));
+
+  constructor() {
+    this.material = new ShaderMaterial({
+      vertexShader: kVertexShader,
+      fragmentShader: kFragmentShader,
+      transparent: true,
+      depthWrite: false,
+      uniforms: {
+        centre: {value: new Vector2()},
+        radius: {value: kVisibleRadius},
+        hasField: {value: 0},
+        field: {value: new Vector4()},
+        penalty: {value: new Vector2()},
+      },
+    });
+    const plane = new PlaneGeometry(2 * kVisibleRadius, 2 * kVisibleRadius);
+    plane.rotateX(-Math.PI / 2);
+    const ground = new Mesh(plane, this.material);
+    ground.renderOrder = -2;
+    const shadow = new Mesh(plane, new ShadowMaterial({opacity: 0.45, depthWrite: false}));
+    shadow.receiveShadow = true;
+    shadow.renderOrder = -1;
+    shadow.position.y = 0.001;
+    this.ground.add(ground, shadow);
+    this.marker.visible = false;
+    this.marker.position.y = 0.003;
+    this.object.add(this.ground, this.marker);
+  }
+
+  /** Shows the lines of a field; without, a plain grid of 0.25 m. */
+  setField(lines: FieldLines): void {
+    const {hasField, field, penalty} = this.material.uniforms;
+    hasField!.value = 1;
+    (field!.value as Vector4).set(lines.length / 2, lines.width / 2, lines.lineWidth / 2,
+                                 lines.centreCircleDiameter / 2);
+    (penalty!.value as Vector2).set(lines.penaltyAreaLength, lines.penaltyAreaWidth / 2);
+  }
+
+  /** Marks a spot, m in the robot's axes; null: none. */
+  mark(spot: {x: number; y: number} | null): void {
+    this.marker.visible = spot !== null;
+    if (spot) this.marker.position.set(spot.x, 0.003, -spot.y);
+  }
+
+  /** Keeps the visible part around the robot, m in the robot's axes. */
+  moveTo(x: number, y: number): void {
+    this.ground.position.set(x, 0, -y);
+    (this.material.uniforms["centre"]!.value as Vector2).set(x, y);
+  }
+}

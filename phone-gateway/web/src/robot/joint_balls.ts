@@ -1,0 +1,184 @@
+/** Joints mode on the stage: the robot becomes translucent, each joint group gets a ball to tap, and
+ * arcs show how far the chosen one turns. */
+import {
+  BufferGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial,
+  Quaternion, RingGeometry, SphereGeometry, Vector3,
+} from "three";
+import type {Camera, Material, Object3D} from "three";
+import type {JointGroup} from "../protocol/generated/remote_pb";
+import type {RobotTree} from "./robot_tree";
+
+const kBallRadius = 0.015;
+const kArcRadius = 0.075;
+const kArcWidth = 0.008;
+/** Thumbs are this wide: a tap within it chooses the nearest ball, px. */
+const kReach = 44;
+const kGhostOpacity = 0.32;
+/** Told apart by brightness too, and named beside the controls. */
+export const kAxisColors = {yaw: 0x6cc8ff, pitch: 0xffc46b, roll: 0xd9b3ff} as const;
+export type Axis = keyof typeof kAxisColors;
+export const kAxes: readonly Axis[] = ["yaw", "pitch", "roll"];
+
+/** Name of a group's joint about an axis; empty if it has none. */
+export function jointOfAxis(group: JointGroup, axis: Axis): string {
+  return axis === "yaw" ? group.yawJoint : axis === "pitch" ? group.pitchJoint : group.rollJoint;
+}
+
+interface Ball {
+  group: JointGroup;
+  mesh: Mesh<SphereGeometry, MeshBasicMaterial>;
+}
+
+interface Arc {
+  joint: string;
+  object: Group;
+  needle: Object3D;
+}
+
+export class JointBalls {
+  private readonly balls: Ball[] = [];
+  private arcs: Arc[] = [];
+  private selected = "";
+  private readonly place = new Vector3();
+  private readonly sphere = new SphereGeometry(kBallRadius, 20, 14);
+
+  constructor(private readonly tree: RobotTree, groups: readonly JointGroup[]) {
+    for (const group of groups) {
+      const link = linkOfGroup(tree, group);
+      if (!link) continue;
+      const material = new MeshBasicMaterial({color: 0xdfe9f2, depthTest: false, transparent: true,
+                                              opacity: 0.9});
+      const mesh = new Mesh(this.sphere, material);
+      mesh.renderOrder = 10;
+      mesh.visible = false;
+      link.add(mesh);
+      this.balls.push({group, mesh});
+    }
+  }
+
+  /** Balls and a translucent robot, or the robot as it is. */
+  show(isShown: boolean): void {
+    for (const {mesh} of this.balls) mesh.visible = isShown;
+    this.tree.torso.traverse((object) => {
+      const mesh = object as Mesh;
+      if (mesh.isMesh && mesh.renderOrder === 0) setGhost(mesh, isShown);
+    });
+    if (!isShown) this.select("");
+  }
+
+  /** Chooses a group by name; empty: none. */
+  select(name: string): void {
+    this.selected = name;
+    for (const {group, mesh} of this.balls) {
+      const isSelected = group.name === name;
+      mesh.material.color.set(isSelected ? 0x4fb4f5 : 0xdfe9f2);
+      mesh.scale.setScalar(isSelected ? 1.45 : 1);
+    }
+    for (const {object} of this.arcs) object.removeFromParent();
+    const group = this.balls.find((ball) => ball.group.name === name)?.group;
+    this.arcs = group ? kAxes.flatMap((axis) => this.makeArc(jointOfAxis(group, axis), axis)) : [];
+  }
+
+  /** The group whose ball is nearest to a tap; empty if none is within reach.
+   * @param x,y  px from the canvas's top left; the canvas is `width` by `height`. */
+  pick(x: number, y: number, camera: Camera, width: number, height: number): string {
+    let nearest = "";
+    let least = kReach;
+    for (const {group, mesh} of this.balls) {
+      mesh.getWorldPosition(this.place).project(camera);
+      const dx = (this.place.x + 1) / 2 * width - x;
+      const dy = (1 - this.place.y) / 2 * height - y;
+      const distance = Math.hypot(dx, dy);
+      if (distance < least) {
+        least = distance;
+        nearest = group.name;
+      }
+    }
+    return nearest;
+  }
+
+  /** Where each ball is on the canvas, px; for tests and automation. */
+  places(camera: Camera, width: number, height: number): Record<string, [number, number]> {
+    return Object.fromEntries(this.balls.map(({group, mesh}) => {
+      mesh.getWorldPosition(this.place).project(camera);
+      return [group.name, [(this.place.x + 1) / 2 * width, (1 - this.place.y) / 2 * height]];
+    }));
+  }
+
+  /** Moves the arcs' needles to the angles shown. */
+  update(): void {
+    for (const arc of this.arcs) arc.needle.rotation.z = this.tree.jointAngle(arc.joint);
+  }
+
+  get selectedGroup(): string {
+    return this.selected;
+  }
+
+  private makeArc(name: string, axis: Axis): Arc[] {
+    const joint = this.tree.joint(name);
+    const link = this.tree.linkOfJoint(name);
+    if (!joint || !link?.parent) return [];
+    const {lower, upper} = joint;
+    const object = new Group();
+    object.position.copy(link.position);
+    object.quaternion.copy(this.tree.restOrientation(name))
+        .multiply(arcFrame(new Vector3(...joint.axis), zeroDirection(link)));
+    const material = {color: kAxisColors[axis], depthTest: false, transparent: true, side: 2} as const;
+    const ring = new Mesh(
+        new RingGeometry(kArcRadius, kArcRadius + kArcWidth, 48, 1, lower, upper - lower),
+        new MeshBasicMaterial({...material, opacity: 0.55}));
+    ring.renderOrder = 8;
+    const needle = new Group();
+    const tip = new Mesh(this.sphere, new MeshBasicMaterial(material));
+    tip.scale.setScalar(0.6);
+    tip.position.x = kArcRadius + kArcWidth / 2;
+    tip.renderOrder = 11;
+    const hand = new Line(
+        new BufferGeometry().setAttribute("position", new Float32BufferAttribute(
+            [0, 0, 0, kArcRadius, 0, 0], 3)), new LineBasicMaterial({...material, opacity: 0.8}));
+    hand.renderOrder = 9;
+    needle.add(tip, hand);
+    object.add(ring, needle);
+    link.parent.add(object);
+    return [{joint: name, object, needle}];
+  }
+}
+
+/** Link whose frame stands for the group: where its last axis turns. */
+function linkOfGroup(tree: RobotTree, group: JointGroup): Object3D | null {
+  return tree.linkOfJoint(group.pitchJoint) ?? tree.linkOfJoint(group.rollJoint) ??
+      tree.linkOfJoint(group.yawJoint);
+}
+
+/** Turns z to the joint's axis and x to where the arc's zero is. */
+function arcFrame(axis: Vector3, zero: Vector3): Quaternion {
+  const flat = zero.clone().addScaledVector(axis, -zero.dot(axis));
+  if (flat.lengthSq() < 1e-4) flat.set(1, 0, 0).addScaledVector(axis, -axis.x);
+  if (flat.lengthSq() < 1e-4) flat.set(0, 0, -1).addScaledVector(axis, axis.z);
+  flat.normalize();
+  const toAxis = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), axis);
+  const x = new Vector3(1, 0, 0).applyQuaternion(toAxis);
+  const angle = Math.atan2(x.clone().cross(flat).dot(axis), x.dot(flat));
+  return new Quaternion().setFromAxisAngle(axis, angle).multiply(toAxis);
+}
+
+/** Where the link points at angle 0: to the next link that is not at the same place. */
+function zeroDirection(link: Object3D): Vector3 {
+  for (let child = link.children.find(isLink); child; child = child.children.find(isLink)) {
+    if (child.position.length() > 0.02) return child.position.clone().normalize();
+  }
+  return new Vector3(1, 0, 0);
+}
+
+const isLink = (object: Object3D) => (object as Group).isGroup && object.name !== "";
+
+function setGhost(mesh: Mesh, isGhost: boolean): void {
+  const materials: Material[] = Array.isArray(mesh.material) ? mesh.material : [mesh.material];
+  for (const material of materials) {
+    material.transparent = isGhost;
+    material.opacity = isGhost ? kGhostOpacity : 1;
+    material.depthWrite = !isGhost;
+    material.needsUpdate = true;
+  }
+  mesh.castShadow = !isGhost;
+}

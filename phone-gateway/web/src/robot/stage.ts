@@ -1,0 +1,172 @@
+/** The 3D stage: robot, ground, light, eye. Draws one frame per animation frame. */
+import {
+  ACESFilmicToneMapping, DirectionalLight, Group, HemisphereLight, PCFShadowMap,
+  PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+} from "three";
+import {Floor} from "./floor";
+import {makeRobotAxes, robotToScene} from "./frames";
+import {Orbit} from "./orbit";
+import type {View} from "./orbit";
+import {PixelBudget} from "./pixel_budget";
+import type {RobotTree} from "./robot_tree";
+
+/** Over the right shoulder, from behind: what is "ahead" for the robot is "up" for the thumb. */
+export const kDriveView: View = {azimuth: -0.42, elevation: 0.30};
+/** Face to face. */
+export const kJointsView: View = {azimuth: Math.PI - 0.35, elevation: 0.14};
+
+const kFieldOfViewDeg = 32;
+/** What shall fit the free part of the screen, m: the robot with some air, arms stretched. */
+const kShownHeight = 0.66;
+const kShownWidth = 0.5;
+
+/** The part of the canvas that no control covers, px from its top left. */
+export interface FreeArea {
+  left: number;
+  top: number;
+  right: number;
+  bottom: number;
+}
+
+export class Stage {
+  readonly orbit = new Orbit(kDriveView);
+  readonly floor = new Floor();
+  readonly camera = new PerspectiveCamera(kFieldOfViewDeg, 1, 0.05, 20);
+  /** Called before each frame with the time since the last one, s. */
+  onFrame: (dt: number) => void = () => {};
+  numFrames = 0;
+
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  /** Everything in here is given in the robot's axes. */
+  readonly robotAxes = new Group();
+  private readonly sun = new DirectionalLight(0xfff2e0, 2.6);
+  private readonly budget = new PixelBudget(Math.min(window.devicePixelRatio, 2));
+  private robot: RobotTree | null = null;
+  private lastFrameMs = 0;
+  private isRunning = false;
+  private width = 1;
+  private height = 1;
+  private freeArea: FreeArea | null = null;
+  private readonly eye = new Vector3();
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({canvas, antialias: true, alpha: true});
+    this.renderer.toneMapping = ACESFilmicToneMapping;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    makeRobotAxes(this.robotAxes);
+    this.addLights();
+    this.scene.add(this.robotAxes, this.floor.object);
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+
+  setRobot(robot: RobotTree): void {
+    if (this.robot) this.robotAxes.remove(this.robot.torso);
+    this.robot = robot;
+    this.robotAxes.add(robot.torso);
+  }
+
+  start(): void {
+    if (this.isRunning) return;
+    this.isRunning = true;
+    this.lastFrameMs = performance.now();
+    requestAnimationFrame(this.frame);
+  }
+
+  stop(): void {
+    this.isRunning = false;
+  }
+
+  private readonly frame = (nowMs: number): void => {
+    if (!this.isRunning) return;
+    requestAnimationFrame(this.frame);
+    const dt = Math.min(Math.max(nowMs - this.lastFrameMs, 0), 100) / 1000;
+    this.lastFrameMs = nowMs;
+    this.onFrame(dt);
+    this.followRobot(dt);
+    if (this.budget.frame(dt)) this.resize();
+    this.renderer.render(this.scene, this.camera);
+    this.numFrames++;
+  };
+
+  private followRobot(dt: number): void {
+    if (this.robot) {
+      const {position} = this.robot.torso;
+      this.orbit.follow(position.x, position.y, 0.16 + 0.35 * position.z, this.heading, dt);
+      this.floor.moveTo(position.x, position.y);
+      robotToScene(position.x, position.y, 0, this.sun.target.position);
+      robotToScene(position.x - 0.6, position.y + 1.1, 2.2, this.sun.position);
+    }
+    this.orbit.eye(this.eye);
+    robotToScene(this.eye.x, this.eye.y, this.eye.z, this.camera.position);
+    this.camera.lookAt(robotToScene(this.orbit.x, this.orbit.y, this.orbit.z, this.eye));
+  }
+
+  private addLights(): void {
+    this.scene.add(new HemisphereLight(0xcfe4ff, 0x24303a, 1.5));
+    const rim = new DirectionalLight(0x7fb4ff, 0.9);
+    rim.position.set(2, 1.2, 1.5);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(1024, 1024);
+    this.sun.shadow.radius = 4;
+    this.sun.shadow.bias = -0.0008;
+    const {camera} = this.sun.shadow;
+    camera.left = camera.bottom = -0.7;
+    camera.right = camera.top = 0.7;
+    camera.near = 0.5;
+    camera.far = 4;
+    this.scene.add(this.sun, this.sun.target, rim);
+  }
+
+  private resize(): void {
+    const {clientWidth, clientHeight} = this.canvas;
+    this.width = Math.max(clientWidth, 1);
+    this.height = Math.max(clientHeight, 1);
+    this.renderer.setPixelRatio(this.budget.pixelRatio);
+    this.renderer.setSize(this.width, this.height, false);
+    this.renderer.shadowMap.enabled = this.budget.hasShadow;
+    this.camera.aspect = this.width / this.height;
+    this.frameRobot();
+  }
+
+  /** Places the robot in the middle of the free area, as large as fits. */
+  setFreeArea(area: FreeArea): void {
+    this.freeArea = area;
+    this.frameRobot();
+  }
+
+  /** Heading of the robot shown, rad: where the torso's x axis points on the ground. */
+  get heading(): number {
+    const q = this.robot?.torso.quaternion;
+    return q ? Math.atan2(2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.y * q.y + q.z * q.z)) : 0;
+  }
+
+  get size(): {width: number; height: number} {
+    return {width: this.width, height: this.height};
+  }
+
+  /** The spot on the ground under a point of the canvas, m in the robot's axes; null above the horizon.
+   * @param x,y  px from the top left. */
+  groundAt(x: number, y: number): {x: number; y: number} | null {
+    const ray = this.eye.set(2 * x / this.width - 1, 1 - 2 * y / this.height, 0.5)
+        .unproject(this.camera).sub(this.camera.position);
+    if (ray.y > -1e-3) return null;
+    const length = -this.camera.position.y / ray.y;
+    return {x: this.camera.position.x + length * ray.x, y: -(this.camera.position.z + length * ray.z)};
+  }
+
+  private frameRobot(): void {
+    const {width, height, camera} = this;
+    const area = this.freeArea ?? {left: 0, top: 0, right: width, bottom: height};
+    const freeWidth = Math.max(area.right - area.left, 0.2 * width);
+    const freeHeight = Math.max(area.bottom - area.top, 0.2 * height);
+    const pixelsPerMetre = Math.min(freeWidth / kShownWidth, freeHeight / kShownHeight);
+    const tangent = Math.tan((kFieldOfViewDeg * Math.PI) / 360);
+    this.orbit.fitDistance = height / (2 * tangent * pixelsPerMetre);
+    camera.setViewOffset(width, height, (width - area.left - area.right) / 2,
+                         (height - area.top - area.bottom) / 2, width, height);
+    camera.updateProjectionMatrix();
+  }
+}

@@ -1,0 +1,113 @@
+/** Where to connect to, and why it does not work just now. */
+import {el} from "../dom";
+import type {Settings} from "../settings";
+import type {AppState, Problem, Store} from "../store";
+import {say} from "../text/texts";
+
+export interface ConnectionWish {
+  address: string;
+  token: string;
+  clientName: string;
+}
+
+export interface ConnectionActions {
+  connect(wish: ConnectionWish): void;
+  cancel(): void;
+  retryNow(): void;
+}
+
+/** Problems of which the gateway knows more than this page. */
+const kDetailed: readonly Problem[] = ["closed", "not-a-robot", "too-many", "wrong-version"];
+
+export class ConnectionScreen {
+  readonly element: HTMLElement;
+  private readonly address = field("address", "url", "192.168.1.20:8080");
+  private readonly token = field("token", "text", "");
+  private readonly clientName = field("client-name", "text", say("connection.namePlaceholder"));
+  private readonly problem = el("div", {class: "problem", role: "alert", hidden: true});
+  private readonly submit = el("button", {class: "button primary", type: "submit"});
+  private readonly cancel: HTMLButtonElement;
+  private readonly recent = el("ul", {class: "recent"});
+  private countdown: ReturnType<typeof setInterval> | undefined;
+
+  constructor(private readonly store: Store, private readonly actions: ConnectionActions) {
+    this.cancel = el("button", {class: "button", type: "button", onclick: () => actions.cancel()},
+                     say("connection.cancel"));
+    const form = el("form", {class: "card", onsubmit: (event: Event) => this.submitted(event)},
+      el("header", {}, el("img", {class: "logo", src: "icon.svg", alt: ""}),
+         el("div", {}, el("h1", {}, say("connection.title")),
+            el("p", {class: "quiet"}, say("connection.subtitle")))),
+      this.problem,
+      labelled(say("connection.address"), this.address),
+      labelled(say("connection.token"), this.token, say("connection.tokenHelp")),
+      labelled(say("connection.name"), this.clientName),
+      el("div", {class: "buttons"}, this.cancel, this.submit),
+      this.recent);
+    this.element = el("section", {class: "screen connection-screen"}, form);
+    store.watch((state) => `${state.phase} ${state.problem} ${state.nextAttemptMs}`,
+                () => this.update());
+  }
+
+  /** Fills the form in. */
+  fill(address: string, token: string, settings: Settings): void {
+    this.address.value = address;
+    this.token.value = token;
+    this.clientName.value = settings.clientName;
+    const others = settings.recent.filter((recent) => recent.address !== address);
+    const items = others.map((recent) => el("li", {}, el("button", {
+      class: "button quiet", type: "button",
+      onclick: () => this.actions.connect({...recent, clientName: this.clientName.value}),
+    }, recent.address)));
+    this.recent.replaceChildren(...items);
+    this.recent.hidden = items.length === 0;
+    this.recent.setAttribute("aria-label", say("connection.recent"));
+  }
+
+  private submitted(event: Event): void {
+    event.preventDefault();
+    if (this.store.get().phase === "waiting") return this.actions.retryNow();
+    this.actions.connect({address: this.address.value, token: this.token.value.trim(),
+                          clientName: this.clientName.value.trim()});
+  }
+
+  private update(): void {
+    const state = this.store.get();
+    clearInterval(this.countdown);
+    this.showProblem(state);
+    const isBusy = state.phase === "connecting";
+    this.cancel.hidden = state.phase === "idle";
+    this.submit.disabled = isBusy;
+    this.submit.textContent = say(isBusy ? "connection.connecting" :
+                                  state.phase === "waiting" ? "connection.now" :
+                                  "connection.connect");
+    if (state.phase === "waiting") {
+      this.countdown = setInterval(() => this.showProblem(this.store.get()), 250);
+    }
+  }
+
+  private showProblem(state: Readonly<AppState>): void {
+    this.problem.hidden = state.problem === null;
+    if (state.problem === null) return;
+    const lines = [el("strong", {}, say(`problem.${state.problem}`)),
+                   el("span", {}, say(`advice.${state.problem}`))];
+    if (kDetailed.includes(state.problem) && state.problemDetail) lines.push(el("span", {class: "quiet"}, state.problemDetail));
+    if (state.phase === "waiting") {
+      const seconds = Math.max(0, Math.ceil((state.nextAttemptMs - performance.now()) / 1000));
+      // Not read aloud each second.
+      lines.push(el("span", {class: "quiet", "aria-hidden": "true"},
+                    say("connection.retry", {seconds})));
+    }
+    this.problem.replaceChildren(...lines);
+  }
+}
+
+function field(name: string, type: string, placeholder: string): HTMLInputElement {
+  return el("input", {name, type: type === "url" ? "text" : type, placeholder,
+                      inputmode: type === "url" ? "url" : "text", autocomplete: "off",
+                      autocapitalize: "off", spellcheck: "false", maxlength: 200});
+}
+
+function labelled(text: string, input: HTMLInputElement, help = ""): HTMLElement {
+  return el("label", {}, el("span", {class: "label"}, text), input,
+            help ? el("span", {class: "quiet help"}, help) : null);
+}

@@ -1,0 +1,237 @@
+/** The remote control itself: who and what above, the robot in the middle, thumbs below. */
+import type {Commander} from "../commander";
+import {ChoiceStrip} from "../controls/choice_strip";
+import {Joystick} from "../controls/joystick";
+import type {PictureView} from "../controls/picture_view";
+import {onPress, onPressDown} from "../controls/press";
+import {driveFromSticks} from "../controls/stick";
+import type {TiltSensor} from "../controls/tilt_sensor";
+import {driveFromTilt} from "../controls/tilt";
+import type {Tilt} from "../controls/tilt";
+import type {WalkSender} from "../controls/walk_sender";
+import {el, icon} from "../dom";
+import type {Control, State} from "../protocol/generated/remote_pb";
+import * as useCases from "../protocol/use_cases";
+import type {FreeArea} from "../robot/stage";
+import type {AppState, Store} from "../store";
+import {say, sayName} from "../text/texts";
+import type {JointsPanel} from "./joints_panel";
+
+const kStopIcon = "M8 3h8l5 5v8l-5 5H8l-5-5V8z";
+const kLockIcon = "M7 11V8a5 5 0 0 1 10 0v3M5 11h14v9H5zM12 14.5v2";
+const kUnlockIcon = "M7 11V8a5 5 0 0 1 9.6-2M5 11h14v9H5zM12 14.5v2";
+const kMenuIcon = "M4 7h16M4 12h16M4 17h16";
+const kNoStick = {right: 0, up: 0};
+
+export interface ControllerActions {
+  openMenu(): void;
+  setJointsMode(isOn: boolean): void;
+  stop(): void;
+  /** Explains the link sign. */
+  explainLink(): void;
+}
+
+export class ControllerScreen {
+  readonly element: HTMLElement;
+  private readonly walkStick: Joystick;
+  private readonly turnStick: Joystick;
+  private readonly postures: ChoiceStrip;
+  private readonly actions: ChoiceStrip;
+  private readonly mode = el("strong", {class: "mode"});
+  private readonly activity = el("span", {class: "activity"});
+  private readonly progress = el("progress", {max: 1, hidden: true, "aria-label": say("drive.progress")});
+  private readonly driver = el("span", {class: "driver-name"});
+  private readonly driverButton: HTMLButtonElement;
+  private readonly lock: HTMLButtonElement;
+  private readonly link: HTMLButtonElement;
+  private readonly linkText = el("span");
+  private readonly messages = el("div", {class: "messages", role: "status", "aria-live": "polite"});
+  private readonly bottom: HTMLElement;
+  private readonly status: HTMLElement;
+  private tiltNeutral: Tilt | null = null;
+
+  constructor(private readonly store: Store, private readonly commander: Commander,
+              private readonly walk: WalkSender, private readonly picture: PictureView,
+              private readonly joints: JointsPanel, private readonly tilt: TiltSensor,
+              walkHere: HTMLElement, private readonly act: ControllerActions) {
+    this.walkStick = new Joystick(say("drive.walk"), "walk", false, () => this.sticksChanged());
+    this.turnStick = new Joystick(say("drive.turn"), "turn", true, () => this.sticksChanged());
+    this.tilt.onChange = () => this.sticksChanged();
+    this.postures = new ChoiceStrip(say("drive.postures"), (name) =>
+        void commander.command(useCases.goToPosture(name)));
+    this.actions = new ChoiceStrip(say("drive.actions"), (name) =>
+        void commander.command(useCases.doAction(name)));
+    this.driverButton = el("button", {class: "button small driver-button"});
+    onPress(this.driverButton, () => this.changeDriver());
+    this.lock = el("button", {class: "round lock"});
+    onPress(this.lock, () => this.toggleMode());
+    const stop = el("button", {class: "stop"}, icon(kStopIcon), el("span", {}, say("drive.stop")));
+    onPressDown(stop, () => act.stop());
+    this.link = el("button", {class: "link", onclick: () => act.explainLink()},
+                   el("span", {class: "bars", "aria-hidden": "true"}, el("i"), el("i"), el("i")),
+                   this.linkText);
+    this.status = el("div", {class: "status"},
+      el("div", {class: "status-line", role: "status"}, this.mode, this.activity),
+      this.progress,
+      el("div", {class: "driver"}, this.driver, this.driverButton));
+    this.bottom = el("footer", {class: "bottom"},
+      el("div", {class: "strips"}, this.postures.element, this.actions.element),
+      this.walkStick.element,
+      stop,
+      this.turnStick.element, joints.element);
+    this.element = el("section", {class: "screen controller-screen"},
+      walkHere,
+      el("header", {class: "top"}, picture.element, this.status,
+         el("div", {class: "corner"}, this.lock,
+            el("button", {class: "round", "aria-label": say("drive.menu"), onclick: () => act.openMenu()},
+               icon(kMenuIcon)),
+            this.link)),
+      this.messages, this.bottom);
+    this.watch();
+  }
+
+  /** Lets go of everything that drives. */
+  release(): void {
+    this.walkStick.release();
+    this.turnStick.release();
+    this.joints.release();
+  }
+
+  /** True: walk on the right, turn on the left. */
+  setSwapped(isSwapped: boolean): void {
+    this.element.classList.toggle("swapped", isSwapped);
+  }
+
+  setTilt(isOn: boolean): void {
+    this.walkStick.relabel(say(isOn ? "drive.holdTilt" : "drive.walk"));
+    this.walkStick.element.classList.toggle("tilting", isOn);
+  }
+
+  /** Calls `changed` with the part that no control covers, now and whenever it is another. */
+  observeFreeArea(changed: (area: FreeArea) => void): void {
+    const measure = (): void => {
+      const box = this.element.getBoundingClientRect();
+      if (box.width === 0) return;
+      const picture = this.picture.element.getBoundingClientRect();
+      const bottom = this.bottom.getBoundingClientRect();
+      const isBeside = box.width > box.height;
+      changed({
+        left: isBeside && this.picture.isLarge ? picture.right : 0,
+        right: box.width,
+        // A large picture in portrait pushes the words below it.
+        top: isBeside ? 4 : this.picture.isLarge ? this.status.getBoundingClientRect().bottom : picture.bottom,
+        bottom: isBeside ? this.centreTop() : bottom.top,
+      });
+    };
+    const observer = new ResizeObserver(measure);
+    for (const part of [this.element, this.bottom, this.picture.element, this.status]) observer.observe(part);
+    this.store.watch((state) => state.isJointsMode, measure);
+  }
+
+  /** Upper edge of what stands between the thumbs in landscape, px. */
+  private centreTop(): number {
+    const middle = this.store.get().isJointsMode ? this.joints.strip.element : this.postures.element;
+    return middle.getBoundingClientRect().top;
+  }
+
+  private watch(): void {
+    const {store} = this;
+    store.watch((state) => state.robot, (robot) => {
+      this.postures.setChoices((robot?.postures ?? []).map(
+          (name) => ({name, label: sayName("posture", name)})));
+      this.actions.setChoices((robot?.actions ?? []).map(
+          (name) => ({name, label: sayName("action", name)})));
+    });
+    store.watch((state) => state.state, (state) => this.showState(state));
+    store.watch((state) => state.control, (control) => this.showDriver(control));
+    store.watch((state) => state.messages, () => this.showMessages());
+    store.watch((state) => state.latencyMs, () => this.showLink());
+    store.watch((state) => state.isJointsMode, (isOn) => this.showMode(isOn));
+  }
+
+  private sticksChanged(): void {
+    const {walkStick, turnStick} = this;
+    const walkValue = this.tilt.tilt ? null : walkStick.value;
+    const isHeld = walkValue !== null || turnStick.value !== null;
+    this.walk.set("sticks", isHeld ? driveFromSticks(walkValue ?? kNoStick,
+                                                     turnStick.value ?? kNoStick) : null);
+    this.tiltChanged();
+  }
+
+  /** Tilt drives only while a thumb is on the pad: a phone that falls or is handed on must not. */
+  private tiltChanged(): void {
+    const {tilt} = this.tilt;
+    if (!tilt || this.walkStick.value === null) {
+      this.tiltNeutral = null;
+      this.walk.set("tilt", null);
+      return;
+    }
+    this.tiltNeutral ??= tilt;
+    this.walk.set("tilt", driveFromTilt(tilt, this.tiltNeutral));
+  }
+
+  private toggleMode(): void {
+    this.act.setJointsMode(!this.store.get().isJointsMode);
+  }
+
+  private showMode(isJointsMode: boolean): void {
+    this.element.dataset["mode"] = isJointsMode ? "joints" : "drive";
+    this.lock.replaceChildren(icon(isJointsMode ? kUnlockIcon : kLockIcon));
+    this.lock.setAttribute("aria-label", say(isJointsMode ? "drive.lock" : "drive.unlock"));
+    this.lock.setAttribute("aria-pressed", String(isJointsMode));
+  }
+
+  private changeDriver(): void {
+    const isMine = this.store.get().control?.isMine ?? false;
+    void (isMine ? this.commander.releaseControl() : this.commander.takeControl());
+  }
+
+  private showState(state: State | null): void {
+    setText(this.mode, state ? sayName("mode", state.mode) : say("mode.waiting"));
+    setText(this.activity, state?.activity ?? "");
+    const progress = state?.activity ? state.progress : -1;
+    this.progress.hidden = !(progress >= 0);
+    if (progress >= 0) this.progress.value = progress;
+    this.postures.mark(state?.posture ?? "");
+    const mode = state?.mode ?? "";
+    if (this.status.dataset["mode"] !== mode) this.status.dataset["mode"] = mode;
+  }
+
+  private showDriver(control: Control | null): void {
+    const who = !control || control.driverId === 0 ? "free" : control.isMine ? "mine" : "other";
+    this.element.dataset["control"] = who;
+    setText(this.driver, who === "mine" ? say("control.mine") :
+            who === "other" ? say("control.other", {name: control!.driverName}) :
+            say("control.free"));
+    this.driverButton.hidden = who === "free";
+    setText(this.driverButton, say(who === "mine" ? "control.release" : "control.ask"));
+  }
+
+  private showMessages(): void {
+    this.messages.replaceChildren(...this.store.get().messages.map(
+        (message) => el("p", {class: `message ${message.kind}`}, message.text)));
+  }
+
+  private showLink(): void {
+    const state = this.store.get();
+    this.link.hidden = state.latencyMs < 0;
+    setText(this.linkText, `${Math.round(state.latencyMs)} ms`);
+    this.link.dataset["quality"] = linkQuality(state);
+    this.link.setAttribute("aria-label", linkInWords(state));
+  }
+}
+
+/** Good: nobody notices the delay; fair: it is felt; poor: drive slowly. */
+export function linkQuality({latencyMs, picture}: Readonly<AppState>): "good" | "fair" | "poor" {
+  const worst = Math.max(latencyMs, (picture?.ageMs ?? 0) / 2);
+  return worst < 60 ? "good" : worst < 200 ? "fair" : "poor";
+}
+
+export function linkInWords({latencyMs, picture}: Readonly<AppState>): string {
+  return say("drive.link", {latency: Math.round(latencyMs), picture: Math.round(picture?.ageMs ?? 0)});
+}
+
+/** Leaves the page alone where nothing changes: states come 30 times a second. */
+function setText(element: HTMLElement, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}

@@ -1,0 +1,149 @@
+/** Joints mode's controls: which joint, how far it is, a pad for yaw and pitch, a slider for roll. */
+import {ChoiceStrip} from "../controls/choice_strip";
+import {JointDriver} from "../controls/joint_driver";
+import {Joystick} from "../controls/joystick";
+import {onPress} from "../controls/press";
+import {el} from "../dom";
+import type {Joint, JointGroup, State} from "../protocol/generated/remote_pb";
+import {jointOfAxis, kAxes} from "../robot/joint_balls";
+import type {Axis} from "../robot/joint_balls";
+import {jointPosition} from "../store";
+import type {Store} from "../store";
+import {say, sayName} from "../text/texts";
+
+/** This near to a limit a joint is at its end, rad. */
+const kAtLimit = 0.012;
+
+export interface JointsActions {
+  reset(): void;
+  select(group: string): void;
+  /** A joint has come to the end of its range. */
+  atLimit(): void;
+}
+
+export class JointsPanel {
+  readonly element: HTMLElement;
+  private readonly stick: Joystick;
+  readonly strip: ChoiceStrip;
+  private readonly name = el("strong", {class: "joint-name"});
+  private readonly angles = el("dl", {class: "angles"});
+  private readonly roll = el("input", {type: "range", step: "any", "aria-label": say("joints.roll")});
+  private readonly rollRow: HTMLElement;
+  private readonly both: HTMLButtonElement;
+  /** Roll that was sent last while the slider is held, rad; NaN while it is free. */
+  private heldRoll = NaN;
+  private limitNow = "";
+  private groups: readonly JointGroup[] = [];
+
+  constructor(private readonly store: Store, private readonly driver: JointDriver,
+              private readonly actions: JointsActions) {
+    this.stick = new Joystick(say("joints.move"), "joint", false, () => driver.setStick(this.stick.value));
+    this.strip = new ChoiceStrip(say("joints.groups"), (name) => actions.select(name));
+    this.both = el("button", {class: "button small", "aria-pressed": "false"}, say("joints.both"));
+    onPress(this.both, () => this.toggleBoth());
+    const reset = el("button", {class: "button small"}, say("joints.reset"));
+    onPress(reset, () => actions.reset());
+    this.rollRow = el("label", {class: "roll"},
+                      el("span", {class: "joystick-label"}, say("joints.roll")), this.roll);
+    this.roll.addEventListener("pointerdown", () => this.heldRoll = this.roll.valueAsNumber);
+    this.roll.addEventListener("input", () => this.rollChanged());
+    for (const type of ["pointerup", "pointercancel", "change", "blur"]) {
+      this.roll.addEventListener(type, () => this.heldRoll = NaN);
+    }
+    this.element = el("div", {class: "joints-panel"},
+      this.strip.element,
+      el("div", {class: "joint-card"}, this.name, this.angles, this.rollRow,
+         el("div", {class: "joint-buttons"}, this.both, reset)),
+      this.stick.element);
+    store.watch((state) => state.robot, (robot) => this.setGroups(robot?.jointGroups ?? []));
+    store.watch((state) => state.selectedGroup, (name) => this.select(name));
+    store.watch((state) => state.state, (state) => this.showState(state));
+  }
+
+  release(): void {
+    this.stick.release();
+    this.heldRoll = NaN;
+  }
+
+  private setGroups(groups: readonly JointGroup[]): void {
+    this.groups = groups;
+    this.strip.setChoices(groups.map(({name}) => ({name, label: sayName("group", name)})));
+    this.select(this.store.get().selectedGroup);
+  }
+
+  private select(name: string): void {
+    const group = this.groups.find((one) => one.name === name) ?? null;
+    this.release();
+    this.driver.group = group;
+    this.strip.mark(name);
+    this.name.textContent = group ? sayName("group", name) : say("joints.choose");
+    this.element.dataset["group"] = name;
+    this.limitNow = "";
+    const rows = group ? kAxes.filter((axis) => jointOfAxis(group, axis) !== "") : [];
+    this.angles.replaceChildren(...rows.map((axis) => el(
+        "div", {class: `axis axis-${axis}`}, el("dt", {}, axisLabel(group!, axis)), el("dd", {}))));
+    const limits = this.joint(group, "roll");
+    this.rollRow.hidden = !limits;
+    if (limits) {
+      this.roll.min = String(limits.lower);
+      this.roll.max = String(limits.upper);
+    }
+    this.stick.element.classList.toggle("idle", !group || (!group.yawJoint && !group.pitchJoint));
+    this.showState(this.store.get().state);
+  }
+
+  private showState(state: State | null): void {
+    const group = this.driver.group;
+    if (!group || !state || !this.store.get().isJointsMode) return;
+    let limit = "";
+    for (const axis of kAxes) {
+      const joint = this.joint(group, axis);
+      if (!joint) continue;
+      const angle = jointPosition(this.joints, state, joint.name);
+      const row = this.angles.querySelector(`.axis-${axis}`);
+      const isAtLimit = angle < joint.lower + kAtLimit || angle > joint.upper - kAtLimit;
+      row?.classList.toggle("at-limit", isAtLimit);
+      const text = angleText(joint, angle) + (isAtLimit ? ` · ${say("joints.limit")}` : "");
+      const value = row?.querySelector("dd");
+      if (value && value.textContent !== text) value.textContent = text;
+      if (isAtLimit) limit += axis;
+      if (axis === "roll" && Number.isNaN(this.heldRoll)) this.roll.value = String(angle);
+    }
+    if (limit && limit !== this.limitNow) this.actions.atLimit();
+    this.limitNow = limit;
+  }
+
+  private rollChanged(): void {
+    const joint = this.joint(this.driver.group, "roll");
+    const state = this.store.get().state;
+    if (!joint || !state) return;
+    const from = Number.isNaN(this.heldRoll) ? jointPosition(this.joints, state, joint.name) : this.heldRoll;
+    const wanted = this.roll.valueAsNumber;
+    this.driver.turn("roll", wanted - from);
+    this.heldRoll = wanted;
+  }
+
+  private toggleBoth(): void {
+    this.driver.isMirrored = !this.driver.isMirrored;
+    this.both.setAttribute("aria-pressed", String(this.driver.isMirrored));
+  }
+
+  private get joints(): readonly Joint[] {
+    return this.store.get().robot?.joints ?? [];
+  }
+
+  private joint(group: JointGroup | null, axis: Axis): Joint | undefined {
+    const name = group ? jointOfAxis(group, axis) : "";
+    return this.joints.find((joint) => joint.name === name);
+  }
+}
+
+function axisLabel(group: JointGroup, axis: Axis): string {
+  return say(group.pitchJoint.endsWith("Hand") ? "joints.opening" : `joints.${axis}`);
+}
+
+/** Degrees, as people know them; hands in percent. */
+function angleText(joint: Joint, angle: number): string {
+  return joint.name.endsWith("Hand") ? `${Math.round(angle * 100)} %`
+      : `${Math.round(angle * 180 / Math.PI)}°`;
+}

@@ -1,0 +1,56 @@
+/** Tap to walk: a tap marks a spot on the ground, a second one on "Walk here" sends the robot there. */
+import {walkTo} from "../controls/ground_target";
+import type {RelativePose} from "../controls/ground_target";
+import {el} from "../dom";
+import type {Stage} from "../robot/stage";
+import {say} from "../text/texts";
+
+/** A spot farther away than this is not seen well enough to be meant, m. */
+const kMaxDistance = 3;
+/** On the robot's own feet nobody means the ground, m. */
+const kMinDistance = 0.15;
+const kShownMs = 6000;
+/** Half the button's width and some air, px. */
+const kMargin = 80;
+
+export class WalkHere {
+  readonly element: HTMLButtonElement;
+  private spot: {x: number; y: number} | null = null;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(private readonly stage: Stage, private readonly go: (pose: RelativePose) => void) {
+    this.element = el("button", {class: "button primary walk-here", hidden: true,
+                                 onclick: () => this.chosen()}, say("drive.walkHere"));
+  }
+
+  /** A tap on the stage, px from its top left. */
+  tapped(x: number, y: number): void {
+    const spot = this.stage.groundAt(x, y);
+    const robot = this.stage.orbit;
+    const distance = spot ? Math.hypot(spot.x - robot.x, spot.y - robot.y) : Infinity;
+    if (!spot || this.spot || distance > kMaxDistance || distance < kMinDistance) return this.clear();
+    this.spot = spot;
+    this.stage.floor.mark(spot);
+    this.element.hidden = false;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.clear(), kShownMs);
+    // Below the spot, as it is now: a button that sways with the view is hard to hit.
+    const left = Math.min(Math.max(x, kMargin), this.stage.size.width - kMargin);
+    this.element.style.transform = `translate(${left}px, ${y}px) translate(-50%, 22px)`;
+  }
+
+  clear(): void {
+    clearTimeout(this.timer);
+    this.spot = null;
+    this.stage.floor.mark(null);
+    this.element.hidden = true;
+  }
+
+  private chosen(): void {
+    const {spot, stage} = this;
+    this.clear();
+    if (!spot) return;
+    const pose = walkTo(spot, stage.orbit, stage.heading);
+    if (pose) this.go(pose);
+  }
+}

@@ -1,0 +1,79 @@
+/** What the phone remembers, and what the link that opened the page says. */
+
+const kKey = "nao-remote";
+const kMaxRecent = 4;
+
+export interface Recent {
+  /** Host and port: "192.168.1.20:8080". */
+  address: string;
+  token: string;
+}
+
+export interface Settings {
+  clientName: string;
+  /** Tag of the language chosen; empty: the phone's. */
+  language: string;
+  /** True: walk on the right, turn on the left. */
+  isSwapped: boolean;
+  /** Newest first. */
+  recent: Recent[];
+}
+
+const kDefaults: Settings = {
+  clientName: "", language: "", isSwapped: false, recent: [],
+};
+
+/** Reads the settings; those that another version wrote badly count as not there. */
+export function loadSettings(storage: Storage | null): Settings {
+  try {
+    const found = JSON.parse(storage?.getItem(kKey) ?? "{}") as Partial<Settings>;
+    return {
+      ...kDefaults, ...found,
+      recent: Array.isArray(found.recent) ? found.recent.filter(isRecent) : [],
+    };
+  } catch {
+    return {...kDefaults};
+  }
+}
+
+export function saveSettings(storage: Storage | null, settings: Settings): void {
+  try {
+    storage?.setItem(kKey, JSON.stringify(settings));
+  } catch {
+    // Private browsing without storage: the app works, it only forgets.
+  }
+}
+
+/** Puts an address in front of the list of those used. */
+export function remember(settings: Settings, address: string, token: string): Settings {
+  const others = settings.recent.filter((recent) => recent.address !== address);
+  return {...settings, recent: [{address, token}, ...others].slice(0, kMaxRecent)};
+}
+
+/** Token in a link, "#token=..." (not sent to any server) or "?token=..."; empty if there is none. */
+export function tokenFromUrl(url: URL): string {
+  return new URLSearchParams(url.hash.slice(1)).get("token") ?? url.searchParams.get("token") ?? "";
+}
+
+/** The page of the gateway at an address as a person types it: "192.168.1.20", "nao.local:8080",
+ * "https://...". Null if it is none. Without a port: the gateway's usual one. */
+export function pageUrl(address: string, token: string): URL | null {
+  const text = address.trim();
+  if (!text) return null;
+  const hasScheme = /^https?:\/\//i.test(text);
+  try {
+    const url = new URL(hasScheme ? text : `http://${text}`);
+    if (!hasScheme && !url.port) url.port = "8080";
+    url.pathname = "/";
+    url.search = "";
+    url.hash = token ? `token=${encodeURIComponent(token)}` : "";
+    return url;
+  } catch {
+    return null;
+  }
+}
+
+function isRecent(value: unknown): value is Recent {
+  const {address, token} = (value ?? {}) as Partial<Recent>;
+  return typeof address === "string" && typeof token === "string";
+}

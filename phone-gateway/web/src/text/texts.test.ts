@@ -1,0 +1,29 @@
+import {describe, expect, it} from "vitest";
+import {chooseLanguage, kAllTexts, kLanguages, say, sayName, setLanguage} from "./texts";
+
+describe("texts", () => {
+  it.each(Object.entries(kAllTexts))("%s is said in every language, with the same values", (_, row) => {
+    expect(row).toHaveLength(kLanguages.length);
+    const places = row.map((text) => (text.match(/\{\w+\}/g) ?? []).sort().join());
+    for (const [i, text] of row.entries()) {
+      expect(text.trim()).not.toBe("");
+      expect(places[i]).toBe(places[0]);
+    }
+  });
+
+  it("are chosen by the phone's languages", () => {
+    expect(chooseLanguage(["fr-FR", "pt-BR", "en"])).toBe("pt");
+    expect(chooseLanguage(["de-AT"])).toBe("de");
+    expect(chooseLanguage(["ja"])).toBe("en");
+  });
+
+  it("fill values in", () => {
+    setLanguage("en");
+    expect(say("control.other", {name: "Ana"})).toBe("Ana drives");
+  });
+
+  it("show a name that nobody translated as it is", () => {
+    expect(sayName("posture", "Crouch")).toBe("Crouch");
+    expect(sayName("action", "moon-walk")).toBe("moon walk");
+  });
+});

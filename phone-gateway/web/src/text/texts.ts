@@ -1,0 +1,242 @@
+/** Every word that the app says, in every language it speaks; one row per thing said. Places for
+ * values are written {name}. What the gateway says in its own words is shown as it comes. */
+
+export const kLanguages = ["en", "pt", "de"] as const;
+export type Language = (typeof kLanguages)[number];
+type Row = readonly [en: string, pt: string, de: string];
+
+const kTexts = {
+  // Loading.
+  "loading.app": ["Starting", "A iniciar", "Startet"],
+  "loading.robot": ["Getting the robot", "A carregar o robô", "Der Roboter wird geladen"],
+  "loading.failed": ["The robot could not be loaded", "Não foi possível carregar o robô",
+                     "Der Roboter konnte nicht geladen werden"],
+  "loading.again": ["Try again", "Tentar de novo", "Nochmal versuchen"],
+  // Connection.
+  "connection.title": ["Drive the robot", "Conduzir o robô", "Den Roboter steuern"],
+  "connection.subtitle": ["Phone and robot must be in the same Wi-Fi.",
+                          "O telefone e o robô têm de estar na mesma rede Wi-Fi.",
+                          "Telefon und Roboter müssen im selben WLAN sein."],
+  "connection.address": ["Robot's address", "Endereço do robô", "Adresse des Roboters"],
+  "connection.token": ["Pairing code", "Código de ligação", "Kopplungscode"],
+  "connection.tokenHelp": ["It is in the QR code beside the robot.",
+                           "Está no código QR ao lado do robô.",
+                           "Er steckt im QR-Code neben dem Roboter."],
+  "connection.name": ["Your name", "O seu nome", "Dein Name"],
+  "connection.namePlaceholder": ["What others see", "O que os outros veem", "Was andere sehen"],
+  "connection.connect": ["Connect", "Ligar", "Verbinden"],
+  "connection.connecting": ["Connecting …", "A ligar …", "Verbindet …"],
+  "connection.cancel": ["Cancel", "Cancelar", "Abbrechen"],
+  "connection.now": ["Try now", "Tentar agora", "Jetzt versuchen"],
+  "connection.retry": ["Trying again in {seconds} s", "Nova tentativa em {seconds} s",
+                       "Nächster Versuch in {seconds} s"],
+  "connection.recent": ["Used before", "Usados antes", "Früher benutzt"],
+  "problem.unreachable": ["Nothing answers at this address.", "Nada responde neste endereço.",
+                          "Unter dieser Adresse antwortet nichts."],
+  "advice.unreachable": ["Is the robot on, and is this phone in its Wi-Fi?",
+                         "O robô está ligado e o telefone na mesma rede Wi-Fi?",
+                         "Ist der Roboter an und dieses Telefon in seinem WLAN?"],
+  "problem.not-a-robot": ["Something answers there, but the robot does not let us in.",
+                          "Algo responde, mas o robô não nos deixa entrar.",
+                          "Dort antwortet etwas, aber der Roboter lässt uns nicht herein."],
+  "advice.not-a-robot": ["Scan the QR code beside the robot again.",
+                         "Leia de novo o código QR ao lado do robô.",
+                         "Scanne den QR-Code neben dem Roboter noch einmal."],
+  "problem.wrong-token": ["The pairing code is not the right one.",
+                          "O código de ligação não está certo.",
+                          "Der Kopplungscode stimmt nicht."],
+  "advice.wrong-token": ["The robot makes a new code at each start. Scan its QR code again.",
+                         "O robô cria um código novo em cada arranque. Leia o código QR outra vez.",
+                         "Der Roboter macht bei jedem Start einen neuen. Scanne den QR-Code noch einmal."],
+  "problem.wrong-version": ["This page is of another version than the robot.",
+                            "Esta página é de outra versão que não a do robô.",
+                            "Diese Seite hat eine andere Version als der Roboter."],
+  "advice.wrong-version": ["Reload the page.", "Recarregue a página.", "Lade die Seite neu."],
+  "problem.too-many": ["Too many phones are connected.", "Há demasiados telefones ligados.",
+                       "Es sind zu viele Telefone verbunden."],
+  "advice.too-many": ["A place will be free when somebody leaves.",
+                      "Haverá lugar quando alguém sair.",
+                      "Ein Platz wird frei, wenn jemand geht."],
+  "problem.silent": ["The robot has gone quiet.", "O robô deixou de responder.",
+                     "Der Roboter ist verstummt."],
+  "advice.silent": ["Weak Wi-Fi? Go closer to the access point.",
+                    "Wi-Fi fraco? Aproxime-se do ponto de acesso.",
+                    "Schwaches WLAN? Geh näher an den Zugangspunkt."],
+  "problem.closed": ["The connection was cut.", "A ligação foi interrompida.",
+                     "Die Verbindung wurde getrennt."],
+  "advice.closed": ["The app comes back as soon as the robot does.",
+                    "A aplicação volta assim que o robô voltar.",
+                    "Die App ist wieder da, sobald der Roboter es ist."],
+  // Who drives.
+  "control.mine": ["You drive", "Você conduz", "Du steuerst"],
+  "control.free": ["Touch a control to drive", "Toque num comando para conduzir",
+                   "Zum Steuern einfach losfahren"],
+  "control.other": ["{name} drives", "{name} conduz", "{name} steuert"],
+  "control.ask": ["Ask to drive", "Pedir para conduzir", "Selbst steuern"],
+  "control.release": ["Hand over", "Passar a vez", "Abgeben"],
+  "control.taken": ["You drive now.", "Agora é você que conduz.", "Du steuerst jetzt."],
+  "control.lost": ["{name} drives now.", "Agora conduz {name}.", "Jetzt steuert {name}."],
+  // What the robot does.
+  "mode.relaxed": ["Relaxed", "Relaxado", "Entspannt"],
+  "mode.holding": ["Standing by", "A postos", "Bereit"],
+  "mode.moving": ["Moving", "Em movimento", "Bewegt sich"],
+  "mode.walking": ["Walking", "A andar", "Geht"],
+  "mode.acting": ["In action", "Em ação", "In Aktion"],
+  "mode.falling": ["Falling", "A cair", "Fällt"],
+  "mode.fallen": ["Lying after a fall", "Caído", "Liegt nach einem Sturz"],
+  "mode.getting-up": ["Getting up", "A levantar-se", "Steht auf"],
+  "mode.no-robot": ["No robot", "Sem robô", "Kein Roboter"],
+  "mode.waiting": ["Waiting for the robot", "À espera do robô", "Wartet auf den Roboter"],
+  "part.motion": ["The robot's motion program is away.", "O programa de movimento está ausente.",
+                  "Das Bewegungsprogramm fehlt."],
+  "part.robot": ["The robot itself is away.", "O robô está ausente.", "Der Roboter selbst fehlt."],
+  "part.camera": ["The head camera is away.", "A câmara da cabeça está ausente.",
+                  "Die Kopfkamera fehlt."],
+  // Controller.
+  "drive.stop": ["Stop", "Parar", "Stopp"],
+  "drive.walk": ["Walk", "Andar", "Gehen"],
+  "drive.turn": ["Turn", "Virar", "Drehen"],
+  "drive.postures": ["Postures", "Posturas", "Haltungen"],
+  "drive.actions": ["Actions", "Ações", "Aktionen"],
+  "drive.picture": ["Picture from the robot's head", "Imagem da cabeça do robô",
+                    "Bild aus dem Kopf des Roboters"],
+  "drive.pictureWaiting": ["No picture yet", "Ainda sem imagem", "Noch kein Bild"],
+  "drive.enlarge": ["Enlarge the picture", "Ampliar a imagem", "Bild vergrößern"],
+  "drive.shrink": ["Make the picture small", "Reduzir a imagem", "Bild verkleinern"],
+  "drive.camera": ["Other camera", "Outra câmara", "Andere Kamera"],
+  "drive.cameraTop": ["Top", "Cima", "Oben"],
+  "drive.cameraBottom": ["Bottom", "Baixo", "Unten"],
+  "drive.link": ["Delay {latency} ms, picture {picture} ms old",
+                 "Atraso {latency} ms, imagem com {picture} ms",
+                 "Verzögerung {latency} ms, Bild {picture} ms alt"],
+  "drive.stage": ["The robot, seen from outside. Drag to look around.",
+                  "O robô visto de fora. Arraste para rodar a vista.",
+                  "Der Roboter von außen. Ziehen, um herumzuschauen."],
+  "drive.leave": ["Disconnect", "Desligar", "Trennen"],
+  "drive.linkPoor": ["The link is slow: drive gently.", "Ligação lenta: conduza devagar.",
+                     "Die Verbindung ist langsam: fahr behutsam."],
+  "drive.unlock": ["Move single joints", "Mover articulações", "Gelenke bewegen"],
+  "drive.lock": ["Back to driving", "Voltar a conduzir", "Zurück zum Steuern"],
+  "drive.menu": ["Menu", "Menu", "Menü"],
+  "drive.walkHere": ["Walk here", "Andar até aqui", "Hierher gehen"],
+  "drive.holdTilt": ["Hold and tilt", "Segure e incline", "Halten und neigen"],
+  "drive.progress": ["Progress", "Progresso", "Fortschritt"],
+  "fall.calm": ["The robot fell. It gets up by itself.", "O robô caiu. Levanta-se sozinho.",
+                "Der Roboter ist gefallen. Er steht von selbst auf."],
+  // Joints mode.
+  "joints.choose": ["Tap a ball on the robot", "Toque numa esfera no robô",
+                    "Tippe auf eine Kugel am Roboter"],
+  "joints.groups": ["Joints", "Articulações", "Gelenke"],
+  "joints.pad": ["Turn the joint", "Rodar a articulação", "Gelenk drehen"],
+  "joints.move": ["Move", "Mover", "Bewegen"],
+  "joints.roll": ["Roll", "Rolamento", "Rollen"],
+  "joints.yaw": ["Yaw", "Guinada", "Gieren"],
+  "joints.pitch": ["Pitch", "Inclinação", "Nicken"],
+  "joints.opening": ["Open", "Aberta", "Offen"],
+  "joints.both": ["Both sides", "Ambos os lados", "Beide Seiten"],
+  "joints.reset": ["Reset pose", "Repor pose", "Grundhaltung"],
+  "joints.limit": ["End of its range", "Fim do curso", "Anschlag"],
+  "group.head": ["Head", "Cabeça", "Kopf"],
+  "group.left shoulder": ["Left shoulder", "Ombro esquerdo", "Linke Schulter"],
+  "group.left elbow": ["Left elbow", "Cotovelo esquerdo", "Linker Ellbogen"],
+  "group.left wrist": ["Left wrist", "Pulso esquerdo", "Linkes Handgelenk"],
+  "group.left hand": ["Left hand", "Mão esquerda", "Linke Hand"],
+  "group.left hip": ["Left hip", "Anca esquerda", "Linke Hüfte"],
+  "group.left knee": ["Left knee", "Joelho esquerdo", "Linkes Knie"],
+  "group.left ankle": ["Left ankle", "Tornozelo esquerdo", "Linker Knöchel"],
+  "group.right shoulder": ["Right shoulder", "Ombro direito", "Rechte Schulter"],
+  "group.right elbow": ["Right elbow", "Cotovelo direito", "Rechter Ellbogen"],
+  "group.right wrist": ["Right wrist", "Pulso direito", "Rechtes Handgelenk"],
+  "group.right hand": ["Right hand", "Mão direita", "Rechte Hand"],
+  "group.right hip": ["Right hip", "Anca direita", "Rechte Hüfte"],
+  "group.right knee": ["Right knee", "Joelho direito", "Rechtes Knie"],
+  "group.right ankle": ["Right ankle", "Tornozelo direito", "Rechter Knöchel"],
+  // Menu.
+  "menu.title": ["Settings and help", "Definições e ajuda", "Einstellungen und Hilfe"],
+  "menu.close": ["Close", "Fechar", "Schließen"],
+  "menu.tilt": ["Walk by tilting the phone", "Andar inclinando o telefone",
+                "Gehen durch Neigen des Telefons"],
+  "menu.tiltHelp": ["Hold the walk pad and tilt: away from you to walk, sideways to turn.",
+                    "Segure o comando e incline: para a frente anda, para o lado vira.",
+                    "Das Geh-Feld halten und neigen: nach vorn gehen, zur Seite drehen."],
+  "menu.tiltMissing": ["Needs https; phones give their sensors to secure pages only.",
+                       "Precisa de https; só páginas seguras recebem os sensores.",
+                       "Braucht https; nur sichere Seiten bekommen die Sensoren."],
+  "menu.swap": ["Swap the two pads", "Trocar os dois comandos", "Beide Felder tauschen"],
+  "menu.language": ["Language", "Idioma", "Sprache"],
+  "menu.help": ["How it works", "Como funciona", "So geht es"],
+  "menu.helpWalk": ["Left pad walks, right pad turns; let go and the robot stands.",
+                    "O comando esquerdo anda, o direito vira; ao soltar, o robô para.",
+                    "Linkes Feld geht, rechtes dreht; loslassen, und der Roboter steht."],
+  "menu.helpView": ["Drag the robot to look around, pinch to come nearer, double tap to go back.",
+                    "Arraste para rodar a vista, aperte para aproximar, toque duas vezes para repor.",
+                    "Ziehen schaut herum, zwei Finger holen näher, Doppeltippen stellt zurück."],
+  "menu.helpPicture": ["Tap the picture to enlarge it, drag on it to turn the head.",
+                       "Toque na imagem para ampliar, arraste para virar a cabeça.",
+                       "Bild antippen vergrößert, auf dem Bild ziehen dreht den Kopf."],
+  "menu.helpGround": ["Tap the ground to send the robot there.",
+                      "Toque no chão para o robô andar até lá.",
+                      "Auf den Boden tippen schickt den Roboter dorthin."],
+  "menu.helpKeys": ["Keyboard: W A S D walk, Q E or arrows turn, Shift slowly, space stops, L joints.",
+                    "Teclado: W A S D anda, Q E ou setas viram, Shift devagar, espaço para, L articulações.",
+                    "Tastatur: W A S D geht, Q E oder Pfeile drehen, Umschalt langsam, Leertaste stoppt, L Gelenke."],
+  "menu.helpPad": ["Gamepad: sticks walk and turn, A ready, B stop, X crouch, Y stand, shoulders kick.",
+                   "Gamepad: manípulos andam e viram, A pronto, B parar, X agachar, Y de pé, L/R chutam.",
+                   "Gamepad: Sticks gehen und drehen, A startklar, B Stopp, X hocken, Y stehen, Schultertasten schießen."],
+  "outcome.failed": ["That did not work.", "Não resultou.", "Das hat nicht geklappt."],
+  // Postures and actions; what has no row is shown by its own name.
+  "posture.StandZero": ["Zero", "Zero", "Null"],
+  "posture.StandInit": ["Ready", "Pronto", "Startklar"],
+  "posture.Stand": ["Stand", "De pé", "Stehen"],
+  "posture.Crouch": ["Crouch", "Agachar", "Hocken"],
+  "posture.Sit": ["Sit", "Sentar", "Sitzen"],
+  "posture.SitRelax": ["Sit back", "Recostar", "Zurücklehnen"],
+  "posture.LyingBack": ["Lie back", "De costas", "Rückenlage"],
+  "posture.LyingBelly": ["Lie front", "De bruços", "Bauchlage"],
+  "action.kick-left": ["Kick left", "Chuto esquerdo", "Schuss links"],
+  "action.kick-right": ["Kick right", "Chuto direito", "Schuss rechts"],
+  "action.block": ["Block", "Defender", "Block"],
+  "action.dive-left": ["Dive left", "Mergulho esq.", "Hecht links"],
+  "action.dive-right": ["Dive right", "Mergulho dir.", "Hecht rechts"],
+  "action.wave": ["Wave", "Acenar", "Winken"],
+  "action.get-up": ["Get up", "Levantar", "Aufstehen"],
+  "action.wake-up": ["Wake up", "Acordar", "Aufwachen"],
+  "action.rest": ["Rest", "Descansar", "Ausruhen"],
+} as const satisfies Record<string, Row>;
+
+export type TextKey = keyof typeof kTexts;
+
+/** Language of the page; the phone's own if the app speaks it, else English. */
+let language: Language = "en";
+
+export function setLanguage(value: Language): void {
+  language = value;
+}
+
+export function getLanguage(): Language {
+  return language;
+}
+
+/** The first of the wished languages ("pt-BR", "de") that the app speaks. */
+export function chooseLanguage(wished: readonly string[]): Language {
+  for (const tag of wished) {
+    const found = kLanguages.find((known) => tag.toLowerCase().split("-")[0] === known);
+    if (found) return found;
+  }
+  return "en";
+}
+
+/** What to say, in the page's language. */
+export function say(key: TextKey, values: Record<string, string | number> = {}): string {
+  const text: string = kTexts[key][kLanguages.indexOf(language)] ?? kTexts[key][0];
+  return text.replace(/\{(\w+)\}/g, (place, name: string) => String(values[name] ?? place));
+}
+
+/** A name from the robot ("posture", "Crouch") as a person says it; unknown names as they are. */
+export function sayName(family: "posture" | "action" | "mode" | "group", name: string): string {
+  const key = `${family}.${name}`;
+  return key in kTexts ? say(key as TextKey) : name.replace(/[-_]/g, " ");
+}
+
+/** For tests: every row. */
+export const kAllTexts: Readonly<Record<string, Row>> = kTexts;

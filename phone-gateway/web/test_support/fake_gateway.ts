@@ -1,0 +1,287 @@
+/** A gateway without a robot behind it: speaks the protocol, serves the app and the robot's files, and
+ * moves the joints of an imaginary robot straight to where they are sent. For tests of the app and
+ * for work on it where nothing else is built; what the real gateway does is its own tests' business. */
+import {create, fromBinary, toBinary} from "@bufbuild/protobuf";
+import {createServer} from "node:http";
+import type {IncomingMessage, Server, ServerResponse} from "node:http";
+import {readFile} from "node:fs/promises";
+import {extname, join, normalize} from "node:path";
+import type {AddressInfo} from "node:net";
+import {WebSocketServer} from "ws";
+import type {WebSocket} from "ws";
+import * as pb from "../src/protocol/generated/remote_pb";
+
+const kStatePeriodMs = 33;
+const kPicturePeriodMs = 100;
+/** Speed of the imaginary joints, rad/s. */
+const kJointSpeed = 1.5;
+const kTypes: Record<string, string> = {
+  ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml",
+  ".png": "image/png", ".webmanifest": "application/manifest+json", ".glb": "model/gltf-binary",
+  ".urdf": "application/xml", ".yaml": "text/yaml",
+};
+
+/** Where the imaginary robot can go: joint angles, rad, and torso height, m. */
+export interface FakePosture {
+  angles: Record<string, number>;
+  height: number;
+}
+
+export interface FakeGatewayOptions {
+  /** Folder that holds web/, robots/ and scenes/, as share/nao-remote does. */
+  dataDir: string;
+  token: string;
+  joints: {name: string; lower: number; upper: number}[];
+  jointGroups: {name: string; yawJoint?: string; pitchJoint?: string; rollJoint?: string}[];
+  postures: Record<string, FakePosture>;
+  actions: string[];
+  /** JPEG of the head picture for a time in s; without it no pictures are sent. */
+  picture?: (time: number) => Uint8Array;
+}
+
+interface Phone {
+  id: number;
+  name: string;
+  isConnected: boolean;
+  socket: WebSocket;
+  states: boolean;
+  pictures: boolean;
+}
+
+export class FakeGateway {
+  /** Every use case received, oldest first. */
+  readonly received: pb.Request[] = [];
+  mode = "holding";
+  posture = "";
+  /** Refusal for the next command, if any. */
+  refuseNext: {error: pb.ErrorCode; message: string} | null = null;
+  private readonly http: Server;
+  private readonly sockets: WebSocketServer;
+  private readonly phones = new Set<Phone>();
+  private readonly angle: number[];
+  private readonly target: number[];
+  private height: number;
+  private heading = 0;
+  private x = 0;
+  private y = 0;
+  private drive = {x: 0, y: 0, theta: 0};
+  private lastDriveMs = 0;
+  private driverId = 0;
+  private nextId = 1;
+  private time = 0;
+  private readonly timers: ReturnType<typeof setInterval>[] = [];
+
+  constructor(private readonly options: FakeGatewayOptions) {
+    this.posture = Object.keys(options.postures)[0] ?? "";
+    const first = options.postures[this.posture];
+    this.target = options.joints.map(({name}) => first?.angles[name] ?? 0);
+    this.angle = [...this.target];
+    this.height = first?.height ?? 0.333;
+    this.http = createServer((request, response) => void this.serve(request, response));
+    this.sockets = new WebSocketServer({server: this.http, path: "/ws"});
+    this.sockets.on("connection", (socket) => this.welcome(socket));
+  }
+
+  /** @param port  0 for any. @return the page's URL with the token. */
+  async start(port = 0): Promise<string> {
+    await new Promise<void>((resolve) => this.http.listen(port, "127.0.0.1", resolve));
+    this.timers.push(setInterval(() => this.tick(), kStatePeriodMs),
+                     setInterval(() => this.sendPicture(), kPicturePeriodMs));
+    return `http://127.0.0.1:${this.port}/#token=${this.options.token}`;
+  }
+
+  get port(): number {
+    return (this.http.address() as AddressInfo).port;
+  }
+
+  async stop(): Promise<void> {
+    this.timers.forEach(clearInterval);
+    for (const phone of this.phones) phone.socket.terminate();
+    this.sockets.close();
+    await new Promise((resolve) => this.http.close(resolve));
+  }
+
+  /** Says something unasked to every phone. */
+  notice(notice: Parameters<typeof create<typeof pb.NoticeSchema>>[1]): void {
+    for (const phone of this.phones) {
+      send(phone, {case: "notice", value: create(pb.NoticeSchema, notice)});
+    }
+  }
+
+  private async serve(request: IncomingMessage, response: ServerResponse): Promise<void> {
+    const path = normalize(new URL(request.url ?? "/", "http://x").pathname);
+    const file = /^\/(robots|scenes)\//.test(path) ? path : join("/web", path === "/" ? "index.html" : path);
+    try {
+      const bytes = await readFile(join(this.options.dataDir, file));
+      response.writeHead(200, {"Content-Type": kTypes[extname(file)] ?? "application/octet-stream"});
+      response.end(bytes);
+    } catch {
+      response.writeHead(404).end();
+    }
+  }
+
+  private welcome(socket: WebSocket): void {
+    const phone: Phone = {id: this.nextId++, name: "", isConnected: false, socket, states: false,
+                          pictures: false};
+    this.phones.add(phone);
+    socket.on("message", (data: Buffer) => this.receive(phone, fromBinary(pb.RequestSchema, data)));
+    socket.on("close", () => {
+      this.phones.delete(phone);
+      if (this.driverId === phone.id) this.setDriver(0);
+    });
+  }
+
+  private receive(phone: Phone, request: pb.Request): void {
+    this.received.push(request);
+    const {requestId} = request;
+    const answer = (error: pb.ErrorCode, message = "", result?: pb.Response["result"]): void =>
+        send(phone, {case: "response",
+                     value: create(pb.ResponseSchema, {requestId, error, message, result})});
+    const {useCase} = request;
+    if (useCase.case === "connect") return this.connect(phone, useCase.value, answer);
+    if (!phone.isConnected) return answer(pb.ErrorCode.NOT_CONNECTED, "Connect first.");
+    switch (useCase.case) {
+      case "subscribe":
+        phone.states = useCase.value.stateRate > 0;
+        phone.pictures = useCase.value.pictureRate > 0;
+        return answer(pb.ErrorCode.OK);
+      case "ping":
+        return answer(pb.ErrorCode.OK, "", {case: "pong", value: create(pb.PongSchema, {
+          clientUtime: useCase.value.clientUtime, numClients: this.phones.size})});
+      case "takeControl":
+        if (this.driverId !== 0 && this.driverId !== phone.id) {
+          return answer(pb.ErrorCode.CONTROL_TAKEN, `${this.nameOf(this.driverId)} drives.`,
+                        {case: "control", value: this.control(phone)});
+        }
+        this.setDriver(phone.id);
+        return answer(pb.ErrorCode.OK, "", {case: "control", value: this.control(phone)});
+      case "releaseControl":
+        if (this.driverId === phone.id) this.setDriver(0);
+        return answer(pb.ErrorCode.OK, "", {case: "control", value: this.control(phone)});
+      case "stop":
+        this.drive = {x: 0, y: 0, theta: 0};
+        return answer(pb.ErrorCode.OK);
+      default:
+        return this.move(phone, request, answer);
+    }
+  }
+
+  private move(phone: Phone, {useCase, requestId}: pb.Request,
+               answer: (error: pb.ErrorCode, message?: string) => void): void {
+    if (this.driverId !== phone.id) return answer(pb.ErrorCode.NO_CONTROL, "You do not drive.");
+    if (this.refuseNext) {
+      const {error, message} = this.refuseNext;
+      this.refuseNext = null;
+      return answer(error, message);
+    }
+    switch (useCase.case) {
+      case "walkTurn": {
+        const {x, y, theta} = useCase.value;
+        this.drive = {x, y, theta};
+        this.lastDriveMs = Date.now();
+        break;
+      }
+      case "goToPosture": {
+        const posture = this.options.postures[useCase.value.posture];
+        if (!posture) return answer(pb.ErrorCode.INVALID_ARGUMENT, "There is no such posture.");
+        this.options.joints.forEach(({name}, i) => this.target[i] = posture.angles[name] ?? 0);
+        this.height = posture.height;
+        this.posture = useCase.value.posture;
+        break;
+      }
+      case "changeJoints": {
+        const group = this.options.jointGroups.find(({name}) => name === useCase.value.group);
+        if (!group) return answer(pb.ErrorCode.INVALID_ARGUMENT, "There is no such joint group.");
+        this.turn(group.yawJoint, useCase.value.yaw);
+        this.turn(group.pitchJoint, useCase.value.pitch);
+        this.turn(group.rollJoint, useCase.value.roll);
+        this.posture = "";
+        break;
+      }
+      default: break;
+    }
+    answer(pb.ErrorCode.OK);
+    if (useCase.case === "goToPosture" || useCase.case === "doAction") {
+      send(phone, {case: "notice", value: create(pb.NoticeSchema, {
+        kind: pb.Notice_Kind.COMMAND_OUTCOME, requestId, outcome: pb.Notice_Outcome.ACCEPTED})});
+    }
+  }
+
+  private turn(joint: string | undefined, change: number): void {
+    const index = this.options.joints.findIndex(({name}) => name === joint);
+    const limits = this.options.joints[index];
+    if (!limits) return;
+    this.target[index] = Math.min(Math.max(this.target[index]! + change, limits.lower), limits.upper);
+  }
+
+  private connect(phone: Phone, {protocolVersion, token, clientName}: pb.Connect,
+                  answer: (error: pb.ErrorCode, message?: string,
+                           result?: pb.Response["result"]) => void): void {
+    if (protocolVersion !== 1) return answer(pb.ErrorCode.WRONG_VERSION, "This gateway speaks 1.");
+    if (token !== this.options.token) return answer(pb.ErrorCode.WRONG_TOKEN, "");
+    phone.name = clientName || `Phone ${phone.id}`;
+    phone.isConnected = true;
+    const {joints, jointGroups, postures, actions} = this.options;
+    answer(pb.ErrorCode.OK, "", {case: "connected", value: create(pb.ConnectedSchema, {
+      protocolVersion: 1, serverVersion: "fake", clientId: phone.id, clientName: phone.name,
+      control: this.control(phone),
+      robot: {name: "NAO", urdfPath: "/robots/nao/nao.urdf", joints, jointGroups, actions,
+              postures: Object.keys(postures), maxWalkX: 0.2, maxWalkY: 0.15, maxWalkTheta: 1},
+    })});
+  }
+
+  private control(phone: Phone): pb.Control {
+    return create(pb.ControlSchema, {driverId: this.driverId, driverName: this.nameOf(this.driverId),
+                                     isMine: this.driverId === phone.id});
+  }
+
+  private nameOf(id: number): string {
+    return [...this.phones].find((phone) => phone.id === id)?.name ?? "";
+  }
+
+  private setDriver(id: number): void {
+    this.driverId = id;
+    for (const phone of this.phones) {
+      if (!phone.isConnected) continue;
+      send(phone, {case: "notice", value: create(pb.NoticeSchema, {
+        kind: pb.Notice_Kind.CONTROL_CHANGED, control: this.control(phone)})});
+    }
+  }
+
+  private tick(): void {
+    const dt = kStatePeriodMs / 1000;
+    this.time += dt;
+    this.target.forEach((target, i) => {
+      const step = kJointSpeed * dt;
+      this.angle[i]! += Math.min(Math.max(target - this.angle[i]!, -step), step);
+    });
+    if (Date.now() - this.lastDriveMs > 500) this.drive = {x: 0, y: 0, theta: 0};
+    this.heading += this.drive.theta * dt;
+    const [c, s] = [Math.cos(this.heading), Math.sin(this.heading)];
+    this.x += 0.2 * (this.drive.x * c - this.drive.y * s) * dt;
+    this.y += 0.2 * (this.drive.x * s + this.drive.y * c) * dt;
+    const isWalking = this.drive.x !== 0 || this.drive.y !== 0 || this.drive.theta !== 0;
+    const state = create(pb.StateSchema, {
+      utime: BigInt(Math.round(this.time * 1e6)), ageMs: 4, jointPosition: this.angle,
+      torsoOrientation: [Math.cos(this.heading / 2), 0, 0, Math.sin(this.heading / 2)],
+      torsoPosition: [this.x, this.y, this.height],
+      mode: isWalking ? "walking" : this.mode, posture: isWalking ? "" : this.posture,
+      progress: -1, stiffness: 1,
+    });
+    for (const phone of this.phones) if (phone.states) send(phone, {case: "state", value: state});
+  }
+
+  private sendPicture(): void {
+    const jpeg = this.options.picture?.(this.time);
+    if (!jpeg) return;
+    const picture = create(pb.PictureSchema, {utime: BigInt(Math.round(this.time * 1e6)), ageMs: 20,
+                                              width: 320, height: 240, jpeg});
+    for (const phone of this.phones) {
+      if (phone.pictures) send(phone, {case: "picture", value: picture});
+    }
+  }
+}
+
+function send(phone: Phone, message: pb.ServerMessage["message"]): void {
+  phone.socket.send(toBinary(pb.ServerMessageSchema, create(pb.ServerMessageSchema, {message})));
+}

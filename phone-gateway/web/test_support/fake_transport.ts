@@ -1,0 +1,71 @@
+/** A transport in the hands of a test: it says when the link opens, speaks and breaks. */
+import {create, fromBinary, toBinary} from "@bufbuild/protobuf";
+import * as pb from "../src/protocol/generated/remote_pb";
+import type {Transport, TransportListener} from "../src/transport";
+
+export class FakeTransport implements Transport {
+  /** How often the app tried to connect. */
+  numOpens = 0;
+  readonly sent: pb.Request[] = [];
+  answers = false;
+  backlog = 0;
+  private listener: TransportListener | null = null;
+
+  open(listener: TransportListener): void {
+    this.numOpens++;
+    this.listener = listener;
+  }
+
+  send(bytes: Uint8Array): void {
+    this.sent.push(fromBinary(pb.RequestSchema, bytes));
+  }
+
+  close(): void {
+    this.listener = null;
+  }
+
+  backlogBytes(): number {
+    return this.backlog;
+  }
+
+  somethingAnswers(): Promise<boolean> {
+    return Promise.resolve(this.answers);
+  }
+
+  get isOpen(): boolean {
+    return this.listener !== null;
+  }
+
+  opened(): void {
+    this.listener?.opened();
+  }
+
+  broken(wasOpen: boolean): void {
+    const listener = this.listener;
+    this.listener = null;
+    listener?.closed(wasOpen);
+  }
+
+  receive(message: pb.ServerMessage["message"]): void {
+    this.listener?.received(toBinary(pb.ServerMessageSchema,
+                                     create(pb.ServerMessageSchema, {message})));
+  }
+
+  /** Answers the newest request of a kind. */
+  answer(useCase: pb.Request["useCase"]["case"], error = pb.ErrorCode.OK, message = "",
+         result?: pb.Response["result"]): void {
+    const request = this.sent.filter((one) => one.useCase.case === useCase).at(-1);
+    if (!request) throw new Error(`nobody asked for ${useCase}`);
+    const {requestId} = request;
+    this.receive({case: "response",
+                  value: create(pb.ResponseSchema, {requestId, error, message, result})});
+  }
+
+  /** Lets the app in as client 7. */
+  welcome(): void {
+    this.opened();
+    this.answer("connect", pb.ErrorCode.OK, "", {case: "connected", value: create(
+        pb.ConnectedSchema, {protocolVersion: 1, clientId: 7, clientName: "Ana",
+                             control: {driverId: 0}, robot: {name: "NAO"}})});
+  }
+}

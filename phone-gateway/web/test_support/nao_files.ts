@@ -1,0 +1,62 @@
+/** What the fake gateway must know of the robot, read from the robot's own files. */
+import {readFileSync} from "node:fs";
+import {join} from "node:path";
+import {DOMParser} from "@xmldom/xmldom";
+import {parseUrdf} from "../src/robot/urdf";
+import type {Urdf} from "../src/robot/urdf";
+import type {FakeGatewayOptions, FakePosture} from "./fake_gateway";
+
+/** @param folder  holds nao.urdf. */
+export function readUrdf(folder: string): Urdf {
+  const text = readFileSync(join(folder, "nao.urdf"), "utf8");
+  return parseUrdf(new DOMParser().parseFromString(text, "application/xml") as unknown as Document);
+}
+
+/** Motor joints in the URDF file's order. */
+export function readJoints(folder: string): FakeGatewayOptions["joints"] {
+  const order = [...readFileSync(join(folder, "nao.urdf"), "utf8").matchAll(/<joint name="(\w+)"/g)]
+      .map((match) => match[1]!);
+  return readUrdf(folder).joints
+      .filter((joint) => joint.type === "revolute" && !joint.mimic)
+      .sort((a, b) => order.indexOf(a.name) - order.indexOf(b.name))
+      .map(({name, lower, upper}) => ({name, lower, upper}));
+}
+
+/** Joint groups: lines like "- {name: head, yaw: HeadYaw, pitch: HeadPitch}" in robot.yaml. */
+export function readJointGroups(folder: string): FakeGatewayOptions["jointGroups"] {
+  const text = readFileSync(join(folder, "robot.yaml"), "utf8");
+  const section = text.slice(text.indexOf("joint_groups:")).split(/\n\s*\n/)[0]!;
+  return [...section.matchAll(/\{name: ([^,}]+)([^}]*)\}/g)].map((match) => ({
+    name: match[1]!,
+    yawJoint: /yaw: (\w+)/.exec(match[2]!)?.[1] ?? "",
+    pitchJoint: /pitch: (\w+)/.exec(match[2]!)?.[1] ?? "",
+    rollJoint: /roll: (\w+)/.exec(match[2]!)?.[1] ?? "",
+  }));
+}
+
+/** Torso heights over the ground of the standing postures, m; see docs/joints.md. */
+const kHeights: Record<string, number> = {
+  StandZero: 0.333, StandInit: 0.320, Stand: 0.3315, Crouch: 0.229, Sit: 0.11, SitRelax: 0.11,
+  LyingBack: 0.06, LyingBelly: 0.06,
+};
+
+/** Postures: list items that begin "- name: Crouch", with lines "Joint: angle", in postures.yaml. */
+export function readPostures(folder: string): Record<string, FakePosture> {
+  const postures: Record<string, FakePosture> = {};
+  const text = readFileSync(join(folder, "postures.yaml"), "utf8");
+  for (const block of text.split("- name: ").slice(1)) {
+    const name = /^\w+/.exec(block)![0];
+    const height = kHeights[name];
+    if (height === undefined) continue;
+    const angles = [...block.matchAll(/^ +(\w+): *(-?[\d.]+)$/gm)]
+        .map((match) => [match[1]!, Number(match[2])] as const);
+    postures[name] = {angles: Object.fromEntries(angles), height};
+  }
+  return postures;
+}
+
+/** Names in "actions: [kick-left, ...]" of robot.yaml. */
+export function readActions(folder: string): string[] {
+  const list = /^actions: \[([^\]]*)\]/m.exec(readFileSync(join(folder, "robot.yaml"), "utf8"));
+  return list?.[1]?.split(",").map((name) => name.trim()) ?? [];
+}

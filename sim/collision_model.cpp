@@ -1,0 +1,119 @@
+#include "sim/collision_model.h"
+
+#include <algorithm>
+#include <set>
+
+#include "common/collision_shape.h"
+
+namespace nao::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+/** Radius that a box's edges are rounded to, m: about that of the robot's shells. It is also how
+ * deep a box may be pressed before its inner box is touched. */
+constexpr double kEdgeRadius = 0.008;
+
+CollisionModel::Part part_of(const Shape& shape, const Link& link,
+                             const Eigen::Isometry3d& link_in_body) {
+  const RoundedBox box = rounded_box_in_link(link, shape, kEdgeRadius);
+  CollisionModel::Part part;
+  part.center_in_body = link_in_body * box.center;
+  part.rotation_in_body = link_in_body.linear() * box.rotation;
+  part.half = box.half;
+  part.radius = box.radius;
+  part.bounding_radius = part.half.norm() + part.radius;
+  return part;
+}
+
+double twice_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  const Eigen::Vector2d u = b - a;
+  const Eigen::Vector2d v = c - a;
+  return std::abs(u.x() * v.y() - u.y() * v.x());
+}
+
+/** Corners of a part's inner box: 1, 2 or 8 of them. */
+std::vector<Vector3d> corners_of(const CollisionModel::Part& part) {
+  std::set<std::vector<double>> distinct;
+  std::vector<Vector3d> corners;
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d local((i & 1 ? 1 : -1) * part.half.x(), (i & 2 ? 1 : -1) * part.half.y(),
+                         (i & 4 ? 1 : -1) * part.half.z());
+    const Vector3d corner = part.center_in_body + part.rotation_in_body * local;
+    if (distinct.insert({corner.x(), corner.y(), corner.z()}).second) corners.push_back(corner);
+  }
+  return corners;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> simplify_outline(std::vector<Eigen::Vector2d> outline, int count) {
+  while (static_cast<int>(outline.size()) > count) {
+    const size_t n = outline.size();
+    size_t least = 0;
+    double least_area = -1;
+    for (size_t i = 0; i < n; ++i) {
+      const double area = twice_area(outline[(i + n - 1) % n], outline[i], outline[(i + 1) % n]);
+      if (least_area >= 0 && area >= least_area) continue;
+      least_area = area;
+      least = i;
+    }
+    outline.erase(outline.begin() + static_cast<long>(least));
+  }
+  return outline;
+}
+
+CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int num_sole_points) {
+  const int sole_links[] = {model.left_sole(), model.right_sole()};
+  const std::vector<Eigen::Vector2d> outlines[] = {
+      simplify_outline(model.left_sole_outline(), num_sole_points),
+      simplify_outline(model.right_sole_outline(), num_sole_points)};
+  bool has_sole[] = {false, false};
+
+  for (size_t link = 0; link < model.links().size(); ++link) {
+    const int index = static_cast<int>(link);
+    for (const Shape& shape : model.links()[link].collisions) {
+      Part part = part_of(shape, model.links()[link], tree.pose_in_body(index));
+      part.link = index;
+      part.body = tree.body_of_link(index);
+      part.first_point = static_cast<int>(points.size());
+      int sole = -1;
+      for (int side = 0; side < 2; ++side) {
+        const bool is_sole = sole_links[side] >= 0 && !has_sole[side] &&
+                             tree.body_of_link(sole_links[side]) == part.body;
+        if (is_sole) sole = side;
+      }
+      double sole_height = 0;
+      if (sole >= 0) {
+        // The outline stands for the shape's lower side.
+        has_sole[sole] = true;
+        const Eigen::Isometry3d& pose = tree.pose_in_body(sole_links[sole]);
+        sole_height = pose.translation().z();
+        for (const Eigen::Vector2d& corner : outlines[sole]) {
+          const Vector3d in_body = pose * Vector3d(corner.x(), corner.y(), 0);
+          points.push_back({in_body, 0, sole});
+          const double reach = (in_body - part.center_in_body).norm();
+          part.bounding_radius = std::max(part.bounding_radius, reach);
+        }
+      }
+      for (const Vector3d& corner : corners_of(part)) {
+        if (sole >= 0 && corner.z() - part.radius < sole_height + 1e-3) continue;
+        points.push_back({corner, part.radius, -1});
+      }
+      part.end_point = static_cast<int>(points.size());
+      parts.push_back(part);
+    }
+  }
+
+  const auto& allowed = model.allowed_contacts();
+  for (size_t i = 0; i < parts.size(); ++i) {
+    for (size_t j = i + 1; j < parts.size(); ++j) {
+      if (parts[i].body == parts[j].body) continue;
+      const std::pair<int, int> links = std::minmax(parts[i].link, parts[j].link);
+      if (std::find(allowed.begin(), allowed.end(), links) != allowed.end()) continue;
+      self_pairs.emplace_back(i, j);
+    }
+  }
+}
+
+}  // namespace nao::sim

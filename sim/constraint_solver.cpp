@@ -1,0 +1,179 @@
+#include "sim/constraint_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nao::sim {
+
+void ConstraintSolver::reserve(int max_blocks, int max_rows, int max_entries) {
+  blocks_.reserve(max_blocks);
+  rows_.reserve(max_rows);
+  entries_.resize(max_entries);
+  dofs_.resize(max_entries);
+}
+
+void ConstraintSolver::clear() {
+  blocks_.clear();
+  rows_.clear();
+  num_entries_ = 0;
+}
+
+int ConstraintSolver::add_entries(int count) {
+  if (num_entries_ + count > static_cast<int>(entries_.size())) return -1;
+  const int first = num_entries_;
+  num_entries_ += count;
+  return first;
+}
+
+int ConstraintSolver::add_block(const ContactBlock& added) {
+  if (blocks_.size() == blocks_.capacity()) return -1;
+  ContactBlock block = added;
+  // The 3 x 3 block of J M^-1 J^T.
+  double nn = 0, xx = 0, xy = 0, yy = 0;
+  for (int i = 0; i < block.num_entries; ++i) {
+    const double* row = entries_[block.first_entry + i].row;
+    nn += row[0] * row[0];
+    xx += row[1] * row[1];
+    xy += row[1] * row[2];
+    yy += row[2] * row[2];
+  }
+  xx += block.tangent_softness;
+  yy += block.tangent_softness;
+  const double determinant = xx * yy - xy * xy;
+  block.normal_inverse = 1 / (nn + block.normal_softness);
+  block.tangent_inverse[0] = yy / determinant;
+  block.tangent_inverse[1] = -xy / determinant;
+  block.tangent_inverse[2] = xx / determinant;
+  // One over the greater eigenvalue.
+  const double mean = (xx + yy) / 2;
+  block.tangent_step = 1 / (mean + std::sqrt(std::max(0.0, mean * mean - determinant)));
+  blocks_.push_back(block);
+  return static_cast<int>(blocks_.size()) - 1;
+}
+
+int ConstraintSolver::add_row(const JointRow& row) {
+  if (rows_.size() == rows_.capacity()) return -1;
+  rows_.push_back(row);
+  const int index = static_cast<int>(rows_.size()) - 1;
+  replace_row(index, row);
+  return index;
+}
+
+void ConstraintSolver::replace_row(int index, const JointRow& other) {
+  const double impulse = rows_[index].impulse;
+  JointRow& row = rows_[index];
+  row = other;
+  row.impulse = impulse;
+  double diagonal = 0;
+  for (int i = 0; i < row.num_entries; ++i) {
+    const double y = entries_[row.first_entry + i].row[0];
+    diagonal += y * y;
+  }
+  row.inverse = 1 / (row.measure * row.apply * diagonal + row.softness);
+}
+
+void ConstraintSolver::warm_start(Eigen::VectorXd& z) const {
+  for (const ContactBlock& block : blocks_) {
+    for (int i = block.first_entry; i < block.first_entry + block.num_entries; ++i) {
+      const double* row = entries_[i].row;
+      z[dofs_[i]] +=
+          row[0] * block.impulse[0] + row[1] * block.impulse[1] + row[2] * block.impulse[2];
+    }
+  }
+  for (const JointRow& row : rows_) {
+    for (int i = row.first_entry; i < row.first_entry + row.num_entries; ++i) {
+      z[dofs_[i]] += entries_[i].row[0] * row.apply * row.impulse;
+    }
+  }
+}
+
+double ConstraintSolver::solve_block(ContactBlock& block, double normal_impulse, double* z) const {
+  const RowEntry* entries = &entries_[block.first_entry];
+  const int* dofs = &dofs_[block.first_entry];
+  double v[4] = {0, 0, 0, 0};
+  for (int i = 0; i < block.num_entries; ++i) {
+    const double value = z[dofs[i]];
+    for (int lane = 0; lane < 4; ++lane) v[lane] += entries[i].row[lane] * value;
+  }
+  double change[4] = {0, 0, 0, 0};
+  double bound = block.friction * normal_impulse;
+  if (block.is_rolling) {
+    const double limit = block.spinning * normal_impulse;
+    const double wished = block.impulse[0] - (v[0] + block.bias[0]) * block.normal_inverse;
+    change[0] = std::clamp(wished, -limit, limit) - block.impulse[0];
+  } else {
+    const double residual = v[0] + block.normal_softness * block.impulse[0] + block.bias[0];
+    const double wished = std::max(0.0, block.impulse[0] - residual * block.normal_inverse);
+    change[0] = wished - block.impulse[0];
+    bound = block.friction * wished;
+    // The tangents feel the new normal impulse.
+    double coupling[2] = {0, 0};
+    for (int i = 0; i < block.num_entries; ++i) {
+      const double scaled = entries[i].row[0] * change[0];
+      coupling[0] += entries[i].row[1] * scaled;
+      coupling[1] += entries[i].row[2] * scaled;
+    }
+    v[1] += coupling[0];
+    v[2] += coupling[1];
+  }
+  const double rx = v[1] + block.tangent_softness * block.impulse[1] + block.bias[1];
+  const double ry = v[2] + block.tangent_softness * block.impulse[2] + block.bias[2];
+  double x = block.impulse[1] - (block.tangent_inverse[0] * rx + block.tangent_inverse[1] * ry);
+  double y = block.impulse[2] - (block.tangent_inverse[1] * rx + block.tangent_inverse[2] * ry);
+  if (x * x + y * y > bound * bound) {
+    // It slides. The step above is oblique where inertia is not the same in all directions, and
+    // friction would not point against the motion: a step along the residual does.
+    const double step = block.tangent_step;
+    x = block.impulse[1] - step * rx;
+    y = block.impulse[2] - step * ry;
+    const double square = x * x + y * y;
+    if (square > bound * bound) {
+      const double scale = bound / std::sqrt(square);
+      x *= scale;
+      y *= scale;
+    }
+  }
+  change[1] = x - block.impulse[1];
+  change[2] = y - block.impulse[2];
+  for (int i = 0; i < block.num_entries; ++i) {
+    const double* row = entries[i].row;
+    z[dofs[i]] += row[0] * change[0] + row[1] * change[1] + row[2] * change[2];
+  }
+  for (int k = 0; k < 3; ++k) block.impulse[k] += change[k];
+  // In terms of velocity: how far the rows were from where they should be.
+  const double tangent = (std::abs(change[1]) + std::abs(change[2])) /
+                         std::max(block.tangent_inverse[0], block.tangent_inverse[2]);
+  return std::max(std::abs(change[0]) / block.normal_inverse, tangent);
+}
+
+double ConstraintSolver::solve_row(JointRow& row, double* z) const {
+  const RowEntry* entries = &entries_[row.first_entry];
+  const int* dofs = &dofs_[row.first_entry];
+  double velocity = 0;
+  for (int i = 0; i < row.num_entries; ++i) velocity += entries[i].row[0] * z[dofs[i]];
+  const double residual = row.measure * velocity + row.softness * row.impulse + row.bias;
+  const double wished = std::clamp(row.impulse - residual * row.inverse, row.lower, row.upper);
+  const double change = wished - row.impulse;
+  if (change == 0) return 0;
+  row.impulse = wished;
+  const double applied = row.apply * change;
+  for (int i = 0; i < row.num_entries; ++i) z[dofs[i]] += entries[i].row[0] * applied;
+  return std::abs(change) / row.inverse;
+}
+
+int ConstraintSolver::solve(Eigen::VectorXd& z, const Options& options) {
+  if (blocks_.empty() && rows_.empty()) return 0;
+  for (int sweep = 1; sweep <= options.max_sweeps; ++sweep) {
+    double worst = 0;
+    for (JointRow& row : rows_) worst = std::max(worst, solve_row(row, z.data()));
+    double normal_impulse = 0;
+    for (ContactBlock& block : blocks_) {
+      worst = std::max(worst, solve_block(block, normal_impulse, z.data()));
+      normal_impulse = block.impulse[0];
+    }
+    if (worst < options.tolerance) return sweep;
+  }
+  return options.max_sweeps;
+}
+
+}  // namespace nao::sim

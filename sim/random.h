@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace nao::sim {
+
+/** Random numbers that are the same on every machine and with every library.
+ *
+ * Generator: SplitMix64 (Steele, Lea, Flood 2014); normal deviates by Marsaglia's polar method. */
+class Random {
+ public:
+  explicit Random(uint64_t seed) : state_(seed) {}
+
+  uint64_t next() {
+    state_ += 0x9e3779b97f4a7c15u;
+    uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+
+  /** Between 0 (may occur) and 1 (does not). */
+  double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+  double uniform(double lower, double upper) { return lower + (upper - lower) * uniform(); }
+
+  /** Mean 0, standard deviation 1. */
+  double normal() {
+    if (has_spare_) {
+      has_spare_ = false;
+      return spare_;
+    }
+    double x, y, square;
+    do {
+      x = uniform(-1, 1);
+      y = uniform(-1, 1);
+      square = x * x + y * y;
+    } while (square >= 1 || square == 0);
+    const double scale = std::sqrt(-2 * std::log(square) / square);
+    spare_ = y * scale;
+    has_spare_ = true;
+    return x * scale;
+  }
+
+ private:
+  uint64_t state_;
+  double spare_ = 0;
+  bool has_spare_ = false;
+};
+
+}  // namespace nao::sim

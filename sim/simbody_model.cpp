@@ -1,0 +1,149 @@
+#include "sim/simbody_model.h"
+
+#include "common/error.h"
+
+namespace nao::sim {
+namespace {
+
+SimTK::Vec3 to_simbody(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+SimTK::Transform to_simbody(const Eigen::Isometry3d& pose) {
+  const Eigen::Matrix3d& m = pose.linear();
+  return {SimTK::Rotation(SimTK::Mat33(m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2),
+                                       m(2, 0), m(2, 1), m(2, 2))),
+          to_simbody(Eigen::Vector3d(pose.translation()))};
+}
+
+/** Mass properties about a body's origin, as Simbody wants them. */
+SimTK::MassProperties mass_of(const Link& link, const Eigen::Isometry3d& pose_in_body,
+                              double scale) {
+  const Eigen::Vector3d com = pose_in_body * link.center_of_mass;
+  const Eigen::Matrix3d i =
+      pose_in_body.linear() * link.inertia * pose_in_body.linear().transpose() * scale;
+  const double mass = link.mass * scale;
+  const SimTK::Inertia central(i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2));
+  return {mass, to_simbody(com), central.shiftFromMassCenter(-to_simbody(com), mass)};
+}
+
+SimTK::MassProperties sum(const SimTK::MassProperties& a, const SimTK::MassProperties& b) {
+  const double mass = a.getMass() + b.getMass();
+  return {mass, (a.getMass() * a.getMassCenter() + b.getMass() * b.getMassCenter()) / mass,
+          a.calcInertia() + b.calcInertia()};
+}
+
+/** Whether a joint belongs to a body's fixed part, seen from its parent link. */
+bool is_fixed(const Joint& joint) {
+  return joint.kind == Joint::Kind::kFixed;
+}
+
+}  // namespace
+
+SimbodyModel::SimbodyModel(const RobotModel& model, double mass_scale)
+    : robot_(model),
+      matter_(system_),
+      link_body_(model.links().size(), -1),
+      link_pose_(model.links().size(), Eigen::Isometry3d::Identity()) {
+  add_body(0, -1, -1, mass_scale);
+  for (const Body& body : bodies_) {
+    if (body.joint < 0) continue;
+    const Joint& joint = robot_.joints()[body.joint];
+    if (joint.mimic_joint < 0) continue;
+    const Joint& leader = robot_.joints()[joint.mimic_joint];
+    if (leader.parent_link != joint.parent_link) {
+      throw ModelError("joint " + joint.name + " follows " + leader.name +
+                       ", which hangs on another link; the physics can only couple joints of one");
+    }
+    const int leader_body = link_body_[leader.child_link];
+    // 0 = ratio * q_leader + offset - q_follower
+    SimTK::Vector coefficients(3);
+    coefficients[0] = joint.mimic_multiplier;
+    coefficients[1] = -1;
+    coefficients[2] = joint.mimic_offset;
+    SimTK::Array_<SimTK::MobilizedBodyIndex> coupled;
+    coupled.push_back(bodies_[leader_body].mobilized);
+    coupled.push_back(body.mobilized);
+    SimTK::Constraint::CoordinateCoupler(
+        matter_, new SimTK::Function::Linear(coefficients), coupled,
+        SimTK::Array_<SimTK::MobilizerQIndex>(2, SimTK::MobilizerQIndex(0)));
+  }
+  system_.realizeTopology();
+}
+
+double SimbodyModel::subtree_mass(int link) const {
+  double mass = robot_.links()[link].mass;
+  for (const Joint& joint : robot_.joints()) {
+    if (joint.parent_link == link) mass += subtree_mass(joint.child_link);
+  }
+  return mass;
+}
+
+void SimbodyModel::collect_fixed(int link, int body, const Eigen::Isometry3d& pose_in_body) {
+  link_body_[link] = body;
+  link_pose_[link] = pose_in_body;
+  for (const Joint& joint : robot_.joints()) {
+    if (joint.parent_link != link) continue;
+    if (is_fixed(joint) || subtree_mass(joint.child_link) == 0) {
+      collect_fixed(joint.child_link, body, pose_in_body * joint.pose_in_parent);
+    }
+  }
+}
+
+void SimbodyModel::add_body(int link, int parent, int joint_index, double mass_scale) {
+  const int index = static_cast<int>(bodies_.size());
+  collect_fixed(link, index, Eigen::Isometry3d::Identity());
+  SimTK::MassProperties mass(0, SimTK::Vec3(0), SimTK::Inertia(0));
+  for (size_t i = 0; i < link_body_.size(); ++i) {
+    const Link& part = robot_.links()[i];
+    if (link_body_[i] != index || part.mass == 0) continue;
+    const SimTK::MassProperties part_mass = mass_of(part, link_pose_[i], mass_scale);
+    mass = mass.getMass() == 0 ? part_mass : sum(mass, part_mass);
+  }
+  if (mass.getMass() <= 0) {
+    throw ModelError("link " + robot_.links()[link].name + " moves on its own but has no mass");
+  }
+
+  const SimTK::Body::Rigid rigid(mass);
+  Body body{link, parent, joint_index, {}};
+  if (parent < 0) {
+    body.mobilized =
+        SimTK::MobilizedBody::Free(matter_.Ground(), SimTK::Transform(), rigid, SimTK::Transform());
+  } else {
+    const Joint& joint = robot_.joints()[joint_index];
+    const Eigen::Isometry3d joint_in_body = link_pose_[joint.parent_link] * joint.pose_in_parent;
+    const SimTK::Rotation axis_to_z(SimTK::UnitVec3(to_simbody(joint.axis)), SimTK::ZAxis);
+    body.mobilized =
+        SimTK::MobilizedBody::Pin(matter_.updMobilizedBody(bodies_[parent].mobilized),
+                                  to_simbody(joint_in_body) * SimTK::Transform(axis_to_z), rigid,
+                                  SimTK::Transform(axis_to_z));
+  }
+  bodies_.push_back(body);
+
+  // Depth first, so that each limb's coordinates stand in a row.
+  for (size_t i = 0; i < robot_.joints().size(); ++i) {
+    const Joint& joint = robot_.joints()[i];
+    if (is_fixed(joint) || subtree_mass(joint.child_link) == 0) continue;
+    if (link_body_[joint.parent_link] == index) {
+      add_body(joint.child_link, index, static_cast<int>(i), mass_scale);
+    }
+  }
+}
+
+void SimbodyModel::set_state(const Tree& tree, const TreeState& from, SimTK::State& state) const {
+  const Eigen::Quaterniond& r = from.orientation;
+  SimTK::Vector q(7), u(6);
+  const double root_q[] = {
+      r.w(), r.x(), r.y(), r.z(), from.position.x(), from.position.y(), from.position.z()};
+  for (int i = 0; i < 7; ++i) q[i] = root_q[i];
+  for (int i = 0; i < 6; ++i) u[i] = from.velocity[i];
+  mobilized(0).setQFromVector(state, q);
+  mobilized(0).setUFromVector(state, u);
+  for (int i = 1; i < tree.num_bodies(); ++i) {
+    const TreeBody& body = tree.bodies()[i];
+    mobilized(i).setOneQ(state, 0, body.ratio * from.coordinate[body.dof] + body.offset);
+    mobilized(i).setOneU(state, 0, body.ratio * from.velocity[body.dof]);
+  }
+}
+
+}  // namespace nao::sim

@@ -1,0 +1,77 @@
+#pragma once
+
+#ifdef NDEBUG
+#error "Debian's Simbody is built without NDEBUG and lays SimTK::State out differently with it."
+#endif
+
+#include <Simbody.h>
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "common/robot_model.h"
+#include "sim/tree.h"
+
+namespace nao::sim {
+
+/** The robot as a Simbody multibody system: the one place where links and joints become bodies.
+ *
+ * Links that a fixed joint holds are part of the body that carries them, with their mass. A motor
+ * whose link (with all that hangs on it) has no mass, such as a hand's fingers, moves no body: it
+ * is an *opening*. A mimic joint is a pin of its own, coupled to the pin it follows by a
+ * constraint. The Tree that the physics steps is compiled from this system; tests ask it for the
+ * answers that the physics must reproduce.
+ *
+ * The only header of the project that includes Simbody, whose own headers are no C++20: sources
+ * that include it are compiled as C++17. */
+class SimbodyModel {
+ public:
+  struct Body {
+    /** Link whose frame is the body's frame. */
+    int link = -1;
+    /** Body index; -1 for the root. */
+    int parent = -1;
+    /** Joint that moves it, index into RobotModel::joints(); -1 for the root. */
+    int joint = -1;
+    SimTK::MobilizedBodyIndex mobilized;
+  };
+
+  /** @param mass_scale  Factor on every mass and inertia, above 0.
+   * @throws ModelError  if a mimic joint and the joint it follows hang on different links, or a
+   * body has no mass. */
+  explicit SimbodyModel(const RobotModel& model, double mass_scale = 1);
+  SimbodyModel(const SimbodyModel&) = delete;
+  SimbodyModel& operator=(const SimbodyModel&) = delete;
+
+  const RobotModel& robot() const { return robot_; }
+  /** Parents before children, each limb's bodies in a row; the first is the root. */
+  const std::vector<Body>& bodies() const { return bodies_; }
+  /** Body that carries a link, and the link's frame in it (openings at 0). */
+  int body_of_link(int link) const { return link_body_[link]; }
+  const Eigen::Isometry3d& pose_in_body(int link) const { return link_pose_[link]; }
+
+  const SimTK::MultibodySystem& system() const { return system_; }
+  const SimTK::SimbodyMatterSubsystem& matter() const { return matter_; }
+  const SimTK::MobilizedBody& mobilized(int body) const {
+    return matter_.getMobilizedBody(bodies_[body].mobilized);
+  }
+  /** State as realized to Stage::Model, root at the world's origin, all else 0. */
+  const SimTK::State& default_state() const { return system_.getDefaultState(); }
+
+  /** Writes a tree's position and velocity into a Simbody state. Mimic joints are filled in. */
+  void set_state(const Tree& tree, const TreeState& from, SimTK::State& state) const;
+
+ private:
+  void add_body(int link, int parent, int joint, double mass_scale);
+  void collect_fixed(int link, int body, const Eigen::Isometry3d& pose_in_body);
+  double subtree_mass(int link) const;
+
+  const RobotModel& robot_;
+  SimTK::MultibodySystem system_;
+  SimTK::SimbodyMatterSubsystem matter_;
+  std::vector<Body> bodies_;
+  std::vector<int> link_body_;
+  std::vector<Eigen::Isometry3d> link_pose_;
+};
+
+}  // namespace nao::sim

@@ -1,0 +1,94 @@
+#include "sim/tree.h"
+
+#include <map>
+
+#include "sim/simbody_model.h"
+
+namespace nao::sim {
+namespace {
+
+Eigen::Vector3d to_eigen(const SimTK::Vec3& v) {
+  return {v[0], v[1], v[2]};
+}
+
+Eigen::Matrix3d to_eigen(const SimTK::Mat33& m) {
+  Eigen::Matrix3d result;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) result(i, j) = m(i, j);
+  }
+  return result;
+}
+
+/** Numbers within rounding of 0 or +-1 are meant to be those: keeps mirror images exact. */
+double cleaned(double x) {
+  for (const double exact : {0.0, 1.0, -1.0}) {
+    if (std::abs(x - exact) < 1e-14) return exact;
+  }
+  return x;
+}
+
+}  // namespace
+
+Tree::Tree(const RobotModel& robot, double mass_scale) : Tree(SimbodyModel(robot, mass_scale)) {}
+
+Tree::Tree(const SimbodyModel& model) {
+  for (size_t link = 0; link < model.robot().links().size(); ++link) {
+    link_body_.push_back(model.body_of_link(static_cast<int>(link)));
+    link_pose_.push_back(model.pose_in_body(static_cast<int>(link)));
+  }
+  const SimTK::State& state = model.default_state();
+  std::map<int, int> dof_of_joint;
+  const std::vector<Joint>& joints = model.robot().joints();
+
+  dof_body_.assign(6, 0);
+  for (int dof = 0; dof < 6; ++dof) {
+    dof_ancestors_.emplace_back();
+    for (int above = 0; above < dof; ++above) dof_ancestors_[dof].push_back(above);
+  }
+  for (const SimbodyModel::Body& from : model.bodies()) {
+    const int index = num_bodies();
+    const SimTK::MobilizedBody& mobilized = model.mobilized(index);
+    const SimTK::MassProperties& mass = mobilized.getBodyMassProperties(state);
+    TreeBody body;
+    body.parent = from.parent;
+    body.joint = from.joint;
+    body.mass = mass.getMass();
+    body.center_of_mass = to_eigen(mass.getMassCenter());
+    body.inertia = to_eigen(SimTK::Mat33(mass.calcCentralInertia().toMat33()));
+    total_mass_ += body.mass;
+    if (body.parent < 0) {
+      body.chain = {0, 1, 2, 3, 4, 5};
+    } else {
+      // A pin turns about the z axis of its frame M on the body, which coincides with F on the
+      // parent at angle 0.
+      const SimTK::Transform& parent_F = mobilized.getInboardFrame(state);
+      const SimTK::Transform& body_M = mobilized.getOutboardFrame(state);
+      const SimTK::Transform parent_B = parent_F * ~body_M;
+      body.origin_in_parent = to_eigen(parent_B.p());
+      body.rotation_in_parent = to_eigen(SimTK::Mat33(parent_B.R().asMat33())).unaryExpr(&cleaned);
+      body.is_parallel = body.rotation_in_parent.isIdentity(0);
+      body.axis = to_eigen(SimTK::Vec3(body_M.z())).unaryExpr(&cleaned);
+
+      const Joint& joint = joints[from.joint];
+      int leader = from.joint;
+      if (joint.mimic_joint >= 0) {
+        leader = joint.mimic_joint;
+        body.ratio = joint.mimic_multiplier;
+        body.offset = joint.mimic_offset;
+      }
+      const std::vector<int>& parent_chain = bodies_[body.parent].chain;
+      const auto [entry, is_new] = dof_of_joint.try_emplace(leader, num_dofs());
+      body.dof = entry->second;
+      if (is_new) {
+        dof_ancestors_.push_back(parent_chain);
+        dof_body_.push_back(index);
+      }
+      if (joint.mimic_joint < 0) dof_body_[body.dof] = index;
+      body.chain = parent_chain;
+      body.chain.push_back(body.dof);
+    }
+    bodies_.push_back(std::move(body));
+  }
+}
+
+}  // namespace nao::sim

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "sim/constraint_solver.h"
+#include "sim/tree.h"
+
+namespace nao::sim {
+
+/** Mass, first moment and rotational inertia of a body about some origin, W's axes. */
+struct SpatialInertia {
+  double mass = 0;
+  /** mass times centre of mass, kg m. */
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  /** About the origin, kg m^2. */
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+
+  SpatialInertia& operator+=(const SpatialInertia& other) {
+    mass += other.mass;
+    moment += other.moment;
+    inertia += other.inertia;
+    return *this;
+  }
+};
+
+/** Angular and linear part of a motion or a force, about some origin, W's axes. */
+struct SpatialVector {
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+};
+
+/** Poses, mass matrix and bias forces of a tree in one state, and linear systems with its mass
+ * matrix. Everything is allocated in the constructor.
+ *
+ * Spatial vectors are expressed in W's axes about the root's origin as it is now ("O"), so that no
+ * quantity needs to be moved from body to body. Sources: R. Featherstone, Rigid Body Dynamics
+ * Algorithms (2008): recursive Newton-Euler table 5.1, composite rigid bodies table 6.2, sparse
+ * factorization L^T L table 6.3 and section 6.5. */
+class TreeDynamics {
+ public:
+  /** @param is_root_fixed  Whether the root is held fast: its accelerations are 0. */
+  explicit TreeDynamics(const Tree& tree, bool is_root_fixed = false);
+
+  /** Computes poses, axes and body velocities of a state. Call before everything else. */
+  void update_kinematics(const TreeState& state);
+  /** Computes body velocities anew, in the poses of the last update_kinematics(). */
+  void update_velocities(const TreeState& state);
+  /** Computes the mass matrix M, without motors. After update_kinematics(). */
+  void update_mass_matrix();
+  /** Forces that keep all accelerations 0 (Coriolis, centrifugal and gravity), N m and N,
+   * (num_dofs). After update_kinematics(). @param gravity  m/s^2, in W. */
+  void calc_bias(const Eigen::Vector3d& gravity, Eigen::VectorXd& bias);
+
+  /** result = M x, (num_dofs); M as in update_mass_matrix(). */
+  void multiply_by_mass(const Eigen::VectorXd& x, Eigen::VectorXd& result) const;
+  /** Factorizes M + diagonal = L^T L. @param diagonal  (num_dofs), not negative. */
+  void factorize(const Eigen::VectorXd& diagonal);
+  /** x := L^-T x and x := L^-1 x; one after the other solves (M + diagonal) y = x. */
+  void solve_upper(Eigen::VectorXd& x) const;
+  void solve_lower(Eigen::VectorXd& x) const;
+
+  /** Adds three constraint rows on a body's motion to `entries`: sign * J^T, where J maps the
+   * body's chain to the velocity of the point at `point`, W, along the columns of `directions`
+   * (angular: to its angular velocity about them).
+   * @param entries  One for each dof of the body's chain, or of the superset of it that `position`
+   *   maps dofs to. */
+  void add_jacobian(int body, const Eigen::Vector3d& point, const Eigen::Matrix3d& directions,
+                    double sign, const int* position, RowEntry* entries) const;
+  /** entries := L^-T entries. @param dofs  Rising, with every dof's ancestors among them. */
+  void solve_upper(const int* dofs, int count, const int* position, RowEntry* entries) const;
+  double mass_matrix(int row, int column) const;
+
+  /** Body frame B in W: rotation and origin, m. */
+  const Eigen::Matrix3d& rotation(int body) const { return bodies_[body].rotation; }
+  const Eigen::Vector3d& position(int body) const { return bodies_[body].position; }
+  Eigen::Isometry3d pose(int body) const;
+  /** Centre of mass in W, m. */
+  Eigen::Vector3d body_center_of_mass(int body) const { return origin_ + bodies_[body].com_from_O; }
+  /** Velocity of the point fixed to a body that is at `point` now; both in W. */
+  Eigen::Vector3d velocity_at(int body, const Eigen::Vector3d& point) const {
+    const SpatialVector& v = bodies_[body].velocity;
+    return v.linear + v.angular.cross(point - origin_);
+  }
+  const Eigen::Vector3d& angular_velocity(int body) const { return bodies_[body].velocity.angular; }
+  const Eigen::Vector3d& origin() const { return origin_; }
+  /** Motion of a body per unit of its joint's dof. Bodies other than the root. */
+  const SpatialVector& motion(int body) const { return bodies_[body].motion; }
+
+  /** Momentum of the whole tree about O. */
+  SpatialVector momentum() const;
+  /** Gives the root, and all that hangs on it, the additional motion that brings the whole tree's
+   * momentum about O to a value; joints keep their speeds. Writes the root's new velocity. */
+  void set_momentum(const SpatialVector& momentum, Eigen::VectorXd& velocity);
+
+  /** Of the whole tree: centre of mass, m; linear momentum, N s; angular momentum about the centre
+   * of mass, N m s; kinetic energy, J, without motors' rotors. All in W. */
+  Eigen::Vector3d center_of_mass() const;
+  Eigen::Vector3d linear_momentum() const;
+  Eigen::Vector3d angular_momentum() const;
+  double kinetic_energy() const;
+
+ private:
+  struct BodyState {
+    Eigen::Matrix3d rotation;
+    Eigen::Vector3d position;
+    Eigen::Vector3d com_from_O;
+    SpatialVector motion;
+    double rate = 0;
+    SpatialVector velocity;
+    SpatialInertia inertia;
+    SpatialInertia composite;
+    SpatialVector acceleration;
+    SpatialVector force;
+  };
+
+  const Tree& tree_;
+  bool is_root_fixed_;
+  int num_dofs_;
+  int stride_;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  std::vector<BodyState> bodies_;
+  /** Lower triangles, row by row; entries outside the tree's pattern stay 0. */
+  std::vector<double> mass_;
+  std::vector<double> factor_;
+  /** Ancestors of each dof beyond the root's six, rising. */
+  std::vector<std::vector<int>> joint_ancestors_;
+};
+
+}  // namespace nao::sim

@@ -1,0 +1,67 @@
+#include "common/bus.h"
+
+#include <gtest/gtest.h>
+
+#include <naolcm/posture_command_t.hpp>
+#include <naolcm/stop_command_t.hpp>
+#include <stdexcept>
+
+#include "common/error.h"
+
+namespace nao {
+namespace {
+
+TEST(Bus, DeliversAMessageWhole) {
+  Bus bus("memq://");
+  naolcm::posture_command_t received;
+  bus.subscribe<naolcm::posture_command_t>(
+      "POSTURE", Bus::Queue::kAll,
+      [&](const naolcm::posture_command_t& message) { received = message; });
+  naolcm::posture_command_t sent;
+  sent.wall_utime = 1;
+  sent.source = "test";
+  sent.command_id = 7;
+  sent.posture = "Crouch";
+  sent.speed = 0.5;
+  bus.publish("POSTURE", sent);
+  ASSERT_TRUE(bus.handle_for(1.0));
+  EXPECT_EQ(received.posture, "Crouch");
+  EXPECT_EQ(received.command_id, 7);
+  EXPECT_EQ(received.speed, 0.5);
+  EXPECT_EQ(bus.counters().num_in, 1);
+  EXPECT_EQ(bus.counters().num_out, 1);
+}
+
+TEST(Bus, DropsAndCountsAMessageOfAnotherType) {
+  Bus bus("memq://");
+  int num_received = 0;
+  bus.subscribe<naolcm::posture_command_t>(
+      "POSTURE", Bus::Queue::kAll, [&](const naolcm::posture_command_t&) { ++num_received; });
+  naolcm::stop_command_t other;
+  other.wall_utime = 0;
+  other.command_id = 1;
+  bus.publish("POSTURE", other);
+  bus.handle_for(1.0);
+  EXPECT_EQ(num_received, 0);
+  EXPECT_EQ(bus.counters().num_dropped, 1);
+}
+
+TEST(Bus, SurvivesAHandlerThatThrows) {
+  Bus bus("memq://");
+  bus.subscribe<naolcm::stop_command_t>(
+      "STOP", Bus::Queue::kAll,
+      [](const naolcm::stop_command_t&) { throw std::runtime_error("no"); });
+  naolcm::stop_command_t message;
+  message.wall_utime = 0;
+  message.command_id = 1;
+  bus.publish("STOP", message);
+  bus.handle_for(1.0);
+  EXPECT_EQ(bus.counters().num_dropped, 1);
+}
+
+TEST(Bus, SaysWhatIsWrongWithAnAddressItCannotOpen) {
+  EXPECT_THROW(Bus("nonsense://here"), BusError);
+}
+
+}  // namespace
+}  // namespace nao

@@ -1,0 +1,47 @@
+#include "common/event_loop.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+
+namespace nao {
+namespace {
+
+TEST(EventLoop, EndsOnSigtermAndSaysSo) {
+  EventLoop loop;
+  loop.every(0.001, [] { kill(getpid(), SIGTERM); });
+  EXPECT_EQ(loop.run(), "SIGTERM");
+}
+
+TEST(EventLoop, CallsTheHandlerOfAReadableDescriptor) {
+  EventLoop loop;
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  ASSERT_EQ(write(ends[1], "x", 1), 1);
+  char received = 0;
+  loop.on_readable(ends[0], [&] {
+    ASSERT_EQ(read(ends[0], &received, 1), 1);
+    loop.stop("read");
+  });
+  EXPECT_EQ(loop.run(), "read");
+  EXPECT_EQ(received, 'x');
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST(EventLoop, CallsATimerOnceForManyMissedPeriods) {
+  EventLoop loop;
+  int num_calls = 0;
+  loop.every(0.001, [&] {
+    ++num_calls;
+    if (num_calls == 1) usleep(20'000);
+    if (num_calls == 3) loop.stop("enough");
+  });
+  EXPECT_EQ(loop.run(), "enough");
+  EXPECT_EQ(num_calls, 3);
+}
+
+}  // namespace
+}  // namespace nao

@@ -1,0 +1,212 @@
+#include "head_camera_daemon.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <naolcm/daemon_status_t.hpp>
+
+#include "common/data_path.h"
+#include "common/error.h"
+#include "common/wall_clock.h"
+#include "truth.h"
+
+namespace nao {
+namespace {
+
+/** A camera on a bus of its own, and what it sends. */
+class HeadCameraDaemonTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    model_ = new RobotModel(RobotModel::load(data_path() / "robots" / "nao"));
+  }
+  static void TearDownTestSuite() { delete model_; }
+
+  HeadCameraDaemonTest() : bus_("memq://"), daemon_(bus_, *model_, {}) {
+    bus_.subscribe<naolcm::image_t>(
+        "NAO_HEAD_CAMERA_IMAGE", Bus::Queue::kAll,
+        [this](const naolcm::image_t& image) { images_.push_back(image); });
+    bus_.subscribe<naolcm::daemon_status_t>(
+        kDaemonStatusChannel, Bus::Queue::kAll,
+        [this](const naolcm::daemon_status_t& status) { status_ = status; });
+    truth_ = make_truth(*model_, "StandInit", 0.32);
+  }
+
+  void watch(const std::string& camera, int width, double rate = 30, int quality = 0) {
+    naolcm::camera_command_t command{};
+    command.source = "test";
+    command.camera = camera;
+    command.width = width;
+    command.rate = rate;
+    command.quality = quality;
+    bus_.publish("NAO_HEAD_CAMERA_COMMAND", command);
+  }
+
+  /** The next state of the world arrives, and the camera takes one turn. */
+  void turn() {
+    truth_.utime += 33000;
+    bus_.publish(kWorldTruthChannel, truth_);
+    deliver();
+    daemon_.step(monotonic_seconds());
+    deliver();
+  }
+
+  void deliver() {
+    while (bus_.handle_for(0)) {
+    }
+  }
+
+  static RobotModel* model_;
+  Bus bus_;
+  HeadCameraDaemon daemon_;
+  naolcm::world_truth_t truth_;
+  std::vector<naolcm::image_t> images_;
+  naolcm::daemon_status_t status_;
+};
+
+RobotModel* HeadCameraDaemonTest::model_ = nullptr;
+
+TEST_F(HeadCameraDaemonTest, SaysThatItWaitsUntilTheWorldIsThere) {
+  daemon_.publish_status();
+  deliver();
+  EXPECT_EQ(status_.state, "waiting");
+  turn();
+  EXPECT_EQ(status_.state, "ready");
+}
+
+TEST_F(HeadCameraDaemonTest, DrawsNothingWhileNobodyWatches) {
+  for (int i = 0; i < 5; ++i) turn();
+  EXPECT_TRUE(images_.empty());
+  EXPECT_EQ(daemon_.num_frames(), 0);
+}
+
+TEST_F(HeadCameraDaemonTest, SendsWhatIsWatched) {
+  watch("top", 640);
+  watch("top", 160);
+  watch("bottom", 320);
+  turn();
+  ASSERT_EQ(images_.size(), 3u);
+  EXPECT_EQ(daemon_.num_frames(), 2);  // one for each camera, whatever the number of sizes
+  for (const naolcm::image_t& image : images_) {
+    EXPECT_EQ(image.utime, truth_.utime);
+    EXPECT_EQ(image.height * 4, image.width * 3);
+    EXPECT_EQ(image.format, "jpeg");
+    ASSERT_GT(image.size_bytes, 500);
+    EXPECT_EQ(image.data[0], 0xff);  // start of a JPEG file
+    EXPECT_EQ(image.data[1], 0xd8);
+    EXPECT_LT(image.getEncodedSize(), 65000);
+    EXPECT_NEAR(image.fx / image.width, 544.34 / 640, 1e-4);  // camera.csv of the V5
+    EXPECT_DOUBLE_EQ(image.cx, (image.width - 1) / 2.0);
+  }
+}
+
+TEST_F(HeadCameraDaemonTest, TellsWhereTheCameraIs) {
+  watch("top", 640);
+  turn();
+  ASSERT_EQ(images_.size(), 1u);
+  const auto poses = model_->link_poses(truth_.robots[0].joint_position);
+  const Eigen::Isometry3d& pose = poses[model_->find_link("CameraTop")];
+  const Eigen::Map<const Eigen::Vector3d> position(images_[0].position_camera_in_world);
+  EXPECT_LT((position - pose.translation() - Eigen::Vector3d(0, 0, 0.32)).norm(), 1e-9);
+  const double* q = images_[0].orientation_camera_in_world;
+  EXPECT_LT(
+      Eigen::Quaterniond(q[0], q[1], q[2], q[3]).angularDistance(Eigen::Quaterniond(pose.linear())),
+      1e-9);
+}
+
+TEST_F(HeadCameraDaemonTest, ObeysTheQualityWishedFor) {
+  watch("top", 640, 30, 20);
+  turn();
+  watch("top", 640, 30, 90);
+  turn();
+  ASSERT_EQ(images_.size(), 2u);
+  EXPECT_GT(images_[1].size_bytes, 1.3 * images_[0].size_bytes);
+}
+
+TEST_F(HeadCameraDaemonTest, NeverGoesBackInTime) {
+  watch("top", 160);
+  turn();
+  naolcm::world_truth_t overtaken = truth_;
+  overtaken.utime -= 10000;
+  bus_.publish(kWorldTruthChannel, overtaken);
+  deliver();
+  turn();
+  ASSERT_EQ(images_.size(), 2u);
+  EXPECT_GT(images_[1].utime, images_[0].utime);
+  EXPECT_GE(bus_.counters().num_dropped, 1);
+}
+
+TEST_F(HeadCameraDaemonTest, FollowsAWorldThatStartsAnew) {
+  truth_.utime = 100000000;
+  watch("top", 160);
+  turn();
+  truth_.utime = 0;
+  turn();
+  ASSERT_EQ(images_.size(), 2u);
+  EXPECT_EQ(images_[1].utime, 33000);
+}
+
+TEST_F(HeadCameraDaemonTest, DoesNotRepeatAStateThatStandsStill) {
+  watch("top", 160);
+  turn();
+  for (int i = 0; i < 5; ++i) {
+    truth_.utime -= 33000;
+    turn();
+  }
+  EXPECT_EQ(images_.size(), 1u);
+}
+
+TEST_F(HeadCameraDaemonTest, RefusesABadStateAndKeepsTheLastGoodOne) {
+  watch("top", 160);
+  turn();
+  const naolcm::world_truth_t good = truth_;
+  const auto expect_refused = [&](const char* what) {
+    const int64_t num_dropped = bus_.counters().num_dropped;
+    truth_.utime += 33000;
+    bus_.publish(kWorldTruthChannel, truth_);
+    deliver();
+    EXPECT_EQ(bus_.counters().num_dropped, num_dropped + 1) << what;
+    truth_ = good;
+  };
+  truth_.robots[0].joint_names[3] = "Tail";
+  expect_refused("unknown joint");
+  truth_.robots[0].joint_position[3] = std::numeric_limits<double>::quiet_NaN();
+  expect_refused("angle that is no number");
+  truth_.robots[0].position_torso_in_world[0] = std::numeric_limits<double>::infinity();
+  expect_refused("infinite position");
+  truth_.robots[0].orientation_torso_in_world[0] = 0;
+  expect_refused("quaternion of length 0");
+  truth_.position_ball_in_world[1] = std::numeric_limits<double>::quiet_NaN();
+  expect_refused("ball that is nowhere");
+  turn();
+  EXPECT_EQ(images_.size(), 2u);
+}
+
+TEST_F(HeadCameraDaemonTest, RefusesAWishThatCannotBeMet) {
+  const int64_t num_dropped = bus_.counters().num_dropped;
+  watch("rear", 640);
+  watch("top", 1280);
+  watch("top", 640, 1000);
+  turn();
+  EXPECT_EQ(bus_.counters().num_dropped, num_dropped + 3);
+  EXPECT_TRUE(images_.empty());
+}
+
+TEST_F(HeadCameraDaemonTest, WaitsForItsOwnRobot) {
+  truth_.robots[0].robot = "OTHER";
+  watch("top", 160);
+  turn();
+  EXPECT_TRUE(images_.empty());
+  EXPECT_EQ(status_.state, "waiting");
+  EXPECT_THAT(status_.detail, testing::HasSubstr("no robot NAO"));
+}
+
+TEST_F(HeadCameraDaemonTest, DrawsAPlainFloorForASceneItDoesNotKnow) {
+  truth_.scene = "moon";
+  watch("top", 160);
+  turn();
+  EXPECT_EQ(images_.size(), 1u);
+}
+
+}  // namespace
+}  // namespace nao

@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "motion/actions/kick.h"
+#include "nao-trial/trial.h"
+
+namespace nao::trial {
+namespace {
+
+using motion::ResultStatus;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::filesystem::path data() {
+  return NAO_TEST_DATA;
+}
+
+Trial make_trial(uint64_t seed) {
+  static const auto model =
+      std::make_shared<const RobotModel>(RobotModel::load(data() / "robots" / "nao"));
+  TrialOptions options;
+  options.model = model;
+  options.scene = SceneFile::load(data() / "scenes" / "soccer.yaml");
+  return Trial(options, seed);
+}
+
+/** Kicks a ball that lies well. @return Its way, m, in W; the robot looks along x. */
+Eigen::Vector2d kick(Trial& trial, bool is_left, double strength) {
+  const auto sole = [&](int link) {
+    return Eigen::Vector3d(trial.world().robot(0).link_pose(link).translation());
+  };
+  const Eigen::Vector3d middle =
+      0.5 * (sole(trial.model().left_sole()) + sole(trial.model().right_sole()));
+  const double aside = is_left ? 0.05 : -0.05;
+  trial.world().place_ball({middle.x() + 0.18, middle.y() + aside, 0}, Eigen::Vector3d::Zero());
+  trial.run(0.5);
+  const Eigen::Vector3d start = trial.world().ball().position;
+  const int64_t id = trial.send(
+      {"", 0, motion::ActionCommand{is_left ? "kick-left" : "kick-right", kNan, kNan, strength}});
+  const auto end = trial.await_end(id, 10);
+  EXPECT_TRUE(end);
+  if (end) {
+    EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+  }
+  trial.run(4);
+  return (trial.world().ball().position - start).head<2>();
+}
+
+TEST(Kick, SendsTheBallMetresAndLeavesTheRobotStanding) {
+  for (const bool is_left : {true, false}) {
+    Trial trial = make_trial(is_left ? 1 : 2);
+    const Eigen::Vector2d way = kick(trial, is_left, kNan);
+    EXPECT_GT(way.x(), 2);
+    EXPECT_LT(std::abs(std::atan2(way.y(), way.x())), 0.2);
+    EXPECT_LT(trial.torso_tilt(), 0.2);
+    EXPECT_EQ(trial.core().motion_state().posture, "StandInit");
+  }
+}
+
+TEST(Kick, IsGentlerWithLessStrength) {
+  Trial strong = make_trial(3);
+  Trial gentle = make_trial(3);
+  EXPECT_LT(kick(gentle, true, 0.05).norm(), 0.8 * kick(strong, true, 1.0).norm());
+}
+
+TEST(Kick, RefusesABallOutOfReachAndSaysWhereItMayLie) {
+  Trial trial = make_trial(4);
+  trial.run(0.5);
+  const int64_t id = trial.send({"", 0, motion::ActionCommand{"kick-left", 0.5, 0.05, kNan}});
+  const auto end = trial.await_end(id, 1);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->status, ResultStatus::kRefused);
+  EXPECT_NE(end->reason.find("out of reach"), std::string::npos) << end->reason;
+}
+
+TEST(Kick, APostureWaitsUntilBothFeetStand) {
+  Trial trial = make_trial(5);
+  trial.run(0.5);
+  const int64_t id = trial.send({"", 0, motion::ActionCommand{"kick-left", kNan, kNan, kNan}});
+  trial.run(0.8);
+  const int64_t posture = trial.send_posture("Crouch", 0.5);
+  const auto end = trial.await_end(posture, 15);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+  EXPECT_LT(trial.torso_tilt(), 0.3);
+  EXPECT_TRUE(trial.await_end(id, 0));
+}
+
+}  // namespace
+}  // namespace nao::trial

@@ -1,0 +1,57 @@
+#include "motion/message_conversion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "common/error.h"
+#include "sensor_message.h"
+
+namespace nao::motion {
+namespace {
+
+TEST(MessageConversion, ReadsJointsByNameInAnyOrder) {
+  naolcm::sensor_state_t message = sensor_message("StandInit", 7);
+  std::reverse(message.joint_names.begin(), message.joint_names.end());
+  std::reverse(message.joint_position.begin(), message.joint_position.end());
+  const Sensors sensors = to_sensors(nao_model(), message);
+  EXPECT_EQ(sensors.position, nao_model().find_posture("StandInit")->position);
+  EXPECT_EQ(sensors.tick, 7);
+}
+
+TEST(MessageConversion, RefusesIncompleteAndBrokenSensorStates) {
+  const auto refuses = [](auto&& spoil) {
+    naolcm::sensor_state_t message = sensor_message("StandInit", 0);
+    spoil(message);
+    EXPECT_THROW(to_sensors(nao_model(), message), Error);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refuses([](auto& m) { m.joint_names[3] = "Tail"; });
+  refuses([](auto& m) { m.joint_names[3] = m.joint_names[4]; });
+  refuses([](auto& m) { --m.num_joints; });
+  refuses([&](auto& m) { m.joint_position[0] = nan; });
+  refuses([&](auto& m) { m.joint_velocity[0] = nan; });
+  refuses([&](auto& m) { m.joint_torque[0] = nan; });
+  refuses([&](auto& m) { m.gyroscope_torso[1] = nan; });
+  refuses([&](auto& m) { m.accelerometer_torso[1] = nan; });
+  refuses([](auto& m) { m.orientation_torso_in_world[0] = 0; });
+  refuses([](auto& m) { m.foot_sensor_names[0] = "Nose"; });
+  refuses([](auto& m) { --m.num_foot_sensors; });
+  refuses([&](auto& m) { m.foot_force[2] = nan; });
+}
+
+TEST(MessageConversion, JointCommandAnswersTheTick) {
+  JointTargets targets{{0.1}, {0}, {1}};
+  RobotState state;
+  state.tick = 42;
+  state.utime = 420000;
+  const auto message = to_message(targets, state, {"HeadYaw"});
+  EXPECT_EQ(message.tick, 42);
+  EXPECT_EQ(message.utime, 420000);
+  EXPECT_EQ(message.num_joints, 1);
+  EXPECT_EQ(message.joint_position.at(0), 0.1);
+}
+
+}  // namespace
+}  // namespace nao::motion

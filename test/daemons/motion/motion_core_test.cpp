@@ -1,0 +1,315 @@
+#include "motion/motion_core.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+
+#include "perfect_robot.h"
+
+namespace nao::motion {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Command posture(int64_t id, const std::string& name, double speed = 0.5) {
+  return {"test", id, PostureCommand{name, speed}};
+}
+
+Command joint_change(int64_t id, std::vector<std::string> names, std::vector<double> angles,
+                     bool is_relative = false, double speed = 1) {
+  return {"test", id,
+          JointChangeCommand{std::move(names), std::move(angles), is_relative, speed, false}};
+}
+
+bool is_final(ResultStatus status) {
+  return status != ResultStatus::kAccepted;
+}
+
+class MotionCoreTest : public ::testing::Test {
+ protected:
+  CommandResult refused(const Command& command) {
+    const Output output = robot_.step(core_, {command});
+    EXPECT_EQ(output.results.size(), 1u);
+    EXPECT_EQ(output.results.at(0).status, ResultStatus::kRefused);
+    return output.results.at(0);
+  }
+
+  MotionCore core_{nao_model(), MotionOptions()};
+  PerfectRobot robot_;
+};
+
+TEST_F(MotionCoreTest, TakesOverWithoutAJumpAndGoesToStandInit) {
+  auto& position = robot_.sensors().position;
+  position = nao_model().find_posture("StandZero")->position;
+  position[nao_model().find_motor("LShoulderPitch")] = 0.4;
+  std::vector<double> last = position;
+  for (int i = 0; i < 1000; ++i) {
+    const Output output = robot_.step(core_);
+    for (int motor = 0; motor < nao_model().num_motors(); ++motor) {
+      const double step = std::abs(output.joint_targets->position[motor] - last[motor]);
+      EXPECT_LE(step, nao_model().motor_joint(motor).max_velocity * 0.01 * (1 + 1e-9));
+    }
+    last = output.joint_targets->position;
+  }
+  EXPECT_EQ(core_.motion_state().mode, Mode::kHolding);
+  EXPECT_EQ(core_.motion_state().posture, "StandInit");
+  EXPECT_EQ(last, nao_model().find_posture("StandInit")->position);
+}
+
+TEST_F(MotionCoreTest, KeepsAKnownPostureWhenItTakesOver) {
+  robot_ = PerfectRobot("Crouch");
+  robot_.settle(core_);
+  EXPECT_EQ(core_.motion_state().posture, "Crouch");
+}
+
+TEST_F(MotionCoreTest, GoesToEachPostureOnItsFeet) {
+  robot_.settle(core_);
+  int64_t id = 0;
+  for (const char* name : {"Crouch", "StandZero", "Stand", "Crouch", "StandInit"}) {
+    const Output output = robot_.step(core_, {posture(++id, name)});
+    ASSERT_EQ(output.results.size(), 1u);
+    EXPECT_EQ(output.results[0].status, ResultStatus::kAccepted);
+    EXPECT_EQ(core_.motion_state().mode, Mode::kMoving);
+    EXPECT_EQ(core_.motion_state().command, "posture");
+    EXPECT_EQ(core_.motion_state().command_detail, name);
+    const auto results = robot_.settle(core_);
+    ASSERT_EQ(results.size(), 1u);
+    EXPECT_EQ(results[0].status, ResultStatus::kDone);
+    EXPECT_EQ(results[0].id, id);
+    EXPECT_EQ(core_.motion_state().posture, name);
+  }
+}
+
+TEST_F(MotionCoreTest, RefusesNonsenseWithASentence) {
+  robot_.settle(core_);
+  const std::vector<double> before = robot_.sensors().position;
+  EXPECT_NE(refused(posture(1, "Lotus")).reason.find("\"Lotus\""), std::string::npos);
+  EXPECT_NE(refused(posture(2, "Stand", 0)).reason.find("speed"), std::string::npos);
+  refused(posture(3, "Stand", 1.01));
+  refused(posture(4, "Stand", kNan));
+  EXPECT_NE(refused(joint_change(5, {"Tail"}, {1})).reason.find("Tail"), std::string::npos);
+  EXPECT_NE(refused(joint_change(6, {"HeadYaw"}, {kNan})).reason.find("HeadYaw"),
+            std::string::npos);
+  refused(joint_change(7, {"HeadYaw", "HeadPitch"}, {1}));
+  refused(joint_change(8, {}, {}));
+  refused(joint_change(9, {"HeadYaw", "HeadYaw"}, {1, 1}));
+  refused(joint_change(10, {"RHipYawPitch"}, {0.1}));
+  refused(joint_change(11, {"LSoleFixed"}, {0.1}));
+  refused({"test", 12, ActionCommand{"fly", kNan, kNan, kNan}});
+  refused({"test", 13, ActionCommand{"kick-left", kNan, kNan, 2}});
+  refused({"test", 14, WalkCommand{kNan, 0, 0}});
+  refused({"test", 15, MoveToCommand{0, std::numeric_limits<double>::infinity(), 0}});
+  refused({"test", 0, StopCommand{}});
+  refused({"", 1, StopCommand{}});
+  refused({std::string(70, 'x'), 1, StopCommand{}});
+  EXPECT_FALSE(core_.motion_state().last_refusal.empty());
+  EXPECT_EQ(robot_.sensors().position, before);
+}
+
+TEST_F(MotionCoreTest, AnswersARepetitionAgainAndActsOnce) {
+  robot_.settle(core_);
+  const Command nod = joint_change(1, {"HeadPitch"}, {0.2}, true);
+  EXPECT_EQ(robot_.step(core_, {nod, nod}).results.size(), 2u);
+  robot_.settle(core_);
+  const Output output = robot_.step(core_, {nod});
+  ASSERT_EQ(output.results.size(), 1u);
+  EXPECT_EQ(output.results[0].status, ResultStatus::kDone);
+  robot_.settle(core_);
+  EXPECT_NEAR(robot_.sensors().position[nao_model().find_motor("HeadPitch")], 0.2, 1e-9);
+}
+
+TEST_F(MotionCoreTest, NewerCommandInterruptsTheOlder) {
+  robot_.settle(core_);
+  robot_.step(core_, {posture(1, "Crouch", 0.2)});
+  for (int i = 0; i < 20; ++i) robot_.step(core_);
+  const Output output = robot_.step(core_, {posture(2, "StandZero")});
+  ASSERT_EQ(output.results.size(), 2u);
+  EXPECT_EQ(output.results[0].status, ResultStatus::kAccepted);
+  EXPECT_EQ(output.results[0].id, 2);
+  EXPECT_EQ(output.results[1].status, ResultStatus::kInterrupted);
+  EXPECT_EQ(output.results[1].id, 1);
+  EXPECT_NE(output.results[1].reason.find("StandZero"), std::string::npos);
+  robot_.settle(core_);
+  EXPECT_EQ(core_.motion_state().posture, "StandZero");
+}
+
+TEST_F(MotionCoreTest, StopHoldsWhereItIs) {
+  robot_.settle(core_);
+  robot_.step(core_, {posture(1, "Crouch", 0.3)});
+  for (int i = 0; i < 200; ++i) robot_.step(core_);
+  const Command stop = {"test", 2, StopCommand{}};
+  robot_.step(core_, {stop});
+  const auto results = robot_.settle(core_);
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0].id, 2);
+  EXPECT_EQ(results[0].status, ResultStatus::kDone);
+  EXPECT_EQ(core_.motion_state().posture, "");
+  const double knee = robot_.sensors().position[nao_model().find_motor("LKneePitch")];
+  EXPECT_GT(knee, 0.71);
+  EXPECT_LT(knee, 2.1);
+}
+
+TEST_F(MotionCoreTest, ClipsJointChangesToSingleAndCoupledLimits) {
+  robot_.settle(core_);
+  robot_.step(core_, {joint_change(1, {"HeadYaw", "HeadPitch"}, {1.526988, 5})});
+  const auto results = robot_.settle(core_);
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_NE(results[0].reason.find("HeadPitch"), std::string::npos);
+  EXPECT_NEAR(robot_.sensors().position[nao_model().find_motor("HeadPitch")], 0.200015, 1e-6);
+}
+
+TEST_F(MotionCoreTest, SilentSensorsMeanNoRobot) {
+  robot_.settle(core_);
+  robot_.step(core_, {posture(1, "Crouch", 0.2)});
+  Input silent;
+  std::vector<CommandResult> results;
+  for (int i = 0; i < 12; ++i) {
+    const Output output = core_.step(silent, 0.05);
+    EXPECT_FALSE(output.joint_targets);
+    results.insert(results.end(), output.results.begin(), output.results.end());
+  }
+  EXPECT_EQ(core_.motion_state().mode, Mode::kNoRobot);
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0].status, ResultStatus::kFailed);
+  silent.commands = {posture(2, "Stand")};
+  EXPECT_EQ(core_.step(silent, 0.05).results.at(0).status, ResultStatus::kRefused);
+  // Back, with the joints elsewhere: the targets start there.
+  robot_.sensors().position[nao_model().find_motor("HeadYaw")] = 1.0;
+  const Output output = robot_.step(core_);
+  EXPECT_NEAR(output.joint_targets->position[nao_model().find_motor("HeadYaw")], 1.0, 1e-9);
+  robot_.settle(core_);
+  EXPECT_EQ(core_.motion_state().posture, "StandInit");
+}
+
+TEST_F(MotionCoreTest, StatesComeAtEachChangeAndTenTimesASecond) {
+  robot_.settle(core_);
+  int num_states = 0;
+  for (int i = 0; i < 100; ++i) num_states += robot_.step(core_).motion_state.has_value() ? 1 : 0;
+  EXPECT_EQ(num_states, 10);
+  EXPECT_TRUE(robot_.step(core_, {posture(1, "Crouch")}).motion_state.has_value());
+}
+
+TEST_F(MotionCoreTest, ThousandsOfRandomCommandsEachGetExactlyOneFinalResult) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> pick(0, 9);
+  std::uniform_int_distribution<int> pick_motor(0, nao_model().num_motors() - 1);
+  std::uniform_real_distribution<double> angle(-3, 3);
+  std::map<int64_t, int> num_accepted;
+  std::map<int64_t, int> num_final;
+  const auto count = [&](const Output& output) {
+    for (const CommandResult& result : output.results) {
+      ++(is_final(result.status) ? num_final : num_accepted)[result.id];
+    }
+  };
+  std::vector<double> last = robot_.sensors().position;
+  constexpr int64_t kNumCommands = 10000;
+  for (int64_t id = 1; id <= kNumCommands; ++id) {
+    Command command;
+    const auto& postures = nao_model().postures();
+    const auto& actions = nao_model().actions();
+    switch (pick(random)) {
+      case 0:
+        command = posture(id, postures[random() % postures.size()].name);
+        break;
+      case 1:
+        command = posture(id, "Nowhere", angle(random));
+        break;
+      case 2:
+        command = {"test", id, WalkCommand{angle(random), 0, kNan}};
+        break;
+      case 3:
+        command = {"test", id, MoveToCommand{angle(random), 0, 0}};
+        break;
+      case 4:
+        command = {"test", id, ActionCommand{actions[random() % actions.size()], kNan, kNan, kNan}};
+        break;
+      case 5:
+        command = {"test", id, StopCommand{}};
+        break;
+      default:
+        command = joint_change(id, {nao_model().motor_joint(pick_motor(random)).name, "HeadYaw"},
+                               {angle(random), angle(random)}, random() % 2 == 0, 1);
+    }
+    const int num_steps = static_cast<int>(random() % 4);
+    for (int i = 0; i <= num_steps; ++i) {
+      const Output output =
+          robot_.step(core_, i == 0 ? std::vector<Command>{command} : std::vector<Command>{});
+      count(output);
+      const auto& targets = output.joint_targets->position;
+      for (int motor = 0; motor < nao_model().num_motors(); ++motor) {
+        const Joint& joint = nao_model().motor_joint(motor);
+        ASSERT_LE(std::abs(targets[motor] - last[motor]), joint.max_velocity * 0.01 * (1 + 1e-9))
+            << joint.name;
+        ASSERT_GE(targets[motor], joint.lower - 1e-12);
+        ASSERT_LE(targets[motor], joint.upper + 1e-12);
+        ASSERT_NEAR(nao_model().clip_to_limits(motor, targets[motor], targets), targets[motor],
+                    1e-9)
+            << joint.name;
+      }
+      last = targets;
+    }
+  }
+  // A journey may look for its way for minutes, since this robot never lies down.
+  for (int i = 0; i < 30000 && core_.motion_state().mode != Mode::kHolding; ++i) {
+    count(robot_.step(core_));
+  }
+  for (int64_t id = 1; id <= kNumCommands; ++id) {
+    EXPECT_EQ(num_final[id], 1) << id;
+    EXPECT_LE(num_accepted[id], 1) << id;
+  }
+}
+
+TEST_F(MotionCoreTest, RefusesToTipAndSaysHowFarItMayGo) {
+  robot_.settle(core_);
+  const CommandResult result =
+      refused(joint_change(1, {"LHipPitch", "RHipPitch"}, {0.9, 0.9}, true));
+  EXPECT_NE(result.reason.find("HipPitch would tip the robot over backwards"), std::string::npos)
+      << result.reason;
+  EXPECT_NE(result.reason.find("degrees at most"), std::string::npos) << result.reason;
+  Command allowed = joint_change(2, {"LHipPitch", "RHipPitch"}, {0.9, 0.9}, true);
+  std::get<JointChangeCommand>(allowed.request).allow_tipping = true;
+  EXPECT_EQ(robot_.step(core_, {allowed}).results.at(0).status, ResultStatus::kAccepted);
+}
+
+TEST_F(MotionCoreTest, RefusesToHitItself) {
+  robot_.settle(core_);
+  const CommandResult result = refused(joint_change(
+      1, {"LShoulderPitch", "LShoulderRoll", "LElbowYaw", "LElbowRoll"}, {1.4, -0.31, -1.0, -1.5}));
+  EXPECT_NE(result.reason.find("would bring"), std::string::npos) << result.reason;
+}
+
+TEST_F(MotionCoreTest, WavesRestsAndWakesUp) {
+  robot_.settle(core_);
+  robot_.step(core_, {{"test", 1, ActionCommand{"wave", kNan, kNan, kNan}}});
+  EXPECT_EQ(core_.motion_state().mode, Mode::kActing);
+  ASSERT_EQ(robot_.settle(core_).size(), 1u);
+  robot_.step(core_, {{"test", 2, ActionCommand{"rest", kNan, kNan, kNan}}});
+  for (int i = 0; i < 1500 && core_.motion_state().mode != Mode::kRelaxed; ++i) robot_.step(core_);
+  EXPECT_EQ(core_.motion_state().mode, Mode::kRelaxed);
+  EXPECT_EQ(core_.motion_state().posture, "Crouch");
+  EXPECT_EQ(core_.motion_state().stiffness, 0);
+  EXPECT_EQ(refused(joint_change(3, {"HeadYaw"}, {0.5})).reason,
+            "The motors are relaxed; wake the robot up first.");
+  robot_.step(core_, {{"test", 4, ActionCommand{"wake-up", kNan, kNan, kNan}}});
+  robot_.settle(core_);
+  EXPECT_EQ(core_.motion_state().posture, "StandInit");
+  EXPECT_EQ(core_.motion_state().stiffness, 1);
+}
+
+TEST(CommandLedger, ForgetsTheOldestEndedCommandFirst) {
+  CommandLedger ledger(3);
+  ledger.note({"a", 1, CommandKind::kPosture, ResultStatus::kAccepted, ""});
+  for (int64_t id = 2; id <= 10; ++id) {
+    ledger.note({"a", id, CommandKind::kStop, ResultStatus::kRefused, ""});
+    EXPECT_LE(ledger.size(), 3u);
+  }
+  EXPECT_NE(ledger.find("a", 1), nullptr);
+  EXPECT_EQ(ledger.find("a", 2), nullptr);
+  EXPECT_NE(ledger.find("a", 10), nullptr);
+}
+
+}  // namespace
+}  // namespace nao::motion

@@ -1,0 +1,91 @@
+#include "motion/motion_daemon.h"
+
+#include <gtest/gtest.h>
+
+#include <naolcm/command_result_t.hpp>
+#include <naolcm/joint_command_t.hpp>
+#include <naolcm/posture_command_t.hpp>
+#include <naolcm/robot_state_t.hpp>
+
+#include "sensor_message.h"
+
+namespace nao::motion {
+namespace {
+
+class MotionDaemonTest : public ::testing::Test {
+ protected:
+  MotionDaemonTest() {
+    bus_.subscribe<naolcm::joint_command_t>("NAO_JOINT_COMMAND", Bus::Queue::kAll,
+                                            [this](const auto& m) { commands_.push_back(m); });
+    bus_.subscribe<naolcm::robot_state_t>("NAO_ROBOT_STATE", Bus::Queue::kAll,
+                                          [this](const auto& m) { states_.push_back(m); });
+    bus_.subscribe<naolcm::command_result_t>("NAO_COMMAND_RESULT", Bus::Queue::kAll,
+                                             [this](const auto& m) { results_.push_back(m); });
+  }
+
+  void tick() {
+    bus_.publish("NAO_SENSOR_STATE", sensor_message("StandInit", next_tick_++));
+    while (bus_.handle_for(0)) {
+    }
+  }
+
+  Bus bus_{"memq://"};
+  EventLoop loop_;
+  MotionDaemon daemon_{bus_, loop_, nao_model(), MotionOptions(), "NAO"};
+  int64_t next_tick_ = 0;
+  std::vector<naolcm::joint_command_t> commands_;
+  std::vector<naolcm::robot_state_t> states_;
+  std::vector<naolcm::command_result_t> results_;
+};
+
+TEST_F(MotionDaemonTest, AnswersEverySensorStateWithItsTick) {
+  for (int i = 0; i < 5; ++i) tick();
+  ASSERT_EQ(commands_.size(), 5u);
+  ASSERT_EQ(states_.size(), 5u);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(commands_[i].tick, i);
+    EXPECT_EQ(commands_[i].num_joints, nao_model().num_motors());
+    EXPECT_EQ(states_[i].utime, i * 10000);
+  }
+}
+
+TEST_F(MotionDaemonTest, AnswersARepeatedStateAgainWithoutAnotherStep) {
+  for (int i = 0; i < 3; ++i) tick();
+  next_tick_ = 2;
+  tick();
+  ASSERT_EQ(commands_.size(), 4u);
+  EXPECT_EQ(commands_[3].tick, 2);
+  EXPECT_EQ(commands_[3].joint_position, commands_[2].joint_position);
+  EXPECT_EQ(daemon_.num_steps(), 3);
+  EXPECT_EQ(states_.size(), 3u);
+}
+
+TEST_F(MotionDaemonTest, PublishesResultsOfCommands) {
+  for (int i = 0; i < 20; ++i) tick();
+  naolcm::posture_command_t command{};
+  command.source = "test";
+  command.command_id = 1;
+  command.posture = "Nirvana";
+  command.speed = 0.5;
+  bus_.publish("NAO_POSTURE_COMMAND", command);
+  tick();
+  tick();
+  ASSERT_EQ(results_.size(), 1u);
+  EXPECT_EQ(results_[0].status, "refused");
+  EXPECT_EQ(results_[0].command, "posture");
+  EXPECT_EQ(results_[0].command_id, 1);
+}
+
+TEST_F(MotionDaemonTest, DropsABrokenSensorState) {
+  tick();
+  naolcm::sensor_state_t broken = sensor_message("StandInit", 100);
+  broken.joint_names[0] = "Tail";
+  bus_.publish("NAO_SENSOR_STATE", broken);
+  while (bus_.handle_for(0)) {
+  }
+  EXPECT_EQ(commands_.size(), 1u);
+  EXPECT_EQ(bus_.counters().num_dropped, 1);
+}
+
+}  // namespace
+}  // namespace nao::motion

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <naolcm/sensor_state_t.hpp>
+
+#include "nao_model.h"
+
+namespace nao::motion {
+
+/** A whole message of a robot that stands in a posture. */
+inline naolcm::sensor_state_t sensor_message(const std::string& posture, int64_t tick) {
+  naolcm::sensor_state_t message{};
+  message.utime = tick * 10000;
+  message.tick = tick;
+  const auto& position = nao_model().find_posture(posture)->position;
+  message.num_joints = nao_model().num_motors();
+  for (int motor = 0; motor < nao_model().num_motors(); ++motor) {
+    message.joint_names.push_back(nao_model().motor_joint(motor).name);
+    message.joint_position.push_back(position[motor]);
+    message.joint_velocity.push_back(0);
+    message.joint_torque.push_back(0);
+  }
+  message.accelerometer_torso[2] = 9.81;
+  message.orientation_torso_in_world[0] = 1;
+  message.num_foot_sensors = static_cast<int>(nao_model().foot_sensors().size());
+  for (int link : nao_model().foot_sensors()) {
+    message.foot_sensor_names.push_back(nao_model().links()[link].name);
+    message.foot_force.push_back(6.5);
+  }
+  return message;
+}
+
+}  // namespace nao::motion

@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "common/scene_file.h"
+#include "nao-trial/trial.h"
+
+namespace nao::trial {
+namespace {
+
+using motion::Mode;
+using motion::ResultStatus;
+
+std::shared_ptr<const RobotModel> nao_robot() {
+  static const auto model = std::make_shared<const RobotModel>(
+      RobotModel::load(std::filesystem::path(NAO_TEST_DATA) / "robots" / "nao"));
+  return model;
+}
+
+class WalkPhysicsTest : public testing::Test {
+ protected:
+  /** A robot that stands; noise, latency and a physics of its own for each seed. */
+  Trial& begin(uint64_t seed, double late_share = 0) {
+    TrialOptions options;
+    options.model = nao_robot();
+    options.scene = SceneFile::load(std::filesystem::path(NAO_TEST_DATA) / "scenes" / "empty.yaml");
+    options.late_share = late_share;
+    trial_ = std::make_unique<Trial>(options, seed);
+    trial_->run(0.5);
+    return *trial_;
+  }
+
+  Eigen::Vector2d place() const { return trial_->torso_in_world().translation().head<2>(); }
+  double heading() const {
+    const Eigen::Matrix3d R = trial_->torso_in_world().linear();
+    return std::atan2(R(1, 0), R(0, 0));
+  }
+  Mode mode() const { return trial_->core().motion_state().mode; }
+  std::optional<motion::CommandResult> last_result(int64_t id) const {
+    std::optional<motion::CommandResult> found;
+    for (const motion::CommandResult& result : trial_->results()) {
+      if (result.id == id) found = result;
+    }
+    return found;
+  }
+  void expect_standing_in(const char* posture) const {
+    EXPECT_EQ(mode(), Mode::kHolding);
+    EXPECT_EQ(trial_->core().motion_state().posture, posture);
+    EXPECT_LT(trial_->torso_tilt(), 0.2);
+  }
+
+  std::unique_ptr<Trial> trial_;
+};
+
+TEST_F(WalkPhysicsTest, WalksAheadAndStandsAgain) {
+  Trial& trial = begin(1);
+  const int64_t walk = trial.hold_walk({0.15, 0, 0});
+  trial.run(2);
+  const Eigen::Vector2d start = place();
+  trial.run(4);
+  EXPECT_EQ(mode(), Mode::kWalking);
+  const Eigen::Vector2d way = place() - start;
+  EXPECT_NEAR(way.x() / 4, 0.15, 0.04);
+  EXPECT_NEAR(way.y(), 0, 0.15);
+  trial.release_walk();
+  const auto end = trial.await_end(walk, 6);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+  trial.run(0.5);
+  expect_standing_in("StandInit");
+}
+
+TEST_F(WalkPhysicsTest, WalksSidewaysBackAndTurns) {
+  Trial& trial = begin(2);
+  trial.hold_walk({0, 0.1, 0});
+  trial.run(5);
+  EXPECT_GT(place().y(), 0.25);
+  trial.hold_walk({-0.1, 0, 0});
+  trial.run(1);
+  const double start = place().x();
+  trial.run(4);
+  EXPECT_LT(place().x() - start, -0.25);
+  trial.hold_walk({0, 0, -0.8});
+  trial.run(1);
+  const double looks = heading();
+  trial.run(2);
+  EXPECT_NEAR(std::remainder(heading() - looks, 2 * M_PI), -1.6, 0.5);
+  trial.release_walk();
+  trial.run(5);
+  expect_standing_in("StandInit");
+}
+
+TEST_F(WalkPhysicsTest, StopsWhenCommandsStopComing) {
+  Trial& trial = begin(3);
+  const int64_t walk = trial.hold_walk({0.15, 0, 0});
+  trial.run(3);
+  trial.release_walk(false);
+  const auto end = trial.await_end(walk, 6);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->status, ResultStatus::kDone);
+  EXPECT_NE(end->reason.find("No walk command"), std::string::npos) << end->reason;
+  trial.run(0.5);
+  expect_standing_in("StandInit");
+}
+
+TEST_F(WalkPhysicsTest, APostureInterruptsAWalk) {
+  Trial& trial = begin(4);
+  const int64_t walk = trial.hold_walk({0.15, 0, 0});
+  trial.run(3);
+  trial.release_walk(false);
+  const int64_t posture = trial.send_posture("Crouch", 0.5);
+  const auto end = trial.await_end(posture, 15);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+  EXPECT_EQ(last_result(walk)->status, ResultStatus::kInterrupted);
+  trial.run(0.5);
+  expect_standing_in("Crouch");
+}
+
+TEST_F(WalkPhysicsTest, SaysHowFastItReallyWalksAndWhereItWillStep) {
+  Trial& trial = begin(5);
+  trial.hold_walk({5, 0, 0});
+  trial.run(4);
+  const motion::MotionState& state = trial.core().motion_state();
+  EXPECT_DOUBLE_EQ(state.walk_velocity.x(), nao_robot()->walk_limits().forward);
+  EXPECT_DOUBLE_EQ(state.walk_velocity.y(), 0);
+  ASSERT_GE(state.footsteps.size(), 2u);
+  EXPECT_NE(state.footsteps[0].is_left, state.footsteps[1].is_left);
+  EXPECT_GT(state.footsteps[1].position_in_odometry.x(),
+            state.footsteps[0].position_in_odometry.x());
+}
+
+TEST_F(WalkPhysicsTest, MovesToAPlaceByOdometry) {
+  Trial& trial = begin(6);
+  const int64_t move = trial.send({"", 0, motion::MoveToCommand{0.6, 0.2, M_PI / 2}});
+  const auto end = trial.await_end(move, 40);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+  // Odometry slips a little, mostly in turning.
+  EXPECT_NEAR((place() - Eigen::Vector2d(0.6, 0.2)).norm(), 0, 0.1);
+  EXPECT_NEAR(heading(), M_PI / 2, 0.25);
+}
+
+TEST_F(WalkPhysicsTest, AWalkFromACrouchStandsUpFirst) {
+  Trial& trial = begin(7);
+  ASSERT_TRUE(trial.await_end(trial.send_posture("Crouch", 0.5), 15));
+  trial.hold_walk({0.15, 0, 0});
+  trial.run(12);
+  EXPECT_EQ(mode(), Mode::kWalking);
+  EXPECT_GT(place().x(), 0.3);
+}
+
+TEST_F(WalkPhysicsTest, KeepsWalkingWhenPushed) {
+  Trial& trial = begin(8);
+  trial.hold_walk({0.15, 0, 0});
+  trial.run(3);
+  trial.world().push(0, 0, {0, 0.3, 0});
+  trial.run(4);
+  EXPECT_EQ(mode(), Mode::kWalking);
+  EXPECT_LT(trial.torso_tilt(), 0.3);
+}
+
+TEST_F(WalkPhysicsTest, KeepsWalkingWhenItMissesTicks) {
+  Trial& trial = begin(10, 0.02);
+  trial.hold_walk({0.12, 0, 0});
+  trial.run(8);
+  EXPECT_EQ(mode(), Mode::kWalking);
+  EXPECT_GT(place().x(), 0.6);
+}
+
+TEST_F(WalkPhysicsTest, AWishForNoVelocityStartsNoWalk) {
+  Trial& trial = begin(9);
+  const int64_t walk = trial.hold_walk({0, 0, 0});
+  trial.run(0.1);
+  EXPECT_EQ(mode(), Mode::kHolding);
+  ASSERT_TRUE(last_result(walk));
+}
+
+}  // namespace
+}  // namespace nao::trial

@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+"""Clients that come, go and misbehave, over and over: descriptors and memory stay flat, good clients are served.
+
+NAO_TEST_STREAMS sets the number of random byte streams (default 2000).
+"""
+
+import os
+import random
+import socket
+import unittest
+from pathlib import Path
+
+from programs import DEADLINE, Gateway, wait_until
+
+import phone  # of phone-gateway/examples/python
+from remote_protocol import remote_pb2 as pb
+
+NUM_STREAMS = int(os.environ.get("NAO_TEST_STREAMS", "2000"))
+NUM_CLIENTS = 300
+# What the allocator keeps; a leak of a buffer for each of the connections would be tens of MiB.
+MEMORY_MIB = 4
+
+
+class Churn(unittest.TestCase):
+    def setUp(self):
+        self.gateway = Gateway()
+        self.addCleanup(self.gateway.kill)
+
+    def num_descriptors(self):
+        return len(list(Path(f"/proc/{self.gateway.process.pid}/fd").iterdir()))
+
+    def memory_mib(self):
+        resident_pages = int(Path(f"/proc/{self.gateway.process.pid}/statm").read_text().split()[1])
+        return resident_pages * os.sysconf("SC_PAGESIZE") / 2 ** 20
+
+    def visit(self):
+        with phone.Phone(port=self.gateway.tcp_port, timeout=DEADLINE) as client:
+            client.ask(subscribe=pb.Subscribe(state_rate=60, picture_rate=30))
+            client.ask(ping=pb.Ping())
+
+    def hold_flat(self, disturb, num_times):
+        """Disturbs once for warming up, then `num_times`, and compares."""
+        for _ in range(100):
+            disturb()
+        self.visit()
+        wait_until(lambda: self.num_descriptors() < 60, "the first connections end")
+        descriptors, memory = self.num_descriptors(), self.memory_mib()
+        for _ in range(num_times):
+            disturb()
+        self.visit()
+        wait_until(lambda: self.num_descriptors() <= descriptors, "every connection ends")
+        self.assertLess(self.memory_mib() - memory, MEMORY_MIB)
+
+    def test_clients_that_come_and_go(self):
+        self.hold_flat(self.visit, NUM_CLIENTS)
+
+    def test_random_byte_streams(self):
+        dice = random.Random(4)
+
+        def disturb():
+            port = dice.choice((self.gateway.tcp_port, self.gateway.http_port))
+            start = dice.choice((b"", b"", b"\0\0\0\x20", b"GET /ws HTTP/1.1\r\n", b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"))
+            with socket.create_connection(("127.0.0.1", port), DEADLINE) as connection:
+                try:
+                    connection.sendall(start + dice.randbytes(dice.randrange(1500)))
+                except OSError:
+                    pass  # it has been thrown out already
+        self.hold_flat(disturb, NUM_STREAMS)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,41 @@
+#!/usr/bin/python3
+"""Writes a first corpus for fuzz_session: make_corpus.py FOLDER. One file for each use case, after a Connect."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "phone-gateway/examples/python"))
+
+from remote_protocol import remote_pb2 as pb  # noqa: E402
+
+USE_CASES = {
+    "connect": dict(connect=pb.Connect(protocol_version=1, token="k", client_name="Ana")),
+    "get_state": dict(get_state=pb.GetState(with_picture=True, picture=pb.PictureWish(width=320))),
+    "subscribe": dict(subscribe=pb.Subscribe(state_rate=30, picture_rate=15)),
+    "walk_turn": dict(walk_turn=pb.WalkTurn(x=0.5, y=-0.5, theta=1)),
+    "move_to": dict(move_to=pb.MoveTo(x=1, y=1, theta=1)),
+    "go_to_posture": dict(go_to_posture=pb.GoToPosture(posture="Crouch", speed=0.5)),
+    "change_joints": dict(change_joints=pb.ChangeJoints(group="head", yaw=0.1, pitch=0.1)),
+    "do_action": dict(do_action=pb.DoAction(action="wave", ball_x=0.2, ball_y=0, strength=1)),
+    "stop": dict(stop=pb.Stop()),
+    "release_control": dict(release_control=pb.ReleaseControl()),
+    "ping": dict(ping=pb.Ping(client_utime=1)),
+    "operate": dict(operate=pb.Operate(operation=pb.Operate.KICK, client_id=1)),
+}
+
+
+def played(action, **use_case):
+    message = pb.Request(request_id=1, **use_case).SerializeToString()
+    return bytes([action, len(message)]) + message
+
+
+def main():
+    folder = Path(sys.argv[1])
+    folder.mkdir(parents=True, exist_ok=True)
+    begin = played(6, **USE_CASES["connect"]) + played(6, take_control=pb.TakeControl())
+    for name, use_case in USE_CASES.items():
+        (folder / name).write_bytes(begin + played(14, **use_case) + played(6, **use_case))
+
+
+if __name__ == "__main__":
+    main()

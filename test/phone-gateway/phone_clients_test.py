@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+"""Raw TCP clients in two languages move a robot that stands in physics, and see it move."""
+
+import socket
+import tempfile
+import unittest
+from pathlib import Path
+
+from programs import DEADLINE, Robot
+
+import phone  # of phone-gateway/examples/python
+from remote_protocol import remote_pb2 as pb
+
+# robots/nao/postures.yaml: the torso of a crouching NAO is 0.229 m above the floor.
+CROUCH_HEIGHT = 0.229
+TOLERANCE = 0.015
+
+
+class PhoneClients(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.robot = cls.enterClassContext(Robot())
+
+    def setUp(self):
+        self.robot.stand()
+
+    def phone(self, **options):
+        return phone.Phone(port=self.robot.gateway.tcp_port, timeout=DEADLINE, **options)
+
+    def go_to(self, client, posture):
+        request_id = client.ask(go_to_posture=pb.GoToPosture(posture=posture)).request_id
+        outcome = client.wait_for_outcome(request_id, DEADLINE)
+        self.assertIsNotNone(outcome, posture)
+        self.assertEqual(outcome.outcome, pb.Notice.DONE, outcome.message)
+
+    def test_the_command_line_phone_sends_the_robot_to_a_crouch(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pictures = [Path(folder) / name for name in ("standing.jpg", "crouching.jpg")]
+            for posture, picture in zip(("Stand", "Crouch"), pictures):
+                result = self.robot.nao_phone("posture", posture)
+                self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+                self.assertEqual(self.robot.nao_phone("picture", picture).returncode, 0)
+            self.assertAlmostEqual(self.robot.torso_height(), CROUCH_HEIGHT, delta=TOLERANCE)
+            standing, crouching = [picture.read_bytes() for picture in pictures]
+            self.assertEqual(standing[:2], b"\xff\xd8", "a JPEG")
+            self.assertNotEqual(standing, crouching, "the camera sank with the head")
+
+    def test_the_python_phone_sees_the_same_robot_as_the_simulator(self):
+        with self.phone(name="Ana") as client:
+            client.ask(subscribe=pb.Subscribe(state_rate=20, picture_rate=10))
+            client.ask(take_control=pb.TakeControl())
+            self.go_to(client, "Stand")
+            self.assertTrue(client.wait_until(lambda: client.picture, DEADLINE))
+            standing = client.picture.jpeg
+            self.go_to(client, "Crouch")
+            crouched = client.state.utime
+            client.wait_until(lambda: client.state.posture == "Crouch" and client.picture.utime > crouched, DEADLINE)
+            truth = self.robot.truth()
+            seen = client.joint_positions()
+            height = client.state.torso_position[2]
+            self.assertNotEqual(client.picture.jpeg, standing)
+        self.assertAlmostEqual(truth["position_torso_in_world"][2], CROUCH_HEIGHT, delta=TOLERANCE)
+        self.assertAlmostEqual(height, CROUCH_HEIGHT, delta=TOLERANCE)
+        for name, angle in zip(truth["joint_names"], truth["joint_position"]):
+            self.assertAlmostEqual(seen[name], angle, delta=0.03, msg=name)
+
+    def test_a_joint_turns_and_the_spectator_sees_it(self):
+        with self.phone(name="Ana") as driver, self.phone(name="Ben") as spectator:
+            driver.ask(take_control=pb.TakeControl())
+            self.go_to(driver, "Stand")
+            spectator.ask(subscribe=pb.Subscribe(state_rate=20))
+            with self.assertRaises(phone.Refused) as refused:
+                spectator.ask(change_joints=pb.ChangeJoints(group="head", yaw=0.3))
+            self.assertEqual(refused.exception.code, pb.CONTROL_TAKEN)
+            self.assertEqual(refused.exception.response.control.driver_name, "Ana")
+            driver.ask(change_joints=pb.ChangeJoints(group="head", yaw=0.3))
+            self.assertTrue(spectator.wait_until(
+                lambda: spectator.state and abs(spectator.joint_positions()["HeadYaw"] - 0.3) < 0.03, DEADLINE))
+
+    def test_nonsense_moves_nothing(self):
+        before = self.robot.truth()
+        for garbage in (b"\xff" * 100, b"\0\0\0\x05short", b"GET / HTTP/1.1\r\n\r\n", b"\0\0\0\0" * 50):
+            for port in (self.robot.gateway.tcp_port, self.robot.gateway.http_port):
+                with socket.create_connection(("127.0.0.1", port)) as connection:
+                    connection.sendall(garbage)
+        with self.phone(name="Ana") as client:
+            client.ask(take_control=pb.TakeControl())
+            for bad in ({"go_to_posture": pb.GoToPosture(posture="Handstand")},
+                        {"change_joints": pb.ChangeJoints(group="tail", yaw=0.1)},
+                        {"change_joints": pb.ChangeJoints(group="head", yaw=float("nan"))},
+                        {"walk_turn": pb.WalkTurn(x=float("inf"))},
+                        {"do_action": pb.DoAction(action="juggle")}):
+                with self.assertRaises(phone.Refused) as refused:
+                    client.ask(**bad)
+                self.assertEqual(refused.exception.code, pb.INVALID_ARGUMENT, bad)
+        after = self.robot.truth()
+        for name, was, is_now in zip(before["joint_names"], before["joint_position"], after["joint_position"]):
+            self.assertAlmostEqual(was, is_now, delta=0.01, msg=name)
+
+    def test_a_killed_gateway_comes_back_and_a_phone_drives_again(self):
+        with self.phone(name="Ana") as client:
+            self.robot.gateway.kill()
+            with self.assertRaises(phone.ConnectionLost):
+                client.wait_until(lambda: False, DEADLINE)
+        self.robot.start_gateway()
+        self.robot.stand()
+
+    def test_a_killed_motion_program_is_told_and_missed_until_it_is_back(self):
+        def told(client, available):
+            return any(notice.kind == pb.Notice.PART_CHANGED and notice.part == "motion" and
+                       notice.available == available for notice in client.notices)
+        with self.phone(name="Ana") as client:
+            client.ask(take_control=pb.TakeControl())
+            self.robot.programs["nao-motion"].kill()
+            self.assertTrue(client.wait_until(lambda: told(client, False), DEADLINE))
+            with self.assertRaises(phone.Refused) as refused:
+                client.ask(go_to_posture=pb.GoToPosture(posture="Stand"))
+            self.assertEqual(refused.exception.code, pb.ROBOT_UNAVAILABLE)
+            self.robot.start("nao-motion")
+            self.assertTrue(client.wait_until(lambda: told(client, True), DEADLINE))
+
+
+if __name__ == "__main__":
+    unittest.main()

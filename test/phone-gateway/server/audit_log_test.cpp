@@ -1,0 +1,39 @@
+#include "server/audit_log.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/error.h"
+#include "support/temporary_folder.h"
+
+namespace nao {
+namespace {
+
+TEST(AuditLog, WritesAnEventAsOneLineWhateverItsName) {
+  const AuditEvent event{"connected", 3, "An\"a\\\n\x1b", "10.0.0.1", "Firefox"};
+  EXPECT_EQ(
+      to_json(event, 5, 0),
+      R"({"wall_utime": 5, "event": "connected", "client_id": 3, "name": "An\"a\\\u000a\u001b", )"
+      R"("address": "10.0.0.1", "detail": "Firefox"})");
+}
+
+TEST(AuditLog, KeepsBackRepeatedRefusalsAndCountsThem) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "audit.jsonl";
+  AuditLog log(file);
+  const AuditEvent refusal{"refused", 1, "", "10.0.0.1", "The token is wrong."};
+  for (int i = 0; i < 100; ++i) log.write(refusal, i * 0.01, 0);
+  log.write({"refused", 1, "", "10.0.0.2", "The token is wrong."}, 1, 0);
+  log.write(refusal, 11, 0);
+  const std::string text = read_text(file);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
+  EXPECT_NE(text.find("\"num_kept_back\": 99"), std::string::npos);
+}
+
+TEST(AuditLog, SaysWhenItCannotBeWritten) {
+  EXPECT_THROW(AuditLog("/nowhere/audit.jsonl"), Error);
+}
+
+}  // namespace
+}  // namespace nao

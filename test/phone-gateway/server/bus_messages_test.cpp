@@ -1,0 +1,80 @@
+#include "server/bus_messages.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "common/error.h"
+#include "phone-gateway/server/test_robot.h"
+
+namespace nao {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+naolcm::robot_state_t make_state() {
+  naolcm::robot_state_t state{};
+  state.utime = 5;
+  state.num_joints = 4;
+  state.joint_names = {"LHand", "HeadPitch", "LShoulderRoll", "HeadYaw"};
+  state.joint_position = {4, 2, 3, 1};
+  state.orientation_torso_in_odometry[0] = 1;
+  state.position_torso_in_odometry[2] = 0.3;
+  return state;
+}
+
+TEST(RobotStateReader, PutsJointsInTheOrderThatPhonesKnow) {
+  const RobotStateReader reader(make_test_robot().description);
+  const RobotSnapshot robot = reader.read(make_state());
+  EXPECT_EQ(robot.joint_position, (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(robot.torso_position[2], 0.3);
+}
+
+TEST(RobotStateReader, RefusesWhatPhonesMustNotSee) {
+  const RobotStateReader reader(make_test_robot().description);
+  auto missing = make_state();
+  missing.joint_names[0] = "Tail";
+  EXPECT_THROW((void)reader.read(missing), Error);
+  auto broken = make_state();
+  broken.joint_position[2] = kNaN;
+  EXPECT_THROW((void)reader.read(broken), Error);
+  auto twisted = make_state();
+  twisted.orientation_torso_in_odometry[1] = kNaN;
+  EXPECT_THROW((void)reader.read(twisted), Error);
+}
+
+TEST(ReadMotionState, TurnsAnOpenEndIntoANegativeProgress) {
+  naolcm::motion_state_t motion{};
+  motion.mode = "walking";
+  motion.command = "walk";
+  motion.command_progress = kNaN;
+  EXPECT_LT(read_motion_state(motion).progress, 0);
+  EXPECT_EQ(read_motion_state(motion).activity, "walk");
+  motion.command = "posture";
+  motion.command_detail = "Crouch";
+  motion.command_progress = 0.5;
+  EXPECT_EQ(read_motion_state(motion).progress, 0.5);
+  EXPECT_EQ(read_motion_state(motion).activity, "posture Crouch");
+  motion.stiffness = kNaN;
+  EXPECT_THROW((void)read_motion_state(motion), Error);
+}
+
+TEST(ReadImage, TakesJpegsOfKnownCamerasOnly) {
+  naolcm::image_t image{};
+  image.camera = "bottom";
+  image.width = 320;
+  image.height = 240;
+  image.format = "jpeg";
+  image.size_bytes = 3;
+  image.data = {1, 2, 3};
+  EXPECT_EQ(read_image(image).camera, naoremote::CAMERA_BOTTOM);
+  EXPECT_EQ(read_image(image).jpeg, "\1\2\3");
+  image.camera = "left";
+  EXPECT_THROW((void)read_image(image), Error);
+  image.camera = "top";
+  image.format = "png";
+  EXPECT_THROW((void)read_image(image), Error);
+}
+
+}  // namespace
+}  // namespace nao

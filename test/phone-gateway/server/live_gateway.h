@@ -1,0 +1,97 @@
+#pragma once
+
+#include <google/protobuf/stubs/logging.h>
+
+#include <atomic>
+#include <future>
+#include <memory>
+#include <thread>
+
+#include "common/wall_clock.h"
+#include "phone-gateway/server/test_robot.h"
+#include "server/gateway_daemon.h"
+#include "server/network.h"
+#include "support/fake_motion.h"
+#include "support/temporary_folder.h"
+
+namespace nao {
+
+/** A whole gateway with real sockets on free ports of 127.0.0.1 and a fake robot behind it, on a
+ * bus inside the process. It runs in a thread of its own. */
+class LiveGateway {
+ public:
+  struct Options {
+    GatewayLimits limits;
+    /** Pictures a second, and bytes of each. */
+    double picture_rate = 15;
+    int picture_bytes = 7000;
+  };
+
+  LiveGateway() : LiveGateway(Options()) {}
+  explicit LiveGateway(const Options& options) {
+    google::protobuf::SetLogHandler(nullptr);
+    std::promise<void> is_ready;
+    thread_ = std::thread([this, options, &is_ready] { run(options, is_ready); });
+    is_ready.get_future().get();
+  }
+  ~LiveGateway() {
+    is_stopping_ = true;
+    thread_.join();
+  }
+
+  uint16_t http_port() const { return http_port_; }
+  uint16_t tcp_port() const { return tcp_port_; }
+  FakeMotion& motion() { return *motion_; }
+  /** Connections that the gateway knows, in whatever state. */
+  int num_sessions() const { return num_sessions_; }
+
+ private:
+  void run(const Options& options, std::promise<void>& is_ready) {
+    try {
+      Bus bus("memq://");
+      FakeMotion motion(bus, {"HeadYaw", "HeadPitch", "LShoulderRoll", "LHand"});
+      GatewayDaemon daemon(bus, "NAO", make_test_robot(), options.limits, "secret");
+      TemporaryFolder data;
+      std::filesystem::create_directories(data.path() / "web");
+      write_text(data.path() / "web" / "index.html", "<p>app</p>");
+      WebPages pages(data.path());
+      pages.add_page("/metrics", {"text/plain", true, [&] { return daemon.metrics_text(); }});
+      NetworkOptions network_options;
+      network_options.bind = "127.0.0.1";
+      network_options.http_port = 0;
+      network_options.tcp_port = 0;
+      Network network(network_options, AccessRules({}, {}), daemon.core(), pages);
+      bool has_started = false;
+      network.on_readable(bus.descriptor(), [&] { bus.handle(); });
+      network.every(0.01, [&] { motion.step(); });
+      network.every(1 / options.picture_rate,
+                    [&] { motion.send_picture(320, options.picture_bytes); });
+      network.every(0.02, [&] {
+        daemon.step(monotonic_seconds());
+        num_sessions_ = static_cast<int>(daemon.core().sessions().size());
+        if (is_stopping_) network.stop("test");
+        if (!has_started && daemon.core().is_available(PartMonitor::Part::kRobot)) {
+          has_started = true;
+          is_ready.set_value();
+        }
+      });
+      http_port_ = network.http_port();
+      tcp_port_ = network.tcp_port();
+      motion_ = &motion;
+      network.run();
+      daemon.shut_down(monotonic_seconds());
+      network.drain(0.05);
+    } catch (...) {
+      is_ready.set_exception(std::current_exception());
+    }
+  }
+
+  std::thread thread_;
+  std::atomic<bool> is_stopping_ = false;
+  std::atomic<int> num_sessions_ = 0;
+  uint16_t http_port_ = 0;
+  uint16_t tcp_port_ = 0;
+  FakeMotion* motion_ = nullptr;
+};
+
+}  // namespace nao

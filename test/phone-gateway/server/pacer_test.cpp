@@ -1,0 +1,51 @@
+#include "server/pacer.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace nao {
+namespace {
+
+/** Events let through in `time` seconds of a stream of `rate` a second, each up to `jitter` late.
+ */
+int count(double wished, double rate, double jitter, double time) {
+  Pacer pacer(wished);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> late(0, jitter);
+  int num_passed = 0;
+  const int num_events = static_cast<int>(rate * time);
+  for (int i = 0; i < num_events; ++i) num_passed += pacer.allow(50 + i / rate + late(random));
+  return num_passed;
+}
+
+TEST(Pacer, ThinsTo60Of100) {
+  EXPECT_NEAR(count(60, 100, 0, 10), 600, 2);
+  EXPECT_NEAR(count(60, 100, 0.003, 10), 600, 2);
+}
+
+TEST(Pacer, PassesAStreamOfItsOwnRateWholeInSpiteOfJitter) {
+  EXPECT_GE(count(15, 15, 0.02, 20), 298);
+  EXPECT_GE(count(30, 30, 0.01, 20), 598);
+}
+
+TEST(Pacer, PassesAllOfASlowerStream) {
+  EXPECT_EQ(count(60, 20, 0.005, 10), 200);
+}
+
+TEST(Pacer, DoesNotCatchUpAfterAPause) {
+  Pacer pacer(10);
+  EXPECT_TRUE(pacer.allow(100));
+  EXPECT_TRUE(pacer.allow(200));
+  int num_passed = 0;
+  for (int i = 1; i <= 50; ++i) num_passed += pacer.allow(200 + i * 0.002);
+  EXPECT_LE(num_passed, 2);
+}
+
+TEST(Pacer, OfRateZeroPassesNothing) {
+  Pacer pacer(0);
+  EXPECT_FALSE(pacer.allow(1));
+}
+
+}  // namespace
+}  // namespace nao

@@ -1,0 +1,204 @@
+#include "server/request_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "phone-gateway/server/test_robot.h"
+
+namespace nao {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <class Checked>
+bool is_refused(const Checked& checked) {
+  return std::holds_alternative<Refusal>(checked);
+}
+
+naoremote::WalkTurn walk(double x, double y, double theta) {
+  naoremote::WalkTurn request;
+  request.set_x(x);
+  request.set_y(y);
+  request.set_theta(theta);
+  return request;
+}
+
+TEST(RequestCheck, ScalesAWalkByTheRobotsOwnLimits) {
+  const PhoneRobot robot = make_test_robot();
+  const auto ahead = std::get<WalkVelocity>(check(walk(1, -1, 0.5), robot));
+  EXPECT_DOUBLE_EQ(ahead.vx, 0.2);
+  EXPECT_DOUBLE_EQ(ahead.vy, -0.15);
+  EXPECT_DOUBLE_EQ(ahead.wz, 0.5);
+  EXPECT_DOUBLE_EQ(std::get<WalkVelocity>(check(walk(-1, 0, 0), robot)).vx, -0.1);
+}
+
+TEST(RequestCheck, RefusesAWalkThatIsNoShare) {
+  const PhoneRobot robot = make_test_robot();
+  for (const double bad : {1.01, -1.01, kNaN, kInfinity, -kInfinity, 1e300}) {
+    EXPECT_TRUE(is_refused(check(walk(bad, 0, 0), robot))) << bad;
+    EXPECT_TRUE(is_refused(check(walk(0, bad, 0), robot))) << bad;
+    EXPECT_TRUE(is_refused(check(walk(0, 0, bad), robot))) << bad;
+  }
+}
+
+TEST(RequestCheck, RefusesAPlaceThatIsFarOrNowhere) {
+  naoremote::MoveTo request;
+  request.set_x(10);
+  request.set_theta(-3.15);
+  EXPECT_FALSE(is_refused(check(request)));
+  for (const double bad : {10.1, kNaN, -kInfinity}) {
+    request.set_x(bad);
+    EXPECT_TRUE(is_refused(check(request))) << bad;
+  }
+  request.set_x(0);
+  request.set_theta(kNaN);
+  EXPECT_TRUE(is_refused(check(request)));
+}
+
+TEST(RequestCheck, KnowsTheRobotsPosturesOnly) {
+  const PhoneRobot robot = make_test_robot();
+  naoremote::GoToPosture request;
+  request.set_posture("Crouch");
+  const auto goal = std::get<PostureGoal>(std::get<MotionCommand>(check(request, robot)));
+  EXPECT_EQ(goal.posture, "Crouch");
+  EXPECT_EQ(goal.speed, 0.5);
+  for (const char* bad : {"", "crouch", "Split", "Crouch "}) {
+    request.set_posture(bad);
+    EXPECT_TRUE(is_refused(check(request, robot))) << bad;
+  }
+}
+
+TEST(RequestCheck, RefusesSpeedsThatAreNoFraction) {
+  const PhoneRobot robot = make_test_robot();
+  naoremote::GoToPosture request;
+  request.set_posture("Crouch");
+  for (const double bad : {-0.1, 1.1, kNaN, kInfinity}) {
+    request.set_speed(bad);
+    EXPECT_TRUE(is_refused(check(request, robot))) << bad;
+  }
+}
+
+TEST(RequestCheck, QuotesABadNameSafely) {
+  naoremote::GoToPosture request;
+  request.set_posture(std::string("\x1b[2J\n") + std::string(1000, 'x'));
+  const auto refusal = std::get<Refusal>(check(request, make_test_robot()));
+  EXPECT_EQ(refusal.message.find('\x1b'), std::string::npos);
+  EXPECT_LT(refusal.message.size(), 100u);
+}
+
+TEST(RequestCheck, MapsGroupAndAxisToJoints) {
+  const PhoneRobot robot = make_test_robot();
+  naoremote::ChangeJoints request;
+  request.set_group("head");
+  request.set_yaw(0.2);
+  request.set_pitch(-0.1);
+  const auto change = std::get<JointChange>(std::get<MotionCommand>(check(request, robot)));
+  EXPECT_EQ(change.joint_names, (std::vector<std::string>{"HeadYaw", "HeadPitch"}));
+  EXPECT_EQ(change.change, (std::vector<double>{0.2, -0.1}));
+  EXPECT_EQ(change.speed, 0.3);
+  EXPECT_FALSE(change.allow_tipping);
+}
+
+TEST(RequestCheck, MirrorsAChangeOfBothSides) {
+  PhoneRobot robot = make_test_robot();
+  for (const std::string side : {"left", "right"}) {
+    naoremote::JointGroup& hip = *robot.description.add_joint_groups();
+    hip.set_name(side + " hip");
+    hip.set_yaw_joint("LHipYawPitch");
+    hip.set_pitch_joint(side == "left" ? "LHipPitch" : "RHipPitch");
+    hip.set_roll_joint(side == "left" ? "LHipRoll" : "RHipRoll");
+  }
+  naoremote::ChangeJoints request;
+  request.set_group("right hip");
+  request.set_yaw(0.1);
+  request.set_pitch(0.2);
+  request.set_roll(0.3);
+  request.set_both_sides(true);
+  const auto change = std::get<JointChange>(std::get<MotionCommand>(check(request, robot)));
+  EXPECT_EQ(change.joint_names, (std::vector<std::string>{"LHipYawPitch", "RHipPitch", "RHipRoll",
+                                                          "LHipPitch", "LHipRoll"}));
+  EXPECT_EQ(change.change, (std::vector<double>{0.1, 0.2, 0.3, 0.2, -0.3}));
+}
+
+TEST(RequestCheck, TurnsTheHeadOnceWhereBothSidesAreWished) {
+  naoremote::ChangeJoints request;
+  request.set_group("head");
+  request.set_yaw(0.2);
+  request.set_both_sides(true);
+  const auto change =
+      std::get<JointChange>(std::get<MotionCommand>(check(request, make_test_robot())));
+  EXPECT_EQ(change.joint_names, (std::vector<std::string>{"HeadYaw"}));
+}
+
+TEST(RequestCheck, RefusesAnAxisThatTheGroupLacks) {
+  const PhoneRobot robot = make_test_robot();
+  naoremote::ChangeJoints request;
+  request.set_group("head");
+  request.set_roll(0.1);
+  EXPECT_TRUE(is_refused(check(request, robot)));
+  request.set_group("tail");
+  EXPECT_TRUE(is_refused(check(request, robot)));
+}
+
+TEST(RequestCheck, RefusesChangesThatAreNoAngleOrNothing) {
+  const PhoneRobot robot = make_test_robot();
+  naoremote::ChangeJoints request;
+  request.set_group("head");
+  EXPECT_TRUE(is_refused(check(request, robot))) << "no change at all";
+  for (const double bad : {kNaN, kInfinity, 7.0}) {
+    request.set_yaw(bad);
+    EXPECT_TRUE(is_refused(check(request, robot))) << bad;
+  }
+}
+
+TEST(RequestCheck, LeavesAnActionsDetailsToTheActionWhereTheyAreAbsent) {
+  const PhoneRobot robot = make_test_robot();
+  naoremote::DoAction request;
+  request.set_action("kick-left");
+  auto action = std::get<NamedAction>(std::get<MotionCommand>(check(request, robot)));
+  EXPECT_TRUE(std::isnan(action.ball_x));
+  EXPECT_TRUE(std::isnan(action.strength));
+  request.set_ball_x(0.2);
+  EXPECT_TRUE(is_refused(check(request, robot))) << "half a place";
+  request.set_ball_y(0.05);
+  request.set_strength(0.7);
+  action = std::get<NamedAction>(std::get<MotionCommand>(check(request, robot)));
+  EXPECT_EQ(action.ball_x, 0.2);
+  EXPECT_EQ(action.strength, 0.7);
+  request.set_strength(0);
+  EXPECT_TRUE(is_refused(check(request, robot)));
+  request.set_action("fly");
+  EXPECT_TRUE(is_refused(check(request, robot)));
+}
+
+TEST(RequestCheck, FillsInAPicturesDefaultsAndRefusesOtherSizes) {
+  naoremote::PictureWish wish;
+  EXPECT_EQ(std::get<PictureChoice>(check(wish)).width, 320u);
+  for (const unsigned bad : {1u, 319u, 641u, 4294967295u}) {
+    wish.set_width(bad);
+    EXPECT_TRUE(is_refused(check(wish))) << bad;
+  }
+  wish.set_width(640);
+  wish.set_quality(96);
+  EXPECT_TRUE(is_refused(check(wish)));
+  wish.set_quality(95);
+  wish.set_camera(static_cast<naoremote::Camera>(7));
+  EXPECT_TRUE(is_refused(check(wish)));
+}
+
+TEST(RequestCheck, BoundsTheRatesOfASubscription) {
+  naoremote::Subscribe request;
+  request.set_state_rate(60);
+  request.set_picture_rate(30);
+  EXPECT_FALSE(is_refused(check(request, GatewayLimits{})));
+  for (const double bad : {-1.0, 61.0, kNaN, kInfinity}) {
+    request.set_state_rate(bad);
+    EXPECT_TRUE(is_refused(check(request, GatewayLimits{}))) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace nao

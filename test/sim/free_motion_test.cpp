@@ -1,0 +1,121 @@
+// Motion without contact.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/random.h"
+#include "sim/world.h"
+#include "sim_fixture.h"
+#include "test_robots.h"
+
+namespace nao::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+void let_go(World& world, int robot) {
+  MotorTargets targets = world.targets(robot);
+  targets.stiffness.setZero();
+  world.set_targets(robot, targets);
+  // Past the command latency.
+  world.step_tick();
+  world.step_tick();
+}
+
+TEST(FreeMotion, FallsByGravityButForTheErrorOfSemiImplicitEuler) {
+  World world{SceneFile{}};
+  RobotOptions options;
+  options.height = 10;
+  const int robot = world.add_robot(nao_model(), options);
+  const double start = world.robot(robot).dynamics().center_of_mass().z();
+  for (int i = 0; i < 500; ++i) world.step();
+  const double fallen = start - world.robot(robot).dynamics().center_of_mass().z();
+  // The velocity used in a step is the one at its end: h t g / 2 too far. Servos at work cannot
+  // change that.
+  EXPECT_NEAR(fallen, 9.81 / 2 + 9.81 * 0.002 / 2, 1e-10);
+}
+
+TEST(FreeMotion, PendulumSwingsAtItsPeriodAndKeepsItsEnergy) {
+  World world{SceneFile{}};
+  RobotOptions options;
+  options.posture = "Start";
+  options.is_on_stand = true;
+  options.height = 1;
+  const int robot = world.add_robot(make_pendulum(ideal_motor()), options);
+  const Posture lifted{"Lifted", {0.1}, "standing"};
+  world.place_robot(robot, &lifted, {0, 0, 1});
+  let_go(world, robot);
+  const double energy = world.energy();
+  double first = -1;
+  double last = 0;
+  int periods = -1;
+  for (int i = 0; i < 20000; ++i) {
+    const double before = world.robot(robot).state().coordinate[6];
+    const double time = world.time();
+    world.step();
+    const double after = world.robot(robot).state().coordinate[6];
+    EXPECT_NEAR(world.energy(), energy, 1e-4);
+    if (before < 0 && after >= 0) {
+      last = time + world.options().step * -before / (after - before);
+      if (first < 0) first = last;
+      ++periods;
+    }
+  }
+  // Physical pendulum: I = 0.01 + 0.5 * 0.3^2, m g d = 0.5 * 9.81 * 0.3; second term of the series
+  // in the amplitude.
+  const double expected = 2 * M_PI * std::sqrt(0.055 / 1.4715) * (1 + 0.1 * 0.1 / 16);
+  EXPECT_NEAR((last - first) / periods / expected, 1, 1e-5);
+}
+
+TEST(FreeMotion, KeepsMomentumWhateverTheMotorsDo) {
+  WorldOptions options;
+  options.gravity.setZero();
+  World world{SceneFile{}, options};
+  RobotOptions how;
+  how.height = 1;
+  const int robot = world.add_robot(nao_model(), how);
+  world.push(robot, nao_model()->find_link("LFoot"), {0.3, 0.6, 0.3});
+  // Momentum is compared while the joints rest: in between it is that of a configuration half a
+  // step away.
+  const auto rest = [&](const std::vector<double>& position) {
+    MotorTargets targets = world.targets(robot);
+    for (size_t i = 0; i < position.size(); ++i) {
+      targets.position[static_cast<long>(i)] = position[i];
+    }
+    world.set_targets(robot, targets);
+    for (int i = 0; i < 300; ++i) world.step_tick();
+  };
+  rest(nao_model()->find_posture("StandInit")->position);
+  const TreeDynamics& dynamics = world.robot(robot).dynamics();
+  const Vector3d linear = dynamics.linear_momentum();
+  const Vector3d angular = dynamics.angular_momentum();
+  EXPECT_NEAR(linear.norm(), std::sqrt(0.3 * 0.3 + 0.6 * 0.6 + 0.3 * 0.3), 1e-3);
+  EXPECT_GT(angular.norm(), 0.05);
+  Random random(3);
+  for (int i = 0; i < 20; ++i) {
+    MotorTargets targets = world.targets(robot);
+    for (double& x : targets.position) x += 0.5 * random.normal();
+    world.set_targets(robot, targets);
+    for (int k = 0; k < 20; ++k) world.step_tick();
+  }
+  rest(nao_model()->find_posture("StandInit")->position);
+  EXPECT_LT((dynamics.linear_momentum() - linear).norm(), 1e-3 * linear.norm());
+  EXPECT_LT((dynamics.angular_momentum() - angular).norm(), 1e-2 * angular.norm());
+}
+
+TEST(FreeMotion, PushChangesMomentumByItsImpulse) {
+  WorldOptions options;
+  options.gravity.setZero();
+  World world{SceneFile{}, options};
+  RobotOptions how;
+  how.height = 1;
+  const int robot = world.add_robot(nao_model(), how);
+  const Vector3d impulse(0.1, -0.2, 0.3);
+  world.push(robot, nao_model()->find_link("RWrist"), impulse);
+  world.step();
+  EXPECT_LT((world.robot(robot).dynamics().linear_momentum() - impulse).norm(), 1e-3);
+}
+
+}  // namespace
+}  // namespace nao::sim

@@ -1,0 +1,92 @@
+// The robot is shaken as nobody would: random targets and stiffness, pushes, placements, balls. The
+// environment variable NAO_SHAKE_STEPS asks for more steps than the usual ones, 1e7 for example.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "sim/random.h"
+#include "sim/world.h"
+#include "sim_fixture.h"
+
+namespace nao::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+double lowest_point(const SimRobot& robot) {
+  double lowest = 1e9;
+  for (const CollisionModel::Part& part : robot.collisions().parts) {
+    for (int i = part.first_point; i < part.end_point; ++i) {
+      const CollisionModel::Point& point = robot.collisions().points[i];
+      const Vector3d in_world = robot.dynamics().position(part.body) +
+                                robot.dynamics().rotation(part.body) * point.center_in_body;
+      lowest = std::min(lowest, in_world.z() - point.radius);
+    }
+  }
+  return lowest;
+}
+
+TEST(Shake, LeavesNoBadStateAndNothingFallsThroughTheFloor) {
+  const char* wish = std::getenv("NAO_SHAKE_STEPS");
+  const long num_ticks = (wish != nullptr ? std::atol(wish) : 100000) / 5;
+  const RobotModel& model = *nao_model();
+  World world(SceneFile::find("soccer"));
+  world.add_robot(nao_model());
+  Random random(1);
+  const auto direction = [&random] {
+    return Vector3d(random.normal(), random.normal(), random.normal());
+  };
+  MotorTargets targets = world.targets(0);
+  double lowest = 0;
+  double fastest = 0;
+  double greatest_energy = 0;
+  for (long tick = 0; tick < num_ticks; ++tick) {
+    if (random.uniform() < 0.1) {
+      for (int i = 0; i < model.num_motors(); ++i) {
+        if (random.uniform() > 0.3) continue;
+        const Joint& joint = model.motor_joint(i);
+        targets.position[i] = random.uniform(joint.lower, joint.upper);
+        targets.stiffness[i] = random.uniform() < 0.2 ? 0 : random.uniform();
+      }
+    }
+    if (random.uniform() < 0.01) {
+      const int link = static_cast<int>(random.next() % model.links().size());
+      world.push(0, link, 2 * direction());
+    }
+    if (random.uniform() < 0.002) {
+      const Vector3d at = world.robot(0).state().position;
+      world.place_ball({at.x() + 0.3, at.y(), 0}, 3 * direction().cwiseProduct(Vector3d(1, 1, 0)));
+    }
+    if (random.uniform() < 0.0005) {
+      const size_t index = random.next() % model.postures().size();
+      world.place_robot(0, &model.postures()[index],
+                        {random.uniform(-4, 4), random.uniform(-3, 3), random.uniform(0, 0.5)});
+      targets = world.targets(0);
+    }
+    if (random.uniform() < 0.0001) {
+      world.reset();
+      targets = world.targets(0);
+    }
+    world.set_targets(0, targets);
+    world.step_tick();
+    ASSERT_EQ(world.num_bad_states(), 0) << "tick " << tick;
+    const SimRobot& robot = world.robot(0);
+    ASSERT_TRUE(robot.state().velocity.allFinite() && robot.state().position.allFinite());
+    lowest = std::min(lowest, lowest_point(robot));
+    fastest = std::max(fastest, robot.state().velocity.cwiseAbs().maxCoeff());
+    greatest_energy = std::max(greatest_energy, world.energy());
+  }
+  // The thinnest part is the forearm, 23.5 mm about its axis.
+  EXPECT_GT(lowest, -0.0235);
+  EXPECT_LT(fastest, 250);
+  EXPECT_LT(greatest_energy, 200);
+  std::printf(
+      "%ld steps: lowest point %.1f mm, fastest coordinate %.0f /s, greatest energy %.0f J\n",
+      5 * num_ticks, 1e3 * lowest, fastest, greatest_energy);
+}
+
+}  // namespace
+}  // namespace nao::sim

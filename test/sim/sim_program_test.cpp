@@ -1,0 +1,280 @@
+// nao-sim as a process, met on the bus.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <naolcm/daemon_status_t.hpp>
+#include <naolcm/joint_command_t.hpp>
+#include <naolcm/sensor_state_t.hpp>
+#include <naolcm/world_command_t.hpp>
+#include <naolcm/world_truth_t.hpp>
+#include <optional>
+
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/wall_clock.h"
+#include "sim/joint_command.h"
+#include "sim/random.h"
+#include "sim/world.h"
+#include "sim_fixture.h"
+#include "support/child_program.h"
+
+namespace nao::sim {
+namespace {
+
+/** Generous: the machine may be busy with other things. */
+constexpr double kPatience = 60;
+
+naolcm::joint_command_t command(int64_t tick, const std::vector<std::string>& names,
+                                const std::vector<double>& position,
+                                const std::vector<double>& stiffness) {
+  naolcm::joint_command_t message;
+  message.utime = tick * 10000;
+  message.tick = tick;
+  message.num_joints = static_cast<int>(names.size());
+  message.joint_names = names;
+  message.joint_position = position;
+  message.joint_stiffness = stiffness;
+  return message;
+}
+
+class SimProgram : public testing::Test {
+ protected:
+  SimProgram() : bus_(private_bus_url()) {
+    bus_.subscribe<naolcm::world_truth_t>(
+        kWorldTruthChannel, Bus::Queue::kLatest,
+        [this](const naolcm::world_truth_t& message) { truth_ = message; });
+    bus_.subscribe<naolcm::daemon_status_t>(
+        kDaemonStatusChannel, Bus::Queue::kLatest,
+        [this](const naolcm::daemon_status_t& message) { status_ = message; });
+    bus_.subscribe<naolcm::sensor_state_t>(RobotChannels().sensor_state, Bus::Queue::kAll,
+                                           [this](const naolcm::sensor_state_t& message) {
+                                             sensors_ = message;
+                                             if (on_sensors_) on_sensors_(message);
+                                           });
+  }
+
+  void start(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--lcm-url", private_bus_url(), "--log-level", "warning"});
+    program_.emplace("nao-sim", arguments);
+  }
+
+  /** Handles messages until a condition holds. */
+  bool wait_for(const std::function<bool()>& condition) {
+    const double end = monotonic_seconds() + kPatience;
+    while (!condition()) {
+      if (monotonic_seconds() > end) return false;
+      bus_.handle_for(0.1);
+    }
+    return true;
+  }
+
+  /** Sends a world command until it is answered. @return What was wrong with it. */
+  std::string ask(naolcm::world_command_t message) {
+    message.source = "test";
+    message.command_id = ++last_id_;
+    const bool is_answered = wait_for([&] {
+      bus_.publish(kWorldCommandChannel, message);
+      return truth_ && truth_->last_command_id == message.command_id;
+    });
+    return is_answered ? truth_->last_command_error : "no answer";
+  }
+  std::string ask(const std::string& name) {
+    naolcm::world_command_t message{};
+    message.command = name;
+    return ask(message);
+  }
+
+  Bus bus_;
+  std::optional<ChildProgram> program_;
+  std::optional<naolcm::world_truth_t> truth_;
+  std::optional<naolcm::daemon_status_t> status_;
+  std::optional<naolcm::sensor_state_t> sensors_;
+  std::function<void(const naolcm::sensor_state_t&)> on_sensors_;
+  int64_t last_id_ = 0;
+};
+
+TEST_F(SimProgram, IsReadyAndStandsInTimeWithTheWallClock) {
+  start({});
+  ASSERT_TRUE(wait_for([&] { return status_ && status_->state == "ready" && sensors_ && truth_; }));
+  EXPECT_EQ(sensors_->num_joints, nao_model()->num_motors());
+  EXPECT_EQ(sensors_->num_foot_sensors, 8);
+  EXPECT_EQ(truth_->scene, "soccer");
+  ASSERT_TRUE(wait_for([&] { return truth_->tick > 300; }));
+  const int64_t tick = truth_->tick;
+  const double start_time = monotonic_seconds();
+  ASSERT_TRUE(wait_for([&] { return truth_->tick >= tick + 500; }));
+  const double took = monotonic_seconds() - start_time;
+  EXPECT_NEAR(static_cast<double>(truth_->tick - tick) * 0.01 / took, 1, 0.2);
+  EXPECT_NEAR(truth_->robots[0].position_torso_in_world[2], 0.32, 0.005);
+  EXPECT_EQ(program_->end(), 0);
+}
+
+TEST_F(SimProgram, RefusesBadJointCommandsAndNothingMoves) {
+  start({"--scene", "empty", "--ideal-sensors"});
+  ASSERT_TRUE(wait_for([&] { return truth_ && truth_->tick > 200; }));
+  const double nan = std::nan("");
+  const double before = truth_->robots[0].joint_position[0];
+  ASSERT_EQ(truth_->robots[0].joint_names[0], "HeadYaw");
+  const std::string channel = RobotChannels().joint_command;
+  bus_.publish(channel, command(0, {"HeadYaw", "Tail"}, {1, 1}, {1, 1}));
+  bus_.publish(channel, command(0, {"HeadYaw", "HeadPitch"}, {1, nan}, {1, 1}));
+  bus_.publish(channel, command(0, {"HeadYaw", "HeadPitch"}, {1, 0}, {1, 1.5}));
+  bus_.publish(channel, *sensors_);  // Another type.
+  ASSERT_TRUE(wait_for([&] { return status_ && status_->num_messages_dropped >= 4; }));
+  const int64_t tick = truth_->tick;
+  ASSERT_TRUE(wait_for([&] { return truth_->tick > tick + 50; }));
+  EXPECT_NEAR(truth_->robots[0].joint_position[0], before, 1e-3);
+  bus_.publish(channel, command(0, {"HeadYaw"}, {1}, {1}));
+  EXPECT_TRUE(wait_for([&] { return truth_->robots[0].joint_position[0] > 0.9; }));
+}
+
+TEST_F(SimProgram, ObeysWorldCommands) {
+  start({"--ideal-sensors"});
+  ASSERT_TRUE(wait_for([&] { return truth_.has_value(); }));
+  EXPECT_EQ(ask("pause"), "");
+  const int64_t tick = truth_->tick;
+  EXPECT_TRUE(truth_->is_paused);
+
+  naolcm::world_command_t message{};
+  message.command = "step";
+  message.num_ticks = 7;
+  EXPECT_EQ(ask(message), "");
+  ASSERT_TRUE(wait_for([&] { return truth_->tick == tick + 7; }));
+
+  message = {};
+  message.command = "place-ball";
+  message.position_in_world[0] = 2;
+  message.velocity_in_world[1] = 1;
+  EXPECT_EQ(ask(message), "");
+  EXPECT_EQ(truth_->position_ball_in_world[0], 2);
+
+  message = {};
+  message.command = "place-robot";
+  message.posture = "LyingBack";
+  message.position_in_world[1] = 1;
+  EXPECT_EQ(ask(message), "");
+  EXPECT_EQ(truth_->robots[0].position_torso_in_world[1], 1);
+  EXPECT_LT(truth_->robots[0].position_torso_in_world[2], 0.15);
+
+  message = {};
+  message.command = "push";
+  message.link = "ball";
+  message.impulse_in_world[0] = 0.09;
+  EXPECT_EQ(ask(message), "");
+  message.command = "step";
+  message.num_ticks = 1;
+  EXPECT_EQ(ask(message), "");
+  ASSERT_TRUE(wait_for([&] { return truth_->velocity_ball_in_world[0] > 1; }));
+
+  EXPECT_NE(ask("fly"), "");
+  message = {};
+  message.command = "push";
+  message.link = "Tail";
+  EXPECT_NE(ask(message), "");
+  message.link = "torso";
+  message.impulse_in_world[0] = std::nan("");
+  EXPECT_NE(ask(message), "");
+  message = {};
+  message.command = "place-robot";
+  message.orientation_in_world[0] = 5;
+  EXPECT_NE(ask(message), "");
+  message = {};
+  message.command = "set-pace";
+  message.pace = -1;
+  EXPECT_NE(ask(message), "");
+
+  EXPECT_EQ(ask("reset"), "");
+  ASSERT_TRUE(wait_for([&] { return truth_->tick == 0; }));
+  EXPECT_NEAR(truth_->robots[0].position_torso_in_world[2], 0.32, 0.005);
+  message = {};
+  message.command = "set-pace";
+  message.pace = 0;
+  EXPECT_EQ(ask(message), "");
+  EXPECT_EQ(ask("resume"), "");
+  EXPECT_TRUE(wait_for([&] { return truth_->tick > 1000; }));
+}
+
+/** What a driver of the determinism test says at a tick: on one tick in six, all joints anew. */
+naolcm::joint_command_t answer_to(int64_t tick) {
+  if (tick % 6 != 0) return command(tick, {}, {}, {});
+  Random random(static_cast<uint64_t>(tick));
+  std::vector<std::string> names;
+  std::vector<double> position;
+  std::vector<double> stiffness;
+  for (int i = 0; i < nao_model()->num_motors(); ++i) {
+    const Joint& joint = nao_model()->motor_joint(i);
+    names.push_back(joint.name);
+    position.push_back(random.uniform(joint.lower, joint.upper));
+    stiffness.push_back(random.uniform());
+  }
+  return command(tick, names, position, stiffness);
+}
+
+/** Numbers of a sensor state, noise and all, as text that shows every bit. */
+std::string bits_of(const std::vector<double>& position, const double* gyroscope,
+                    const double* orientation) {
+  std::string result(reinterpret_cast<const char*>(position.data()),
+                     position.size() * sizeof(double));
+  result.append(reinterpret_cast<const char*>(gyroscope), 3 * sizeof(double));
+  result.append(reinterpret_cast<const char*>(orientation), 4 * sizeof(double));
+  return result;
+}
+
+constexpr int kDeterminismTicks = 6000;
+
+TEST_F(SimProgram, LockStepGivesTheSameBitsInTwoProcessesAndWithoutABus) {
+  std::vector<std::string> runs[2];
+  for (std::vector<std::string>& states : runs) {
+    on_sensors_ = [&](const naolcm::sensor_state_t& message) {
+      // A state is repeated when an answer is late: the answer is, too.
+      if (message.tick == static_cast<int64_t>(states.size())) {
+        states.push_back(bits_of(message.joint_position, message.gyroscope_torso,
+                                 message.orientation_torso_in_world));
+      }
+      bus_.publish(RobotChannels().joint_command, answer_to(message.tick));
+    };
+    start({"--lock-step", "--seed", "42"});
+    const double end = monotonic_seconds() + 5 * kPatience;
+    while (states.size() <= kDeterminismTicks && monotonic_seconds() < end) bus_.handle_for(0.1);
+    ASSERT_GT(states.size(), static_cast<size_t>(kDeterminismTicks));
+    states.resize(kDeterminismTicks);
+    on_sensors_ = nullptr;
+    program_.reset();
+    while (bus_.handle_for(0.05)) {
+    }
+  }
+  EXPECT_TRUE(runs[0] == runs[1]);
+
+  WorldOptions options;
+  options.seed = 42;
+  World world(SceneFile::find("soccer"), options);
+  world.add_robot(nao_model());
+  MotorTargets targets = world.targets(0);
+  for (int tick = 0; tick < kDeterminismTicks; ++tick) {
+    const SensorReadings& sensed = world.sensors(0);
+    const double orientation[] = {sensed.orientation.w(), sensed.orientation.x(),
+                                  sensed.orientation.y(), sensed.orientation.z()};
+    const std::vector<double> position(sensed.position.data(),
+                                       sensed.position.data() + sensed.position.size());
+    ASSERT_TRUE(bits_of(position, sensed.gyroscope.data(), orientation) == runs[0][tick])
+        << "tick " << tick;
+    const naolcm::joint_command_t answer = answer_to(tick);
+    ASSERT_FALSE(merge_joint_command(*nao_model(), answer.joint_names, answer.joint_position,
+                                     answer.joint_stiffness, targets));
+    world.set_targets(0, targets);
+    world.step_tick();
+  }
+}
+
+TEST_F(SimProgram, SaysWhatIsWrongWithItsCommandLine) {
+  EXPECT_EQ(ChildProgram("nao-sim", {"--pace", "-1"}).wait(), 2);
+  EXPECT_EQ(ChildProgram("nao-sim", {"--lcm-url", private_bus_url(), "--scene", "moon"}).wait(), 1);
+  EXPECT_EQ(
+      ChildProgram("nao-sim", {"--lcm-url", private_bus_url(), "--posture", "Headstand"}).wait(),
+      1);
+}
+
+}  // namespace
+}  // namespace nao::sim

@@ -1,0 +1,171 @@
+// The physics' own tree, against Simbody's answers for the same robot.
+
+#include "sim/tree_dynamics.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "sim/simbody_model.h"
+#include "sim_fixture.h"
+
+namespace nao::sim {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+/** A robot in a random state, in both descriptions. */
+class TreeDynamicsTest : public testing::Test {
+ protected:
+  TreeDynamicsTest()
+      : simbody_(*nao_model()),
+        tree_(simbody_),
+        dynamics_(tree_),
+        state_(tree_.num_dofs()),
+        simbody_state_(simbody_.default_state()) {}
+
+  void randomize() {
+    const auto draw = [this](double limit) {
+      return std::uniform_real_distribution<double>(-limit, limit)(random_);
+    };
+    state_.position = {draw(5), draw(5), draw(2)};
+    state_.orientation = Eigen::Quaterniond(draw(1), draw(1), draw(1), draw(1)).normalized();
+    for (int i = 0; i < tree_.num_dofs(); ++i) {
+      state_.velocity[i] = draw(5);
+      if (i >= 6) state_.coordinate[i] = draw(1.5);
+    }
+    simbody_.set_state(tree_, state_, simbody_state_);
+    simbody_.system().realize(simbody_state_, SimTK::Stage::Velocity);
+    dynamics_.update_kinematics(state_);
+  }
+
+  /** Simbody's forces of gravity on all bodies. */
+  SimTK::Vector_<SimTK::SpatialVec> gravity() const {
+    const SimTK::SimbodyMatterSubsystem& matter = simbody_.matter();
+    SimTK::Vector_<SimTK::SpatialVec> forces(matter.getNumBodies(), SimTK::SpatialVec(0));
+    for (int i = 0; i < tree_.num_bodies(); ++i) {
+      const SimTK::MobilizedBody& body = simbody_.mobilized(i);
+      const SimTK::MassProperties& mass = body.getBodyMassProperties(simbody_state_);
+      matter.addInStationForce(simbody_state_, body, mass.getMassCenter(),
+                               SimTK::Vec3(0, 0, -kGravity * mass.getMass()), forces);
+    }
+    return forces;
+  }
+
+  SimbodyModel simbody_;
+  Tree tree_;
+  TreeDynamics dynamics_;
+  TreeState state_;
+  SimTK::State simbody_state_;
+  std::mt19937_64 random_{1};
+};
+
+TEST_F(TreeDynamicsTest, HasOneDofForEachMotorThatMovesABody) {
+  // 25 motors, of which the two hands are openings; one dof for both hip yaw-pitch joints.
+  EXPECT_EQ(tree_.num_dofs(), 6 + 23);
+  EXPECT_EQ(tree_.num_bodies(), 25);
+  EXPECT_NEAR(tree_.total_mass(), 5.30535, 1e-5);
+}
+
+TEST_F(TreeDynamicsTest, PlacesEveryBodyWhereSimbodyDoes) {
+  for (int trial = 0; trial < 50; ++trial) {
+    randomize();
+    for (int i = 0; i < tree_.num_bodies(); ++i) {
+      const SimTK::Transform& expected = simbody_.mobilized(i).getBodyTransform(simbody_state_);
+      const SimTK::SpatialVec& velocity = simbody_.mobilized(i).getBodyVelocity(simbody_state_);
+      const Eigen::Vector3d speed = dynamics_.velocity_at(i, dynamics_.position(i));
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(dynamics_.position(i)[k], expected.p()[k], 1e-12);
+        EXPECT_NEAR(speed[k], velocity[1][k], 1e-11);
+        for (int j = 0; j < 3; ++j) {
+          EXPECT_NEAR(dynamics_.rotation(i)(k, j), expected.R().asMat33()(k, j), 1e-12);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(TreeDynamicsTest, AcceleratesAsSimbodysOrderNAlgorithmDoes) {
+  double worst = 0;
+  Eigen::VectorXd bias = Eigen::VectorXd::Zero(tree_.num_dofs());
+  for (int trial = 0; trial < 200; ++trial) {
+    randomize();
+    // Torques on the joints, up to what the motors give.
+    Eigen::VectorXd torque = Eigen::VectorXd::Zero(tree_.num_dofs());
+    for (int i = 6; i < tree_.num_dofs(); ++i) {
+      torque[i] = std::uniform_real_distribution<double>(-5, 5)(random_);
+    }
+    dynamics_.update_mass_matrix();
+    dynamics_.calc_bias({0, 0, -kGravity}, bias);
+    dynamics_.factorize(Eigen::VectorXd::Zero(tree_.num_dofs()));
+    Eigen::VectorXd acceleration = torque - bias;
+    dynamics_.solve_upper(acceleration);
+    dynamics_.solve_lower(acceleration);
+
+    const SimTK::SimbodyMatterSubsystem& matter = simbody_.matter();
+    SimTK::Vector mobility(simbody_state_.getNU(), 0.0);
+    for (int i = 0; i < tree_.num_bodies(); ++i) {
+      const bool is_leader = i > 0 && tree_.body_of_dof(tree_.bodies()[i].dof) == i;
+      if (is_leader) {
+        matter.addInMobilityForce(simbody_state_, simbody_.bodies()[i].mobilized,
+                                  SimTK::MobilizerUIndex(0), torque[tree_.bodies()[i].dof],
+                                  mobility);
+      }
+    }
+    SimTK::Vector expected;
+    SimTK::Vector_<SimTK::SpatialVec> body_accelerations;
+    simbody_.system().realize(simbody_state_, SimTK::Stage::Dynamics);
+    matter.calcAcceleration(simbody_state_, mobility, gravity(), expected, body_accelerations);
+
+    double greatest = 0;
+    double difference = 0;
+    for (int i = 0; i < tree_.num_bodies(); ++i) {
+      const TreeBody& body = tree_.bodies()[i];
+      const auto first = simbody_.mobilized(i).getFirstUIndex(simbody_state_);
+      const int count = i == 0 ? 6 : 1;
+      for (int k = 0; k < count; ++k) {
+        const double value = expected[int(first) + k];
+        const double ours = (i == 0 ? 1 : body.ratio) * acceleration[body.dof + k];
+        greatest = std::max(greatest, std::abs(value));
+        difference = std::max(difference, std::abs(ours - value));
+      }
+    }
+    worst = std::max(worst, difference / greatest);
+  }
+  EXPECT_LT(worst, 1e-8);
+  RecordProperty("worst_relative_difference", std::to_string(worst));
+}
+
+TEST_F(TreeDynamicsTest, HasSimbodysMomentumAndEnergy) {
+  for (int trial = 0; trial < 20; ++trial) {
+    randomize();
+    const SimTK::SimbodyMatterSubsystem& matter = simbody_.matter();
+    const SimTK::SpatialVec momentum = matter.calcSystemCentralMomentum(simbody_state_);
+    const SimTK::Vec3 center = matter.calcSystemMassCenterLocationInGround(simbody_state_);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(dynamics_.angular_momentum()[k], momentum[0][k], 1e-10);
+      EXPECT_NEAR(dynamics_.linear_momentum()[k], momentum[1][k], 1e-10);
+      EXPECT_NEAR(dynamics_.center_of_mass()[k], center[k], 1e-11);
+    }
+    EXPECT_NEAR(dynamics_.kinetic_energy(), matter.calcKineticEnergy(simbody_state_), 1e-9);
+  }
+}
+
+TEST_F(TreeDynamicsTest, FactorSolvesWithAnAddedDiagonal) {
+  randomize();
+  dynamics_.update_mass_matrix();
+  Eigen::VectorXd diagonal(tree_.num_dofs());
+  for (double& x : diagonal) x = std::uniform_real_distribution<double>(0, 0.1)(random_);
+  const Eigen::VectorXd expected = Eigen::VectorXd::Random(tree_.num_dofs());
+  Eigen::VectorXd x(tree_.num_dofs());
+  dynamics_.multiply_by_mass(expected, x);
+  x += diagonal.cwiseProduct(expected);
+  dynamics_.factorize(diagonal);
+  dynamics_.solve_upper(x);
+  dynamics_.solve_lower(x);
+  EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+}  // namespace
+}  // namespace nao::sim

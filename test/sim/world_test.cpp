@@ -1,0 +1,180 @@
+#include "sim/world.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "common/error.h"
+#include "sim/random.h"
+#include "sim_fixture.h"
+
+namespace nao::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+/** Everything that a world's state is made of, as bytes. */
+std::string bytes_of(const World& world) {
+  std::string result;
+  const auto append = [&result](const double* data, long count) {
+    result.append(reinterpret_cast<const char*>(data), sizeof(double) * static_cast<size_t>(count));
+  };
+  for (int i = 0; i < world.num_robots(); ++i) {
+    const TreeState& state = world.robot(i).state();
+    append(state.position.data(), 3);
+    append(state.orientation.coeffs().data(), 4);
+    append(state.coordinate.data(), state.coordinate.size());
+    append(state.velocity.data(), state.velocity.size());
+    append(world.sensors(i).gyroscope.data(), 3);
+    append(world.sensors(i).foot_force.data(), world.sensors(i).foot_force.size());
+  }
+  append(world.ball().position.data(), 3);
+  append(world.ball().velocity.data(), 3);
+  return result;
+}
+
+/** A minute of random commands, pushes and kicks. */
+std::string shaken(World& world, double seconds) {
+  Random random(9);
+  std::string all;
+  MotorTargets targets = world.targets(0);
+  for (int tick = 0; tick < seconds * 100; ++tick) {
+    if (tick % 6 == 0) {
+      for (int i = 0; i < nao_model()->num_motors(); ++i) {
+        const Joint& joint = nao_model()->motor_joint(i);
+        targets.position[i] = random.uniform(joint.lower, joint.upper);
+        targets.stiffness[i] = random.uniform();
+      }
+      world.set_targets(0, targets);
+    }
+    if (tick % 150 == 0) world.push(0, 0, {random.normal(), random.normal(), 0});
+    if (tick % 500 == 0) world.place_ball({0.3, 0, 0}, {random.normal(), random.normal(), 0});
+    world.step_tick();
+    all += bytes_of(world);
+  }
+  return all;
+}
+
+TEST(World, SameSeedAndCommandsGiveTheSameBits) {
+  World first(SceneFile::find("soccer"));
+  World second(SceneFile::find("soccer"));
+  first.add_robot(nao_model());
+  second.add_robot(nao_model());
+  const std::string states = shaken(first, 60);
+  EXPECT_TRUE(states == shaken(second, 60));
+  EXPECT_EQ(first.num_bad_states(), 0);
+}
+
+TEST(World, ResetBringsBackTheStartButForNoise) {
+  WorldOptions options;
+  World world(SceneFile::find("soccer"), options);
+  RobotOptions how;
+  how.ideal_sensors = true;
+  world.add_robot(nao_model(), how);
+  const std::string first = shaken(world, 5);
+  world.reset();
+  EXPECT_EQ(world.tick(), 0);
+  EXPECT_EQ(world.time(), 0);
+  EXPECT_TRUE(first == shaken(world, 5));
+}
+
+TEST(World, AnotherSeedGivesOtherNoise) {
+  WorldOptions options;
+  options.seed = 2;
+  World first{SceneFile{}};
+  World second{SceneFile{}, options};
+  first.add_robot(nao_model());
+  second.add_robot(nao_model());
+  first.step_tick();
+  second.step_tick();
+  EXPECT_NE(first.sensors(0).gyroscope, second.sensors(0).gyroscope);
+  EXPECT_EQ(first.robot(0).state().position, second.robot(0).state().position);
+}
+
+TEST(World, CommandTakesEffectAfterItsLatency) {
+  for (const int latency : {0, 1, 3}) {
+    World world{SceneFile{}};
+    RobotOptions options;
+    options.command_latency_ticks = latency;
+    options.ideal_sensors = true;
+    world.add_robot(nao_model(), options);
+    for (int i = 0; i < 100; ++i) world.step_tick();
+    const int motor = nao_model()->find_motor("HeadYaw");
+    const double before = world.robot(0).motor_position()[motor];
+    MotorTargets targets = world.targets(0);
+    targets.position[motor] = 1;
+    world.set_targets(0, targets);
+    int ticks = 0;
+    while (std::abs(world.robot(0).motor_position()[motor] - before) < 1e-6 && ticks < 20) {
+      world.step_tick();
+      ++ticks;
+    }
+    EXPECT_EQ(ticks, latency + 1);
+  }
+}
+
+TEST(World, PlacesTheRobotOnItsLowestPoint) {
+  World world{SceneFile{}};
+  world.add_robot(nao_model());
+  for (const Posture& posture : nao_model()->postures()) {
+    world.place_robot(0, &posture, {1, -2, 0});
+    EXPECT_EQ(world.robot(0).state().position.x(), 1) << posture.name;
+    for (int i = 0; i < 300; ++i) world.step_tick();
+    // It stays about where it was put, and does not sink or jump.
+    EXPECT_NEAR(world.robot(0).state().position.x(), 1, 0.05) << posture.name;
+    EXPECT_NEAR(world.robot(0).state().position.y(), -2, 0.05) << posture.name;
+    EXPECT_LT(world.robot(0).state().velocity.norm(), 1e-3) << posture.name;
+  }
+}
+
+TEST(World, PutsBackARobotThatIsSomewhereImpossible) {
+  World world{SceneFile{}};
+  world.add_robot(nao_model());
+  world.push(0, 0, {1e6, 0, 0});
+  world.step_tick();
+  EXPECT_EQ(world.num_bad_states(), 1);
+  EXPECT_NEAR(world.robot(0).state().position.norm(), 0.32, 0.01);
+  for (int i = 0; i < 100; ++i) world.step_tick();
+  EXPECT_EQ(world.num_bad_states(), 1);
+  world.push(0, 0, {std::nan(""), 0, 0});
+  world.step_tick();
+  EXPECT_EQ(world.num_bad_states(), 2);
+  for (int i = 0; i < 100; ++i) world.step_tick();
+  EXPECT_EQ(world.num_bad_states(), 2);
+  EXPECT_NEAR(world.robot(0).state().position.z(), 0.32, 0.01);
+}
+
+TEST(World, RefusesOptionsThatMakeNoSense) {
+  WorldOptions options;
+  options.step = 0;
+  EXPECT_THROW(World(SceneFile{}, options), ConfigError);
+  World world{SceneFile{}};
+  RobotOptions how;
+  how.posture = "Headstand";
+  EXPECT_THROW(world.add_robot(nao_model(), how), ConfigError);
+  how = RobotOptions();
+  how.mass_scale = -1;
+  EXPECT_THROW(world.add_robot(nao_model(), how), ConfigError);
+  EXPECT_EQ(world.num_robots(), 0);
+}
+
+TEST(World, FeetStayInPlaceForTenMinutesAndTheRobotStandsForAnHour) {
+  World world{SceneFile{}};
+  world.add_robot(nao_model());
+  for (int i = 0; i < 200; ++i) world.step_tick();
+  const auto foot = [&](int sole) -> Vector3d {
+    return world.robot(0).link_pose(sole).translation();
+  };
+  const Vector3d left = foot(nao_model()->left_sole());
+  const Vector3d right = foot(nao_model()->right_sole());
+  for (int i = 0; i < 60000; ++i) world.step_tick();
+  EXPECT_LT((foot(nao_model()->left_sole()) - left).norm(), 1e-4);
+  EXPECT_LT((foot(nao_model()->right_sole()) - right).norm(), 1e-4);
+  for (int i = 0; i < 300000; ++i) world.step_tick();
+  EXPECT_LT((foot(nao_model()->left_sole()) - left).norm(), 1e-3);
+  EXPECT_GT((world.robot(0).state().orientation * Vector3d::UnitZ()).z(), 0.99);
+  EXPECT_NEAR(world.time(), 3602, 1e-6);
+}
+
+}  // namespace
+}  // namespace nao::sim

@@ -1,0 +1,138 @@
+"""A private stack for a test: scripts/start with its own bus, ports and run directory.
+
+NAO_BIN_DIR (set by CTest) is the folder of the programs to start.
+"""
+
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BIN_DIR = Path(os.environ.get("NAO_BIN_DIR", ROOT / "build/dev/bin"))
+
+# The machine may be busy with other tests: nothing here measures speed.
+DEADLINE = 120
+
+
+def private_lcm_url(offset=0):
+    """A bus that no other test, and no stack of the developer's, uses."""
+    return f"udpm://239.255.76.67:{20000 + (os.getpid() + offset * 3331) % 10000}?ttl=0"
+
+
+def free_port():
+    """A TCP port that was free a moment ago."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def run(command, **options):
+    """Runs a command to its end and keeps what it says: .returncode, .stdout, .stderr."""
+    return subprocess.run(
+        [str(word) for word in command], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+        timeout=DEADLINE, check=False, **options)
+
+
+class Stack:
+    """One stack. Use it in a with statement: nothing of it is left behind."""
+
+    def __init__(self, offset=0):
+        self.run_dir = Path(tempfile.mkdtemp(prefix="nao-"))
+        self.lcm_url = private_lcm_url(offset)
+        self.http_port = free_port()
+        self.tcp_port = free_port()
+        self.token = "test-token"
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.stop()
+        shutil.rmtree(self.run_dir, ignore_errors=True)
+
+    def start(self, *options, ports=True):
+        """Calls scripts/start. Its result is for the test to judge."""
+        command = [ROOT / "scripts/start", "--bin", BIN_DIR, "--run-dir", self.run_dir, "--lcm-url", self.lcm_url,
+                   "--bind", "127.0.0.1", "--token", self.token]
+        if ports:
+            command += ["--http-port", self.http_port, "--tcp-port", self.tcp_port]
+        return run([*command, *options])
+
+    def start_or_fail(self, *options):
+        """Starts, and shows everything there is to see if it did not work."""
+        result = self.start(*options)
+        if result.returncode != 0:
+            raise AssertionError(f"scripts/start: {result.returncode}\n{result.stdout}{result.stderr}{self.logs()}")
+        return result
+
+    def stop(self):
+        return self.script("stop")
+
+    def script(self, name, *arguments):
+        """Calls another of the scripts on this stack."""
+        return run([ROOT / "scripts" / name, "--run-dir", self.run_dir, *arguments])
+
+    def nao(self, *arguments):
+        """Calls the command-line client on this stack's bus."""
+        return run([BIN_DIR / "nao", "--lcm-url", self.lcm_url, *arguments])
+
+    def state(self):
+        """What nao-motion says: a dictionary with robot_state and motion_state."""
+        return json.loads(self.nao("state", "--json").stdout)
+
+    def truth(self):
+        """What nao-sim knows: world_truth_t as a dictionary."""
+        return json.loads(self.nao("world", "show", "--json").stdout)
+
+    def torso_height(self):
+        return self.truth()["robots"][0]["position_torso_in_world"][2]
+
+    def pids(self):
+        """Program name to process id, of every process that carries this stack's mark."""
+        mark = f"NAO_REMOTE_STACK={self.run_dir}".encode()
+        found = {}
+        for folder in Path("/proc").glob("[0-9]*"):
+            try:
+                if mark in (folder / "environ").read_bytes().split(b"\0"):
+                    program = (folder / "cmdline").read_bytes().split(b"\0")[0].decode()
+                    found[Path(program).name] = int(folder.name)
+            except OSError:
+                continue  # it ended meanwhile, or is somebody else's
+        return found
+
+    def wait_ready(self, *programs):
+        return self.nao("status", "--wait", ",".join(programs), "--timeout", DEADLINE - 10)
+
+    def logs(self):
+        """The end of every log, for the message of a failed test."""
+        texts = []
+        for log in sorted((self.run_dir / "logs").glob("*.log")):
+            texts.append(f"--- {log.name}\n" + "\n".join(log.read_text(errors="replace").splitlines()[-15:]))
+        return "\n".join(texts)
+
+
+class Program:
+    """One program by itself, without supervisor."""
+
+    def __init__(self, name, lcm_url, *options):
+        self.process = subprocess.Popen(
+            [str(BIN_DIR / name), "--lcm-url", lcm_url, *[str(option) for option in options]],
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def end(self, with_signal=signal.SIGTERM):
+        """Asks it to end. @return its exit status, how long it took in seconds, and what it said."""
+        start = time.monotonic()
+        self.process.send_signal(with_signal)
+        _, said = self.process.communicate(timeout=DEADLINE)
+        return self.process.returncode, time.monotonic() - start, said
+
+    def kill(self):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.communicate()

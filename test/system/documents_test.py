@@ -1,0 +1,67 @@
+#!/usr/bin/python3
+"""What the documents tell a person to type works, and what they point to is there."""
+
+import os
+import re
+import subprocess
+import unittest
+
+from stack import BIN_DIR, DEADLINE, ROOT, Stack, run
+
+
+def documents():
+    """Every Markdown file of the project."""
+    listed = run(["git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard", "*.md"]).stdout
+    return [ROOT / name for name in listed.splitlines() if (ROOT / name).exists()]
+
+
+def commands(path):
+    """The lines of the ```sh blocks of a file, without comments."""
+    blocks = re.findall(r"^```sh\n(.*?)^```", path.read_text(), re.MULTILINE | re.DOTALL)
+    lines = [line.split("#")[0].strip() for block in blocks for line in block.splitlines()]
+    return [line for line in lines if line]
+
+
+class Documents(unittest.TestCase):
+    def test_every_command_of_the_readme_works_in_its_order(self):
+        found = commands(ROOT / "README.md")
+        self.assertIn("scripts/start", found)
+        # stop stands beside start, where a reader looks for it; the others need a running robot.
+        found.sort(key=lambda command: command == "scripts/stop")
+        with Stack() as stack:
+            environment = {**os.environ, "NAO_REMOTE_BIN": str(BIN_DIR), "NAO_REMOTE_RUN_DIR": str(stack.run_dir),
+                           "LCM_DEFAULT_URL": stack.lcm_url}
+            for command in found:
+                with self.subTest(command=command):
+                    here = command.replace("build/release/bin", str(BIN_DIR))
+                    result = subprocess.run(here, shell=True, cwd=ROOT, env=environment, stdin=subprocess.DEVNULL,
+                                            capture_output=True, text=True, timeout=DEADLINE, check=False)
+                    self.assertEqual(result.returncode, 0, result.stdout + result.stderr + stack.logs())
+            self.assertEqual(stack.pids(), {})
+
+    def test_every_link_leads_to_a_file(self):
+        for document in documents():
+            for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", document.read_text()):
+                if "://" not in target:
+                    with self.subTest(document=document.name, target=target):
+                        self.assertTrue((document.parent / target).exists())
+
+    def test_every_script_that_is_named_is_there(self):
+        for document in documents():
+            for name in re.findall(r"scripts/([a-z]+)\b", document.read_text()):
+                with self.subTest(document=document.name, name=name):
+                    self.assertTrue((ROOT / "scripts" / name).exists())
+
+    def test_every_channel_of_the_code_is_in_the_table(self):
+        table = (ROOT / "lcmtypes/README.md").read_text()
+        code = (ROOT / "daemons/common/channels.h").read_text()
+        names = ["NAO" + suffix for suffix in re.findall(r'robot \+ "(_[A-Z_]+)"', code)]
+        names += re.findall(r'= "([A-Z_]+)";', code)
+        self.assertGreater(len(names), 10)
+        for name in names:
+            with self.subTest(channel=name):
+                self.assertIn(f"| `{name}` |", table)
+
+
+if __name__ == "__main__":
+    unittest.main()

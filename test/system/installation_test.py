@@ -1,0 +1,47 @@
+#!/usr/bin/python3
+"""An installed copy needs nothing of the tree it was built in."""
+
+import tempfile
+import unittest
+import urllib.request
+from pathlib import Path
+
+from stack import BIN_DIR, Stack, run
+
+PROGRAMS = ["nao-sim", "nao-motion", "nao-head-camera", "nao-phone-gateway"]
+
+
+class Installation(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="nao-")
+        self.addCleanup(folder.cleanup)
+        installed = Path(folder.name) / "installed"
+        result = run(["cmake", "--install", BIN_DIR.parent, "--prefix", installed])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        # Moved: no program may remember where it was put.
+        self.prefix = Path(folder.name) / "moved"
+        installed.rename(self.prefix)
+
+    def test_every_program_is_installed(self):
+        for name in [*PROGRAMS, "nao"]:
+            result = run([self.prefix / "bin" / name, "--version"])
+            self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_the_robot_moves_and_the_app_is_served(self):
+        with Stack() as stack:
+            stack.start_or_fail("--bin", self.prefix / "bin")
+            result = run([self.prefix / "bin/nao", "--lcm-url", stack.lcm_url, "posture", "Crouch"])
+            self.assertEqual(result.returncode, 0, result.stderr + stack.logs())
+            self.assertAlmostEqual(stack.torso_height(), 0.229, delta=0.01)
+
+            data = self.prefix / "share/nao-remote"
+            for path, file in (("", "web/index.html"),
+                               ("robots/nao/nao.urdf", "robots/nao/nao.urdf"),
+                               ("robots/nao/meshes/Head.glb", "robots/nao/meshes/Head.glb")):
+                url = f"http://127.0.0.1:{stack.http_port}/{path}"
+                with urllib.request.urlopen(url, timeout=30) as answer:
+                    self.assertEqual(answer.read(), (data / file).read_bytes(), path)
+
+
+if __name__ == "__main__":
+    unittest.main()

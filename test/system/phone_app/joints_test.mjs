@@ -1,0 +1,113 @@
+// Joints mode by touch, against the real programs: a tap on a ball chooses a joint group, the pad turns
+// it, and the simulated joint follows.
+import assert from "node:assert/strict";
+import {after, before, test} from "node:test";
+import {openBrowser, Phone} from "./phone.mjs";
+import {Stack, until} from "./stack.mjs";
+
+const kDegree = Math.PI / 180;
+/** Share of the pad by which the thumb is off its middle: 0.9 rad/s for head and arms; 0.2 rad/s for a leg,
+ * which shall turn only so far that the robot keeps standing. */
+const kArmReach = 0.8;
+const kLegReach = 0.35;
+const kMoved = 3 * kDegree;
+const kDeadlineMs = 20_000;
+
+const stack = new Stack(process.env.NAO_BIN_DIR);
+let browser;
+let phone;
+
+before(async () => {
+  await stack.start({scene: "empty"});
+  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
+  phone = await Phone.open(browser, stack.url);
+  await phone.sees("controller");
+  await phone.tap(".lock");
+});
+
+after(async () => {
+  await browser?.close();
+  await stack.stop();
+});
+
+/** Taps the ball of a group once the view has come to rest. */
+async function choose(group) {
+  let last = [0, 0];
+  const [x, y] = await until("the ball is at rest", async () => {
+    const place = (await phone.look("ballPlaces()"))[group];
+    const isAtRest = Math.hypot(place[0] - last[0], place[1] - last[1]) < 0.5;
+    last = place;
+    return isAtRest && place;
+  });
+  await phone.page.touchscreen.tap(x, y);
+  await until(`${group} is chosen`, async () => (await phone.look("state.selectedGroup")) === group);
+}
+
+/** Holds the pad off its middle until something is so. */
+async function push(right, up, what, isSo) {
+  const pad = await phone.middleOf(".joystick-joint");
+  await phone.fingers("touchStart", [{id: 1, x: pad.x, y: pad.y}]);
+  await phone.fingers("touchMove", [{id: 1, x: pad.x + right * pad.radius, y: pad.y - up * pad.radius}]);
+  await until(what, isSo, kDeadlineMs).finally(() => phone.fingers("touchEnd", []));
+}
+
+/** "Reset pose": everything back to where it was before the next joint. */
+async function reset() {
+  await phone.page.locator(".joint-buttons .button").nth(1).tap();
+  await until("the robot stands ready", async () =>
+      (await phone.look("state.state.posture")) === "StandInit", kDeadlineMs);
+}
+
+const groups = [
+  ["head", "HeadPitch", "up", -1], ["head", "HeadYaw", "right", 1],
+  ["left shoulder", "LShoulderPitch", "up", -1], ["right shoulder", "RShoulderPitch", "up", -1],
+  ["left elbow", "LElbowYaw", "right", 1], ["right elbow", "RElbowYaw", "left", -1],
+  ["left wrist", "LWristYaw", "right", 1], ["right wrist", "RWristYaw", "right", 1],
+  ["left hand", "LHand", "up", 1], ["right hand", "RHand", "up", 1],
+];
+
+for (const [group, joint, direction, sign] of groups) {
+  test(`${group}: the pad pushed ${direction} turns ${joint}`, async () => {
+    await choose(group);
+    const before = (await stack.truth()).angles[joint];
+    const right = direction === "right" ? kArmReach : direction === "left" ? -kArmReach : 0;
+    await push(right, direction === "up" ? kArmReach : 0, `${joint} has turned; it was at ${before}`,
+               async () => sign * ((await stack.truth()).angles[joint] - before) > kMoved);
+  });
+}
+
+const legGroups = [["left hip", "LHipPitch"], ["left knee", "LKneePitch"], ["left ankle", "LAnklePitch"],
+                   ["right hip", "RHipPitch"], ["right knee", "RKneePitch"], ["right ankle", "RAnklePitch"]];
+
+for (const [group, joint] of legGroups) {
+  test(`${group}: ${joint} turns, or the phone says why not`, async () => {
+    await choose(group);
+    const before = (await stack.truth()).angles[joint];
+    await push(0, kLegReach, `${joint} has turned, or a refusal is shown`, async () =>
+        Math.abs((await stack.truth()).angles[joint] - before) > kMoved ||
+        (await phone.page.locator(".message.bad").count()) > 0);
+    await reset();
+  });
+}
+
+test("the roll slider turns the roll joint, and both sides at once where that is wished", async () => {
+  await choose("left shoulder");
+  await phone.page.locator(".joint-buttons .button").nth(0).tap();
+  const {angles} = await stack.truth();
+  const slider = await phone.page.locator(".roll input").boundingBox();
+  const y = slider.y + slider.height / 2;
+  await phone.page.touchscreen.tap(slider.x + 0.8 * slider.width, y);
+  await until("both arms have moved, mirrored", async () => {
+    const now = (await stack.truth()).angles;
+    const left = now.LShoulderRoll - angles.LShoulderRoll;
+    const right = now.RShoulderRoll - angles.RShoulderRoll;
+    return Math.abs(left) > kMoved && Math.abs(left + right) < 2 * kDegree;
+  }, kDeadlineMs);
+});
+
+test("the lock takes the balls away and brings the drive controls back", async () => {
+  await phone.tap(".lock");
+  assert.ok(await phone.page.locator(".joystick-walk").isVisible());
+  assert.ok(await phone.page.locator(".joint-card").isHidden());
+  assert.deepEqual(phone.errors, []);
+});

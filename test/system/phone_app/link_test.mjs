@@ -1,0 +1,86 @@
+// Phones that lose the link, that look away, and that share one robot.
+import assert from "node:assert/strict";
+import {after, before, test} from "node:test";
+import {openBrowser, Phone} from "./phone.mjs";
+import {Stack, until} from "./stack.mjs";
+
+const stack = new Stack(process.env.NAO_BIN_DIR);
+let browser;
+let ana;
+let ben;
+
+before(async () => {
+  await stack.start({scene: "empty"});
+  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
+});
+
+after(async () => {
+  await browser?.close();
+  await stack.stop();
+});
+
+const driverText = (phone) => phone.page.locator(".driver-name").textContent();
+
+test("a wrong code is refused in words, and the right one typed in connects", async () => {
+  ana = await Phone.open(browser, stack.url.replace(stack.token, "wrong"));
+  await ana.page.getByText("The pairing code is not the right one.").waitFor();
+  await ana.page.locator('[name="token"]').fill(stack.token);
+  await ana.page.locator('[name="client-name"]').fill("Ana");
+  await ana.page.locator('[type="submit"]').tap();
+  await ana.sees("controller");
+});
+
+test("the first to touch a control drives; the second phone sees who, and may ask", async () => {
+  await ana.tap('[data-name="Stand"]');
+  await until("Ana drives", async () => (await driverText(ana)) === "You drive");
+  ben = await Phone.open(browser, stack.url);
+  await ben.sees("controller");
+  await until("Ben sees it", async () => (await driverText(ben)) === "Ana drives");
+  // A command of the second phone moves nothing, and says who drives.
+  await ben.tap('[data-name="Crouch"]');
+  await ben.page.locator(".message", {hasText: "Ana drives"}).waitFor();
+  // Ana is active: refused. When she has given no command for 10 s, granted.
+  await ben.tap(".driver-button");
+  await until("Ben drives", async () => {
+    if ((await driverText(ben)) === "You drive") return true;
+    await ben.page.waitForTimeout(1000);
+    await ben.tap(".driver-button");
+    return false;
+  });
+  await until("Ana sees it", async () => (await driverText(ana)).endsWith(" drives"));
+});
+
+test("the driver hands over, and the other takes the wheel by touching a control", async () => {
+  await ben.tap(".driver-button");
+  await until("nobody drives", async () => (await ana.look("state.control.driverId")) === 0);
+  await ana.tap('[data-name="StandInit"]');
+  await until("Ana drives again", async () => (await driverText(ana)) === "You drive");
+});
+
+test("anybody may stop the robot, spectators too", async () => {
+  await until("old messages are gone", async () => (await ben.page.locator(".message.bad").count()) === 0);
+  await ben.tap(".stop");
+  assert.equal(await ben.page.locator(".message.bad").count(), 0);
+});
+
+test("a killed gateway brings the connection screen, and the app comes back by itself with it", async () => {
+  await stack.end("nao-phone-gateway", "SIGKILL");
+  await ana.sees("connection");
+  await ana.page.locator(".problem").waitFor();
+  await stack.startGateway();
+  await ana.sees("controller");
+  await until("pictures go on", async () => {
+    const count = await ana.look("numPictures");
+    return until("another", async () => (await ana.look("numPictures")) > count, 2000);
+  });
+});
+
+test("a gateway that hangs is noticed after 5 s of silence", async () => {
+  const gateway = stack.program("nao-phone-gateway");
+  gateway.child.kill("SIGSTOP");
+  const begin = Date.now();
+  await ana.page.getByText("The robot has gone quiet.").waitFor();
+  assert.ok(Date.now() - begin > 4000, "given up too early");
+  gateway.child.kill("SIGCONT");
+  await ana.sees("controller");
+});

@@ -1,0 +1,67 @@
+// A phone: headless Chromium with a touch screen, and fingers that may be down two at a time.
+import {createRequire} from "node:module";
+
+const kChromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
+const kOptions = [
+  "--headless", "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--disable-quic",
+  "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+];
+
+/** Node looks for packages beside the app. @param webDir  folder of its package.json. */
+export function requireFromApp(webDir) {
+  return createRequire(`${webDir}/package.json`);
+}
+
+export async function openBrowser(webDir) {
+  const {chromium} = requireFromApp(webDir)("playwright-core");
+  return chromium.launch({executablePath: kChromium, args: kOptions});
+}
+
+export class Phone {
+  /** Complaints of the page: errors, and what it wrote to the console as one. */
+  errors = [];
+
+  /** @param size  CSS pixels: {width, height}. */
+  static async open(browser, url, size = {width: 412, height: 915}, options = {}) {
+    const phone = new Phone();
+    phone.context = await browser.newContext({
+      viewport: size, deviceScaleFactor: 1, isMobile: true, hasTouch: true, locale: "en-US", ...options});
+    phone.page = await phone.context.newPage();
+    phone.page.on("pageerror", (error) => phone.errors.push(error.message));
+    phone.page.on("console", (message) => {
+      if (message.type() === "error") phone.errors.push(message.text());
+    });
+    phone.touch = await phone.context.newCDPSession(phone.page);
+    await phone.page.goto(url);
+    return phone;
+  }
+
+  async close() {
+    await this.context.close();
+  }
+
+  /** Waits until a screen is seen: loading, connection or controller. */
+  async sees(screen, ms = 60_000) {
+    await this.page.locator(`#app[data-screen="${screen}"]`).waitFor({timeout: ms});
+  }
+
+  /** Something of window.naoRemote, by an expression: "numPictures". */
+  look(expression) {
+    return this.page.evaluate(`window.naoRemote.${expression}`);
+  }
+
+  async tap(selector) {
+    await this.page.locator(selector).tap();
+  }
+
+  /** The middle of an element, px. */
+  async middleOf(selector) {
+    const box = await this.page.locator(selector).boundingBox();
+    return {x: box.x + box.width / 2, y: box.y + box.height / 2, radius: box.width / 2};
+  }
+
+  /** Puts fingers on the glass, moves them, or takes them away: {x, y, id} each, px. */
+  async fingers(type, points) {
+    await this.touch.send("Input.dispatchTouchEvent", {type, touchPoints: points});
+  }
+}

@@ -1,0 +1,68 @@
+// A recorded run, played again into a gateway without robot: the phone shows the same poses and pictures.
+// NAO_BIN_DIR and NAO_WEB_SOURCE_DIR say where the programs and the app's package.json are.
+import assert from "node:assert/strict";
+import {execFile, spawn} from "node:child_process";
+import {mkdtemp, rm} from "node:fs/promises";
+import {tmpdir} from "node:os";
+import {join} from "node:path";
+import {after, before, test} from "node:test";
+import {fileURLToPath} from "node:url";
+import {promisify} from "node:util";
+import {openBrowser, Phone} from "./phone.mjs";
+import {pause, Stack, until} from "./stack.mjs";
+
+const kDegree = Math.PI / 180;
+const kReplay = fileURLToPath(new URL("../../../scripts/replay", import.meta.url));
+
+const stack = new Stack(process.env.NAO_BIN_DIR);
+let browser;
+let folder;
+let log;
+let crouched;
+
+before(async () => {
+  folder = await mkdtemp(join(tmpdir(), "nao-replay-"));
+  log = join(folder, "run.lcmlog");
+  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
+});
+
+after(async () => {
+  await browser?.close();
+  await stack.stop();
+  await rm(folder, {recursive: true, force: true});
+});
+
+test("a run to Crouch is recorded", async () => {
+  await stack.start();
+  const watcher = await Phone.open(browser, stack.url);
+  await until("somebody watches", async () => (await watcher.look("numPictures")) > 0);
+  const logger = spawn("lcm-logger", ["--quiet", `--lcm-url=${stack.lcmUrl}`, log], {stdio: "ignore"});
+  try {
+    await pause(1000);
+    await stack.nao("posture", "Crouch");
+    await pause(2000);
+    crouched = await stack.truth();
+  } finally {
+    logger.kill();
+  }
+  await watcher.page.close();
+  await stack.stop();
+  assert.ok(Math.abs(crouched.torso[2] - 0.229) < 0.015, `the torso is at ${crouched.torso[2]} m`);
+});
+
+test("played again, the phone shows the robot crouch, and its pictures", async () => {
+  await stack.startGateway();
+  const phone = await Phone.open(browser, stack.url);
+  await phone.sees("controller");
+  const replay = promisify(execFile)(kReplay, ["--lcm-url", stack.lcmUrl, log]);
+  replay.catch(() => {});
+  await until("the phone shows the recorded angles within 1 degree", async () => {
+    const shown = await phone.look("jointAngles()");
+    return Object.entries(crouched.angles).every(
+        ([name, angle]) => Math.abs(shown[name] - angle) < 1 * kDegree);
+  });
+  const height = (await phone.look("torsoPosition()"))[2];
+  assert.ok(Math.abs(height - 0.229) < 0.02, `the phone shows the torso at ${height} m`);
+  assert.ok(await phone.look("numPictures") > 0, "no recorded picture was drawn");
+  await replay;
+});

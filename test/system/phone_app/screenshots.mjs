@@ -1,0 +1,74 @@
+// Makes docs/images/app-*.png with the real programs: node screenshots.mjs OUTPUT_DIR. Wants pngquant, and
+// fonts-roboto-unhinted so that letters look as on a phone. NAO_BIN_DIR, NAO_WEB_SOURCE_DIR as for the tests.
+import {execFileSync} from "node:child_process";
+import {mkdirSync, statSync} from "node:fs";
+import {join} from "node:path";
+import {openBrowser, Phone} from "./phone.mjs";
+import {pause, Stack, until} from "./stack.mjs";
+
+const kMaxBytes = 150_000;
+const kSizes = {small: [360, 640], portrait: [412, 915], landscape: [915, 412], tablet: [1280, 800]};
+/** Software drawing is slow: the view has come to rest after this, ms. */
+const kRestMs = 2500;
+
+const outputDir = process.argv[2];
+if (!outputDir) throw new Error("usage: node screenshots.mjs OUTPUT_DIR");
+mkdirSync(outputDir, {recursive: true});
+
+const stack = new Stack(process.env.NAO_BIN_DIR);
+
+async function take(phone, name) {
+  await pause(kRestMs);
+  const file = join(outputDir, `app-${name}.png`);
+  await phone.page.screenshot({path: file});
+  // As many colours as fit the size.
+  for (const colors of [256, 160, 96, 64]) {
+    execFileSync("pngquant", ["--force", "--speed", "1", "--output", file, String(colors), file]);
+    if (statSync(file).size <= kMaxBytes) break;
+  }
+  console.log(file, statSync(file).size);
+}
+
+const screens = {
+  async connection(phone, name) {
+    await phone.page.locator(".problem").waitFor();
+    await take(phone, `connection-${name}`);
+    await phone.page.locator('[name="token"]').fill(stack.token);
+    await phone.page.locator('[name="client-name"]').fill("Ana");
+    await phone.tap('[type="submit"]');
+    await phone.sees("controller");
+    await until("a picture", async () => (await phone.look("numPictures")) > 2);
+  },
+  async drive(phone, name) {
+    await phone.page.locator('[data-name="StandInit"]').tap();
+    await take(phone, `drive-${name}`);
+  },
+  async picture(phone, name) {
+    await phone.tap(".picture-main");
+    await take(phone, `picture-${name}`);
+    await phone.tap(".picture-main");
+  },
+  async joints(phone, name) {
+    await phone.tap(".lock");
+    await phone.page.locator('[data-name="left shoulder"]').tap();
+    await take(phone, `joints-${name}`);
+    await phone.tap(".lock");
+  },
+  async menu(phone, name) {
+    await phone.page.locator(".corner .round").nth(1).tap();
+    await take(phone, `menu-${name}`);
+  },
+};
+
+try {
+  await stack.start();
+  const browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
+  for (const [name, [width, height]] of Object.entries(kSizes)) {
+    const phone = await Phone.open(browser, stack.url.replace(stack.token, "wrong"), {width, height});
+    for (const screen of Object.values(screens)) await screen(phone, name);
+    await phone.close();
+  }
+  await browser.close();
+} finally {
+  await stack.stop();
+}

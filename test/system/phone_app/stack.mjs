@@ -1,0 +1,124 @@
+// The real programs on a private bus and free ports, started and ended by a test.
+import {execFile, spawn} from "node:child_process";
+import {join} from "node:path";
+
+// Deadlines are generous: the machine may be busy with other things.
+const kReadyMs = 60_000;
+const kEndMs = 5000;
+
+/** Pause, ms. */
+export const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+/** Asks until the answer is neither false nor undefined, and returns it.
+ * @throws Error with `what` after `ms`. */
+export async function until(what, ask, ms = kReadyMs) {
+  const deadline = Date.now() + ms;
+  let failure = "";
+  while (Date.now() < deadline) {
+    try {
+      const answer = await ask();
+      if (answer !== false && answer !== undefined) return answer;
+    } catch (error) {
+      failure = `: ${error.message}`;
+    }
+    await pause(50);
+  }
+  throw new Error(`waited ${ms / 1000} s in vain until ${what}${failure}`);
+}
+
+export class Stack {
+  token = "system-test";
+  httpPort = 0;
+  #programs = new Map();
+  #binDir;
+
+  /** @param binDir  folder of the programs. */
+  constructor(binDir) {
+    this.#binDir = binDir;
+    // Parallel test runs do not hear each other: a multicast port of this process's own.
+    this.lcmUrl = `udpm://239.255.76.67:${20000 + (process.pid % 10000)}?ttl=0`;
+  }
+
+  /** Starts simulation, motion, camera and gateway; returns when a phone can drive. */
+  async start(options = {}) {
+    this.run("nao-sim", ["--scene", options.scene ?? "soccer"]);
+    this.run("nao-motion");
+    this.run("nao-head-camera");
+    await this.startGateway();
+    await until("every program is ready", () => this.nao(
+        "status", "--wait", "nao-sim,nao-motion,nao-head-camera,nao-phone-gateway", "--timeout", "60"));
+  }
+
+  /** Starts the gateway, on the same port as before if it ran already. */
+  async startGateway() {
+    const program = this.run("nao-phone-gateway", [
+      "--bind", "127.0.0.1", "--http-port", String(this.httpPort), "--tcp-port", "0",
+      "--token", this.token]);
+    this.httpPort = await until("the gateway listens", () => {
+      const port = /HTTP and WebSocket on 127\.0\.0\.1:(\d+)/.exec(program.log);
+      if (port) return Number(port[1]);
+      if (program.exited) throw new Error(program.log);
+      return undefined;
+    });
+  }
+
+  /** What the QR code says. */
+  get url() {
+    return `http://127.0.0.1:${this.httpPort}/#token=${this.token}`;
+  }
+
+  run(name, options = []) {
+    const child = spawn(join(this.#binDir, name), ["--lcm-url", this.lcmUrl, ...options],
+                        {stdio: ["ignore", "ignore", "pipe"]});
+    const program = {child, log: "", exited: false};
+    child.stderr.on("data", (text) => program.log += text);
+    child.on("exit", () => program.exited = true);
+    child.on("error", (error) => {
+      program.log += error.message;
+      program.exited = true;
+    });
+    this.#programs.set(name, program);
+    return program;
+  }
+
+  program(name) {
+    return this.#programs.get(name);
+  }
+
+  /** Ends one program. @param signal  SIGKILL for one that has no time to say goodbye. */
+  async end(name, signal = "SIGTERM") {
+    const program = this.#programs.get(name);
+    if (!program || program.exited) return;
+    program.child.kill(signal);
+    await until(`${name} has ended`, () => program.exited, kEndMs).catch(() => program.child.kill("SIGKILL"));
+  }
+
+  async stop() {
+    await Promise.all([...this.#programs.keys()].map((name) => this.end(name)));
+  }
+
+  /** Runs the client `nao` on this bus. @return what it prints; throws what it complains. */
+  nao(...words) {
+    return new Promise((resolve, reject) => {
+      execFile(join(this.#binDir, "nao"), [...words, "--lcm-url", this.lcmUrl], (error, stdout, stderr) =>
+          error ? reject(new Error(`nao ${words.join(" ")}: ${stderr}`)) : resolve(stdout));
+    });
+  }
+
+  /** The true state of the world: time s; torso m, and (w, x, y, z); angles rad by joint name. */
+  async truth() {
+    const world = JSON.parse(await this.nao("world", "show", "--json"));
+    const robot = world.robots[0];
+    return {
+      time: world.utime * 1e-6,
+      torso: robot.position_torso_in_world,
+      orientation: robot.orientation_torso_in_world,
+      angles: Object.fromEntries(robot.joint_names.map((name, i) => [name, robot.joint_position[i]])),
+    };
+  }
+
+  /** Last words of every program, for a failed test. */
+  get logs() {
+    return [...this.#programs].map(([name, {log}]) => `--- ${name}\n${log.slice(-2000)}`).join("\n");
+  }
+}

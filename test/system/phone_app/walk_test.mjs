@@ -1,0 +1,119 @@
+// Walking by thumbs: two fingers at once, seen in the simulated world; and everything that must end a walk.
+import assert from "node:assert/strict";
+import {after, before, test} from "node:test";
+import {openBrowser, Phone} from "./phone.mjs";
+import {Stack, until} from "./stack.mjs";
+
+const stack = new Stack(process.env.NAO_BIN_DIR);
+let browser;
+let phone;
+
+before(async () => {
+  await stack.start({scene: "empty"});
+  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
+  phone = await Phone.open(browser, stack.url);
+  await phone.sees("controller");
+});
+
+after(async () => {
+  await browser?.close();
+  await stack.stop();
+});
+
+const headingOf = ([w, x, y, z]) => Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+const turned = (from, to) => Math.atan2(Math.sin(to - from), Math.cos(to - from));
+
+async function place() {
+  const {time, torso, orientation} = await stack.truth();
+  return {time, x: torso[0], y: torso[1], height: torso[2], heading: headingOf(orientation)};
+}
+
+/** Both thumbs down, each pad pushed by shares of its radius: right and up. */
+async function thumbs(walk, turn) {
+  const left = await phone.middleOf(".joystick-walk");
+  const right = await phone.middleOf(".joystick-turn");
+  const at = (pad, id, [x, y]) => ({id, x: pad.x + x * pad.radius, y: pad.y - y * pad.radius});
+  await phone.fingers("touchStart", [at(left, 1, [0, 0]), at(right, 2, [0, 0])]);
+  await phone.fingers("touchMove", [at(left, 1, walk), at(right, 2, turn)]);
+}
+
+const lift = () => phone.fingers("touchEnd", []);
+
+/** Asks for places until one is as wished, for some seconds of simulated time. */
+async function untilPlace(what, isSo, simulatedSeconds) {
+  const begin = (await place()).time;
+  for (;;) {
+    const now = await place();
+    assert.ok(now.height > 0.2, `the robot fell before ${what}\n${stack.logs}`);
+    if (isSo(now)) return now;
+    assert.ok(now.time - begin < simulatedSeconds,
+              `${simulatedSeconds} simulated seconds passed before ${what}: ${JSON.stringify(now)}`);
+  }
+}
+
+/** The walk has ended: the robot says so, and stands still. */
+async function stands() {
+  await until("the robot stands", async () => (await phone.look("state.state.mode")) === "holding");
+  const before = await place();
+  const after = await untilPlace("half a second passed", ({time}) => time > before.time + 0.5, 5);
+  assert.ok(Math.hypot(after.x - before.x, after.y - before.y) < 0.02, "it says that it stands, and walks on");
+}
+
+test("the left thumb up and the right one to the left walk ahead in a left turn", async () => {
+  const start = await place();
+  await thumbs([0, 0.75], [-0.6, 0]);
+  const end = await untilPlace("the robot has walked and turned", (now) =>
+      Math.hypot(now.x - start.x, now.y - start.y) > 0.12 && turned(start.heading, now.heading) > 0.15, 20);
+  await lift();
+  assert.ok(end.x > start.x, "it walked backwards");
+  await stands();
+});
+
+test("a page that is hidden stops the walk", async () => {
+  const start = await place();
+  await thumbs([0, 0.75], [0, 0]);
+  await untilPlace("the robot walks", (now) => Math.hypot(now.x - start.x, now.y - start.y) > 0.05, 20);
+  // The fingers stay where they are: a phone whose screen locks reports no lifted finger.
+  await phone.page.evaluate(() => {
+    Object.defineProperty(document, "visibilityState", {value: "hidden", configurable: true});
+    document.dispatchEvent(new Event("visibilitychange"));
+  });
+  const {velocity} = await until("the walk command has ended", async () => {
+    const state = JSON.parse(await stack.nao("state", "--json")).motion_state;
+    return state.mode !== "walking" && {velocity: state.walk_velocity};
+  });
+  assert.deepEqual(velocity, [0, 0, 0]);
+  await lift();
+  await phone.page.evaluate(() => {
+    delete document.visibilityState;
+    document.dispatchEvent(new Event("visibilitychange"));
+  });
+  await stands();
+});
+
+test("the stop button stops the walk while the thumb stays", async () => {
+  const start = await place();
+  await thumbs([0, 0.75], [0, 0]);
+  await untilPlace("the robot walks", (now) => Math.hypot(now.x - start.x, now.y - start.y) > 0.05, 20);
+  const stop = await phone.middleOf(".stop");
+  const walk = await phone.middleOf(".joystick-walk");
+  const turn = await phone.middleOf(".joystick-turn");
+  const held = [{id: 1, x: walk.x, y: walk.y - 0.75 * walk.radius}, {id: 2, x: turn.x, y: turn.y}];
+  await phone.fingers("touchStart", [...held, {id: 3, x: stop.x, y: stop.y}]);
+  await stands();
+  await lift();
+});
+
+test("a tap on the ground and on 'Walk here' walks there", async () => {
+  const start = await place();
+  const stage = await phone.middleOf(".stage");
+  await phone.page.touchscreen.tap(stage.x * 1.7, stage.y * 1.12);
+  await phone.tap(".walk-here");
+  await untilPlace("the robot has gone there", (now) => Math.hypot(now.x - start.x, now.y - start.y) > 0.1, 40);
+  await phone.tap(".stop");
+  await stands();
+});
+
+test("the phone has no complaint", () => {
+  assert.deepEqual(phone.errors, []);
+});

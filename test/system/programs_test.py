@@ -1,0 +1,83 @@
+#!/usr/bin/python3
+"""Each program ends when asked, and comes back when killed."""
+
+import os
+import signal
+import time
+import unittest
+
+from stack import DEADLINE, Program, Stack, free_port
+
+PROGRAMS = {
+    "nao-sim": [],
+    "nao-motion": [],
+    "nao-head-camera": [],
+    "nao-phone-gateway": ["--bind", "127.0.0.1", "--token", "x"],
+}
+
+
+def options_of(name):
+    if name == "nao-phone-gateway":
+        return [*PROGRAMS[name], "--http-port", free_port(), "--tcp-port", free_port()]
+    return PROGRAMS[name]
+
+
+class Ending(unittest.TestCase):
+    def test_each_program_ends_well_when_asked(self):
+        for name in PROGRAMS:
+            for asked in (signal.SIGTERM, signal.SIGINT):
+                with self.subTest(program=name, signal=asked), Stack() as stack:
+                    program = Program(name, stack.lcm_url, *options_of(name))
+                    self.addCleanup(program.kill)
+                    # Alone on the bus it may wait for others; what counts is that it speaks.
+                    deadline = time.monotonic() + DEADLINE
+                    while name not in stack.nao("status").stdout and time.monotonic() < deadline:
+                        self.assertIsNone(program.process.poll())
+                    status, seconds, said = program.end(asked)
+                    self.assertEqual(status, 0, said)
+                    # Two seconds are promised; a busy machine may take some more.
+                    self.assertLess(seconds, 10)
+
+    def test_each_program_has_a_version_and_explains_its_options(self):
+        for name in [*PROGRAMS, "nao"]:
+            with self.subTest(program=name):
+                for option, expected in (("--version", name), ("--help", "--lcm-url")):
+                    program = Program(name, "memq://", option)
+                    program.process.communicate(timeout=DEADLINE)
+                    self.assertEqual(program.process.returncode, 0)
+
+    def test_a_wrong_option_is_status_2(self):
+        for name in PROGRAMS:
+            with self.subTest(program=name):
+                program = Program(name, "memq://", "--no-such-option")
+                _, said = program.process.communicate(timeout=DEADLINE)
+                self.assertEqual(program.process.returncode, 2, said)
+
+
+class Killing(unittest.TestCase):
+    def test_a_killed_program_comes_back_and_the_robot_obeys_again(self):
+        self.hurt_each_program(signal.SIGKILL)
+
+    def test_a_hung_program_is_replaced_and_the_robot_obeys_again(self):
+        self.hurt_each_program(signal.SIGSTOP)
+
+    def hurt_each_program(self, with_signal):
+        with Stack() as stack:
+            stack.start_or_fail()
+            for name in PROGRAMS:
+                with self.subTest(program=name):
+                    old = stack.pids()[name]
+                    os.kill(old, with_signal)
+                    deadline = time.monotonic() + DEADLINE
+                    while stack.pids().get(name, old) == old:
+                        self.assertLess(time.monotonic(), deadline, stack.logs())
+                        time.sleep(0.1)
+                    ready = stack.wait_ready(*PROGRAMS)
+                    self.assertEqual(ready.returncode, 0, ready.stderr + stack.logs())
+                    for posture in ("Crouch", "Stand"):
+                        result = stack.nao("posture", posture)
+                        self.assertEqual(result.returncode, 0, f"{name}: {result.stderr}{stack.logs()}")
+
+
+if __name__ == "__main__":
+    unittest.main()

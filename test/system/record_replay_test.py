@@ -1,0 +1,76 @@
+#!/usr/bin/python3
+"""A recorded run, played again, says on the bus what the run said."""
+
+import subprocess
+import time
+import unittest
+from pathlib import Path
+
+from lcm_log import read_log
+from stack import DEADLINE, ROOT, Stack
+
+
+def messages(path, channel):
+    return [event.data for event in read_log(path) if event.channel == channel]
+
+
+class RecordReplay(unittest.TestCase):
+    def test_a_replay_repeats_every_robot_state(self):
+        with Stack(0) as stack, Stack(1) as silent:
+            stack.start_or_fail("--only", "sim,motion")
+            log = stack.run_dir / "run.lcmlog"
+            recorder = subprocess.Popen([ROOT / "scripts/record", "--run-dir", stack.run_dir, log],
+                                        stdout=subprocess.DEVNULL)
+            self.addCleanup(recorder.kill)
+            self.wait_for_file(log)
+            self.assertEqual(stack.nao("posture", "Crouch").returncode, 0)
+            recorder.terminate()
+            recorder.wait(DEADLINE)
+            states = messages(log, "NAO_ROBOT_STATE")
+            self.assertGreater(len(states), 20)
+
+            refused = stack.script("replay", log)
+            self.assertEqual(refused.returncode, 1)
+            self.assertIn("talk against the log", refused.stderr)
+
+            # Again on another bus, where nobody else talks.
+            copy = stack.run_dir / "copy.lcmlog"
+            second_recorder = subprocess.Popen(["lcm-logger", "--quiet", f"--lcm-url={silent.lcm_url}", copy])
+            self.addCleanup(second_recorder.kill)
+            self.wait_for_listener(silent.lcm_url)
+            replayed = stack.script("replay", "--lcm-url", silent.lcm_url, log)
+            self.assertEqual(replayed.returncode, 0, replayed.stderr)
+            self.wait_for_silence(copy)
+            second_recorder.terminate()
+            second_recorder.wait(DEADLINE)
+            # The bus may lose some while the machine is busy, but it makes none up and changes no order.
+            heard = messages(copy, "NAO_ROBOT_STATE")
+            rest = iter(states)
+            self.assertTrue(all(state in rest for state in heard))
+            self.assertGreater(len(heard), len(states) / 2)
+            self.assertEqual(messages(copy, "NAO_JOINT_COMMAND"), [], "commands are not played unless asked for")
+
+    def wait_for_file(self, path):
+        deadline = time.monotonic() + DEADLINE
+        while not path.exists() or path.stat().st_size == 0:
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.05)
+
+    def wait_for_silence(self, path):
+        """Until a recorder writes no more into its file."""
+        size = -1
+        while path.stat().st_size != size:
+            size = path.stat().st_size
+            time.sleep(1)
+
+    def wait_for_listener(self, lcm_url):
+        """Until a process has joined the bus's port."""
+        port = f"{int(lcm_url.split(':')[2].split('?')[0]):04X}"
+        deadline = time.monotonic() + DEADLINE
+        while f":{port} " not in Path("/proc/net/udp").read_text():
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.05)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+"""scripts/start, stop and status, as a person uses them."""
+
+import json
+import re
+import socket
+import unittest
+import urllib.request
+
+from stack import ROOT, Stack, run
+
+PROGRAMS = {"nao-sim", "nao-motion", "nao-head-camera", "nao-phone-gateway"}
+
+
+class Start(unittest.TestCase):
+    def test_brings_everything_up_and_stop_leaves_no_process(self):
+        with Stack() as stack:
+            started = stack.start_or_fail()
+            url = re.search(r"http://127\.0\.0\.1:\d+/#token=\S+", started.stdout)
+            self.assertIsNotNone(url, started.stdout)
+            self.assertEqual(url[0], f"http://127.0.0.1:{stack.http_port}/#token={stack.token}")
+            with urllib.request.urlopen(url[0], timeout=30) as page:
+                self.assertEqual(page.status, 200)
+                self.assertIn(b"<script", page.read())
+            self.assertLessEqual(PROGRAMS, set(stack.pids()))
+
+            stopped = stack.stop()
+            self.assertEqual(stopped.returncode, 0, stopped.stderr)
+            self.assertEqual(stack.pids(), {})
+            self.assertIn("Nothing was running", stack.stop().stdout)
+
+    def test_twice_says_so_and_gives_the_same_address(self):
+        with Stack() as stack:
+            first = stack.start_or_fail("--only", "sim,motion,phone-gateway")
+            pids = stack.pids()
+            second = stack.start()
+            self.assertEqual(second.returncode, 0, second.stderr)
+            self.assertIn("running already", second.stdout)
+            address = re.search(r"http://\S+#token=\S+", first.stdout)[0]
+            self.assertIn(address, second.stdout)
+            self.assertEqual(stack.pids(), pids)
+
+    def test_status_shows_every_program(self):
+        with Stack() as stack:
+            stack.start_or_fail("--no-camera")
+            rows = {row["program"]: row for row in json.loads(stack.script("status", "--json").stdout)}
+            self.assertEqual(set(rows), PROGRAMS - {"nao-head-camera"} | {"nao-watchdog"})
+            for row in rows.values():
+                self.assertEqual(row["state"], "ready", row)
+                self.assertGreater(row["memory_mb"], 1)
+                self.assertEqual(row["restarts"], 0)
+            table = stack.script("status")
+            self.assertEqual(table.returncode, 0)
+            self.assertEqual(len(table.stdout.splitlines()), 1 + len(rows))
+
+    def test_status_says_when_nothing_runs(self):
+        with Stack() as stack:
+            status = stack.script("status")
+            self.assertEqual(status.returncode, 1)
+            self.assertIn("scripts/start", status.stderr)
+
+    def test_names_who_holds_the_port(self):
+        with Stack() as stack, socket.socket() as holder:
+            holder.bind(("127.0.0.1", stack.http_port))
+            holder.listen()
+            result = stack.start()
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(f"port {stack.http_port} is in use", result.stderr)
+            self.assertIn("--http-port", result.stderr)
+            self.assertEqual(stack.pids(), {})
+
+    def test_takes_the_next_port_if_it_may_choose(self):
+        with Stack() as stack, socket.socket() as holder:
+            try:
+                holder.bind(("127.0.0.1", 8080))
+                holder.listen()
+            except OSError:
+                pass  # somebody else holds it: just as good
+            started = stack.start("--only", "sim,motion,phone-gateway", ports=False)
+            self.assertEqual(started.returncode, 0, started.stderr + stack.logs())
+            self.assertRegex(started.stdout, r"Port 8080 is in use by .*; taking 80[89]\d instead")
+            self.assertNotIn(":8080/", started.stdout)
+
+    def test_two_stacks_do_not_hear_each_other(self):
+        with Stack(0) as one, Stack(1) as other:
+            one.start_or_fail("--only", "sim,motion")
+            other.start_or_fail("--only", "sim,motion")
+            for stack in (one, other):
+                heard = json.loads(stack.nao("status", "--json").stdout)
+                own = {stack.pids()[name] for name in ("nao-sim", "nao-motion", "nao")}
+                self.assertEqual({program["process_id"] for program in heard}, own)
+
+    def test_says_which_program_crashes_and_stops_the_others(self):
+        with Stack() as stack:
+            result = stack.start("--scene", "no-such-scene")
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("nao-sim does not start", result.stderr)
+            self.assertIn("no-such-scene", result.stderr)
+            self.assertEqual(stack.pids(), {})
+
+
+class CommandLine(unittest.TestCase):
+    def test_every_script_explains_itself(self):
+        for script in sorted((ROOT / "scripts").iterdir()):
+            if not script.stat().st_mode & 0o100:
+                continue
+            with self.subTest(script=script.name):
+                result = run([script, "--help"])
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertTrue(result.stdout.startswith(f"Usage: scripts/{script.name}"), result.stdout)
+
+    def test_wrong_options_are_refused(self):
+        for words in (["start", "--no-such"], ["start", "--http-port", "http"], ["start", "--only", "toaster"],
+                      ["start", "--scene"], ["stop", "now"], ["status", "--no-such"], ["record", "--no-such"],
+                      ["replay"], ["setup", "--with", "nothing"]):
+            with self.subTest(words=words), Stack() as stack:
+                result = run([ROOT / "scripts" / words[0], *words[1:]],
+                             env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "NAO_REMOTE_RUN_DIR": str(stack.run_dir)})
+                self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+                self.assertIn("--help", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

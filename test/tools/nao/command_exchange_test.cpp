@@ -1,0 +1,67 @@
+#include "nao/command_exchange.h"
+
+#include <gtest/gtest.h>
+
+namespace nao {
+namespace {
+
+TEST(CommandExchange, RepeatsQuicklyUntilAnsweredThenSlowly) {
+  CommandExchange exchange({}, 0);
+  int num_sent = 0;
+  for (int i = 0; i < 100; ++i) num_sent += exchange.should_send(i * 0.01) ? 1 : 0;
+  EXPECT_EQ(num_sent, 10);
+
+  exchange.handle_result("accepted", "", 1.0);
+  num_sent = 0;
+  for (int i = 0; i < 300; ++i) num_sent += exchange.should_send(1.0 + i * 0.01) ? 1 : 0;
+  EXPECT_EQ(num_sent, 3);
+}
+
+TEST(CommandExchange, IsOpenUntilTheFinalResult) {
+  CommandExchange exchange({}, 0);
+  EXPECT_FALSE(exchange.outcome(0.1));
+  exchange.handle_result("accepted", "", 0.2);
+  EXPECT_TRUE(exchange.is_accepted());
+  EXPECT_FALSE(exchange.outcome(0.3));
+  exchange.handle_result("done", "", 0.4);
+  ASSERT_TRUE(exchange.outcome(0.5));
+  EXPECT_TRUE(exchange.outcome(0.5)->is_success);
+}
+
+TEST(CommandExchange, KeepsTheReasonOfARefusal) {
+  CommandExchange exchange({}, 0);
+  exchange.handle_result("refused", "no posture Handstand", 0.1);
+  ASSERT_TRUE(exchange.outcome(0.1));
+  EXPECT_FALSE(exchange.outcome(0.1)->is_success);
+  EXPECT_EQ(exchange.outcome(0.1)->status, "refused");
+  EXPECT_EQ(exchange.outcome(0.1)->reason, "no posture Handstand");
+}
+
+TEST(CommandExchange, GivesUpWhenNobodyAnswersEvenIfSomebodyTalks) {
+  CommandExchange exchange({}, 0);
+  for (int i = 0; i < 29; ++i) exchange.handle_sign_of_life(i * 0.1);
+  EXPECT_FALSE(exchange.outcome(2.9));
+  ASSERT_TRUE(exchange.outcome(3.1));
+  EXPECT_EQ(exchange.outcome(3.1)->status, "unanswered");
+}
+
+TEST(CommandExchange, WaitsAnyTimeForAnAcceptedCommandWhileMotionLives) {
+  CommandExchange exchange({}, 0);
+  exchange.handle_result("accepted", "", 0.1);
+  for (double now = 1; now < 600; now += 1) {
+    exchange.handle_sign_of_life(now);
+    ASSERT_FALSE(exchange.outcome(now + 0.9)) << now;
+  }
+  ASSERT_TRUE(exchange.outcome(603));
+  EXPECT_EQ(exchange.outcome(603)->status, "silent");
+}
+
+TEST(CommandExchange, KeepsItsFirstFinalResult) {
+  CommandExchange exchange({}, 0);
+  exchange.handle_result("interrupted", "a newer command came", 0.1);
+  exchange.handle_result("done", "", 0.2);
+  EXPECT_EQ(exchange.outcome(0.2)->status, "interrupted");
+}
+
+}  // namespace
+}  // namespace nao

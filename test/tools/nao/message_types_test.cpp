@@ -1,0 +1,58 @@
+#include "nao/message_types.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <naolcm/stop_command_t.hpp>
+#include <set>
+#include <vector>
+
+namespace nao {
+namespace {
+
+std::vector<uint8_t> encoded_stop() {
+  naolcm::stop_command_t command{1, "test", 2};
+  std::vector<uint8_t> bytes(command.getEncodedSize());
+  command.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+TEST(MessageTypes, KnowsEveryFileOfTheFolderByADifferentFingerprint) {
+  std::set<int64_t> fingerprints;
+  std::set<std::string> names;
+  for (const MessageType& type : message_types()) {
+    fingerprints.insert(type.fingerprint);
+    names.insert(type.name);
+  }
+  size_t num_files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(NAO_LCMTYPES_DIR)) {
+    if (entry.path().extension() != ".lcm") continue;
+    ++num_files;
+    EXPECT_TRUE(names.contains(entry.path().stem())) << entry.path();
+  }
+  EXPECT_GT(num_files, 0u);
+  EXPECT_EQ(fingerprints.size(), num_files);
+}
+
+TEST(MessageTypes, RecognisesAMessage) {
+  const auto bytes = encoded_stop();
+  const MessageType* type = find_message_type(bytes.data(), static_cast<int>(bytes.size()));
+  ASSERT_NE(type, nullptr);
+  EXPECT_EQ(type->name, "stop_command_t");
+  EXPECT_TRUE(type->decodes(bytes.data(), static_cast<int>(bytes.size())));
+}
+
+TEST(MessageTypes, DoesNotDecodeCutOffOrForeignMessages) {
+  auto bytes = encoded_stop();
+  const MessageType* type = find_message_type(bytes.data(), static_cast<int>(bytes.size()));
+  ASSERT_NE(type, nullptr);
+  for (int size = 8; size < static_cast<int>(bytes.size()); ++size) {
+    EXPECT_FALSE(type->decodes(bytes.data(), size)) << size;
+  }
+  EXPECT_EQ(find_message_type(bytes.data(), 7), nullptr);
+  bytes[3] ^= 1;
+  EXPECT_EQ(find_message_type(bytes.data(), static_cast<int>(bytes.size())), nullptr);
+}
+
+}  // namespace
+}  // namespace nao

@@ -1,0 +1,125 @@
+#include "log_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "common/error.h"
+#include "log_player.h"
+
+namespace nao {
+namespace {
+
+/** Bytes of a log as LCM's documentation describes them, written down without lcm. */
+class LogBytes {
+ public:
+  void add(int64_t utime, const std::string& channel, const std::string& data) {
+    number(0xEDA1DA01, 4);
+    number(num_events_++, 8);
+    number(static_cast<uint64_t>(utime), 8);
+    number(channel.size(), 4);
+    number(data.size(), 4);
+    bytes_ += channel + data;
+  }
+  std::string& bytes() { return bytes_; }
+
+ private:
+  void number(uint64_t value, int num_bytes) {
+    for (int i = num_bytes - 1; i >= 0; --i) bytes_ += static_cast<char>(value >> (8 * i));
+  }
+  std::string bytes_;
+  uint64_t num_events_ = 0;
+};
+
+class LogFileTest : public testing::Test {
+ protected:
+  ~LogFileTest() override { std::filesystem::remove(path_); }
+
+  LogFile open(const std::string& bytes) {
+    std::ofstream(path_, std::ios::binary) << bytes;
+    return LogFile(path_);
+  }
+
+  /** A and B every second for five seconds, C once. */
+  static LogBytes some_log() {
+    LogBytes log;
+    for (int i = 0; i < 5; ++i) {
+      const int64_t utime = 1700000000000000 + 1000000 * i;
+      log.add(utime, "A", "a" + std::to_string(i));
+      log.add(utime + 500000, "B", "b" + std::to_string(i));
+      if (i == 1) log.add(utime + 600000, "C", "c");
+    }
+    return log;
+  }
+
+  static std::string text(const std::vector<LogEvent>& events) {
+    std::string text;
+    for (const LogEvent& event : events) {
+      text += event.channel + "=" + std::string(event.data.begin(), event.data.end()) + " ";
+    }
+    return text;
+  }
+
+  const std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / ("log_file_test." + std::to_string(getpid()));
+};
+
+TEST_F(LogFileTest, ReadsWhatWasRecordedInATime) {
+  const LogFile log = open(some_log().bytes());
+  EXPECT_EQ(log.num_events(), 11u);
+  EXPECT_NEAR(log.duration(), 4.5, 1e-9);
+  std::vector<LogEvent> events;
+  log.read(1.0, 2.0, [&](const LogEvent& event) { events.push_back(event); });
+  EXPECT_EQ(text(events), "B=b1 C=c A=a2 ");
+  EXPECT_NEAR(events[0].time, 1.5, 1e-9);
+}
+
+TEST_F(LogFileTest, FindsTheNewestMessageOfEveryChannel) {
+  const LogFile log = open(some_log().bytes());
+  std::vector<LogEvent> events;
+  log.read_latest(3.7, [&](const LogEvent& event) { events.push_back(event); });
+  EXPECT_EQ(text(events), "C=c A=a3 B=b3 ");
+  events.clear();
+  log.read_latest(-1, [&](const LogEvent& event) { events.push_back(event); });
+  EXPECT_TRUE(events.empty());
+}
+
+TEST_F(LogFileTest, LeavesOutABrokenEnd) {
+  LogBytes log = some_log();
+  log.bytes().resize(log.bytes().size() - 1);
+  EXPECT_EQ(open(log.bytes()).num_events(), 10u);
+  EXPECT_EQ(open(some_log().bytes() + "garbage that is no event header").num_events(), 11u);
+}
+
+TEST_F(LogFileTest, RefusesWhatIsNoLog) {
+  EXPECT_THROW(open(""), Error);
+  EXPECT_THROW(open("This is a text file that is long enough."), Error);
+  EXPECT_THROW(LogFile("/nonexistent.log"), Error);
+}
+
+TEST_F(LogFileTest, PlaysOnJumpsAndEnds) {
+  LogPlayer player(open(some_log().bytes()));
+  std::vector<LogEvent> events;
+  const auto visit = [&](const LogEvent& event) { events.push_back(event); };
+  player.advance(0.1, visit);
+  EXPECT_EQ(text(events), "A=a0 ");
+  events.clear();
+  player.speed = 2;
+  player.advance(0.72, visit);
+  EXPECT_EQ(text(events), "B=b0 A=a1 B=b1 ");
+  events.clear();
+  player.is_paused = true;
+  player.advance(5, visit);
+  EXPECT_TRUE(events.empty());
+  player.seek(0.2, 1, visit);  // back
+  EXPECT_EQ(text(events), "A=a0 ");
+  events.clear();
+  player.is_paused = false;
+  player.advance(100, visit);
+  EXPECT_EQ(events.size(), 10u);
+  EXPECT_TRUE(player.is_paused);
+}
+
+}  // namespace
+}  // namespace nao

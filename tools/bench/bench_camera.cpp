@@ -1,0 +1,229 @@
+// Measures what a picture of the head camera costs, stage by stage, against the least that any
+// renderer must do: clear, read back, resize, compress. Both run in turns, so that a busy machine
+// slows both.
+
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <ctime>
+#include <functional>
+#include <map>
+#include <naolcm/world_truth_t.hpp>
+
+#include "common/bus.h"
+#include "common/data_path.h"
+#include "common/robot_model.h"
+#include "common/wall_clock.h"
+#include "figures.h"
+#include "half_size.h"
+#include "head_camera.h"
+#include "head_camera_daemon.h"
+#include "jpeg_encoder.h"
+#include "picture_wishes.h"
+#include "scene/decode_state.h"
+
+namespace {
+
+using nao::CameraFrame;
+using nao::Figure;
+using nao::HeadCamera;
+using nao::JpegEncoder;
+
+constexpr int kQuality = 80;
+constexpr int kMostBytes = 64000;
+
+/** Time of the processor that this process has used in all its threads, s. */
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/** Times of named stages, one entry a round, ms of processor time. */
+class Stages {
+ public:
+  void measure(const std::string& name, const std::function<void()>& work) {
+    const double start = processor_seconds();
+    work();
+    add(name, 1e3 * (processor_seconds() - start));
+  }
+  void add(const std::string& name, double time_ms) { times_ms_[name].push_back(time_ms); }
+  double median_ms(const std::string& name) const { return nao::median(times_ms_.at(name)); }
+
+ private:
+  std::map<std::string, std::vector<double>> times_ms_;
+};
+
+/** Own robot in the centre of the field; another one, facing it, and the ball in its view. */
+naolcm::world_truth_t soccer_truth(const nao::RobotModel& model) {
+  naolcm::robot_truth_t robot{};
+  robot.robot = "NAO";
+  robot.position_torso_in_world[2] = 0.32;
+  robot.orientation_torso_in_world[0] = 1;
+  robot.num_joints = model.num_motors();
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    robot.joint_names.push_back(model.motor_joint(motor).name);
+  }
+  robot.joint_position = model.find_posture("StandInit")->position;
+  robot.joint_velocity.assign(model.num_motors(), 0);
+  robot.joint_torque.assign(model.num_motors(), 0);
+  naolcm::world_truth_t truth{};
+  truth.scene = "soccer";
+  truth.robots.push_back(robot);
+  robot.robot = "OTHER";
+  robot.position_torso_in_world[0] = 1.2;
+  robot.position_torso_in_world[1] = 0.1;
+  robot.orientation_torso_in_world[0] = 0;
+  robot.orientation_torso_in_world[3] = 1;
+  truth.robots.push_back(robot);
+  truth.num_robots = 2;
+  truth.has_ball = 1;
+  truth.position_ball_in_world[0] = 0.9;
+  truth.position_ball_in_world[1] = -0.2;
+  truth.position_ball_in_world[2] = 0.05;
+  truth.orientation_ball_in_world[0] = 1;
+  return truth;
+}
+
+nao::WorldState soccer_world(const nao::RobotModel& model) {
+  return nao::decode_truth(model, soccer_truth(model));
+}
+
+void encode_all(const CameraFrame& frame, JpegEncoder& encoder) {
+  for (const int width : {640, 320, 160}) {
+    encoder.encode(frame.bgrx[CameraFrame::level(width)], width, width * 3 / 4, kQuality,
+                   kMostBytes);
+  }
+}
+
+/** Everything that one picture in three sizes takes. */
+void take_and_encode(HeadCamera& camera, const nao::WorldState& world, JpegEncoder& encoder) {
+  encode_all(camera.take(world, "top", 160), encoder);
+}
+
+void measure_stages(HeadCamera& camera, const nao::WorldState& world, JpegEncoder& encoder,
+                    Stages& stages) {
+  stages.measure("draw", [&] {
+    camera.draw(world, "top");
+    glFinish();
+  });
+  stages.measure("read_back", [&] { camera.read_back(); });
+  stages.measure("smaller", [&] { camera.make_smaller(160); });
+  for (const int width : {640, 320, 160}) {
+    stages.measure("jpeg_" + std::to_string(width), [&] {
+      encoder.encode(camera.frame().bgrx[CameraFrame::level(width)], width, width * 3 / 4, kQuality,
+                     kMostBytes);
+    });
+  }
+}
+
+/** Share of one core that the daemon takes at full rate, with the simulator's 100 states a second.
+ */
+double daemon_percent(const nao::RobotModel& model, double seconds) {
+  nao::Bus bus("memq://");
+  nao::HeadCameraOptions options;
+  options.always = true;
+  nao::HeadCameraDaemon daemon(bus, model, options);
+  naolcm::world_truth_t truth = soccer_truth(model);
+  const auto turns = [&](int num_turns) {
+    for (int turn = 0; turn < num_turns; ++turn) {
+      for (int i = 0; i < 10; ++i) {  // ten states for three pictures
+        truth.utime += 10000;
+        bus.publish(nao::kWorldTruthChannel, truth);
+        while (bus.handle_for(0)) {
+        }
+        if (i % 3 == 0 && i < 9) daemon.step(nao::monotonic_seconds());
+      }
+    }
+  };
+  turns(3);
+  const double start = processor_seconds();
+  turns(static_cast<int>(10 * seconds));
+  return 100 * (processor_seconds() - start) / seconds;
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::vector<Figure> run(int num_rounds) {
+  const auto model = nao::RobotModel::load(nao::data_path() / "robots" / "nao");
+  const nao::WorldState world = soccer_world(model);
+  std::vector<Figure> figures;
+  JpegEncoder encoder;
+  Stages stages;
+  {
+    // Contexts are current one at a time, so with and without shadows take turns in blocks.
+    constexpr int kBlocks = 5;
+    for (int block = 0; block < kBlocks; ++block) {
+      for (const int shadow_size : {nao::HeadCameraOptions().shadow_size, 0}) {
+        nao::HeadCameraOptions options;
+        options.shadow_size = shadow_size;
+        HeadCamera camera(model, options);
+        if (block == 0 && shadow_size > 0) spdlog::info("drawing with {}", camera.driver());
+        for (int i = 0; i < 3; ++i) take_and_encode(camera, world, encoder);
+        // The floor compresses the same pictures, so that it does the same work there.
+        const CameraFrame frame = camera.frame();
+        const nao::gl::Framebuffer floor_target(nao::kFullWidth, nao::kFullHeight);
+        std::vector<uint8_t> cleared;
+        std::vector<uint8_t> half;
+        std::vector<uint8_t> quarter;
+        const std::string scene = shadow_size > 0 ? "soccer" : "plain";
+        for (int round = 0; round < num_rounds / kBlocks; ++round) {
+          stages.measure("floor", [&] {
+            glBindFramebuffer(GL_FRAMEBUFFER, floor_target.id());
+            glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+            floor_target.read(cleared);
+            nao::halve(frame.bgrx[0], 640, 480, half);
+            nao::halve(half, 320, 240, quarter);
+            encode_all(frame, encoder);
+          });
+          const double start = nao::monotonic_seconds();
+          stages.measure(scene, [&] { take_and_encode(camera, world, encoder); });
+          if (shadow_size > 0) {
+            const double wall_ms = 1e3 * (nao::monotonic_seconds() - start);
+            stages.add("wall", wall_ms);
+            measure_stages(camera, world, encoder, stages);
+          }
+        }
+      }
+    }
+  }
+  const double floor_ms = stages.median_ms("floor");
+  const double soccer_ms = stages.median_ms("soccer");
+  figures.push_back({"camera.soccer_ms", soccer_ms, "ms", "floor", floor_ms});
+  figures.push_back({"camera.soccer_over_floor", soccer_ms / floor_ms, "1", "", 0});
+  figures.push_back({"camera.soccer_wall_ms", stages.median_ms("wall"), "ms", "", 0});
+  figures.push_back({"camera.plain_ms", stages.median_ms("plain"), "ms", "floor", floor_ms});
+  for (const char* stage : {"draw", "read_back", "smaller", "jpeg_640", "jpeg_320", "jpeg_160"}) {
+    figures.push_back(
+        {std::string("camera.stage.") + stage + "_ms", stages.median_ms(stage), "ms", "", 0});
+  }
+  figures.push_back({"camera.cpu_30hz_percent", daemon_percent(model, 5), "%", "", 0});
+  figures.push_back({"camera.rss_mb", peak_memory_mb(), "MB", "", 0});
+  return figures;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures the head camera; times are processor time of one process",
+               "nao-bench-camera");
+  std::string json_file;
+  int num_rounds = 100;
+  app.add_option("--json", json_file, "File for the figures as JSON");
+  app.add_option("--rounds", num_rounds, "Pictures of each kind")
+      ->check(CLI::Range(5, 100000))
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    nao::report(run(num_rounds), json_file);
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return 1;
+  }
+  return 0;
+}

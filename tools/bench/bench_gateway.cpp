@@ -1,0 +1,457 @@
+// Measures what the gateway costs: the way of a command from a phone to the joints, the age of what
+// phones see, and 32 phones at once. Starts simulator, motion, camera and gateway on a bus of its
+// own.
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <naolcm/daemon_status_t.hpp>
+#include <naolcm/joint_change_command_t.hpp>
+#include <naolcm/joint_command_t.hpp>
+#include <naolcm/robot_state_t.hpp>
+#include <naolcm/sensor_state_t.hpp>
+#include <optional>
+#include <random>
+#include <regex>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "child_process.h"
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/wall_clock.h"
+#include "figures.h"
+#include "wire_client.h"
+
+namespace {
+
+using nao::Bus;
+using nao::ChildProcess;
+using nao::Figure;
+using nao::monotonic_seconds;
+using nao::WireClient;
+
+constexpr double kDeadline = 60;
+/** A change of the head's yaw that is quick and hurts nobody, rad. */
+constexpr double kYawChange = 0.4;
+/** Beyond the encoder's steps (0.0015 rad) and noise: the joint has moved. */
+constexpr double kMoved = 0.004;
+constexpr int kNumClients = 32;
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const auto index = static_cast<size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  return values[index];
+}
+
+naoremote::Request hello(const std::string& name) {
+  naoremote::Request request;
+  request.set_request_id(1);
+  request.mutable_connect()->set_protocol_version(1);
+  request.mutable_connect()->set_client_name(name);
+  return request;
+}
+
+/** The programs, and what they say on the bus. */
+class Stack {
+ public:
+  explicit Stack(const std::string& lcm_url) : bus_(lcm_url) {
+    const std::string folder = nao::program_folder();
+    const auto start = [&](const std::string& name, std::vector<std::string> options) {
+      std::vector<std::string> command = {folder + "/" + name, "--lcm-url", lcm_url};
+      command.insert(command.end(), options.begin(), options.end());
+      programs_[name] = std::make_unique<ChildProcess>(command);
+    };
+    subscribe();
+    start("nao-sim", {});
+    start("nao-motion", {});
+    start("nao-head-camera", {});
+    start("nao-phone-gateway", {"--bind", "127.0.0.1", "--http-port", "0", "--tcp-port", "0"});
+    run_until([this] { return ready_.size() == programs_.size(); }, "every program is ready");
+    std::smatch ports;
+    const std::string log = gateway().output();
+    if (!std::regex_search(log, ports,
+                           std::regex("WebSocket on [^ ]*:(\\d+), TCP on [^ ]*:(\\d+)"))) {
+      throw std::runtime_error("the gateway does not listen:\n" + log);
+    }
+    http_port_ = static_cast<uint16_t>(std::stoi(ports[1]));
+    tcp_port_ = static_cast<uint16_t>(std::stoi(ports[2]));
+    run_for(1);
+  }
+
+  uint16_t http_port() const { return http_port_; }
+  uint16_t tcp_port() const { return tcp_port_; }
+  const ChildProcess& gateway() const { return *programs_.at("nao-phone-gateway"); }
+  Bus& bus() { return bus_; }
+
+  /** Has `handler` called with every message that comes to a client, inside run_...(). */
+  void watch(WireClient* client,
+             std::function<void(const naoremote::ServerMessage&, double)> handler) {
+    clients_.push_back({client, std::move(handler)});
+  }
+  void forget_clients() { clients_.clear(); }
+
+  void run_until(const std::function<bool()>& is_done, const std::string& what) {
+    const double deadline = monotonic_seconds() + kDeadline;
+    while (!is_done()) {
+      if (monotonic_seconds() > deadline) throw std::runtime_error("waited in vain: " + what);
+      pump(0.1);
+    }
+  }
+  void run_for(double time) {
+    const double deadline = monotonic_seconds() + time;
+    while (monotonic_seconds() < deadline) pump(deadline - monotonic_seconds());
+  }
+
+  /** Target and measured angle of the head's yaw, rad, and when each was heard. */
+  double yaw_target = 0;
+  double yaw = 0;
+  double yaw_target_time = 0;
+  double yaw_time = 0;
+
+  /** When the state of a robot time was on the bus, s; nothing if it was not heard. */
+  std::optional<double> time_of_state(uint64_t utime) const {
+    const auto found = state_times_.find(static_cast<int64_t>(utime));
+    return found == state_times_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+ private:
+  template <class Message>
+  static std::optional<double> head_yaw(const Message& message) {
+    for (int i = 0; i < message.num_joints; ++i) {
+      if (message.joint_names[i] == "HeadYaw") return message.joint_position[i];
+    }
+    return std::nullopt;
+  }
+
+  void subscribe() {
+    const nao::RobotChannels channels;
+    bus_.subscribe<naolcm::joint_command_t>(channels.joint_command, Bus::Queue::kAll,
+                                            [this](const auto& message) {
+                                              if (const auto angle = head_yaw(message))
+                                                yaw_target = *angle;
+                                              yaw_target_time = monotonic_seconds();
+                                            });
+    bus_.subscribe<naolcm::sensor_state_t>(channels.sensor_state, Bus::Queue::kAll,
+                                           [this](const auto& message) {
+                                             if (const auto angle = head_yaw(message)) yaw = *angle;
+                                             yaw_time = monotonic_seconds();
+                                           });
+    bus_.subscribe<naolcm::robot_state_t>(channels.robot_state, Bus::Queue::kAll,
+                                          [this](const auto& message) {
+                                            state_times_[message.utime] = monotonic_seconds();
+                                            if (state_times_.size() > 1000)
+                                              state_times_.erase(state_times_.begin());
+                                          });
+    bus_.subscribe<naolcm::daemon_status_t>(nao::kDaemonStatusChannel, Bus::Queue::kAll,
+                                            [this](const auto& message) {
+                                              if (message.state == "ready")
+                                                ready_.insert(message.program);
+                                            });
+  }
+
+  /** Handles what the bus and the clients have, waiting for it if need be. */
+  void pump(double timeout) {
+    std::vector<pollfd> polled = {{bus_.descriptor(), POLLIN, 0}};
+    for (const Watched& watched : clients_) {
+      polled.push_back({watched.client->descriptor(), POLLIN, 0});
+    }
+    poll(polled.data(), polled.size(), std::max(0, static_cast<int>(timeout * 1e3)));
+    if (polled[0].revents != 0) bus_.handle();
+    for (size_t i = 1; i < polled.size(); ++i) {
+      if (polled[i].revents == 0) continue;
+      const double now = monotonic_seconds();
+      for (const auto& message : clients_[i - 1].client->receive()) {
+        clients_[i - 1].handler(message, now);
+      }
+    }
+  }
+
+  struct Watched {
+    WireClient* client;
+    std::function<void(const naoremote::ServerMessage&, double)> handler;
+  };
+
+  Bus bus_;
+  std::map<std::string, std::unique_ptr<ChildProcess>> programs_;
+  std::set<std::string> ready_;
+  uint16_t http_port_ = 0;
+  uint16_t tcp_port_ = 0;
+  std::vector<Watched> clients_;
+  std::map<int64_t, double> state_times_;
+};
+
+/** Times from asking for a joint's change to what follows, ms. */
+struct WayTimes {
+  std::vector<double> to_command_ms;
+  std::vector<double> to_moved_ms;
+};
+
+/** Turns the head and times what follows. @param ask  Sends the change, rad. */
+void time_way(Stack& stack, const std::function<void(double)>& ask, double change,
+              WayTimes& times) {
+  const double target_before = stack.yaw_target;
+  const double yaw_before = stack.yaw;
+  const double start = monotonic_seconds();
+  ask(change);
+  double command_time = 0;
+  double moved_time = 0;
+  stack.run_until(
+      [&] {
+        if (command_time == 0 && std::abs(stack.yaw_target - target_before) > 1e-6) {
+          command_time = stack.yaw_target_time;
+        }
+        if (moved_time == 0 && std::abs(stack.yaw - yaw_before) > kMoved) {
+          moved_time = stack.yaw_time;
+        }
+        return command_time > 0 && moved_time > 0;
+      },
+      "the head turns");
+  times.to_command_ms.push_back((command_time - start) * 1e3);
+  times.to_moved_ms.push_back((moved_time - start) * 1e3);
+}
+
+/** The way of a command over raw TCP, over WebSocket, and straight on the bus without a gateway: in
+ * turns, at random moments of the control tick. */
+std::map<std::string, WayTimes> measure_ways(Stack& stack, int num_rounds) {
+  const auto tcp = nao::connect_tcp(stack.tcp_port());
+  const auto websocket = nao::connect_websocket(stack.http_port());
+  for (WireClient* client : {tcp.get(), websocket.get()}) {
+    client->send(hello("bench"));
+    stack.watch(client, [](const auto&, double) {});
+  }
+  const auto ask_phone = [](WireClient& client) {
+    return [&client](double change) {
+      naoremote::Request request;
+      request.mutable_change_joints()->set_group("head");
+      request.mutable_change_joints()->set_yaw(change);
+      request.mutable_change_joints()->set_speed(1);
+      client.send(request);
+    };
+  };
+  int64_t command_id = nao::wall_utime();
+  const auto ask_bus = [&](double change) {
+    naolcm::joint_change_command_t command{};
+    command.source = "bench." + std::to_string(getpid());
+    command.command_id = ++command_id;
+    command.num_joints = 1;
+    command.joint_names = {"HeadYaw"};
+    command.joint_position = {change};
+    command.is_relative = 1;
+    command.speed = 1;
+    stack.bus().publish(nao::RobotChannels().joint_change_command, command);
+  };
+  const std::vector<std::pair<std::string, std::function<void(double)>>> ways = {
+      {"tcp", ask_phone(*tcp)}, {"websocket", ask_phone(*websocket)}, {"bus", ask_bus}};
+
+  std::map<std::string, WayTimes> times;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> pause(0.6, 0.7);
+  double change = kYawChange;
+  for (int round = 0; round < num_rounds; ++round) {
+    for (const auto& [name, ask] : ways) {
+      WireClient* driver = name == "tcp"         ? tcp.get()
+                           : name == "websocket" ? websocket.get()
+                                                 : nullptr;
+      naoremote::Request request;
+      request.mutable_take_control();
+      if (driver != nullptr) driver->send(request);
+      stack.run_for(pause(random));
+      time_way(stack, ask, change, times[name]);
+      change = -change;
+      stack.run_for(pause(random));
+      request.mutable_release_control();
+      if (driver != nullptr) driver->send(request);
+      // Both connections stay alive.
+      request.mutable_ping();
+      tcp->send(request);
+      websocket->send(request);
+    }
+  }
+  stack.forget_clients();
+  return times;
+}
+
+/** What the clients saw in some seconds. */
+struct Watching {
+  std::vector<double> state_age_ms;
+  std::vector<double> picture_age_ms;
+  double num_states = 0;
+  double num_pictures = 0;
+  double state_bytes = 0;
+  double picture_bytes = 0;
+  double cpu_percent = 0;
+  double rss_mib = 0;
+};
+
+/** Lets clients watch, half of them over WebSocket. Ages: from when the state that is shown was on
+ * the bus to when it is here. */
+Watching watch(Stack& stack, int num_clients, double state_rate, double picture_rate, double time) {
+  std::vector<std::unique_ptr<WireClient>> clients;
+  Watching seen;
+  for (int i = 0; i < num_clients; ++i) {
+    clients.push_back(i % 2 == 0 ? nao::connect_tcp(stack.tcp_port())
+                                 : nao::connect_websocket(stack.http_port()));
+    clients.back()->send(hello("bench " + std::to_string(i)));
+    naoremote::Request request;
+    request.mutable_subscribe()->set_state_rate(state_rate);
+    request.mutable_subscribe()->set_picture_rate(picture_rate);
+    clients.back()->send(request);
+    stack.watch(clients.back().get(), [&](const naoremote::ServerMessage& message, double now) {
+      if (message.has_state()) {
+        if (const auto then = stack.time_of_state(message.state().utime())) {
+          seen.state_age_ms.push_back((now - *then) * 1e3);
+        }
+        ++seen.num_states;
+        seen.state_bytes += static_cast<double>(message.ByteSizeLong());
+      } else if (message.has_picture()) {
+        if (const auto then = stack.time_of_state(message.picture().utime())) {
+          seen.picture_age_ms.push_back((now - *then) * 1e3);
+        }
+        ++seen.num_pictures;
+        seen.picture_bytes += static_cast<double>(message.ByteSizeLong());
+      }
+    });
+  }
+  const auto run_alive = [&](double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds); ++i) {
+      naoremote::Request ping;
+      ping.mutable_ping();
+      for (const auto& client : clients) client->send(ping);
+      stack.run_for(1);
+    }
+  };
+  run_alive(2);
+  seen = {};
+  const double cpu_before = stack.gateway().cpu_seconds();
+  const double start = monotonic_seconds();
+  run_alive(time);
+  const double elapsed = monotonic_seconds() - start;
+  seen.cpu_percent = (stack.gateway().cpu_seconds() - cpu_before) / elapsed * 100;
+  seen.rss_mib = stack.gateway().rss_mib();
+  stack.forget_clients();
+  return seen;
+}
+
+int connect_plain(uint16_t port) {
+  const int descriptor = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (connect(descriptor, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
+    throw std::runtime_error("the bare sender does not listen");
+  }
+  return descriptor;
+}
+
+/** Processor time of a bare Asio loop that sends as many bytes as often, percent of a core. */
+double measure_bare_sender(const Watching& seen, double state_rate, double picture_rate,
+                           double time) {
+  const auto bytes = [](double sum, double number) {
+    return std::to_string(static_cast<int>(number > 0 ? sum / number : 0) + 4);
+  };
+  const ChildProcess sender({nao::program_folder() + "/nao-bare-sender", std::to_string(state_rate),
+                             bytes(seen.state_bytes, seen.num_states), std::to_string(picture_rate),
+                             bytes(seen.picture_bytes, seen.num_pictures)});
+  std::smatch port;
+  std::string output;
+  for (int i = 0; i < 100 && !std::regex_search(output, port, std::regex("port (\\d+)")); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    output = sender.output();
+  }
+  if (port.empty()) throw std::runtime_error("the bare sender does not start");
+  std::vector<pollfd> polled;
+  for (int i = 0; i < kNumClients; ++i) {
+    polled.push_back({connect_plain(static_cast<uint16_t>(std::stoi(port[1]))), POLLIN, 0});
+  }
+  const double cpu_before = sender.cpu_seconds();
+  const double start = monotonic_seconds();
+  std::vector<char> part(65536);
+  while (monotonic_seconds() < start + time) {
+    poll(polled.data(), polled.size(), 100);
+    for (const pollfd& one : polled) {
+      if (one.revents != 0 && recv(one.fd, part.data(), part.size(), 0) <= 0) {
+        throw std::runtime_error("the bare sender ended");
+      }
+    }
+  }
+  const double percent = (sender.cpu_seconds() - cpu_before) / (monotonic_seconds() - start) * 100;
+  for (const pollfd& one : polled) close(one.fd);
+  return percent;
+}
+
+std::vector<Figure> run(int num_rounds, double time) {
+  const std::string lcm_url =
+      "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 10000) + "?ttl=0";
+  Stack stack(lcm_url);
+  std::vector<Figure> figures;
+
+  auto ways = measure_ways(stack, num_rounds);
+  for (const auto& [name, suffix] : {std::pair{"tcp", ""}, std::pair{"websocket", ".websocket"}}) {
+    for (const auto& [share, word] : {std::pair{0.5, "p50"}, std::pair{0.99, "p99"}}) {
+      const std::string end = std::string(suffix) + "." + word;
+      figures.push_back({"gateway.to_joint_command_ms" + end,
+                         percentile(ways[name].to_command_ms, share), "ms", "straight on the bus",
+                         percentile(ways["bus"].to_command_ms, share)});
+      figures.push_back({"gateway.to_moved_joint_ms" + end,
+                         percentile(ways[name].to_moved_ms, share), "ms", "straight on the bus",
+                         percentile(ways["bus"].to_moved_ms, share)});
+    }
+  }
+
+  const Watching one = watch(stack, 1, 60, 30, time);
+  figures.push_back({"gateway.state_age_ms.p99", percentile(one.state_age_ms, 0.99), "ms", "", 0});
+  figures.push_back(
+      {"gateway.picture_age_ms.p95", percentile(one.picture_age_ms, 0.95), "ms", "", 0});
+  figures.push_back({"gateway.state_rate_hz", one.num_states / time, "1/s", "asked for", 60});
+  figures.push_back({"gateway.picture_rate_hz", one.num_pictures / time, "1/s", "asked for", 30});
+
+  const Watching few = watch(stack, 1, 30, 15, time);
+  const Watching many = watch(stack, kNumClients, 30, 15, time);
+  figures.push_back({"gateway.clients32_cpu_percent", many.cpu_percent, "%", "bare Asio loop",
+                     measure_bare_sender(many, 30, 15, time)});
+  figures.push_back({"gateway.clients32_state_age_ms.p99", percentile(many.state_age_ms, 0.99),
+                     "ms", "one client", percentile(few.state_age_ms, 0.99)});
+  figures.push_back(
+      {"gateway.clients32_rate_hz", many.num_states / time / kNumClients, "1/s", "asked for", 30});
+  figures.push_back({"gateway.clients32_rss_mib", many.rss_mib, "MiB", "one client", few.rss_mib});
+  return figures;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures the gateway in front of a simulated robot", "nao-bench-gateway");
+  std::string json_file;
+  int num_rounds = 40;
+  double time = 10;
+  app.add_option("--json", json_file, "File for the figures as JSON");
+  app.add_option("--rounds", num_rounds, "Commands to time on each way")
+      ->check(CLI::Range(2, 10000))
+      ->capture_default_str();
+  app.add_option("--time", time, "How long clients watch in each measurement, s")
+      ->check(CLI::Range(2.0, 3600.0))
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  spdlog::set_level(spdlog::level::warn);
+  try {
+    nao::report(run(num_rounds, time), json_file);
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,399 @@
+// Measures the physics: time of a step, by stages, over contacts and robots; beside MuJoCo, where
+// that is installed, on the same robot in turns, and the error of both at 2 ms against their own
+// answers at a fortieth of that.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/data_path.h"
+#include "common/robot_model.h"
+#include "figures.h"
+#include "nao-trial/trial.h"
+#include "sim/world.h"
+#ifdef NAO_HAS_MUJOCO
+#include "sim/mujoco_peer.h"
+#endif
+
+namespace nao {
+namespace {
+
+using sim::MotorTargets;
+using sim::RobotOptions;
+using sim::World;
+using sim::WorldOptions;
+
+constexpr double kTick = 0.01;
+
+/** Time of the processor that this thread has used, s. */
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::shared_ptr<const RobotModel> nao_model() {
+  static const auto model =
+      std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots/nao"));
+  return model;
+}
+
+/** What the robot does, in both simulators. */
+struct Scenario {
+  std::string name;
+  std::string posture = "StandInit";
+  double height = 0;
+  bool is_limp = false;
+  /** Targets of each tick; the last ones stay. Empty: as it stands. */
+  std::vector<Eigen::VectorXd> targets;
+};
+
+/** Ten seconds of the motion core's walk at 0.1 m/s, as targets. */
+Scenario walking() {
+  Scenario scenario;
+  scenario.name = "walking";
+  trial::TrialOptions options;
+  options.model = nao_model();
+  options.is_ideal = true;
+  trial::Trial trial(options, 1);
+  trial.on_tick([&] {
+    const std::vector<double>& targets = trial.targets();
+    scenario.targets.emplace_back(
+        Eigen::Map<const Eigen::VectorXd>(targets.data(), static_cast<long>(targets.size())));
+  });
+  trial.run(1);
+  trial.hold_walk({0.1, 0, 0});
+  trial.run(9);
+  std::fprintf(stderr, "physics: recorded a walk of %.2f m\n",
+               trial.torso_in_world().translation().x());
+  return scenario;
+}
+
+/** In the air, all joints swinging. */
+Scenario falling() {
+  Scenario scenario;
+  scenario.name = "falling";
+  scenario.height = 10;
+  const Posture& start = *nao_model()->find_posture("StandInit");
+  for (int tick = 0; tick < 100; ++tick) {
+    Eigen::VectorXd targets(nao_model()->num_motors());
+    for (int i = 0; i < targets.size(); ++i) {
+      targets[i] =
+          start.position[static_cast<size_t>(i)] + 0.3 * std::sin(kTick * tick * (3 + 0.3 * i));
+    }
+    scenario.targets.push_back(targets);
+  }
+  return scenario;
+}
+
+/** Our physics in a scenario. */
+class Ours {
+ public:
+  Ours(const Scenario& scenario, double step, const WorldOptions& base = {})
+      : scenario_(scenario), options_(base) {
+    options_.step = step;
+    options_.steps_per_tick = static_cast<int>(std::lround(kTick / step));
+    world_ = std::make_unique<World>(SceneFile{}, options_);
+    RobotOptions robot;
+    robot.posture = scenario.posture;
+    robot.height = scenario.height;
+    robot.command_latency_ticks = 0;
+    world_->add_robot(nao_model(), robot);
+    targets_ = world_->targets(0);
+    if (scenario.is_limp) targets_.stiffness.setZero();
+    world_->set_targets(0, targets_);
+  }
+  void tick() {
+    if (tick_ < scenario_.targets.size()) {
+      targets_.position = scenario_.targets[tick_];
+      world_->set_targets(0, targets_);
+    }
+    ++tick_;
+    world_->step_tick();
+  }
+  void restart() {
+    world_->reset();
+    if (scenario_.is_limp) world_->set_targets(0, targets_);
+    tick_ = 0;
+  }
+  World& world() { return *world_; }
+  const WorldOptions& options() const { return options_; }
+  sim::TreeState state() const { return world_->robot(0).state(); }
+
+ private:
+  const Scenario& scenario_;
+  WorldOptions options_;
+  std::unique_ptr<World> world_;
+  MotorTargets targets_;
+  size_t tick_ = 0;
+};
+
+#ifdef NAO_HAS_MUJOCO
+/** MuJoCo in the same scenario. */
+class Theirs {
+ public:
+  Theirs(const Scenario& scenario, double step, sim::PeerFeet feet = sim::PeerFeet::kPoints)
+      : scenario_(scenario),
+        start_(scenario, step),
+        steps_per_tick_(start_.options().steps_per_tick),
+        state_(start_.state()),
+        peer_(start_.world().robot(0), start_.options(), feet, scenario.is_limp) {}
+  void tick() {
+    if (tick_ < scenario_.targets.size()) peer_.set_targets(scenario_.targets[tick_]);
+    ++tick_;
+    for (int i = 0; i < steps_per_tick_; ++i) peer_.step();
+  }
+  void restart() {
+    peer_.set_state(start_.world().robot(0).tree(), state_);
+    peer_.set_targets(start_.world().robot(0).motor_position());
+    tick_ = 0;
+  }
+  sim::TreeState state() { return peer_.state(start_.world().robot(0).tree()); }
+  int num_contacts() { return peer_.data().ncon; }
+
+ private:
+  const Scenario& scenario_;
+  Ours start_;
+  int steps_per_tick_;
+  sim::TreeState state_;
+  sim::MujocoPeer peer_;
+  size_t tick_ = 0;
+};
+#endif
+
+/** Mean square difference of all joint angles, rad. */
+double joint_difference(const sim::TreeState& a, const sim::TreeState& b) {
+  const Eigen::VectorXd difference = a.coordinate - b.coordinate;
+  return std::sqrt(difference.squaredNorm() / static_cast<double>(difference.size() - 6));
+}
+
+/** Error of the joints at 2 ms after a time, by the same physics at 0.05 ms, rad. */
+template <class Physics>
+double step_error(const Scenario& scenario, int ticks) {
+  Physics coarse(scenario, 0.002);
+  Physics fine(scenario, 0.00005);
+  double sum = 0;
+  for (int i = 0; i < ticks; ++i) {
+    coarse.tick();
+    fine.tick();
+    sum += std::pow(joint_difference(coarse.state(), fine.state()), 2);
+  }
+  return std::sqrt(sum / ticks);
+}
+
+/** Processor time of a step, us, of several tasks in turns. */
+std::vector<double> times_in_turns(const std::vector<std::function<void()>>& ticks, int rounds,
+                                   int ticks_per_round, int steps_per_tick) {
+  std::vector<std::vector<double>> times(ticks.size());
+  for (int round = 0; round < rounds; ++round) {
+    for (size_t i = 0; i < ticks.size(); ++i) {
+      const double start = processor_seconds();
+      for (int k = 0; k < ticks_per_round; ++k) ticks[i]();
+      times[i].push_back(1e6 * (processor_seconds() - start) / (ticks_per_round * steps_per_tick));
+    }
+  }
+  std::vector<double> medians;
+  for (const std::vector<double>& each : times) medians.push_back(median(each));
+  return medians;
+}
+
+void measure_scenario(const Scenario& scenario, int rounds, std::vector<Figure>& figures) {
+  // A recorded motion is played anew in each round; a state of rest is settled first.
+  const bool is_recorded = !scenario.targets.empty();
+  const int ticks = is_recorded ? static_cast<int>(scenario.targets.size()) : 100;
+  Ours ours(scenario, 0.002);
+  for (int i = 0; i < 300 && !is_recorded; ++i) ours.tick();
+  std::vector<std::function<void()>> tasks;
+  int tick_of_ours = 0;
+  double contacts = 0;
+  double sweeps = 0;
+  int64_t counted = 0;
+  tasks.emplace_back([&] {
+    if (is_recorded && tick_of_ours++ % ticks == 0) ours.restart();
+    ours.tick();
+    contacts += static_cast<double>(ours.world().contacts().size());
+    sweeps += ours.world().last_sweeps();
+    ++counted;
+  });
+#ifdef NAO_HAS_MUJOCO
+  Theirs points(scenario, 0.002);
+  Theirs boxes(scenario, 0.002, sim::PeerFeet::kBoxes);
+  for (int i = 0; i < 300 && !is_recorded; ++i) {
+    points.tick();
+    boxes.tick();
+  }
+  std::array<int, 2> tick_of_theirs{0, 0};
+  double their_contacts = 0;
+  tasks.emplace_back([&] {
+    if (is_recorded && tick_of_theirs[0]++ % ticks == 0) points.restart();
+    points.tick();
+    their_contacts += points.num_contacts();
+  });
+  tasks.emplace_back([&] {
+    if (is_recorded && tick_of_theirs[1]++ % ticks == 0) boxes.restart();
+    boxes.tick();
+  });
+#endif
+  const std::vector<double> us = times_in_turns(tasks, rounds, ticks, 5);
+  const std::string name = "physics." + scenario.name;
+  std::fprintf(stderr, "%s: %.1f contacts, %.1f sweeps a step", name.c_str(),
+               contacts / static_cast<double>(counted), sweeps / static_cast<double>(counted));
+#ifdef NAO_HAS_MUJOCO
+  const sim::TreeState end_ours = ours.state();
+  const sim::TreeState end_theirs = points.state();
+  std::fprintf(
+      stderr,
+      "; MuJoCo %.1f contacts; torso at the end (%.2f, %.2f, %.2f), MuJoCo (%.2f, %.2f, %.2f)",
+      their_contacts / static_cast<double>(counted), end_ours.position.x(), end_ours.position.y(),
+      end_ours.position.z(), end_theirs.position.x(), end_theirs.position.y(),
+      end_theirs.position.z());
+  figures.push_back({name + ".speedup", us[1] / us[0], "x", "MuJoCo, same contact points", 1});
+  figures.push_back(
+      {name + ".speedup_over_box_feet", us[2] / us[0], "x", "MuJoCo, feet as boxes", 1});
+  figures.push_back({name + ".step_us", us[0], "us", "MuJoCo, same contact points", us[1]});
+#else
+  figures.push_back({name + ".step_us", us[0], "us", "", 0});
+#endif
+  std::fprintf(stderr, "\n");
+  figures.push_back({name + ".contacts", contacts / static_cast<double>(counted), "", "", 0});
+}
+
+struct StageTimes {
+  double last = 0;
+  std::array<double, 5> sum{};
+};
+
+void measure_stages(const Scenario& scenario, std::vector<Figure>& figures) {
+  static constexpr const char* kNames[] = {"dynamics", "collision", "rows", "solve", "integrate"};
+  Ours ours(scenario, 0.002);
+  StageTimes times;
+  for (int i = 0; i < 300; ++i) ours.tick();
+  // Reading the clock costs as much as a stage: an empty step's worth of readings is taken off.
+  constexpr int kReadings = 100000;
+  const double start = processor_seconds();
+  for (int i = 0; i < kReadings; ++i) (void)processor_seconds();
+  const double reading = (processor_seconds() - start) / kReadings;
+  ours.world().set_stage_probe(
+      [](World::Stage stage, void* user) {
+        auto& all = *static_cast<StageTimes*>(user);
+        const double now = processor_seconds();
+        all.sum[static_cast<size_t>(stage)] += now - all.last;
+        all.last = now;
+      },
+      &times);
+  constexpr int kSteps = 20000;
+  for (int i = 0; i < kSteps; ++i) {
+    times.last = processor_seconds();
+    ours.world().step();
+  }
+  for (size_t i = 0; i < times.sum.size(); ++i) {
+    figures.push_back({"physics." + scenario.name + ".stage_" + kNames[i] + "_us",
+                       1e6 * (times.sum[i] / kSteps - reading), "us", "", 0});
+  }
+}
+
+void measure_contacts(const Scenario& standing, std::vector<Figure>& figures) {
+  std::vector<std::unique_ptr<Ours>> all;
+  std::vector<std::function<void()>> tasks;
+  const std::vector<int> corners{3, 4, 6, 8, 12, 15};
+  for (const int count : corners) {
+    WorldOptions options;
+    options.num_sole_points = count;
+    all.push_back(std::make_unique<Ours>(standing, 0.002, options));
+    for (int i = 0; i < 300; ++i) all.back()->tick();
+    tasks.emplace_back([&ours = *all.back()] { ours.tick(); });
+  }
+  const std::vector<double> us = times_in_turns(tasks, 21, 50, 5);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    figures.push_back(
+        {"physics.contacts_" + std::to_string(2 * corners[i]) + ".step_us", us[i], "us", "", 0});
+  }
+}
+
+void measure_robots(std::vector<Figure>& figures) {
+  std::vector<std::unique_ptr<World>> all;
+  std::vector<std::function<void()>> tasks;
+  const std::vector<int> counts{1, 2, 4, 8};
+  for (const int count : counts) {
+    all.push_back(std::make_unique<World>(SceneFile::find("soccer")));
+    for (int i = 0; i < count; ++i) {
+      RobotOptions robot;
+      robot.name = "R" + std::to_string(i);
+      robot.position = {-2 + 1.0 * (i / 2), i % 2 == 0 ? -1 : 1};
+      all.back()->add_robot(nao_model(), robot);
+    }
+    for (int i = 0; i < 200; ++i) all.back()->step_tick();
+    tasks.emplace_back([&world = *all.back()] { world.step_tick(); });
+  }
+  const std::vector<double> us = times_in_turns(tasks, 21, 20, 5);
+  for (size_t i = 0; i < counts.size(); ++i) {
+    figures.push_back(
+        {"physics.robots_" + std::to_string(counts[i]) + ".step_us", us[i], "us", "", 0});
+  }
+}
+
+void measure(int rounds, const std::string& json_file) {
+  std::vector<Figure> figures;
+  Scenario standing;
+  standing.name = "standing";
+  Scenario lying;
+  lying.name = "lying";
+  lying.posture = "LyingBack";
+  lying.is_limp = true;
+  const Scenario walk = walking();
+  const Scenario fall = falling();
+
+  measure_scenario(standing, rounds, figures);
+  const auto standing_us = std::find_if(figures.begin(), figures.end(), [](const Figure& figure) {
+    return figure.name == "physics.standing.step_us";
+  });
+  const double step_us = standing_us->value;
+  measure_scenario(walk, std::max(3, rounds / 10), figures);
+  measure_scenario(lying, rounds, figures);
+  figures.push_back({"physics.step_us", step_us, "us", "", 0});
+  figures.push_back({"physics.real_time_factor", 2000 / step_us, "", "", 0});
+  measure_stages(standing, figures);
+  measure_contacts(standing, figures);
+  measure_robots(figures);
+
+  for (const Scenario* scenario : {&fall, &walk}) {
+    const int ticks = scenario == &fall ? 100 : 250;
+    Figure figure{"physics." + scenario->name + ".error_mrad",
+                  1e3 * step_error<Ours>(*scenario, ticks), "mrad", "", 0};
+#ifdef NAO_HAS_MUJOCO
+    figure.peer = "MuJoCo, same contact points";
+    figure.peer_value = 1e3 * step_error<Theirs>(*scenario, ticks);
+#endif
+    figures.push_back(figure);
+  }
+  report(figures, json_file);
+}
+
+}  // namespace
+}  // namespace nao
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures the physics, beside MuJoCo where that is installed.", "nao-bench-physics");
+  std::string json_file;
+  int rounds = 40;
+  app.add_option("--json", json_file, "File for the figures");
+  app.add_option("--rounds", rounds, "Turns of each simulator in each scenario")
+      ->check(CLI::Range(3, 1000))
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    nao::measure(rounds, json_file);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "nao-bench-physics: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

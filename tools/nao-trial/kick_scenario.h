@@ -1,0 +1,21 @@
+#pragma once
+
+#include "nao-trial/scenario.h"
+
+namespace nao::trial {
+
+/** Kicks a ball that lies about where the kick has it best; odd seeds with the left foot. */
+class KickScenario : public Scenario {
+ public:
+  const char* name() const override { return "kick"; }
+  const char* summary() const override {
+    return "Kick a ball that lies before the left or right foot";
+  }
+  std::map<std::string, std::string> units() const override {
+    return {{"ball_m", "m"}, {"direction_error_deg", "degrees"}, {"ball_speed_mps", "m/s"}};
+  }
+  const char* scene() const override { return "soccer"; }
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+}  // namespace nao::trial

@@ -1,0 +1,111 @@
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "common/data_path.h"
+#include "common/error.h"
+#include "common/program.h"
+#include "nao-trial/scenario.h"
+#include "nao-trial/statistics.h"
+
+namespace nao::trial {
+namespace {
+
+/** Reads "A-B" or "A". @throws ConfigError */
+std::vector<uint64_t> parse_seeds(const std::string& text) {
+  unsigned long first = 0;
+  unsigned long last = 0;
+  char rest = 0;
+  const int num_read = std::sscanf(text.c_str(), "%lu-%lu%c", &first, &last, &rest);
+  if (num_read == 1 && text.find_first_not_of("0123456789") == std::string::npos) last = first;
+  const bool is_range = num_read == 2 && last >= first && last - first < 1000000;
+  if (!is_range && !(num_read == 1 && last == first)) {
+    throw ConfigError("--seeds wants A-B with A up to B, such as 1-100, not " + text);
+  }
+  std::vector<uint64_t> seeds;
+  for (uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
+  return seeds;
+}
+
+void print(const RunResult& run, uint64_t seed) {
+  std::printf("seed %lu %s: %s", static_cast<unsigned long>(seed), run.label.c_str(),
+              run.is_success ? "ok" : run.failure.c_str());
+  for (const auto& [name, value] : run.metrics) std::printf("  %s %.4g", name.c_str(), value);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+Summary run_all(const Scenario& scenario, const ScenarioOptions& options,
+                const std::vector<uint64_t>& seeds, bool is_verbose) {
+  Summary summary;
+  summary.scenario = scenario.name();
+  summary.units = scenario.units();
+  for (uint64_t seed : seeds) {
+    for (RunResult& run : scenario.run(options, seed)) {
+      if (is_verbose) print(run, seed);
+      summary.runs.push_back(std::move(run));
+      summary.seeds.push_back(seed);
+    }
+  }
+  return summary;
+}
+
+}  // namespace
+}  // namespace nao::trial
+
+int main(int argc, char** argv) {
+  using namespace nao::trial;
+  CLI::App app(
+      "Runs seeded trials of simulator and motion core in one process, in lock-step, without a "
+      "bus.",
+      "nao-trial");
+  nao::CommonOptions common;
+  nao::add_common_options(app, common);
+  app.require_subcommand(1);
+  std::string seeds = "1-10";
+  std::string json_file;
+  std::string model_name = "nao";
+  bool is_verbose = false;
+  ScenarioOptions options;
+  std::string chosen;
+  for (const auto& scenario : scenarios()) {
+    CLI::App* command = app.add_subcommand(scenario->name(), scenario->summary());
+    command->add_option("--seeds", seeds, "First and last seed, one run each")
+        ->capture_default_str();
+    command->add_option("--json", json_file, "Write the summary to this file too");
+    command->add_option("--model", model_name, "Folder of robots/ that describes the robot")
+        ->capture_default_str();
+    command->add_option("--duration", options.duration, "Length of a run, s (0: as usual)")
+        ->capture_default_str();
+    command->add_option("--vx", options.velocity.x(), "Where it walks: ahead, m/s");
+    command->add_option("--vy", options.velocity.y(), "To the left, m/s");
+    command->add_option("--wz", options.velocity.z(), "Turning to the left, rad/s");
+    command->add_option("--distance", options.distance, "Way to go, m (0: as usual)")
+        ->capture_default_str();
+    command
+        ->add_option("--late", options.trial.late_share,
+                     "Chance in each tick that motion misses it and up to three more")
+        ->capture_default_str();
+    command->add_flag("--ideal", options.trial.is_ideal, "No randomisation, noise or latency");
+    command->add_flag("--verbose", is_verbose, "Print a line for each run");
+    command->callback([&chosen, &scenario] { chosen = scenario->name(); });
+  }
+  return nao::run_program(app, common, argc, argv, [&] {
+    for (const auto& scenario : scenarios()) {
+      if (chosen != scenario->name()) continue;
+      options.trial.model = std::make_shared<nao::RobotModel>(
+          nao::RobotModel::load(nao::data_path() / "robots" / model_name));
+      options.trial.scene = nao::SceneFile::find(scenario->scene());
+      const Summary summary = run_all(*scenario, options, parse_seeds(seeds), is_verbose);
+      std::fputs(to_table(summary).c_str(), stdout);
+      if (!json_file.empty()) {
+        std::ofstream file(json_file);
+        file << to_json(summary);
+        if (!file) throw nao::Error("cannot write " + json_file);
+      }
+    }
+  });
+}

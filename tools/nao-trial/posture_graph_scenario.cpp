@@ -1,0 +1,65 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "nao-trial/scenarios.h"
+
+namespace nao::trial {
+namespace {
+
+constexpr double kSpeed = 0.5;
+constexpr double kTimeout = 40;  // s for one way, getting up and trying again included
+constexpr double kTolerance = 3 * M_PI / 180;
+constexpr double kLyingTolerance = 8 * M_PI / 180;
+
+/** Goes one way. @return Why it failed, or nothing. */
+std::string go(Trial& trial, const Posture& goal, RunResult& result) {
+  const double start = trial.time();
+  const auto end = trial.await_end(trial.send_posture(goal.name, kSpeed), kTimeout);
+  if (!end) return "no end";
+  if (end->status != motion::ResultStatus::kDone) {
+    return std::string(to_string(end->status)) + ": " + end->reason;
+  }
+  result.metrics.emplace_back("time_s", trial.time() - start);
+  trial.run(0.3);
+  const bool lies = goal.family.rfind("lying", 0) == 0;
+  std::string joint;
+  const double deviation = trial.deviation_from(goal, &joint);
+  result.metrics.emplace_back("deviation_deg", deviation * 180 / M_PI);
+  if (deviation > (lies ? kLyingTolerance : kTolerance)) {
+    return fmt::format("{} is {:.1f} degrees off", joint, deviation * 180 / M_PI);
+  }
+  const bool is_upright = goal.family == "standing" || goal.family == "crouching";
+  if (is_upright && trial.torso_tilt() > 0.3) return "fell";
+  return "";
+}
+
+}  // namespace
+
+std::vector<RunResult> PostureGraphScenario::run(const ScenarioOptions& options,
+                                                 uint64_t seed) const {
+  std::vector<RunResult> results;
+  const auto& postures = options.trial.model->postures();
+  for (const Posture& from : postures) {
+    for (const Posture& to : postures) {
+      if (&from == &to) continue;
+      RunResult result;
+      result.label = from.name + " to " + to.name;
+      Trial trial(options.trial, seed);
+      trial.run(1);
+      RunResult way_there;
+      result.failure = go(trial, from, way_there);
+      if (!result.failure.empty()) {
+        result.failure = "on the way to the start: " + result.failure;
+      } else {
+        result.failure = go(trial, to, result);
+      }
+      result.is_success = result.failure.empty();
+      results.push_back(std::move(result));
+    }
+  }
+  return results;
+}
+
+}  // namespace nao::trial

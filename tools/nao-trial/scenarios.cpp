@@ -1,0 +1,27 @@
+#include "nao-trial/scenarios.h"
+
+#include "nao-trial/kick_scenario.h"
+#include "nao-trial/walk_scenarios.h"
+
+namespace nao::trial {
+
+const std::vector<std::unique_ptr<Scenario>>& scenarios() {
+  static const std::vector<std::unique_ptr<Scenario>> all = [] {
+    std::vector<std::unique_ptr<Scenario>> list;
+    list.push_back(std::make_unique<StandScenario>());
+    list.push_back(std::make_unique<PostureGraphScenario>());
+    list.push_back(std::make_unique<WalkScenario>());
+    list.push_back(std::make_unique<SprintScenario>());
+    list.push_back(std::make_unique<JoystickScenario>());
+    list.push_back(std::make_unique<MoveToScenario>());
+    list.push_back(std::make_unique<WalkPushScenario>());
+    list.push_back(std::make_unique<KickScenario>());
+    list.push_back(std::make_unique<JointsScenario>());
+    list.push_back(std::make_unique<PushScenario>());
+    list.push_back(std::make_unique<GetUpScenario>());
+    return list;
+  }();
+  return all;
+}
+
+}  // namespace nao::trial

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "nao-trial/scenario.h"
+
+namespace nao::trial {
+
+/** Stands still in StandInit. */
+class StandScenario : public Scenario {
+ public:
+  const char* name() const override { return "stand"; }
+  const char* summary() const override { return "Stand still in StandInit for 60 s"; }
+  std::map<std::string, std::string> units() const override {
+    return {{"drift_mm", "mm"}, {"torso_height_m", "m"}};
+  }
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+/** Goes to every posture from every other one. */
+class PostureGraphScenario : public Scenario {
+ public:
+  const char* name() const override { return "posture-graph"; }
+  const char* summary() const override { return "Go from every posture to every other one"; }
+  std::map<std::string, std::string> units() const override {
+    return {{"time_s", "s"}, {"deviation_deg", "degrees"}};
+  }
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+/** Gets up after a push, or after being laid down somehow. */
+class GetUpScenario : public Scenario {
+ public:
+  const char* name() const override { return "get-up"; }
+  const char* summary() const override { return "Get up after a fall, or from lying anyhow"; }
+  std::map<std::string, std::string> units() const override {
+    return {{"time_s", "s"},
+            {"time_from_belly_s", "s"},
+            {"time_from_back_s", "s"},
+            {"time_from_side_s", "s"}};
+  }
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+/** Stands against pushes, and finds how hard they may be. */
+class PushScenario : public Scenario {
+ public:
+  const char* name() const override { return "push"; }
+  const char* summary() const override {
+    return "Stand against pushes at the torso, harder and harder, in four directions";
+  }
+  std::map<std::string, std::string> units() const override {
+    return {{"impulse_Ns", "N s"},          {"forward_impulse_Ns", "N s"},
+            {"backward_impulse_Ns", "N s"}, {"left_impulse_Ns", "N s"},
+            {"right_impulse_Ns", "N s"},    {"warning_ms", "ms"}};
+  }
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+/** Turns random joints by random angles; nothing may tip, hit itself, or jump. */
+class JointsScenario : public Scenario {
+ public:
+  const char* name() const override { return "joints"; }
+  const char* summary() const override { return "Obey 100 random joint commands without harm"; }
+  std::map<std::string, std::string> units() const override { return {}; }
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+}  // namespace nao::trial

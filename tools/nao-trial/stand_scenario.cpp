@@ -1,0 +1,26 @@
+#include "nao-trial/scenarios.h"
+
+#include <algorithm>
+
+namespace nao::trial {
+
+std::vector<RunResult> StandScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  const double duration = options.duration > 0 ? options.duration : 60;
+  Trial trial(options.trial, seed);
+  trial.run(2);
+  const Eigen::Vector3d start = trial.torso_in_world().translation();
+  double drift = 0;
+  double tilt = 0;
+  trial.on_tick([&] {
+    drift = std::max(drift, (trial.torso_in_world().translation() - start).norm());
+    tilt = std::max(tilt, trial.torso_tilt());
+  });
+  trial.run(duration);
+  RunResult result;
+  result.is_success = tilt < 0.3 && trial.torso_height() > 0.3;
+  if (!result.is_success) result.failure = "fell";
+  result.metrics = {{"drift_mm", drift * 1e3}, {"torso_height_m", trial.torso_height()}};
+  return {result};
+}
+
+}  // namespace nao::trial

@@ -1,0 +1,104 @@
+#include "nao-trial/statistics.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nao::trial {
+namespace {
+
+constexpr size_t kMaxSeedsListed = 8;
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::map<std::string, std::vector<double>> collect(const Summary& summary) {
+  std::map<std::string, std::vector<double>> values;
+  for (const RunResult& run : summary.runs) {
+    for (const auto& [name, value] : run.metrics) values[name].push_back(value);
+  }
+  return values;
+}
+
+std::string unit_of(const Summary& summary, const std::string& name) {
+  const auto found = summary.units.find(name);
+  return found == summary.units.end() ? "1" : found->second;
+}
+
+std::string json_number(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
+}  // namespace
+
+int Summary::num_successes() const {
+  return static_cast<int>(
+      std::count_if(runs.begin(), runs.end(), [](const RunResult& run) { return run.is_success; }));
+}
+
+MetricStatistics calc_statistics(const std::string& name, std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  if (ends_with(name, "_mps") || ends_with(name, "_Ns") || ends_with(name, "_m") ||
+      name.rfind("warning", 0) == 0) {
+    std::reverse(values.begin(), values.end());
+  }
+  const auto at_share = [&](double share) {
+    return values[static_cast<size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+  };
+  return {at_share(0.5), at_share(0.95), values.back()};
+}
+
+std::string to_table(const Summary& summary) {
+  const int num_runs = static_cast<int>(summary.runs.size());
+  std::string table =
+      fmt::format("{}: {} of {} succeeded ({:.1f} %)\n", summary.scenario, summary.num_successes(),
+                  num_runs, num_runs > 0 ? 100.0 * summary.num_successes() / num_runs : 0.0);
+  const auto values = collect(summary);
+  if (!values.empty()) {
+    table +=
+        fmt::format("  {:28} {:>10} {:>10} {:>10}  {}\n", "", "median", "p95", "worst", "unit");
+  }
+  for (const auto& [name, list] : values) {
+    const MetricStatistics statistics = calc_statistics(name, list);
+    table += fmt::format("  {:28} {:>10.4g} {:>10.4g} {:>10.4g}  {}\n", name, statistics.median,
+                         statistics.p95, statistics.worst, unit_of(summary, name));
+  }
+  std::map<std::string, std::vector<uint64_t>> failures;
+  for (size_t i = 0; i < summary.runs.size(); ++i) {
+    const RunResult& run = summary.runs[i];
+    if (run.is_success) continue;
+    failures[run.label + (run.label.empty() ? "" : ": ") + run.failure].push_back(summary.seeds[i]);
+  }
+  for (const auto& [failure, seeds] : failures) {
+    table += fmt::format("  failed {}: {} (seeds", seeds.size(), failure);
+    for (size_t i = 0; i < std::min(seeds.size(), kMaxSeedsListed); ++i) {
+      table += fmt::format(" {}", seeds[i]);
+    }
+    table += seeds.size() > kMaxSeedsListed ? " ...)\n" : ")\n";
+  }
+  return table;
+}
+
+std::string to_json(const Summary& summary) {
+  const size_t num_runs = summary.runs.size();
+  std::string metrics;
+  for (const auto& [name, list] : collect(summary)) {
+    const MetricStatistics statistics = calc_statistics(name, list);
+    metrics += fmt::format(
+        "{}\"{}\": {{\"median\": {}, \"p95\": {}, \"worst\": {}, \"unit\": \"{}\"}}",
+        metrics.empty() ? "" : ", ", name, json_number(statistics.median),
+        json_number(statistics.p95), json_number(statistics.worst), unit_of(summary, name));
+  }
+  return fmt::format(
+      "{{\"scenario\": \"{}\", \"runs\": {}, \"successes\": {}, \"rate\": {}, \"metrics\": "
+      "{{{}}}}}\n",
+      summary.scenario, num_runs, summary.num_successes(),
+      json_number(num_runs > 0
+                      ? static_cast<double>(summary.num_successes()) / static_cast<double>(num_runs)
+                      : 0.0),
+      metrics);
+}
+
+}  // namespace nao::trial

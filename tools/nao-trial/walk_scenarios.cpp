@@ -1,0 +1,294 @@
+#include "nao-trial/walk_scenarios.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace nao::trial {
+namespace {
+
+using Eigen::Rotation2Dd;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kTick = 0.01;
+// Before the first command the estimate settles, s.
+constexpr double kStand = 1;
+// The gait has reached its velocity after this, s.
+constexpr double kSpeedUp = 2.5;
+constexpr double kFallenHeight = 0.2;  // m, of the torso
+constexpr double kFallenTilt = 1.0;    // rad
+
+/** Place and heading on the ground. */
+struct GroundPose {
+  Vector2d position = Vector2d::Zero();
+  double heading = 0;
+
+  explicit GroundPose(const Eigen::Isometry3d& pose)
+      : position(pose.translation().head<2>()),
+        heading(std::atan2(pose.linear()(1, 0), pose.linear()(0, 0))) {}
+
+  Vector2d from_here(const Vector2d& point) const {
+    return Rotation2Dd(-heading) * Vector2d(point - position);
+  }
+};
+
+double wrapped(double angle) {
+  return std::remainder(angle, 2 * M_PI);
+}
+
+bool has_fallen(const Trial& trial) {
+  return trial.torso_height() < kFallenHeight || trial.torso_tilt() > kFallenTilt;
+}
+
+GroundPose true_pose(const Trial& trial) {
+  return GroundPose(trial.torso_in_world());
+}
+
+GroundPose estimated_pose(const Trial& trial) {
+  return GroundPose(trial.estimate().torso_in_odometry);
+}
+
+/** How far odometry and truth disagree about the way between two moments, m. */
+class OdometryCheck {
+ public:
+  explicit OdometryCheck(const Trial& trial)
+      : truth_(true_pose(trial)), estimate_(estimated_pose(trial)) {}
+  double error(const Trial& trial) const {
+    return (truth_.from_here(true_pose(trial).position) -
+            estimate_.from_here(estimated_pose(trial).position))
+        .norm();
+  }
+
+ private:
+  GroundPose truth_;
+  GroundPose estimate_;
+};
+
+/** Runs until a time has passed or the robot fell. @return false if it fell. */
+bool run_upright(Trial& trial, double duration) {
+  trial.run_until([&] { return has_fallen(trial); }, duration);
+  return !has_fallen(trial);
+}
+
+/** Mean velocity in the robot's own, turning frame. */
+class VelocityMean {
+ public:
+  explicit VelocityMean(const Trial& trial) : last_(true_pose(trial)) {}
+  void add(const Trial& trial) {
+    const GroundPose now = true_pose(trial);
+    const Vector2d way = last_.from_here(now.position);
+    sum_ += Vector3d(way.x(), way.y(), wrapped(now.heading - last_.heading));
+    time_ += kTick;
+    last_ = now;
+  }
+  Vector3d mean() const { return sum_ / std::max(time_, kTick); }
+
+ private:
+  GroundPose last_;
+  Vector3d sum_ = Vector3d::Zero();
+  double time_ = 0;
+};
+
+RunResult fallen(double time) {
+  RunResult result;
+  result.failure = "fell after " + std::to_string(std::lround(time * 10) / 10) + " s";
+  return result;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> WalkScenario::units() const {
+  return {{"speed_mps", "m/s"},    {"turning_radps", "rad/s"}, {"tracking_error", "1"},
+          {"odometry_error", "1"}, {"stopping_s", "s"},        {"stopping_mm", "mm"}};
+}
+
+std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  const double duration = options.duration > 0 ? options.duration : 10;
+  Trial trial(options.trial, seed);
+  trial.run(kStand);
+  const int64_t walk = trial.hold_walk(options.velocity);
+  const double start = trial.time();
+  if (!run_upright(trial, kSpeedUp)) return {fallen(trial.time() - start)};
+  VelocityMean velocity(trial);
+  const OdometryCheck odometry(trial);
+  trial.on_tick([&] { velocity.add(trial); });
+  if (!run_upright(trial, duration)) return {fallen(trial.time() - start)};
+  trial.on_tick({});
+  const Vector3d mean = velocity.mean();
+  const double odometry_error = odometry.error(trial);
+
+  const double stop_time = trial.time();
+  const Vector2d stop_place = true_pose(trial).position;
+  trial.release_walk();
+  const auto end = trial.await_end(walk, 10);
+  RunResult result;
+  result.is_success = end && end->status == motion::ResultStatus::kDone && !has_fallen(trial);
+  if (!result.is_success) {
+    result.failure = has_fallen(trial) ? "fell while stopping" : "did not stop";
+    return {result};
+  }
+  // The velocity that was carried out; a radian weighs like 0.15 m.
+  const Vector3d scale(1, 1, 0.15);
+  const Vector3d missed = (mean - options.velocity).cwiseProduct(scale);
+  const double wished = options.velocity.cwiseProduct(scale).norm();
+  const double distance = mean.head<2>().norm() * duration;
+  result.metrics = {{"speed_mps", mean.head<2>().norm()},
+                    {"turning_radps", mean.z()},
+                    {"tracking_error", wished > 0 ? missed.norm() / wished : missed.norm()},
+                    {"stopping_s", trial.time() - stop_time},
+                    {"stopping_mm", 1e3 * (true_pose(trial).position - stop_place).norm()}};
+  if (distance > 0.5) result.metrics.emplace_back("odometry_error", odometry_error / distance);
+  return {result};
+}
+
+std::map<std::string, std::string> SprintScenario::units() const {
+  return {{"speed_mps", "m/s"}, {"drift_mm", "mm"}, {"odometry_error", "1"}};
+}
+
+std::vector<RunResult> SprintScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  const double distance = options.distance > 0 ? options.distance : 10;
+  Trial trial(options.trial, seed);
+  trial.run(kStand);
+  const GroundPose start = true_pose(trial);
+  const OdometryCheck odometry(trial);
+  const double start_time = trial.time();
+  trial.hold_walk({trial.model().walk_limits().forward, 0, 0});
+  double way = 0;
+  const double timeout = 20 + 3 * distance / trial.model().walk_limits().forward;
+  trial.run_until(
+      [&] {
+        way = (true_pose(trial).position - start.position).norm();
+        return has_fallen(trial) || way >= distance;
+      },
+      timeout);
+  if (has_fallen(trial)) return {fallen(trial.time() - start_time)};
+  RunResult result;
+  result.is_success = way >= distance;
+  if (!result.is_success) result.failure = "too slow";
+  result.metrics = {{"speed_mps", way / (trial.time() - start_time)},
+                    {"drift_mm", 1e3 * std::abs(start.from_here(true_pose(trial).position).y())},
+                    {"odometry_error", odometry.error(trial) / way}};
+  return {result};
+}
+
+std::map<std::string, std::string> JoystickScenario::units() const {
+  return {{"falls", "1"}, {"duration_s", "s"}};
+}
+
+std::vector<RunResult> JoystickScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  const double duration = options.duration > 0 ? options.duration : 600;
+  Trial trial(options.trial, seed);
+  const WalkLimits limits = trial.model().walk_limits();
+  trial.run(kStand);
+  const double start = trial.time();
+  while (trial.time() - start < duration) {
+    const double kind = trial.random(0, 1);
+    const Vector3d stick(trial.random(-1, 1), trial.random(-1, 1), trial.random(-1, 1));
+    Vector3d velocity(stick.x() * (stick.x() > 0 ? limits.forward : limits.backward),
+                      stick.y() * limits.sideways, stick.z() * limits.turning);
+    if (kind < 0.15) velocity = {limits.forward, 0, 0};  // pressed to the stop
+    if (kind > 0.85) {
+      trial.release_walk();
+    } else {
+      trial.hold_walk(velocity);
+    }
+    if (!run_upright(trial, trial.random(0.2, 4))) break;
+  }
+  RunResult result;
+  result.is_success = !has_fallen(trial);
+  if (!result.is_success) result = fallen(trial.time() - start);
+  result.metrics = {{"falls", has_fallen(trial) ? 1 : 0}, {"duration_s", trial.time() - start}};
+  return {result};
+}
+
+std::map<std::string, std::string> MoveToScenario::units() const {
+  return {{"odometry_miss_mm", "mm"},
+          {"odometry_miss_deg", "degrees"},
+          {"true_miss_mm", "mm"},
+          {"true_miss_deg", "degrees"},
+          {"time_s", "s"}};
+}
+
+std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  Trial trial(options.trial, seed);
+  trial.run(kStand);
+  const double distance = trial.random(0.1, 2);
+  const double direction = trial.random(-M_PI, M_PI);
+  const double turn = trial.random(-M_PI, M_PI);
+  const Vector2d goal = distance * Vector2d(std::cos(direction), std::sin(direction));
+  const GroundPose start = true_pose(trial);
+  const GroundPose estimated_start = estimated_pose(trial);
+  const double start_time = trial.time();
+  const int64_t id = trial.send({"", 0, motion::MoveToCommand{goal.x(), goal.y(), turn}});
+  std::optional<motion::CommandResult> end;
+  size_t next = 0;
+  trial.run_until(
+      [&] {
+        for (; next < trial.results().size(); ++next) {
+          const motion::CommandResult& found = trial.results()[next];
+          if (found.id == id && found.status != motion::ResultStatus::kAccepted) end = found;
+        }
+        return end || has_fallen(trial);
+      },
+      120);
+  if (has_fallen(trial)) return {fallen(trial.time() - start_time)};
+  const double time = trial.time() - start_time;
+  trial.run(0.5);
+  const auto miss = [&](const GroundPose& from, const GroundPose& to) {
+    return (from.from_here(to.position) - goal).norm();
+  };
+  const auto turn_miss = [&](const GroundPose& from, const GroundPose& to) {
+    return std::abs(wrapped(to.heading - from.heading - turn)) * 180 / M_PI;
+  };
+  const double by_odometry = miss(estimated_start, estimated_pose(trial));
+  const double turned = turn_miss(estimated_start, estimated_pose(trial));
+  RunResult result;
+  // Within 3 cm and 3 degrees for each metre of the way, and no less than for one.
+  const double scale = std::max(1.0, distance);
+  result.is_success = end && end->status == motion::ResultStatus::kDone &&
+                      by_odometry < 0.03 * scale && turned < 3 * scale;
+  if (!result.is_success) result.failure = end ? "missed; " + end->reason : "did not end";
+  result.metrics = {{"odometry_miss_mm", 1e3 * by_odometry},
+                    {"odometry_miss_deg", turned},
+                    {"true_miss_mm", 1e3 * miss(start, true_pose(trial))},
+                    {"true_miss_deg", turn_miss(start, true_pose(trial))},
+                    {"time_s", time}};
+  return {result};
+}
+
+std::map<std::string, std::string> WalkPushScenario::units() const {
+  return {{"impulse_Ns", "N s"}, {"direction_deg", "degrees"}};
+}
+
+std::vector<RunResult> WalkPushScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  constexpr double kAsked = 0.6;     // N s
+  constexpr double kGreatest = 3.2;  // N s: more than any NAO stands
+  const Vector3d velocity = options.velocity.isZero(0) ? Vector3d(0.15, 0, 0) : options.velocity;
+  double direction = 0;
+  // The same robot, moment and direction each time.
+  const auto survives = [&](double impulse) {
+    Trial trial(options.trial, seed);
+    direction = trial.random(-M_PI, M_PI);
+    const double when = trial.random(3, 4);
+    trial.run(kStand);
+    trial.hold_walk(velocity);
+    if (!run_upright(trial, when)) return false;
+    const double heading = true_pose(trial).heading + direction;
+    trial.world().push(0, 0, impulse * Vector3d(std::cos(heading), std::sin(heading), 0));
+    return run_upright(trial, 4) && trial.core().motion_state().mode == motion::Mode::kWalking;
+  };
+  double low = 0;
+  double high = kGreatest;
+  for (int i = 0; i < 5; ++i) {
+    const double middle = (low + high) / 2;
+    (survives(middle) ? low : high) = middle;
+  }
+  RunResult result;
+  result.is_success = survives(kAsked);
+  if (!result.is_success) result.failure = "fell";
+  result.metrics = {{"impulse_Ns", low}, {"direction_deg", direction * 180 / M_PI}};
+  return {result};
+}
+
+}  // namespace nao::trial

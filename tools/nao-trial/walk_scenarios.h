@@ -1,0 +1,60 @@
+#pragma once
+
+#include "nao-trial/scenario.h"
+
+namespace nao::trial {
+
+/** Walks at one velocity, then stands. */
+class WalkScenario : public Scenario {
+ public:
+  const char* name() const override { return "walk"; }
+  const char* summary() const override {
+    return "Walk at --vx --vy --wz for --duration (10 s), then stand";
+  }
+  std::map<std::string, std::string> units() const override;
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+/** Walks straight ahead as fast as it can. */
+class SprintScenario : public Scenario {
+ public:
+  const char* name() const override { return "sprint"; }
+  const char* summary() const override {
+    return "Walk --distance (10 m) ahead at the greatest speed; out with the torso below 0.20 m";
+  }
+  std::map<std::string, std::string> units() const override;
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+/** A random thumb on the joystick: starts, stops, reversals, diagonals, turns. */
+class JoystickScenario : public Scenario {
+ public:
+  const char* name() const override { return "joystick"; }
+  const char* summary() const override {
+    return "Walk as a random thumb says for --duration (600 s)";
+  }
+  std::map<std::string, std::string> units() const override;
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+/** Walks to random poses by odometry. */
+class MoveToScenario : public Scenario {
+ public:
+  const char* name() const override { return "move-to"; }
+  const char* summary() const override { return "Move to a random pose up to 2 m away"; }
+  std::map<std::string, std::string> units() const override;
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+/** Is pushed while it walks. */
+class WalkPushScenario : public Scenario {
+ public:
+  const char* name() const override { return "walk-push"; }
+  const char* summary() const override {
+    return "Push the torso by 0.6 N s in a random direction while it walks at --vx (0.15 m/s)";
+  }
+  std::map<std::string, std::string> units() const override;
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+}  // namespace nao::trial

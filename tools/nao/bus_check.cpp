@@ -1,0 +1,226 @@
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <naolcm/daemon_status_t.hpp>
+#include <set>
+#include <string>
+
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/error.h"
+#include "common/program.h"
+#include "common/wall_clock.h"
+#include "nao/subcommand.h"
+
+namespace nao {
+namespace {
+
+/** Round trips happen within a millisecond; this says that the message is not coming. */
+constexpr double kEchoDeadline = 1.0;
+/** Longer than the one second between two daemon_status_t of a program. */
+constexpr double kListenTime = 1.3;
+/** Below this, a burst of pictures for several phones may overflow a busy receiver's buffer. */
+constexpr double kWishedBufferBytes = 2e6;
+/** Clocks that differ by more make the programs' wall times incomparable, s. */
+constexpr double kClockTolerance = 0.1;
+constexpr const char* kEchoChannel = "BUS_CHECK";
+
+/** Where a multicast bus is. */
+struct BusAddress {
+  std::string group = "239.255.76.67";
+  int port = 7667;
+};
+
+/** Reads udpm://GROUP:PORT?options; what is left out is LCM's default.
+ * @throws ConfigError  if the bus is of another kind, or the port is no number. */
+BusAddress parse_address(const std::string& url) {
+  const std::string scheme = "udpm://";
+  if (!url.starts_with(scheme)) {
+    throw ConfigError("only " + scheme + " buses can be checked, not " + url);
+  }
+  const std::string place = url.substr(scheme.size(), url.find('?') - scheme.size());
+  const size_t colon = place.find(':');
+  BusAddress address;
+  if (colon != 0 && !place.empty()) address.group = place.substr(0, colon);
+  if (colon != std::string::npos) {
+    const std::string port = place.substr(colon + 1);
+    const char* end = port.data() + port.size();
+    if (const auto [rest, error] = std::from_chars(port.data(), end, address.port);
+        rest != end || error != std::errc() || address.port < 1 || address.port > 65535) {
+      throw ConfigError("'" + port + "' in " + url + " is no port");
+    }
+  }
+  return address;
+}
+
+/** Local address that the system sends from to a group.
+ * @return Nothing if there is no route; then errno says why. */
+std::optional<in_addr> local_address_towards(const BusAddress& address) {
+  sockaddr_in target{};
+  target.sin_family = AF_INET;
+  target.sin_port = htons(static_cast<uint16_t>(address.port));
+  if (inet_pton(AF_INET, address.group.c_str(), &target.sin_addr) != 1) {
+    throw ConfigError("'" + address.group + "' is no IPv4 address");
+  }
+  const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in local{};
+  socklen_t size = sizeof local;
+  const bool has_route =
+      connect(descriptor, reinterpret_cast<sockaddr*>(&target), sizeof target) == 0 &&
+      getsockname(descriptor, reinterpret_cast<sockaddr*>(&local), &size) == 0;
+  close(descriptor);
+  if (!has_route) return std::nullopt;
+  return local.sin_addr;
+}
+
+std::string interface_with(const in_addr& address) {
+  ifaddrs* interfaces = nullptr;
+  if (getifaddrs(&interfaces) != 0) return "?";
+  std::string name = "?";
+  for (const ifaddrs* i = interfaces; i != nullptr; i = i->ifa_next) {
+    if (i->ifa_addr == nullptr || i->ifa_addr->sa_family != AF_INET) continue;
+    if (reinterpret_cast<sockaddr_in*>(i->ifa_addr)->sin_addr.s_addr == address.s_addr) {
+      name = i->ifa_name;
+      break;
+    }
+  }
+  freeifaddrs(interfaces);
+  return name;
+}
+
+/** Sends a message to itself. @return Seconds it took, or nothing if it did not come. */
+std::optional<double> echo_time(Bus& bus) {
+  const int64_t own_id = wall_utime();
+  bool has_come = false;
+  bus.subscribe<naolcm::daemon_status_t>(
+      kEchoChannel, Bus::Queue::kAll, [&](const naolcm::daemon_status_t& status) {
+        has_come |= status.wall_utime == own_id && status.process_id == getpid();
+      });
+  naolcm::daemon_status_t status{};
+  status.wall_utime = own_id;
+  status.program = "nao-bus";
+  status.process_id = getpid();
+  const double start = monotonic_seconds();
+  bus.publish(kEchoChannel, status);
+  while (!has_come && monotonic_seconds() - start < kEchoDeadline) bus.handle_for(0.05);
+  if (!has_come) return std::nullopt;
+  return monotonic_seconds() - start;
+}
+
+/** What one host's programs say. */
+struct HostReport {
+  std::map<std::string, std::set<int>> processes;
+  /** Smallest difference of its clock to ours seen, s: the one with the least delay in it. */
+  double clock_difference = std::nan("");
+};
+
+std::map<std::string, HostReport> listen_for_hosts(Bus& bus) {
+  std::map<std::string, HostReport> hosts;
+  bus.subscribe<naolcm::daemon_status_t>(
+      kDaemonStatusChannel, Bus::Queue::kAll, [&hosts](const naolcm::daemon_status_t& status) {
+        HostReport& host = hosts[status.host];
+        host.processes[status.program].insert(status.process_id);
+        const double difference = static_cast<double>(wall_utime() - status.wall_utime) * 1e-6;
+        if (!(std::abs(difference) >= std::abs(host.clock_difference))) {
+          host.clock_difference = difference;
+        }
+      });
+  const double end = monotonic_seconds() + kListenTime;
+  while (monotonic_seconds() < end) bus.handle_for(end - monotonic_seconds());
+  return hosts;
+}
+
+void report_buffer() {
+  double bytes = 0;
+  std::ifstream("/proc/sys/net/core/rmem_max") >> bytes;
+  const bool is_enough = bytes >= kWishedBufferBytes;
+  std::printf("%s  receive buffer: up to %.0f kB%s\n", is_enough ? "ok  " : "note", bytes / 1000,
+              is_enough ? ""
+                        : "; if programs report dropped messages: sysctl -w "
+                          "net.core.rmem_max=2097152");
+}
+
+/** @return false if something is wrong. */
+bool report_hosts(const std::map<std::string, HostReport>& hosts) {
+  bool is_alone = true;
+  bool are_clocks_fine = true;
+  if (hosts.empty()) std::printf("note  no program speaks on this bus\n");
+  for (const auto& [name, host] : hosts) {
+    std::string programs;
+    for (const auto& [program, processes] : host.processes) {
+      programs += " " + program;
+      if (processes.size() > 1) {
+        programs += " (" + std::to_string(processes.size()) + " of them)";
+        is_alone = false;
+      }
+    }
+    const bool is_clock_fine = std::abs(host.clock_difference) < kClockTolerance;
+    are_clocks_fine &= is_clock_fine;
+    std::printf("%s  host %s:%s; its clock differs by %.3f s%s\n", is_clock_fine ? "ok  " : "FAIL",
+                name.c_str(), programs.c_str(), host.clock_difference,
+                is_clock_fine ? "" : "; let both follow the same time server");
+  }
+  if (!is_alone) {
+    std::printf(
+        "FAIL  two systems share this bus; give one of them another port: "
+        "--lcm-url \"udpm://239.255.76.67:7668?ttl=0\"\n");
+  }
+  return is_alone && are_clocks_fine;
+}
+
+int run_bus_check(const std::string& url, bool is_quick) {
+  const BusAddress address = parse_address(url);
+  std::printf("bus   %s\n", url.c_str());
+  const auto local = local_address_towards(address);
+  if (!local) {
+    const std::string network = address.group.substr(0, address.group.rfind('.')) + ".0/24";
+    std::printf("FAIL  no route to %s: %s\n", address.group.c_str(), std::strerror(errno));
+    std::printf("      mend it: ip link set lo up multicast on && ip route add %s dev lo\n",
+                network.c_str());
+    return 1;
+  }
+  const std::string interface = interface_with(*local);
+  std::printf("ok    route to %s by interface %s\n", address.group.c_str(), interface.c_str());
+  Bus bus(url);
+  const auto echo = echo_time(bus);
+  if (!echo) {
+    std::printf("FAIL  an own message does not come back within %.0f s\n", kEchoDeadline);
+    std::printf(
+        "      mend it: ip link set %s multicast on, and let the firewall pass UDP port %d\n",
+        interface.c_str(), address.port);
+    return 1;
+  }
+  std::printf("ok    an own message came back in %.2f ms\n", *echo * 1000);
+  if (is_quick) return 0;
+  report_buffer();
+  return report_hosts(listen_for_hosts(bus)) ? 0 : 1;
+}
+
+}  // namespace
+
+void add_bus_command(CLI::App& app, Invocation& invocation) {
+  auto is_quick = std::make_shared<bool>(false);
+  CLI::App* bus = app.add_subcommand(
+      "bus", "Check the message bus: route, loop, buffers, who else is there; say what mends it");
+  bus->add_flag("--quick", *is_quick, "Only route and loop");
+  bus->callback([&invocation, is_quick] {
+    invocation.run = [&invocation, is_quick] {
+      return run_bus_check(invocation.common.lcm_url, *is_quick);
+    };
+  });
+}
+
+}  // namespace nao

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace nao {
+
+/** What passed on one channel. */
+struct ChannelRecord {
+  /** Type of the newest message; "?" if it is none of the project's. */
+  std::string type = "?";
+  int64_t num_messages = 0;
+  /** Messages that are of no known type, or do not decode as theirs. */
+  int64_t num_undecodable = 0;
+  int64_t num_bytes = 0;
+  /** Arrival of the first and the newest message, s. */
+  double first_time = 0;
+  double last_time = 0;
+  /** Messages and bytes since the last call of finish_period(). */
+  int64_t num_messages_in_period = 0;
+  int64_t num_bytes_in_period = 0;
+  /** Messages and bytes per second in the last whole period. */
+  double rate = 0;
+  double bytes_per_second = 0;
+};
+
+/** Counts all messages on a bus, channel by channel. Time is an argument, s of any clock. */
+class ChannelStatistics {
+ public:
+  /** A message arrived. */
+  void add(const std::string& channel, const void* data, int size, double now);
+
+  /** Turns the counts since the last call, or since the start, into rates. */
+  void finish_period(double now);
+
+  /** By name of the channel. */
+  const std::map<std::string, ChannelRecord>& channels() const { return channels_; }
+
+  /** Messages of all channels that could not be decoded. */
+  int64_t num_undecodable() const;
+
+  /** A table for people: channel, type, rate, size, counts and age. */
+  std::string to_text(double now) const;
+
+  /** The same as a JSON array of objects. */
+  std::string to_json(double now) const;
+
+ private:
+  std::map<std::string, ChannelRecord> channels_;
+  double period_start_ = -1;
+};
+
+}  // namespace nao

@@ -1,0 +1,118 @@
+// The operator's console: who may drive from a phone. Speaks to the gateway, not to the bus.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/phone_client.h"
+#include "nao/json_writer.h"
+#include "nao/subcommand.h"
+#include "nao/text_table.h"
+
+namespace nao {
+namespace {
+
+using naoremote::Operate;
+using naoremote::Response;
+
+/** What the subcommands of driver share. */
+struct DriverOptions {
+  /** Port of the gateway on this host. */
+  uint16_t port = 7668;
+  uint32_t client_id = 0;
+  bool as_json = false;
+};
+
+/** @return The exit status. */
+int run_operation(const DriverOptions& options, Operate::Operation operation,
+                  const std::string& name, Response& response) {
+  try {
+    response = operate("127.0.0.1", options.port, operation, options.client_id);
+  } catch (const ConnectionError& error) {
+    std::fprintf(stderr, "nao: driver %s: %s; is nao-phone-gateway running on this host?\n",
+                 name.c_str(), error.what());
+    return 1;
+  }
+  if (response.error() == naoremote::OK) return 0;
+  std::fprintf(stderr, "nao: driver %s: refused: %s\n", name.c_str(), response.message().c_str());
+  return 1;
+}
+
+void print_json(const naoremote::Clients& clients) {
+  JsonWriter json;
+  json.begin_array();
+  for (const auto& client : clients.clients()) {
+    json.begin_object();
+    json.add("client_id", static_cast<long>(client.client_id()));
+    json.add("name", client.name());
+    json.add("address", client.address());
+    json.add("transport", client.transport());
+    json.add("is_driver", client.is_driver());
+    json.add("num_sent", static_cast<long>(client.num_sent()));
+    json.add("num_skipped", static_cast<long>(client.num_skipped()));
+    json.end();
+  }
+  json.end();
+  std::printf("%s\n", json.text().c_str());
+}
+
+void print_table(const naoremote::Clients& clients) {
+  std::vector<std::vector<std::string>> rows = {
+      {"client", "name", "address", "by", "drives", "sent", "skipped"}};
+  for (const auto& client : clients.clients()) {
+    rows.push_back({std::to_string(client.client_id()), client.name(), client.address(),
+                    client.transport(), client.is_driver() ? "drives" : "",
+                    std::to_string(client.num_sent()), std::to_string(client.num_skipped())});
+  }
+  std::printf("%s", format_table(rows).c_str());
+}
+
+int list(const DriverOptions& options) {
+  Response response;
+  const int status = run_operation(options, Operate::LIST, "list", response);
+  if (status != 0) return status;
+  if (options.as_json) {
+    print_json(response.clients());
+  } else if (response.clients().clients().empty()) {
+    std::printf("no phone is connected\n");
+  } else {
+    print_table(response.clients());
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_driver_commands(CLI::App& app, Invocation& invocation) {
+  CLI::App* driver = app.add_subcommand(
+      "driver", "See and decide who drives from a phone (on the gateway's host)");
+  driver->require_subcommand(1);
+  const auto options = std::make_shared<DriverOptions>();
+  driver->add_option("--port", options->port, "TCP port of the gateway")->capture_default_str();
+
+  CLI::App* listing = driver->add_subcommand("list", "Show who is connected, and who drives");
+  listing->add_flag("--json", options->as_json, "As JSON");
+  listing->callback(
+      [&invocation, options] { invocation.run = [options] { return list(*options); }; });
+
+  const auto add = [&](const std::string& name, const std::string& description,
+                       Operate::Operation operation) {
+    CLI::App* subcommand = driver->add_subcommand(name, description);
+    subcommand->callback([&invocation, options, operation, name] {
+      invocation.run = [options, operation, name] {
+        Response response;
+        return run_operation(*options, operation, name, response);
+      };
+    });
+    return subcommand;
+  };
+  add("take", "Drive from here: phones are refused until release", Operate::TAKE);
+  add("release", "Let phones drive again", Operate::RELEASE);
+  add("kick", "Close the connection of a client", Operate::KICK)
+      ->add_option("client", options->client_id, "Its number, as list shows it")
+      ->required();
+}
+
+}  // namespace nao

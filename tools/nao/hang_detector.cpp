@@ -1,0 +1,33 @@
+#include "nao/hang_detector.h"
+
+namespace nao {
+
+void HangDetector::handle_status(int process_id, const std::string& program) {
+  programs_[process_id] = {program, 0};
+}
+
+std::vector<int> HangDetector::process_ids() const {
+  std::vector<int> result;
+  for (const auto& [process_id, program] : programs_) result.push_back(process_id);
+  return result;
+}
+
+std::vector<HangDetector::Hung> HangDetector::step(double now) {
+  const double period = last_turn_ < 0 ? 0 : now - last_turn_;
+  last_turn_ = now;
+  std::vector<Hung> result;
+  if (period > limits_.late_turn || now - last_own_heartbeat_ > limits_.own_silence) return result;
+  for (auto entry = programs_.begin(); entry != programs_.end();) {
+    Program& program = entry->second;
+    program.silence += period;
+    if (program.silence > limits_.silence) {
+      result.push_back({entry->first, program.name, program.silence});
+      entry = programs_.erase(entry);
+    } else {
+      ++entry;
+    }
+  }
+  return result;
+}
+
+}  // namespace nao

@@ -1,0 +1,37 @@
+// nao: drive and watch the robot from a terminal. See README.md.
+
+#include <CLI/CLI.hpp>
+
+#include "common/program.h"
+#include "nao/subcommand.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Drive and watch the robot from a terminal.", "nao");
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.footer(
+      "Examples:\n"
+      "  nao posture Stand             stand up, wait until the robot stands\n"
+      "  nao walk 0.1 0 0 --for 5      walk ahead at 0.1 m/s for 5 s\n"
+      "  nao move-to 0.5 0 90deg       walk half a metre ahead, end turned to the left\n"
+      "  nao joint HeadYaw +20deg      turn the head to the left\n"
+      "  nao action kick-left && echo scored\n"
+      "  nao state --watch             what the robot does, over and over\n"
+      "Exit status: 0 done; 1 refused, failed or no answer (the reason is on stderr); 2 bad "
+      "command "
+      "line.\n"
+      "Every subcommand answers --help.");
+
+  nao::Invocation invocation;
+  nao::add_common_options(app, invocation.common);
+  nao::add_robot_commands(app, invocation);
+  nao::add_state_command(app, invocation);
+  nao::add_world_commands(app, invocation);
+  nao::add_status_command(app, invocation);
+  nao::add_driver_commands(app, invocation);
+  nao::add_spy_command(app, invocation);
+  nao::add_bus_command(app, invocation);
+  nao::add_watchdog_command(app, invocation);
+  return nao::run_program_with_status(app, invocation.common, argc, argv,
+                                      [&invocation] { return invocation.run(); });
+}

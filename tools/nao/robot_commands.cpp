@@ -1,0 +1,314 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <naolcm/action_command_t.hpp>
+#include <naolcm/command_result_t.hpp>
+#include <naolcm/joint_change_command_t.hpp>
+#include <naolcm/motion_state_t.hpp>
+#include <naolcm/move_to_command_t.hpp>
+#include <naolcm/posture_command_t.hpp>
+#include <naolcm/stop_command_t.hpp>
+#include <naolcm/walk_command_t.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/error.h"
+#include "common/event_loop.h"
+#include "common/wall_clock.h"
+#include "nao/command_exchange.h"
+#include "nao/joint_arguments.h"
+#include "nao/subcommand.h"
+
+namespace nao {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/** How long to stay with a command. */
+struct Patience {
+  /** Longest wait for the final result, s. */
+  double wait = kNever;
+  /** True: be content with "accepted". */
+  bool accepts_only = false;
+};
+
+/** Sends one command until it is answered, and waits for its end.
+ *
+ * Ctrl-C ends the waiting; what it does to the robot is up to `send`'s owner. */
+class Conversation {
+ public:
+  /** @param name  The command as the person gave it, for messages: "posture Crouch". */
+  Conversation(const CommonOptions& common, std::string name)
+      : name_(std::move(name)),
+        source_("nao." + std::to_string(getpid())),
+        command_id_(wall_utime()),
+        bus_(common.lcm_url),
+        channels_(common.robot),
+        exchange_({}, monotonic_seconds()) {
+    loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
+    bus_.subscribe<naolcm::command_result_t>(
+        channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
+          if (result.source == source_ && result.command_id == command_id_) {
+            exchange_.handle_result(result.status, result.reason, monotonic_seconds());
+          }
+        });
+    bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
+                                           [this](const naolcm::motion_state_t&) {
+                                             exchange_.handle_sign_of_life(monotonic_seconds());
+                                           });
+  }
+
+  const RobotChannels& channels() const { return channels_; }
+  EventLoop& loop() { return loop_; }
+
+  /** Fills in the sender and publishes the command. */
+  template <class Command>
+  void publish(const std::string& channel, Command& command) {
+    command.wall_utime = wall_utime();
+    command.source = source_;
+    command.command_id = command_id_;
+    bus_.publish(channel, command);
+  }
+
+  /** Sends an event until its end. @return The exit status. */
+  template <class Command>
+  int run_event(const std::string& channel, Command command, const Patience& patience) {
+    const double start = monotonic_seconds();
+    loop_.every(0.02, [this, &channel, &command, &patience, start] {
+      const double now = monotonic_seconds();
+      if (exchange_.should_send(now)) publish(channel, command);
+      if (exchange_.outcome(now) || (patience.accepts_only && exchange_.is_accepted())) {
+        loop_.stop("end");
+      } else if (now - start > patience.wait) {
+        loop_.stop("patience");
+      }
+    });
+    return report(loop_.run(), start);
+  }
+
+  /** Sends walk commands for `duration` s or until Ctrl-C, then lets the robot come to a stand.
+   * @return The exit status. */
+  int run_walk(naolcm::walk_command_t command, double duration) {
+    constexpr double kSendPeriod = 0.1;
+    const double start = monotonic_seconds();
+    double end = start + duration;
+    double last_sent = -kNever;
+    const auto step = [&] {
+      const double now = monotonic_seconds();
+      if (now >= end) command.vx = command.vy = command.wz = 0;
+      if (now - last_sent >= kSendPeriod) {
+        publish(channels_.walk_command, command);
+        last_sent = now;
+      }
+      if (exchange_.outcome(now)) loop_.stop("end");
+    };
+    loop_.every(0.02, step);
+    std::string why = loop_.run();
+    if (why != "end" && exchange_.is_accepted()) {
+      // Asked to end: a second Ctrl-C does not wait for the robot to stand.
+      end = monotonic_seconds();
+      step();
+      why = loop_.run();
+    }
+    return report(why, start);
+  }
+
+ private:
+  int report(const std::string& why_ended, double start) {
+    const double now = monotonic_seconds();
+    const auto outcome = exchange_.outcome(now);
+    if (outcome && !outcome->is_success) {
+      std::fprintf(stderr, "nao: %s: %s%s%s\n", name_.c_str(), outcome->status.c_str(),
+                   outcome->reason.empty() ? "" : ": ", outcome->reason.c_str());
+      return 1;
+    }
+    if (!outcome && why_ended != "end") {
+      std::fprintf(stderr, "nao: %s: waited no longer; \"nao stop\" ends what the robot does\n",
+                   name_.c_str());
+      return 1;
+    }
+    std::printf("%s: %s (%.1f s)\n", name_.c_str(), outcome ? "done" : "accepted", now - start);
+    return 0;
+  }
+
+  std::string name_;
+  std::string source_;
+  int64_t command_id_;
+  EventLoop loop_;
+  Bus bus_;
+  RobotChannels channels_;
+  CommandExchange exchange_;
+};
+
+/** A length, speed or angle that is no number may not leave this program. */
+const CLI::Validator& finite() {
+  static const CLI::Validator kFinite(
+      [](const std::string& text) -> std::string {
+        char* end = nullptr;
+        const double number = std::strtod(text.c_str(), &end);
+        return *end == '\0' && std::isfinite(number) ? "" : "'" + text + "' is no finite number";
+      },
+      "", "finite");
+  return kFinite;
+}
+
+void add_patience(CLI::App& command, Patience& patience) {
+  command.add_option("--wait", patience.wait, "Wait at most so long for the end, s")
+      ->check(CLI::PositiveNumber);
+  command.add_flag("--no-wait", patience.accepts_only, "Return as soon as the robot accepts it");
+}
+
+void add_walk(CLI::App& app, Invocation& invocation) {
+  auto command = std::make_shared<naolcm::walk_command_t>();
+  auto duration = std::make_shared<double>(kNever);
+  CLI::App* walk = app.add_subcommand(
+      "walk", "Walk at a velocity until Ctrl-C; the robot is told ten times a second");
+  walk->add_option("vx", command->vx, "Ahead, m/s")->required()->check(finite());
+  walk->add_option("vy", command->vy, "To the left, m/s")->required()->check(finite());
+  walk->add_option("wz", command->wz, "Turning to the left, rad/s")->required()->check(finite());
+  walk->add_option("--for", *duration, "Walk for so long, then stand, s")
+      ->check(CLI::PositiveNumber);
+  walk->callback([&invocation, command, duration] {
+    invocation.run = [&invocation, command, duration] {
+      return Conversation(invocation.common, "walk").run_walk(*command, *duration);
+    };
+  });
+}
+
+void add_move_to(CLI::App& app, Invocation& invocation) {
+  auto command = std::make_shared<naolcm::move_to_command_t>();
+  auto theta = std::make_shared<std::string>("0");
+  auto patience = std::make_shared<Patience>();
+  CLI::App* move_to = app.add_subcommand("move-to", "Walk to a place seen from the robot");
+  move_to->add_option("x", command->x, "Ahead, m")->required()->check(finite());
+  move_to->add_option("y", command->y, "To the left, m")->required()->check(finite());
+  move_to->add_option("theta", *theta, "Heading there, to the left, rad, or such as 90deg")
+      ->capture_default_str();
+  add_patience(*move_to, *patience);
+  move_to->callback([&invocation, command, theta, patience] {
+    try {
+      command->theta = parse_joint_arguments({"theta", "=" + *theta}).positions[0];
+    } catch (const ConfigError&) {
+      throw CLI::ValidationError("theta", "'" + *theta + "' is no angle");
+    }
+    invocation.run = [&invocation, command, patience] {
+      Conversation conversation(invocation.common, "move-to");
+      return conversation.run_event(conversation.channels().move_to_command, *command, *patience);
+    };
+  });
+}
+
+void add_posture(CLI::App& app, Invocation& invocation) {
+  auto command = std::make_shared<naolcm::posture_command_t>();
+  command->speed = 0.5;
+  auto patience = std::make_shared<Patience>();
+  CLI::App* posture = app.add_subcommand("posture", "Go to a posture: Stand, Crouch, Sit ...");
+  posture->add_option("name", command->posture, "Name as in robots/nao/postures.yaml")->required();
+  posture->add_option("--speed", command->speed, "Fraction of the maximum speed, above 0 up to 1")
+      ->check(finite())
+      ->capture_default_str();
+  add_patience(*posture, *patience);
+  posture->callback([&invocation, command, patience] {
+    invocation.run = [&invocation, command, patience] {
+      Conversation conversation(invocation.common, "posture " + command->posture);
+      return conversation.run_event(conversation.channels().posture_command, *command, *patience);
+    };
+  });
+}
+
+void add_joint(CLI::App& app, Invocation& invocation) {
+  auto command = std::make_shared<naolcm::joint_change_command_t>();
+  command->speed = 0.3;
+  auto allow_tipping = std::make_shared<bool>(false);
+  auto arguments = std::make_shared<std::vector<std::string>>();
+  auto patience = std::make_shared<Patience>();
+  CLI::App* joint = app.add_subcommand(
+      "joint", "Turn joints: \"HeadYaw +0.3\" by an angle, \"HeadYaw =0.3\" to an angle");
+  joint
+      ->add_option("joints", *arguments, "Pairs of a joint and +, - or = with an angle, rad or deg")
+      ->required();
+  joint->add_option("--speed", command->speed, "Fraction of the maximum speed, above 0 up to 1")
+      ->check(finite())
+      ->capture_default_str();
+  joint->add_flag("--allow-tipping", *allow_tipping, "Do it even if the robot tips over");
+  add_patience(*joint, *patience);
+  joint->callback([&invocation, command, allow_tipping, arguments, patience] {
+    JointArguments joints;
+    try {
+      joints = parse_joint_arguments(*arguments);
+    } catch (const ConfigError& error) {
+      throw CLI::ValidationError("joints", error.what());
+    }
+    command->num_joints = static_cast<int32_t>(joints.names.size());
+    command->joint_names = joints.names;
+    command->joint_position = joints.positions;
+    command->is_relative = static_cast<int8_t>(joints.is_relative);
+    command->allow_tipping = static_cast<int8_t>(*allow_tipping);
+    invocation.run = [&invocation, command, patience] {
+      Conversation conversation(invocation.common, "joint");
+      return conversation.run_event(conversation.channels().joint_change_command, *command,
+                                    *patience);
+    };
+  });
+}
+
+void add_action(CLI::App& app, Invocation& invocation) {
+  auto command = std::make_shared<naolcm::action_command_t>();
+  command->ball_x = command->ball_y = command->strength = std::nan("");
+  auto ball = std::make_shared<std::vector<double>>();
+  auto patience = std::make_shared<Patience>();
+  CLI::App* action = app.add_subcommand(
+      "action",
+      "Do something: kick-left, kick-right, block, dive-left, dive-right, wave, get-up, wake-up, "
+      "rest");
+  action->add_option("name", command->action, "Its name")->required();
+  action->add_option("--ball", *ball, "For kicks: where the ball lies, ahead and to the left, m")
+      ->expected(2)
+      ->check(finite());
+  action->add_option("--strength", command->strength, "For kicks: above 0 up to 1")
+      ->check(finite());
+  add_patience(*action, *patience);
+  action->callback([&invocation, command, ball, patience] {
+    if (ball->size() == 2) {
+      command->ball_x = (*ball)[0];
+      command->ball_y = (*ball)[1];
+    }
+    invocation.run = [&invocation, command, patience] {
+      Conversation conversation(invocation.common, "action " + command->action);
+      return conversation.run_event(conversation.channels().action_command, *command, *patience);
+    };
+  });
+}
+
+void add_stop(CLI::App& app, Invocation& invocation) {
+  auto patience = std::make_shared<Patience>();
+  CLI::App* stop = app.add_subcommand("stop", "End any motion");
+  add_patience(*stop, *patience);
+  stop->callback([&invocation, patience] {
+    invocation.run = [&invocation, patience] {
+      Conversation conversation(invocation.common, "stop");
+      return conversation.run_event(conversation.channels().stop_command, naolcm::stop_command_t(),
+                                    *patience);
+    };
+  });
+}
+
+}  // namespace
+
+void add_robot_commands(CLI::App& app, Invocation& invocation) {
+  add_walk(app, invocation);
+  add_move_to(app, invocation);
+  add_posture(app, invocation);
+  add_joint(app, invocation);
+  add_action(app, invocation);
+  add_stop(app, invocation);
+}
+
+}  // namespace nao

@@ -1,0 +1,82 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <lcm/lcm-cpp.hpp>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "common/error.h"
+#include "common/event_loop.h"
+#include "common/wall_clock.h"
+#include "nao/channel_statistics.h"
+#include "nao/subcommand.h"
+#include "nao/terminal.h"
+
+namespace nao {
+namespace {
+
+constexpr double kPeriod = 1.0;
+
+/** Puts every message on the bus, of whatever type, into the statistics. */
+struct Listener {
+  ChannelStatistics statistics;
+
+  void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    // LCM sends this to itself whenever a program opens the bus; it is nobody's message.
+    if (channel == "LCM_SELF_TEST") return;
+    statistics.add(channel, buffer->data, static_cast<int>(buffer->data_size), monotonic_seconds());
+  }
+};
+
+int run_spy(const CommonOptions& common, double duration, bool as_json) {
+  EventLoop loop;
+  // Not a nao::Bus: that decodes one known type per channel, and this must hear them all.
+  lcm::LCM lcm(common.lcm_url);
+  if (!lcm.good())
+    throw BusError("cannot open the message bus " + common.lcm_url + "; try: nao bus");
+  Listener listener;
+  lcm.subscribe(".*", &Listener::receive, &listener)->setQueueCapacity(0);
+  loop.on_readable(lcm.getFileno(), [&lcm] {
+    while (lcm.handleTimeout(0) > 0) {
+    }
+  });
+  const double start = monotonic_seconds();
+  loop.every(kPeriod, [&] {
+    const double now = monotonic_seconds();
+    listener.statistics.finish_period(now);
+    const bool is_last = now - start >= duration;
+    if (is_last) loop.stop("end");
+    if (std::isfinite(duration) && !is_last) return;
+    clear_terminal();
+    std::fputs(as_json ? (listener.statistics.to_json(now) + "\n").c_str()
+                       : listener.statistics.to_text(now).c_str(),
+               stdout);
+    if (!as_json) {
+      std::printf("%zu channels, %ld undecodable messages\n\n",
+                  listener.statistics.channels().size(),
+                  static_cast<long>(listener.statistics.num_undecodable()));
+    }
+    std::fflush(stdout);
+  });
+  loop.run();
+  return 0;
+}
+
+}  // namespace
+
+void add_spy_command(CLI::App& app, Invocation& invocation) {
+  auto duration = std::make_shared<double>(std::numeric_limits<double>::infinity());
+  auto as_json = std::make_shared<bool>(false);
+  CLI::App* spy = app.add_subcommand(
+      "spy", "Show every channel on the bus with its type and rate, until Ctrl-C");
+  spy->add_option("--for", *duration, "Listen for so long, print once, end, s")
+      ->check(CLI::PositiveNumber);
+  spy->add_flag("--json", *as_json, "As JSON, one line each time");
+  spy->callback([&invocation, duration, as_json] {
+    invocation.run = [&invocation, duration, as_json] {
+      return run_spy(invocation.common, *duration, *as_json);
+    };
+  });
+}
+
+}  // namespace nao

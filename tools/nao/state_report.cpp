@@ -1,0 +1,162 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <naolcm/motion_state_t.hpp>
+#include <naolcm/robot_state_t.hpp>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/event_loop.h"
+#include "common/wall_clock.h"
+#include "nao/json_writer.h"
+#include "nao/subcommand.h"
+#include "nao/terminal.h"
+#include "nao/text_table.h"
+
+namespace nao {
+namespace {
+
+constexpr double kAnswerDeadline = 3.0;
+
+struct RobotReport {
+  std::optional<naolcm::robot_state_t> robot;
+  std::optional<naolcm::motion_state_t> motion;
+  bool is_complete() const { return robot && motion; }
+};
+
+/** Heading of a unit quaternion (w, x, y, z): rotation about the vertical, rad. */
+double heading_of(const double* q) {
+  return std::atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] * q[2] + q[3] * q[3]));
+}
+
+std::string to_text(const naolcm::robot_state_t& robot, const naolcm::motion_state_t& motion) {
+  const auto degrees = [](double radians) {
+    return format_number(radians * 180 / std::numbers::pi, 1);
+  };
+  std::string text = "mode      " + motion.mode;
+  if (!motion.posture.empty()) text += ", posture " + motion.posture;
+  if (!motion.command.empty()) {
+    text += ", carrying out " + motion.command + " " + motion.command_detail + " for " +
+            motion.command_source;
+    if (std::isfinite(motion.command_progress)) {
+      text += " (" + format_number(motion.command_progress * 100, 0) + " %)";
+    }
+  }
+  text += "\nbalance   margin " + format_number(motion.balance_margin * 1000, 0) +
+          " mm, feet carry " + format_number(robot.left_foot_force, 1) + " N left, " +
+          format_number(robot.right_foot_force, 1) + " N right, stiffness " +
+          format_number(motion.stiffness, 2);
+  text += "\ntorso     x " + format_number(robot.position_torso_in_odometry[0], 3) + " m, y " +
+          format_number(robot.position_torso_in_odometry[1], 3) + " m, height " +
+          format_number(robot.position_torso_in_odometry[2], 3) + " m, heading " +
+          degrees(heading_of(robot.orientation_torso_in_odometry)) + " deg";
+  text += "\nvelocity  " + format_number(robot.velocity_torso_in_heading[0], 3) + " m/s ahead, " +
+          format_number(robot.velocity_torso_in_heading[1], 3) + " m/s to the left, " +
+          format_number(robot.angular_velocity_torso[2], 3) + " rad/s turning";
+  text += "\ntime      " + format_number(static_cast<double>(robot.utime) * 1e-6, 2) + " s, tick " +
+          std::to_string(robot.tick);
+  if (!motion.last_refusal.empty()) text += "\nrefused   " + motion.last_refusal;
+  std::vector<std::vector<std::string>> rows{{"joint", "rad", "deg", "rad/s"}};
+  for (int i = 0; i < robot.num_joints; ++i) {
+    rows.push_back({robot.joint_names[i], format_number(robot.joint_position[i], 3),
+                    degrees(robot.joint_position[i]), format_number(robot.joint_velocity[i], 3)});
+  }
+  return text + "\n\n" + format_table(rows);
+}
+
+std::string to_json(const naolcm::robot_state_t& robot, const naolcm::motion_state_t& motion) {
+  JsonWriter json;
+  json.begin_object();
+  json.begin_object("robot_state");
+  json.add("utime", robot.utime);
+  json.add("tick", robot.tick);
+  json.begin_array("joint_names");
+  for (const std::string& name : robot.joint_names) json.add("", name);
+  json.end();
+  json.add("joint_position", robot.joint_position.data(), robot.num_joints);
+  json.add("joint_velocity", robot.joint_velocity.data(), robot.num_joints);
+  json.add("position_torso_in_odometry", robot.position_torso_in_odometry, 3);
+  json.add("orientation_torso_in_odometry", robot.orientation_torso_in_odometry, 4);
+  json.add("velocity_torso_in_heading", robot.velocity_torso_in_heading, 3);
+  json.add("angular_velocity_torso", robot.angular_velocity_torso, 3);
+  json.add("center_of_mass_in_odometry", robot.center_of_mass_in_odometry, 3);
+  json.add("center_of_pressure_in_odometry", robot.center_of_pressure_in_odometry, 2);
+  json.add("left_foot_force", robot.left_foot_force);
+  json.add("right_foot_force", robot.right_foot_force);
+  json.end();
+  json.begin_object("motion_state");
+  json.add("utime", motion.utime);
+  json.add("mode", motion.mode);
+  json.add("posture", motion.posture);
+  json.add("command", motion.command);
+  json.add("command_detail", motion.command_detail);
+  json.add("command_source", motion.command_source);
+  json.add("command_id", motion.command_id);
+  json.add("command_progress", motion.command_progress);
+  json.add("balance_margin", motion.balance_margin);
+  json.add("walk_velocity", motion.walk_velocity, 3);
+  json.add("stiffness", motion.stiffness);
+  json.add("last_refusal", motion.last_refusal);
+  json.end();
+  json.end();
+  return json.text() + "\n";
+}
+
+int run_state(const CommonOptions& common, bool as_json, bool watches) {
+  EventLoop loop;
+  Bus bus(common.lcm_url);
+  const RobotChannels channels(common.robot);
+  RobotReport report;
+  bus.subscribe<naolcm::robot_state_t>(
+      channels.robot_state, Bus::Queue::kLatest,
+      [&report](const naolcm::robot_state_t& state) { report.robot = state; });
+  bus.subscribe<naolcm::motion_state_t>(
+      channels.motion_state, Bus::Queue::kLatest,
+      [&report](const naolcm::motion_state_t& state) { report.motion = state; });
+  double last_complete = monotonic_seconds();
+  bool is_silent = false;
+  loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
+  loop.every(watches ? 0.2 : 0.02, [&] {
+    const double now = monotonic_seconds();
+    if (report.is_complete()) {
+      last_complete = now;
+      if (watches && !as_json) clear_terminal();
+      std::fputs((as_json ? to_json : to_text)(*report.robot, *report.motion).c_str(), stdout);
+      std::fflush(stdout);
+      report = {};
+      if (!watches) loop.stop("end");
+    } else if (now - last_complete > kAnswerDeadline) {
+      is_silent = true;
+      loop.stop("silence");
+    }
+  });
+  loop.run();
+  if (is_silent) {
+    std::fprintf(stderr, "nao: no state of robot %s on %s; are nao-sim and nao-motion running?\n",
+                 common.robot.c_str(), common.lcm_url.c_str());
+  }
+  return is_silent ? 1 : 0;
+}
+
+}  // namespace
+
+void add_state_command(CLI::App& app, Invocation& invocation) {
+  auto as_json = std::make_shared<bool>(false);
+  auto watches = std::make_shared<bool>(false);
+  CLI::App* state =
+      app.add_subcommand("state", "Show what the robot does and how its joints stand");
+  state->add_flag("--json", *as_json, "One line of JSON, fields as in the messages");
+  state->add_flag("--watch", *watches, "Over and over, five times a second, until Ctrl-C");
+  state->callback([&invocation, as_json, watches] {
+    invocation.run = [&invocation, as_json, watches] {
+      return run_state(invocation.common, *as_json, *watches);
+    };
+  });
+}
+
+}  // namespace nao

@@ -1,0 +1,195 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <naolcm/daemon_status_t.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/event_loop.h"
+#include "common/wall_clock.h"
+#include "nao/json_writer.h"
+#include "nao/process_usage.h"
+#include "nao/subcommand.h"
+#include "nao/text_table.h"
+
+namespace nao {
+namespace {
+
+/** Every program speaks once a second; this hears each of them at least once. */
+constexpr double kListenTime = 1.3;
+
+/** One running program. */
+struct ProgramReport {
+  naolcm::daemon_status_t status;
+  /** Usage when first heard of, and when that was, s. Only of programs on this host. */
+  std::optional<ProcessUsage> first_usage;
+  double first_time = 0;
+};
+
+class StatusListener {
+ public:
+  explicit StatusListener(const std::string& lcm_url) : bus_(lcm_url) {
+    std::array<char, 256> host{};
+    if (gethostname(host.data(), host.size() - 1) == 0) host_ = host.data();
+    bus_.subscribe<naolcm::daemon_status_t>(
+        kDaemonStatusChannel, Bus::Queue::kAll, [this](const naolcm::daemon_status_t& status) {
+          const auto [entry, is_new] =
+              programs_.try_emplace({status.program, status.host, status.process_id});
+          entry->second.status = status;
+          if (is_new && status.host == host_) {
+            entry->second.first_usage = read_process_usage(status.process_id);
+            entry->second.first_time = monotonic_seconds();
+          }
+        });
+    loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
+  }
+
+  EventLoop& loop() { return loop_; }
+
+  /** @return The last status of the program of that name that still lives, or nullptr. */
+  const naolcm::daemon_status_t* find(const std::string& program) const {
+    const naolcm::daemon_status_t* newest = nullptr;
+    for (const auto& [key, report] : programs_) {
+      if (report.status.program == program &&
+          (newest == nullptr || report.status.wall_utime > newest->wall_utime)) {
+        newest = &report.status;
+      }
+    }
+    return newest;
+  }
+
+  std::string to_text() const {
+    std::vector<std::vector<std::string>> rows{{"program", "host", "process", "state", "loop Hz",
+                                                "worst ms", "in", "out", "dropped", "cpu %",
+                                                "memory MB", "detail"}};
+    for (const auto& [key, report] : programs_) {
+      const naolcm::daemon_status_t& status = report.status;
+      const auto [cpu, memory] = usage_of(report);
+      rows.push_back({status.program, status.host, std::to_string(status.process_id), status.state,
+                      rate_text(status), format_number(status.loop_period_worst * 1000, 1),
+                      std::to_string(status.num_messages_in),
+                      std::to_string(status.num_messages_out),
+                      std::to_string(status.num_messages_dropped), format_number(cpu, 0),
+                      format_number(memory / 1e6, 0), status.detail});
+    }
+    return format_table(rows);
+  }
+
+  std::string to_json() const {
+    JsonWriter json;
+    json.begin_array();
+    for (const auto& [key, report] : programs_) {
+      const naolcm::daemon_status_t& status = report.status;
+      const auto [cpu, memory] = usage_of(report);
+      json.begin_object();
+      json.add("program", status.program);
+      json.add("host", status.host);
+      json.add("process_id", status.process_id);
+      json.add("version", status.version);
+      json.add("state", status.state);
+      json.add("detail", status.detail);
+      json.add("loop_period_mean", status.loop_period_mean);
+      json.add("loop_period_worst", status.loop_period_worst);
+      json.add("num_messages_in", status.num_messages_in);
+      json.add("num_messages_out", status.num_messages_out);
+      json.add("num_messages_dropped", status.num_messages_dropped);
+      json.add("cpu_percent", cpu);
+      json.add("memory_bytes", memory);
+      json.begin_object("metrics");
+      for (int i = 0; i < status.num_metrics; ++i) {
+        json.add(status.metric_names[i], status.metric_values[i]);
+      }
+      json.end();
+      json.end();
+    }
+    json.end();
+    return json.text() + "\n";
+  }
+
+ private:
+  static std::string rate_text(const naolcm::daemon_status_t& status) {
+    return status.loop_period_mean > 0 ? format_number(1 / status.loop_period_mean, 0) : "-";
+  }
+
+  /** @return Share of one core since first heard of, %, and memory, bytes; NaN if unknown. */
+  static std::pair<double, double> usage_of(const ProgramReport& report) {
+    const auto usage = read_process_usage(report.status.process_id);
+    const double duration = monotonic_seconds() - report.first_time;
+    if (!report.first_usage || !usage || duration < 0.1) return {std::nan(""), std::nan("")};
+    return {(usage->cpu_seconds - report.first_usage->cpu_seconds) / duration * 100,
+            usage->memory_bytes};
+  }
+
+  EventLoop loop_;
+  Bus bus_;
+  std::string host_;
+  std::map<std::tuple<std::string, std::string, int>, ProgramReport> programs_;
+};
+
+/** Waits until every program says "ready". @return The exit status. */
+int wait_until_ready(StatusListener& listener, const std::vector<std::string>& wanted,
+                     double timeout) {
+  const double start = monotonic_seconds();
+  const auto is_ready = [&listener](const std::string& program) {
+    const auto* status = listener.find(program);
+    return status != nullptr && status->state == "ready";
+  };
+  bool all_ready = false;
+  listener.loop().every(0.02, [&] {
+    all_ready = std::all_of(wanted.begin(), wanted.end(), is_ready);
+    if (all_ready || monotonic_seconds() - start > timeout) listener.loop().stop("end");
+  });
+  listener.loop().run();
+  if (all_ready) return 0;
+  for (const std::string& program : wanted) {
+    if (is_ready(program)) continue;
+    const auto* status = listener.find(program);
+    std::fprintf(
+        stderr, "nao: %s is not ready: %s\n", program.c_str(),
+        status == nullptr ? "it says nothing" : (status->state + ", " + status->detail).c_str());
+  }
+  return 1;
+}
+
+int run_status(const CommonOptions& common, const std::vector<std::string>& wanted, double timeout,
+               bool as_json) {
+  StatusListener listener(common.lcm_url);
+  if (!wanted.empty()) return wait_until_ready(listener, wanted, timeout);
+  listener.loop().every(kListenTime, [&listener] { listener.loop().stop("end"); });
+  listener.loop().run();
+  std::fputs((as_json ? listener.to_json() : listener.to_text()).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_status_command(CLI::App& app, Invocation& invocation) {
+  auto wanted = std::make_shared<std::vector<std::string>>();
+  auto timeout = std::make_shared<double>(30);
+  auto as_json = std::make_shared<bool>(false);
+  CLI::App* status = app.add_subcommand("status", "List the programs on the bus, on every host");
+  status->add_flag("--json", *as_json, "As JSON, fields as in daemon_status_t");
+  status
+      ->add_option("--wait", *wanted,
+                   "List nothing; wait until these programs are ready: nao-sim,nao-motion")
+      ->delimiter(',');
+  status->add_option("--timeout", *timeout, "Longest wait, s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  status->callback([&invocation, wanted, timeout, as_json] {
+    invocation.run = [&invocation, wanted, timeout, as_json] {
+      return run_status(invocation.common, *wanted, *timeout, *as_json);
+    };
+  });
+}
+
+}  // namespace nao

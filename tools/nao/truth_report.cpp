@@ -1,0 +1,111 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <naolcm/world_truth_t.hpp>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/wall_clock.h"
+#include "nao/json_writer.h"
+#include "nao/subcommand.h"
+#include "nao/text_table.h"
+
+namespace nao {
+namespace {
+
+constexpr double kAnswerDeadline = 3.0;
+
+/** Angle between the torso's z axis and the vertical, rad, from a unit quaternion (w, x, y, z). */
+double tilt_of(const double* q) {
+  return std::acos(std::clamp(1 - 2 * (q[1] * q[1] + q[2] * q[2]), -1.0, 1.0));
+}
+
+std::string point_text(const double* point) {
+  return "x " + format_number(point[0], 3) + " m, y " + format_number(point[1], 3) + " m, z " +
+         format_number(point[2], 3) + " m";
+}
+
+std::string to_text(const naolcm::world_truth_t& truth) {
+  std::string text = "scene " + truth.scene + ", " + (truth.is_paused != 0 ? "paused" : "running") +
+                     ", " + format_number(truth.real_time_factor, 3) + " times real time, at " +
+                     format_number(static_cast<double>(truth.utime) * 1e-6, 2) + " s\n";
+  text += "late: " + std::to_string(truth.num_late_ticks) + " ticks, " +
+          std::to_string(truth.num_late_commands) + " joint commands\n";
+  for (const naolcm::robot_truth_t& robot : truth.robots) {
+    text += robot.robot + "  torso " + point_text(robot.position_torso_in_world) + ", tilt " +
+            format_number(tilt_of(robot.orientation_torso_in_world) * 180 / std::numbers::pi, 1) +
+            " deg\n";
+  }
+  if (truth.has_ball != 0) text += "ball " + point_text(truth.position_ball_in_world) + "\n";
+  return text;
+}
+
+std::string to_json(const naolcm::world_truth_t& truth) {
+  JsonWriter json;
+  json.begin_object();
+  json.add("utime", truth.utime);
+  json.add("tick", truth.tick);
+  json.add("scene", truth.scene);
+  json.add("is_paused", truth.is_paused != 0);
+  json.add("real_time_factor", truth.real_time_factor);
+  json.add("pace", truth.pace);
+  json.add("num_late_commands", truth.num_late_commands);
+  json.add("num_late_ticks", truth.num_late_ticks);
+  json.begin_array("robots");
+  for (const naolcm::robot_truth_t& robot : truth.robots) {
+    json.begin_object();
+    json.add("robot", robot.robot);
+    json.add("position_torso_in_world", robot.position_torso_in_world, 3);
+    json.add("orientation_torso_in_world", robot.orientation_torso_in_world, 4);
+    json.add("velocity_torso_in_world", robot.velocity_torso_in_world, 3);
+    json.add("center_of_mass_in_world", robot.center_of_mass_in_world, 3);
+    json.begin_array("joint_names");
+    for (const std::string& name : robot.joint_names) json.add("", name);
+    json.end();
+    json.add("joint_position", robot.joint_position.data(), robot.num_joints);
+    json.add("joint_torque", robot.joint_torque.data(), robot.num_joints);
+    json.end();
+  }
+  json.end();
+  json.add("has_ball", truth.has_ball != 0);
+  json.add("position_ball_in_world", truth.position_ball_in_world, 3);
+  json.add("velocity_ball_in_world", truth.velocity_ball_in_world, 3);
+  json.add("num_contacts", truth.num_contacts);
+  json.end();
+  return json.text() + "\n";
+}
+
+int run_show(const CommonOptions& common, bool as_json) {
+  Bus bus(common.lcm_url);
+  std::optional<naolcm::world_truth_t> truth;
+  bus.subscribe<naolcm::world_truth_t>(
+      kWorldTruthChannel, Bus::Queue::kLatest,
+      [&truth](const naolcm::world_truth_t& message) { truth = message; });
+  const double start = monotonic_seconds();
+  while (!truth && monotonic_seconds() - start < kAnswerDeadline) bus.handle_for(0.1);
+  if (!truth) {
+    std::fprintf(stderr, "nao: no simulated world on %s; is nao-sim running?\n",
+                 common.lcm_url.c_str());
+    return 1;
+  }
+  std::fputs((as_json ? to_json : to_text)(*truth).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_show_command(CLI::App& world, Invocation& invocation) {
+  auto as_json = std::make_shared<bool>(false);
+  CLI::App* show = world.add_subcommand("show", "Show the true state of the simulated world");
+  show->add_flag("--json", *as_json, "One line of JSON, fields as in world_truth_t");
+  show->callback([&invocation, as_json] {
+    invocation.run = [&invocation, as_json] { return run_show(invocation.common, *as_json); };
+  });
+}
+
+}  // namespace nao

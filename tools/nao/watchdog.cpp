@@ -1,0 +1,91 @@
+#include <signal.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <naolcm/daemon_status_t.hpp>
+#include <string>
+
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/event_loop.h"
+#include "common/status_reporter.h"
+#include "common/wall_clock.h"
+#include "nao/hang_detector.h"
+#include "nao/subcommand.h"
+
+namespace nao {
+namespace {
+
+constexpr double kTurnPeriod = 0.2;
+constexpr double kHeartbeatPeriod = 1.0;
+constexpr const char* kStackVariable = "NAO_REMOTE_STACK";
+
+/** Whether a process belongs to the same stack as this one: its environment carries the same mark.
+ * False if it is gone, or somebody else's. */
+bool is_of_own_stack(int process_id) {
+  const char* own = std::getenv(kStackVariable);
+  if (own == nullptr) return false;
+  std::ifstream file("/proc/" + std::to_string(process_id) + "/environ");
+  const std::string environment((std::istreambuf_iterator<char>(file)), {});
+  const std::string mark = std::string(kStackVariable) + "=" + own + '\0';
+  const size_t place = environment.find(mark);
+  return place == 0 || (place != std::string::npos && environment[place - 1] == '\0');
+}
+
+int run_watchdog(const CommonOptions& common) {
+  EventLoop loop;
+  Bus bus(common.lcm_url);
+  StatusReporter reporter(bus, "nao-watchdog");
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  HangDetector detector({});
+  bus.subscribe<naolcm::daemon_status_t>(
+      kDaemonStatusChannel, Bus::Queue::kAll, [&](const naolcm::daemon_status_t& status) {
+        if (status.host != host.data()) return;
+        if (status.process_id == getpid()) {
+          detector.handle_own_heartbeat(monotonic_seconds());
+        } else if (is_of_own_stack(status.process_id)) {
+          detector.handle_status(status.process_id, status.program);
+        }
+      });
+  loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
+  loop.every(kTurnPeriod, [&] {
+    const double now = monotonic_seconds();
+    reporter.tick(now);
+    for (const int process_id : detector.process_ids()) {
+      if (!is_of_own_stack(process_id)) detector.forget(process_id);
+    }
+    for (const HangDetector::Hung& hung : detector.step(now)) {
+      spdlog::warn("{} (process {}) has said nothing for {:.1f} s: killing it", hung.program,
+                   hung.process_id, hung.silence);
+      kill(hung.process_id, SIGKILL);
+    }
+  });
+  reporter.set_state("ready");
+  loop.every(kHeartbeatPeriod, [&reporter] { reporter.publish(); });
+  reporter.publish();
+  spdlog::info("watching the programs on {}", common.lcm_url);
+  spdlog::info("ended by {}", loop.run());
+  return 0;
+}
+
+}  // namespace
+
+void add_watchdog_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* watchdog = app.add_subcommand("watchdog",
+                                          "Kill programs of the own stack that hang, so that they "
+                                          "are started again; scripts/start runs "
+                                          "it");
+  watchdog->callback([&invocation] {
+    invocation.run = [&invocation] { return run_watchdog(invocation.common); };
+  });
+}
+
+}  // namespace nao

@@ -1,0 +1,146 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <naolcm/world_command_t.hpp>
+#include <naolcm/world_truth_t.hpp>
+#include <string>
+#include <vector>
+
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/event_loop.h"
+#include "common/wall_clock.h"
+#include "nao/subcommand.h"
+
+namespace nao {
+namespace {
+
+constexpr double kRepeatPeriod = 0.1;
+constexpr double kAnswerDeadline = 3.0;
+
+/** Sends a world command until WORLD_TRUTH names it. @return The exit status. */
+int run_world(const CommonOptions& common, naolcm::world_command_t command) {
+  EventLoop loop;
+  Bus bus(common.lcm_url);
+  command.source = "nao." + std::to_string(getpid());
+  command.command_id = wall_utime();
+  bool is_answered = false;
+  std::string error;
+  bus.subscribe<naolcm::world_truth_t>(kWorldTruthChannel, Bus::Queue::kLatest,
+                                       [&](const naolcm::world_truth_t& truth) {
+                                         if (truth.last_command_source != command.source ||
+                                             truth.last_command_id != command.command_id) {
+                                           return;
+                                         }
+                                         is_answered = true;
+                                         error = truth.last_command_error;
+                                         loop.stop("answer");
+                                       });
+  loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
+  const double start = monotonic_seconds();
+  const auto send = [&] {
+    command.wall_utime = wall_utime();
+    bus.publish(kWorldCommandChannel, command);
+    if (monotonic_seconds() - start > kAnswerDeadline) loop.stop("silence");
+  };
+  send();
+  loop.every(kRepeatPeriod, send);
+  loop.run();
+  if (!is_answered) {
+    std::fprintf(stderr, "nao: world %s: nao-sim does not answer; is it running?\n",
+                 command.command.c_str());
+    return 1;
+  }
+  if (!error.empty()) {
+    std::fprintf(stderr, "nao: world %s: refused: %s\n", command.command.c_str(), error.c_str());
+    return 1;
+  }
+  std::printf("world %s: done\n", command.command.c_str());
+  return 0;
+}
+
+/** Adds one subcommand of `nao world`. @return The subcommand and its message, for its options. */
+std::pair<CLI::App*, std::shared_ptr<naolcm::world_command_t>> add_world_command(
+    CLI::App& world, Invocation& invocation, const std::string& name, const std::string& help,
+    std::function<void(naolcm::world_command_t&)> complete = [](naolcm::world_command_t&) {}) {
+  auto command = std::make_shared<naolcm::world_command_t>();
+  *command = naolcm::world_command_t{};
+  command->command = name;
+  CLI::App* subcommand = world.add_subcommand(name, help);
+  subcommand->callback([&invocation, command, complete = std::move(complete)] {
+    complete(*command);
+    invocation.run = [&invocation, command] { return run_world(invocation.common, *command); };
+  });
+  return {subcommand, command};
+}
+
+}  // namespace
+
+void add_world_commands(CLI::App& app, Invocation& invocation) {
+  CLI::App* world = app.add_subcommand("world", "Show and change the simulated world");
+  world->require_subcommand(1);
+  add_show_command(*world, invocation);
+  add_world_command(*world, invocation, "pause", "Stop simulated time");
+  add_world_command(*world, invocation, "resume", "Let simulated time go on");
+  add_world_command(*world, invocation, "reset", "Put everything back to where it started");
+
+  const auto [step, step_command] = add_world_command(
+      *world, invocation, "step", "While paused: run some control ticks of 10 ms");
+  step_command->num_ticks = 1;
+  step->add_option("ticks", step_command->num_ticks, "How many")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+
+  const auto [pace, pace_command] =
+      add_world_command(*world, invocation, "set-pace", "How fast simulated time runs");
+  pace->add_option("pace", pace_command->pace, "Simulated seconds per second; 0: all it can")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
+
+  const auto [push, push_command] =
+      add_world_command(*world, invocation, "push", "Give the robot or the ball a knock");
+  push_command->link = "torso";
+  push->add_option("x", push_command->impulse_in_world[0], "Impulse along the field, N s")
+      ->required();
+  push->add_option("y", push_command->impulse_in_world[1], "To the left of it, N s")->required();
+  push->add_option("z", push_command->impulse_in_world[2], "Upwards, N s")->required();
+  push->add_option("--link", push_command->link, "Link as in the URDF, or ball")
+      ->capture_default_str();
+
+  auto ball_velocity = std::make_shared<std::vector<double>>();
+  const auto [ball, ball_command] =
+      add_world_command(*world, invocation, "place-ball", "Put the ball somewhere",
+                        [ball_velocity](naolcm::world_command_t& command) {
+                          for (size_t i = 0; i < ball_velocity->size(); ++i) {
+                            command.velocity_in_world[i] = (*ball_velocity)[i];
+                          }
+                        });
+  ball->add_option("x", ball_command->position_in_world[0], "Along the field, m")->required();
+  ball->add_option("y", ball_command->position_in_world[1], "To the left of it, m")->required();
+  ball->add_option("--height", ball_command->position_in_world[2], "Above the ground, m");
+  ball->add_option("--velocity", *ball_velocity, "m/s")->expected(3);
+
+  auto theta = std::make_shared<double>(0);
+  const auto [place, place_command] =
+      add_world_command(*world, invocation, "place-robot", "Put the robot somewhere",
+                        [theta](naolcm::world_command_t& command) {
+                          command.orientation_in_world[0] = std::cos(*theta / 2);
+                          command.orientation_in_world[3] = std::sin(*theta / 2);
+                        });
+  place->add_option("x", place_command->position_in_world[0], "Along the field, m")->required();
+  place->add_option("y", place_command->position_in_world[1], "To the left of it, m")->required();
+  place->add_option("--theta", *theta, "Heading, rad")->capture_default_str();
+  place->add_option("--height", place_command->position_in_world[2], "Above the ground, m");
+  place->add_option("--posture", place_command->posture, "Posture to put it in")
+      ->capture_default_str();
+  place->final_callback([&invocation, command = place_command] {
+    // --robot names the robot here as everywhere; the simulator knows it by the same name.
+    command->robot = invocation.common.robot;
+  });
+}
+
+}  // namespace nao

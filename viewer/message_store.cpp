@@ -1,0 +1,66 @@
+#include "message_store.h"
+
+namespace nao {
+namespace {
+
+constexpr size_t kMostResults = 100;
+constexpr size_t kMostPrograms = 50;
+constexpr size_t kMostChannels = 200;
+
+template <class Message>
+bool decode(const uint8_t* data, int num_bytes, double time,
+            std::optional<Received<Message>>& place) {
+  Received<Message> received;
+  if (received.message.decode(data, 0, num_bytes) < 0) return false;
+  received.time = time;
+  place = std::move(received);
+  return true;
+}
+
+}  // namespace
+
+bool MessageStore::receive(const std::string& channel, const uint8_t* data, int num_bytes,
+                           double time) {
+  if (raw_.size() < kMostChannels || raw_.count(channel) > 0) {
+    raw_[channel].assign(data, data + num_bytes);
+  }
+  if (channel == channels_.robot_state) return decode(data, num_bytes, time, robot_state_);
+  if (channel == channels_.motion_state) return decode(data, num_bytes, time, motion_state_);
+  if (channel == kWorldTruthChannel) return decode(data, num_bytes, time, truth_);
+  if (channel == channels_.head_camera_image) return decode(data, num_bytes, time, image_);
+  if (channel == channels_.command_result) {
+    std::optional<Received<naolcm::command_result_t>> result;
+    if (!decode(data, num_bytes, time, result)) return false;
+    // A walk is asked for again and again, and each time answered the same.
+    const auto is_repeated = [&](const Received<naolcm::command_result_t>& known) {
+      return known.message.source == result->message.source &&
+             known.message.command_id == result->message.command_id &&
+             known.message.status == result->message.status;
+    };
+    std::erase_if(results_, is_repeated);
+    results_.push_back(*result);
+    if (results_.size() > kMostResults) results_.pop_front();
+    return true;
+  }
+  if (channel == kDaemonStatusChannel) {
+    std::optional<Received<naolcm::daemon_status_t>> status;
+    if (!decode(data, num_bytes, time, status)) return false;
+    const std::string key =
+        status->message.program + " " + std::to_string(status->message.process_id);
+    if (programs_.size() < kMostPrograms || programs_.count(key) > 0) programs_[key] = *status;
+    return true;
+  }
+  return true;
+}
+
+void MessageStore::clear() {
+  robot_state_.reset();
+  motion_state_.reset();
+  truth_.reset();
+  image_.reset();
+  results_.clear();
+  programs_.clear();
+  raw_.clear();
+}
+
+}  // namespace nao

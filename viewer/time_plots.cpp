@@ -1,0 +1,45 @@
+#include "time_plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "message_fields.h"
+
+namespace nao {
+
+void TimePlots::add(const std::string& channel, const std::string& field) {
+  const bool is_known = std::any_of(series_.begin(), series_.end(), [&](const PlotSeries& series) {
+    return series.channel == channel && series.field == field;
+  });
+  if (!is_known) series_.push_back({channel, field, {}});
+}
+
+void TimePlots::remove(size_t index) {
+  if (index < series_.size()) series_.erase(series_.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+bool TimePlots::wants(const std::string& channel) const {
+  return std::any_of(series_.begin(), series_.end(),
+                     [&](const PlotSeries& series) { return series.channel == channel; });
+}
+
+void TimePlots::receive(const std::string& channel, const uint8_t* data, int num_bytes,
+                        double time) {
+  if (!wants(channel)) return;
+  visit_fields(data, num_bytes, [&](const std::string& name, double value) {
+    if (!std::isfinite(value)) return;
+    for (PlotSeries& series : series_) {
+      if (series.channel != channel || series.field != name) continue;
+      if (!series.points.empty() && time < series.points.back().time) series.points.clear();
+      series.points.push_back({time, value});
+      while (series.points.front().time < time - window_) series.points.pop_front();
+    }
+  });
+}
+
+void TimePlots::clear() {
+  for (PlotSeries& series : series_) series.points.clear();
+}
+
+}  // namespace nao
