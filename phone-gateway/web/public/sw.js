@@ -1,11 +1,16 @@
 // Keeps a copy of the app for when the robot is away. The network comes first, so that a new version is
 // seen at once; files under /assets/ are named after what is in them and never change.
-const kCache = "nao-remote-1";
+const kCache = "nao-remote-2";
 
-self.addEventListener("install", (event) => {
-  event.waitUntil(caches.open(kCache).then((cache) => cache.addAll(["/", "/icon.svg", "/manifest.webmanifest"]))
-      .then(() => self.skipWaiting()));
-});
+self.addEventListener("install", (event) => event.waitUntil(keepShell().then(() => self.skipWaiting())));
+
+/** The page and all that it names; the browser has most of it already. */
+async function keepShell() {
+  const page = await (await fetch("/")).text();
+  const named = [...page.matchAll(/(?:src|href)="([^"]+)"/g)].map(([, path]) => path);
+  const cache = await caches.open(kCache);
+  await cache.addAll(["/", ...named]);
+}
 
 self.addEventListener("activate", (event) => {
   event.waitUntil(caches.keys().then((names) => Promise.all(

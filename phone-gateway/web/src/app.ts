@@ -12,6 +12,7 @@ import {WalkSender} from "./controls/walk_sender";
 import {exposeAutomation} from "./automation";
 import {el} from "./dom";
 import {Messages} from "./messages";
+import {registerOfflineShell} from "./offline";
 import type {Connected} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import {JointBalls} from "./robot/joint_balls";
@@ -235,17 +236,18 @@ export class App {
   }
 
   private frame(dt: number): void {
+    if (this.mirror?.hasPose && !this.isShown) this.markShown();
     this.mirror?.step(dt);
-    if (!this.isShown && this.mirror && this.store.get().state) this.markShown();
     this.balls?.update();
     const axes = this.gamepads.poll((button) => this.pressed(button));
     if (axes) this.padMoved(axes);
   }
 
-  /** For measurements: when the robot was first drawn in its pose, on the page's clock. */
+  /** The robot is drawn in its pose for the first time. The mark is for measurements. */
   private markShown(): void {
     this.isShown = true;
     performance.mark("robot-shown");
+    registerOfflineShell();
   }
 
   private tapped(x: number, y: number): void {

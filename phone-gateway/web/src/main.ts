@@ -2,7 +2,6 @@
 import "./styles/app.css";
 import "./styles/controller.css";
 import {App} from "./app";
-import {registerOfflineShell} from "./offline";
 import {loadSettings} from "./settings";
 import {storage} from "./storage";
 import {chooseLanguage, setLanguage} from "./text/texts";
@@ -13,4 +12,3 @@ setLanguage(language);
 document.documentElement.lang = language;
 
 new App(document.getElementById("app")!, settings).start();
-registerOfflineShell();

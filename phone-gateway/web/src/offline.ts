@@ -1,4 +1,5 @@
-/** Secure pages keep a copy of the app, so that it opens without the robot and says that it is away. */
+/** Secure pages keep a copy of the app, so that it opens without the robot and says that it is away.
+ * Called when the robot is in sight: the copy must not compete with what is needed to see it. */
 export function registerOfflineShell(): void {
   if (!import.meta.env.PROD || !("serviceWorker" in navigator)) return;
   // A certificate that the phone only tolerates allows no service worker: the app does without.

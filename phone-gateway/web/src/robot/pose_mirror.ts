@@ -15,11 +15,17 @@ export class PoseMirror {
   private readonly position = new Vector3();
   private readonly orientation = new Quaternion();
   private hasState = false;
+  private hasStepped = false;
 
   /** @param joints  the order of State.joint_position. */
   constructor(private readonly tree: RobotTree, private readonly joints: readonly {name: string}[]) {
     this.target = new Float64Array(joints.length);
     this.shown = new Float64Array(joints.length);
+  }
+
+  /** True once the tree has taken a state's pose. */
+  get hasPose(): boolean {
+    return this.hasStepped;
   }
 
   /** Takes a state; values that are missing or not finite leave what was there. */
@@ -42,6 +48,7 @@ export class PoseMirror {
   /** Moves the tree towards the newest state. @param dt  s since the last call. */
   step(dt: number): void {
     if (!this.hasState) return;
+    this.hasStepped = true;
     if (this.tree.torso.position.distanceTo(this.position) > kJump) this.jump();
     const share = 1 - Math.exp(-dt / kFollowTime);
     for (let i = 0; i < this.target.length; i++) {
