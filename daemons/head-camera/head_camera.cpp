@@ -17,6 +17,11 @@ const CameraModel& find_camera(const RobotModel& model, const std::string& name)
   throw Error("the robot has no camera \"" + name + "\"");
 }
 
+PinholeCamera pinhole_of(const CameraModel& camera) {
+  return PinholeCamera::from_fov(kFullWidth, kFullHeight, camera.horizontal_fov,
+                                 camera.vertical_fov);
+}
+
 }  // namespace
 
 HeadCamera::HeadCamera(const RobotModel& model, const HeadCameraOptions& options)
@@ -26,7 +31,13 @@ HeadCamera::HeadCamera(const RobotModel& model, const HeadCameraOptions& options
       renderer_(RendererOptions{.shadow_size = options.shadow_size}),
       visual_(model, renderer_),
       framebuffer_(kFullWidth, kFullHeight),
-      problems_(visual_.problems()) {}
+      problems_(visual_.problems()) {
+  if (options.noise > 0) noise_.emplace(options.noise);
+  if (options.k1 == 0 && options.k2 == 0) return;
+  for (const CameraModel& camera : model.cameras()) {
+    lenses_.try_emplace(camera.name, pinhole_of(camera), options.k1, options.k2);
+  }
+}
 
 std::string HeadCamera::driver() const {
   return SceneRenderer::driver() + " by EGL platform " + context_.platform_name();
@@ -70,9 +81,10 @@ void HeadCamera::draw(const WorldState& world, const std::string& camera) {
   }
   frame_.utime = world.utime;
   frame_.camera = camera;
-  frame_.pinhole = PinholeCamera::from_fov(kFullWidth, kFullHeight, description.horizontal_fov,
-                                           description.vertical_fov);
-  renderer_.render(scene_, frame_.pinhole, frame_.pose_camera_in_world, framebuffer_.id());
+  frame_.pinhole = pinhole_of(description);
+  const auto lens = lenses_.find(camera);
+  renderer_.render(scene_, lens != lenses_.end() ? lens->second.source() : frame_.pinhole,
+                   frame_.pose_camera_in_world, framebuffer_.id());
 }
 
 void HeadCamera::read_back() {
@@ -86,10 +98,38 @@ void HeadCamera::make_smaller(int least_width) {
   }
 }
 
+/** Mean of pictures spread evenly over the exposure, the last one of the state itself. */
+void HeadCamera::expose(const WorldState& earlier, const WorldState& world,
+                        const std::string& camera) {
+  constexpr int kPictures = 4;
+  const double step = 1e-6 * static_cast<double>(world.utime - earlier.utime);
+  exposure_.clear();
+  for (int i = kPictures - 1; i >= 0; --i) {
+    const double before = options_.exposure * i / kPictures;
+    draw(i == 0 ? world : interpolated(earlier, world, 1 - before / step), camera);
+    read_back();
+    exposure_.add(frame_.bgrx[0]);
+  }
+  exposure_.mean(frame_.bgrx[0]);
+}
+
+void HeadCamera::bend() {
+  const auto lens = lenses_.find(frame_.camera);
+  if (lens == lenses_.end()) return;
+  lens->second.bend(frame_.bgrx[0], bent_);
+  std::swap(frame_.bgrx[0], bent_);
+}
+
 const CameraFrame& HeadCamera::take(const WorldState& world, const std::string& camera,
-                                    int least_width) {
-  draw(world, camera);
-  read_back();
+                                    int least_width, const WorldState* earlier) {
+  if (options_.exposure > 0 && earlier != nullptr && earlier->utime < world.utime) {
+    expose(*earlier, world, camera);
+  } else {
+    draw(world, camera);
+    read_back();
+  }
+  bend();
+  if (noise_) noise_->add(frame_.bgrx[0], frame_.utime);
   make_smaller(least_width);
   return frame_;
 }

@@ -1,13 +1,17 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/robot_model.h"
+#include "exposure.h"
 #include "head_camera_options.h"
+#include "lens.h"
+#include "picture_noise.h"
 #include "scene/egl_context.h"
 #include "scene/gl_objects.h"
 #include "scene/robot_visual.h"
@@ -45,8 +49,11 @@ class HeadCamera {
   /** Draws what a camera sees into the frame that last_frame() tells of.
    * @param camera  "top" or "bottom".
    * @param least_width  Smaller sizes than this are left out.
+   * @param earlier  A state shortly before, from which the exposure's movement follows; nullptr if
+   * none is known.
    * @throws Error  if the own robot is not in the world or has no such camera. */
-  const CameraFrame& take(const WorldState& world, const std::string& camera, int least_width);
+  const CameraFrame& take(const WorldState& world, const std::string& camera, int least_width,
+                          const WorldState* earlier = nullptr);
 
   /** The parts of take(), for measuring them: drawing alone, reading back, the smaller sizes. */
   void draw(const WorldState& world, const std::string& camera);
@@ -62,6 +69,8 @@ class HeadCamera {
 
  private:
   void set_scene(const std::string& name);
+  void expose(const WorldState& earlier, const WorldState& world, const std::string& camera);
+  void bend();
 
   const RobotModel& model_;
   HeadCameraOptions options_;
@@ -69,6 +78,11 @@ class HeadCamera {
   SceneRenderer renderer_;
   RobotVisual visual_;
   gl::Framebuffer framebuffer_;
+  /** For each camera; none without distortion. */
+  std::map<std::string, Lens> lenses_;
+  std::optional<PictureNoise> noise_;
+  Exposure exposure_;
+  std::vector<uint8_t> bent_;
   Scene scene_;
   SceneFile scene_file_;
   std::optional<std::string> scene_name_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "common/error.h"
 #include "common/wall_clock.h"
@@ -100,8 +101,9 @@ void HeadCameraDaemon::receive_truth(const naolcm::world_truth_t& truth) {
   if (world_ && world.utime < world_->utime) {
     spdlog::info("the world's time started anew");
     sent_.clear();
+    world_.reset();
   }
-  world_ = std::move(world);
+  earlier_ = std::exchange(world_, std::move(world));
   last_truth_ = monotonic_seconds();
 }
 
@@ -153,7 +155,8 @@ void HeadCameraDaemon::send_pictures(const std::string& camera, const std::vecto
     if (wish.camera == camera) least_width = std::min(least_width, wish.width);
   }
   const double start = monotonic_seconds();
-  const CameraFrame& frame = camera_.take(*world_, camera, least_width);
+  const CameraFrame& frame =
+      camera_.take(*world_, camera, least_width, earlier_ ? &*earlier_ : nullptr);
   drawing_time_this_second_ += monotonic_seconds() - start;
   for (const PictureWish& wish : due) {
     if (wish.camera != camera) continue;

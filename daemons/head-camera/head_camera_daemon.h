@@ -75,6 +75,8 @@ class HeadCameraDaemon {
   PictureWishes watchers_;
   PictureSchedule schedule_;
   std::optional<WorldState> world_;
+  /** The state before it. */
+  std::optional<WorldState> earlier_;
   double last_truth_ = 0;
   std::map<std::pair<std::string, int>, Sent> sent_;
   RateLimiter warnings_{1.0};

@@ -19,6 +19,14 @@ struct HeadCameraOptions {
   int quality = 80;
   /** Side of the shadow map, texels; 0 for no shadows. */
   int shadow_size = 320;
+  /** What a real camera adds to the picture; 0 for none of it. Radial distortion of the lens
+   * (lens.h). */
+  double k1 = 0;
+  double k2 = 0;
+  /** Standard deviation of each colour, of 255 levels. */
+  double noise = 0;
+  /** How long the shutter is open before the state's time, s: what moves is blurred. */
+  double exposure = 0;
   /** Way to the graphics driver: auto, device, surfaceless or default. */
   std::string egl_platform = "auto";
 

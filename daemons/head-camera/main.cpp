@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/bus.h"
 #include "common/data_path.h"
@@ -32,6 +33,19 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--shadow-size", options.shadow_size, "Side of the shadow map, texels; 0: none")
       ->capture_default_str();
+  app.add_option_function<std::vector<double>>(
+         "--distortion",
+         [&](const std::vector<double>& k) {
+           options.k1 = k[0];
+           options.k2 = k.size() > 1 ? k[1] : 0;
+         },
+         "Radial distortion of the lens, K1 and K2; K1 below 0: barrel (default: none)")
+      ->expected(1, 2);
+  app.add_option("--noise", options.noise, "Deviation of each colour, 0 to 60 levels of 255")
+      ->capture_default_str();
+  app.add_option_function<double>(
+      "--exposure", [&](double ms) { options.exposure = 1e-3 * ms; },
+      "Time the shutter is open, 0 to 33 ms: what moves is blurred (default: 0)");
   app.add_option("--egl-platform", options.egl_platform,
                  "Way to the graphics driver: auto, device, surfaceless or default")
       ->capture_default_str();

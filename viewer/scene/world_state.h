@@ -35,4 +35,9 @@ struct WorldState {
   }
 };
 
+/** The world on its way from one state to another, or on before or beyond: positions along a line,
+ * orientations along the shortest turn. A robot that only one of them knows is as `to` has it.
+ * @param share  0 gives `from`, 1 gives `to`. */
+WorldState interpolated(const WorldState& from, const WorldState& to, double share);
+
 }  // namespace nao
