@@ -1,0 +1,114 @@
+#include "command_sender.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <naolcm/posture_command_t.hpp>
+#include <naolcm/walk_command_t.hpp>
+
+#include "common/wall_clock.h"
+
+namespace nao {
+namespace {
+
+class CommandSenderTest : public testing::Test {
+ protected:
+  CommandSenderTest() : bus_("memq://"), sender_(bus_, RobotChannels("NAO")) {
+    bus_.subscribe<naolcm::posture_command_t>(
+        "NAO_POSTURE_COMMAND", Bus::Queue::kAll,
+        [this](const naolcm::posture_command_t& command) { postures_.push_back(command); });
+    bus_.subscribe<naolcm::walk_command_t>(
+        "NAO_WALK_COMMAND", Bus::Queue::kAll,
+        [this](const naolcm::walk_command_t& command) { walks_.push_back(command); });
+    bus_.subscribe<naolcm::world_command_t>(
+        kWorldCommandChannel, Bus::Queue::kAll,
+        [this](const naolcm::world_command_t& command) { worlds_.push_back(command); });
+  }
+
+  void deliver() {
+    while (bus_.handle_for(0)) {
+    }
+  }
+
+  /** Turns of the viewer over some seconds. */
+  void turns(double seconds) {
+    for (const double end = now_ + seconds; now_ < end; now_ += 0.02) sender_.repeat(now_);
+    deliver();
+  }
+
+  Bus bus_;
+  CommandSender sender_;
+  double now_ = monotonic_seconds();
+  std::vector<naolcm::posture_command_t> postures_;
+  std::vector<naolcm::walk_command_t> walks_;
+  std::vector<naolcm::world_command_t> worlds_;
+};
+
+TEST_F(CommandSenderTest, RepeatsACommandUnchangedUntilItIsAnswered) {
+  sender_.go_to_posture("Crouch", 0.5);
+  turns(1.0);
+  ASSERT_GE(postures_.size(), 4u);
+  EXPECT_LE(postures_.size(), 7u);
+  for (const auto& command : postures_) {
+    EXPECT_EQ(command.posture, "Crouch");
+    EXPECT_EQ(command.command_id, postures_[0].command_id);
+  }
+  naolcm::command_result_t result{};
+  result.source = postures_[0].source;
+  result.command_id = postures_[0].command_id + 1;
+  sender_.receive(result);
+  const size_t before = postures_.size();
+  turns(0.5);
+  EXPECT_GT(postures_.size(), before) << "that was the answer to another command";
+  result.command_id = postures_[0].command_id;
+  sender_.receive(result);
+  const size_t answered = postures_.size();
+  turns(1.0);
+  EXPECT_EQ(postures_.size(), answered);
+}
+
+TEST_F(CommandSenderTest, GivesUpAndSaysSoWhenNobodyAnswers) {
+  sender_.change_world("pause");
+  turns(3.0);
+  EXPECT_EQ(sender_.last_outcome(), "pause: nobody answered");
+  const size_t given_up = worlds_.size();
+  turns(1.0);
+  EXPECT_EQ(worlds_.size(), given_up);
+}
+
+TEST_F(CommandSenderTest, TellsWhatTheSimulatorAnswers) {
+  sender_.push("NAO", "torso", {1, 0, 0});
+  deliver();
+  ASSERT_EQ(worlds_.size(), 1u);
+  EXPECT_DOUBLE_EQ(worlds_[0].impulse_in_world[0], 1);
+  naolcm::world_truth_t truth{};
+  truth.last_command_source = worlds_[0].source;
+  truth.last_command_id = worlds_[0].command_id;
+  truth.last_command_error = "no link \"torso\"";
+  sender_.receive(truth);
+  EXPECT_EQ(sender_.last_outcome(), "push: no link \"torso\"");
+}
+
+TEST_F(CommandSenderTest, WantsTheBallOnlyWhereItWasPutLast) {
+  sender_.place_ball(1, 0);
+  sender_.place_ball(2, 0);
+  deliver();
+  worlds_.clear();
+  turns(1.0);
+  ASSERT_GE(worlds_.size(), 2u);
+  for (const auto& command : worlds_) EXPECT_DOUBLE_EQ(command.position_in_world[0], 2);
+}
+
+TEST_F(CommandSenderTest, SendsOneWalkAsOneCommand) {
+  sender_.walk(0.1, 0, 0);
+  sender_.walk(0.2, 0, 0);
+  sender_.end_walk();
+  sender_.walk(0.1, 0, 0);
+  deliver();
+  ASSERT_EQ(walks_.size(), 3u);
+  EXPECT_EQ(walks_[0].command_id, walks_[1].command_id);
+  EXPECT_NE(walks_[1].command_id, walks_[2].command_id);
+}
+
+}  // namespace
+}  // namespace nao
