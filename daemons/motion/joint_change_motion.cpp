@@ -34,10 +34,11 @@ std::vector<double> JointChangeMotion::calc_goal(const RobotModel& model,
 }
 
 void JointChangeMotion::start(const MotionContext& context, const JointTargets& targets) {
-  const std::vector<JointRates> rates =
+  std::vector<JointRates> rates =
       change_.allow_tipping
           ? joint_rates(context.model, change_.speed, context.options.max_acceleration)
           : standing_rates(context, change_.speed);
+  const JointTrajectory::Start how = choose_start(context, rates);
   // The joints that are not named stop; the named ones start from where they are.
   std::vector<double> base =
       JointTrajectory::stopping(targets.position, targets.velocity, rates).goal();
@@ -54,8 +55,21 @@ void JointChangeMotion::start(const MotionContext& context, const JointTargets& 
     remark_ += name;
   }
   if (!remark_.empty()) remark_ += ".";
-  trajectory_ = JointTrajectory(targets.position, targets.velocity, goal, rates);
+  trajectory_ = JointTrajectory(targets.position, targets.velocity, goal, rates, 0, how);
   time_ = 0;
+}
+
+JointTrajectory::Start JointChangeMotion::choose_start(const MotionContext& context,
+                                                       std::vector<JointRates>& rates) const {
+  for (const std::string& name : change_.joint_names) {
+    if (carries_body(context, context.model.find_motor(name))) {
+      return JointTrajectory::Start::kSmooth;
+    }
+  }
+  for (const std::string& name : change_.joint_names) {
+    rates[context.model.find_motor(name)].max_acceleration = context.options.free_acceleration;
+  }
+  return JointTrajectory::Start::kBrisk;
 }
 
 MotionGenerator::Phase JointChangeMotion::step(const MotionContext& context,

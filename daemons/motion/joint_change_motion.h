@@ -26,6 +26,10 @@ class JointChangeMotion : public MotionGenerator {
   std::string remark() const override { return remark_; }
 
  private:
+  /** Brisk, with the rates that go with it, if none of the joints carries the body. */
+  JointTrajectory::Start choose_start(const MotionContext& context,
+                                      std::vector<JointRates>& rates) const;
+
   JointChangeCommand change_;
   JointTrajectory trajectory_;
   double time_ = 0;

@@ -15,6 +15,10 @@ struct JointRates {
  * each, so that position and velocity go on from where they are and acceleration ends at 0. */
 class JointTrajectory {
  public:
+  /** How the acceleration begins: at 0, as joints that carry the body need it, or with its greatest
+   * value at once, so that a joint answers in the first tick. */
+  enum class Start { kSmooth, kBrisk };
+
   JointTrajectory() = default;
 
   /** Plans the way on which all joints arrive together.
@@ -22,10 +26,11 @@ class JointTrajectory {
    * @param start     Where the targets are, rad, and how fast they move, rad/s.
    * @param goal      rad; where they come to rest. All lists have the same length.
    * @param rates     Limits that the targets keep. One that moves faster at the start slows down.
-   * @param shortest  The way takes at least this long, s. */
+   * @param shortest  The way takes at least this long, s.
+   * @param how       All joints begin so: then they stay on one line through joint space. */
   JointTrajectory(const std::vector<double>& start, const std::vector<double>& start_velocity,
                   const std::vector<double>& goal, const std::vector<JointRates>& rates,
-                  double shortest = 0);
+                  double shortest = 0, Start how = Start::kSmooth);
 
   /** Plans to come to rest as soon as the accelerations allow, along the present direction. */
   static JointTrajectory stopping(const std::vector<double>& start,
@@ -44,6 +49,7 @@ class JointTrajectory {
  private:
   bool keeps(const std::vector<JointRates>& rates) const;
 
+  Start how_ = Start::kSmooth;
   double duration_ = 0;
   std::vector<double> start_;
   std::vector<double> start_velocity_;

@@ -16,6 +16,7 @@ void require(bool holds, const char* what) {
 void MotionOptions::validate() const {
   require(sensor_timeout > 0, "sensor_timeout must be above 0 s");
   require(max_acceleration > 0, "max_acceleration must be above 0 rad/s^2");
+  require(free_acceleration > 0, "free_acceleration must be above 0 rad/s^2");
   require(default_speed > 0 && default_speed <= 1, "default_speed must be above 0 up to 1");
   require(posture_leg_speed > 0 && posture_leg_speed <= 1,
           "posture_leg_speed must be above 0 up to 1");

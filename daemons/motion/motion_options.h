@@ -14,6 +14,9 @@ struct MotionOptions {
    * s.
    */
   double max_acceleration = 30;
+  /** The same for changes of joints that bear no weight (head and arms), which may begin with it at
+   * once: the head's motor turns the head by 500 rad/s^2 with its continuous torque. */
+  double free_acceleration = 200;
   /** Speed of motions that nobody gave a speed for, such as the first stand, fraction. */
   double default_speed = 0.3;
   /** Greatest speed of leg joints in a change of posture, fraction of the motors' own. */

@@ -10,13 +10,17 @@ std::vector<JointRates> standing_rates(const MotionContext& context, double spee
       joint_rates(context.model, speed, context.options.max_acceleration);
   const std::vector<JointRates> leg_rates =
       joint_rates(context.model, leg_speed, context.options.max_acceleration * leg_speed);
-  for (int sole : {context.model.left_sole(), context.model.right_sole()}) {
-    const Eigen::Matrix3Xd jacobian = context.kinematics.calc_angular_jacobian(sole);
-    for (int motor = 0; motor < context.model.num_motors(); ++motor) {
-      if (!jacobian.col(motor).isZero(0)) rates[motor] = leg_rates[motor];
-    }
+  for (int motor = 0; motor < context.model.num_motors(); ++motor) {
+    if (carries_body(context, motor)) rates[motor] = leg_rates[motor];
   }
   return rates;
+}
+
+bool carries_body(const MotionContext& context, int motor) {
+  for (int sole : {context.model.left_sole(), context.model.right_sole()}) {
+    if (!context.kinematics.calc_angular_jacobian(sole).col(motor).isZero(0)) return true;
+  }
+  return false;
 }
 
 }  // namespace nao::motion

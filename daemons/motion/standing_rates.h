@@ -12,4 +12,7 @@ namespace nao::motion {
  * @param speed  (0, 1]. @return (num_motors). */
 std::vector<JointRates> standing_rates(const MotionContext& context, double speed);
 
+/** Whether a joint lies between the torso and a sole. */
+bool carries_body(const MotionContext& context, int motor);
+
 }  // namespace nao::motion

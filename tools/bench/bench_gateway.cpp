@@ -45,8 +45,10 @@ using nao::WireClient;
 constexpr double kDeadline = 60;
 /** A change of the head's yaw that is quick and hurts nobody, rad. */
 constexpr double kYawChange = 0.4;
-/** Beyond the encoder's steps (0.0015 rad) and noise: the joint has moved. */
-constexpr double kMoved = 0.004;
+/** The joint has moved when its encoder (steps of 0.0015 rad, no other noise) reads the next step
+ * on the way to the goal. Before, the reading has stood still for this long, s. */
+constexpr double kMoved = 0.001;
+constexpr double kStillTime = 0.2;
 constexpr int kNumClients = 32;
 
 double percentile(std::vector<double> values, double share) {
@@ -120,6 +122,8 @@ class Stack {
   double yaw = 0;
   double yaw_target_time = 0;
   double yaw_time = 0;
+  /** Since when the measured angle has been what it is, s. */
+  double yaw_still_since = 0;
 
   /** When the state of a robot time was on the bus, s; nothing if it was not heard. */
   std::optional<double> time_of_state(uint64_t utime) const {
@@ -146,8 +150,10 @@ class Stack {
                                             });
     bus_.subscribe<naolcm::sensor_state_t>(channels.sensor_state, Bus::Queue::kAll,
                                            [this](const auto& message) {
+                                             const double last = yaw;
                                              if (const auto angle = head_yaw(message)) yaw = *angle;
                                              yaw_time = monotonic_seconds();
+                                             if (yaw != last) yaw_still_since = yaw_time;
                                            });
     bus_.subscribe<naolcm::robot_state_t>(channels.robot_state, Bus::Queue::kAll,
                                           [this](const auto& message) {
@@ -195,6 +201,8 @@ class Stack {
 
 /** Times from asking for a joint's change to what follows, ms. */
 struct WayTimes {
+  /** To the next measurement: no command is looked at earlier. */
+  std::vector<double> to_tick_ms;
   std::vector<double> to_command_ms;
   std::vector<double> to_moved_ms;
 };
@@ -202,23 +210,29 @@ struct WayTimes {
 /** Turns the head and times what follows. @param ask  Sends the change, rad. */
 void time_way(Stack& stack, const std::function<void(double)>& ask, double change,
               WayTimes& times) {
+  stack.run_until([&] { return stack.yaw_time - stack.yaw_still_since > kStillTime; },
+                  "the head is at rest");
   const double target_before = stack.yaw_target;
   const double yaw_before = stack.yaw;
+  const double direction = change > 0 ? 1 : -1;
   const double start = monotonic_seconds();
   ask(change);
+  double tick_time = 0;
   double command_time = 0;
   double moved_time = 0;
   stack.run_until(
       [&] {
+        if (tick_time == 0 && stack.yaw_time > start) tick_time = stack.yaw_time;
         if (command_time == 0 && std::abs(stack.yaw_target - target_before) > 1e-6) {
           command_time = stack.yaw_target_time;
         }
-        if (moved_time == 0 && std::abs(stack.yaw - yaw_before) > kMoved) {
+        if (moved_time == 0 && (stack.yaw - yaw_before) * direction > kMoved) {
           moved_time = stack.yaw_time;
         }
         return command_time > 0 && moved_time > 0;
       },
       "the head turns");
+  times.to_tick_ms.push_back((tick_time - start) * 1e3);
   times.to_command_ms.push_back((command_time - start) * 1e3);
   times.to_moved_ms.push_back((moved_time - start) * 1e3);
 }
@@ -411,6 +425,14 @@ std::vector<Figure> run(int num_rounds, double time) {
                          percentile(ways["bus"].to_moved_ms, share)});
     }
   }
+
+  std::vector<double> to_tick;
+  for (const auto& [name, way] : ways) {
+    to_tick.insert(to_tick.end(), way.to_tick_ms.begin(), way.to_tick_ms.end());
+  }
+  figures.push_back(
+      {"gateway.to_tick_ms.p50", percentile(to_tick, 0.5), "ms", "half of a 10 ms tick", 5});
+  figures.push_back({"gateway.to_tick_ms.p99", percentile(to_tick, 0.99), "ms", "a tick", 10});
 
   const Watching one = watch(stack, 1, 60, 30, time);
   figures.push_back({"gateway.state_age_ms.p99", percentile(one.state_age_ms, 0.99), "ms", "", 0});

@@ -12,7 +12,9 @@ TEST(JointTrajectory, KeepsItsLimitsFromAnyStart) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> angle(-2, 2);
   std::uniform_real_distribution<double> share(-1, 1);
-  for (int trial = 0; trial < 500; ++trial) {
+  for (int trial = 0; trial < 1000; ++trial) {
+    const auto how =
+        trial % 2 == 0 ? JointTrajectory::Start::kSmooth : JointTrajectory::Start::kBrisk;
     const std::vector<JointRates> rates = {{3, 30}, {6, 30}, {1, 10}};
     std::vector<double> start;
     std::vector<double> velocity;
@@ -22,7 +24,7 @@ TEST(JointTrajectory, KeepsItsLimitsFromAnyStart) {
       goal.push_back(angle(random));
       velocity.push_back(trial % 3 == 0 ? 0 : share(random) * rate.max_velocity);
     }
-    const JointTrajectory trajectory(start, velocity, goal, rates);
+    const JointTrajectory trajectory(start, velocity, goal, rates, 0, how);
     constexpr double kStep = 1e-3;
     std::vector<double> a;
     std::vector<double> b;
@@ -50,6 +52,23 @@ TEST(JointTrajectory, StartsWithTheVelocityItWasGiven) {
   std::vector<double> position;
   trajectory.sample(1e-6, position);
   EXPECT_NEAR(position[0] / 1e-6, -2.0, 1e-3);
+}
+
+TEST(JointTrajectory, BriskStartUsesTheWholeAccelerationAtOnceAndArrivesGently) {
+  const JointTrajectory trajectory({0.0}, {0.0}, {0.4}, {{7, 200}}, 0,
+                                   JointTrajectory::Start::kBrisk);
+  constexpr double kStep = 1e-4;
+  const auto acceleration_at = [&](double time) {
+    std::vector<double> a;
+    std::vector<double> b;
+    std::vector<double> c;
+    trajectory.sample(time - kStep, a);
+    trajectory.sample(time, b);
+    trajectory.sample(time + kStep, c);
+    return (a[0] - 2 * b[0] + c[0]) / (kStep * kStep);
+  };
+  EXPECT_NEAR(acceleration_at(kStep), 200, 2);
+  EXPECT_NEAR(acceleration_at(trajectory.duration() - kStep), 0, 1);
 }
 
 TEST(JointTrajectory, StoppingNeverTurnsBack) {

@@ -161,6 +161,28 @@ TEST_F(MotionCoreTest, ClipsJointChangesToSingleAndCoupledLimits) {
   EXPECT_NEAR(robot_.sensors().position[nao_model().find_motor("HeadPitch")], 0.200015, 1e-6);
 }
 
+TEST_F(MotionCoreTest, HeadAndArmsAnswerInTheFirstTickAndLegsBeginSmoothly) {
+  // What a servo with the head's lag of 27 ms needs to turn one step of its encoder in a tick, rad.
+  constexpr double kVisible = 0.007;
+  constexpr double kSmooth = 0.001;
+  int64_t id = 0;
+  for (const auto& [name, change] : {std::pair{"HeadYaw", 0.4},
+                                     {"LShoulderPitch", -0.4},
+                                     {"RElbowYaw", 0.4},
+                                     {"LKneePitch", 0.2}}) {
+    robot_.settle(core_);
+    const int motor = nao_model().find_motor(name);
+    const double before = robot_.sensors().position[motor];
+    robot_.step(core_, {{"test", ++id, JointChangeCommand{{name}, {change}, true, 1, true}}});
+    const double moved = (robot_.sensors().position[motor] - before) * (change > 0 ? 1 : -1);
+    if (std::string(name) == "LKneePitch") {
+      EXPECT_LT(moved, kSmooth);
+    } else {
+      EXPECT_GT(moved, kVisible) << name;
+    }
+  }
+}
+
 TEST_F(MotionCoreTest, SilentSensorsMeanNoRobot) {
   robot_.settle(core_);
   robot_.step(core_, {posture(1, "Crouch", 0.2)});
