@@ -1,6 +1,7 @@
 #include "motion/guard/tipping_guard.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,14 @@ constexpr double kFlat = 0.06;
 // An edge of the other sole may press this far below the flat one, m; more lifts the body off it.
 constexpr double kLifting = 0.004;
 constexpr double kFlatTolerance = 1e-3;  // of the cosine
+// Largest error of the estimated up, rad: bias of the accelerometer, before and after settling.
+constexpr double kUpError = 0.035;
+// Three corners that span less than this, m^2, are on a line.
+constexpr double kOnLine = 1e-6;
+// Cosines that differ by less belong to the same face.
+constexpr double kNoNearer = 1e-12;
+// Corners this far below a face are on it, m: rounding only.
+constexpr double kOnFace = 1e-9;
 // Reserve for momentum and for what the sensors do not see, m.
 constexpr double kReserve = 0.012;
 // The way is looked at every so many rad of the joint that turns most.
@@ -47,6 +56,42 @@ Eigen::Vector2d nearest_on_edge(const std::vector<Eigen::Vector2d>& polygon,
   return nearest;
 }
 
+/** A sole in the torso frame. */
+struct Sole {
+  /** Away from the ground, unit. */
+  Eigen::Vector3d normal;
+  std::vector<Eigen::Vector3d> corners;
+};
+
+std::array<Sole, 2> find_soles(const Kinematics& kinematics) {
+  const RobotModel& model = kinematics.model();
+  std::array<Sole, 2> soles;
+  for (int side = 0; side < 2; ++side) {
+    const Eigen::Isometry3d& pose = side == 0 ? kinematics.left_sole() : kinematics.right_sole();
+    soles[side].normal = pose.linear().col(2);
+    for (const Eigen::Vector2d& corner :
+         side == 0 ? model.left_sole_outline() : model.right_sole_outline()) {
+      soles[side].corners.push_back(pose * Eigen::Vector3d(corner.x(), corner.y(), 0));
+    }
+  }
+  return soles;
+}
+
+/** True if a body on a face with this up, through these corners, stays there. */
+bool rests_on(const Eigen::Vector3d& up, double height, const std::vector<Eigen::Vector3d>& corners,
+              const Eigen::Vector3d& center_of_mass) {
+  Eigen::Vector3d x;
+  Eigen::Vector3d y;
+  find_level_axes(up, x, y);
+  std::vector<Eigen::Vector2d> face;
+  for (const Eigen::Vector3d& corner : corners) {
+    if (up.dot(corner) < height - kOnFace) return false;
+    if (up.dot(corner) <= height + kOnFace) face.push_back({x.dot(corner), y.dot(corner)});
+  }
+  const Eigen::Vector2d mass(x.dot(center_of_mass), y.dot(center_of_mass));
+  return margin_in_polygon(convex_hull(std::move(face)), mass) >= 0;
+}
+
 }  // namespace
 
 TippingGuard::TippingGuard(const RobotModel& model) : kinematics_(model) {}
@@ -54,20 +99,7 @@ TippingGuard::TippingGuard(const RobotModel& model) : kinematics_(model) {}
 Rest TippingGuard::find_rest(const std::vector<double>& position,
                              const Eigen::Vector3d& up_in_torso) {
   kinematics_.update(position);
-  const RobotModel& model = kinematics_.model();
-  struct Sole {
-    Eigen::Vector3d normal;
-    std::vector<Eigen::Vector3d> corners;
-  };
-  Sole soles[2];
-  for (int side = 0; side < 2; ++side) {
-    const Eigen::Isometry3d& pose = side == 0 ? kinematics_.left_sole() : kinematics_.right_sole();
-    soles[side].normal = pose.linear().col(2);
-    for (const Eigen::Vector2d& corner :
-         side == 0 ? model.left_sole_outline() : model.right_sole_outline()) {
-      soles[side].corners.push_back(pose * Eigen::Vector3d(corner.x(), corner.y(), 0));
-    }
-  }
+  const std::array<Sole, 2> soles = find_soles(kinematics_);
   Rest rest;
   rest.up_in_torso = up_in_torso;
   for (double rolled = 0;; rolled += kRollStep) {
@@ -115,13 +147,41 @@ Rest TippingGuard::find_rest(const std::vector<double>& position,
   }
 }
 
+Eigen::Vector3d TippingGuard::find_standing_up(const std::vector<double>& position,
+                                               const Eigen::Vector3d& up_in_torso) {
+  kinematics_.update(position);
+  std::vector<Eigen::Vector3d> corners;
+  for (const Sole& sole : find_soles(kinematics_)) {
+    corners.insert(corners.end(), sole.corners.begin(), sole.corners.end());
+  }
+  // A few corners: every plane through three of them is tried.
+  Eigen::Vector3d best = up_in_torso;
+  double nearest = std::cos(kUpError);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    for (size_t j = i + 1; j < corners.size(); ++j) {
+      for (size_t k = j + 1; k < corners.size(); ++k) {
+        Eigen::Vector3d up = (corners[j] - corners[i]).cross(corners[k] - corners[i]);
+        if (up.norm() < kOnLine) continue;
+        up.normalize();
+        if (up.dot(up_in_torso) < 0) up = -up;
+        if (up.dot(up_in_torso) <= nearest + kNoNearer) continue;
+        if (!rests_on(up, up.dot(corners[i]), corners, kinematics_.center_of_mass())) continue;
+        nearest = up.dot(up_in_torso);
+        best = up;
+      }
+    }
+  }
+  return best;
+}
+
 double TippingGuard::find_safe_share(const std::vector<double>& from, const std::vector<double>& to,
                                      const Eigen::Vector3d& up_in_torso, Rest& tipping) {
   double largest = 0;
   for (size_t i = 0; i < from.size(); ++i) largest = std::max(largest, std::abs(to[i] - from[i]));
   const int num_samples =
       std::clamp(static_cast<int>(std::ceil(largest / kSampleAngle)), 1, kMaxSamples);
-  Eigen::Vector3d up = up_in_torso;
+  const Eigen::Vector3d standing_up = find_standing_up(from, up_in_torso);
+  Eigen::Vector3d up = standing_up;
   // Who stands badly already may move, as long as it does not get worse.
   const Rest start = find_rest(from, up);
   double needed = std::min(kReserve, start.margin);
@@ -132,7 +192,7 @@ double TippingGuard::find_safe_share(const std::vector<double>& from, const std:
     const double share = static_cast<double>(k) / num_samples;
     for (size_t i = 0; i < from.size(); ++i) position[i] = from[i] + share * (to[i] - from[i]);
     const Rest rest = find_rest(position, up);
-    const bool leans = rest.up_in_torso.dot(up_in_torso) < std::cos(kMaxRoll);
+    const bool leans = rest.up_in_torso.dot(standing_up) < std::cos(kMaxRoll);
     if (rest.margin < needed - 1e-9 || rest.flattest < needed_flatness ||
         rest.lifting > allowed_lifting || leans) {
       tipping = rest;
