@@ -58,6 +58,9 @@ struct Hub {
   bool is_ending = false;
 };
 
+/** A connection that had not said Connect was closed, for one more came from this address. */
+void note_eviction(Hub& hub, const std::string& address);
+
 /** The other end of a socket. */
 Peer make_peer(const Tcp::socket& socket, const std::string& transport);
 

@@ -119,6 +119,10 @@ void GatewayCore::set_round_trip(uint32_t client, double round_trip) {
   if (PhoneSession* session = find(client)) session->round_trip = round_trip;
 }
 
+void GatewayCore::note_refusal(const std::string& address, const std::string& why) {
+  if (outputs_.audit) outputs_.audit({"refused", 0, "", address, why});
+}
+
 void GatewayCore::violate(uint32_t client, const std::string& why, double now) {
   if (PhoneSession* session = find(client)) close_session(*session, why, now);
 }
@@ -201,6 +205,7 @@ void GatewayCore::close_session(PhoneSession& session, const std::string& why, d
   message.mutable_notice()->set_kind(naoremote::Notice::CLOSING);
   message.mutable_notice()->set_message(why);
   push(session, message);
+  if (!session.is_connected && !session.is_refused) audit("refused", session, why);
   leave(session, why, now);
   session.is_closing = true;
   session.wake();

@@ -108,6 +108,10 @@ class GatewayCore {
   /** How long the network takes to the client and back, s, as the transport measures it. */
   void set_round_trip(uint32_t client, double round_trip);
 
+  /** Somebody was turned away by the network layer.
+   * @param why  For the audit log; one of a few sentences. */
+  void note_refusal(const std::string& address, const std::string& why);
+
   /** The client broke the rules of its transport: it is told why, and the connection closes. */
   void violate(uint32_t client, const std::string& why, double now);
 

@@ -163,7 +163,10 @@ void GatewayCore::connect(PhoneSession& session, const naoremote::Connect& reque
   }
   if (!admit(session, request, response, now)) {
     session.name = clean_client_name(request.client_name());
-    audit("refused", session, response.message());
+    // The code, since the sentence may hold what the client sent: who repeats a refusal in ever new
+    // words shall not fill the log.
+    audit("refused", session, naoremote::ErrorCode_Name(response.error()));
+    session.is_refused = true;
     session.closes_because = response.message();
     return;
   }

@@ -12,11 +12,11 @@
 #include <naolcm/posture_command_t.hpp>
 #include <naolcm/stop_command_t.hpp>
 #include <naolcm/walk_command_t.hpp>
-#include <sstream>
 
 #include "common/error.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
+#include "server/prometheus_text.h"
 
 namespace nao {
 namespace {
@@ -95,6 +95,29 @@ class CommandPublisher {
   const RobotChannels& channels_;
   const NumberedCommand& numbered_;
 };
+
+/** A figure of each client. */
+struct ClientFigure {
+  const char* name;
+  const char* help;
+  double (*value)(const PhoneSession&);
+};
+
+constexpr ClientFigure kClientFigures[] = {
+    {"requests_total", "Requests received from this client",
+     [](const PhoneSession& session) { return static_cast<double>(session.num_received); }},
+    {"requests_refused_total", "Requests of this client answered with an error",
+     [](const PhoneSession& session) { return static_cast<double>(session.num_refused); }},
+    {"round_trip_seconds", "Time to this client and back, as the network stack measures it",
+     [](const PhoneSession& session) { return session.round_trip; }},
+    {"messages_sent_total", "Messages sent to this client",
+     [](const PhoneSession& session) { return static_cast<double>(session.num_sent); }},
+    {"frames_skipped_total", "States and pictures dropped because this client was slow",
+     [](const PhoneSession& session) { return static_cast<double>(session.outbox.num_skipped()); }},
+    {"messages_waiting", "Answers and notices in this client's queue",
+     [](const PhoneSession& session) {
+       return static_cast<double>(session.outbox.num_messages());
+     }}};
 
 std::string process_source() {
   return "phone." + std::to_string(getpid());
@@ -179,53 +202,69 @@ void GatewayDaemon::publish_status(double now) {
   status_.set_state("ready", has_robot    ? ""
                              : has_motion ? "waiting for the robot"
                                           : "waiting for " + channels_.motion_state);
-  status_.publish(metrics());
+  status_.publish(status_metrics());
   send_camera_wishes(core_.camera_wishes(now));
 }
 
 void GatewayDaemon::shut_down(double now) {
   core_.shut_down(now);
   status_.set_state("stopping");
-  status_.publish(metrics());
+  status_.publish(status_metrics());
 }
 
-std::vector<std::pair<std::string, double>> GatewayDaemon::metrics() const {
+std::vector<Metric> GatewayDaemon::metrics() const {
   const GatewayCounters counters = core_.counters();
   double num_waiting = 0;
   for (const auto& [id, session] : core_.sessions()) {
     num_waiting += static_cast<double>(session->outbox.num_messages());
   }
-  return {{"clients", core_.num_connected()},
-          {"connections", static_cast<double>(core_.sessions().size())},
-          {"driver_id", core_.driver()},
-          {"requests_total", static_cast<double>(counters.num_requests)},
-          {"requests_refused_total", static_cast<double>(counters.num_refused)},
-          {"messages_sent_total", static_cast<double>(counters.num_sent)},
-          {"frames_skipped_total", static_cast<double>(counters.num_skipped)},
-          {"messages_waiting", num_waiting}};
+  const auto count = [](auto number) { return static_cast<double>(number); };
+  return {
+      {"clients", count(core_.num_connected()), "Clients that are connected"},
+      {"connections", count(core_.sessions().size()), "Connections, clients or not yet"},
+      {"driver_id", count(core_.driver()), "Number of the client that drives, 0 if none"},
+      {"requests_total", count(counters.num_requests), "Requests received"},
+      {"requests_refused_total", count(counters.num_refused), "Requests answered with an error"},
+      {"messages_sent_total", count(counters.num_sent), "Messages sent to clients"},
+      {"frames_skipped_total", count(counters.num_skipped), "States and pictures dropped"},
+      {"messages_waiting", num_waiting, "Answers and notices in all queues"}};
 }
 
-std::string GatewayDaemon::metrics_text() const {
-  std::ostringstream text;
-  for (const auto& [name, value] : metrics())
-    text << "nao_gateway_" << name << " " << value << "\n";
-  for (const auto part :
-       {PartMonitor::Part::kMotion, PartMonitor::Part::kRobot, PartMonitor::Part::kCamera}) {
-    text << "nao_gateway_part_available{part=\"" << part_name(part) << "\"} "
-         << (core_.is_available(part) ? 1 : 0) << "\n";
-  }
+std::vector<std::pair<std::string, double>> GatewayDaemon::status_metrics() const {
+  std::vector<std::pair<std::string, double>> status;
+  for (const Metric& metric : metrics()) status.emplace_back(metric.name, metric.value);
   for (const auto& [id, session] : core_.sessions()) {
     if (!session->is_connected) continue;
-    const std::string labels =
-        "{client=\"" + std::to_string(id) + "\",transport=\"" + session->peer.transport + "\"} ";
-    text << "nao_gateway_client_requests" << labels << session->num_received << "\n"
-         << "nao_gateway_client_round_trip_seconds" << labels << session->round_trip << "\n"
-         << "nao_gateway_client_messages_sent" << labels << session->num_sent << "\n"
-         << "nao_gateway_client_frames_skipped" << labels << session->outbox.num_skipped() << "\n"
-         << "nao_gateway_client_messages_waiting" << labels << session->outbox.num_messages()
-         << "\n";
+    for (const ClientFigure& figure : kClientFigures) {
+      status.emplace_back("client_" + std::to_string(id) + "_" + figure.name,
+                          figure.value(*session));
+    }
   }
-  return text.str();
+  return status;
+}
+
+std::string GatewayDaemon::metrics_text(const std::vector<Metric>& more) const {
+  PrometheusText text;
+  std::vector<Metric> all = metrics();
+  all.insert(all.end(), more.begin(), more.end());
+  for (const Metric& metric : all) {
+    text.begin(metric.name, metric.help);
+    text.add(metric.value);
+  }
+  text.begin("part_available", "1 if this part of the robot answers");
+  for (const auto part :
+       {PartMonitor::Part::kMotion, PartMonitor::Part::kRobot, PartMonitor::Part::kCamera}) {
+    text.add(core_.is_available(part) ? 1 : 0, std::string("{part=\"") + part_name(part) + "\"}");
+  }
+  for (const ClientFigure& figure : kClientFigures) {
+    text.begin(std::string("client_") + figure.name, figure.help);
+    for (const auto& [id, session] : core_.sessions()) {
+      if (!session->is_connected) continue;
+      text.add(figure.value(*session), "{client=\"" + std::to_string(id) + "\",transport=\"" +
+                                           session->peer.transport + "\"}");
+    }
+  }
+  return text.text();
 }
 
 }  // namespace nao

@@ -10,6 +10,7 @@
 #include "server/audit_log.h"
 #include "server/bus_messages.h"
 #include "server/gateway_core.h"
+#include "server/metric.h"
 
 namespace nao {
 
@@ -41,14 +42,16 @@ class GatewayDaemon {
   /** The gateway ends: the robot's walk does, too. */
   void shut_down(double now);
 
-  /** The same figures as in DAEMON_STATUS, and some for each client, as Prometheus reads them. */
-  std::string metrics_text() const;
+  /** The same figures as in DAEMON_STATUS, as Prometheus reads them.
+   * @param more  Figures of others that belong to the gateway. */
+  std::string metrics_text(const std::vector<Metric>& more = {}) const;
 
  private:
   void subscribe();
   void send(const NumberedCommand& command);
   void send_camera_wishes(const std::vector<CameraWish>& wishes);
-  std::vector<std::pair<std::string, double>> metrics() const;
+  std::vector<Metric> metrics() const;
+  std::vector<std::pair<std::string, double>> status_metrics() const;
 
   Bus& bus_;
   RobotChannels channels_;

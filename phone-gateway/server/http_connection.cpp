@@ -38,8 +38,8 @@ PlainStream& lowest(SecureStream& stream) {
 /** A place in the waiting room, held as long as this lives. */
 class WaitingPlace {
  public:
-  WaitingPlace(Hub& hub, std::function<void()> evict) : hub_(hub) {
-    if (hub_.waiting_room.enter(std::move(evict), place_)) ++hub_.counters.num_evicted;
+  WaitingPlace(Hub& hub, const std::string& address, std::function<void()> evict) : hub_(hub) {
+    if (hub_.waiting_room.enter(std::move(evict), place_)) note_eviction(hub_, address);
   }
   ~WaitingPlace() { hub_.waiting_room.leave(place_); }
   WaitingPlace(const WaitingPlace&) = delete;
@@ -60,7 +60,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
   void start() {
     peer_ = make_peer(lowest(stream_).socket(), "websocket");
     const auto weak = this->weak_from_this();
-    waiting_.emplace(hub_, [weak] {
+    waiting_.emplace(hub_, peer_.address, [weak] {
       // Ends what is under way with an error, and with it the connection.
       if (const auto self = weak.lock()) lowest(self->stream_).cancel();
     });
@@ -68,7 +68,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
       lowest(stream_).expires_after(kRequestTime);
       stream_.async_handshake(asio::ssl::stream_base::server, buffer_.data(),
                               [self = this->shared_from_this()](const error_code& error, size_t n) {
-                                if (error) return;
+                                if (error) {
+                                  self->note_refusal("TLS: " + error.message());
+                                  return;
+                                }
                                 self->buffer_.consume(n);
                                 self->read(kRequestTime);
                               });
@@ -95,6 +98,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
   }
 
   void on_bad_request(const error_code& error) {
+    if (error == beast::error::timeout && !has_asked_) note_refusal("No request within 5 s.");
     const bool is_http_error =
         error.category() == http::make_error_code(http::error::bad_method).category();
     if (!is_http_error || error == http::error::end_of_stream ||
@@ -102,11 +106,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
       return;
     }
     ++hub_.counters.num_violations;
+    note_refusal("HTTP: " + error.message());
     keeps_alive_ = false;
     send(refusal(error == http::error::header_limit ? 431 : 400, "This is no request for here."));
   }
 
   void on_request() {
+    has_asked_ = true;
     ++hub_.counters.num_http_requests;
     const WebRequest& request = parser_->get();
     keeps_alive_ = request.keep_alive();
@@ -114,6 +120,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     const std::string_view host = view(request[http::field::host]);
     if (!hub_.rules.is_known_host(host)) {
       ++hub_.counters.num_refused_hosts;
+      note_refusal("Host is no name of this gateway.");
       send(refusal(421,
                    "This gateway does not go by that name: use its IP address, or start it "
                    "with --host-name."));
@@ -130,7 +137,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     question.accept_encoding = std::string(view(request[http::field::accept_encoding]));
     question.if_none_match = std::string(view(request[http::field::if_none_match]));
     question.is_local = peer_.is_local;
-    send(hub_.pages.answer(question));
+    WebAnswer answer = hub_.pages.answer(question);
+    if (answer.status == 400) note_refusal("HTTP: the target is no path.");
+    if (answer.status == 403) note_refusal("HTTP: a page for this host only.");
+    send(std::move(answer));
   }
 
   void on_websocket_request(std::string_view host) {
@@ -143,12 +153,15 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     }
     if (!hub_.rules.is_known_origin(view(request[http::field::origin]), host, kIsSecure)) {
       ++hub_.counters.num_refused_origins;
+      note_refusal("Origin is another site.");
       send(refusal(403, "Pages from elsewhere may not drive this robot."));
       return;
     }
     waiting_.reset();
     serve_websocket(hub_, std::move(stream_), std::move(request));
   }
+
+  void note_refusal(const std::string& why) { hub_.core.note_refusal(peer_.address, why); }
 
   static WebAnswer refusal(int status, const std::string& text) {
     WebAnswer answer;
@@ -201,6 +214,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
   Peer peer_;
   std::optional<WaitingPlace> waiting_;
   std::optional<http::request_parser<http::empty_body>> parser_;
+  bool has_asked_ = false;
   bool keeps_alive_ = false;
   bool is_head_ = false;
   WebAnswer answer_;
@@ -215,7 +229,8 @@ class FirstBytes : public std::enable_shared_from_this<FirstBytes> {
 
   void start() {
     const auto weak = weak_from_this();
-    waiting_.emplace(hub_, [weak] {
+    const std::string address = make_peer(stream_.socket(), "").address;
+    waiting_.emplace(hub_, address, [weak] {
       if (const auto self = weak.lock()) self->stream_.cancel();
     });
     stream_.expires_after(kRequestTime);

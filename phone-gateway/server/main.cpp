@@ -130,8 +130,6 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   GatewayDaemon daemon(bus, common.robot, describe_robot(RobotModel::load(folder)), options.limits,
                        options.token, options.audit_file);
   WebPages pages(data_path());
-  pages.add_page("/metrics",
-                 {"text/plain; version=0.0.4", true, [&daemon] { return daemon.metrics_text(); }});
   Network network(options.network, make_access_rules(options), daemon.core(), pages);
 
   network.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
@@ -144,6 +142,9 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   const std::vector<std::string> urls = phone_urls(options, network.http_port());
   for (const std::string& url : urls) spdlog::info("phones: {}", url);
   show_qr_code(options, urls.front());
+  pages.add_page("/metrics", {"text/plain; version=0.0.4", true, [&daemon, &network] {
+                                return daemon.metrics_text(network.metrics());
+                              }});
   pages.add_page("/qr.png", {"image/png", true, [url = urls.front()] {
                                return draw_as_png(make_qr_code(url), kQrScale);
                              }});

@@ -82,6 +82,11 @@ Peer make_peer(const Tcp::socket& socket, const std::string& transport) {
   return peer;
 }
 
+void note_eviction(Hub& hub, const std::string& address) {
+  ++hub.counters.num_evicted;
+  hub.core.note_refusal(address, "Too many connections that do not say Connect.");
+}
+
 void prepare_socket(Tcp::socket& socket) {
   error_code ignored;
   socket.set_option(Tcp::no_delay(true), ignored);
@@ -200,6 +205,20 @@ uint16_t Network::tcp_port() const {
 
 const NetworkCounters& Network::counters() const {
   return impl_->hub.counters;
+}
+
+std::vector<Metric> Network::metrics() const {
+  const NetworkCounters& counters = impl_->hub.counters;
+  const auto metric = [](const char* name, int64_t value, const char* help) {
+    return Metric{name, static_cast<double>(value), help};
+  };
+  return {
+      metric("accepted_total", counters.num_accepted, "Connections accepted"),
+      metric("http_requests_total", counters.num_http_requests, "Requests for pages"),
+      metric("refused_hosts_total", counters.num_refused_hosts, "Requests with a foreign Host"),
+      metric("refused_origins_total", counters.num_refused_origins, "WebSockets of other sites"),
+      metric("evicted_total", counters.num_evicted, "Connections closed to make room for another"),
+      metric("violations_total", counters.num_violations, "Connections that broke the framing")};
 }
 
 void Network::on_readable(int descriptor, std::function<void()> handler) {

@@ -8,6 +8,7 @@
 
 #include "server/access_rules.h"
 #include "server/gateway_core.h"
+#include "server/metric.h"
 #include "server/web_pages.h"
 
 namespace nao {
@@ -50,6 +51,8 @@ class Network {
   uint16_t http_port() const;
   uint16_t tcp_port() const;
   const NetworkCounters& counters() const;
+  /** The same, by name. */
+  std::vector<Metric> metrics() const;
 
   /** Calls `handler` whenever `descriptor` has something to read. The caller keeps it open. */
   void on_readable(int descriptor, std::function<void()> handler);

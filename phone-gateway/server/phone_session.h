@@ -39,6 +39,8 @@ struct PhoneSession {
   std::string name;
   /** Connect has succeeded. */
   bool is_connected = false;
+  /** Its Connect was refused. */
+  bool is_refused = false;
   /** What waits is still sent, then the connection closes; nothing is taken in. */
   bool is_closing = false;
   double opened_at;

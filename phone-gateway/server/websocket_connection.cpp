@@ -46,13 +46,21 @@ class WebSocketConnection : public PhoneConnection {
 
   void read() {
     socket_.async_read(buffer_, [self = self()](const error_code& error, size_t) {
-      if (error == websocket::error::message_too_big) ++self->hub_.counters.num_violations;
       if (error) {
+        self->note_violation(error);
         self->abort(error == websocket::error::closed ? "closed by the client" : error.message());
         return;
       }
       self->on_message();
     });
+  }
+
+  /** A client that broke the rules of RFC 6455 has been told by its close code. */
+  void note_violation(const error_code& error) {
+    const bool is_rule = error.category() == make_error_code(websocket::error::closed).category();
+    if (!is_rule || error == websocket::error::closed) return;
+    ++hub_.counters.num_violations;
+    hub_.core.note_refusal(make_peer(socket(), "").address, "WebSocket: " + error.message());
   }
 
   void on_message() {

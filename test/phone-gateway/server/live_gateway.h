@@ -55,12 +55,13 @@ class LiveGateway {
       std::filesystem::create_directories(data.path() / "web");
       write_text(data.path() / "web" / "index.html", "<p>app</p>");
       WebPages pages(data.path());
-      pages.add_page("/metrics", {"text/plain", true, [&] { return daemon.metrics_text(); }});
       NetworkOptions network_options;
       network_options.bind = "127.0.0.1";
       network_options.http_port = 0;
       network_options.tcp_port = 0;
       Network network(network_options, AccessRules({}, {}), daemon.core(), pages);
+      pages.add_page("/metrics",
+                     {"text/plain", true, [&] { return daemon.metrics_text(network.metrics()); }});
       bool has_started = false;
       network.on_readable(bus.descriptor(), [&] { bus.handle(); });
       network.every(0.01, [&] { motion.step(); });

@@ -249,7 +249,8 @@ TEST_F(LiveGatewayTest, MeasuresEachClient) {
   phone.ping();
   const std::string metrics = http("GET /metrics");
   const std::string label = "{client=\"" + std::to_string(phone.connected().client_id()) + "\"";
-  for (const char* name : {"requests", "messages_sent", "messages_waiting", "round_trip_seconds"}) {
+  for (const char* name : {"requests_total", "messages_sent_total", "frames_skipped_total",
+                           "messages_waiting", "round_trip_seconds"}) {
     const std::string line = std::string("nao_gateway_client_") + name + label;
     EXPECT_NE(metrics.find(line), std::string::npos) << line << " is not in\n" << metrics;
   }
