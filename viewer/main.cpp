@@ -71,7 +71,10 @@ class ImGuiContextOwner {
     io.IniFilename = nullptr;  // nothing is written to where the program happens to run
     ImGui::StyleColorsDark();
     ImGui::GetStyle().WindowRounding = 4;
-    ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.82f;
+    // Opaque: what they hide need not be drawn.
+    for (const ImGuiCol color : {ImGuiCol_WindowBg, ImGuiCol_TitleBgCollapsed}) {
+      ImGui::GetStyle().Colors[color].w = 1;
+    }
   }
   ~ImGuiContextOwner() { ImGui::DestroyContext(); }
   ImGuiContextOwner(const ImGuiContextOwner&) = delete;

@@ -45,6 +45,22 @@ void place(float x, float y, float width, float height) {
   ImGui::SetNextWindowSize({width, height}, ImGuiCond_FirstUseEver);
 }
 
+/** Begins a panel, which hides what lies behind it. @return Whether it is unfolded. */
+bool begin(const char* title, PanelState& state) {
+  const bool is_open = ImGui::Begin(title);
+  const ImVec2 position = ImGui::GetWindowPos();
+  const ImVec2 size = ImGui::GetWindowSize();
+  // Its rounded corners let the view through.
+  const float margin = ImGui::GetStyle().WindowRounding;
+  const float bottom = ImGui::GetIO().DisplaySize.y - position.y - size.y;
+  const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+  state.covered.push_back({static_cast<int>(scale.x * (position.x + margin)),
+                           static_cast<int>(scale.y * (bottom + margin)),
+                           static_cast<int>(scale.x * (position.x + size.x - margin)),
+                           static_cast<int>(scale.y * (bottom + size.y - margin))});
+  return is_open;
+}
+
 /** Shows why the controls that follow do nothing. */
 void say_log_only() {
   ImGui::TextColored(kFaint, "A log is shown: no commands.");
@@ -57,9 +73,10 @@ const naolcm::world_truth_t* current(const MessageStore& store, double now) {
 
 }  // namespace
 
-void draw_world_panel(const MessageStore& store, CommandSender* commands, double now) {
+void draw_world_panel(const MessageStore& store, CommandSender* commands, PanelState& state,
+                      double now) {
   place(8, 8, 296, 170);
-  if (ImGui::Begin("World")) {
+  if (begin("World", state)) {
     const naolcm::world_truth_t* truth = current(store, now);
     if (truth == nullptr) {
       ImGui::TextColored(kBad, "No simulator: waiting for %s", kWorldTruthChannel);
@@ -105,7 +122,7 @@ void draw_motion_panel(const MessageStore& store, const RobotModel& model, Comma
                        PanelState& state, double now) {
   place(8, 186, 296, 420);
   state.is_walking = false;
-  if (ImGui::Begin("Motion")) {
+  if (begin("Motion", state)) {
     const auto& motion = store.motion_state();
     if (!motion || now - motion->time > kStale) {
       ImGui::TextColored(kBad, "No motion: waiting for %s", store.channels().motion_state.c_str());
@@ -184,7 +201,7 @@ void draw_motion_panel(const MessageStore& store, const RobotModel& model, Comma
 
 void draw_view_panel(PanelState& state, const std::vector<std::string>& problems) {
   place(8, 614, 296, 178);
-  if (ImGui::Begin("View")) {
+  if (begin("View", state)) {
     ViewChoice& choice = state.choice;
     ImGui::Columns(2, nullptr, false);
     ImGui::Checkbox("estimate", &choice.estimated_robot);
@@ -225,7 +242,7 @@ void draw_camera_panel(const MessageStore& store, const PictureTexture& picture,
   const float width = ImGui::GetIO().DisplaySize.x;
   place(width - 344, 8, 336, 312);
   // Closed or folded away, nobody watches, and the camera need not draw.
-  state.watches_camera = ImGui::Begin("Head camera");
+  state.watches_camera = begin("Head camera", state);
   if (state.watches_camera) {
     for (const char* camera : {"top", "bottom"}) {
       if (ImGui::RadioButton(camera, state.camera == camera)) state.camera = camera;
@@ -248,10 +265,10 @@ void draw_camera_panel(const MessageStore& store, const PictureTexture& picture,
   ImGui::End();
 }
 
-void draw_programs_panel(const MessageStore& store, double now) {
+void draw_programs_panel(const MessageStore& store, PanelState& state, double now) {
   const float width = ImGui::GetIO().DisplaySize.x;
   place(width - 344, 328, 336, 150);
-  if (ImGui::Begin("Programs")) {
+  if (begin("Programs", state)) {
     if (store.programs().empty()) ImGui::TextColored(kFaint, "none heard of yet");
     for (const auto& [key, status] : store.programs()) {
       const bool is_gone = now - status.time > kProgramGone;
@@ -367,7 +384,7 @@ void draw_field_picker(const MessageStore& store, TimePlots& plots, PanelState& 
 void draw_plots_panel(const MessageStore& store, TimePlots& plots, PanelState& state, double now) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   place(312, display.y - kPlotsHeight - 8, display.x - 320, kPlotsHeight);
-  if (ImGui::Begin("Plots")) {
+  if (begin("Plots", state)) {
     draw_field_picker(store, plots, state);
     for (size_t i = 0; i < plots.series().size(); ++i) {
       const PlotSeries& series = plots.series()[i];
@@ -394,7 +411,7 @@ void draw_plots_panel(const MessageStore& store, TimePlots& plots, PanelState& s
 void draw_log_panel(LogPlayer& player, PanelState& state) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   place(312, display.y - kPlotsHeight - 72, display.x - 320, 56);
-  if (ImGui::Begin("Log")) {
+  if (begin("Log", state)) {
     if (button(player.is_paused ? "Play" : "Pause", "Plays the log on, or stands still.")) {
       player.is_paused = !player.is_paused;
     }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "command_sender.h"
 #include "common/robot_model.h"
 #include "log_player.h"
 #include "message_store.h"
 #include "picture_texture.h"
+#include "scene/scene_renderer.h"
 #include "time_plots.h"
 #include "world_view.h"
 
@@ -34,17 +36,20 @@ struct PanelState {
   /** Text that narrows the list of fields. */
   char field_filter[64] = "";
   std::string plot_channel;
+  /** Parts of the window that the panels of this frame hide. */
+  std::vector<PixelBox> covered;
 };
 
 /** Panels around the 3D view. Each draws one ImGui window.
  * `commands` and `player` may be nullptr: without a bus nothing can be asked for, without a log
  * there is nothing to scrub. @param now  s, of the messages' time line. */
-void draw_world_panel(const MessageStore& store, CommandSender* commands, double now);
+void draw_world_panel(const MessageStore& store, CommandSender* commands, PanelState& state,
+                      double now);
 void draw_motion_panel(const MessageStore& store, const RobotModel& model, CommandSender* commands,
                        PanelState& state, double now);
 void draw_view_panel(PanelState& state, const std::vector<std::string>& problems);
 void draw_camera_panel(const MessageStore& store, const PictureTexture& picture, PanelState& state);
-void draw_programs_panel(const MessageStore& store, double now);
+void draw_programs_panel(const MessageStore& store, PanelState& state, double now);
 void draw_plots_panel(const MessageStore& store, TimePlots& plots, PanelState& state, double now);
 void draw_log_panel(LogPlayer& player, PanelState& state);
 

@@ -208,11 +208,11 @@ void Viewer::steer(int width, int height, double now) {
 void Viewer::draw_panels(double now) {
   const double time = message_time(now);
   CommandSender* commands = commands_ ? &*commands_ : nullptr;
-  draw_world_panel(store_, commands, time);
+  draw_world_panel(store_, commands, panels_, time);
   draw_motion_panel(store_, model_, commands, panels_, time);
   draw_view_panel(panels_, world_.problems());
   draw_camera_panel(store_, picture_, panels_);
-  draw_programs_panel(store_, time);
+  draw_programs_panel(store_, panels_, time);
   draw_plots_panel(store_, plots_, panels_, time);
   if (player_) draw_log_panel(*player_, panels_);
 }
@@ -233,11 +233,13 @@ void Viewer::draw(unsigned framebuffer, int width, int height, double now) {
   ImGui::NewFrame();
   steer(width, height, now);
   if (drag_ == Drag::kPush) world_.add_arrow(held_.center, drag_point_, kPushColor);
+  panels_.covered.clear();
   if (!options_.without_panels) draw_panels(now);
   ImGui::Render();
   send(now);
 
-  renderer_.render(world_.scene(), pinhole(width, height), camera_.pose(), framebuffer);
+  renderer_.render(world_.scene(), pinhole(width, height), camera_.pose(), framebuffer,
+                   panels_.covered);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   ++num_frames_;
 }

@@ -144,6 +144,32 @@ TEST(SceneRenderer, LetsOneSeeThroughTranslucentBodies) {
   }
 }
 
+TEST(SceneRenderer, LeavesCoveredPartsAsTheyAre) {
+  Offscreen offscreen;
+  offscreen.renderer.set_surroundings(SceneFile::find("soccer"));
+  const Scene scene = solids(offscreen.renderer);
+  const Picture whole = offscreen.draw(scene, kCamera, outside());
+  const gl::Framebuffer framebuffer(kCamera.width, kCamera.height);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  glClearColor(1, 0, 1, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  const PixelBox box{100, 60, 220, 200};  // rows from the bottom up
+  offscreen.renderer.render(scene, kCamera, outside(), framebuffer.id(), {box});
+  std::vector<uint8_t> pixels;
+  framebuffer.read(pixels);
+  const Picture picture = picture_from_bgrx(kCamera.width, kCamera.height, pixels);
+  for (int v = 0; v < kCamera.height; ++v) {
+    for (int u = 0; u < kCamera.width; ++u) {
+      const int row = kCamera.height - 1 - v;
+      const bool is_covered = u >= box.left && u < box.right && row >= box.bottom && row < box.top;
+      const uint8_t* expected = whole.at(u, v);
+      const uint8_t* pixel = picture.at(u, v);
+      ASSERT_EQ(pixel[0], is_covered ? 255 : expected[0]) << u << ", " << v;
+      ASSERT_EQ(pixel[1], is_covered ? 0 : expected[1]) << u << ", " << v;
+    }
+  }
+}
+
 TEST(SceneRenderer, RefusesABrokenSize) {
   Offscreen offscreen;
   EXPECT_THROW(gl::Framebuffer(0, 480), Error);

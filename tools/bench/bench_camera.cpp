@@ -6,13 +6,17 @@
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <ctime>
 #include <functional>
 #include <map>
+#include <naolcm/image_t.hpp>
 #include <naolcm/world_truth_t.hpp>
 
 #include "common/bus.h"
+#include "common/channels.h"
 #include "common/data_path.h"
+#include "common/event_loop.h"
 #include "common/robot_model.h"
 #include "common/wall_clock.h"
 #include "figures.h"
@@ -143,6 +147,33 @@ double daemon_percent(const nao::RobotModel& model, double seconds) {
   return 100 * (processor_seconds() - start) / seconds;
 }
 
+/** How old pictures are when they are published, s: since the state they show was. The simulator's
+ * 100 states a second and the camera's own clock run freely, as between two programs. */
+std::vector<double> frame_ages(const nao::RobotModel& model, double seconds) {
+  nao::EventLoop loop;
+  nao::Bus bus("memq://");
+  nao::HeadCameraOptions options;
+  options.always = true;
+  nao::HeadCameraDaemon daemon(bus, model, options);
+  naolcm::world_truth_t truth = soccer_truth(model);
+  std::map<int64_t, double> published;
+  std::vector<double> ages;
+  bus.subscribe<naolcm::image_t>(
+      nao::RobotChannels(options.robot).head_camera_image, nao::Bus::Queue::kAll,
+      [&](const naolcm::image_t& image) {
+        ages.push_back(nao::monotonic_seconds() - published.at(image.utime));
+      });
+  daemon.attach(loop);
+  loop.every(0.01, [&] {
+    truth.utime += 10000;
+    published[truth.utime] = nao::monotonic_seconds();
+    bus.publish(nao::kWorldTruthChannel, truth);
+  });
+  loop.every(seconds, [&] { loop.stop("measured"); });
+  loop.run();
+  return ages;
+}
+
 double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -203,6 +234,13 @@ std::vector<Figure> run(int num_rounds) {
         {std::string("camera.stage.") + stage + "_ms", stages.median_ms(stage), "ms", "", 0});
   }
   figures.push_back({"camera.cpu_30hz_percent", daemon_percent(model, 5), "%", "", 0});
+  std::vector<double> ages = frame_ages(model, 10);
+  std::sort(ages.begin(), ages.end());
+  // The newest state can be as old as a frame period, and drawing takes its time.
+  const double limit_ms = 1e3 / 30 + stages.median_ms("wall");
+  const size_t p99 = ages.size() * 99 / 100;
+  figures.push_back({"camera.frame_age_ms", 1e3 * nao::median(ages), "ms", "limit", limit_ms});
+  figures.push_back({"camera.frame_age_p99_ms", 1e3 * ages[p99], "ms", "limit", limit_ms});
   figures.push_back({"camera.rss_mb", peak_memory_mb(), "MB", "", 0});
   return figures;
 }

@@ -69,16 +69,6 @@ Eigen::Matrix4f texture_from_clip() {
   return matrix;
 }
 
-/** Part of the picture, pixels from its lower left corner; right and top just outside. */
-struct PixelBox {
-  int left = 0;
-  int bottom = 0;
-  int right = 0;
-  int top = 0;
-
-  bool is_empty() const { return left >= right || bottom >= top; }
-};
-
 gl::ShaderProgram compile(const std::string& name, const shaders::Source& source) {
   return {name, source.vertex, source.fragment};
 }
@@ -125,7 +115,8 @@ class SceneRenderer::Implementation {
   }
 
   RenderStatistics render(const Scene& scene, const PinholeCamera& camera,
-                          const Eigen::Isometry3d& pose_camera_in_world, unsigned framebuffer) {
+                          const Eigen::Isometry3d& pose_camera_in_world, unsigned framebuffer,
+                          const std::vector<PixelBox>& covered) {
     statistics_ = {};
     clip_from_world_ = projection_matrix(camera, kNear, kFar) * view_matrix(pose_camera_in_world);
     eye_ = pose_camera_in_world.translation().cast<float>();
@@ -136,6 +127,7 @@ class SceneRenderer::Implementation {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, camera.width, camera.height);
     glClear(GL_DEPTH_BUFFER_BIT);  // the sky covers what nothing else does
+    shut_out(covered);
     draw_solids();
     draw_ground(camera);
     draw_sky();
@@ -167,6 +159,19 @@ class SceneRenderer::Implementation {
     glFrontFace(GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     glActiveTexture(GL_TEXTURE0);
+  }
+
+  /** Everything lies behind the least depth, so nothing there is ever shaded. */
+  static void shut_out(const std::vector<PixelBox>& boxes) {
+    glEnable(GL_SCISSOR_TEST);
+    glClearDepth(0);
+    for (const PixelBox& box : boxes) {
+      if (box.is_empty()) continue;
+      glScissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
+      glClear(GL_DEPTH_BUFFER_BIT);
+    }
+    glClearDepth(1);
+    glDisable(GL_SCISSOR_TEST);
   }
 
   BoundingSphere sphere_in_world(const MeshInstance& instance) const {
@@ -481,8 +486,8 @@ void SceneRenderer::set_surroundings(const SceneFile& scene) {
 
 RenderStatistics SceneRenderer::render(const Scene& scene, const PinholeCamera& camera,
                                        const Eigen::Isometry3d& pose_camera_in_world,
-                                       unsigned framebuffer) {
-  return implementation_->render(scene, camera, pose_camera_in_world, framebuffer);
+                                       unsigned framebuffer, const std::vector<PixelBox>& covered) {
+  return implementation_->render(scene, camera, pose_camera_in_world, framebuffer, covered);
 }
 
 std::string SceneRenderer::driver() {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/scene_file.h"
 #include "scene/pinhole_camera.h"
@@ -14,6 +15,16 @@ struct RendererOptions {
   int shadow_size = 320;
   /** How far from the origin the ground reaches, m. Haze hides its end. */
   float ground_reach = 60;
+};
+
+/** Part of a picture, pixels from its lower left corner; right and top just outside. */
+struct PixelBox {
+  int left = 0;
+  int bottom = 0;
+  int right = 0;
+  int top = 0;
+
+  bool is_empty() const { return left >= right || bottom >= top; }
 };
 
 /** What drawing one picture took. */
@@ -43,9 +54,12 @@ class SceneRenderer {
 
   /** Draws one picture.
    * @param pose_camera_in_world  Camera axes: x along the view, y left, z up.
-   * @param framebuffer  OpenGL's number of where to draw; its lower left corner is used. */
+   * @param framebuffer  OpenGL's number of where to draw; its lower left corner is used.
+   * @param covered  Parts that something else will cover: they are left as they are, and cost
+   * nothing. */
   RenderStatistics render(const Scene& scene, const PinholeCamera& camera,
-                          const Eigen::Isometry3d& pose_camera_in_world, unsigned framebuffer);
+                          const Eigen::Isometry3d& pose_camera_in_world, unsigned framebuffer,
+                          const std::vector<PixelBox>& covered = {});
 
   /** Who draws, in the driver's words: "llvmpipe (LLVM 15.0.6, 256 bits)". */
   static std::string driver();
