@@ -142,13 +142,21 @@ export class App {
       heldChanged: (held, isSlow) => this.keysChanged(held, isSlow),
       pressed: (button) => this.pressed(button),
     });
-    this.store.watch((state) => state.isJointsMode, (isOn) => this.balls?.show(isOn));
-    this.store.watch((state) => state.selectedGroup, (group) => this.balls?.select(group));
+    this.store.watch((state) => state.isJointsMode, (isOn) => {
+      this.balls?.show(isOn);
+      this.stage.outdate();
+    });
+    this.store.watch((state) => state.selectedGroup, (group) => {
+      this.balls?.select(group);
+      this.stage.outdate();
+    });
     this.store.watch((state) => state.state?.mode ?? "", (mode) => {
       if (mode === "falling" || mode === "fallen") this.messages.tell("info", say("fall.calm"));
     });
     void loadFieldLines(location.href).then((lines) => {
-      if (lines) this.stage.floor.setField(lines);
+      if (!lines) return;
+      this.stage.floor.setField(lines);
+      this.stage.outdate();
     });
     this.store.watch((state) => `${state.phase} ${state.loading.done} ${state.loading.error}`,
                      () => this.chooseScreen());
@@ -200,12 +208,13 @@ export class App {
     const path = this.store.get().robot?.urdfPath ?? "";
     this.store.set({loading: {done: 0, total: 0, error: ""}});
     try {
-      const robot = await loadRobot(new URL(path, location.href), (done, total) =>
+      const robot = await loadRobot(new URL(path, location.href), this.stage.surface, (done, total) =>
           this.store.set({loading: {done, total, error: ""}}));
       this.robot = robot;
       this.robotPath = path;
       this.stage.setRobot(robot);
-      this.balls = new JointBalls(robot, this.store.get().robot?.jointGroups ?? []);
+      this.balls = new JointBalls(robot, this.stage.surface,
+                                 this.store.get().robot?.jointGroups ?? []);
       this.balls.show(this.store.get().isJointsMode);
       this.makeMirror();
     } catch (error) {
@@ -235,12 +244,14 @@ export class App {
     this.subscribe();
   }
 
-  private frame(dt: number): void {
+  /** @return true if the robot looks different from the last frame. */
+  private frame(dt: number): boolean {
     if (this.mirror?.hasPose && !this.isShown) this.markShown();
-    this.mirror?.step(dt);
-    this.balls?.update();
     const axes = this.gamepads.poll((button) => this.pressed(button));
     if (axes) this.padMoved(axes);
+    const hasMoved = this.mirror?.step(dt) ?? false;
+    if (hasMoved) this.balls?.update();
+    return hasMoved;
   }
 
   /** The robot is drawn in its pose for the first time. The mark is for measurements. */

@@ -34,6 +34,8 @@ export class Joystick {
       onkeydown: (event: KeyboardEvent) => this.key(event, true),
       onkeyup: (event: KeyboardEvent) => this.key(event, false),
     }, drawing(isHorizontal ? kTwoWays : kFourWays, 100, "joystick-rim"), this.knob, this.label);
+    // Secure pages hear of a move as it comes, others with the next frame.
+    this.element.addEventListener("pointerrawupdate", (event) => this.move(event as PointerEvent));
   }
 
   relabel(label: string): void {

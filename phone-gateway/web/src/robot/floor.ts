@@ -34,34 +34,37 @@ const kFragmentShader = `
   uniform vec4 field;    // half length, half width, half line width, circle radius
   uniform vec2 penalty;  // penalty area: length, half width
 
-  // Share of a pixel that lies within half the line width of the line at distance d.
-  float line(float d, float halfWidth) {
-    float pixel = fwidth(d) + 1e-6;
+  // Share of a pixel, so wide at this place, that lies within half the line width of the line at distance d.
+  float line(float d, float halfWidth, float pixel) {
     float share = clamp((halfWidth - abs(d)) / pixel + 0.5, 0.0, 1.0);
     return share * min(1.0, 2.0 * halfWidth / pixel + 0.15);
   }
-  float grid(vec2 p) {
+  float grid(vec2 p, vec2 pixel) {
     vec2 d = abs(fract(p / 0.25 + 0.5) - 0.5) * 0.25;
-    return max(line(d.x, 0.002), line(d.y, 0.002));
+    return max(line(d.x, 0.002, pixel.x), line(d.y, 0.002, pixel.y));
   }
-  float fieldLines(vec2 p) {
+  float fieldLines(vec2 p, vec2 pixel) {
     vec2 a = abs(p);
     float w = field.z;
     float inside = step(a.x, field.x + w) * step(a.y, field.y + w);
-    float l = max(line(a.x - field.x, w), line(a.y - field.y, w)) * inside;
-    l = max(l, line(p.x, w) * inside);
-    l = max(l, line(length(p) - field.w, w));
+    float l = max(line(a.x - field.x, w, pixel.x), line(a.y - field.y, w, pixel.y)) * inside;
+    l = max(l, line(p.x, w, pixel.x) * inside);
+    float far = length(p);
+    l = max(l, line(far - field.w, w, dot(a, pixel) / max(far, 1e-3)));
     float depth = field.x - a.x;
-    float box = max(line(depth - penalty.x, w) * step(a.y, penalty.y + w),
-                    line(a.y - penalty.y, w) * step(depth, penalty.x + w));
+    float box = max(line(depth - penalty.x, w, pixel.x) * step(a.y, penalty.y + w),
+                    line(a.y - penalty.y, w, pixel.y) * step(depth, penalty.x + w));
     return max(l, box * inside);
   }
   void main() {
+    // Before any branch: derivatives are taken between neighbours.
+    vec2 pixel = fwidth(place) + 1e-6;
     float d = distance(place, centre) / radius;
+    if (d > 1.0) discard;
     float fade = 1.0 - smoothstep(0.25, 1.0, d);
     vec3 turf = mix(vec3(0.010, 0.022, 0.032), vec3(0.009, 0.036, 0.034), hasField);
-    vec3 color = turf + vec3(0.010, 0.017, 0.020) * grid(place);
-    color = mix(color, vec3(0.30, 0.38, 0.42), hasField * 0.85 * fieldLines(place));
+    vec3 color = turf + vec3(0.010, 0.017, 0.020) * grid(place, pixel);
+    if (hasField > 0.5) color = mix(color, vec3(0.30, 0.38, 0.42), 0.85 * fieldLines(place, pixel));
     gl_FragColor = vec4(color, fade);
     #include <colorspace_fragment>
   }`;
@@ -70,6 +73,7 @@ export class Floor {
   readonly object = new Group();
   private readonly material: ShaderMaterial;
   private readonly ground = new Group();
+  private readonly shadow = new Mesh(undefined, new ShadowMaterial({opacity: 0.45, depthWrite: false}));
   /** Ring around a spot that was tapped. */
   private readonly marker = new Mesh(
       new RingGeometry(0.06, 0.075, 40).rotateX(-Math.PI / 2),
@@ -93,7 +97,8 @@ export class Floor {
     plane.rotateX(-Math.PI / 2);
     const ground = new Mesh(plane, this.material);
     ground.renderOrder = -2;
-    const shadow = new Mesh(plane, new ShadowMaterial({opacity: 0.45, depthWrite: false}));
+    const {shadow} = this;
+    shadow.geometry = plane;
     shadow.receiveShadow = true;
     shadow.renderOrder = -1;
     shadow.position.y = 0.001;
@@ -110,6 +115,11 @@ export class Floor {
     (field!.value as Vector4).set(lines.length / 2, lines.width / 2, lines.lineWidth / 2,
                                  lines.centreCircleDiameter / 2);
     (penalty!.value as Vector2).set(lines.penaltyAreaLength, lines.penaltyAreaWidth / 2);
+  }
+
+  /** Whether the robot's shadow is drawn on it. */
+  setShadow(isOn: boolean): void {
+    this.shadow.visible = isOn;
   }
 
   /** Marks a spot, m in the robot's axes; null: none. */

@@ -4,8 +4,9 @@ import {
   BufferGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial,
   Quaternion, RingGeometry, SphereGeometry, Vector3,
 } from "three";
-import type {Camera, Material, Object3D} from "three";
+import type {Camera, Object3D} from "three";
 import type {JointGroup} from "../protocol/generated/remote_pb";
+import type {RobotSurface} from "./robot_surface";
 import type {RobotTree} from "./robot_tree";
 
 const kBallRadius = 0.015;
@@ -13,7 +14,6 @@ const kArcRadius = 0.075;
 const kArcWidth = 0.008;
 /** Thumbs are this wide: a tap within it chooses the nearest ball, px. */
 const kReach = 44;
-const kGhostOpacity = 0.32;
 /** Told apart by brightness too, and named beside the controls. */
 export const kAxisColors = {yaw: 0x6cc8ff, pitch: 0xffc46b, roll: 0xd9b3ff} as const;
 export type Axis = keyof typeof kAxisColors;
@@ -42,7 +42,8 @@ export class JointBalls {
   private readonly place = new Vector3();
   private readonly sphere = new SphereGeometry(kBallRadius, 20, 14);
 
-  constructor(private readonly tree: RobotTree, groups: readonly JointGroup[]) {
+  constructor(private readonly tree: RobotTree, private readonly surface: RobotSurface,
+              groups: readonly JointGroup[]) {
     for (const group of groups) {
       const link = linkOfGroup(tree, group);
       if (!link) continue;
@@ -59,10 +60,7 @@ export class JointBalls {
   /** Balls and a translucent robot, or the robot as it is. */
   show(isShown: boolean): void {
     for (const {mesh} of this.balls) mesh.visible = isShown;
-    this.tree.torso.traverse((object) => {
-      const mesh = object as Mesh;
-      if (mesh.isMesh && mesh.renderOrder === 0) setGhost(mesh, isShown);
-    });
+    this.surface.setGhost(isShown, this.tree.torso);
     if (!isShown) this.select("");
   }
 
@@ -77,6 +75,7 @@ export class JointBalls {
     for (const {object} of this.arcs) object.removeFromParent();
     const group = this.balls.find((ball) => ball.group.name === name)?.group;
     this.arcs = group ? kAxes.flatMap((axis) => this.makeArc(jointOfAxis(group, axis), axis)) : [];
+    this.update();
   }
 
   /** The group whose ball is nearest to a tap; empty if none is within reach.
@@ -171,14 +170,3 @@ function zeroDirection(link: Object3D): Vector3 {
 }
 
 const isLink = (object: Object3D) => (object as Group).isGroup && object.name !== "";
-
-function setGhost(mesh: Mesh, isGhost: boolean): void {
-  const materials: Material[] = Array.isArray(mesh.material) ? mesh.material : [mesh.material];
-  for (const material of materials) {
-    material.transparent = isGhost;
-    material.opacity = isGhost ? kGhostOpacity : 1;
-    material.depthWrite = !isGhost;
-    material.needsUpdate = true;
-  }
-  mesh.castShadow = !isGhost;
-}

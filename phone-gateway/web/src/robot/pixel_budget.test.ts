@@ -8,12 +8,12 @@ function run(budget: PixelBudget, dt: number, seconds: number): void {
 
 describe("PixelBudget", () => {
   it("leaves a fast phone alone", () => {
-    const budget = new PixelBudget(2);
+    const budget = new PixelBudget(2, true, 0.75);
     run(budget, 1 / 60, 60);
     expect(budget).toMatchObject({pixelRatio: 2, hasShadow: true});
   });
   it("draws fewer pixels on a slow phone, then no shadow, within seconds", () => {
-    const budget = new PixelBudget(2);
+    const budget = new PixelBudget(2, true, 0.75);
     run(budget, 0.05, 3);
     expect(budget.pixelRatio).toBeLessThan(2);
     expect(budget.hasShadow).toBe(true);
@@ -21,7 +21,7 @@ describe("PixelBudget", () => {
     expect(budget).toMatchObject({pixelRatio: 0.75, hasShadow: false});
   });
   it("forgives single slow frames", () => {
-    const budget = new PixelBudget(2);
+    const budget = new PixelBudget(2, true, 0.75);
     for (let i = 0; i < 50; i++) {
       budget.frame(0.2);
       run(budget, 1 / 60, 0.5);

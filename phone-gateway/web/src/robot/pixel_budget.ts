@@ -11,17 +11,14 @@ const kWindowFrames = 6;
 /** The first frames compile shaders and upload meshes; they say nothing about the phone. */
 const kWarmUpFrames = 6;
 const kStepDown = 0.75;
-/** Below this, CSS pixels are seen as squares. */
-const kMinPixelRatio = 0.75;
 
 export class PixelBudget {
-  hasShadow = true;
   private numFrames = -kWarmUpFrames;
   private numSlow = 0;
   private time = 0;
 
-  /** @param pixelRatio  device pixels per CSS pixel at full quality. */
-  constructor(public pixelRatio: number) {}
+  /** @param pixelRatio  device pixels per CSS pixel at full quality. @param minPixelRatio  at the least. */
+  constructor(public pixelRatio: number, public hasShadow: boolean, private readonly minPixelRatio: number) {}
 
   /** Counts a frame. @param dt s. @return true if the quality has changed. */
   frame(dt: number): boolean {
@@ -38,8 +35,8 @@ export class PixelBudget {
   }
 
   private stepDown(): boolean {
-    if (this.pixelRatio > kMinPixelRatio) {
-      this.pixelRatio = Math.max(kMinPixelRatio, this.pixelRatio * kStepDown);
+    if (this.pixelRatio > this.minPixelRatio) {
+      this.pixelRatio = Math.max(this.minPixelRatio, this.pixelRatio * kStepDown);
       return true;
     }
     const changed = this.hasShadow;

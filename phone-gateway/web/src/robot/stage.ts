@@ -1,13 +1,16 @@
-/** The 3D stage: robot, ground, light, eye. Draws one frame per animation frame. */
+/** The 3D stage: robot, ground, light, eye. Draws one frame per animation frame while something moves, and
+ * nothing while all stands still: a phone's battery, and the next movement, have the gain. */
 import {
   ACESFilmicToneMapping, DirectionalLight, Group, HemisphereLight, PCFShadowMap,
   PerspectiveCamera, Scene, Vector3, WebGLRenderer,
 } from "three";
+import {openDrawingContext} from "./drawing_context";
 import {Floor} from "./floor";
 import {makeRobotAxes, robotToScene} from "./frames";
 import {Orbit} from "./orbit";
 import type {View} from "./orbit";
 import {PixelBudget} from "./pixel_budget";
+import {RobotSurface} from "./robot_surface";
 import type {RobotTree} from "./robot_tree";
 
 /** Over the right shoulder, from behind: what is "ahead" for the robot is "up" for the thumb. */
@@ -16,6 +19,12 @@ export const kDriveView: View = {azimuth: -0.42, elevation: 0.30};
 export const kJointsView: View = {azimuth: Math.PI - 0.35, elevation: 0.14};
 
 const kFieldOfViewDeg = 32;
+/** Device pixels per CSS pixel at the least. Below the first, pixels are seen as squares; a processor that draws
+ * has rather squares than a robot that comes late. */
+const kMinPixelRatio = 0.75;
+const kMinSoftwarePixelRatio = 0.5;
+/** The eye has moved if it did so by more than this, m. */
+const kSeenMove = 0.0002;
 /** What shall fit the free part of the screen, m: the robot with some air, arms stretched. */
 const kShownHeight = 0.66;
 const kShownWidth = 0.5;
@@ -32,8 +41,11 @@ export class Stage {
   readonly orbit = new Orbit(kDriveView);
   readonly floor = new Floor();
   readonly camera = new PerspectiveCamera(kFieldOfViewDeg, 1, 0.05, 20);
-  /** Called before each frame with the time since the last one, s. */
-  onFrame: (dt: number) => void = () => {};
+  /** Called at each animation frame with the time since the last one, s. Returns whether something moved. */
+  onFrame: (dt: number) => boolean = () => false;
+  /** What the robot's links are made of. */
+  readonly surface: RobotSurface;
+  /** Frames drawn so far. */
   numFrames = 0;
 
   private readonly renderer: WebGLRenderer;
@@ -41,17 +53,25 @@ export class Stage {
   /** Everything in here is given in the robot's axes. */
   readonly robotAxes = new Group();
   private readonly sun = new DirectionalLight(0xfff2e0, 2.6);
-  private readonly budget = new PixelBudget(Math.min(window.devicePixelRatio, 2));
+  private readonly budget: PixelBudget;
   private robot: RobotTree | null = null;
   private lastFrameMs = 0;
   private isRunning = false;
+  private isOutdated = true;
+  private wasDrawn = false;
   private width = 1;
   private height = 1;
   private freeArea: FreeArea | null = null;
   private readonly eye = new Vector3();
+  private readonly drawnEye = new Vector3();
+  private readonly drawnFocus = new Vector3();
 
   constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({canvas, antialias: true, alpha: true});
+    const {gl, isSoftware} = openDrawingContext(canvas);
+    this.renderer = new WebGLRenderer({canvas, context: gl, alpha: true});
+    this.surface = new RobotSurface(isSoftware);
+    this.budget = isSoftware ? new PixelBudget(0.75, false, kMinSoftwarePixelRatio)
+        : new PixelBudget(Math.min(window.devicePixelRatio, 2), true, kMinPixelRatio);
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
@@ -66,6 +86,12 @@ export class Stage {
     if (this.robot) this.robotAxes.remove(this.robot.torso);
     this.robot = robot;
     this.robotAxes.add(robot.torso);
+    this.outdate();
+  }
+
+  /** Something else than the robot's pose or the eye looks different: the next frame is drawn. */
+  outdate(): void {
+    this.isOutdated = true;
   }
 
   start(): void {
@@ -84,12 +110,26 @@ export class Stage {
     requestAnimationFrame(this.frame);
     const dt = Math.min(Math.max(nowMs - this.lastFrameMs, 0), 100) / 1000;
     this.lastFrameMs = nowMs;
-    this.onFrame(dt);
+    const hasMoved = this.onFrame(dt);
     this.followRobot(dt);
-    if (this.budget.frame(dt)) this.resize();
+    // The pause before a movement says nothing about how long a frame takes.
+    if (this.wasDrawn && this.budget.frame(dt)) this.resize();
+    this.wasDrawn = hasMoved || this.isOutdated || this.hasEyeMoved();
+    if (this.wasDrawn) this.draw();
+  };
+
+  private draw(): void {
+    this.isOutdated = false;
+    this.drawnEye.copy(this.camera.position);
+    this.drawnFocus.copy(this.eye);
     this.renderer.render(this.scene, this.camera);
     this.numFrames++;
-  };
+  }
+
+  private hasEyeMoved(): boolean {
+    return this.camera.position.distanceTo(this.drawnEye) > kSeenMove ||
+        this.eye.distanceTo(this.drawnFocus) > kSeenMove;
+  }
 
   private followRobot(dt: number): void {
     if (this.robot) {
@@ -108,7 +148,6 @@ export class Stage {
     this.scene.add(new HemisphereLight(0xcfe4ff, 0x24303a, 1.5));
     const rim = new DirectionalLight(0x7fb4ff, 0.9);
     rim.position.set(2, 1.2, 1.5);
-    this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(1024, 1024);
     this.sun.shadow.radius = 4;
     this.sun.shadow.bias = -0.0008;
@@ -126,7 +165,8 @@ export class Stage {
     this.height = Math.max(clientHeight, 1);
     this.renderer.setPixelRatio(this.budget.pixelRatio);
     this.renderer.setSize(this.width, this.height, false);
-    this.renderer.shadowMap.enabled = this.budget.hasShadow;
+    this.renderer.shadowMap.enabled = this.sun.castShadow = this.budget.hasShadow;
+    this.floor.setShadow(this.budget.hasShadow);
     this.camera.aspect = this.width / this.height;
     this.frameRobot();
   }
@@ -168,5 +208,6 @@ export class Stage {
     camera.setViewOffset(width, height, (width - area.left - area.right) / 2,
                          (height - area.top - area.bottom) / 2, width, height);
     camera.updateProjectionMatrix();
+    this.outdate();
   }
 }

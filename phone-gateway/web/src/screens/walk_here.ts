@@ -31,6 +31,7 @@ export class WalkHere {
     if (!spot || this.spot || distance > kMaxDistance || distance < kMinDistance) return this.clear();
     this.spot = spot;
     this.stage.floor.mark(spot);
+    this.stage.outdate();
     this.element.hidden = false;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.clear(), kShownMs);
@@ -43,6 +44,7 @@ export class WalkHere {
     clearTimeout(this.timer);
     this.spot = null;
     this.stage.floor.mark(null);
+    this.stage.outdate();
     this.element.hidden = true;
   }
 

@@ -1,0 +1,31 @@
+/** How the stage draws: with a graphics chip, or in software, where every pixel is dear. */
+
+export interface DrawingContext {
+  gl: WebGL2RenderingContext;
+  /** True if the processor draws. */
+  isSoftware: boolean;
+}
+
+/** @throws Error if the browser cannot draw in 3D. */
+export function openDrawingContext(canvas: HTMLCanvasElement): DrawingContext {
+  // Smooth edges must be asked for before one can ask who draws: another canvas tells.
+  const isSoftware = isSoftwareRenderer(nameOfRenderer());
+  const gl = canvas.getContext("webgl2", {
+    alpha: true, antialias: !isSoftware, powerPreference: "high-performance"});
+  if (!gl) throw new Error("WebGL 2 is missing");
+  return {gl, isSoftware};
+}
+
+/** True for the names of the renderers that browsers fall back to: SwiftShader, Mesa's llvmpipe and
+ * softpipe, Windows's WARP and Apple's. (failIfMajorPerformanceCaveat lets SwiftShader pass.) */
+export function isSoftwareRenderer(name: string): boolean {
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+function nameOfRenderer(): string {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl ? String(gl.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return name;
+}
