@@ -7,42 +7,16 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/context.hpp>
 #include <cstdint>
-#include <functional>
-#include <list>
 #include <memory>
 #include <string>
 
 #include "server/network.h"
+#include "server/waiting_room.h"
 
 namespace nao {
 
 namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
-
-/** Connections that have not said Connect yet. There is room for so many; one more closes the
- * oldest, so that a crowd of half-open connections cannot keep others out. */
-class WaitingRoom {
- public:
-  using Place = std::list<std::function<void()>>::iterator;
-
-  explicit WaitingRoom(size_t num_places) : num_places_(num_places) {}
-
-  /** @param evict  Closes the connection, which leaves then or soon after.
-   * @return true if another connection was closed for it. */
-  bool enter(std::function<void()> evict, Place& place) {
-    waiting_.push_back(std::move(evict));
-    place = std::prev(waiting_.end());
-    if (waiting_.size() <= num_places_) return false;
-    const std::function<void()> evict_oldest = waiting_.front();
-    evict_oldest();
-    return true;
-  }
-  void leave(Place place) { waiting_.erase(place); }
-
- private:
-  size_t num_places_;
-  std::list<std::function<void()>> waiting_;
-};
 
 /** What every connection of the gateway works with. */
 struct Hub {

@@ -23,6 +23,7 @@ constexpr std::chrono::seconds kKeepAliveTime{15};
 /** How long one answer may take to leave. */
 constexpr std::chrono::seconds kAnswerTime{30};
 constexpr uint32_t kMaxHeaderBytes = 8192;
+constexpr const char* kNoRequest = "No request within 5 s.";
 
 std::string_view view(beast::string_view text) {
   return {text.data(), text.size()};
@@ -98,7 +99,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
   }
 
   void on_bad_request(const error_code& error) {
-    if (error == beast::error::timeout && !has_asked_) note_refusal("No request within 5 s.");
+    if (error == beast::error::timeout && !has_asked_) note_refusal(kNoRequest);
     const bool is_http_error =
         error.category() == http::make_error_code(http::error::bad_method).category();
     if (!is_http_error || error == http::error::end_of_stream ||
@@ -229,14 +230,17 @@ class FirstBytes : public std::enable_shared_from_this<FirstBytes> {
 
   void start() {
     const auto weak = weak_from_this();
-    const std::string address = make_peer(stream_.socket(), "").address;
-    waiting_.emplace(hub_, address, [weak] {
+    address_ = make_peer(stream_.socket(), "").address;
+    waiting_.emplace(hub_, address_, [weak] {
       if (const auto self = weak.lock()) self->stream_.cancel();
     });
     stream_.expires_after(kRequestTime);
     beast::async_detect_ssl(stream_, buffer_,
                             [self = shared_from_this()](const error_code& error, bool is_tls) {
                               if (!error) self->go_on(is_tls);
+                              if (error == beast::error::timeout) {
+                                self->hub_.core.note_refusal(self->address_, kNoRequest);
+                              }
                             });
   }
 
@@ -254,6 +258,7 @@ class FirstBytes : public std::enable_shared_from_this<FirstBytes> {
   }
 
   Hub& hub_;
+  std::string address_;
   PlainStream stream_;
   beast::flat_buffer buffer_;
   std::optional<WaitingPlace> waiting_;

@@ -126,8 +126,10 @@ std::optional<std::string> clean_path(std::string_view target) {
   for (const char c : *path) {
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f' || c == '\\') return std::nullopt;
   }
-  // Covers "..", and every hidden file.
-  if (path->find("/.") != std::string::npos) return std::nullopt;
+  // Covers "..", every hidden file, and "//etc", which would be taken for a path from the root.
+  if (path->find("/.") != std::string::npos || path->find("//") != std::string::npos) {
+    return std::nullopt;
+  }
   return path;
 }
 
@@ -175,7 +177,7 @@ WebAnswer WebPages::answer(const WebQuestion& question) {
 std::optional<fs::path> WebPages::find_file(const std::string& path) const {
   const bool is_data = path.rfind("/robots/", 0) == 0 || path.rfind("/scenes/", 0) == 0;
   const fs::path folder = is_data ? data_ : data_ / "web";
-  fs::path file = folder / path.substr(1);
+  fs::path file = folder / fs::path(path).relative_path();
   std::error_code error;
   if (path.back() == '/') file /= "index.html";
   const fs::path real_file = fs::canonical(file, error);

@@ -2,14 +2,13 @@
 """Whatever breaks while a phone walks the robot, the walk ends in time: judged by where the simulator says
 that the robot is, in simulated time."""
 
-import json
 import math
 import subprocess
 import sys
-import time
 import unittest
 
-from programs import BIN_DIR, DEADLINE, ROOT, Robot, wait_until
+from programs import BIN_DIR, DEADLINE, ROOT, wait_until
+from walking import STILL_DISTANCE, WalkingTest
 
 sys.path.insert(0, str(ROOT / "test/support"))
 
@@ -17,58 +16,8 @@ import phone  # of phone-gateway/examples/python
 from faulty_link import FaultyLink
 from remote_protocol import remote_pb2 as pb
 
-WALK_PERIOD = 0.1
-# From the last command to the walk's end: 0.5 s until it is stale in the gateway (or in motion, if the gateway is
-# gone), and the steps that bring the robot to a stand.
-TIME_TO_STAND = 3.0
-# A robot that walks gets this far in STILL_TIME several times over; one that stands sways less.
-STILL_TIME = 2.0
-STILL_DISTANCE = 0.02
 
-
-class LinkLoss(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.robot = cls.enterClassContext(Robot(scene="empty"))
-
-    def setUp(self):
-        self.robot.stand()
-
-    def world(self):
-        """@return simulated time, s, and the torso's place on the floor, m."""
-        truth = json.loads(self.robot.nao("world", "show", "--json"))
-        return truth["utime"] * 1e-6, truth["robots"][0]["position_torso_in_world"]
-
-    def walk(self, client, duration, speed=0.6):
-        """Walks as an app does, and makes sure that the robot really goes."""
-        _, start = self.world()
-        end = time.monotonic() + duration
-        while time.monotonic() < end:
-            client.ask(walk_turn=pb.WalkTurn(x=speed))
-            client.wait_until(lambda: False, WALK_PERIOD)
-        wait_until(lambda: self.is_away_from(start, client, speed), "the robot walks")
-
-    def is_away_from(self, start, client, speed):
-        client.ask(walk_turn=pb.WalkTurn(x=speed))
-        _, here = self.world()
-        return math.dist(start[:2], here[:2]) > 2 * STILL_DISTANCE
-
-    def assert_stands_soon(self):
-        """The robot stands still TIME_TO_STAND after now, upright."""
-        start, _ = self.world()
-        wait_until(lambda: self.world()[0] > start + TIME_TO_STAND, "simulated time passes")
-        _, before = self.world()
-        wait_until(lambda: self.world()[0] > start + TIME_TO_STAND + STILL_TIME, "simulated time passes")
-        _, after = self.world()
-        self.assertLess(math.dist(before[:2], after[:2]), STILL_DISTANCE, "it walks on")
-        self.assertGreater(after[2], 0.25, "it has fallen")
-
-    def driver(self, port=None):
-        client = phone.Phone(port=port or self.robot.gateway.tcp_port, timeout=DEADLINE, name="driver")
-        self.addCleanup(client.__exit__)
-        client.ask(take_control=pb.TakeControl())
-        return client
-
+class LinkLoss(WalkingTest):
     def test_the_phone_falls_silent(self):
         client = self.driver()
         self.walk(client, 2)

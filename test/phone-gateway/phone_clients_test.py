@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from programs import DEADLINE, Robot
+from programs import DEADLINE, Robot, wait_until
 
 import phone  # of phone-gateway/examples/python
 from remote_protocol import remote_pb2 as pb
@@ -76,6 +76,29 @@ class PhoneClients(unittest.TestCase):
             driver.ask(change_joints=pb.ChangeJoints(group="head", yaw=0.3))
             self.assertTrue(spectator.wait_until(
                 lambda: spectator.state and abs(spectator.joint_positions()["HeadYaw"] - 0.3) < 0.03, DEADLINE))
+
+    def test_a_client_that_polls_sees_the_robot_move(self):
+        """As the first clients did: every 0.1 s the joints and the newest picture in one answer."""
+        with self.phone(name="Ana") as client:
+            yaw = [joint.name for joint in client.robot.joints].index("HeadYaw")
+            client.ask(take_control=pb.TakeControl())
+            client.ask(change_joints=pb.ChangeJoints(group="head", yaw=0.5, speed=0.1))
+            states, pictures = [], []
+
+            def poll():
+                answer = client.ask(get_state=pb.GetState(with_picture=True)).state_and_picture
+                states.append(answer.state)
+                if answer.HasField("picture"):
+                    pictures.append(answer.picture)
+                client.wait_until(lambda: False, 0.1)
+                return abs(states[-1].joint_position[yaw] - 0.5) < 0.02 and len(pictures) > 10
+            wait_until(poll, "the head has turned")
+        on_its_way = {state.joint_position[yaw] for state in states if 0.02 < state.joint_position[yaw] < 0.48}
+        self.assertGreater(len(on_its_way), 2, "its way was seen")
+        times = [state.utime for state in states]
+        self.assertEqual(times, sorted(times), "no state is older than the one before")
+        times = [picture.utime for picture in pictures]
+        self.assertEqual(times, sorted(set(times)), "no picture comes twice")
 
     def test_nonsense_moves_nothing(self):
         before = self.robot.truth()

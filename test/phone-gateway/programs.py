@@ -83,8 +83,8 @@ class Program:
 class Gateway(Program):
     """A gateway on free ports of 127.0.0.1. Without lcm_url it has a bus to itself."""
 
-    def __init__(self, *options, lcm_url="memq://", http_port=0, tcp_port=0):
-        super().__init__("nao-phone-gateway", "--bind", "127.0.0.1", "--http-port", http_port, "--tcp-port", tcp_port,
+    def __init__(self, *options, lcm_url="memq://", bind="127.0.0.1", http_port=0, tcp_port=0):
+        super().__init__("nao-phone-gateway", "--bind", bind, "--http-port", http_port, "--tcp-port", tcp_port,
                          "--token", "test-token", "--lcm-url", lcm_url, *options)
         ports = self.wait_for_log(r"HTTP and WebSocket on [^ ]*:(\d+), TCP on [^ ]*:(\d+)")
         self.http_port = int(ports.group(1))
@@ -94,8 +94,9 @@ class Gateway(Program):
 class Robot:
     """Simulator, motion, camera and gateway. Use it in a with statement: nothing is left behind."""
 
-    def __init__(self, scene="soccer"):
+    def __init__(self, scene="soccer", bind="127.0.0.1"):
         self.scene = scene
+        self.bind = bind
         self.lcm_url = private_lcm_url()
         self.programs = {}
 
@@ -117,7 +118,7 @@ class Robot:
     def start_gateway(self):
         before = self.programs.get("nao-phone-gateway")
         ports = {"http_port": before.http_port, "tcp_port": before.tcp_port} if before else {}
-        self.programs["nao-phone-gateway"] = Gateway(lcm_url=self.lcm_url, **ports)
+        self.programs["nao-phone-gateway"] = Gateway(lcm_url=self.lcm_url, bind=self.bind, **ports)
 
     @property
     def gateway(self):

@@ -47,7 +47,11 @@ class Phone:
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         hello = pb.Connect(protocol_version=PROTOCOL_VERSION, token=token, client_name=name,
                            client_software="nao-remote Python example")
-        self.connected = self.ask(connect=hello).connected
+        try:
+            self.connected = self.ask(connect=hello).connected
+        except (ConnectionLost, Refused):
+            self._socket.close()
+            raise
         self.robot = self.connected.robot
 
     def __enter__(self):

@@ -85,6 +85,16 @@ TEST_F(WebPagesTest, LeadsNowhereOutside) {
   }
 }
 
+TEST_F(WebPagesTest, TakesNoPathForOneFromTheRoot) {
+  const std::string file = (folder_ / "secret.txt").string();
+  for (const std::string& target : {"/" + file, "//" + file, "/%2f" + file, "/robots/" + file,
+                                    "/robots//" + file, "/.//" + file}) {
+    const WebAnswer answer = get(target);
+    EXPECT_TRUE(answer.status == 400 || answer.status == 404) << target << " " << answer.status;
+    EXPECT_EQ(answer.body->find("secret"), std::string::npos) << target;
+  }
+}
+
 TEST_F(WebPagesTest, CompressesForWhoeverUnderstandsIt) {
   const WebAnswer answer = pages_->answer({"GET", "/robots/nao/nao.urdf", "br, gzip", "", false});
   EXPECT_EQ(header(answer, "Content-Encoding"), "gzip");

@@ -1,0 +1,207 @@
+#!/usr/bin/python3
+"""Motion, simulator, camera and gateway hang or are killed while a phone walks the robot: phones are told, the walk is
+over, and everything comes back by itself. Times are the simulator's, which a busy machine slows down, too."""
+
+import json
+import math
+import os
+import signal
+import sys
+import unittest
+
+from programs import DEADLINE, ROOT, wait_until
+from walking import WalkingTest
+
+sys.path.insert(0, str(ROOT / "test/support"))
+
+import phone  # of phone-gateway/examples/python
+from remote_protocol import remote_pb2 as pb
+from stack import BIN_DIR, Stack, run
+
+TIME_TO_TELL = 2.0
+TIME_TO_RETURN = 10.0
+# A robot whose servos hold in the middle of a step may topple where it stands, but goes nowhere.
+BODY_LENGTH = 0.6
+UPRIGHT_HEIGHT = 0.28
+
+
+class SupervisedRobot:
+    """A stack as scripts/start makes it, with the face of programs.Robot."""
+
+    def __init__(self):
+        self.stack = Stack()
+
+    def __enter__(self):
+        self.stack.__enter__()
+        self.stack.start_or_fail("--scene", "empty")
+        return self
+
+    def __exit__(self, *_):
+        self.stack.__exit__()
+
+    @property
+    def gateway(self):
+        return self.stack
+
+    def nao(self, *arguments):
+        result = self.stack.nao(*arguments)
+        if result.returncode != 0:
+            raise AssertionError(f"nao {arguments}: {result.stdout}{result.stderr}")
+        return result.stdout
+
+    def stand(self):
+        command = [BIN_DIR / "nao-phone", "--port", self.stack.tcp_port, "posture", "StandInit"]
+        wait_until(lambda: run(command).returncode == 0, "the robot stands")
+
+    def kill(self, program):
+        os.kill(self.stack.pids()[program], signal.SIGKILL)
+
+
+class PartLossTest(WalkingTest):
+    def setUp(self):
+        self.client = None
+        super().setUp()
+        # A test before may have ended the gateway.
+        self.client = wait_until(self.connected_driver, "the gateway is there")
+        self.client.ask(subscribe=pb.Subscribe(state_rate=30, picture_rate=15))
+        self.client.wait_until(lambda: self.client.picture, DEADLINE)
+        self.client.notices.clear()
+
+    def connected_driver(self):
+        try:
+            return self.driver()
+        except (phone.ConnectionLost, phone.Refused):
+            return None
+
+    def world(self):
+        """As long as a test looks at the world, its phone is alive."""
+        if self.client:
+            self.client.wait_until(lambda: False, 0.01)
+        return super().world()
+
+    def wait_for(self, condition, what):
+        self.assertTrue(self.client.wait_until(condition, DEADLINE), f"{what}: {self.client.notices}")
+
+    def wait_for_part(self, part, available):
+        self.wait_for(lambda: any(notice.kind == pb.Notice.PART_CHANGED and notice.part == part
+                                  and notice.available == available and notice.message
+                                  for notice in self.client.notices), f"{part} {available}")
+
+    def assert_refuses_to_move(self):
+        for request in ({"walk_turn": pb.WalkTurn(x=1)}, {"go_to_posture": pb.GoToPosture(posture="Crouch")}):
+            with self.assertRaises(phone.Refused) as refused:
+                self.client.ask(**request)
+            self.assertEqual(refused.exception.code, pb.ROBOT_UNAVAILABLE)
+            self.assertTrue(refused.exception.response.message)
+
+    def assert_obeys_again(self):
+        """@return simulated time when it did, s."""
+        def accepts():
+            try:
+                return self.client.ask(change_joints=pb.ChangeJoints(group="head", yaw=0.1))
+            except phone.Refused:
+                return self.client.wait_until(lambda: False, 0.1)
+        wait_until(accepts, "commands are accepted")
+        return self.world()[0]
+
+
+class HungParts(PartLossTest):
+    """Programs that stop without ending: nobody starts them again, and phones must be told."""
+
+    def stop(self, program):
+        process = self.robot.programs[program].process
+        process.send_signal(signal.SIGSTOP)
+        self.addCleanup(process.send_signal, signal.SIGCONT)
+        return process
+
+    def test_motion_hangs_while_the_robot_walks(self):
+        self.walk(self.client, 2)
+        start, place = self.world()
+        motion = self.stop("nao-motion")
+        self.wait_for_part("motion", False)
+        self.assertLess(self.world()[0] - start, TIME_TO_TELL)
+        self.assert_refuses_to_move()
+        motion.send_signal(signal.SIGCONT)
+        self.wait_for_part("motion", True)
+        # Neither the old walk nor what was refused is carried out now.
+        self.assert_stands_up(place)
+        self.assertNotEqual(json.loads(self.robot.nao("state", "--json"))["motion_state"]["posture"], "Crouch")
+
+    def test_the_simulator_hangs_while_the_robot_walks(self):
+        self.walk(self.client, 2)
+        _, place = self.world()
+        sim = self.stop("nao-sim")
+        # Time stands still: how soon phones are told, scripts/bench measures.
+        self.wait_for_part("robot", False)
+        self.assert_refuses_to_move()
+        sim.send_signal(signal.SIGCONT)
+        self.wait_for_part("robot", True)
+        self.assert_stands_up(place)
+
+    def test_the_camera_hangs_while_the_robot_walks(self):
+        self.walk(self.client, 2)
+        start, _ = self.world()
+        camera = self.stop("nao-head-camera")
+        self.wait_for_part("camera", False)
+        self.assertLess(self.world()[0] - start, TIME_TO_TELL)
+        self.assert_stands_soon()
+        camera.send_signal(signal.SIGCONT)
+        self.wait_for_part("camera", True)
+
+    def assert_stands_up(self, place):
+        """The robot is where it was, and upright: it may have toppled, with nobody to balance it."""
+        wait_until(lambda: self.world()[1][2] > UPRIGHT_HEIGHT, "the robot stands")
+        self.assert_stands_soon()
+        self.assertLess(math.dist(place[:2], self.world()[1][:2]), BODY_LENGTH)
+
+
+class KilledParts(PartLossTest):
+    """Programs that end are started again by supervisor."""
+
+    @classmethod
+    def make_robot(cls):
+        return SupervisedRobot()
+
+    def test_motion_is_killed_while_the_robot_walks(self):
+        self.walk(self.client, 2)
+        start, place = self.world()
+        self.robot.kill("nao-motion")
+        self.wait_for(lambda: self.client.notices, "the phone is told")
+        self.assertLess(self.world()[0] - start, TIME_TO_TELL)
+        self.assertLess(self.assert_obeys_again() - start, TIME_TO_RETURN)
+        wait_until(lambda: self.world()[1][2] > UPRIGHT_HEIGHT, "the robot stands")
+        self.assert_stands_soon()
+        self.assertLess(math.dist(place[:2], self.world()[1][:2]), BODY_LENGTH)
+
+    def test_the_simulator_is_killed_while_the_robot_walks(self):
+        self.walk(self.client, 2)
+        self.robot.kill("nao-sim")
+        self.wait_for(lambda: self.client.notices, "the phone is told")
+        # A new world, whose time and robot begin anew.
+        self.assertLess(self.assert_obeys_again(), TIME_TO_RETURN)
+        self.assert_stands_soon()
+        self.assertLess(math.hypot(*self.world()[1][:2]), BODY_LENGTH)
+
+    def test_the_camera_is_killed_while_the_robot_walks(self):
+        self.walk(self.client, 2)
+        start, _ = self.world()
+        last = self.client.picture.utime
+        self.robot.kill("nao-head-camera")
+        self.wait_for(lambda: self.client.picture.utime > last + 1000000 * TIME_TO_TELL, "pictures are back")
+        self.assertLess(self.world()[0] - start, TIME_TO_RETURN)
+        self.assert_stands_soon()
+
+    def test_the_gateway_is_killed_while_the_robot_walks(self):
+        self.walk(self.client, 2)
+        start, _ = self.world()
+        self.robot.kill("nao-phone-gateway")
+        with self.assertRaises(phone.ConnectionLost):
+            self.client.wait_until(lambda: False, DEADLINE)
+        self.client = None
+        self.client = wait_until(self.connected_driver, "the gateway is back")
+        self.assertLess(self.world()[0] - start, TIME_TO_RETURN)
+        self.assert_stands_soon()
+
+
+if __name__ == "__main__":
+    unittest.main()
