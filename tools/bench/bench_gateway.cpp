@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <functional>
 #include <map>
 #include <memory>
@@ -31,6 +32,7 @@
 #include "common/bus.h"
 #include "common/channels.h"
 #include "common/wall_clock.h"
+#include "disturbing_clients.h"
 #include "figures.h"
 #include "wire_client.h"
 
@@ -95,7 +97,8 @@ class Stack {
 
   uint16_t http_port() const { return http_port_; }
   uint16_t tcp_port() const { return tcp_port_; }
-  const ChildProcess& gateway() const { return *programs_.at("nao-phone-gateway"); }
+  const ChildProcess& program(const std::string& name) const { return *programs_.at(name); }
+  const ChildProcess& gateway() const { return program("nao-phone-gateway"); }
   Bus& bus() { return bus_; }
 
   /** Has `handler` called with every message that comes to a client, inside run_...(). */
@@ -359,6 +362,64 @@ Watching watch(Stack& stack, int num_clients, double state_rate, double picture_
   return seen;
 }
 
+/** Times until a phone is told that a part hangs, and that it is back, s. */
+struct LossTimes {
+  double told_s = 0;
+  double back_s = 0;
+};
+
+LossTimes time_loss(Stack& stack, WireClient& phone, const std::string& program,
+                    const std::string& part) {
+  std::optional<bool> is_available;
+  stack.watch(&phone, [&](const naoremote::ServerMessage& message, double) {
+    if (message.has_notice() && message.notice().part() == part) {
+      is_available = message.notice().available();
+    }
+  });
+  const auto time_until = [&](bool wished, int signal) {
+    kill(stack.program(program).pid(), signal);
+    const double start = monotonic_seconds();
+    double next_ping = 0;
+    stack.run_until(
+        [&] {
+          if (monotonic_seconds() > next_ping) {
+            naoremote::Request ping;
+            ping.mutable_ping();
+            phone.send(ping);
+            next_ping = monotonic_seconds() + 1;
+          }
+          return is_available == wished;
+        },
+        "the phone is told of the " + part);
+    return monotonic_seconds() - start;
+  };
+  LossTimes times;
+  times.told_s = time_until(false, SIGSTOP);
+  times.back_s = time_until(true, SIGCONT);
+  stack.forget_clients();
+  return times;
+}
+
+/** Stops each part for a while under the eyes of a phone. */
+void measure_losses(Stack& stack, std::vector<Figure>& figures) {
+  const auto phone = nao::connect_tcp(stack.tcp_port());
+  phone->send(hello("bench"));
+  naoremote::Request request;
+  request.mutable_subscribe()->set_state_rate(30);
+  request.mutable_subscribe()->set_picture_rate(15);
+  phone->send(request);
+  for (const auto& [program, part] :
+       {std::pair{"nao-head-camera", "camera"}, {"nao-motion", "motion"}, {"nao-sim", "robot"}}) {
+    stack.watch(phone.get(), [](const auto&, double) {});
+    stack.run_for(2);
+    stack.forget_clients();
+    const LossTimes times = time_loss(stack, *phone, program, part);
+    const std::string name = std::string("gateway.told_of_lost_") + part + "_s";
+    figures.push_back({name, times.told_s, "s", "promised", 2});
+    figures.push_back({name + ".back", times.back_s, "s", "promised", 2});
+  }
+}
+
 int connect_plain(uint16_t port) {
   const int descriptor = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
@@ -407,12 +468,7 @@ double measure_bare_sender(const Watching& seen, double state_rate, double pictu
   return percent;
 }
 
-std::vector<Figure> run(int num_rounds, double time) {
-  const std::string lcm_url =
-      "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 10000) + "?ttl=0";
-  Stack stack(lcm_url);
-  std::vector<Figure> figures;
-
+void report_ways(Stack& stack, int num_rounds, std::vector<Figure>& figures) {
   auto ways = measure_ways(stack, num_rounds);
   for (const auto& [name, suffix] : {std::pair{"tcp", ""}, std::pair{"websocket", ".websocket"}}) {
     for (const auto& [share, word] : {std::pair{0.5, "p50"}, std::pair{0.99, "p99"}}) {
@@ -433,7 +489,9 @@ std::vector<Figure> run(int num_rounds, double time) {
   figures.push_back(
       {"gateway.to_tick_ms.p50", percentile(to_tick, 0.5), "ms", "half of a 10 ms tick", 5});
   figures.push_back({"gateway.to_tick_ms.p99", percentile(to_tick, 0.99), "ms", "a tick", 10});
+}
 
+void report_watching(Stack& stack, double time, std::vector<Figure>& figures) {
   const Watching one = watch(stack, 1, 60, 30, time);
   figures.push_back({"gateway.state_age_ms.p99", percentile(one.state_age_ms, 0.99), "ms", "", 0});
   figures.push_back(
@@ -450,6 +508,31 @@ std::vector<Figure> run(int num_rounds, double time) {
   figures.push_back(
       {"gateway.clients32_rate_hz", many.num_states / time / kNumClients, "1/s", "asked for", 30});
   figures.push_back({"gateway.clients32_rss_mib", many.rss_mib, "MiB", "one client", few.rss_mib});
+
+  const nao::DisturbingClients disturbing(stack.tcp_port());
+  const Watching disturbed = watch(stack, kNumClients - 3, 30, 15, time);
+  const double good_clients = kNumClients - 3;
+  figures.push_back({"gateway.disturbed_cpu_percent", disturbed.cpu_percent, "%", "undisturbed",
+                     many.cpu_percent});
+  figures.push_back({"gateway.disturbed_state_age_ms.p99", percentile(disturbed.state_age_ms, 0.99),
+                     "ms", "undisturbed", percentile(many.state_age_ms, 0.99)});
+  figures.push_back({"gateway.disturbed_picture_age_ms.p95",
+                     percentile(disturbed.picture_age_ms, 0.95), "ms", "undisturbed",
+                     percentile(many.picture_age_ms, 0.95)});
+  figures.push_back({"gateway.disturbed_rate_hz", disturbed.num_states / time / good_clients, "1/s",
+                     "undisturbed", many.num_states / time / kNumClients});
+  figures.push_back(
+      {"gateway.disturbed_rss_mib", disturbed.rss_mib, "MiB", "undisturbed", many.rss_mib});
+}
+
+std::vector<Figure> run(int num_rounds, double time) {
+  const std::string lcm_url =
+      "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 10000) + "?ttl=0";
+  Stack stack(lcm_url);
+  std::vector<Figure> figures;
+  report_ways(stack, num_rounds, figures);
+  report_watching(stack, time, figures);
+  measure_losses(stack, figures);
   return figures;
 }
 

@@ -1,6 +1,13 @@
 #!/usr/bin/python3
-"""Writes a first corpus for fuzz_session: make_corpus.py FOLDER. One file for each use case, after a Connect."""
+"""Usage: corpus.py seed FOLDER | unpack PACK FOLDER | pack FOLDER PACK
 
+What fuzzers have found, kept in one file for each: every input after its length, 4 bytes, most significant first.
+seed writes one input for fuzz_session for each use case; unpack writes a pack's inputs as libFuzzer wants them, a
+file each; pack makes a pack of them. The tests play the packs.
+"""
+
+import hashlib
+import struct
 import sys
 from pathlib import Path
 
@@ -29,12 +36,32 @@ def played(action, **use_case):
     return bytes([action, len(message)]) + message
 
 
-def main():
-    folder = Path(sys.argv[1])
-    folder.mkdir(parents=True, exist_ok=True)
+def seed(folder):
     begin = played(6, **USE_CASES["connect"]) + played(6, take_control=pb.TakeControl())
     for name, use_case in USE_CASES.items():
         (folder / name).write_bytes(begin + played(14, **use_case) + played(6, **use_case))
+
+
+def pack(folder, file):
+    inputs = sorted((path.read_bytes() for path in folder.iterdir()), key=lambda bytes_: (len(bytes_), bytes_))
+    file.write_bytes(b"".join(struct.pack(">I", len(bytes_)) + bytes_ for bytes_ in inputs))
+
+
+def unpack(file, folder):
+    packed = file.read_bytes()
+    while packed:
+        length, = struct.unpack_from(">I", packed)
+        bytes_, packed = packed[4:4 + length], packed[4 + length:]
+        (folder / hashlib.sha1(bytes_).hexdigest()).write_bytes(bytes_)
+
+
+def main():
+    if len(sys.argv) < 3 or sys.argv[1] not in ("seed", "pack", "unpack"):
+        sys.exit(__doc__)
+    paths = [Path(argument) for argument in sys.argv[2:]]
+    if sys.argv[1] != "pack":
+        paths[-1].mkdir(parents=True, exist_ok=True)
+    {"seed": seed, "pack": pack, "unpack": unpack}[sys.argv[1]](*paths)
 
 
 if __name__ == "__main__":

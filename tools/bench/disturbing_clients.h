@@ -1,0 +1,35 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <thread>
+
+#include "wire_client.h"
+
+namespace nao {
+
+/** Three clients that a gateway must not let others suffer from, in a thread of their own: one
+ * wants every state and picture and never reads, one reads 1 kB a second, one sends 10,000 requests
+ * a second and reads all answers. */
+class DisturbingClients {
+ public:
+  explicit DisturbingClients(uint16_t tcp_port);
+  ~DisturbingClients();
+  DisturbingClients(const DisturbingClients&) = delete;
+  DisturbingClients& operator=(const DisturbingClients&) = delete;
+
+ private:
+  void run();
+  void flood();
+
+  std::unique_ptr<WireClient> stalled_;
+  std::unique_ptr<WireClient> slow_;
+  std::unique_ptr<WireClient> flooding_;
+  /** Requests on their way to the gateway. */
+  std::string flood_;
+  std::atomic<bool> is_ending_ = false;
+  std::thread thread_;
+};
+
+}  // namespace nao
