@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   app.add_option("--default-speed", options.default_speed,
                  "Speed of motions that nobody gave one for, fraction of the maximum")
       ->capture_default_str();
+  app.add_flag("!--no-get-up", options.gets_up, "After a fall, lie until told to get up");
   return nao::run_program(app, common, argc, argv, [&] {
     const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
     nao::EventLoop loop;

@@ -24,6 +24,7 @@ constexpr const char* kFirstPosture = "StandInit";
 constexpr const char* kGaitFile = "gait.yaml";
 constexpr const char* kKickFile = "actions/kick.yaml";
 constexpr const char* kRestPosture = "Crouch";
+constexpr const char* kNeedsHelp = "needs help";
 
 // Time after taking over in which the estimate settles before the first motion is chosen, s.
 constexpr double kTakeOverTime = 0.1;
@@ -116,6 +117,7 @@ void MotionCore::take_over(const Sensors& sensors) {
   has_robot_ = true;
   time_with_robot_ = 0;
   has_first_motion_ = false;
+  needs_help_ = false;
   estimator_.reset();
   // The servos' torques go on as they are if the targets lie ahead of the measured angles by the
   // lag that these torques make.
@@ -365,6 +367,7 @@ void MotionCore::move(double dt) {
         has_fallen_ = false;
         was_lying_ = is_lying();
       }
+      needs_help_ = phase == MotionGenerator::Phase::kFailed && has_fallen_ && is_lying();
       end_running(
           phase == MotionGenerator::Phase::kDone ? ResultStatus::kDone : ResultStatus::kFailed,
           remark);
@@ -410,9 +413,10 @@ void MotionCore::watch_for_falls(double dt) {
   const bool lies = is_lying();
   if (lies && !was_lying_) has_fallen_ = true;
   was_lying_ = lies;
+  needs_help_ = needs_help_ && lies;
   if (!has_fallen_) return;
   time_fallen_ += dt;
-  if (!options_.gets_up || time_fallen_ < options_.get_up_delay) return;
+  if (!options_.gets_up || needs_help_ || time_fallen_ < options_.get_up_delay) return;
   time_fallen_ = 0;
   assign({std::make_unique<JourneyMotion>(graph_, *model_->find_posture(kFirstPosture),
                                           options_.default_speed),
@@ -478,6 +482,7 @@ void MotionCore::report(double dt) {
     state.command_progress = running_->generator->progress();
     running_->generator->describe(state);
   }
+  if (needs_help_ && !running_) state.command_detail = kNeedsHelp;
   since_motion_state_ += dt;
   // A hair less than the period, so that rounding does not make it one tick longer.
   const bool is_due = since_motion_state_ >= options_.motion_state_period - 1e-6;

@@ -141,6 +141,8 @@ class MotionCore {
   bool has_fallen_ = false;
   double time_fallen_ = 0;
   bool was_lying_ = false;
+  /** Could not get up, and tries no more by itself until somebody helps or commands. */
+  bool needs_help_ = false;
   std::optional<Assignment> running_;
   std::optional<Assignment> waiting_;
 

@@ -31,7 +31,7 @@ struct MotionOptions {
   double motion_state_period = 0.1;
   /** Gets up by itself after a fall, this long after it lies still, s. */
   bool gets_up = true;
-  double get_up_delay = 0.3;
+  double get_up_delay = 0.1;
   /** How to walk; nothing: as the robot's gait.yaml says, if it has one. */
   std::optional<Gait> gait;
 

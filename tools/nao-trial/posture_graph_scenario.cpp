@@ -9,7 +9,7 @@ namespace nao::trial {
 namespace {
 
 constexpr double kSpeed = 0.5;
-constexpr double kTimeout = 40;  // s for one way, getting up and trying again included
+constexpr double kTimeout = 60;  // s for one way, getting up and trying again included
 constexpr double kTolerance = 3 * M_PI / 180;
 constexpr double kLyingTolerance = 8 * M_PI / 180;
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/error.h"
+#include "common/collision_shape.h"
 
 namespace nao::motion {
 namespace {
@@ -25,22 +25,8 @@ constexpr double kEdgeRadius = 0.004;
 SelfCollisionGuard::SelfCollisionGuard(const RobotModel& model) : kinematics_(model) {
   for (int link = 0; link < static_cast<int>(model.links().size()); ++link) {
     for (const Shape& shape : model.links()[link].collisions) {
-      Part part{link, shape.pose_in_link, Eigen::Vector3d::Zero(), shape.radius, 0};
-      switch (shape.kind) {
-        case Shape::Kind::kSphere:
-          break;
-        case Shape::Kind::kCapsule:
-          part.half.z() = shape.length / 2;
-          break;
-        case Shape::Kind::kBox:
-          part.radius = std::min(kEdgeRadius, shape.size.minCoeff() / 4);
-          part.half = shape.size / 2 - Eigen::Vector3d::Constant(part.radius);
-          break;
-        default:
-          throw ModelError("link " + model.links()[link].name + ": collision shape \"" +
-                           shape.name + "\" must be a box, a sphere or a capsule");
-      }
-      part.bounding_radius = part.half.norm() + part.radius;
+      Part part{link, rounded_box_in_link(model.links()[link], shape, kEdgeRadius), 0};
+      part.bounding_radius = part.box_in_link.half.norm() + part.box_in_link.radius;
       parts_.push_back(part);
     }
   }
@@ -60,11 +46,10 @@ SelfCollisionGuard::SelfCollisionGuard(const RobotModel& model) : kinematics_(mo
 void SelfCollisionGuard::place(const std::vector<double>& position) {
   kinematics_.update(position);
   for (size_t i = 0; i < parts_.size(); ++i) {
-    const Eigen::Isometry3d pose = kinematics_.link_pose(parts_[i].link) * parts_[i].pose_in_link;
-    placed_[i].center = pose.translation();
-    placed_[i].rotation = pose.linear();
-    placed_[i].half = parts_[i].half;
-    placed_[i].radius = parts_[i].radius;
+    const Eigen::Isometry3d& pose = kinematics_.link_pose(parts_[i].link);
+    placed_[i] = parts_[i].box_in_link;
+    placed_[i].center = pose * parts_[i].box_in_link.center;
+    placed_[i].rotation = pose.linear() * parts_[i].box_in_link.rotation;
   }
 }
 

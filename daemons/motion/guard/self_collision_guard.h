@@ -38,9 +38,7 @@ class SelfCollisionGuard {
  private:
   struct Part {
     int link;
-    Eigen::Isometry3d pose_in_link;
-    Eigen::Vector3d half;
-    double radius;
+    RoundedBox box_in_link;
     /** Of a ball about its centre that holds it, m. */
     double bounding_radius;
   };

@@ -12,8 +12,6 @@ namespace {
 // Torso height from which on an upright robot is on its feet and not on its seat, m: a crouch has
 // 0.229, a seat 0.12.
 constexpr double kLeastStandingHeight = 0.19;
-// A sitting posture is told by its joints, as far as they are off, rad.
-constexpr double kSittingDeviation = 0.6;
 
 }  // namespace
 
@@ -24,12 +22,11 @@ std::string find_body_state(const RobotModel& model, const RobotState& state, do
     if (std::abs(up.y()) > std::abs(up.x())) return up.y() < 0 ? "left" : "right";
     return up.x() < 0 ? "belly" : "back";
   }
-  const bool has_feet_down = state.left_foot_carries || state.right_foot_carries;
-  if (has_feet_down && state.torso_in_odometry.translation().z() > kLeastStandingHeight) {
-    return "on-feet";
+  if (state.torso_in_odometry.translation().z() > kLeastStandingHeight) {
+    return state.left_foot_carries || state.right_foot_carries ? "on-feet" : "";
   }
   std::string nearest;
-  double least = kSittingDeviation;
+  double least = std::numeric_limits<double>::infinity();
   for (const Posture& posture : model.postures()) {
     if (posture.family != "sitting") continue;
     const double deviation = deviation_from(posture, state.joint_position).angle;

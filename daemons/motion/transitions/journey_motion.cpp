@@ -14,8 +14,12 @@ constexpr int kMaxLegs = 16;
 // Motors that were limp become stiff over this time, s.
 constexpr double kStiffeningTime = 0.5;
 // A body that lies must have lain still this long before it moves, and is not waited for longer, s.
-constexpr double kStillTime = 0.15;
+constexpr double kStillTime = 0.1;
 constexpr double kLongestRest = 0.6;
+// One that goes on from one transition to the next as planned need only turn slowly, rad/s.
+constexpr double kSlow = 1.0;
+// Joints this near to a posture go straight to it, rad.
+constexpr double kNear = 0.3;
 
 bool is_lying(const std::string& state) {
   return state == "belly" || state == "back" || state == "left" || state == "right";
@@ -68,8 +72,7 @@ MotionGenerator::Phase JourneyMotion::step(const MotionContext& context, JointTa
       if (is_finishing_) return Phase::kRunning;
       const std::string state =
           find_body_state(context.model, context.state, context.options.lying_tilt);
-      const bool must_rest = state != "on-feet" && time_ < kLongestRest;
-      if (must_rest && context.state.rest_time < kStillTime) return Phase::kRunning;
+      if (time_ < kLongestRest && must_rest(context, state)) return Phase::kRunning;
       return choose_leg(context, targets);
     }
     case Leg::kTransition:
@@ -90,6 +93,20 @@ MotionGenerator::Phase JourneyMotion::step(const MotionContext& context, JointTa
   return Phase::kFailed;
 }
 
+bool JourneyMotion::must_rest(const MotionContext& context, const std::string& state) const {
+  if (state == "on-feet") return false;
+  if (is_on_its_way_) return context.state.angular_velocity_torso.norm() > kSlow;
+  return context.state.rest_time < kStillTime;
+}
+
+void JourneyMotion::play(const MotionContext& context, const KeyframeSequence& sequence,
+                         const JointTargets& targets) {
+  leg_ = Leg::kTransition;
+  sequence_ = &sequence;
+  stage_ = 0;
+  player_ = KeyframePlayer(context.model, sequence, targets.position, 1.0);
+}
+
 MotionGenerator::Phase JourneyMotion::choose_leg(const MotionContext& context,
                                                  const JointTargets& targets) {
   time_ = 0;
@@ -101,6 +118,14 @@ MotionGenerator::Phase JourneyMotion::choose_leg(const MotionContext& context,
     return Phase::kFailed;
   }
   if (state == state_of(*goal_)) {
+    const KeyframeSequence* approach = graph_->find_approach(*goal_);
+    const bool is_near = deviation_from(*goal_, context.sensors.position).angle < kNear;
+    if (approach != nullptr && !has_approached_ && !is_near) {
+      has_approached_ = true;
+      is_from_lying_ = false;
+      play(context, *approach, targets);
+      return Phase::kRunning;
+    }
     leg_ = Leg::kDirect;
     direct_.emplace(*goal_, speed_);
     direct_->start(context, targets);
@@ -112,14 +137,11 @@ MotionGenerator::Phase JourneyMotion::choose_leg(const MotionContext& context,
     return Phase::kFailed;
   }
   is_from_lying_ = is_lying(state);
-  if (is_from_lying_ && ++num_tries_ > kMaxTries) {
+  if (is_from_lying_ && !is_on_its_way_ && ++num_tries_ > kMaxTries) {
     remark_ = "It did not get up in " + std::to_string(kMaxTries) + " tries; it needs help.";
     return Phase::kFailed;
   }
-  leg_ = Leg::kTransition;
-  sequence_ = way.front();
-  stage_ = 0;
-  player_ = KeyframePlayer(context.model, *sequence_, targets.position, 1.0);
+  play(context, *way.front(), targets);
   return Phase::kRunning;
 }
 
@@ -136,6 +158,8 @@ MotionGenerator::Phase JourneyMotion::step_transition(const MotionContext& conte
     stage_ = stage;
   }
   if (!is_over && !has_failed) return Phase::kRunning;
+  is_on_its_way_ = !has_failed && find_body_state(context.model, context.state,
+                                                  context.options.lying_tilt) == sequence_->to;
   // Where the body is now, the next leg sees.
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
   leg_ = Leg::kResting;

@@ -29,13 +29,14 @@ class JourneyMotion : public MotionGenerator {
   double progress() const override;
   std::string remark() const override { return remark_; }
 
-  /** Transitions from lying that were begun. */
-  int num_tries() const { return num_tries_; }
-
  private:
   enum class Leg { kStiffening, kResting, kTransition, kDirect };
 
   Phase choose_leg(const MotionContext& context, const JointTargets& targets);
+  void play(const MotionContext& context, const KeyframeSequence& sequence,
+            const JointTargets& targets);
+  /** Whether the body must come to rest before it moves on from a state. */
+  bool must_rest(const MotionContext& context, const std::string& state) const;
   Phase step_transition(const MotionContext& context, JointTargets& targets);
 
   const TransitionGraph* graph_;
@@ -49,8 +50,12 @@ class JourneyMotion : public MotionGenerator {
   int stage_ = 0;
   std::optional<PostureMotion> direct_;
   int num_legs_ = 0;
+  /** Tries to get up: a roll and what follows it are one. */
   int num_tries_ = 0;
   bool is_from_lying_ = false;
+  /** The last transition ended where it should. */
+  bool is_on_its_way_ = false;
+  bool has_approached_ = false;
   /** The leg is a straight way on the feet. */
   bool stands_ = false;
   bool is_finishing_ = false;

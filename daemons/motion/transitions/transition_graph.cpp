@@ -118,7 +118,9 @@ TransitionGraph TransitionGraph::load(const RobotModel& model, const std::filesy
     sequence.from = entry.at("from").text();
     sequence.to = entry.at("to").text();
     if (states.count(sequence.from) == 0) entry.at("from").fail("no such state");
-    if (states.count(sequence.to) == 0) entry.at("to").fail("no such state");
+    if (states.count(sequence.to) == 0 && model.find_posture(sequence.to) == nullptr) {
+      entry.at("to").fail("no such state or posture");
+    }
     if (graph.find(sequence.name) != nullptr) entry.at("name").fail("is there twice");
     graph.sequences_.push_back(std::move(sequence));
   }
@@ -128,6 +130,13 @@ TransitionGraph TransitionGraph::load(const RobotModel& model, const std::filesy
 const KeyframeSequence* TransitionGraph::find(const std::string& name) const {
   for (const KeyframeSequence& sequence : sequences_) {
     if (sequence.name == name) return &sequence;
+  }
+  return nullptr;
+}
+
+const KeyframeSequence* TransitionGraph::find_approach(const Posture& posture) const {
+  for (const KeyframeSequence& sequence : sequences_) {
+    if (sequence.to == posture.name && sequence.from == state_of(posture)) return &sequence;
   }
   return nullptr;
 }

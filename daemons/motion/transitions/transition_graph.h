@@ -12,7 +12,8 @@ namespace nao::motion {
 /** Where the body can be, and the verified ways between: robots/NAME/transitions.yaml.
  *
  * States are "on-feet" for any upright stand on both soles, "belly", "back", "left" and "right" for
- * how a body lies, whatever its joints do, and the sitting postures by their names. */
+ * how a body lies, whatever its joints do, and the sitting postures by their names. A sequence may
+ * also lead to a lying posture by name: see find_approach(). */
 class TransitionGraph {
  public:
   /** @throws ModelError  naming the file, the line and what is wrong. */
@@ -26,6 +27,11 @@ class TransitionGraph {
    * @return Empty if there is none, or if the two are the same. */
   std::vector<const KeyframeSequence*> find_way(const std::string& from,
                                                 const std::string& to) const;
+
+  /** Sequence that leads from anyhow in a posture's own state to that posture, where a straight
+   * turn of the joints would be stopped by the ground.
+   * @return nullptr if there is none. */
+  const KeyframeSequence* find_approach(const Posture& posture) const;
 
  private:
   std::vector<KeyframeSequence> sequences_;
