@@ -83,6 +83,7 @@ export class App {
           connected: (connected) => void this.connected(connected),
           state: (state) => {
             this.mirror?.setTarget(state);
+            this.stage.wake();
             this.store.set({state});
           },
           picture: (picture) => {
@@ -248,7 +249,8 @@ export class App {
   private frame(dt: number): boolean {
     if (this.mirror?.hasPose && !this.isShown) this.markShown();
     const axes = this.gamepads.poll((button) => this.pressed(button));
-    if (axes) this.padMoved(axes);
+    // One that was unplugged is at rest: what it held must not go on.
+    this.padMoved(axes ?? []);
     const hasMoved = this.mirror?.step(dt) ?? false;
     if (hasMoved) this.balls?.update();
     return hasMoved;

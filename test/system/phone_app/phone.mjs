@@ -60,6 +60,21 @@ export class Phone {
     return {x: box.x + box.width / 2, y: box.y + box.height / 2, radius: box.width / 2};
   }
 
+  /** As when another app comes to the front, or the screen locks: no finger is reported as lifted. */
+  async hide() {
+    await this.page.evaluate(() => {
+      Object.defineProperty(document, "visibilityState", {value: "hidden", configurable: true});
+      document.dispatchEvent(new Event("visibilitychange"));
+    });
+  }
+
+  async unhide() {
+    await this.page.evaluate(() => {
+      delete document.visibilityState;
+      document.dispatchEvent(new Event("visibilitychange"));
+    });
+  }
+
   /** Puts fingers on the glass, moves them, or takes them away: {x, y, id} each, px. */
   async fingers(type, points) {
     await this.touch.send("Input.dispatchTouchEvent", {type, touchPoints: points});

@@ -24,15 +24,29 @@ after(async () => {
   await stack.stop();
 });
 
-const refusals = () => phone.page.locator(".message.bad").allTextContents();
+/** Said where a busy machine has held a program up: no answer to a button, or one after which a person presses
+ * it again. */
+const kPartIsAway = /does not answer/;
+const kNoRobot = /sensors are silent/;
+const kMaxPresses = 3;
 
-/** Until no old words are in sight, so that new ones belong to what is pressed next. */
-const silence = () => until("old messages are gone", async () => (await refusals()).length === 0, 20_000);
+/** Presses a button, and looks for what comes of it. @param isReached  what shall. @return "reached" or a refusal. */
+async function pressAndSee(name, isReached) {
+  for (let attempt = 1; ; attempt++) {
+    const refusal = await press(name);
+    const end = await until(`${name} is done or refused`, async () =>
+        (await isReached()) ? "reached" : refusal(), kDeadlineMs);
+    if (!kNoRobot.test(end) || attempt === kMaxPresses) return end;
+  }
+}
 
-/** Presses a button of the controller, wherever its row has slid to. */
+/** Presses a button of the controller, wherever its row has slid to.
+ * @return a question for the sentence of refusal that came since; undefined if none did. */
 async function press(name) {
-  await silence();
+  const newest = await phone.look("state.messages.reduce((id, message) => Math.max(id, message.id), 0)");
   await phone.page.locator(`.chip[data-name="${name}"]`).tap();
+  return () => phone.look(`state.messages.find(({id, kind, text}) =>
+      id > ${newest} && kind === "bad" && !${kPartIsAway}.test(text))?.text`);
 }
 
 /** Stands the robot up again by hand, after whatever it did: getting up by itself has trials of its own. */
@@ -44,11 +58,7 @@ async function standReady() {
 
 test("every posture is reached, or refused in words", async (t) => {
   for (const posture of await phone.look("state.robot.postures")) {
-    await press(posture);
-    const end = await until(`${posture} is reached or refused`, async () => {
-      if ((await phone.look("state.state.posture")) === posture) return "reached";
-      return (await refusals())[0];
-    }, kDeadlineMs);
+    const end = await pressAndSee(posture, async () => (await phone.look("state.state.posture")) === posture);
     t.diagnostic(`${posture}: ${end}`);
     assert.ok(end === "reached" || !kStanding.includes(posture), `${posture}: ${end}`);
     assert.ok(end.length > 5, `${posture} is refused without a reason`);
@@ -59,14 +69,13 @@ test("every posture is reached, or refused in words", async (t) => {
 test("every action begins, or is refused in words", async (t) => {
   for (const action of await phone.look("state.robot.actions")) {
     const before = await phone.look("state.lastOutcome?.requestId");
-    await press(action);
-    const end = await until(`${action} is accepted or refused`, async () => {
+    const end = await pressAndSee(action, async () => {
       const isNew = (await phone.look("state.lastOutcome?.requestId")) !== before;
-      return (await refusals())[0] ?? (isNew && [0, 2].includes(await phone.look("state.lastOutcome?.outcome")) && "accepted");
-    }, kDeadlineMs);
+      return isNew && [0, 2].includes(await phone.look("state.lastOutcome?.outcome"));
+    });
     t.diagnostic(`${action}: ${end}`);
     assert.ok(end.length > 5, `${action} is refused without a reason`);
-    if (end === "accepted") await standReady();
+    if (end === "reached") await standReady();
   }
 });
 

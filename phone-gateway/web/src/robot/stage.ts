@@ -25,6 +25,8 @@ const kMinPixelRatio = 0.75;
 const kMinSoftwarePixelRatio = 0.5;
 /** The eye has moved if it did so by more than this, m. */
 const kSeenMove = 0.0002;
+/** A movement's first frame goes as far as any other, s. */
+const kWakeTime = 1 / 60;
 /** What shall fit the free part of the screen, m: the robot with some air, arms stretched. */
 const kShownHeight = 0.66;
 const kShownWidth = 0.5;
@@ -105,10 +107,21 @@ export class Stage {
     this.isRunning = false;
   }
 
+  /** What is shown may have begun to move: draws at once if all stood still, for the browser shows with its
+   * next frame what is drawn by then. */
+  wake(): void {
+    if (this.isRunning && !this.wasDrawn) this.advance(performance.now(), kWakeTime);
+  }
+
   private readonly frame = (nowMs: number): void => {
     if (!this.isRunning) return;
     requestAnimationFrame(this.frame);
-    const dt = Math.min(Math.max(nowMs - this.lastFrameMs, 0), 100) / 1000;
+    this.advance(nowMs, 0);
+  };
+
+  /** One frame. @param leastTime  it counts as at least so long, s. */
+  private advance(nowMs: number, leastTime: number): void {
+    const dt = Math.max(leastTime, Math.min(Math.max(nowMs - this.lastFrameMs, 0), 100) / 1000);
     this.lastFrameMs = nowMs;
     const hasMoved = this.onFrame(dt);
     this.followRobot(dt);
@@ -116,7 +129,7 @@ export class Stage {
     if (this.wasDrawn && this.budget.frame(dt)) this.resize();
     this.wasDrawn = hasMoved || this.isOutdated || this.hasEyeMoved();
     if (this.wasDrawn) this.draw();
-  };
+  }
 
   private draw(): void {
     this.isOutdated = false;

@@ -1,0 +1,156 @@
+// Every other way to drive, against the real programs: keyboard, gamepad, tilt; the head camera's picture, which
+// turns the head; and the settings.
+import assert from "node:assert/strict";
+import {after, before, test} from "node:test";
+import {openBrowser, Phone} from "./phone.mjs";
+import {Stack, until} from "./stack.mjs";
+
+const kDegree = Math.PI / 180;
+
+const stack = new Stack(process.env.NAO_BIN_DIR);
+let browser;
+let phone;
+
+before(async () => {
+  await stack.start({scene: "empty"});
+  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
+  phone = await Phone.open(browser, stack.url);
+  await phone.sees("controller");
+  // Headless Chromium has no gamepad: what the page would be told of one.
+  await phone.page.evaluate(() => {
+    window.pad = null;
+    navigator.getGamepads = () => [window.pad];
+  });
+});
+
+after(async () => {
+  await browser?.close();
+  await stack.stop();
+});
+
+/** The walk that the motion daemon was last asked for: vx, vy m/s, wz rad/s. Zero when none is wanted. */
+async function wantedWalk() {
+  return JSON.parse(await stack.nao("state", "--json")).motion_state.walk_velocity;
+}
+
+const walks = (what, isSo) => until(what, async () => isSo(...await wantedWalk()));
+
+async function stops() {
+  await walks("the walk has ended", (vx, vy, wz) => vx === 0 && vy === 0 && wz === 0);
+  await until("the robot stands", async () => (await phone.look("state.state.mode")) === "holding");
+}
+
+test("keys walk while they are held, and stop when they are let go", async () => {
+  await phone.page.keyboard.down("KeyW");
+  await walks("W walks ahead", (vx) => vx > 0.01);
+  await phone.page.keyboard.up("KeyW");
+  await stops();
+  await phone.page.keyboard.down("ArrowLeft");
+  await walks("the left arrow turns left", (vx, vy, wz) => wz > 0.05);
+  await phone.page.keyboard.up("ArrowLeft");
+  await stops();
+});
+
+test("the space bar stops while a key is held, and the page that loses the focus lets go", async () => {
+  await phone.page.keyboard.down("KeyW");
+  await walks("W walks ahead", (vx) => vx > 0.01);
+  await phone.page.keyboard.press("Space");
+  await stops();
+  await phone.page.keyboard.up("KeyW");
+  await phone.page.keyboard.down("KeyW");
+  await walks("W walks ahead again", (vx) => vx > 0.01);
+  await phone.page.evaluate(() => window.dispatchEvent(new Event("blur")));
+  await stops();
+  await phone.page.keyboard.up("KeyW");
+});
+
+/** Puts a gamepad into the person's hands; null: takes it away. */
+const holdPad = (axes, pressed = []) => phone.page.evaluate(([axes, pressed]) => {
+  window.pad = axes && {mapping: "standard", axes,
+                        buttons: Array.from({length: 17}, (_, i) => ({pressed: pressed.includes(i)}))};
+}, [axes, pressed]);
+
+test("a gamepad's sticks walk and its buttons command; one that is unplugged lets go", async () => {
+  await holdPad([0, -1, 0, 0]);
+  await walks("the left stick walks ahead", (vx) => vx > 0.01);
+  await holdPad([0, 0, 0, 0]);
+  await stops();
+  await holdPad([0, 0, 1, 0]);
+  await walks("the right stick turns right", (vx, vy, wz) => wz < -0.05);
+  await holdPad(null);
+  await stops();
+  await holdPad([0, 0, 0, 0], [2]);
+  await until("the robot crouches", async () => (await phone.look("state.state.posture")) === "Crouch");
+  await holdPad([0, 0, 0, 0], [0]);
+  await until("the robot stands ready", async () => (await phone.look("state.state.posture")) === "StandInit");
+  await holdPad(null);
+});
+
+const tilt = (beta) => phone.page.evaluate((beta) => window.dispatchEvent(
+    new DeviceOrientationEvent("deviceorientation", {alpha: 0, beta, gamma: 0})), beta);
+
+test("tilting the phone walks, only while a thumb is on the pad", async () => {
+  await phone.page.locator(".corner .round").nth(1).tap();
+  await phone.page.locator(".menu [role=switch]").first().tap();
+  await phone.page.locator(".menu header .round").tap();
+  await tilt(40);
+  await tilt(15);
+  assert.deepEqual(await wantedWalk(), [0, 0, 0], "it walks without a thumb");
+  await tilt(40);
+  const pad = await phone.middleOf(".joystick-walk");
+  await phone.fingers("touchStart", [{id: 1, x: pad.x, y: pad.y}]);
+  await tilt(15);
+  await walks("a tilt walks ahead", (vx) => vx > 0.01);
+  await phone.fingers("touchEnd", []);
+  await stops();
+  await phone.page.locator(".corner .round").nth(1).tap();
+  await phone.page.locator(".menu [role=switch]").first().tap();
+  await phone.page.locator(".menu header .round").tap();
+});
+
+test("a drag on the picture turns the head, as if it moved what is seen", async () => {
+  const {HeadYaw: yaw} = (await stack.truth()).angles;
+  const picture = await phone.middleOf(".picture-main");
+  await phone.fingers("touchStart", [{id: 1, x: picture.x - 30, y: picture.y}]);
+  for (let x = -20; x <= 30; x += 10) await phone.fingers("touchMove", [{id: 1, x: picture.x + x, y: picture.y}]);
+  await phone.fingers("touchEnd", []);
+  // What is under the finger goes to the right when the head turns to the left, which is positive.
+  await until("the head has turned left", async () => (await stack.truth()).angles.HeadYaw - yaw > 5 * kDegree);
+  assert.ok(!(await phone.page.locator(".picture.large").count()), "a drag counted as a tap");
+});
+
+test("a tap on the picture enlarges it, another makes it small; the other camera is a tap away", async () => {
+  const small = await phone.middleOf(".picture-main");
+  await phone.tap(".picture-main");
+  await until("a large picture comes", async () => (await phone.look("state.picture.width")) === 640);
+  assert.ok((await phone.middleOf(".picture-main")).radius > 1.5 * small.radius, "it is no larger");
+  await phone.tap(".picture-camera");
+  await until("the bottom camera's picture comes", async () => (await phone.look("state.picture.camera")) === 1);
+  await phone.tap(".picture-camera");
+  await until("the top camera's picture comes", async () => (await phone.look("state.picture.camera")) === 0);
+  await phone.tap(".picture-main");
+  await until("a small picture comes", async () => (await phone.look("state.picture.width")) === 320);
+});
+
+test("left-handed people get the pads the other way round", async () => {
+  const before = await phone.middleOf(".joystick-walk");
+  await phone.page.locator(".corner .round").nth(1).tap();
+  await phone.page.locator(".menu [role=switch]").nth(1).tap();
+  await phone.page.locator(".menu header .round").tap();
+  const after = await phone.middleOf(".joystick-walk");
+  assert.ok(before.x < 206 && after.x > 206, `${before.x} and ${after.x}`);
+});
+
+for (const [language, stop] of [["pt", "Parar"], ["de", "Stopp"], ["en", "Stop"]]) {
+  test(`the language ${language} is remembered, and the app comes back by itself`, async () => {
+    await phone.page.locator(".corner .round").nth(1).tap();
+    await Promise.all([phone.page.waitForEvent("load"), phone.page.locator(".menu select").selectOption(language)]);
+    await phone.sees("controller");
+    assert.equal((await phone.page.locator(".stop").textContent()).trim(), stop);
+    assert.equal(await phone.page.evaluate("document.documentElement.lang"), language);
+  });
+}
+
+test("the phone has no complaint", () => {
+  assert.deepEqual(phone.errors, []);
+});
