@@ -75,6 +75,18 @@ test("a killed gateway brings the connection screen, and the app comes back by i
   });
 });
 
+test("the app opens without the robot too, says that it is away, and drives as soon as it is back", async () => {
+  await ana.page.evaluate(async () => {
+    await navigator.serviceWorker.ready;
+  });
+  await stack.end("nao-phone-gateway", "SIGKILL");
+  await ana.page.reload();
+  await ana.sees("connection");
+  await ana.page.getByText("Nothing answers at this address.").first().waitFor();
+  await stack.startGateway();
+  await ana.sees("controller");
+});
+
 test("a gateway that hangs is noticed after 5 s of silence", async () => {
   const gateway = stack.program("nao-phone-gateway");
   gateway.child.kill("SIGSTOP");

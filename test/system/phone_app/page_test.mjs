@@ -53,6 +53,22 @@ test("a first visit fetches less than 400 kB, and nothing twice", async (t) => {
   air.stop();
 });
 
+test("every icon of the manifest is a picture of the size it says, as phones want for their home screen", async () => {
+  const phone = await Phone.open(browser, stack.url);
+  const icons = await phone.page.evaluate(async () => {
+    const manifest = await (await fetch("/manifest.webmanifest")).json();
+    return Promise.all(manifest.icons.filter(({type}) => type === "image/png").map(async ({src, sizes, purpose}) => {
+      const {width, height} = await createImageBitmap(await (await fetch(src)).blob());
+      return {purpose, sizes, found: `${width}x${height}`};
+    }));
+  });
+  for (const {sizes, found} of icons) assert.equal(found, sizes);
+  for (const wanted of ["any 192x192", "any 512x512", "maskable 512x512"]) {
+    assert.ok(icons.some(({purpose, found}) => `${purpose} ${found}` === wanted), `there is no icon ${wanted}`);
+  }
+  await phone.close();
+});
+
 /** Every control lies within the screen, and none over another. */
 async function lieApart(phone, size, mode) {
   const boxes = await phone.page.evaluate(() => [".picture-main", ".lock", ".stop", ".joystick-walk",
