@@ -12,16 +12,18 @@ Event = namedtuple("Event", "number time channel data")
 
 def read_log(path):
     """Every whole event of a log, in order. One that was cut off at the end is left out."""
-    content = path.read_bytes()
-    events = []
-    position = 0
-    while position + HEADER.size <= len(content):
-        sync, number, time, channel_size, data_size = HEADER.unpack_from(content, position)
-        if sync != SYNC:
-            raise ValueError(f"{path}: no event at byte {position}")
-        start = position + HEADER.size
-        middle = start + channel_size
-        position = middle + data_size
-        if position <= len(content):
-            events.append(Event(number, time, content[start:middle].decode(), content[middle:position]))
-    return events
+    return list(read_events(path))
+
+
+def read_events(path):
+    """The events of read_log() one by one, for logs that are large."""
+    with open(path, "rb") as file:
+        while len(header := file.read(HEADER.size)) == HEADER.size:
+            sync, number, time, channel_size, data_size = HEADER.unpack(header)
+            if sync != SYNC:
+                raise ValueError(f"{path}: no event at byte {file.tell() - HEADER.size}")
+            channel = file.read(channel_size)
+            data = file.read(data_size)
+            if len(data) < data_size:
+                return
+            yield Event(number, time, channel.decode(), data)

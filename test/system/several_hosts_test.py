@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+"""Simulator and camera, motion, and gateway on three hosts, with a network between them that delays and loses."""
+
+import json
+import os
+import time
+import unittest
+
+from hosts import GROUP, Hosts
+from stack import BIN_DIR, DEADLINE, ROOT, Stack, run
+
+WORLD, MOTION, GATEWAY = "world", "motion", "gate"
+ONLY = {WORLD: "sim,head-camera", MOTION: "motion", GATEWAY: "phone-gateway"}
+DELAY = 0.02  # s, one way
+LOSS = 0.01
+
+
+class HostStack(Stack):
+    """The part of a stack that runs on one host."""
+
+    def __init__(self, hosts, host):
+        super().__init__()
+        self.lcm_url = f"udpm://{GROUP}:{hosts.port}?ttl=1"
+        self.hosts = hosts
+        self.host = host
+
+    def start_part(self):
+        return run([*self.hosts.on(self.host), ROOT / "scripts/start", "--bin", BIN_DIR, "--run-dir", self.run_dir,
+                    "--lcm-url", self.lcm_url, "--bind", "127.0.0.1", "--token", self.token, "--only", ONLY[self.host],
+                    "--http-port", "8080", "--tcp-port", "7668"])
+
+    def nao(self, *arguments):
+        return run([*self.hosts.on(self.host), BIN_DIR / "nao", "--lcm-url", self.lcm_url, *arguments])
+
+    def phone(self, *arguments):
+        return run([*self.hosts.on(self.host), BIN_DIR / "nao-phone", "--port", "7668", *arguments])
+
+
+@unittest.skipIf(Hosts.missing(), Hosts.missing())
+class SeveralHosts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.hosts = Hosts(list(ONLY), 20000 + os.getpid() % 10000, DELAY, LOSS)
+        cls.hosts.__enter__()
+        cls.addClassCleanup(cls.hosts.__exit__)
+        cls.part = {}
+        for host in ONLY:
+            cls.part[host] = HostStack(cls.hosts, host)
+            cls.addClassCleanup(cls.part[host].__exit__)
+            started = cls.part[host].start_part()
+            if started.returncode != 0:
+                raise AssertionError(f"{host}: {started.stdout}{started.stderr}{cls.part[host].logs()}")
+        ready = cls.part[GATEWAY].nao("status", "--wait", "nao-sim,nao-motion,nao-head-camera,nao-phone-gateway",
+                                      "--timeout", "60")
+        if ready.returncode != 0:
+            raise AssertionError(ready.stderr + "".join(part.logs() for part in cls.part.values()))
+
+    def truth(self):
+        return json.loads(self.part[WORLD].nao("world", "show", "--json").stdout)["robots"][0]
+
+    def assert_obeys(self, posture, height):
+        result = self.part[GATEWAY].phone("posture", posture)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertAlmostEqual(self.truth()["position_torso_in_world"][2], height, delta=0.02)
+
+    def test_a_phone_moves_the_robot_and_sees_it(self):
+        # robots/nao/postures.yaml: heights of the torso.
+        self.assert_obeys("Crouch", 0.229)
+        self.assert_obeys("StandInit", 0.322)
+        picture = self.part[GATEWAY].run_dir / "picture.jpg"
+        result = self.part[GATEWAY].phone("picture", picture)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertTrue(picture.read_bytes().startswith(b"\xff\xd8"))
+
+    def test_a_motion_host_that_is_cut_off_comes_back(self):
+        before = self.truth()["position_torso_in_world"]
+        self.hosts.cut(MOTION)
+        try:
+            refused = self.part[GATEWAY].nao("posture", "Crouch")
+            self.assertEqual(refused.returncode, 1)
+            self.assertIn("does not answer", refused.stderr)
+            after = self.truth()["position_torso_in_world"]
+            self.assertLess(max(abs(a - b) for a, b in zip(after, before)), 0.03, "stands as it stood")
+        finally:
+            self.hosts.mend(MOTION)
+        deadline = time.monotonic() + DEADLINE
+        while self.part[GATEWAY].nao("status", "--wait", "nao-motion", "--timeout", "5").returncode != 0:
+            self.assertLess(time.monotonic(), deadline)
+        self.assert_obeys("Crouch", 0.229)
+        self.assert_obeys("StandInit", 0.322)
+
+    def test_the_bus_check_names_the_programs_of_all_hosts(self):
+        said = self.part[GATEWAY].nao("status").stdout
+        for program in ("nao-sim", "nao-motion", "nao-head-camera", "nao-phone-gateway"):
+            self.assertIn(program, said)
+
+
+if __name__ == "__main__":
+    unittest.main()
