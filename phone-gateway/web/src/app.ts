@@ -147,6 +147,10 @@ export class App {
       this.balls?.show(isOn);
       this.stage.outdate();
     });
+    // Whoever chose something else does not mean the spot any more.
+    this.store.watch((state) => state.state?.activity ?? "", (activity) => {
+      if (activity) this.walkHere.clear();
+    });
     this.store.watch((state) => state.selectedGroup, (group) => {
       this.balls?.select(group);
       this.stage.outdate();

@@ -10,6 +10,9 @@ const kMaxBytes = 150_000;
 const kSizes = {small: [360, 640], portrait: [412, 915], landscape: [915, 412], tablet: [1280, 800]};
 /** Software drawing is slow: the view has come to rest after this, ms. */
 const kRestMs = 2500;
+/** Pings wait while it draws; so long at the most, ms. */
+const kGoodLatencyMs = 40;
+const kLinkMs = 12_000;
 
 const outputDir = process.argv[2];
 if (!outputDir) throw new Error("usage: node screenshots.mjs OUTPUT_DIR");
@@ -28,6 +31,8 @@ const stack = new Stack(process.env.NAO_BIN_DIR);
 
 async function take(phone, name) {
   await pause(kRestMs);
+  // Nor does the sign of the link tell of a phone that draws in software.
+  await until("the link is good", async () => (await phone.look("state.latencyMs")) < kGoodLatencyMs, kLinkMs).catch(() => {});
   const file = join(outputDir, `app-${name}.png`);
   await phone.page.screenshot({path: file});
   // As many colours as fit the size.

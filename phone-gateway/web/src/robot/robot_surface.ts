@@ -6,7 +6,7 @@ import {
 import type {BufferGeometry, Object3D} from "three";
 import {mergeGeometries} from "three/examples/jsm/utils/BufferGeometryUtils.js";
 
-const kGhostOpacity = 0.32;
+const kGhostOpacity = 0.42;
 /** Satin plastic. */
 const kRoughness = 0.45;
 

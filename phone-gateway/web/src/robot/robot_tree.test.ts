@@ -100,6 +100,25 @@ describe("PoseMirror", () => {
     expect(tree.torso.position.z).toBeCloseTo(0.229, 3);
   });
 
+  it("asks for no frame while it shows the state, and for one as soon as any joint is an encoder's step away", () => {
+    const tree = new RobotTree(urdf);
+    const mirror = new PoseMirror(tree, joints);
+    mirror.setTarget(state(0.229));
+    expect(mirror.step(1 / 60)).toBe(true);
+    expect(mirror.step(1 / 60)).toBe(false);
+    for (let i = 0; i < joints.length; i++) {
+      const moved = state(0.229);
+      moved.jointPosition[i]! += 0.0015;
+      mirror.setTarget(moved);
+      expect(mirror.step(1 / 60), joints[i]!.name).toBe(true);
+      mirror.setTarget(state(0.229));
+      for (let frame = 0; frame < 20; frame++) mirror.step(1 / 60);
+      expect(mirror.step(1 / 60), joints[i]!.name).toBe(false);
+    }
+    mirror.setTarget(state(0.231));
+    expect(mirror.step(1 / 60)).toBe(true);
+  });
+
   it("keeps what it shows where a state is not finite", () => {
     const tree = new RobotTree(urdf);
     const mirror = new PoseMirror(tree, joints);

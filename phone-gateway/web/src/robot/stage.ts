@@ -22,7 +22,7 @@ const kFieldOfViewDeg = 32;
 /** Device pixels per CSS pixel at the least. Below the first, pixels are seen as squares; a processor that draws
  * has rather squares than a robot that comes late. */
 const kMinPixelRatio = 0.75;
-const kMinSoftwarePixelRatio = 0.5;
+const kSoftwarePixelRatio = 0.5;
 /** The eye has moved if it did so by more than this, m. */
 const kSeenMove = 0.0002;
 /** A movement's first frame goes as far as any other, s. */
@@ -72,7 +72,7 @@ export class Stage {
     const {gl, isSoftware} = openDrawingContext(canvas);
     this.renderer = new WebGLRenderer({canvas, context: gl, alpha: true});
     this.surface = new RobotSurface(isSoftware);
-    this.budget = isSoftware ? new PixelBudget(0.75, false, kMinSoftwarePixelRatio)
+    this.budget = isSoftware ? new PixelBudget(kSoftwarePixelRatio, false, kSoftwarePixelRatio)
         : new PixelBudget(Math.min(window.devicePixelRatio, 2), true, kMinPixelRatio);
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.shadowMap.enabled = true;

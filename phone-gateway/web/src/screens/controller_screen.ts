@@ -14,6 +14,7 @@ import type {Control, State} from "../protocol/generated/remote_pb";
 import * as useCases from "../protocol/use_cases";
 import type {FreeArea} from "../robot/stage";
 import type {AppState, Store} from "../store";
+import {activityInWords} from "../text/activity";
 import {say, sayName} from "../text/texts";
 import type {JointsPanel} from "./joints_panel";
 
@@ -188,7 +189,7 @@ export class ControllerScreen {
 
   private showState(state: State | null): void {
     setText(this.mode, state ? sayName("mode", state.mode) : say("mode.waiting"));
-    setText(this.activity, state?.activity ?? "");
+    setText(this.activity, activityInWords(state?.activity ?? ""));
     const progress = state?.activity ? state.progress : -1;
     this.progress.hidden = !(progress >= 0);
     if (progress >= 0) this.progress.value = progress;

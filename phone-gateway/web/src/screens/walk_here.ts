@@ -35,9 +35,9 @@ export class WalkHere {
     this.element.hidden = false;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.clear(), kShownMs);
-    // Below the spot, as it is now: a button that sways with the view is hard to hit.
+    // Above the spot, where no control lies, as it is now: a button that sways with the view is hard to hit.
     const left = Math.min(Math.max(x, kMargin), this.stage.size.width - kMargin);
-    this.element.style.transform = `translate(${left}px, ${y}px) translate(-50%, 22px)`;
+    this.element.style.transform = `translate(${left}px, ${y}px) translate(-50%, calc(-100% - 30px))`;
   }
 
   clear(): void {
