@@ -2,13 +2,21 @@
 import "./styles/app.css";
 import "./styles/controller.css";
 import {App} from "./app";
+import {el} from "./dom";
+import {CannotDraw} from "./robot/drawing_context";
 import {loadSettings} from "./settings";
 import {storage} from "./storage";
-import {chooseLanguage, setLanguage} from "./text/texts";
+import {chooseLanguage, say, setLanguage} from "./text/texts";
 
 const settings = loadSettings(storage());
 const language = chooseLanguage([settings.language, ...navigator.languages]);
 setLanguage(language);
 document.documentElement.lang = language;
 
-new App(document.getElementById("app")!, settings).start();
+const root = document.getElementById("app")!;
+try {
+  new App(root, settings).start();
+} catch (error) {
+  if (!(error instanceof CannotDraw)) throw error;
+  root.replaceChildren(el("section", {class: "screen loading-screen"}, el("p", {role: "alert"}, say("loading.noDrawing"))));
+}

@@ -69,6 +69,15 @@ test("every icon of the manifest is a picture of the size it says, as phones wan
   await phone.close();
 });
 
+test("a browser that cannot draw in 3D is told so", async () => {
+  const phone = await Phone.open(browser, "about:blank");
+  await phone.context.addInitScript(() => HTMLCanvasElement.prototype.getContext = () => null);
+  await phone.page.goto(stack.url);
+  await phone.page.getByText("This browser cannot draw in 3D.").waitFor();
+  assert.deepEqual(phone.errors, []);
+  await phone.close();
+});
+
 /** Every control lies within the screen, and none over another. */
 async function lieApart(phone, size, mode) {
   const boxes = await phone.page.evaluate(() => [".picture-main", ".lock", ".stop", ".joystick-walk",

@@ -1,4 +1,4 @@
-// Makes docs/images/app-*.png with the real programs: node screenshots.mjs OUTPUT_DIR. Wants pngquant, and
+// Makes docs/images/app-*.png with the real programs: node screenshots.mjs OUTPUT_DIR [SIZE...]. Wants pngquant, and
 // fonts-roboto-unhinted so that letters look as on a phone. NAO_BIN_DIR, NAO_WEB_SOURCE_DIR as for the tests.
 import {execFileSync} from "node:child_process";
 import {mkdirSync, statSync} from "node:fs";
@@ -14,8 +14,8 @@ const kRestMs = 2500;
 const kGoodLatencyMs = 40;
 const kLinkMs = 12_000;
 
-const outputDir = process.argv[2];
-if (!outputDir) throw new Error("usage: node screenshots.mjs OUTPUT_DIR");
+const [outputDir, ...wantedSizes] = process.argv.slice(2);
+if (!outputDir) throw new Error("usage: node screenshots.mjs OUTPUT_DIR [SIZE...]");
 mkdirSync(outputDir, {recursive: true});
 
 /** So that the app draws as on a phone, with all its finery, although the processor draws here. */
@@ -84,6 +84,7 @@ try {
   await stack.start();
   const browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
   for (const [name, [width, height]] of Object.entries(kSizes)) {
+    if (wantedSizes.length > 0 && !wantedSizes.includes(name)) continue;
     const phone = await Phone.open(browser, "about:blank", {width, height});
     await phone.context.addInitScript(kGraphicsChip);
     await phone.page.goto(stack.url.replace(stack.token, "wrong"));

@@ -6,13 +6,16 @@ export interface DrawingContext {
   isSoftware: boolean;
 }
 
-/** @throws Error if the browser cannot draw in 3D. */
+/** The browser has no WebGL 2. */
+export class CannotDraw extends Error {}
+
+/** @throws CannotDraw if the browser cannot draw in 3D. */
 export function openDrawingContext(canvas: HTMLCanvasElement): DrawingContext {
   // Smooth edges must be asked for before one can ask who draws: another canvas tells.
   const isSoftware = isSoftwareRenderer(nameOfRenderer());
   const gl = canvas.getContext("webgl2", {
     alpha: true, antialias: !isSoftware, powerPreference: "high-performance"});
-  if (!gl) throw new Error("WebGL 2 is missing");
+  if (!gl) throw new CannotDraw("WebGL 2 is missing");
   return {gl, isSoftware};
 }
 

@@ -4,7 +4,7 @@ import {
   BufferGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial,
   Quaternion, RingGeometry, SphereGeometry, Vector3,
 } from "three";
-import type {Camera, Object3D} from "three";
+import type {Camera, Material, Object3D} from "three";
 import type {JointGroup} from "../protocol/generated/remote_pb";
 import type {RobotSurface} from "./robot_surface";
 import type {RobotTree} from "./robot_tree";
@@ -72,7 +72,7 @@ export class JointBalls {
       mesh.material.color.set(isSelected ? 0x4fb4f5 : 0xdfe9f2);
       mesh.scale.setScalar(isSelected ? 1.45 : 1);
     }
-    for (const {object} of this.arcs) object.removeFromParent();
+    for (const arc of this.arcs) this.drop(arc);
     const group = this.balls.find((ball) => ball.group.name === name)?.group;
     this.arcs = group ? kAxes.flatMap((axis) => this.makeArc(jointOfAxis(group, axis), axis)) : [];
     this.update();
@@ -111,6 +111,16 @@ export class JointBalls {
 
   get selectedGroup(): string {
     return this.selected;
+  }
+
+  /** Takes an arc away, and what the graphics chip keeps of it. */
+  private drop({object}: Arc): void {
+    object.removeFromParent();
+    object.traverse((part) => {
+      const {geometry, material} = part as Mesh<BufferGeometry, Material>;
+      if (geometry !== this.sphere) geometry?.dispose();
+      material?.dispose();
+    });
   }
 
   private makeArc(name: string, axis: Axis): Arc[] {

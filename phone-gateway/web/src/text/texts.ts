@@ -12,6 +12,9 @@ const kTexts = {
   "loading.failed": ["The robot could not be loaded", "Não foi possível carregar o robô",
                      "Der Roboter konnte nicht geladen werden"],
   "loading.again": ["Try again", "Tentar de novo", "Nochmal versuchen"],
+  "loading.noDrawing": ["This browser cannot draw in 3D. A newer Chrome, Firefox or Safari can.",
+                        "Este navegador não desenha em 3D. Um Chrome, Firefox ou Safari mais recente consegue.",
+                        "Dieser Browser kann nicht in 3D zeichnen. Ein neuerer Chrome, Firefox oder Safari kann es."],
   // Connection.
   "connection.title": ["Drive the robot", "Conduzir o robô", "Den Roboter steuern"],
   "connection.subtitle": ["Phone and robot must be in the same Wi-Fi.",
