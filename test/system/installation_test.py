@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """An installed copy needs nothing of the tree it was built in."""
 
+import os
+import shutil
 import tempfile
 import unittest
 import urllib.request
@@ -26,6 +28,20 @@ class Installation(unittest.TestCase):
         for name in [*PROGRAMS, "nao"]:
             result = run([self.prefix / "bin" / name, "--version"])
             self.assertEqual(result.returncode, 0, result.stderr)
+
+    @unittest.skipUnless(shutil.which("systemd-analyze"), "no systemd here")
+    def test_the_systemd_units_are_sound(self):
+        units = self.prefix / "lib/systemd/user"
+        service = units / "nao-remote@.service"
+        # The units name programs where the Debian package puts them.
+        service.write_text(service.read_text().replace("/usr/bin", str(self.prefix / "bin")))
+        for name in ("sim", "motion", "head-camera", "phone-gateway"):
+            (units / f"nao-remote@{name}.service").symlink_to(service)
+        result = run(["systemd-analyze", "--user", "--man=no", "verify", units / "nao-remote.target",
+                      *units.glob("nao-remote@?*.service")],
+                     env={**os.environ, "XDG_RUNTIME_DIR": str(self.prefix)})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr, "")
 
     def test_the_robot_moves_and_the_app_is_served(self):
         with Stack() as stack:
