@@ -40,7 +40,7 @@ PlainStream& lowest(SecureStream& stream) {
 class WaitingPlace {
  public:
   WaitingPlace(Hub& hub, const std::string& address, std::function<void()> evict) : hub_(hub) {
-    if (hub_.waiting_room.enter(std::move(evict), place_)) note_eviction(hub_, address);
+    if (hub_.waiting_room.enter(address, std::move(evict), place_)) note_eviction(hub_, address);
   }
   ~WaitingPlace() { hub_.waiting_room.leave(place_); }
   WaitingPlace(const WaitingPlace&) = delete;

@@ -31,7 +31,7 @@ void PhoneConnection::open(const Peer& peer) {
   const auto evict = [weak] {
     if (const auto self = weak.lock()) self->abort("too many connections");
   };
-  if (hub_.waiting_room.enter(evict, place_)) note_eviction(hub_, peer.address);
+  if (hub_.waiting_room.enter(peer.address, evict, place_)) note_eviction(hub_, peer.address);
   const auto wake = [weak] {
     const auto self = weak.lock();
     if (!self || std::exchange(self->is_flush_due_, true)) return;

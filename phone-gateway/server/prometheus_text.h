@@ -9,6 +9,8 @@ namespace nao {
  * (https://prometheus.io/docs/instrumenting/exposition_formats). */
 class PrometheusText {
  public:
+  PrometheusText() { text_.precision(15); }
+
   /** The samples that follow belong to this figure.
    * @param name  Snake case with its unit; one that only grows ends in _total. */
   void begin(const std::string& name, const std::string& help) {

@@ -6,8 +6,10 @@ NAO_TEST_STREAMS sets the number of random byte streams (default 2000).
 
 import os
 import random
+import re
 import socket
 import unittest
+import urllib.request
 from pathlib import Path
 
 from programs import DEADLINE, Gateway, wait_until
@@ -33,6 +35,11 @@ class Churn(unittest.TestCase):
         resident_pages = int(Path(f"/proc/{self.gateway.process.pid}/statm").read_text().split()[1])
         return resident_pages * os.sysconf("SC_PAGESIZE") / 2 ** 20
 
+    def num_accepted(self):
+        url = f"http://127.0.0.1:{self.gateway.http_port}/metrics"
+        with urllib.request.urlopen(url, timeout=DEADLINE) as response:
+            return int(re.search(r"^nao_gateway_accepted_total (\S+)$", response.read().decode(), re.MULTILINE).group(1))
+
     def visit(self):
         with phone.Phone(port=self.gateway.tcp_port, timeout=DEADLINE) as client:
             client.ask(subscribe=pb.Subscribe(state_rate=60, picture_rate=30))
@@ -44,12 +51,13 @@ class Churn(unittest.TestCase):
             disturb()
         self.visit()
         wait_until(lambda: self.num_descriptors() < 60, "the first connections end")
-        descriptors, memory = self.num_descriptors(), self.memory_mib()
+        descriptors, memory, accepted = self.num_descriptors(), self.memory_mib(), self.num_accepted()
         for _ in range(num_times):
             disturb()
         self.visit()
         wait_until(lambda: self.num_descriptors() <= descriptors, "every connection ends")
         self.assertLess(self.memory_mib() - memory, MEMORY_MIB)
+        self.assertGreaterEqual(self.num_accepted() - accepted, num_times)
 
     def test_clients_that_come_and_go(self):
         self.hold_flat(self.visit, NUM_CLIENTS)

@@ -10,7 +10,7 @@ import sys
 import unittest
 
 from programs import DEADLINE, ROOT, wait_until
-from walking import WalkingTest
+from walking import STILL_DISTANCE, STILL_TIME, WalkingTest
 
 sys.path.insert(0, str(ROOT / "test/support"))
 
@@ -20,7 +20,7 @@ from stack import BIN_DIR, Stack, run
 
 TIME_TO_TELL = 2.0
 TIME_TO_RETURN = 10.0
-# A robot whose servos hold in the middle of a step may topple where it stands, but goes nowhere.
+# A robot whose servos hold in the middle of a step may topple and get up again, but walks nowhere.
 BODY_LENGTH = 0.6
 UPRIGHT_HEIGHT = 0.28
 
@@ -104,6 +104,18 @@ class PartLossTest(WalkingTest):
         wait_until(accepts, "commands are accepted")
         return self.world()[0]
 
+    def stands_still(self):
+        """@return True if the robot is upright and does not move for STILL_TIME."""
+        start, before = self.world()
+        wait_until(lambda: self.world()[0] > start + STILL_TIME, "simulated time passes")
+        _, after = self.world()
+        return after[2] > UPRIGHT_HEIGHT and math.dist(before, after) < STILL_DISTANCE
+
+    def assert_ends_standing(self, place):
+        """The robot comes to stand where it was: with nobody to balance it, it may have toppled and have to get up."""
+        wait_until(self.stands_still, "the robot stands")
+        self.assertLess(math.dist(place[:2], self.world()[1][:2]), BODY_LENGTH)
+
 
 class HungParts(PartLossTest):
     """Programs that stop without ending: nobody starts them again, and phones must be told."""
@@ -124,7 +136,7 @@ class HungParts(PartLossTest):
         motion.send_signal(signal.SIGCONT)
         self.wait_for_part("motion", True)
         # Neither the old walk nor what was refused is carried out now.
-        self.assert_stands_up(place)
+        self.assert_ends_standing(place)
         self.assertNotEqual(json.loads(self.robot.nao("state", "--json"))["motion_state"]["posture"], "Crouch")
 
     def test_the_simulator_hangs_while_the_robot_walks(self):
@@ -136,7 +148,7 @@ class HungParts(PartLossTest):
         self.assert_refuses_to_move()
         sim.send_signal(signal.SIGCONT)
         self.wait_for_part("robot", True)
-        self.assert_stands_up(place)
+        self.assert_ends_standing(place)
 
     def test_the_camera_hangs_while_the_robot_walks(self):
         self.walk(self.client, 2)
@@ -147,12 +159,6 @@ class HungParts(PartLossTest):
         self.assert_stands_soon()
         camera.send_signal(signal.SIGCONT)
         self.wait_for_part("camera", True)
-
-    def assert_stands_up(self, place):
-        """The robot is where it was, and upright: it may have toppled, with nobody to balance it."""
-        wait_until(lambda: self.world()[1][2] > UPRIGHT_HEIGHT, "the robot stands")
-        self.assert_stands_soon()
-        self.assertLess(math.dist(place[:2], self.world()[1][:2]), BODY_LENGTH)
 
 
 class KilledParts(PartLossTest):
@@ -169,9 +175,7 @@ class KilledParts(PartLossTest):
         self.wait_for(lambda: self.client.notices, "the phone is told")
         self.assertLess(self.world()[0] - start, TIME_TO_TELL)
         self.assertLess(self.assert_obeys_again() - start, TIME_TO_RETURN)
-        wait_until(lambda: self.world()[1][2] > UPRIGHT_HEIGHT, "the robot stands")
-        self.assert_stands_soon()
-        self.assertLess(math.dist(place[:2], self.world()[1][:2]), BODY_LENGTH)
+        self.assert_ends_standing(place)
 
     def test_the_simulator_is_killed_while_the_robot_walks(self):
         self.walk(self.client, 2)

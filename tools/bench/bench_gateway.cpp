@@ -275,7 +275,7 @@ std::map<std::string, WayTimes> measure_ways(Stack& stack, int num_rounds) {
 
   std::map<std::string, WayTimes> times;
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> pause(0.6, 0.7);
+  std::uniform_real_distribution<double> pause(0.3, 0.4);
   double change = kYawChange;
   for (int round = 0; round < num_rounds; ++round) {
     for (const auto& [name, ask] : ways) {
