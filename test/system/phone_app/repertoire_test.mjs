@@ -26,7 +26,7 @@ after(async () => {
 
 /** Said where a busy machine has held a program up: no answer to a button, or one after which a person presses
  * it again. */
-const kPartIsAway = /does not answer/;
+const kPartIsAway = /does not answer|sends no pictures/;
 const kNoRobot = /sensors are silent/;
 const kMaxPresses = 3;
 

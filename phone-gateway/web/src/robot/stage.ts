@@ -61,6 +61,7 @@ export class Stage {
   private isRunning = false;
   private isOutdated = true;
   private wasDrawn = false;
+  private isAhead = false;
   private width = 1;
   private height = 1;
   private freeArea: FreeArea | null = null;
@@ -110,13 +111,17 @@ export class Stage {
   /** What is shown may have begun to move: draws at once if all stood still, for the browser shows with its
    * next frame what is drawn by then. */
   wake(): void {
-    if (this.isRunning && !this.wasDrawn) this.advance(performance.now(), kWakeTime);
+    if (!this.isRunning || this.wasDrawn) return;
+    this.advance(performance.now(), kWakeTime);
+    this.isAhead = this.wasDrawn;
   }
 
   private readonly frame = (nowMs: number): void => {
     if (!this.isRunning) return;
     requestAnimationFrame(this.frame);
-    this.advance(nowMs, 0);
+    // Drawn already, by wake(): once more would hold it up.
+    if (!this.isAhead) this.advance(nowMs, 0);
+    this.isAhead = false;
   };
 
   /** One frame. @param leastTime  it counts as at least so long, s. */
