@@ -100,6 +100,15 @@ class PhoneClients(unittest.TestCase):
         times = [picture.utime for picture in pictures]
         self.assertEqual(times, sorted(set(times)), "no picture comes twice")
 
+    def test_the_status_on_the_bus_has_the_figures_of_each_client(self):
+        with self.phone(name="Ana") as client:
+            figure = f"client_{client.connected.client_id}_requests_total"
+
+            def is_reported():
+                client.ask(ping=pb.Ping())
+                return figure in self.robot.nao("status", "--json")
+            wait_until(is_reported, figure)
+
     def test_nonsense_moves_nothing(self):
         before = self.robot.truth()
         for garbage in (b"\xff" * 100, b"\0\0\0\x05short", b"GET / HTTP/1.1\r\n\r\n", b"\0\0\0\0" * 50):

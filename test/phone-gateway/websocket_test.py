@@ -5,6 +5,7 @@ sockets that break the rules of RFC 6455."""
 import asyncio
 import json
 import os
+import re
 import socket
 import ssl
 import struct
@@ -317,8 +318,27 @@ class WebSocket(unittest.TestCase):
 
     def test_metrics_are_served_to_the_own_host(self):
         url = f"http://127.0.0.1:{self.gateway.http_port}/metrics"
+        connection = self.greeted()
+        connection.send_frame(BINARY, PING_REQUEST)
+        connection.response(2)
         with urllib.request.urlopen(url, timeout=DEADLINE) as response:
-            self.assertIn("nao_gateway_clients ", response.read().decode())
+            lines = response.read().decode().splitlines()
+        # As Prometheus wants them: each figure once, its samples together, after its TYPE.
+        figures = [line.split()[2] for line in lines if line.startswith("# TYPE ")]
+        self.assertEqual(len(figures), len(set(figures)))
+        samples = {}
+        figure = None
+        for line in lines:
+            if line.startswith("# TYPE "):
+                figure = line.split()[2]
+            elif not line.startswith("#"):
+                match = re.fullmatch(r'([a-z_]+)(\{[a-z]+="[^"]*"(?:,[a-z]+="[^"]*")*\})? ([0-9.e+-]+)', line)
+                self.assertTrue(match, line)
+                self.assertEqual(match.group(1), figure)
+                samples.setdefault(figure, []).append(float(match.group(3)))
+        self.assertEqual(samples["nao_gateway_clients"], [len(samples["nao_gateway_client_requests_total"])])
+        self.assertIn(2, samples["nao_gateway_client_requests_total"])
+        self.assertGreater(samples["nao_gateway_accepted_total"][0], 1)
 
     def test_the_robots_files_are_served(self):
         url = f"http://127.0.0.1:{self.gateway.http_port}/robots/nao/nao.urdf"
