@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """A recorded run, played again, says on the bus what the run said."""
 
+import json
+import signal
 import subprocess
 import time
 import unittest
@@ -49,6 +51,44 @@ class RecordReplay(unittest.TestCase):
             self.assertTrue(all(state in rest for state in heard))
             self.assertGreater(len(heard), len(states) / 2)
             self.assertEqual(messages(copy, "NAO_JOINT_COMMAND"), [], "commands are not played unless asked for")
+
+    def test_a_recorder_that_is_held_up_loses_nothing(self):
+        with Stack() as stack:
+            stack.start_or_fail("--only", "sim,motion")
+            log = stack.run_dir / "run.lcmlog"
+            recorder = subprocess.Popen([ROOT / "scripts/record", "--run-dir", stack.run_dir, log],
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.addCleanup(recorder.kill)
+            self.wait_for_file(log)
+            for _ in range(3):
+                recorder.send_signal(signal.SIGSTOP)
+                time.sleep(0.5)
+                recorder.send_signal(signal.SIGCONT)
+                time.sleep(0.5)
+            recorder.terminate()
+            recorder.wait(DEADLINE)
+            said = stack.nao("log", "info", "--json", log)
+            self.assertEqual(said.returncode, 0, said.stderr)
+            channels = {row["channel"]: row for row in json.loads(said.stdout)["channels"]}
+            self.assertGreater(channels["NAO_SENSOR_STATE"]["messages"], 100)
+            self.assertEqual(channels["NAO_SENSOR_STATE"]["missing_ticks"], 0)
+            self.assertTrue(all(row["undecodable"] == 0 for row in channels.values()))
+
+            # A part of it, and under another name.
+            part = stack.run_dir / "part.lcmlog"
+            cut = stack.nao("log", "cut", log, part, "--from", "1", "--to", "2", "--rename",
+                            "NAO_SENSOR_STATE=OLD_SENSOR_STATE")
+            self.assertEqual(cut.returncode, 0, cut.stderr)
+            times = [event.time for event in read_log(part)]
+            self.assertLessEqual(times[-1] - times[0], 1e6)
+            self.assertGreater(len(messages(part, "OLD_SENSOR_STATE")), 20)
+            self.assertEqual(messages(part, "NAO_SENSOR_STATE"), [])
+
+            table = stack.nao("log", "csv", part, "OLD_SENSOR_STATE")
+            self.assertIn("joint_position[HeadYaw]", table.stdout.splitlines()[0])
+            missing = stack.nao("log", "csv", part, "NAO_SENSOR_STATE")
+            self.assertEqual(missing.returncode, 1)
+            self.assertIn("holds nothing on NAO_SENSOR_STATE", missing.stderr)
 
     def wait_for_file(self, path):
         deadline = time.monotonic() + DEADLINE

@@ -42,6 +42,12 @@ void add_spy_command(CLI::App& app, Invocation& invocation);
 /** Adds watchdog. */
 void add_watchdog_command(CLI::App& app, Invocation& invocation);
 
+/** Adds record. */
+void add_record_command(CLI::App& app, Invocation& invocation);
+
+/** Adds log and its own subcommands. */
+void add_log_command(CLI::App& app, Invocation& invocation);
+
 /** Adds bus. */
 void add_bus_command(CLI::App& app, Invocation& invocation);
 

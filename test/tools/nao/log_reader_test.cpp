@@ -1,0 +1,105 @@
+#include "nao/log_reader.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <random>
+
+#include "common/error.h"
+#include "nao/log_statistics.h"
+
+namespace nao {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+class LogReaderTest : public testing::Test {
+ protected:
+  ~LogReaderTest() override { std::filesystem::remove(path_); }
+
+  /** Every event that is found in these bytes. */
+  std::vector<LogEvent> read(const Bytes& bytes) {
+    std::ofstream(path_, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    LogReader reader(path_);
+    std::vector<LogEvent> events;
+    while (auto event = reader.next()) events.push_back(*event);
+    num_bytes_skipped_ = reader.num_bytes_skipped();
+    return events;
+  }
+
+  static LogEvent event(int64_t number) {
+    return {number, 1'700'000'000'000'000 + number, "CHANNEL", {1, 2, 3, 4, 5}};
+  }
+
+  static Bytes log_of(int num_events) {
+    Bytes bytes;
+    for (int i = 0; i < num_events; ++i) {
+      const Bytes more = encode_log_event(event(i));
+      bytes.insert(bytes.end(), more.begin(), more.end());
+    }
+    return bytes;
+  }
+
+  const std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / ("nao-log-" + std::to_string(getpid()));
+  int64_t num_bytes_skipped_ = 0;
+};
+
+TEST_F(LogReaderTest, ReadsWhatTheDocumentedFormatSays) {
+  const Bytes bytes{0xED, 0xA1, 0xDA, 0x01, 0, 0, 0, 0, 0, 0, 0, 7, 0,   0,   0, 0,
+                    0,    0,    1,    0,    0, 0, 0, 2, 0, 0, 0, 1, 'A', 'B', 9};
+  const auto events = read(bytes);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].number, 7);
+  EXPECT_EQ(events[0].wall_utime, 256);
+  EXPECT_EQ(events[0].channel, "AB");
+  EXPECT_EQ(events[0].data, Bytes{9});
+  EXPECT_EQ(encode_log_event(events[0]), bytes);
+}
+
+TEST_F(LogReaderTest, GoesOnBehindADamagedPlace) {
+  Bytes bytes = log_of(5);
+  const size_t event_size = bytes.size() / 5;
+  bytes[2 * event_size] ^= 0xFF;
+  const auto events = read(bytes);
+  ASSERT_EQ(events.size(), 4u);
+  EXPECT_EQ(events[2].number, 3);
+  EXPECT_EQ(num_bytes_skipped_, static_cast<int64_t>(event_size));
+}
+
+TEST_F(LogReaderTest, LeavesOutAnEventThatIsCutOff) {
+  Bytes bytes = log_of(3);
+  const size_t event_size = bytes.size() / 3;
+  bytes.resize(bytes.size() - 1);
+  EXPECT_EQ(read(bytes).size(), 2u);
+  EXPECT_EQ(num_bytes_skipped_, static_cast<int64_t>(event_size - 1));
+}
+
+TEST_F(LogReaderTest, SurvivesGarbage) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 300; ++round) {
+    Bytes bytes = log_of(8);
+    for (int i = 0; i < 12; ++i) bytes[random() % bytes.size()] = static_cast<uint8_t>(random());
+    bytes.resize(random() % (bytes.size() + 1));
+    const auto events = read(bytes);
+    EXPECT_LE(events.size(), 8u);
+    LogStatistics statistics;
+    for (const LogEvent& event : events) statistics.add(event);
+    EXPECT_EQ(statistics.num_messages(), static_cast<int64_t>(events.size()));
+  }
+}
+
+TEST_F(LogReaderTest, NamesTheFileThatIsNotThere) {
+  try {
+    const LogReader reader("/no/such.lcmlog");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("/no/such.lcmlog"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace nao

@@ -1,0 +1,336 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <regex>
+#include <string>
+
+#include "common/error.h"
+#include "nao/json_writer.h"
+#include "nao/log_reader.h"
+#include "nao/log_statistics.h"
+#include "nao/mcap_writer.h"
+#include "nao/message_json.h"
+#include "nao/message_table.h"
+#include "nao/message_types.h"
+#include "nao/subcommand.h"
+
+namespace nao {
+namespace {
+
+struct LogOptions {
+  std::string file;
+  std::string output;
+  std::string channel;
+  std::string channels = ".*";
+  bool as_json = false;
+  double from = 0;
+  double to = std::numeric_limits<double>::infinity();
+  std::vector<std::string> renames;
+};
+
+/** Opens a log and reads its first event, so that what is no log is refused at once. */
+class Log {
+ public:
+  explicit Log(const std::string& file) : file_(file), reader_(file), next_(next_message()) {
+    if (!next_) throw Error(file + " holds no message: it is empty, or no log of scripts/record");
+    start_ = next_->wall_utime;
+  }
+
+  /** @param event  The next one. @return false at the end. */
+  bool read(LogEvent& event) {
+    if (!next_) return false;
+    event = std::move(*next_);
+    next_ = next_message();
+    return true;
+  }
+
+  /** Since the log's first event, s. */
+  double time_of(const LogEvent& event) const {
+    return static_cast<double>(event.wall_utime - start_) * 1e-6;
+  }
+
+  void warn_about_damage() const {
+    if (reader_.num_bytes_skipped() == 0) return;
+    std::fprintf(stderr,
+                 "nao: log: %s: left out %ld damaged bytes (a recorder that was killed cuts "
+                 "off its last message)\n",
+                 file_.c_str(), static_cast<long>(reader_.num_bytes_skipped()));
+  }
+
+ private:
+  std::optional<LogEvent> next_message() {
+    auto event = reader_.next();
+    // LCM sends this to itself whenever a program opens the bus; it is nobody's message.
+    while (event && event->channel == "LCM_SELF_TEST") event = reader_.next();
+    return event;
+  }
+
+  std::string file_;
+  LogReader reader_;
+  std::optional<LogEvent> next_;
+  int64_t start_ = 0;
+};
+
+const MessageLayout* layout_of(const LogEvent& event) {
+  const MessageType* type =
+      find_message_type(event.data.data(), static_cast<int>(event.data.size()));
+  return type != nullptr ? find_message_layout(type->name) : nullptr;
+}
+
+/** Messages that could not be decoded, by channel; said once at the end. */
+class Undecodable {
+ public:
+  void add(const std::string& channel) { ++counts_[channel]; }
+  void warn() const {
+    for (const auto& [channel, count] : counts_) {
+      std::fprintf(stderr,
+                   "nao: log: %s: left out %ld messages of no type that this version knows; "
+                   "they were recorded by another version, whose nao can read them\n",
+                   channel.c_str(), count);
+    }
+  }
+
+ private:
+  std::map<std::string, long> counts_;
+};
+
+std::regex compiled(const std::string& expression) {
+  try {
+    return std::regex(expression, std::regex::extended);
+  } catch (const std::regex_error& fault) {
+    throw ConfigError("--channels " + expression + " is no regular expression: " + fault.what());
+  }
+}
+
+/** Standard output, or the file that was named. */
+class Output {
+ public:
+  explicit Output(const std::string& file) : file_(file) {
+    if (!file.empty()) stream_.open(file, std::ios::binary);
+    if (!file.empty() && !stream_) throw Error("cannot write " + file);
+  }
+  std::ostream& stream() { return file_.empty() ? std::cout : stream_; }
+  void finish() {
+    if (!stream().flush()) throw Error("cannot write all of " + (file_.empty() ? "stdout" : file_));
+  }
+
+ private:
+  std::string file_;
+  std::ofstream stream_;
+};
+
+int show_info(const LogOptions& options) {
+  Log log(options.file);
+  LogStatistics statistics;
+  LogEvent event;
+  while (log.read(event)) statistics.add(event);
+  std::cout << (options.as_json ? statistics.to_json() + "\n" : statistics.to_text());
+  log.warn_about_damage();
+  return 0;
+}
+
+/** Layout of what a channel carries, from its first message. */
+const MessageLayout& find_layout_of_channel(const LogOptions& options) {
+  Log log(options.file);
+  LogEvent event;
+  while (log.read(event)) {
+    if (event.channel != options.channel) continue;
+    const MessageLayout* layout = layout_of(event);
+    if (layout != nullptr) return *layout;
+    throw Error(options.channel + " in " + options.file +
+                " carries no type that this version knows: the messages have changed since it was "
+                "recorded. Read it with the nao of that version, or record again");
+  }
+  throw Error(options.file + " holds nothing on " + options.channel +
+              "; what it holds: nao log info " + options.file);
+}
+
+int write_csv(const LogOptions& options) {
+  MessageTable table(find_layout_of_channel(options));
+  LogEvent event;
+  {
+    Log log(options.file);
+    while (log.read(event)) {
+      if (event.channel == options.channel) table.see(event.data);
+    }
+  }
+  Output output(options.output);
+  output.stream() << "log_time_s," << table.heading() << "\n";
+  Log log(options.file);
+  Undecodable undecodable;
+  while (log.read(event)) {
+    if (event.channel != options.channel) continue;
+    const std::string row = table.row(event.data);
+    if (row.empty()) {
+      undecodable.add(event.channel);
+      continue;
+    }
+    output.stream() << std::to_string(log.time_of(event)) << "," << row << "\n";
+  }
+  output.finish();
+  undecodable.warn();
+  log.warn_about_damage();
+  return 0;
+}
+
+int write_json(const LogOptions& options) {
+  const std::regex wanted = compiled(options.channels);
+  Log log(options.file);
+  Output output(options.output);
+  Undecodable undecodable;
+  LogEvent event;
+  while (log.read(event)) {
+    if (!std::regex_match(event.channel, wanted)) continue;
+    const MessageLayout* layout = layout_of(event);
+    const auto message = layout != nullptr ? message_to_json(*layout, event.data) : std::nullopt;
+    if (!message) {
+      undecodable.add(event.channel);
+      continue;
+    }
+    JsonWriter head;
+    head.begin_object();
+    head.add("log_wall_utime", long{event.wall_utime});
+    head.add("channel", event.channel);
+    head.add("type", layout->name);
+    head.end();
+    std::string line = head.text();
+    line.pop_back();
+    output.stream() << line << ", \"message\": " << *message << "}\n";
+  }
+  output.finish();
+  undecodable.warn();
+  log.warn_about_damage();
+  return 0;
+}
+
+int write_mcap(const LogOptions& options) {
+  const std::regex wanted = compiled(options.channels);
+  Log log(options.file);
+  McapWriter mcap(options.output);
+  Undecodable undecodable;
+  std::map<std::string, uint16_t> schemas;
+  std::map<std::string, uint16_t> channels;
+  LogEvent event;
+  while (log.read(event)) {
+    if (!std::regex_match(event.channel, wanted)) continue;
+    const MessageLayout* layout = layout_of(event);
+    const auto message = layout != nullptr ? message_to_json(*layout, event.data) : std::nullopt;
+    if (!message) {
+      undecodable.add(event.channel);
+      continue;
+    }
+    if (!schemas.contains(layout->name)) {
+      schemas[layout->name] = mcap.add_schema("naolcm." + layout->name, json_schema_of(*layout));
+    }
+    // A channel that changed its type while it was recorded becomes two.
+    const std::string key = event.channel + " " + layout->name;
+    if (!channels.contains(key)) {
+      channels[key] = mcap.add_channel(event.channel, schemas[layout->name]);
+    }
+    mcap.add_message(channels[key], event.wall_utime, *message);
+  }
+  mcap.finish();
+  undecodable.warn();
+  log.warn_about_damage();
+  return 0;
+}
+
+std::map<std::string, std::string> parse_renames(const std::vector<std::string>& renames) {
+  std::map<std::string, std::string> names;
+  for (const std::string& rename : renames) {
+    const size_t middle = rename.find('=');
+    if (middle == std::string::npos || middle == 0 || middle + 1 == rename.size()) {
+      throw ConfigError("--rename " + rename + ": give OLD=NEW");
+    }
+    names[rename.substr(0, middle)] = rename.substr(middle + 1);
+  }
+  return names;
+}
+
+int write_cut(const LogOptions& options) {
+  const std::regex wanted = compiled(options.channels);
+  const auto names = parse_renames(options.renames);
+  Log log(options.file);
+  Output output(options.output);
+  LogEvent event;
+  int64_t number = 0;
+  while (log.read(event)) {
+    const double time = log.time_of(event);
+    if (time < options.from || time > options.to) continue;
+    if (!std::regex_match(event.channel, wanted)) continue;
+    const auto name = names.find(event.channel);
+    if (name != names.end()) event.channel = name->second;
+    event.number = number++;
+    const auto bytes = encode_log_event(event);
+    output.stream().write(reinterpret_cast<const char*>(bytes.data()),
+                          static_cast<std::streamsize>(bytes.size()));
+  }
+  output.finish();
+  log.warn_about_damage();
+  if (number == 0) throw Error("nothing of " + options.file + " is between these times");
+  return 0;
+}
+
+CLI::App* add_log_subcommand(CLI::App& log, Invocation& invocation,
+                             const std::shared_ptr<LogOptions>& options, const std::string& name,
+                             const std::string& description, int (*run)(const LogOptions&)) {
+  CLI::App* command = log.add_subcommand(name, description);
+  command->add_option("file", options->file, "Log of scripts/record")->required();
+  command->callback(
+      [&invocation, options, run] { invocation.run = [options, run] { return run(*options); }; });
+  return command;
+}
+
+}  // namespace
+
+void add_log_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* log =
+      app.add_subcommand("log", "Read what scripts/record has recorded; needs no running robot");
+  log->require_subcommand(1);
+  const auto options = std::make_shared<LogOptions>();
+  const auto add_channels = [&](CLI::App* command) {
+    command
+        ->add_option("--channels", options->channels,
+                     "Only channels whose whole name matches this (extended) regular expression")
+        ->capture_default_str();
+  };
+  const auto add_output = [&](CLI::App* command) {
+    command->add_option("--output", options->output, "File to write (default: stdout)");
+  };
+
+  CLI::App* info = add_log_subcommand(
+      *log, invocation, options, "info",
+      "Channels with type, rate, longest gap, size and lost messages", show_info);
+  info->add_flag("--json", options->as_json, "As JSON");
+
+  CLI::App* csv =
+      add_log_subcommand(*log, invocation, options, "csv",
+                         "One channel as a table for pandas or a spreadsheet", write_csv);
+  csv->add_option("channel", options->channel, "Such as NAO_ROBOT_STATE")->required();
+  add_output(csv);
+
+  CLI::App* json = add_log_subcommand(*log, invocation, options, "json",
+                                      "One line of JSON for every message", write_json);
+  add_channels(json);
+  add_output(json);
+
+  CLI::App* mcap = add_log_subcommand(
+      *log, invocation, options, "mcap",
+      "An MCAP file with JSON schemas, for Foxglove and PlotJuggler", write_mcap);
+  mcap->add_option("output", options->output, "File to write, such as run.mcap")->required();
+  add_channels(mcap);
+
+  CLI::App* cut = add_log_subcommand(*log, invocation, options, "cut",
+                                     "A part of a log, as a log of its own", write_cut);
+  cut->add_option("output", options->output, "File to write")->required();
+  cut->add_option("--from", options->from, "Since the log's first message, s");
+  cut->add_option("--to", options->to, "Since the log's first message, s");
+  cut->add_option("--rename", options->renames, "OLD=NEW: give a channel another name");
+  add_channels(cut);
+}
+
+}  // namespace nao

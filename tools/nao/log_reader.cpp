@@ -1,0 +1,84 @@
+#include "nao/log_reader.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "common/error.h"
+
+namespace nao {
+namespace {
+
+constexpr uint32_t kSync = 0xEDA1DA01;
+constexpr int kHeaderSize = 28;
+// Longest name that LCM sends (LCM_MAX_CHANNEL_NAME_LENGTH).
+constexpr uint32_t kMaxChannelSize = 63;
+
+uint64_t big_endian(const uint8_t* bytes, int size) {
+  uint64_t value = 0;
+  for (int i = 0; i < size; ++i) value = value << 8 | bytes[i];
+  return value;
+}
+
+void append_big_endian(std::vector<uint8_t>& bytes, uint64_t value, int size) {
+  for (int i = size - 1; i >= 0; --i) bytes.push_back(static_cast<uint8_t>(value >> (8 * i)));
+}
+
+}  // namespace
+
+LogReader::LogReader(const std::filesystem::path& file) : file_(std::fopen(file.c_str(), "rb")) {
+  if (file_ == nullptr) {
+    throw Error("cannot open log " + file.string() + ": " + std::strerror(errno));
+  }
+  std::error_code fault;
+  size_ = static_cast<int64_t>(std::filesystem::file_size(file, fault));
+  if (fault) throw Error("cannot read log " + file.string() + ": " + fault.message());
+}
+
+std::optional<LogEvent> LogReader::next() {
+  while (offset_ + kHeaderSize <= size_) {
+    if (auto event = read_event()) return event;
+    ++offset_;
+    ++num_bytes_skipped_;
+  }
+  num_bytes_skipped_ += size_ - offset_;
+  offset_ = size_;
+  return std::nullopt;
+}
+
+std::optional<LogEvent> LogReader::read_event() {
+  std::array<uint8_t, kHeaderSize> header{};
+  if (std::ftell(file_.get()) != offset_) std::fseek(file_.get(), offset_, SEEK_SET);
+  if (std::fread(header.data(), 1, header.size(), file_.get()) != header.size()) return {};
+  const auto channel_size = static_cast<uint32_t>(big_endian(&header[20], 4));
+  const auto data_size = static_cast<uint32_t>(big_endian(&header[24], 4));
+  const int64_t end = offset_ + kHeaderSize + channel_size + data_size;
+  if (big_endian(header.data(), 4) != kSync || channel_size == 0 ||
+      channel_size > kMaxChannelSize || end > size_) {
+    return {};
+  }
+  LogEvent event{static_cast<int64_t>(big_endian(&header[4], 8)),
+                 static_cast<int64_t>(big_endian(&header[12], 8)), std::string(channel_size, ' '),
+                 std::vector<uint8_t>(data_size)};
+  if (std::fread(event.channel.data(), 1, channel_size, file_.get()) != channel_size ||
+      std::fread(event.data.data(), 1, data_size, file_.get()) != data_size) {
+    return {};
+  }
+  offset_ = end;
+  return event;
+}
+
+std::vector<uint8_t> encode_log_event(const LogEvent& event) {
+  std::vector<uint8_t> bytes;
+  bytes.reserve(kHeaderSize + event.channel.size() + event.data.size());
+  append_big_endian(bytes, kSync, 4);
+  append_big_endian(bytes, static_cast<uint64_t>(event.number), 8);
+  append_big_endian(bytes, static_cast<uint64_t>(event.wall_utime), 8);
+  append_big_endian(bytes, event.channel.size(), 4);
+  append_big_endian(bytes, event.data.size(), 4);
+  bytes.insert(bytes.end(), event.channel.begin(), event.channel.end());
+  bytes.insert(bytes.end(), event.data.begin(), event.data.end());
+  return bytes;
+}
+
+}  // namespace nao

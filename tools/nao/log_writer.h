@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "nao/log_reader.h"
+
+namespace nao {
+
+/** When a recording goes on in another file. */
+struct LogSplit {
+  /** Size of a file, bytes, from which on the next is begun; 0: never. */
+  int64_t max_bytes = 0;
+  /** Files kept: FILE.0 is the newest. 0: all, as FILE.00, FILE.01 and so on. */
+  int num_kept = 0;
+};
+
+/** Writes a log that LCM's tools and LogReader read. */
+class LogWriter {
+ public:
+  /** @throws Error  if a file of this name is there, or none can be written. */
+  LogWriter(const std::filesystem::path& file, const LogSplit& split);
+
+  /** Appends an event; its number becomes its place in the recording.
+   * @throws Error  if it cannot be written: a full disk. */
+  void write(LogEvent event);
+
+  /** Hands what is written to the system, so that a reader sees it and a kill does not lose it.
+   * @throws Error  as write(). */
+  void flush();
+
+  int64_t num_events() const { return num_events_; }
+
+ private:
+  void open_next();
+
+  struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::filesystem::path path_;
+  LogSplit split_;
+  std::unique_ptr<std::FILE, Closer> file_;
+  int64_t num_bytes_ = 0;
+  int64_t num_events_ = 0;
+  int num_files_ = 0;
+};
+
+}  // namespace nao

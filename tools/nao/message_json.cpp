@@ -1,0 +1,117 @@
+#include "nao/message_json.h"
+
+#include "nao/json_writer.h"
+#include "nao/message_walk.h"
+
+namespace nao {
+namespace {
+
+/** Writes a message into a JSON object that is open already. */
+class JsonMessageWriter : public MessageVisitor {
+ public:
+  explicit JsonMessageWriter(JsonWriter& json) : json_(json) {}
+  void begin_struct(const std::string& key) override { json_.begin_object(key); }
+  void end_struct() override { json_.end(); }
+  void begin_list(const std::string& key) override { json_.begin_array(key); }
+  void end_list() override { json_.end(); }
+  void integer(const std::string& key, int64_t value) override { json_.add(key, long{value}); }
+  void number(const std::string& key, double value) override { json_.add(key, value); }
+  void boolean(const std::string& key, bool value) override { json_.add(key, value); }
+  void text(const std::string& key, const std::string& value) override { json_.add(key, value); }
+  void bytes(const std::string& key, std::span<const uint8_t> value) override {
+    json_.add(key, to_base64(value));
+  }
+
+ private:
+  JsonWriter& json_;
+};
+
+void add_schema_fields(JsonWriter& json, const MessageLayout& layout);
+
+void add_schema_of_value(JsonWriter& json, const FieldLayout& field) {
+  switch (field.kind) {
+    case FieldKind::kFloat:
+    case FieldKind::kDouble:
+      json.add("type", "number");
+      return;
+    case FieldKind::kBoolean:
+      json.add("type", "boolean");
+      return;
+    case FieldKind::kString:
+      json.add("type", "string");
+      return;
+    case FieldKind::kStruct:
+      add_schema_fields(json, *find_message_layout(field.type));
+      return;
+    default:
+      json.add("type", "integer");
+  }
+}
+
+void add_schema_of_list(JsonWriter& json, const FieldLayout& field, size_t depth) {
+  if (depth == field.dimensions.size()) {
+    add_schema_of_value(json, field);
+    return;
+  }
+  if (field.kind == FieldKind::kByte) {
+    json.add("type", "string");
+    json.add("contentEncoding", "base64");
+    return;
+  }
+  json.add("type", "array");
+  json.begin_object("items");
+  add_schema_of_list(json, field, depth + 1);
+  json.end();
+}
+
+void add_schema_fields(JsonWriter& json, const MessageLayout& layout) {
+  json.add("type", "object");
+  json.begin_object("properties");
+  for (const FieldLayout& field : layout.fields) {
+    json.begin_object(field.name);
+    add_schema_of_list(json, field, 0);
+    json.add("description", field.description);
+    json.end();
+  }
+  json.end();
+}
+
+}  // namespace
+
+std::optional<std::string> message_to_json(const MessageLayout& layout,
+                                           std::span<const uint8_t> message) {
+  JsonWriter json;
+  json.begin_object();
+  JsonMessageWriter writer(json);
+  if (!walk_message(layout, message, writer)) return {};
+  json.end();
+  return json.text();
+}
+
+std::string json_schema_of(const MessageLayout& layout) {
+  JsonWriter json;
+  json.begin_object();
+  json.add("$schema", "https://json-schema.org/draft/2020-12/schema");
+  json.add("title", "naolcm." + layout.name);
+  json.add("description", layout.description);
+  add_schema_fields(json, layout);
+  json.end();
+  return json.text();
+}
+
+std::string to_base64(std::span<const uint8_t> bytes) {
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    uint32_t group = 0;
+    for (size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
+    for (size_t k = 0; k < 4; ++k) {
+      text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+}  // namespace nao

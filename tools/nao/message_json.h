@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "nao/message_layout.h"
+
+namespace nao {
+
+/** A message as a JSON object with the field names of its .lcm file. Numbers that are not finite
+ * are null, bytes are base64.
+ * @return nullopt if the bytes are not a message of this type. */
+[[nodiscard]] std::optional<std::string> message_to_json(const MessageLayout& layout,
+                                                         std::span<const uint8_t> message);
+
+/** JSON Schema of what message_to_json() makes of a type; the descriptions are the comments of the
+ * .lcm file, with their units. */
+std::string json_schema_of(const MessageLayout& layout);
+
+/** RFC 4648, section 4. */
+std::string to_base64(std::span<const uint8_t> bytes);
+
+}  // namespace nao
