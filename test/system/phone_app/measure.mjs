@@ -138,8 +138,7 @@ async function measureLongTasks() {
   await phone.close();
 }
 
-/** @param stop  ends the walk. */
-async function measureStop(name, stop) {
+async function measureStop() {
   const phone = await openController();
   const times = [];
   for (let i = 0; i < kNumHidden; i++) {
@@ -147,14 +146,14 @@ async function measureStop(name, stop) {
     await until("it walks", async () => (await phone.look("state.state.mode")) === "walking");
     await pause(2000 + 130 * i);
     const begin = (await stack.truth()).time;
-    await stop(phone);
+    await phone.hide();
     times.push(1000 * (await timeOfRest(begin + kRestWindow) - begin));
     await phone.fingers("touchEnd", []);
     await phone.unhide();
     await until("it holds", async () => (await phone.look("state.state.mode")) === "holding");
     await standsReady(phone);
   }
-  row(name, times);
+  row("hidden to stop", times);
   await phone.close();
 }
 
@@ -225,8 +224,7 @@ try {
     if (isWanted("link")) await measureLinks();
     if (isWanted("thumb")) await measureThumb();
     if (isWanted("tasks")) await measureLongTasks();
-    if (isWanted("stop")) await measureStop("hidden to stop", (phone) => phone.hide());
-    if (isWanted("stop")) await measureStop("stop on the bus to stop, in comparison", () => stack.nao("stop"));
+    if (isWanted("stop")) await measureStop();
   }
 } finally {
   await browser.close();
