@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "motion/acceptance.h"
 #include "motion/actions/kick_motion.h"
+#include "motion/actions/script_motion.h"
 #include "motion/command_check.h"
 #include "motion/falls/fall_motion.h"
 #include "motion/joint_change_motion.h"
@@ -23,6 +24,10 @@ namespace {
 constexpr const char* kFirstPosture = "StandInit";
 constexpr const char* kGaitFile = "gait.yaml";
 constexpr const char* kKickFile = "actions/kick.yaml";
+constexpr const char* kScriptFile = "actions/keeper.yaml";
+// A kick asked for while the robot walks is struck in passing, unless it is to be stronger than
+// this.
+constexpr double kWalkKickStrength = 0.5;
 constexpr const char* kRestPosture = "Crouch";
 constexpr const char* kNeedsHelp = "needs help";
 
@@ -66,6 +71,8 @@ MotionCore::MotionCore(const RobotModel& model, const MotionOptions& options)
   if (!gait_ && std::filesystem::exists(file)) gait_ = Gait::load(file);
   const std::filesystem::path kick = model.folder() / kKickFile;
   if (std::filesystem::exists(kick)) kick_ = Kick::load(kick);
+  const std::filesystem::path scripts = model.folder() / kScriptFile;
+  if (std::filesystem::exists(scripts)) scripts_ = ActionScript::load(model, scripts);
 }
 
 Output MotionCore::step(const Input& input, double dt) {
@@ -181,7 +188,7 @@ void MotionCore::receive(const Command& command) {
     answer(command, ResultStatus::kRefused, refusal_in(mode));
     return;
   }
-  if (adopt_walk(command)) return;
+  if (adopt_walk(command) || adopt_kick(command)) return;
   Plan planned = plan(command);
   if (const auto* refusal = std::get_if<std::string>(&planned)) {
     answer(command, ResultStatus::kRefused, *refusal);
@@ -213,6 +220,29 @@ bool MotionCore::adopt_walk(const Command& command) {
 
 MotionCore::Plan MotionCore::plan(const Command& command) {
   return std::visit([this](const auto& request) { return plan_request(request); }, command.request);
+}
+
+bool MotionCore::adopt_kick(const Command& command) {
+  const auto* action = std::get_if<ActionCommand>(&command.request);
+  if (action == nullptr || waiting_ || !running_) return false;
+  const bool is_kick = action->action == "kick-left" || action->action == "kick-right";
+  // No strength said is NaN, which is not above.
+  if (!is_kick || action->strength > kWalkKickStrength) return false;
+  if (!running_->generator->adopt(command)) return false;
+  if (walk_kick_) answer(*walk_kick_, ResultStatus::kInterrupted, "A newer kick came first.");
+  answer(command, ResultStatus::kAccepted, "");
+  walk_kick_ = command;
+  return true;
+}
+
+void MotionCore::watch_kick() {
+  if (!walk_kick_) return;
+  const auto strike = running_ ? running_->generator->strike() : MotionGenerator::Strike::kNone;
+  if (strike == MotionGenerator::Strike::kPending) return;
+  const bool is_struck = strike == MotionGenerator::Strike::kStruck;
+  answer(*walk_kick_, is_struck ? ResultStatus::kDone : ResultStatus::kFailed,
+         is_struck ? "" : "The walk ended before the kick.");
+  walk_kick_.reset();
 }
 
 std::optional<std::string> MotionCore::refuse_walk() const {
@@ -264,6 +294,9 @@ MotionCore::Plan MotionCore::plan_request(const ActionCommand& action) {
   if (action.action == "kick-left" || action.action == "kick-right") {
     return plan_kick(action.action == "kick-left", action);
   }
+  for (const ActionScript& script : scripts_) {
+    if (script.sequence.name == action.action) return plan_script(script);
+  }
   const KeyframeSequence* sequence = graph_.find(action.action);
   if (sequence == nullptr) return "The action " + action.action + " is not built yet.";
   const std::string state = find_body_state(*model_, estimator_.state(), options_.lying_tilt);
@@ -278,6 +311,11 @@ MotionCore::Plan MotionCore::plan_kick(bool is_left, const ActionCommand& action
   if (const auto refusal = KickMotion::find_obstacle(*kick_, is_left, ball)) return *refusal;
   return std::make_unique<KickMotion>(*model_, *kick_, *gait_, plan_stand(), is_left, ball,
                                       action.strength);
+}
+
+MotionCore::Plan MotionCore::plan_script(const ActionScript& script) {
+  if (const auto refusal = refuse_walk()) return *refusal;
+  return std::make_unique<ScriptMotion>(*model_, script, *gait_, plan_stand(), plan_stand());
 }
 
 MotionCore::Plan MotionCore::plan_request(const StopCommand& /*stop*/) {
@@ -373,6 +411,7 @@ void MotionCore::move(double dt) {
           remark);
     }
   }
+  watch_kick();
   limiter_.limit(last, dt, targets_.position);
   for (size_t i = 0; i < last.size(); ++i) {
     targets_.velocity[i] = dt > 0 ? (targets_.position[i] - last[i]) / dt : 0.0;

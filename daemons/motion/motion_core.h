@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/robot_model.h"
+#include "motion/actions/action_script.h"
 #include "motion/actions/kick.h"
 #include "motion/command.h"
 #include "motion/command_ledger.h"
@@ -89,8 +90,13 @@ class MotionCore {
   /** A walk's new velocity goes to the walk that runs already; one that asks for no velocity starts
    * none. @return false if the command needs a motion of its own. */
   bool adopt_walk(const Command& command);
+  /** A kick out of the walk goes to the walk that runs; a strong one must stand.
+   * @return false if the command needs a motion of its own. */
+  bool adopt_kick(const Command& command);
+  void watch_kick();
   std::optional<std::string> refuse_walk() const;
   Plan plan_kick(bool is_left, const ActionCommand& action);
+  Plan plan_script(const ActionScript& script);
   /** The way to the stand that walks begin in. */
   std::unique_ptr<MotionGenerator> plan_stand() const;
   Plan plan(const Command& command);
@@ -121,6 +127,7 @@ class MotionCore {
   MotionOptions options_;
   std::optional<Gait> gait_;
   std::optional<Kick> kick_;
+  std::vector<ActionScript> scripts_;
   TargetLimiter limiter_;
   TransitionGraph graph_;
   StateEstimator estimator_;
@@ -145,6 +152,8 @@ class MotionCore {
   bool needs_help_ = false;
   std::optional<Assignment> running_;
   std::optional<Assignment> waiting_;
+  /** A kick that the running walk strikes in passing. */
+  std::optional<Command> walk_kick_;
 
   MotionState state_;
   std::string last_refusal_;

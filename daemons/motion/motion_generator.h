@@ -62,6 +62,10 @@ class MotionGenerator {
    * @return false if it must be a new motion. */
   virtual bool adopt(const Command& /*command*/) { return false; }
 
+  /** What became of a kick that it adopted: a walk strikes in passing. */
+  enum class Strike { kNone, kPending, kStruck };
+  virtual Strike strike() const { return Strike::kNone; }
+
   /** Mode while it runs. */
   virtual Mode mode() const = 0;
 

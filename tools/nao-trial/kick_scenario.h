@@ -18,4 +18,18 @@ class KickScenario : public Scenario {
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 
+/** Kicks a ball in passing and walks on. */
+class WalkKickScenario : public Scenario {
+ public:
+  const char* name() const override { return "walk-kick"; }
+  const char* summary() const override {
+    return "Walk at --vx (0.2 m/s) to a ball, kick it in passing, walk on";
+  }
+  const char* scene() const override { return "soccer"; }
+  std::map<std::string, std::string> units() const override {
+    return {{"ball_m", "m"}, {"direction_error_deg", "degrees"}};
+  }
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
 }  // namespace nao::trial

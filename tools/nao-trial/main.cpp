@@ -89,6 +89,8 @@ int main(int argc, char** argv) {
         ->add_option("--late", options.trial.late_share,
                      "Chance in each tick that motion misses it and up to three more")
         ->capture_default_str();
+    command->add_option("--trace", options.trace_file,
+                        "walk: write true and estimated pose to this file, CSV");
     command->add_flag("--ideal", options.trial.is_ideal, "No randomisation, noise or latency");
     command->add_flag("--verbose", is_verbose, "Print a line for each run");
     command->callback([&chosen, &scenario] { chosen = scenario->name(); });

@@ -31,6 +31,8 @@ struct ScenarioOptions {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   /** m; 0: as the scenario says. */
   double distance = 0;
+  /** If not empty: true and estimated pose of the last seed's walk, ten times a second, as CSV. */
+  std::string trace_file;
 };
 
 /** Something that the robot shall manage. One seed is one run, or several with labels. */

@@ -1,5 +1,6 @@
 #include "nao-trial/scenarios.h"
 
+#include "nao-trial/block_scenario.h"
 #include "nao-trial/kick_scenario.h"
 #include "nao-trial/walk_scenarios.h"
 
@@ -16,6 +17,8 @@ const std::vector<std::unique_ptr<Scenario>>& scenarios() {
     list.push_back(std::make_unique<MoveToScenario>());
     list.push_back(std::make_unique<WalkPushScenario>());
     list.push_back(std::make_unique<KickScenario>());
+    list.push_back(std::make_unique<WalkKickScenario>());
+    list.push_back(std::make_unique<BlockScenario>());
     list.push_back(std::make_unique<JointsScenario>());
     list.push_back(std::make_unique<PushScenario>());
     list.push_back(std::make_unique<GetUpScenario>());

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <optional>
+#include <sstream>
+
+#include "common/error.h"
 
 namespace nao::trial {
 namespace {
@@ -71,23 +75,91 @@ bool run_upright(Trial& trial, double duration) {
   return !has_fallen(trial);
 }
 
-/** Mean velocity in the robot's own, turning frame. */
+/** Mean velocity as the robot itself would say it: of each second the constant velocity in its own
+ * frame that leads from its pose at the beginning to the one at the end. */
 class VelocityMean {
  public:
   explicit VelocityMean(const Trial& trial) : last_(true_pose(trial)) {}
   void add(const Trial& trial) {
+    if (++ticks_ < kTicks) return;
+    ticks_ = 0;
     const GroundPose now = true_pose(trial);
-    const Vector2d way = last_.from_here(now.position);
-    sum_ += Vector3d(way.x(), way.y(), wrapped(now.heading - last_.heading));
-    time_ += kTick;
+    const double turn = wrapped(now.heading - last_.heading);
+    // Inverse of the way along an arc: R. Murray, Z. Li, S. Sastry, "A mathematical introduction to
+    // robotic manipulation", 1994, eq. 2.36, in the plane.
+    const double half = turn / 2;
+    const double stretch = std::abs(half) > 1e-6 ? half / std::tan(half) : 1;
+    Eigen::Matrix2d inverse;
+    inverse << stretch, half, -half, stretch;
+    const Vector2d way = inverse * last_.from_here(now.position);
+    sum_ += Vector3d(way.x(), way.y(), turn);
+    time_ += kTicks * kTick;
     last_ = now;
   }
   Vector3d mean() const { return sum_ / std::max(time_, kTick); }
 
  private:
+  static constexpr int kTicks = 100;
   GroundPose last_;
   Vector3d sum_ = Vector3d::Zero();
   double time_ = 0;
+  int ticks_ = 0;
+};
+
+/** True and estimated way of a robot, both seen from where they began. */
+class Trace {
+ public:
+  explicit Trace(const Trial& trial)
+      : truth_(true_pose(trial)), estimate_(estimated_pose(trial)), start_(trial.time()) {}
+  void add(const Trial& trial) {
+    if (ticks_++ % 10 != 0) return;
+    const Vector2d truth = truth_.from_here(true_pose(trial).position);
+    const Vector2d estimate = estimate_.from_here(estimated_pose(trial).position);
+    text_ << trial.time() - start_ << ',' << truth.x() << ',' << truth.y() << ',' << estimate.x()
+          << ',' << estimate.y() << '\n';
+  }
+  /** @throws Error */
+  void write(const std::string& path) const {
+    std::ofstream file(path);
+    file << "time,true_x,true_y,odometry_x,odometry_y\n" << text_.str();
+    if (!file) throw Error("cannot write " + path);
+  }
+
+ private:
+  GroundPose truth_;
+  GroundPose estimate_;
+  double start_;
+  int ticks_ = 0;
+  std::ostringstream text_;
+};
+
+/** Tells when a robot that stops has come to a stand: from when on its torso moves no faster. */
+class StandstillWatch {
+ public:
+  explicit StandstillWatch(const Trial& trial)
+      : start_(trial.time()), last_(trial.torso_in_world()), place_(true_pose(trial)) {}
+  void look(const Trial& trial) {
+    const Eigen::Isometry3d now = trial.torso_in_world();
+    const double speed = (now.translation() - last_.translation()).norm() / kTick;
+    const double turning = Eigen::AngleAxisd(last_.linear().transpose() * now.linear()).angle();
+    last_ = now;
+    if (speed > kStillSpeed || turning / kTick > kStillTurning) still_since_ = trial.time();
+  }
+  /** s from the beginning until it stood still. */
+  double duration() const { return std::max(0.0, still_since_ - start_); }
+  /** m from the place of the beginning. */
+  double way(const Trial& trial) const {
+    return (true_pose(trial).position - place_.position).norm();
+  }
+
+ private:
+  // Both below what a finger on the shoulder feels: m/s, rad/s.
+  static constexpr double kStillSpeed = 0.03;
+  static constexpr double kStillTurning = 0.2;
+  double start_;
+  double still_since_ = 0;
+  Eigen::Isometry3d last_;
+  GroundPose place_;
 };
 
 RunResult fallen(double time) {
@@ -100,28 +172,38 @@ RunResult fallen(double time) {
 
 std::map<std::string, std::string> WalkScenario::units() const {
   return {{"speed_mps", "m/s"},    {"turning_radps", "rad/s"}, {"tracking_error", "1"},
-          {"odometry_error", "1"}, {"stopping_s", "s"},        {"stopping_mm", "mm"}};
+          {"odometry_error", "1"}, {"stopping_s", "s"},        {"stopping_mm", "mm"},
+          {"drift_5m_mm", "mm"}};
 }
 
 std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   const double duration = options.duration > 0 ? options.duration : 10;
   Trial trial(options.trial, seed);
   trial.run(kStand);
+  const GroundPose start_pose = true_pose(trial);
   const int64_t walk = trial.hold_walk(options.velocity);
   const double start = trial.time();
   if (!run_upright(trial, kSpeedUp)) return {fallen(trial.time() - start)};
   VelocityMean velocity(trial);
   const OdometryCheck odometry(trial);
-  trial.on_tick([&] { velocity.add(trial); });
+  const GroundPose way_start = true_pose(trial);
+  Trace trace(trial);
+  trial.on_tick([&] {
+    velocity.add(trial);
+    trace.add(trial);
+  });
   if (!run_upright(trial, duration)) return {fallen(trial.time() - start)};
   trial.on_tick({});
+  if (!options.trace_file.empty()) trace.write(options.trace_file);
   const Vector3d mean = velocity.mean();
   const double odometry_error = odometry.error(trial);
+  const GroundPose way_end = true_pose(trial);
 
-  const double stop_time = trial.time();
-  const Vector2d stop_place = true_pose(trial).position;
+  StandstillWatch standstill(trial);
+  trial.on_tick([&] { standstill.look(trial); });
   trial.release_walk();
   const auto end = trial.await_end(walk, 10);
+  trial.run(0.5);
   RunResult result;
   result.is_success = end && end->status == motion::ResultStatus::kDone && !has_fallen(trial);
   if (!result.is_success) {
@@ -136,8 +218,17 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   result.metrics = {{"speed_mps", mean.head<2>().norm()},
                     {"turning_radps", mean.z()},
                     {"tracking_error", wished > 0 ? missed.norm() / wished : missed.norm()},
-                    {"stopping_s", trial.time() - stop_time},
-                    {"stopping_mm", 1e3 * (true_pose(trial).position - stop_place).norm()}};
+                    {"stopping_s", standstill.duration()},
+                    {"stopping_mm", 1e3 * standstill.way(trial)}};
+  const bool is_straight = options.velocity.z() == 0 && distance > 0;
+  if (is_straight) {
+    // Off the line on which it was sent, as far as it would be after 5 m.
+    const Vector2d line =
+        (Rotation2Dd(start_pose.heading) * options.velocity.head<2>()).normalized();
+    const Vector2d went = way_end.position - way_start.position;
+    const double off = std::abs(line.x() * went.y() - line.y() * went.x());
+    result.metrics.emplace_back("drift_5m_mm", 1e3 * off * 5 / went.norm());
+  }
   if (distance > 0.5) result.metrics.emplace_back("odometry_error", odometry_error / distance);
   return {result};
 }

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "common/error.h"
-#include "common/yaml_entry.h"
 
 namespace nao::motion {
 namespace {
@@ -88,6 +87,13 @@ Keyframe read_keyframe(const RobotModel& model, const YamlEntry& entry) {
 
 }  // namespace
 
+std::vector<Keyframe> read_keyframes(const RobotModel& model, const YamlEntry& list) {
+  std::vector<Keyframe> keyframes;
+  for (const YamlEntry& entry : list.items()) keyframes.push_back(read_keyframe(model, entry));
+  if (keyframes.empty()) list.fail("has no keyframe");
+  return keyframes;
+}
+
 std::string state_of(const Posture& posture) {
   if (posture.family == "standing" || posture.family == "crouching") return "on-feet";
   if (posture.family == "lying-back") return "back";
@@ -109,10 +115,7 @@ TransitionGraph TransitionGraph::load(const RobotModel& model, const std::filesy
       if (original == nullptr) entry.at("mirrors").fail("no such transition above");
       sequence = mirrored(model, *original);
     } else {
-      for (const YamlEntry& keyframe : entry.at("keyframes").items()) {
-        sequence.keyframes.push_back(read_keyframe(model, keyframe));
-      }
-      if (sequence.keyframes.empty()) entry.at("keyframes").fail("has no keyframe");
+      sequence.keyframes = read_keyframes(model, entry.at("keyframes"));
     }
     sequence.name = entry.at("name").text();
     sequence.from = entry.at("from").text();

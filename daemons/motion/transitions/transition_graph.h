@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/robot_model.h"
+#include "common/yaml_entry.h"
 #include "motion/transitions/keyframes.h"
 
 namespace nao::motion {
@@ -36,6 +37,11 @@ class TransitionGraph {
  private:
   std::vector<KeyframeSequence> sequences_;
 };
+
+/** Reads a list of keyframes: a `keyframes` entry of transitions.yaml, which says what its keys
+ * mean.
+ * @throws ModelError  naming the line and what is wrong with it. */
+std::vector<Keyframe> read_keyframes(const RobotModel& model, const YamlEntry& list);
 
 /** State of a posture in the graph: "on-feet" for the standing and crouching ones, "back" and
  * "belly" for the lying ones, else the posture's own name. Between two postures in one state all

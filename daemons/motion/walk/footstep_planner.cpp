@@ -32,9 +32,10 @@ Eigen::Vector3d FootstepPlanner::clip_velocity(const Eigen::Vector3d& velocity) 
 }
 
 Eigen::Vector3d FootstepPlanner::ramp_velocity(const Eigen::Vector3d& from,
-                                               const Eigen::Vector3d& to) const {
-  const Eigen::Vector3d greatest(gait_->max_change_forward, gait_->max_change_sideways,
-                                 gait_->max_change_turning);
+                                               const Eigen::Vector3d& to, double haste) const {
+  const Eigen::Vector3d greatest =
+      haste * Eigen::Vector3d(gait_->max_change_forward, gait_->max_change_sideways,
+                              gait_->max_change_turning);
   return from + (to - from).cwiseMax(-greatest).cwiseMin(greatest);
 }
 

@@ -36,8 +36,10 @@ class FootstepPlanner {
    * @param velocity  m/s ahead and to the left, rad/s. */
   Eigen::Vector3d clip_velocity(const Eigen::Vector3d& velocity) const;
 
-  /** A step towards a velocity, as large as one footstep may change it. */
-  Eigen::Vector3d ramp_velocity(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+  /** A step towards a velocity, as large as one footstep may change it.
+   * @param haste  Factor on that. */
+  Eigen::Vector3d ramp_velocity(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                double haste = 1) const;
 
   Spread spread_for(const Eigen::Vector3d& velocity) const;
 

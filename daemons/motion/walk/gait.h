@@ -40,6 +40,9 @@ struct Gait {
   double max_change_sideways = 0;
   double max_change_turning = 0;
   double envelope_exponent = 0;
+  double stop_braking = 0;
+  double raise_speed = 0;
+  double path_gain = 0;
 
   // Servos: s; shares.
   double lead_time = 0;
@@ -66,6 +69,10 @@ struct Gait {
   double tilt_ankle_roll = 0;
   double bias_gain = 0;
   double touchdown_share = 0;
+
+  // Kick out of the walk: m.
+  double kick_reach = 0;
+  double kick_lift = 0;
 
   // Arms: rad, rad per m.
   double shoulder_pitch = 0;

@@ -88,7 +88,10 @@ WalkEngine::WalkEngine(const RobotModel& model, const Gait& gait, const Posture&
 void WalkEngine::start(const RobotState& state, const JointTargets& targets) {
   stage_ = Stage::kLowering;
   is_ending_ = false;
+  kick_ = {};
+  is_kick_step_ = false;
   velocity_.setZero();
+  step_velocity_.setZero();
   bias_.fill(Vector2d::Zero());
   deviation_.setZero();
   time_ = 0;
@@ -161,9 +164,9 @@ bool WalkEngine::step(const RobotState& state, const Kinematics& measured, doubl
 
 void WalkEngine::measure(const RobotState& state, const Kinematics& measured, double dt) {
   const Matrix3d& R_OT = state.torso_in_odometry.linear();
-  const Isometry3d& sole =
-      support_is_left_ ? state.left_sole_in_odometry : state.right_sole_in_odometry;
-  support_in_odometry_ = Pose2::from(sole);
+  soles_in_odometry_ = {Pose2::from(state.left_sole_in_odometry),
+                        Pose2::from(state.right_sole_in_odometry)};
+  support_in_odometry_ = soles_in_odometry_[support_is_left_ ? 0 : 1];
   const Vector3d mass_centre = state.torso_in_odometry * measured.center_of_mass();
   const Pose2 to_support = support_in_odometry_.inverse();
   const Vector2d position = to_support * Vector2d(mass_centre.head<2>());
@@ -216,7 +219,7 @@ void WalkEngine::begin_starting() {
 }
 
 void WalkEngine::plan_steps() {
-  planned_ = planner_.plan(support_is_left_, support_spread_, velocity_, gait_->step_duration,
+  planned_ = planner_.plan(support_is_left_, support_spread_, step_velocity_, gait_->step_duration,
                            kNumPlannedSteps);
   foothold_ = planned_.front().pose;
   // Backwards from rest between the last two feet: where the divergent component must be when each
@@ -245,19 +248,38 @@ void WalkEngine::step_starting(double dt) {
   share_by_pressure();
   reference_ = advance(reference_, zmp_, omega_, dt);
   const double left_to_go = side() * (divergent_start_.y() - reference_.divergent(omega_).y());
-  if (left_to_go <= 0 || time_ >= 4 * duration_) begin_step();
+  if (left_to_go > 0 && time_ < 4 * duration_) return;
+  path_.reset(body_in_odometry());
+  begin_step();
 }
 
 void WalkEngine::begin_step() {
   stage_ = Stage::kStepping;
   time_ = 0;
   duration_ = gait_->step_duration;
+  is_kick_step_ = kick_.is_wished && kick_.with_left != support_is_left_;
+  if (is_kick_step_) kick_.is_wished = false;
   const Vector3d wished = is_ending_ ? Vector3d::Zero() : planner_.clip_velocity(wished_);
-  velocity_ = planner_.ramp_velocity(velocity_, wished);
+  velocity_ = planner_.ramp_velocity(velocity_, wished, is_ending_ ? gait_->stop_braking : 1);
+  step_velocity_ = calc_step_velocity();
   plan_steps();
 }
 
+Pose2 WalkEngine::body_in_odometry() const {
+  return soles_in_odometry_[support_is_left_ ? 0 : 1] *
+         planner_.foot_in_body(support_is_left_, support_spread_).inverse();
+}
+
+Vector3d WalkEngine::calc_step_velocity() {
+  if (velocity_.isZero(0)) {
+    path_.reset(body_in_odometry());
+    return velocity_;
+  }
+  return velocity_ + path_.correct(body_in_odometry(), gait_->path_gain);
+}
+
 void WalkEngine::step_stepping(double dt) {
+  path_.advance(velocity_, dt);
   give_way(dt);
   adapt_duration();
   const double remaining = duration_ - time_;
@@ -333,9 +355,11 @@ void WalkEngine::exchange_feet() {
 }
 
 void WalkEngine::change_support() {
+  has_kicked_ = has_kicked_ || is_kick_step_;
+  is_kick_step_ = false;
   bias() += gait_->bias_gain * deviation_;
   bias() = clamp_to(bias(), Vector2d::Constant(-kMaxBias), Vector2d::Constant(kMaxBias));
-  support_spread_ = planner_.spread_for(velocity_);
+  support_spread_ = planner_.spread_for(step_velocity_);
   exchange_feet();
   const Pose2 square = planner_.foot_in_body(support_is_left_, {}).inverse() *
                        planner_.foot_in_body(!support_is_left_, {});
@@ -343,6 +367,7 @@ void WalkEngine::change_support() {
                          std::abs(wrapped(swing_.pose().heading)) < kSquareTurn;
   if (is_ending_ && velocity_.isZero(1e-6) && is_square) {
     stage_ = Stage::kStopping;
+    kick_ = {};
     time_ = 0;
     planned_.clear();
   } else {
@@ -372,10 +397,9 @@ void WalkEngine::begin_raising(const JointTargets& targets) {
   velocity_.setZero();
   std::vector<double> goal = targets.position;
   std::vector<JointRates> rates;
-  constexpr double kSpeed = 0.2;  // share of the joints' own: half a second for a few centimetres
   for (int motor = 0; motor < model_->num_motors(); ++motor) {
     const double fastest = model_->motor_joint(motor).max_velocity;
-    rates.push_back({kSpeed * fastest, kSpeed * fastest / 0.1});
+    rates.push_back({gait_->raise_speed * fastest, gait_->raise_speed * fastest / 0.1});
   }
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     for (int motor : legs_.motors(leg)) goal[motor] = end_posture_->position[motor];
@@ -415,12 +439,24 @@ Isometry3d WalkEngine::torso_in_support() const {
   return result;
 }
 
+Isometry3d WalkEngine::swing_in_support() const {
+  Pose2 pose = swing_.pose();
+  double height = swing_.height();
+  if (is_kick_step_ && stage_ == Stage::kStepping) {
+    // Out and back within the step; at rest at both ends.
+    const double out = std::sin(M_PI * std::clamp(time_ / duration_, 0.0, 1.0));
+    pose.position += pose.rotate({gait_->kick_reach * out * out, 0});
+    height += gait_->kick_lift * out * out;
+  }
+  return in_space(pose, height);
+}
+
 std::vector<double> WalkEngine::pose_joints() {
   const Isometry3d torso = torso_in_support();
   wished_pitch_ = std::asin(std::clamp(-torso.linear()(2, 0), -1.0, 1.0));
   const Isometry3d to_torso = torso.inverse();
   const Isometry3d support = to_torso * in_space({}, support_height_);
-  const Isometry3d swing = to_torso * in_space(swing_.pose(), swing_.height());
+  const Isometry3d swing = to_torso * swing_in_support();
   const LegsSolution solution =
       legs_.solve_both(support_is_left_ ? support : swing, support_is_left_ ? swing : support);
   std::vector<double> position = wished_position_;

@@ -12,6 +12,7 @@
 #include "motion/robot_state.h"
 #include "motion/walk/footstep_planner.h"
 #include "motion/walk/gait.h"
+#include "motion/walk/path_keeper.h"
 #include "motion/walk/pendulum.h"
 #include "motion/walk/pendulum_estimator.h"
 #include "motion/walk/pose2.h"
@@ -61,6 +62,16 @@ class WalkEngine {
   /** Wants to walk on after end(), as long as it is still stepping. */
   void resume() { is_ending_ = false; }
 
+  /** Strikes with a foot in its next swing that is whole, and walks on. */
+  void kick(bool with_left) {
+    kick_ = {true, with_left};
+    has_kicked_ = false;
+  }
+  /** A kick is wished for, or under way. */
+  bool is_kicking() const { return kick_.is_wished || is_kick_step_; }
+  /** The last kick wished for was struck. */
+  bool has_kicked() const { return has_kicked_; }
+
   /** One tick. @param measured  Kinematics of the measured angles.
    * @param targets  Out: position of legs and arms. @return false when done. */
   bool step(const RobotState& state, const Kinematics& measured, double dt, JointTargets& targets);
@@ -106,11 +117,17 @@ class WalkEngine {
   void step_stopping(double dt);
   void begin_raising(const JointTargets& targets);
 
+  /** The velocity, and what brings the body back to its path. */
+  Eigen::Vector3d calc_step_velocity();
+  /** The point between the feet, as the foot that has just landed has it. */
+  Pose2 body_in_odometry() const;
   void plan_steps();
   void give_way(double dt);
   Eigen::Vector2d& bias() { return bias_[support_is_left_ ? 0 : 1]; }
   void share_by_pressure();
   Eigen::Isometry3d torso_in_support() const;
+  /** Swinging sole in S, with what a kick adds. */
+  Eigen::Isometry3d swing_in_support() const;
   /** Angles of all motors for the present reference and feet; all but legs and arms as before. */
   std::vector<double> pose_joints();
   void follow_reference(double dt, JointTargets& targets);
@@ -138,7 +155,17 @@ class WalkEngine {
   Stage stage_ = Stage::kDone;
   Eigen::Vector3d wished_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  /** With what keeps the body on its path. */
+  Eigen::Vector3d step_velocity_ = Eigen::Vector3d::Zero();
+  PathKeeper path_;
   bool is_ending_ = false;
+  struct KickWish {
+    bool is_wished = false;
+    bool with_left = false;
+  };
+  KickWish kick_;
+  bool is_kick_step_ = false;
+  bool has_kicked_ = false;
 
   /** s in the present stage or step, and how long that takes. */
   double time_ = 0;
@@ -175,6 +202,8 @@ class WalkEngine {
   bool has_changed_support_ = false;
   double last_support_heading_ = 0;
   Pose2 support_in_odometry_;
+  /** Left, right. */
+  std::array<Pose2, 2> soles_in_odometry_;
   Eigen::Vector3d tilt_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
   double swing_force_ = 0;

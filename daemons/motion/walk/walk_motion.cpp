@@ -170,11 +170,21 @@ WalkMotion::WalkMotion(const RobotModel& model, const Gait& gait,
     : WalkingMotion(model, gait, std::move(stand_up)), command_(command) {}
 
 bool WalkMotion::adopt(const Command& command) {
+  if (const auto* action = std::get_if<ActionCommand>(&command.request)) {
+    if (engine().stage() != WalkEngine::Stage::kStepping) return false;
+    engine().kick(action->action == "kick-left");
+    return true;
+  }
   const auto* walk = std::get_if<WalkCommand>(&command.request);
   if (walk == nullptr) return false;
   command_ = *walk;
   age_ = 0;
   return true;
+}
+
+MotionGenerator::Strike WalkMotion::strike() const {
+  if (engine().has_kicked()) return Strike::kStruck;
+  return engine().is_kicking() ? Strike::kPending : Strike::kNone;
 }
 
 void WalkMotion::steer(const MotionContext& context) {

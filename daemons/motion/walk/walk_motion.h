@@ -46,6 +46,7 @@ class WalkingMotion : public MotionGenerator {
   virtual bool conclude(const MotionContext& /*context*/, std::string& /*remark*/) { return true; }
 
   WalkEngine& engine() { return engine_; }
+  const WalkEngine& engine() const { return engine_; }
 
  private:
   std::optional<std::string> find_trouble(const MotionContext& context);
@@ -66,7 +67,9 @@ class WalkMotion : public WalkingMotion {
   WalkMotion(const RobotModel& model, const Gait& gait, std::unique_ptr<MotionGenerator> stand_up,
              const WalkCommand& command);
 
+  /** A walk's new velocity, or a kick to strike in passing. */
   bool adopt(const Command& command) override;
+  Strike strike() const override;
 
  protected:
   void steer(const MotionContext& context) override;

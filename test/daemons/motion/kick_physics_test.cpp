@@ -90,5 +90,32 @@ TEST(Kick, APostureWaitsUntilBothFeetStand) {
   EXPECT_TRUE(trial.await_end(id, 0));
 }
 
+TEST(Kick, OutOfTheWalkDoesNotStopIt) {
+  Trial trial = make_trial(6);
+  trial.run(0.5);
+  trial.hold_walk({0.15, 0, 0});
+  trial.run(2);
+  const int64_t id = trial.send({"", 0, motion::ActionCommand{"kick-left", kNan, kNan, kNan}});
+  const auto end = trial.await_end(id, 2);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+  trial.run(2);
+  EXPECT_EQ(trial.core().motion_state().mode, motion::Mode::kWalking);
+  EXPECT_LT(trial.torso_tilt(), 0.3);
+}
+
+TEST(Kick, AStrongOneEndsTheWalkFirst) {
+  Trial trial = make_trial(7);
+  trial.run(0.5);
+  trial.hold_walk({0.15, 0, 0});
+  trial.run(2);
+  trial.release_walk(false);
+  const int64_t id = trial.send({"", 0, motion::ActionCommand{"kick-left", kNan, kNan, 1.0}});
+  const auto end = trial.await_end(id, 10);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+  EXPECT_EQ(trial.core().motion_state().posture, "StandInit");
+}
+
 }  // namespace
 }  // namespace nao::trial

@@ -171,6 +171,30 @@ TEST_F(WalkPhysicsTest, KeepsWalkingWhenItMissesTicks) {
   EXPECT_GT(place().x(), 0.6);
 }
 
+TEST_F(WalkPhysicsTest, KeepsStraightAndToItsSpeed) {
+  Trial& trial = begin(11);
+  trial.hold_walk({0.25, 0, 0});
+  trial.run(2.5);
+  const Eigen::Vector2d start = place();
+  trial.run(10);
+  EXPECT_NEAR((place() - start).x(), 2.5, 0.25);
+  EXPECT_NEAR(place().y(), start.y(), 0.2);
+}
+
+TEST_F(WalkPhysicsTest, StopsFromFullSpeedInShortOrder) {
+  Trial& trial = begin(12);
+  trial.hold_walk({0.3, 0, 0});
+  trial.run(4);
+  const Eigen::Vector2d start = place();
+  trial.release_walk();
+  trial.run(1.5);
+  const Eigen::Vector2d stood = place();
+  EXPECT_LT((stood - start).norm(), 0.25);
+  trial.run(1);
+  EXPECT_LT((place() - stood).norm(), 0.01);
+  expect_standing_in("StandInit");
+}
+
 TEST_F(WalkPhysicsTest, AWishForNoVelocityStartsNoWalk) {
   Trial& trial = begin(9);
   const int64_t walk = trial.hold_walk({0, 0, 0});

@@ -1,0 +1,92 @@
+#include "nao-trial/block_scenario.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace nao::trial {
+namespace {
+
+constexpr double kAsked = 1.0;       // s until stance or ground
+constexpr double kTimeout = 60;      // s, getting up included
+constexpr double kLowHeight = 0.28;  // m, of the torso in the stance; it stands at 0.32
+constexpr double kWide = 0.17;       // m between the soles; they stand 0.1 m apart
+constexpr double kLyingTilt = 1.2;   // rad
+
+/** When a condition has held first, s since the start. */
+class FirstTime {
+ public:
+  void look(bool holds, double time) {
+    if (holds && std::isnan(time_)) time_ = time;
+  }
+  double time() const { return time_; }
+  bool is_within(double limit) const { return time_ <= limit; }
+
+ private:
+  double time_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+double stance_width(Trial& trial) {
+  const auto sole = [&](int link) {
+    return Eigen::Vector3d(trial.world().robot(0).link_pose(link).translation());
+  };
+  return (sole(trial.model().left_sole()) - sole(trial.model().right_sole())).head<2>().norm();
+}
+
+RunResult act(const ScenarioOptions& options, uint64_t seed, const std::string& action) {
+  Trial trial(options.trial, seed);
+  trial.run(1);
+  const bool dives = action != "block";
+  const double start = trial.time();
+  const Eigen::Isometry3d start_torso = trial.torso_in_world();
+  FirstTime reached;
+  double width = 0;
+  double reach = 0;
+  bool fell = false;
+  trial.on_tick([&] {
+    const double tilt = trial.torso_tilt();
+    const bool is_low_and_wide = trial.torso_height() < kLowHeight && stance_width(trial) > kWide;
+    reached.look(dives ? tilt > kLyingTilt : is_low_and_wide, trial.time() - start);
+    if (trial.time() - start < 3) {
+      width = std::max(width, stance_width(trial));
+      const Eigen::Vector3d hand = trial.torso_in_world().translation();
+      reach = std::max(reach, std::abs((start_torso.inverse() * hand).y()));
+    }
+    fell = fell || (!dives && tilt > 0.8);
+  });
+  const int64_t id = trial.send_action(action);
+  const auto end = trial.await_end(id, kTimeout);
+  trial.run(0.5);
+  RunResult result;
+  result.label = action;
+  const bool stands = trial.torso_tilt() < 0.3 && trial.torso_height() > 0.29;
+  if (fell) {
+    result.failure = "fell";
+  } else if (!end || end->status != motion::ResultStatus::kDone) {
+    result.failure = end ? end->reason : "did not end";
+  } else if (!stands) {
+    result.failure = "does not stand";
+  } else if (!reached.is_within(kAsked)) {
+    result.failure = "too slow";
+  } else {
+    result.is_success = true;
+  }
+  result.metrics.emplace_back(dives ? "dive_s" : "block_s",
+                              std::isnan(reached.time()) ? kTimeout : reached.time());
+  result.metrics.emplace_back(dives ? "dive_reach_m" : "block_width_m", dives ? reach : width);
+  if (dives && stands) result.metrics.emplace_back("stand_again_s", trial.time() - start - 0.5);
+  return result;
+}
+
+}  // namespace
+
+std::vector<RunResult> BlockScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  std::vector<RunResult> results;
+  for (const char* action : {"block", "dive-left", "dive-right"}) {
+    results.push_back(act(options, seed, action));
+  }
+  return results;
+}
+
+}  // namespace nao::trial
