@@ -28,12 +28,16 @@ struct Drive {
    * torque's square: 1 is as hot as the motor may get. */
   double heat = 0;
 
-  // Plan of the present step: u = demand - slope * (speed at the end of the step).
+  // Plan of the present step: u = demand - slope * (speed at the end of the step), and back-EMF
+  // takes off emf + line * (that speed).
   double limit = 0;
   double demand = 0;
   double slope = 0;
-  /** N m s/rad: limit over no-load speed. */
+  double emf = 0;
   double line = 0;
+  /** What viscous friction takes off, like back-EMF. */
+  double drag = 0;
+  double viscosity = 0;
 
   // Rows in the solver, -1 if absent, and their last impulses.
   int stop_row = -1;
@@ -63,14 +67,38 @@ struct Drive {
     return motor.peak_torque + tired * (continuous - motor.peak_torque);
   }
 
-  /** How much less the servo asks for, N m, per speed at the end of a step of h seconds: its
-   * damping, and where its spring is too stiff for the step also the angle that the joint will
-   * turn. Where the rotor alone is heavy enough for the spring, the angle at the step's start gives
-   * no damping that is not the servo's, and half the error (leapfrog). */
-  double servo_slope(double h) const {
-    const double spring = h * motor.stiffness_gain;
-    const bool is_slow = h * spring <= kSlowSpring * motor.reflected_inertia;
-    return motor.damping_gain + (is_slow && motor.damping_gain > 0 ? 0 : spring);
+  /** Whether the rotor alone is heavy enough for the servo's spring to be taken at the angle at the
+   * start of a step of h seconds: it then gives no damping that is not the servo's (leapfrog). A
+   * stiffer one is taken at the step's end, which is always stable. */
+  bool has_slow_spring(double h) const {
+    return motor.damping_gain > 0 &&
+           h * h * motor.stiffness_gain <= kSlowSpring * motor.reflected_inertia;
+  }
+
+  /** Share of the speed at the step's end, 0.5 to 1, in the speed that damping acts on; the rest is
+   * the speed at its start. Half and half is of second order; a damper that would more than stop
+   * the rotor within the step takes so much more of the end that it just stops it.
+   * @param damping  All dampers on the joint, N m s/rad. */
+  double end_share(double h, double damping) const {
+    const double decay = h * damping;
+    return decay > 2 * motor.reflected_inertia ? 1 - motor.reflected_inertia / decay : 0.5;
+  }
+
+  /** Plans a step of h seconds. @param stiffness  0 to 1. @param error  Target less angle, rad.
+   * @param speed  At the step's start, rad/s. */
+  void plan(double h, double stiffness, double error, double speed) {
+    const bool is_on = stiffness > 0;
+    const double damping = is_on ? motor.damping_gain : 0;
+    limit = stiffness * torque_available();
+    const double full_line = limit / motor.no_load_velocity;
+    const double end = end_share(h, damping + full_line + motor.viscous_friction);
+    const double past = (1 - end) * speed;
+    demand = (is_on ? motor.stiffness_gain * error : 0) - damping * past;
+    slope = end * damping + (is_on && !has_slow_spring(h) ? h * motor.stiffness_gain : 0);
+    line = end * full_line;
+    emf = full_line * past;
+    viscosity = end * motor.viscous_friction;
+    drag = motor.viscous_friction * past;
   }
 
   void warm_up(double torque, double period) {

@@ -181,6 +181,8 @@ void SimRobot::place(const std::vector<double>& position, const Vector3d& ground
     targets_.position[static_cast<long>(i)] = position[i];
   }
   std::fill(delayed_targets_.begin(), delayed_targets_.end(), targets_);
+  last_aim_ = targets_.position;
+  root_change_ = {};
   std::fill(floor_slots_.begin(), floor_slots_.end(), ContactSlot());
   std::fill(self_slots_.begin(), self_slots_.end(), ContactSlot());
   external_impulse_.setZero();
@@ -255,18 +257,19 @@ void SimRobot::begin_step(double h, Eigen::Ref<Eigen::VectorXd> z) {
   for (size_t i = 0; i < drives_.size(); ++i) {
     Drive& drive = drives_[i];
     if (drive.dof < 0) continue;
-    const double stiffness = targets.stiffness[static_cast<long>(i)];
-    const double error = targets.position[static_cast<long>(i)] - state_.coordinate[drive.dof];
-    drive.limit = stiffness * drive.torque_available();
-    drive.line = drive.limit / drive.motor.no_load_velocity;
-    drive.demand = stiffness > 0 ? drive.motor.stiffness_gain * error : 0;
-    drive.slope = stiffness > 0 ? drive.servo_slope(h) : 0;
+    const auto k = static_cast<long>(i);
+    const double speed = state_.velocity[drive.dof];
+    // Speeds belong to the middle between two steps: half of this one's torque falls before now.
+    const double aim = (last_aim_[k] + targets.position[k]) / 2;
+    drive.plan(h, targets.stiffness[k], aim - state_.coordinate[drive.dof], speed);
     drive.stop_row = drive.friction_row = drive.upper_row = drive.lower_row = -1;
     const double inertia = drive.motor.reflected_inertia;
-    diagonal_[drive.dof] = inertia + h * (drive.slope + drive.line + drive.motor.viscous_friction);
-    momentum_[drive.dof] += inertia * state_.velocity[drive.dof] + h * drive.demand;
+    diagonal_[drive.dof] = inertia + h * (drive.slope + drive.line + drive.viscosity);
+    momentum_[drive.dof] += inertia * speed + h * (drive.demand - drive.emf - drive.drag);
   }
+  last_aim_ = targets.position;
   external_impulse_.setZero();
+  is_touched_ = false;
   dynamics_.factorize(diagonal_);
   dynamics_.solve_upper(momentum_);
   z = momentum_;
@@ -298,13 +301,14 @@ void SimRobot::add_motor_bound(int motor, bool is_upper, bool is_braking, double
   if (first < 0) return;
   // The torque in question is demand - slope * speed: u itself, or u less back-EMF when braking.
   const double slope = drive.slope + (is_braking ? drive.line : 0);
+  const double demand = drive.demand - (is_braking ? drive.emf : 0);
   JointRow row;
   row.first_entry = first;
   row.num_entries = static_cast<int>(tree_.dof_ancestors(drive.dof).size()) + 1;
   row.apply = is_upper ? -1 : 1;
   row.measure = is_upper ? 1 : -1;
   row.softness = 1 / (h * slope);
-  row.bias = (is_upper ? drive.limit - drive.demand : drive.limit + drive.demand) / slope;
+  row.bias = (is_upper ? drive.limit - demand : drive.limit + demand) / slope;
   row.upper = kInfinity;
   row.impulse = is_upper ? drive.upper_impulse : drive.lower_impulse;
   int& index = is_upper ? drive.upper_row : drive.lower_row;
@@ -380,10 +384,11 @@ bool SimRobot::add_missed_bounds(double h, const Eigen::VectorXd& z, ConstraintS
     const double driven = drive.demand - drive.slope * speed +
                           (impulse_of(drive.lower_row) - impulse_of(drive.upper_row)) / h;
     const double allowed = drive.limit * (1 + kBoundTolerance);
+    const double back_emf = drive.emf + drive.line * speed;
     for (const bool is_upper : {true, false}) {
       // Driving, the driver's share is bounded; braking, the torque itself.
-      const bool is_braking = is_upper ? speed < 0 : speed > 0;
-      const double bounded = driven - (is_braking ? drive.line * speed : 0);
+      const bool is_braking = is_upper ? back_emf < 0 : back_emf > 0;
+      const double bounded = driven - (is_braking ? back_emf : 0);
       if (is_upper ? bounded <= allowed : bounded >= -allowed) continue;
       const int row = is_upper ? drive.upper_row : drive.lower_row;
       if (row >= 0 && (is_upper ? drive.is_upper_braking : drive.is_lower_braking) == is_braking) {
@@ -407,7 +412,7 @@ void SimRobot::end_step(double h, const ConstraintSolver& solver) {
   state_.velocity = work_;
   dynamics_.update_velocities(state_);
   SpatialVector momentum = dynamics_.momentum();
-  const Vector3d origin = dynamics_.origin();
+  momentum.angular -= dynamics_.center_of_mass_from_origin().cross(momentum.linear);
   for (size_t i = 0; i < drives_.size(); ++i) {
     Drive& drive = drives_[i];
     if (drive.dof < 0) continue;
@@ -417,13 +422,17 @@ void SimRobot::end_step(double h, const ConstraintSolver& solver) {
     drive.friction_impulse = first_of(drive.friction_row);
     drive.upper_impulse = first_of(drive.upper_row);
     drive.lower_impulse = first_of(drive.lower_row);
-    const double torque = drive.demand - (drive.slope + drive.line) * speed +
+    const double torque = drive.demand - drive.emf - (drive.slope + drive.line) * speed +
                           (drive.lower_impulse - drive.upper_impulse) / h;
     motor_torque_[static_cast<long>(i)] = torque;
     torque_sum_[static_cast<long>(i)] += h * torque;
   }
-  state_.position += h * state_.velocity.segment<3>(3);
-  const Vector3d turn = h * state_.velocity.head<3>();
+  // In flight the root moves as the momentum wants it in the configuration half-way: with half the
+  // change of velocity that the new one will bring, which is about the last step's. Where contacts
+  // push, that could add energy.
+  if (is_touched_) root_change_ = {};
+  state_.position += h * (state_.velocity.segment<3>(3) + root_change_.linear / 2);
+  const Vector3d turn = h * (state_.velocity.head<3>() + root_change_.angular / 2);
   const double angle = turn.norm();
   if (angle > 0) {
     // Exponential map; sin(x/2)/x in its series for small x.
@@ -436,8 +445,8 @@ void SimRobot::end_step(double h, const ConstraintSolver& solver) {
   dynamics_.update_kinematics(state_);
   if (!options_.is_on_stand) {
     // The same speeds in the new configuration would be another momentum.
-    momentum.angular -= (dynamics_.origin() - origin).cross(momentum.linear);
-    dynamics_.set_momentum(momentum, state_.velocity);
+    momentum.angular += dynamics_.center_of_mass_from_origin().cross(momentum.linear);
+    root_change_ = dynamics_.set_momentum(momentum, state_.velocity);
   }
 
   const Matrix3d to_torso = dynamics_.rotation(0).transpose();

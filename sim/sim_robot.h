@@ -110,7 +110,13 @@ class SimRobot {
   std::vector<int> motor_of_dof_;
   MotorTargets targets_;
   std::vector<MotorTargets> delayed_targets_;
+  /** Targets' positions in the last step. */
+  Eigen::VectorXd last_aim_;
   int64_t num_ticks_ = 0;
+  /** What the last step's new configuration changed of the root's velocity. */
+  SpatialVector root_change_;
+  /** Whether anything presses on it in this step. World tells. */
+  bool is_touched_ = false;
 
   Eigen::Vector3d gravity_;
   std::vector<ContactSlot> floor_slots_;

@@ -293,10 +293,10 @@ Eigen::Isometry3d TreeDynamics::pose(int body) const {
   return result;
 }
 
-Vector3d TreeDynamics::center_of_mass() const {
+Vector3d TreeDynamics::center_of_mass_from_origin() const {
   Vector3d moment = Vector3d::Zero();
   for (const BodyState& now : bodies_) moment += now.inertia.moment;
-  return origin_ + moment / tree_.total_mass();
+  return moment / tree_.total_mass();
 }
 
 SpatialVector TreeDynamics::momentum() const {
@@ -309,7 +309,7 @@ SpatialVector TreeDynamics::momentum() const {
   return sum;
 }
 
-void TreeDynamics::set_momentum(const SpatialVector& wished, Eigen::VectorXd& velocity) {
+SpatialVector TreeDynamics::set_momentum(const SpatialVector& wished, Eigen::VectorXd& velocity) {
   const SpatialVector present = momentum();
   SpatialInertia whole;
   for (const BodyState& now : bodies_) whole += now.inertia;
@@ -328,6 +328,7 @@ void TreeDynamics::set_momentum(const SpatialVector& wished, Eigen::VectorXd& ve
   }
   velocity.head<3>() += change.angular;
   velocity.segment<3>(3) += change.linear;
+  return change;
 }
 
 Vector3d TreeDynamics::linear_momentum() const {

@@ -90,12 +90,14 @@ class TreeDynamics {
   /** Momentum of the whole tree about O. */
   SpatialVector momentum() const;
   /** Gives the root, and all that hangs on it, the additional motion that brings the whole tree's
-   * momentum about O to a value; joints keep their speeds. Writes the root's new velocity. */
-  void set_momentum(const SpatialVector& momentum, Eigen::VectorXd& velocity);
+   * momentum about O to a value; joints keep their speeds. Writes the root's new velocity. @return
+   * The additional motion. */
+  SpatialVector set_momentum(const SpatialVector& momentum, Eigen::VectorXd& velocity);
 
   /** Of the whole tree: centre of mass, m; linear momentum, N s; angular momentum about the centre
    * of mass, N m s; kinetic energy, J, without motors' rotors. All in W. */
-  Eigen::Vector3d center_of_mass() const;
+  Eigen::Vector3d center_of_mass() const { return origin_ + center_of_mass_from_origin(); }
+  Eigen::Vector3d center_of_mass_from_origin() const;
   Eigen::Vector3d linear_momentum() const;
   Eigen::Vector3d angular_momentum() const;
   double kinetic_energy() const;

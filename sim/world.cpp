@@ -555,6 +555,9 @@ void World::end_step() {
     if (block.impulse[0] > 0) {
       const Vector3d force = slot.impulse / h;
       contacts_.push_back({touch.a, touch.b, touch.point, force});
+      for (const Surface& surface : {touch.a, touch.b}) {
+        if (surface.kind == Surface::Kind::kRobot) robots_[surface.robot]->is_touched_ = true;
+      }
       if (touch.sole >= 0)
         robots_[touch.a.robot]->add_foot_load(touch.sole, touch.point, slot.impulse);
     }

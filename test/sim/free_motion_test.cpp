@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "sim/random.h"
 #include "sim/world.h"
@@ -34,6 +35,55 @@ TEST(FreeMotion, FallsByGravityButForTheErrorOfSemiImplicitEuler) {
   // The velocity used in a step is the one at its end: h t g / 2 too far. Servos at work cannot
   // change that.
   EXPECT_NEAR(fallen, 9.81 / 2 + 9.81 * 0.002 / 2, 1e-10);
+}
+
+TEST(FreeMotion, MovesAsWithFineStepsWithAllServosAtWork) {
+  const auto fall = [](double step) {
+    WorldOptions options;
+    options.step = step;
+    options.steps_per_tick = static_cast<int>(std::lround(0.01 / step));
+    auto world = std::make_unique<World>(SceneFile{}, options);
+    RobotOptions how;
+    how.height = 10;
+    how.command_latency_ticks = 0;
+    world->add_robot(nao_model(), how);
+    MotorTargets targets = world->targets(0);
+    for (int tick = 0; tick < 50; ++tick) {
+      for (int i = 0; i < targets.position.size(); ++i) {
+        targets.position[i] =
+            nao_model()->find_posture("StandInit")->position[static_cast<size_t>(i)] +
+            0.3 * std::sin(0.01 * tick * (3 + 0.3 * i));
+      }
+      world->set_targets(0, targets);
+      world->step_tick();
+    }
+    return world;
+  };
+  const auto coarse = fall(0.002);
+  const auto fine = fall(0.0001);
+  const TreeState& a = coarse->robot(0).state();
+  const TreeState& b = fine->robot(0).state();
+  // Joints swing at 1 to 3 rad/s: a lag of half a step would be 1 to 3 mrad.
+  EXPECT_LT((a.coordinate - b.coordinate).cwiseAbs().maxCoeff(), 3e-4);
+  EXPECT_LT(a.orientation.angularDistance(b.orientation), 1e-4);
+}
+
+TEST(FreeMotion, TurnsInAFallAsWithoutGravity) {
+  const auto orientation_after = [](double gravity) {
+    WorldOptions options;
+    options.gravity = {0, 0, -gravity};
+    World world(SceneFile{}, options);
+    RobotOptions how;
+    how.height = 10;
+    how.posture = "Crouch";
+    world.add_robot(nao_model(), how);
+    MotorTargets targets = world.targets(0);
+    for (double& x : targets.position) x += 0.3;
+    world.set_targets(0, targets);
+    for (int i = 0; i < 100; ++i) world.step_tick();
+    return world.robot(0).state().orientation;
+  };
+  EXPECT_LT(orientation_after(9.81).angularDistance(orientation_after(0)), 1e-9);
 }
 
 TEST(FreeMotion, PendulumSwingsAtItsPeriodAndKeepsItsEnergy) {
