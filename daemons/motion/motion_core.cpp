@@ -14,6 +14,7 @@
 #include "motion/posture_motion.h"
 #include "motion/rest_motion.h"
 #include "motion/sequence_motion.h"
+#include "motion/standing_rates.h"
 #include "motion/transitions/body_state.h"
 #include "motion/transitions/journey_motion.h"
 #include "motion/walk/walk_motion.h"
@@ -111,6 +112,8 @@ void MotionCore::take_sensors(const Sensors& sensors, double dt) {
 void MotionCore::lose_robot() {
   has_robot_ = false;
   end_running(ResultStatus::kFailed, refusal_in(Mode::kNoRobot));
+  end_overlay(ResultStatus::kFailed, refusal_in(Mode::kNoRobot));
+  overlaid_.clear();
   if (waiting_) {
     if (waiting_->command) {
       answer(*waiting_->command, ResultStatus::kFailed, refusal_in(Mode::kNoRobot));
@@ -188,7 +191,7 @@ void MotionCore::receive(const Command& command) {
     answer(command, ResultStatus::kRefused, refusal_in(mode));
     return;
   }
-  if (adopt_walk(command) || adopt_kick(command)) return;
+  if (adopt_walk(command) || adopt_kick(command) || overlay_walk(command)) return;
   Plan planned = plan(command);
   if (const auto* refusal = std::get_if<std::string>(&planned)) {
     answer(command, ResultStatus::kRefused, *refusal);
@@ -215,6 +218,31 @@ bool MotionCore::adopt_walk(const Command& command) {
   answer(command, ResultStatus::kAccepted, "");
   running_->command = command;
   running_->detail = describe(command);
+  return true;
+}
+
+bool MotionCore::is_walking() const {
+  return running_ && running_->generator->mode() == Mode::kWalking;
+}
+
+bool MotionCore::overlay_walk(const Command& command) {
+  const auto* change = std::get_if<JointChangeCommand>(&command.request);
+  if (change == nullptr || waiting_ || !is_walking()) return false;
+  std::vector<int> motors;
+  for (const std::string& name : change->joint_names) {
+    motors.push_back(model_->find_motor(name));
+    if (carries_body(context(0), motors.back())) return false;
+  }
+  const std::string danger = find_self_collision(*change);
+  if (!danger.empty()) {
+    answer(command, ResultStatus::kRefused, danger);
+    return true;
+  }
+  answer(command, ResultStatus::kAccepted, "");
+  end_overlay(ResultStatus::kInterrupted,
+              "Replaced by a newer command: " + describe(command) + ".");
+  overlay_ = Overlay{std::make_unique<JointChangeMotion>(*change), command, std::move(motors)};
+  overlay_->generator->start(context(0), targets_);
   return true;
 }
 
@@ -323,22 +351,31 @@ MotionCore::Plan MotionCore::plan_request(const StopCommand& /*stop*/) {
 }
 
 std::string MotionCore::find_danger(const JointChangeCommand& change) {
-  const std::vector<double> goal = JointChangeMotion::calc_goal(*model_, change, targets_.position);
-  const auto how_far = [&](int motor, double share) {
-    const double way = share * (goal[motor] - targets_.position[motor]);
-    const long degrees = std::lround(std::trunc(way * 180 / M_PI));
-    if (degrees == 0) return std::string("it cannot turn that way from here.");
-    return "it may turn by " + std::to_string(degrees) + " degrees at most.";
-  };
-  SelfCollision collision;
-  const double free_share = collision_guard_.find_safe_share(targets_.position, goal, collision);
-  if (free_share < 1) {
-    return model_->motor_joint(collision.motor).name + " would bring " + collision.link_a +
-           " into " + collision.link_b + "; " + how_far(collision.motor, free_share);
-  }
+  const std::string danger = find_self_collision(change);
   const bool stands =
       find_body_state(*model_, estimator_.state(), options_.lying_tilt) == "on-feet";
-  if (change.allow_tipping || !stands) return "";
+  if (!danger.empty() || change.allow_tipping || !stands) return danger;
+  return find_tipping(change);
+}
+
+std::string MotionCore::how_far(int motor, double share, const std::vector<double>& goal) const {
+  const double way = share * (goal[motor] - targets_.position[motor]);
+  const long degrees = std::lround(std::trunc(way * 180 / M_PI));
+  if (degrees == 0) return "it cannot turn that way from here.";
+  return "it may turn by " + std::to_string(degrees) + " degrees at most.";
+}
+
+std::string MotionCore::find_self_collision(const JointChangeCommand& change) {
+  const std::vector<double> goal = JointChangeMotion::calc_goal(*model_, change, targets_.position);
+  SelfCollision collision;
+  const double share = collision_guard_.find_safe_share(targets_.position, goal, collision);
+  if (share >= 1) return "";
+  return model_->motor_joint(collision.motor).name + " would bring " + collision.link_a + " into " +
+         collision.link_b + "; " + how_far(collision.motor, share, goal);
+}
+
+std::string MotionCore::find_tipping(const JointChangeCommand& change) {
+  const std::vector<double> goal = JointChangeMotion::calc_goal(*model_, change, targets_.position);
   Rest tipping;
   const Eigen::Vector3d up = estimator_.state().torso_in_odometry.linear().row(2);
   const double safe_share = tipping_guard_.find_safe_share(targets_.position, goal, up, tipping);
@@ -362,7 +399,7 @@ std::string MotionCore::find_danger(const JointChangeCommand& change) {
                           ? (direction.x() > 0 ? "forwards" : "backwards")
                           : (direction.y() > 0 ? "to the left" : "to the right");
   return model_->motor_joint(culprit).name + " would tip the robot over " + where + "; " +
-         how_far(culprit, safe_share);
+         how_far(culprit, safe_share, goal);
 }
 
 void MotionCore::assign(Assignment assignment) {
@@ -381,8 +418,28 @@ void MotionCore::start_waiting() {
   end_running(ResultStatus::kInterrupted,
               waiting_->command ? "Replaced by a newer command: " + waiting_->detail + "."
                                 : "Replaced by " + waiting_->detail + ".");
+  end_overlay(ResultStatus::kInterrupted, "Replaced by " + waiting_->detail + ".");
   running_ = std::exchange(waiting_, std::nullopt);
   running_->generator->start(context(0), targets_);
+}
+
+void MotionCore::step_overlay(double dt, const JointTargets& last) {
+  if (overlay_) {
+    JointTargets turned = last;
+    const MotionGenerator::Phase phase = overlay_->generator->step(context(dt), turned);
+    for (int motor : overlay_->motors) overlaid_[motor] = turned.position[motor];
+    if (phase == MotionGenerator::Phase::kDone) {
+      end_overlay(ResultStatus::kDone, overlay_->generator->remark());
+    }
+  }
+  if (!overlay_ && !is_walking()) overlaid_.clear();
+  for (const auto& [motor, angle] : overlaid_) targets_.position[motor] = angle;
+}
+
+void MotionCore::end_overlay(ResultStatus status, const std::string& reason) {
+  if (!overlay_) return;
+  answer(overlay_->command, status, reason);
+  overlay_.reset();
 }
 
 void MotionCore::end_running(ResultStatus status, const std::string& reason) {
@@ -394,7 +451,7 @@ void MotionCore::end_running(ResultStatus status, const std::string& reason) {
 void MotionCore::move(double dt) {
   time_with_robot_ += dt;
   if (!has_first_motion_ && time_with_robot_ >= kTakeOverTime) choose_first_motion();
-  const std::vector<double> last = targets_.position;
+  const JointTargets last = targets_;
   watch_for_falls(dt);
   start_waiting();
   if (running_) {
@@ -412,9 +469,10 @@ void MotionCore::move(double dt) {
     }
   }
   watch_kick();
-  limiter_.limit(last, dt, targets_.position);
-  for (size_t i = 0; i < last.size(); ++i) {
-    targets_.velocity[i] = dt > 0 ? (targets_.position[i] - last[i]) / dt : 0.0;
+  step_overlay(dt, last);
+  limiter_.limit(last.position, dt, targets_.position);
+  for (size_t i = 0; i < last.position.size(); ++i) {
+    targets_.velocity[i] = dt > 0 ? (targets_.position[i] - last.position[i]) / dt : 0.0;
   }
 }
 
@@ -435,6 +493,8 @@ void MotionCore::watch_for_falls(double dt) {
       has_fallen_ = true;
       time_fallen_ = 0;
       end_running(ResultStatus::kFailed, "The robot fell.");
+      end_overlay(ResultStatus::kFailed, "The robot fell.");
+      overlaid_.clear();
       if (waiting_ && waiting_->command) {
         answer(*waiting_->command, ResultStatus::kFailed, "The robot fell.");
       }
@@ -483,6 +543,7 @@ Mode MotionCore::current_mode() const {
   if (!has_robot_) return Mode::kNoRobot;
   if (running_) return running_->generator->mode();
   if (has_fallen_) return Mode::kFallen;
+  if (overlay_) return Mode::kMoving;
   const auto& stiffness = targets_.stiffness;
   const bool is_limp =
       std::all_of(stiffness.begin(), stiffness.end(), [](double share) { return share == 0; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,6 +79,13 @@ class MotionCore {
     std::string detail;
   };
 
+  /** Joints of head and arms that turn, or have turned, while the robot walks on. */
+  struct Overlay {
+    std::unique_ptr<MotionGenerator> generator;
+    Command command;
+    std::vector<int> motors;
+  };
+
   /** A motion that carries out a command, or why there is none. */
   using Plan = std::variant<std::unique_ptr<MotionGenerator>, std::string>;
 
@@ -94,6 +102,10 @@ class MotionCore {
    * @return false if the command needs a motion of its own. */
   bool adopt_kick(const Command& command);
   void watch_kick();
+  /** A change of head and arms turns them while the legs walk on.
+   * @return false if the command needs a motion of its own. */
+  bool overlay_walk(const Command& command);
+  bool is_walking() const;
   std::optional<std::string> refuse_walk() const;
   Plan plan_kick(bool is_left, const ActionCommand& action);
   Plan plan_script(const ActionScript& script);
@@ -108,6 +120,10 @@ class MotionCore {
   Plan plan_request(const StopCommand& stop);
   /** Why a joint change would end badly, as a sentence; empty if it would not. */
   std::string find_danger(const JointChangeCommand& change);
+  std::string find_self_collision(const JointChangeCommand& change);
+  std::string find_tipping(const JointChangeCommand& change);
+  /** "it may turn by 12 degrees at most": share of a motor's way to its goal. */
+  std::string how_far(int motor, double share, const std::vector<double>& goal) const;
   void assign(Assignment assignment);
 
   void move(double dt);
@@ -115,6 +131,10 @@ class MotionCore {
   bool means_to_stand() const;
   void start_waiting();
   void end_running(ResultStatus status, const std::string& reason);
+  /** Writes the overlaid joints over what the walk wants of them. @param last  Targets of the last
+   * tick. */
+  void step_overlay(double dt, const JointTargets& last);
+  void end_overlay(ResultStatus status, const std::string& reason);
   void answer(const Command& command, ResultStatus status, const std::string& reason,
               bool is_remembered = true);
 
@@ -154,6 +174,9 @@ class MotionCore {
   std::optional<Assignment> waiting_;
   /** A kick that the running walk strikes in passing. */
   std::optional<Command> walk_kick_;
+  std::optional<Overlay> overlay_;
+  /** Motors that changes during this walk have turned, and where they stay until it ends, rad. */
+  std::map<int, double> overlaid_;
 
   MotionState state_;
   std::string last_refusal_;

@@ -27,6 +27,8 @@ struct MotionState {
   std::string command_source;
   int64_t command_id = 0;
   double command_progress = std::numeric_limits<double>::quiet_NaN();
+  /** Tries to get up so far in the motion that runs; a roll and what follows it are one. */
+  int num_tries = 0;
   double balance_margin = std::numeric_limits<double>::quiet_NaN();
   Eigen::Vector3d walk_velocity = Eigen::Vector3d::Zero();
   double stiffness = 0;

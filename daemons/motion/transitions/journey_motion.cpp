@@ -141,7 +141,8 @@ MotionGenerator::Phase JourneyMotion::choose_leg(const MotionContext& context,
     remark_ = "It did not get up in " + std::to_string(kMaxTries) + " tries; it needs help.";
     return Phase::kFailed;
   }
-  play(context, *way.front(), targets);
+  const int num_failed = is_from_lying_ ? num_tries_ - 1 : 0;
+  play(context, graph_->find_alternative(*way.front(), num_failed), targets);
   return Phase::kRunning;
 }
 

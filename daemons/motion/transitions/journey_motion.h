@@ -28,6 +28,7 @@ class JourneyMotion : public MotionGenerator {
   bool means_to_stand() const override { return stands_; }
   double progress() const override;
   std::string remark() const override { return remark_; }
+  void describe(MotionState& state) const override { state.num_tries = num_tries_; }
 
  private:
   enum class Leg { kStiffening, kResting, kTransition, kDirect };

@@ -137,6 +137,15 @@ const KeyframeSequence* TransitionGraph::find(const std::string& name) const {
   return nullptr;
 }
 
+const KeyframeSequence& TransitionGraph::find_alternative(const KeyframeSequence& sequence,
+                                                          int num_failed) const {
+  std::vector<const KeyframeSequence*> alternatives;
+  for (const KeyframeSequence& other : sequences_) {
+    if (other.from == sequence.from && other.to == sequence.to) alternatives.push_back(&other);
+  }
+  return *alternatives[static_cast<size_t>(num_failed) % alternatives.size()];
+}
+
 const KeyframeSequence* TransitionGraph::find_approach(const Posture& posture) const {
   for (const KeyframeSequence& sequence : sequences_) {
     if (sequence.to == posture.name && sequence.from == state_of(posture)) return &sequence;

@@ -29,6 +29,10 @@ class TransitionGraph {
   std::vector<const KeyframeSequence*> find_way(const std::string& from,
                                                 const std::string& to) const;
 
+  /** Of the sequences between the same two states as this one, the one for the n-th try, from 0, in
+   * the order of the file and over again: what failed once in some place fails there again. */
+  const KeyframeSequence& find_alternative(const KeyframeSequence& sequence, int num_failed) const;
+
   /** Sequence that leads from anyhow in a posture's own state to that posture, where a straight
    * turn of the joints would be stopped by the ground.
    * @return nullptr if there is none. */
