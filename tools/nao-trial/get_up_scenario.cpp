@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "nao-trial/scenarios.h"
@@ -5,7 +6,8 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kTimeout = 60;         // s, six tries and the waiting between
+constexpr double kTimeout = 60;  // s, six tries and the waiting between
+constexpr int kMaxTries = 3;
 constexpr double kStillVelocity = 0.1;  // rad/s
 
 /** Knocks the standing robot over. */
@@ -62,26 +64,22 @@ std::vector<RunResult> GetUpScenario::run(const ScenarioOptions& options, uint64
   result.label += std::string(", ") + side;
   const double start = trial.time();
   int num_tries = 0;
-  bool was_getting_up = false;
-  trial.on_tick([&] {
-    const bool is_getting_up = trial.core().motion_state().mode == motion::Mode::kGettingUp;
-    if (is_getting_up && !was_getting_up) ++num_tries;
-    was_getting_up = is_getting_up;
-  });
+  trial.on_tick([&] { num_tries = std::max(num_tries, trial.core().motion_state().num_tries); });
   const bool is_up = trial.run_until(
       [&] {
         return trial.core().motion_state().posture == "StandInit" && trial.torso_tilt() < 0.3 &&
                trial.torso_height() > 0.29;
       },
       kTimeout);
-  result.metrics.emplace_back("transitions", num_tries);
+  result.metrics.emplace_back("tries", num_tries);
   if (!is_up) {
     result.failure = "still down";
     return {result};
   }
   result.metrics.emplace_back("time_s", trial.time() - start);
   result.metrics.emplace_back(std::string("time_from_") + side + "_s", trial.time() - start);
-  result.is_success = true;
+  result.is_success = num_tries <= kMaxTries;
+  if (!result.is_success) result.failure = "more than 3 tries";
   return {result};
 }
 

@@ -53,6 +53,12 @@ Summary run_all(const Scenario& scenario, const ScenarioOptions& options,
   return summary;
 }
 
+void write_file(const std::string& name, const std::string& text) {
+  std::ofstream file(name);
+  file << text;
+  if (!file) throw Error("cannot write " + name);
+}
+
 }  // namespace
 }  // namespace nao::trial
 
@@ -67,6 +73,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   std::string seeds = "1-10";
   std::string json_file;
+  std::string plot_file;
   std::string model_name = "nao";
   bool is_verbose = false;
   ScenarioOptions options;
@@ -76,6 +83,7 @@ int main(int argc, char** argv) {
     command->add_option("--seeds", seeds, "First and last seed, one run each")
         ->capture_default_str();
     command->add_option("--json", json_file, "Write the summary to this file too");
+    command->add_option("--plot", plot_file, "Draw the results to this SVG file (push)");
     command->add_option("--model", model_name, "Folder of robots/ that describes the robot")
         ->capture_default_str();
     command->add_option("--duration", options.duration, "Length of a run, s (0: as usual)")
@@ -101,12 +109,14 @@ int main(int argc, char** argv) {
       options.trial.model = std::make_shared<nao::RobotModel>(
           nao::RobotModel::load(nao::data_path() / "robots" / model_name));
       options.trial.scene = nao::SceneFile::find(scenario->scene());
+      options.is_for_plot = !plot_file.empty();
       const Summary summary = run_all(*scenario, options, parse_seeds(seeds), is_verbose);
       std::fputs(to_table(summary).c_str(), stdout);
-      if (!json_file.empty()) {
-        std::ofstream file(json_file);
-        file << to_json(summary);
-        if (!file) throw nao::Error("cannot write " + json_file);
+      if (!json_file.empty()) write_file(json_file, to_json(summary));
+      if (!plot_file.empty()) {
+        const std::string picture = scenario->plot(summary);
+        if (picture.empty()) throw nao::Error(chosen + " has nothing to draw; leave --plot out");
+        write_file(plot_file, picture);
       }
     }
   });

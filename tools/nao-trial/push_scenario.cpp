@@ -1,8 +1,15 @@
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "nao-trial/scenarios.h"
+#include "nao-trial/statistics.h"
 
 namespace nao::trial {
 namespace {
@@ -10,7 +17,8 @@ namespace {
 constexpr double kLeast = 0.2;     // N s
 constexpr double kGreatest = 4.0;  // N s
 constexpr int kNumHalvings = 6;
-constexpr double kWatch = 2.5;  // s after the push
+constexpr int kNumDirections = 24;  // in the plot
+constexpr double kWatch = 2.5;      // s after the push
 
 struct Outcome {
   bool stands = false;
@@ -53,9 +61,57 @@ Outcome push(const ScenarioOptions& options, uint64_t seed, double direction, do
   return outcome;
 }
 
+/** Halves the range of impulses until the greatest that is survived is known to 0.06 N s. */
+double find_boundary(const ScenarioOptions& options, uint64_t seed, double direction,
+                     RunResult& result) {
+  double survived = kLeast;
+  double lost = kGreatest;
+  for (int i = 0; i < kNumHalvings; ++i) {
+    const double impulse = (survived + lost) / 2;
+    const Outcome outcome = push(options, seed, direction, impulse);
+    (outcome.stands ? survived : lost) = impulse;
+    if (outcome.warning) result.metrics.emplace_back("warning_ms", *outcome.warning * 1e3);
+  }
+  return survived;
+}
+
+std::string boundary_name(int direction) {
+  return fmt::format("boundary_{:03}_Ns", direction * 360 / kNumDirections);
+}
+
+std::vector<RunResult> measure_all_directions(const ScenarioOptions& options, uint64_t seed) {
+  RunResult result;
+  for (int i = 0; i < kNumDirections; ++i) {
+    const double direction = 2 * M_PI * i / kNumDirections;
+    result.metrics.emplace_back(boundary_name(i), find_boundary(options, seed, direction, result));
+  }
+  result.is_success = true;
+  return {result};
+}
+
+constexpr double kPlotScale = 100;   // pixels per N s
+constexpr double kPlotCenter = 330;  // pixels
+
+/** Ahead is up, left is left. */
+std::string polygon(const std::vector<double>& impulses, const std::string& style) {
+  std::string points;
+  for (size_t i = 0; i < impulses.size(); ++i) {
+    const double direction = 2 * M_PI * static_cast<double>(i) / kNumDirections;
+    points +=
+        fmt::format("{:.1f},{:.1f} ", kPlotCenter - kPlotScale * impulses[i] * std::sin(direction),
+                    kPlotCenter - kPlotScale * impulses[i] * std::cos(direction));
+  }
+  return fmt::format("<polygon points=\"{}\" {}/>\n", points, style);
+}
+
+std::string text(double x, double y, const std::string& words) {
+  return fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", x, y, words);
+}
+
 }  // namespace
 
 std::vector<RunResult> PushScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  if (options.is_for_plot) return measure_all_directions(options, seed);
   // Directions of the impulse, and what must be survived, N s.
   const struct {
     const char* name;
@@ -69,14 +125,7 @@ std::vector<RunResult> PushScenario::run(const ScenarioOptions& options, uint64_
   for (const auto& one : cases) {
     RunResult result;
     result.label = one.name;
-    double survived = kLeast;
-    double lost = kGreatest;
-    for (int i = 0; i < kNumHalvings; ++i) {
-      const double impulse = (survived + lost) / 2;
-      const Outcome outcome = push(options, seed, one.direction, impulse);
-      (outcome.stands ? survived : lost) = impulse;
-      if (outcome.warning) result.metrics.emplace_back("warning_ms", *outcome.warning * 1e3);
-    }
+    const double survived = find_boundary(options, seed, one.direction, result);
     result.metrics.emplace_back(std::string(one.name) + "_impulse_Ns", survived);
     result.metrics.emplace_back("impulse_Ns", survived);
     result.is_success = survived >= one.least;
@@ -84,6 +133,38 @@ std::vector<RunResult> PushScenario::run(const ScenarioOptions& options, uint64_
     results.push_back(std::move(result));
   }
   return results;
+}
+
+std::string PushScenario::plot(const Summary& summary) const {
+  std::map<std::string, std::vector<double>> values;
+  for (const RunResult& run : summary.runs) {
+    for (const auto& [name, value] : run.metrics) values[name].push_back(value);
+  }
+  std::vector<double> medians;
+  std::vector<double> leasts;
+  for (int i = 0; i < kNumDirections; ++i) {
+    const MetricStatistics impulse = calc_statistics(boundary_name(i), values[boundary_name(i)]);
+    medians.push_back(impulse.median);
+    leasts.push_back(impulse.worst);
+  }
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{0}\" "
+      "font-family=\"sans-serif\" font-size=\"14\">\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+      2 * kPlotCenter);
+  for (int impulse = 1; impulse <= 3; ++impulse) {
+    svg += fmt::format("<circle cx=\"{0}\" cy=\"{0}\" r=\"{1}\" fill=\"none\" stroke=\"#bbb\"/>\n",
+                       kPlotCenter, impulse * kPlotScale);
+    svg += text(kPlotCenter + 4, kPlotCenter - impulse * kPlotScale - 4,
+                fmt::format("{} N s", impulse));
+  }
+  svg += polygon(medians, "fill=\"#36c\" fill-opacity=\"0.2\" stroke=\"#36c\" stroke-width=\"2\"");
+  svg += polygon(leasts, "fill=\"none\" stroke=\"#d33\" stroke-width=\"2\"");
+  svg += text(10, 20, "Greatest impulse at the torso survived without a step");
+  svg += text(10, 40, fmt::format("blue: median, red: least of {} seeds", summary.runs.size()));
+  svg += text(kPlotCenter - 25, 2 * kPlotCenter - 10, "backward");
+  svg += text(10, kPlotCenter, "left");
+  return svg + "</svg>\n";
 }
 
 }  // namespace nao::trial

@@ -33,7 +33,11 @@ struct ScenarioOptions {
   double distance = 0;
   /** If not empty: true and estimated pose of the last seed's walk, ten times a second, as CSV. */
   std::string trace_file;
+  /** Measure what plot() draws, in place of the usual. */
+  bool is_for_plot = false;
 };
+
+struct Summary;
 
 /** Something that the robot shall manage. One seed is one run, or several with labels. */
 class Scenario {
@@ -44,6 +48,8 @@ class Scenario {
   /** Unit of each metric, "s" or "m/s"; "1" for counts. */
   virtual std::map<std::string, std::string> units() const = 0;
   virtual std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const = 0;
+  /** Picture of what runs with is_for_plot gave, as SVG; empty if there is none. */
+  virtual std::string plot(const Summary& /*summary*/) const { return ""; }
   /** Scenes other than "empty" are named here. */
   virtual const char* scene() const { return "empty"; }
 };

@@ -22,6 +22,8 @@ const std::vector<std::unique_ptr<Scenario>>& scenarios() {
     list.push_back(std::make_unique<JointsScenario>());
     list.push_back(std::make_unique<PushScenario>());
     list.push_back(std::make_unique<GetUpScenario>());
+    list.push_back(std::make_unique<CommandsScenario>());
+    list.push_back(std::make_unique<AlarmsScenario>());
     return list;
   }();
   return all;

@@ -53,6 +53,8 @@ class PushScenario : public Scenario {
             {"right_impulse_Ns", "N s"},    {"warning_ms", "ms"}};
   }
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+  /** Greatest impulse survived in every direction: median and least of the seeds. */
+  std::string plot(const Summary& summary) const override;
 };
 
 /** Turns random joints by random angles; nothing may tip, hit itself, or jump. */
@@ -61,6 +63,30 @@ class JointsScenario : public Scenario {
   const char* name() const override { return "joints"; }
   const char* summary() const override { return "Obey 100 random joint commands without harm"; }
   std::map<std::string, std::string> units() const override { return {}; }
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+/** Gets any command in any mode, is pushed over, and loses its mind and gets a new one. */
+class CommandsScenario : public Scenario {
+ public:
+  const char* name() const override { return "commands"; }
+  const char* summary() const override {
+    return "Answer 100 random commands, in any mode, among pushes and restarts";
+  }
+  std::map<std::string, std::string> units() const override {
+    return {{"restart_jump_deg", "degrees"}};
+  }
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+/** Walks, poses and turns joints without anybody's push: every alarm of a fall is one too many. */
+class AlarmsScenario : public Scenario {
+ public:
+  const char* name() const override { return "alarms"; }
+  const char* summary() const override {
+    return "Walk, pose and turn joints for 10 minutes; count alarms of a fall";
+  }
+  std::map<std::string, std::string> units() const override { return {{"hours", "h"}}; }
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 

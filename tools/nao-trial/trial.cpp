@@ -117,7 +117,9 @@ void Trial::step() {
     motion::Input input;
     input.sensors = to_core(world_.sensors(0));
     input.commands = std::exchange(commands_, {});
+    const double begin = clock_ != nullptr ? clock_() : 0;
     const motion::Output output = core_->step(input, (1 + std::exchange(missed_ticks_, 0)) * kTick);
+    if (clock_ != nullptr) step_times_->push_back(clock_() - begin);
     results_.insert(results_.end(), output.results.begin(), output.results.end());
     targets_ = output.joint_targets->position;
     estimate_ = *output.robot_state;

@@ -76,6 +76,12 @@ class Trial {
   /** Called after every tick. */
   void on_tick(std::function<void()> handler) { on_tick_ = std::move(handler); }
 
+  /** Adds the time of each later step of the core to a list. @param clock  s. */
+  void measure_steps(double (*clock)(), std::vector<double>& times) {
+    clock_ = clock;
+    step_times_ = &times;
+  }
+
   // What is true.
   /** s since the start. */
   double time() const { return world_.time(); }
@@ -102,6 +108,8 @@ class Trial {
   std::vector<double> targets_;
   motion::RobotState estimate_;
   std::function<void()> on_tick_;
+  double (*clock_)() = nullptr;
+  std::vector<double>* step_times_ = nullptr;
 };
 
 }  // namespace nao::trial

@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "nao-trial/scenarios.h"
+
+namespace nao::trial {
+namespace {
+
+constexpr double kDuration = 600;  // s
+
+/** Something to do for a few seconds, on the feet. */
+void do_something(Trial& trial) {
+  constexpr std::array<const char*, 4> kPostures = {"StandInit", "StandZero", "Stand", "Crouch"};
+  const double kind = trial.random(0, 3);
+  if (kind < 1) {
+    trial.hold_walk({trial.random(-0.1, 0.2), trial.random(-0.1, 0.1), trial.random(-0.5, 0.5)});
+    trial.run(trial.random(2, 6));
+    trial.release_walk();
+    trial.run(2);
+  } else if (kind < 2) {
+    const auto index = static_cast<size_t>(trial.random(0, kPostures.size()));
+    trial.await_end(trial.send_posture(kPostures[index], trial.random(0.2, 1)), 10);
+  } else {
+    const int motor = static_cast<int>(trial.random(0, trial.model().num_motors()));
+    motion::JointChangeCommand change;
+    change.joint_names = {trial.model().motor_joint(motor).name};
+    change.joint_position = {trial.random(-0.6, 0.6)};
+    change.is_relative = true;
+    change.speed = trial.random(0.1, 1);
+    trial.await_end(trial.send({"", 0, change}), 10);
+  }
+}
+
+}  // namespace
+
+std::vector<RunResult> AlarmsScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  const double duration = options.duration > 0 ? options.duration : kDuration;
+  Trial trial(options.trial, seed);
+  int num_alarms = 0;
+  bool was_falling = false;
+  trial.on_tick([&] {
+    const bool is_falling = trial.core().motion_state().mode == motion::Mode::kFalling;
+    num_alarms += is_falling && !was_falling ? 1 : 0;
+    was_falling = is_falling;
+  });
+  trial.run(1);
+  while (trial.time() < duration) do_something(trial);
+  RunResult result;
+  result.is_success = num_alarms == 0;
+  if (!result.is_success) result.failure = "told a fall that nobody had pushed it into";
+  result.metrics = {{"alarms", num_alarms}, {"hours", trial.time() / 3600}};
+  return {result};
+}
+
+}  // namespace nao::trial

@@ -1,0 +1,166 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "nao-trial/scenarios.h"
+
+namespace nao::trial {
+namespace {
+
+constexpr double kTick = 0.01;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr int kNumCommands = 100;
+constexpr double kPushShare = 0.03;     // of the commands, with a push that throws the robot over
+constexpr double kRestartShare = 0.02;  // of the commands, after which the mind dies
+constexpr double kTimeToEnd = 150;      // s for the last command, six tries to get up included
+// A new mind takes over measured angles and adds the servos' lag, which dry friction hides in part,
+// rad. A motor at its limit may lag any amount; its target may come nearer without it noticing.
+constexpr double kTakeOverJump = 5 * M_PI / 180;
+constexpr double kAtLimit = 0.9;  // share of the peak torque
+
+motion::Command random_joint_change(Trial& trial) {
+  motion::JointChangeCommand change;
+  const int motor = static_cast<int>(trial.random(0, trial.model().num_motors()));
+  change.joint_names = {trial.model().motor_joint(motor).name};
+  change.joint_position = {trial.random(-2, 2)};
+  change.is_relative = trial.random(0, 1) < 0.5;
+  change.speed = trial.random(-0.05, 1.05);
+  return {"", 0, change};
+}
+
+motion::Command random_command(Trial& trial) {
+  const auto& postures = trial.model().postures();
+  const auto& actions = trial.model().actions();
+  const double kind = trial.random(0, 10);
+  if (kind < 2) {
+    const auto index = static_cast<size_t>(trial.random(0, static_cast<double>(postures.size())));
+    return {"", 0, motion::PostureCommand{postures[index].name, trial.random(0.1, 1.05)}};
+  }
+  if (kind < 4) {
+    return {
+        "", 0,
+        motion::WalkCommand{trial.random(-0.3, 0.3), trial.random(-0.2, 0.2), trial.random(-1, 1)}};
+  }
+  if (kind < 5) {
+    return {"", 0,
+            motion::MoveToCommand{trial.random(-0.3, 0.3), trial.random(-0.2, 0.2),
+                                  trial.random(-1, 1)}};
+  }
+  if (kind < 6) {
+    const auto index = static_cast<size_t>(trial.random(0, static_cast<double>(actions.size())));
+    return {"", 0, motion::ActionCommand{actions[index], kNan, kNan, kNan}};
+  }
+  if (kind < 7) return {"", 0, motion::StopCommand{}};
+  return random_joint_change(trial);
+}
+
+/** Watches targets and results while commands rain. */
+class Watch {
+ public:
+  Watch(Trial& trial, RunResult& result) : trial_(trial), result_(result) {
+    last_ = trial.targets();
+    trial.on_tick([this] { tick(); });
+  }
+  ~Watch() { trial_.on_tick({}); }
+
+  /** The next targets are a new mind's first ones; what the old one owed is forgotten. */
+  void expect_restart() {
+    takes_over_ = true;
+    forgiven_.clear();
+    for (const auto& [id, is_open] : open_) {
+      if (is_open) forgiven_[id] = true;
+    }
+  }
+  void expect_result(int64_t id) { open_[id] = true; }
+  bool has_open() const {
+    return std::any_of(open_.begin(), open_.end(),
+                       [this](const auto& one) { return one.second && !is_forgiven(one.first); });
+  }
+  void fail(const std::string& why) {
+    if (result_.failure.empty()) result_.failure = why;
+  }
+
+ private:
+  bool is_forgiven(int64_t id) const { return forgiven_.count(id) > 0; }
+
+  void tick() {
+    const std::vector<double>& targets = trial_.targets();
+    double jump = 0;
+    for (int motor = 0; motor < trial_.model().num_motors(); ++motor) {
+      const Joint& joint = trial_.model().motor_joint(motor);
+      const double change = std::abs(targets[motor] - last_[motor]);
+      const double torque = std::abs(trial_.world().robot(0).motor_torque()[motor]);
+      const bool is_at_limit = torque > kAtLimit * trial_.model().motor(motor).peak_torque;
+      const bool is_hand = joint.name == "LHand" || joint.name == "RHand";
+      if (!is_hand && !is_at_limit) jump = std::max(jump, change);
+      if (!takes_over_ && change > joint.max_velocity * kTick * (1 + 1e-9)) {
+        fail(joint.name + " jumped");
+      }
+    }
+    if (takes_over_ && targets != last_) {
+      takes_over_ = false;
+      result_.metrics.emplace_back("restart_jump_deg", jump * 180 / M_PI);
+      if (jump > kTakeOverJump) fail("jumped at the restart");
+    }
+    last_ = targets;
+    for (; next_ < trial_.results().size(); ++next_) take(trial_.results()[next_]);
+  }
+
+  void take(const motion::CommandResult& answer) {
+    if (answer.status == motion::ResultStatus::kAccepted) return;
+    if (!open_[answer.id] && !is_forgiven(answer.id)) {
+      fail(fmt::format("{} got a second result", answer.id));
+    }
+    open_[answer.id] = false;
+  }
+
+  Trial& trial_;
+  RunResult& result_;
+  std::vector<double> last_;
+  std::map<int64_t, bool> open_;
+  std::map<int64_t, bool> forgiven_;
+  size_t next_ = 0;
+  bool takes_over_ = false;
+};
+
+}  // namespace
+
+std::vector<RunResult> CommandsScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  Trial trial(options.trial, seed);
+  trial.run(1);
+  RunResult result;
+  Watch watch(trial, result);
+  int num_pushes = 0;
+  int num_restarts = 0;
+  for (int i = 0; i < kNumCommands && result.failure.empty(); ++i) {
+    watch.expect_result(trial.send(random_command(trial)));
+    trial.run(trial.random(0.02, 2.5));
+    if (trial.random(0, 1) < kPushShare) {
+      const double direction = trial.random(-M_PI, M_PI);
+      trial.world().push(0, 0, {5 * std::cos(direction), 5 * std::sin(direction), 0});
+      ++num_pushes;
+    }
+    if (trial.random(0, 1) < kRestartShare) {
+      trial.set_core_dead(true);
+      trial.run(trial.random(0.05, 0.5));
+      trial.set_core_dead(false);
+      trial.restart_core();
+      watch.expect_restart();
+      ++num_restarts;
+    }
+  }
+  // A walk has no end of its own.
+  if (result.failure.empty()) watch.expect_result(trial.send({"", 0, motion::StopCommand{}}));
+  const bool all_ended =
+      trial.run_until([&] { return !watch.has_open() || !result.failure.empty(); }, kTimeToEnd);
+  if (!all_ended) watch.fail("a command got no result");
+  result.is_success = result.failure.empty();
+  result.metrics.emplace_back("pushes", num_pushes);
+  result.metrics.emplace_back("restarts", num_restarts);
+  return {result};
+}
+
+}  // namespace nao::trial
