@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -319,6 +320,29 @@ TEST_F(MotionCoreTest, WavesRestsAndWakesUp) {
   robot_.settle(core_);
   EXPECT_EQ(core_.motion_state().posture, "StandInit");
   EXPECT_EQ(core_.motion_state().stiffness, 1);
+}
+
+TEST_F(MotionCoreTest, AsksForHelpAfterSixTriesAndObeysThen) {
+  robot_.lie_on_belly();
+  int num_tries = 0;
+  const auto step = [&] {
+    robot_.step(core_);
+    num_tries = std::max(num_tries, core_.motion_state().num_tries);
+    return core_.motion_state().command_detail == "needs help";
+  };
+  int num_ticks = 0;
+  while (num_ticks < 20000 && !step()) ++num_ticks;
+  EXPECT_EQ(core_.motion_state().mode, Mode::kFallen);
+  EXPECT_EQ(core_.motion_state().command_detail, "needs help");
+  EXPECT_GE(num_tries, 6);
+  for (int i = 0; i < 500; ++i) EXPECT_TRUE(step());
+  const Command get_up = {"test", 1, ActionCommand{"get-up", kNan, kNan, kNan}};
+  EXPECT_EQ(robot_.step(core_, {get_up}).results.at(0).status, ResultStatus::kAccepted);
+  std::vector<CommandResult> results;
+  for (int i = 0; i < 20000 && results.empty(); ++i) results = robot_.step(core_).results;
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0].status, ResultStatus::kFailed);
+  EXPECT_NE(results[0].reason.find("needs help"), std::string::npos) << results[0].reason;
 }
 
 TEST(CommandLedger, ForgetsTheOldestEndedCommandFirst) {

@@ -24,6 +24,9 @@ class PerfectRobot {
 
   Sensors& sensors() { return sensors_; }
 
+  /** From now on it lies, whatever its joints do. */
+  void lie_on_belly() { lies_on_belly_ = true; }
+
   /** One tick of robot and core together. */
   Output step(MotionCore& core, std::vector<Command> commands = {}) {
     stand_flat();
@@ -57,10 +60,15 @@ class PerfectRobot {
   /** The accelerometer of a robot whose soles are level. */
   void stand_flat() {
     const auto poses = nao_model().link_poses(sensors_.position);
+    if (lies_on_belly_) {
+      sensors_.accelerometer_torso = {-9.81, 0, 0};
+      return;
+    }
     sensors_.accelerometer_torso = 9.81 * poses[nao_model().left_sole()].linear().col(2);
   }
 
   Sensors sensors_;
+  bool lies_on_belly_ = false;
 };
 
 }  // namespace nao::motion

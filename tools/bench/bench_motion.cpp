@@ -1,0 +1,82 @@
+// Measures the motion core: processor time of one step while it stands and while it walks, and how
+// fast simulator and core run together on one core.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/data_path.h"
+#include "common/robot_model.h"
+#include "figures.h"
+#include "nao-trial/trial.h"
+
+namespace nao {
+namespace {
+
+/** Time of the processor that this thread has used, s. */
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+trial::TrialOptions trial_options() {
+  trial::TrialOptions options;
+  options.model = std::make_shared<RobotModel>(RobotModel::load(data_path() / "robots/nao"));
+  options.scene = SceneFile::find("empty");
+  return options;
+}
+
+/** Median over ticks of a core's step, us, with the sensors of a trial that runs beside it. */
+double step_us(const Eigen::Vector3d& velocity, double seconds) {
+  trial::Trial trial(trial_options(), 1);
+  std::vector<double> times;
+  trial.measure_steps(processor_seconds, times);
+  trial.run(1);
+  if (!velocity.isZero()) {
+    trial.hold_walk(velocity);
+    trial.run(2);
+  }
+  times.clear();
+  trial.run(seconds);
+  return 1e6 * median(times);
+}
+
+double real_time_factor(double seconds) {
+  trial::Trial trial(trial_options(), 1);
+  trial.run(1);
+  const double begin = processor_seconds();
+  trial.run(seconds);
+  return seconds / (processor_seconds() - begin);
+}
+
+std::vector<Figure> measure(double seconds) {
+  return {{"motion.step_us", step_us(Eigen::Vector3d::Zero(), seconds), "us", "", 0},
+          {"motion.walking_step_us", step_us({0.1, 0, 0}, seconds), "us", "", 0},
+          {"trial.real_time_factor", real_time_factor(seconds), "x", "", 0}};
+}
+
+}  // namespace
+}  // namespace nao
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures the motion core's step, and simulator and core together on one core.",
+               "nao-bench-motion");
+  std::string json_file;
+  double seconds = 20;
+  app.add_option("--json", json_file, "Write the figures to this file too");
+  app.add_option("--seconds", seconds, "Simulated time of each measurement, s")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    nao::report(nao::measure(seconds), json_file);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "nao-bench-motion: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
