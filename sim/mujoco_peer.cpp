@@ -43,7 +43,7 @@ int motor_of_body(const SimRobot& robot, int body) {
 }
 
 /** Writes a body with its joint, inertia and shapes, and those that hang on it. */
-void write_body(std::ostream& out, const SimRobot& robot, int index, PeerFeet feet, bool is_limp) {
+void write_body(std::ostream& out, const SimRobot& robot, int index, const PeerOptions& options) {
   const TreeBody& body = robot.tree().bodies()[index];
   const RobotModel& model = robot.model();
   out << "<body name=\"" << body_name(index) << "\" pos=\"" << numbers(body.origin_in_parent)
@@ -60,7 +60,7 @@ void write_body(std::ostream& out, const SimRobot& robot, int index, PeerFeet fe
       out << " armature=\"" << drive.reflected_inertia << "\" frictionloss=\"" << drive.dry_friction
           << "\" damping=\""
           << drive.viscous_friction +
-                 (is_limp ? 0 : drive.damping_gain + drive.peak_torque / drive.no_load_velocity)
+                 (options.is_limp ? 0 : drive.peak_torque / drive.no_load_velocity)
           << '"';
     }
     out << "/>\n";
@@ -76,7 +76,7 @@ void write_body(std::ostream& out, const SimRobot& robot, int index, PeerFeet fe
     const bool has_sole =
         part.first_point < part.end_point && shapes.points[part.first_point].sole >= 0;
     // With points for its sole, the foot itself meets other parts only.
-    const bool is_off_floor = has_sole && feet == PeerFeet::kPoints;
+    const bool is_off_floor = has_sole && options.feet == PeerFeet::kPoints;
     const Vector3d& half = part.half;
     out << "<geom contype=\"1\" conaffinity=\"" << (is_off_floor ? 1 : 3) << "\" pos=\""
         << numbers(part.center_in_body) << "\" quat=\""
@@ -98,14 +98,14 @@ void write_body(std::ostream& out, const SimRobot& robot, int index, PeerFeet fe
     }
   }
   for (int child = index + 1; child < robot.tree().num_bodies(); ++child) {
-    if (robot.tree().bodies()[child].parent == index) write_body(out, robot, child, feet, is_limp);
+    if (robot.tree().bodies()[child].parent == index) write_body(out, robot, child, options);
   }
   out << "</body>\n";
 }
 
 }  // namespace
 
-std::string to_mjcf(const SimRobot& robot, const WorldOptions& world, PeerFeet feet, bool is_limp) {
+std::string to_mjcf(const SimRobot& robot, const WorldOptions& world, const PeerOptions& options) {
   std::ostringstream out;
   out << std::setprecision(17);
   out << "<mujoco><compiler angle=\"radian\"/>\n<option timestep=\"" << world.step
@@ -113,7 +113,7 @@ std::string to_mjcf(const SimRobot& robot, const WorldOptions& world, PeerFeet f
       << "<size njmax=\"1000\" nconmax=\"200\"/>\n<default><geom condim=\"3\" friction=\""
       << world.materials.floor_friction << " 0.005 0.0001\"/></default>\n<worldbody>\n"
       << "<geom type=\"plane\" size=\"20 20 1\" contype=\"2\" conaffinity=\"0\"/>\n";
-  write_body(out, robot, 0, feet, is_limp);
+  write_body(out, robot, 0, options);
   out << "</worldbody>\n<contact>\n";
   // Bodies that our physics lets pass through each other.
   const CollisionModel& shapes = robot.collisions();
@@ -141,19 +141,22 @@ std::string to_mjcf(const SimRobot& robot, const WorldOptions& world, PeerFeet f
   out << "</equality>\n<actuator>\n";
   for (size_t i = 1; i < bodies.size(); ++i) {
     const int motor = motor_of_body(robot, static_cast<int>(i));
-    if (motor < 0 || is_limp) continue;
+    if (motor < 0 || options.is_limp) continue;
     const Motor& drive = robot.model().motor(motor);
-    out << "<position joint=\"" << joint_name(static_cast<int>(i)) << "\" kp=\""
-        << drive.stiffness_gain << "\" forcelimited=\"true\" forcerange=\"" << -drive.peak_torque
-        << ' ' << drive.peak_torque << "\"/>\n";
+    // The driver clips spring and damping together: that decides how far a walk goes.
+    out << "<general joint=\"" << joint_name(static_cast<int>(i))
+        << "\" biastype=\"affine\" gainprm=\"" << drive.stiffness_gain << "\" biasprm=\"0 "
+        << -drive.stiffness_gain << ' ' << -drive.damping_gain
+        << "\" forcelimited=\"true\" forcerange=\"" << -drive.peak_torque << ' '
+        << drive.peak_torque << "\"/>\n";
   }
   out << "</actuator></mujoco>\n";
   return out.str();
 }
 
-MujocoPeer::MujocoPeer(const SimRobot& robot, const WorldOptions& world, PeerFeet feet,
-                       bool is_limp) {
-  const std::string text = to_mjcf(robot, world, feet, is_limp);
+MujocoPeer::MujocoPeer(const SimRobot& robot, const WorldOptions& world,
+                       const PeerOptions& options) {
+  const std::string text = to_mjcf(robot, world, options);
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
   mj_makeEmptyFileVFS(files.get(), "robot.xml", static_cast<int>(text.size()));
@@ -162,6 +165,7 @@ MujocoPeer::MujocoPeer(const SimRobot& robot, const WorldOptions& world, PeerFee
   model_ = mj_loadXML("robot.xml", files.get(), error.data(), error.size());
   mj_deleteVFS(files.get());
   if (model_ == nullptr) throw Error(std::string("MuJoCo: ") + error.data());
+  if (options.laws == PeerLaws::kOurs) take_our_laws(robot, world);
   data_ = mj_makeData(model_);
 
   const Tree& tree = robot.tree();
@@ -171,7 +175,7 @@ MujocoPeer::MujocoPeer(const SimRobot& robot, const WorldOptions& world, PeerFee
   for (int i = 1; i < tree.num_bodies(); ++i) {
     joint_of_body_[i] = mj_name2id(model_, mjOBJ_JOINT, joint_name(i).c_str());
     const int motor = motor_of_body(robot, i);
-    if (motor >= 0 && !is_limp) actuator_of_motor_[motor] = actuator++;
+    if (motor >= 0 && !options.is_limp) actuator_of_motor_[motor] = actuator++;
   }
   set_state(tree, robot.state());
   set_targets(robot.motor_position());
@@ -180,6 +184,46 @@ MujocoPeer::MujocoPeer(const SimRobot& robot, const WorldOptions& world, PeerFee
 MujocoPeer::~MujocoPeer() {
   mj_deleteData(data_);
   mj_deleteModel(model_);
+}
+
+void MujocoPeer::take_our_laws(const SimRobot& robot, const WorldOptions& world) {
+  // MuJoCo's contact force f and acceleration a obey a + R f = -b v - k r with R = (1 - d) / d * A,
+  // A the body's mean inverse inertia, d the impedance, and k, b those of solref over d (direct
+  // format; MuJoCo's documentation, Computation, Solver parameters). For a small d the term a means
+  // a mass of d (almost 0) next to a spring k / R and a damper b / R.
+  constexpr double kImpedance = 0.02;
+  constexpr double kRigid = 0.9999;
+  // Sticking friction is a damper so many times as strong as the normal one.
+  model_->opt.impratio = 10;
+  model_->opt.cone = mjCONE_ELLIPTIC;
+  const auto set_impedance = [](mjtNum* solimp, double impedance) {
+    solimp[0] = solimp[1] = impedance;
+  };
+  const CollisionModel& shapes = robot.collisions();
+  const bool has_soles = std::any_of(shapes.points.begin(), shapes.points.end(),
+                                     [](const CollisionModel::Point& p) { return p.sole >= 0; });
+  for (int geom = 0; has_soles && geom < model_->ngeom; ++geom) {
+    if (model_->geom_contype[geom] != 0) continue;
+    const double inverse_mass = model_->body_invweight0[2 * model_->geom_bodyid[geom]];
+    const double scale = (1 - kImpedance) * inverse_mass;
+    model_->geom_priority[geom] = 1;
+    model_->geom_solref[mjNREF * geom] = -scale * world.materials.contact_stiffness;
+    model_->geom_solref[mjNREF * geom + 1] = -scale * world.materials.contact_damping;
+    set_impedance(&model_->geom_solimp[mjNIMP * geom], kImpedance);
+  }
+  const double soonest = 4 * world.step;
+  for (int dof = 0; dof < model_->nv; ++dof) {
+    model_->dof_solref[mjNREF * dof] = soonest;
+    set_impedance(&model_->dof_solimp[mjNIMP * dof], kRigid);
+  }
+  for (int joint = 0; joint < model_->njnt; ++joint) {
+    model_->jnt_solref[mjNREF * joint] = soonest;
+    set_impedance(&model_->jnt_solimp[mjNIMP * joint], kRigid);
+  }
+  for (int i = 0; i < model_->neq; ++i) {
+    model_->eq_solref[mjNREF * i] = soonest;
+    set_impedance(&model_->eq_solimp[mjNIMP * i], kRigid);
+  }
 }
 
 void MujocoPeer::set_state(const Tree& tree, const TreeState& state) {

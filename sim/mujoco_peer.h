@@ -20,19 +20,34 @@ enum class PeerFeet {
   kBoxes,
 };
 
+/** What contacts, dry friction and the coupling of the hips are like in the peer. */
+enum class PeerLaws {
+  /** MuJoCo's defaults, which suit its step of 2 ms; contacts in a pyramidal cone. */
+  kMujoco,
+  /** Our physics': the same spring and damper at each point of the soles, a round cone, dry
+   * friction and coupling as good as rigid. For steps of 0.1 ms and less, MuJoCo takes springs
+   * explicitly. What is left: sticking soles creep against a damper there, and hang on a spring
+   * here. */
+  kOurs,
+};
+
+struct PeerOptions {
+  PeerFeet feet = PeerFeet::kPoints;
+  PeerLaws laws = PeerLaws::kMujoco;
+  /** Without servos and back-EMF. */
+  bool is_limp = false;
+};
+
 /** MJCF text of a robot as our physics sees it: the same bodies, masses, joints, motors (reflected
- * inertia, friction, servo, greatest torque, back-EMF as damping) and collision primitives, on the
- * same floor. Left to MuJoCo are the solver (Newton, pyramidal cone), the contact's softness (its
- * defaults) and the coupling of the two hip yaw-pitch joints (an equality constraint).
- * @param is_limp  Without servos and back-EMF. */
-std::string to_mjcf(const SimRobot& robot, const WorldOptions& world, PeerFeet feet,
-                    bool is_limp = false);
+ * inertia, friction, servo whose whole demand is clipped to the greatest torque, back-EMF as
+ * damping) and collision primitives, on the same floor. */
+std::string to_mjcf(const SimRobot& robot, const WorldOptions& world, const PeerOptions& options);
 
 /** The same robot in MuJoCo, for comparisons. Only built where MuJoCo is installed. */
 class MujocoPeer {
  public:
   /** @throws Error  if MuJoCo refuses the model. */
-  MujocoPeer(const SimRobot& robot, const WorldOptions& world, PeerFeet feet, bool is_limp = false);
+  MujocoPeer(const SimRobot& robot, const WorldOptions& world, const PeerOptions& options = {});
   ~MujocoPeer();
   MujocoPeer(const MujocoPeer&) = delete;
   MujocoPeer& operator=(const MujocoPeer&) = delete;
@@ -49,6 +64,8 @@ class MujocoPeer {
   void step() { mj_step(model_, data_); }
 
  private:
+  void take_our_laws(const SimRobot& robot, const WorldOptions& world);
+
   mjModel* model_ = nullptr;
   mjData* data_ = nullptr;
   std::vector<int> joint_of_body_;

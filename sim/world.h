@@ -127,6 +127,9 @@ class World {
   const ConstraintSolver& solver() const { return solver_; }
 
  private:
+  /** A contact is made when surfaces will be nearer than this after the step, m. */
+  static constexpr double kMargin = 0.0005;
+
   struct Touch {
     Surface a;
     Surface b;
@@ -171,7 +174,6 @@ class World {
   void check_states();
   Eigen::Vector3d velocity_of(const Surface& surface, int body, const Eigen::Vector3d& point) const;
   double friction_of(const Surface& a, const Surface& b) const;
-  double gap_limit() const;
 
   SceneFile scene_;
   WorldOptions options_;

@@ -47,7 +47,7 @@ class MujocoCrossCheck : public testing::Test {
 TEST_F(MujocoCrossCheck, SameMassCentreMassMatrixAndGravityTorques) {
   const SimRobot& robot = world_.robot(0);
   const Tree& tree = robot.tree();
-  MujocoPeer peer(robot, world_.options(), PeerFeet::kPoints);
+  MujocoPeer peer(robot, world_.options());
   const mjModel& model = peer.model();
   EXPECT_NEAR(mj_getTotalmass(&model), tree.total_mass(), 1e-9);
   TreeDynamics dynamics(tree);
@@ -105,7 +105,7 @@ TEST_F(MujocoCrossCheck, FallsAlikeForASecondWithAllServosAtWork) {
   World world{SceneFile{}, options};
   world.add_robot(nao_model(), in_the_air());
   const SimRobot& robot = world.robot(0);
-  MujocoPeer peer(robot, options, PeerFeet::kPoints);
+  MujocoPeer peer(robot, options);
   MotorTargets targets = world.targets(0);
   for (int tick = 0; tick < 100; ++tick) {
     const Posture& start = *nao_model()->find_posture("StandInit");
@@ -130,7 +130,7 @@ TEST_F(MujocoCrossCheck, CrouchesUnderItsWeightAlike) {
   options.posture = "Crouch";
   world.add_robot(nao_model(), options);
   const SimRobot& robot = world.robot(0);
-  MujocoPeer peer(robot, world.options(), PeerFeet::kPoints);
+  MujocoPeer peer(robot, world.options());
   for (int i = 0; i < 500; ++i) world.step_tick();
   for (int i = 0; i < 2500; ++i) peer.step();
   const TreeState theirs = peer.state(robot.tree());

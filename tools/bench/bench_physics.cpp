@@ -140,12 +140,13 @@ class Ours {
 /** MuJoCo in the same scenario. */
 class Theirs {
  public:
-  Theirs(const Scenario& scenario, double step, sim::PeerFeet feet = sim::PeerFeet::kPoints)
+  Theirs(const Scenario& scenario, double step, sim::PeerOptions options = {})
       : scenario_(scenario),
         start_(scenario, step),
         steps_per_tick_(start_.options().steps_per_tick),
         state_(start_.state()),
-        peer_(start_.world().robot(0), start_.options(), feet, scenario.is_limp) {}
+        peer_(start_.world().robot(0), start_.options(),
+              {options.feet, options.laws, scenario.is_limp}) {}
   void tick() {
     if (tick_ < scenario_.targets.size()) peer_.set_targets(scenario_.targets[tick_]);
     ++tick_;
@@ -175,19 +176,39 @@ double joint_difference(const sim::TreeState& a, const sim::TreeState& b) {
   return std::sqrt(difference.squaredNorm() / static_cast<double>(difference.size() - 6));
 }
 
-/** Error of the joints at 2 ms after a time, by the same physics at 0.05 ms, rad. */
-template <class Physics>
-double step_error(const Scenario& scenario, int ticks) {
-  Physics coarse(scenario, 0.002);
-  Physics fine(scenario, 0.00005);
+/** Error of the joints of one physics over a time against another, rad. */
+template <class Physics, class Reference>
+double difference(Physics& physics, Reference& reference, int ticks) {
   double sum = 0;
   for (int i = 0; i < ticks; ++i) {
-    coarse.tick();
-    fine.tick();
-    sum += std::pow(joint_difference(coarse.state(), fine.state()), 2);
+    physics.tick();
+    reference.tick();
+    sum += std::pow(joint_difference(physics.state(), reference.state()), 2);
   }
   return std::sqrt(sum / ticks);
 }
+
+constexpr double kStep = 0.002;
+constexpr double kFineStep = 0.00005;
+
+/** Error of the joints at 2 ms over a time, by the same physics at 0.05 ms, rad. */
+template <class Physics>
+double step_error(const Scenario& scenario, int ticks) {
+  Physics coarse(scenario, kStep);
+  Physics fine(scenario, kFineStep);
+  return difference(coarse, fine, ticks);
+}
+
+#ifdef NAO_HAS_MUJOCO
+/** Error at 2 ms against one reference for both: MuJoCo at 0.05 ms with our laws of contact and dry
+ * friction, rad. */
+template <class Physics>
+double common_error(const Scenario& scenario, int ticks) {
+  Physics coarse(scenario, kStep);
+  Theirs reference(scenario, kFineStep, {sim::PeerFeet::kPoints, sim::PeerLaws::kOurs});
+  return difference(coarse, reference, ticks);
+}
+#endif
 
 /** Processor time of a step, us, of several tasks in turns. */
 std::vector<double> times_in_turns(const std::vector<std::function<void()>>& ticks, int rounds,
@@ -225,7 +246,7 @@ void measure_scenario(const Scenario& scenario, int rounds, std::vector<Figure>&
   });
 #ifdef NAO_HAS_MUJOCO
   Theirs points(scenario, 0.002);
-  Theirs boxes(scenario, 0.002, sim::PeerFeet::kBoxes);
+  Theirs boxes(scenario, 0.002, {sim::PeerFeet::kBoxes});
   for (int i = 0; i < 300 && !is_recorded; ++i) {
     points.tick();
     boxes.tick();
@@ -373,6 +394,12 @@ void measure(int rounds, const std::string& json_file) {
     figure.peer_value = 1e3 * step_error<Theirs>(*scenario, ticks);
 #endif
     figures.push_back(figure);
+#ifdef NAO_HAS_MUJOCO
+    figures.push_back({"physics." + scenario->name + ".common_error_mrad",
+                       1e3 * common_error<Ours>(*scenario, ticks), "mrad",
+                       "MuJoCo, same contact points",
+                       1e3 * common_error<Theirs>(*scenario, ticks)});
+#endif
   }
   report(figures, json_file);
 }
