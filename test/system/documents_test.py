@@ -26,8 +26,7 @@ class Documents(unittest.TestCase):
     def test_every_command_of_the_readme_works_in_its_order(self):
         found = commands(ROOT / "README.md")
         self.assertIn("scripts/start", found)
-        # stop stands beside start, where a reader looks for it; the others need a running robot.
-        found.sort(key=lambda command: command == "scripts/stop")
+        found.remove("scripts/test")  # what runs this
         with Stack() as stack:
             environment = {**os.environ, "NAO_REMOTE_BIN": str(BIN_DIR), "NAO_REMOTE_RUN_DIR": str(stack.run_dir),
                            "LCM_DEFAULT_URL": stack.lcm_url}

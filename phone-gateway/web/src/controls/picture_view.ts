@@ -38,6 +38,7 @@ export class PictureView {
       onclick: (event: MouseEvent) => this.clicked(event),
       onpointerdown: (event: PointerEvent) => this.dragStarts(event),
       onpointermove: (event: PointerEvent) => this.dragged(event),
+      onpointerup: (event: PointerEvent) => this.lifted(event),
       onlostpointercapture: (event: PointerEvent) => this.dragged(event, true),
     },
                       this.canvas, el("span", {class: "picture-empty"}, say("drive.pictureWaiting")));
@@ -89,13 +90,16 @@ export class PictureView {
                   -dy / this.canvas.clientHeight * kVerticalView);
       }
     }
+    if (isLast) this.drag = null;
+  }
+
+  /** A tap is told by the finger's own way: browsers swallow the click of one that follows a drag at once. */
+  private lifted(event: PointerEvent): void {
+    if (this.drag && event.pointerId === this.drag.pointer && this.drag.travel < kTapTravel) this.toggleSize();
   }
 
   private clicked(event: MouseEvent): void {
-    // A click by keyboard has no travel; one that ends a drag is none. (detail: 0 by keyboard)
-    const travel = event.detail === 0 ? 0 : this.drag?.travel ?? 0;
-    this.drag = null;
-    if (travel < kTapTravel) this.toggleSize();
+    if (event.detail === 0) this.toggleSize(); // by keyboard
   }
 
   private toggleSize(): void {
