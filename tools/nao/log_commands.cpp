@@ -149,6 +149,13 @@ const MessageLayout& find_layout_of_channel(const LogOptions& options) {
               "; what it holds: nao log info " + options.file);
 }
 
+/** Says what a log that was read to its end did not give. @return Exit status. */
+int end_reading(const Log& log, const Undecodable& undecodable) {
+  undecodable.warn();
+  log.warn_about_damage();
+  return 0;
+}
+
 int write_csv(const LogOptions& options) {
   MessageTable table(find_layout_of_channel(options));
   LogEvent event;
@@ -172,71 +179,70 @@ int write_csv(const LogOptions& options) {
     output.stream() << std::to_string(log.time_of(event)) << "," << row << "\n";
   }
   output.finish();
-  undecodable.warn();
-  log.warn_about_damage();
-  return 0;
+  return end_reading(log, undecodable);
+}
+
+/** Reads a log to its end and hands on the messages of some channels: event, layout, JSON text.
+ * @return What could not be decoded. */
+template <class Take>
+Undecodable read_as_json(Log& log, const std::regex& wanted, Take take) {
+  Undecodable undecodable;
+  LogEvent event;
+  while (log.read(event)) {
+    if (!std::regex_match(event.channel, wanted)) continue;
+    const MessageLayout* layout = layout_of(event);
+    const auto message = layout != nullptr ? message_to_json(*layout, event.data) : std::nullopt;
+    if (message) {
+      take(event, *layout, *message);
+    } else {
+      undecodable.add(event.channel);
+    }
+  }
+  return undecodable;
 }
 
 int write_json(const LogOptions& options) {
   const std::regex wanted = compiled(options.channels);
   Log log(options.file);
   Output output(options.output);
-  Undecodable undecodable;
-  LogEvent event;
-  while (log.read(event)) {
-    if (!std::regex_match(event.channel, wanted)) continue;
-    const MessageLayout* layout = layout_of(event);
-    const auto message = layout != nullptr ? message_to_json(*layout, event.data) : std::nullopt;
-    if (!message) {
-      undecodable.add(event.channel);
-      continue;
-    }
+  const auto write = [&](const LogEvent& event, const MessageLayout& layout,
+                         const std::string& message) {
     JsonWriter head;
     head.begin_object();
     head.add("log_wall_utime", long{event.wall_utime});
     head.add("channel", event.channel);
-    head.add("type", layout->name);
+    head.add("type", layout.name);
     head.end();
     std::string line = head.text();
     line.pop_back();
-    output.stream() << line << ", \"message\": " << *message << "}\n";
-  }
+    output.stream() << line << ", \"message\": " << message << "}\n";
+  };
+  const Undecodable undecodable = read_as_json(log, wanted, write);
   output.finish();
-  undecodable.warn();
-  log.warn_about_damage();
-  return 0;
+  return end_reading(log, undecodable);
 }
 
 int write_mcap(const LogOptions& options) {
   const std::regex wanted = compiled(options.channels);
   Log log(options.file);
   McapWriter mcap(options.output);
-  Undecodable undecodable;
   std::map<std::string, uint16_t> schemas;
   std::map<std::string, uint16_t> channels;
-  LogEvent event;
-  while (log.read(event)) {
-    if (!std::regex_match(event.channel, wanted)) continue;
-    const MessageLayout* layout = layout_of(event);
-    const auto message = layout != nullptr ? message_to_json(*layout, event.data) : std::nullopt;
-    if (!message) {
-      undecodable.add(event.channel);
-      continue;
-    }
-    if (!schemas.contains(layout->name)) {
-      schemas[layout->name] = mcap.add_schema("naolcm." + layout->name, json_schema_of(*layout));
+  const auto write = [&](const LogEvent& event, const MessageLayout& layout,
+                         const std::string& message) {
+    if (!schemas.contains(layout.name)) {
+      schemas[layout.name] = mcap.add_schema("naolcm." + layout.name, json_schema_of(layout));
     }
     // A channel that changed its type while it was recorded becomes two.
-    const std::string key = event.channel + " " + layout->name;
+    const std::string key = event.channel + " " + layout.name;
     if (!channels.contains(key)) {
-      channels[key] = mcap.add_channel(event.channel, schemas[layout->name]);
+      channels[key] = mcap.add_channel(event.channel, schemas[layout.name]);
     }
-    mcap.add_message(channels[key], event.wall_utime, *message);
-  }
+    mcap.add_message(channels[key], event.wall_utime, message);
+  };
+  const Undecodable undecodable = read_as_json(log, wanted, write);
   mcap.finish();
-  undecodable.warn();
-  log.warn_about_damage();
-  return 0;
+  return end_reading(log, undecodable);
 }
 
 std::map<std::string, std::string> parse_renames(const std::vector<std::string>& renames) {
