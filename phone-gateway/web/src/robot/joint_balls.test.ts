@@ -1,6 +1,7 @@
 import {create} from "@bufbuild/protobuf";
-import {BufferGeometry, PerspectiveCamera} from "three";
-import {afterEach, describe, expect, it, vi} from "vitest";
+import {PerspectiveCamera, RingGeometry} from "three";
+import type {Mesh} from "three";
+import {describe, expect, it} from "vitest";
 import {readUrdf} from "../../test_support/nao_files";
 import {JointGroupSchema} from "../protocol/generated/remote_pb";
 import {JointBalls} from "./joint_balls";
@@ -27,8 +28,6 @@ function makeCamera(): PerspectiveCamera {
   return camera;
 }
 
-afterEach(() => vi.restoreAllMocks());
-
 describe("JointBalls", () => {
   it("takes the nearest ball within a thumb's width, and none beyond", () => {
     const balls = makeBalls();
@@ -38,15 +37,26 @@ describe("JointBalls", () => {
     expect(balls.pick(x + 200, y + 200, camera, 400, 400)).toBe("");
   });
 
-  it("gives back what the arcs of the last choice took from the graphics chip", () => {
-    const dispose = vi.spyOn(BufferGeometry.prototype, "dispose");
-    const balls = makeBalls();
+  it("shows the arcs of the chosen group only, and makes them once", () => {
+    const tree = new RobotTree(urdf);
+    const balls = new JointBalls(tree, new RobotSurface(true), groups);
+    const rings = (): Mesh[] => {
+      const found: Mesh[] = [];
+      tree.torso.traverse((object) => {
+        if ((object as Mesh).geometry instanceof RingGeometry) found.push(object as Mesh);
+      });
+      return found;
+    };
+    const numShown = (): number => rings().filter((ring) => ring.parent!.visible).length;
     balls.select("head");
-    expect(dispose).not.toHaveBeenCalled();
-    // A ring and a hand for each of two axes; the ball that all share stays.
     balls.select("left shoulder");
-    expect(dispose).toHaveBeenCalledTimes(4);
+    expect(numShown()).toBe(2);
+    const made = rings();
+    balls.select("head");
+    balls.select("left shoulder");
     balls.select("");
-    expect(dispose).toHaveBeenCalledTimes(8);
+    expect(numShown()).toBe(0);
+    expect(rings()).toEqual(made);
+    expect(made).toHaveLength(4);
   });
 });

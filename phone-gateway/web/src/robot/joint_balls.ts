@@ -4,7 +4,7 @@ import {
   BufferGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial,
   Quaternion, RingGeometry, SphereGeometry, Vector3,
 } from "three";
-import type {Camera, Material, Object3D} from "three";
+import type {Camera, Object3D} from "three";
 import type {JointGroup} from "../protocol/generated/remote_pb";
 import type {RobotSurface} from "./robot_surface";
 import type {RobotTree} from "./robot_tree";
@@ -37,7 +37,10 @@ interface Arc {
 
 export class JointBalls {
   private readonly balls: Ball[] = [];
-  private arcs: Arc[] = [];
+  private arcs: readonly Arc[] = [];
+  /** Of each group that was chosen before: made once, for a driver of the graphics chip keeps some of what it is told
+   * to drop. */
+  private readonly arcsOfGroup = new Map<string, readonly Arc[]>();
   private selected = "";
   private readonly place = new Vector3();
   private readonly sphere = new SphereGeometry(kBallRadius, 20, 14);
@@ -72,9 +75,10 @@ export class JointBalls {
       mesh.material.color.set(isSelected ? 0x4fb4f5 : 0xdfe9f2);
       mesh.scale.setScalar(isSelected ? 1.45 : 1);
     }
-    for (const arc of this.arcs) this.drop(arc);
+    for (const {object} of this.arcs) object.visible = false;
     const group = this.balls.find((ball) => ball.group.name === name)?.group;
-    this.arcs = group ? kAxes.flatMap((axis) => this.makeArc(jointOfAxis(group, axis), axis)) : [];
+    this.arcs = group ? this.arcsOf(group) : [];
+    for (const {object} of this.arcs) object.visible = true;
     this.update();
   }
 
@@ -113,14 +117,13 @@ export class JointBalls {
     return this.selected;
   }
 
-  /** Takes an arc away, and what the graphics chip keeps of it. */
-  private drop({object}: Arc): void {
-    object.removeFromParent();
-    object.traverse((part) => {
-      const {geometry, material} = part as Mesh<BufferGeometry, Material>;
-      if (geometry !== this.sphere) geometry?.dispose();
-      material?.dispose();
-    });
+  private arcsOf(group: JointGroup): readonly Arc[] {
+    let arcs = this.arcsOfGroup.get(group.name);
+    if (!arcs) {
+      arcs = kAxes.flatMap((axis) => this.makeArc(jointOfAxis(group, axis), axis));
+      this.arcsOfGroup.set(group.name, arcs);
+    }
+    return arcs;
   }
 
   private makeArc(name: string, axis: Axis): Arc[] {
