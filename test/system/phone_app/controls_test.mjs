@@ -1,32 +1,19 @@
 // Every other way to drive, against the real programs: keyboard, gamepad, tilt; the head camera's picture, which
 // turns the head; and the settings.
 import assert from "node:assert/strict";
-import {after, before, test} from "node:test";
-import {openBrowser, Phone} from "./phone.mjs";
-import {Stack, until} from "./stack.mjs";
+import {test} from "node:test";
+import {setUp} from "./set_up.mjs";
+import {until} from "./stack.mjs";
 
 const kDegree = Math.PI / 180;
 
-const stack = new Stack(process.env.NAO_BIN_DIR);
-let browser;
-let phone;
-
-before(async () => {
-  await stack.start({scene: "empty"});
-  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
-  phone = await Phone.open(browser, stack.url);
-  await phone.sees("controller");
+const {stack, phone} = setUp({prepare: async ({page}) => {
   // Headless Chromium has no gamepad: what the page would be told of one.
-  await phone.page.evaluate(() => {
+  await page.evaluate(() => {
     window.pad = null;
     navigator.getGamepads = () => [window.pad];
   });
-});
-
-after(async () => {
-  await browser?.close();
-  await stack.stop();
-});
+}});
 
 /** The walk that the motion daemon was last asked for: vx, vy m/s, wz rad/s. Zero when none is wanted. */
 async function wantedWalk() {

@@ -2,25 +2,14 @@
 // world, and what happens there is seen on the phone. NAO_BIN_DIR and NAO_WEB_SOURCE_DIR say where the
 // programs and the app's package.json are.
 import assert from "node:assert/strict";
-import {after, before, test} from "node:test";
-import {openBrowser, Phone} from "./phone.mjs";
-import {Stack, until} from "./stack.mjs";
+import {test} from "node:test";
+import {setUp} from "./set_up.mjs";
+import {until} from "./stack.mjs";
 
 const kDegree = Math.PI / 180;
 
-const stack = new Stack(process.env.NAO_BIN_DIR);
-let browser;
+const {stack, openPhone} = setUp({scene: "soccer", hasPhone: false});
 let phone;
-
-before(async () => {
-  await stack.start();
-  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
-});
-
-after(async () => {
-  await browser?.close();
-  await stack.stop();
-});
 
 /** Asks the world until it is as wished, for some seconds of simulated time. @return the last truth. */
 async function untilWorld(what, isSo, simulatedSeconds) {
@@ -46,7 +35,7 @@ async function worstJoint() {
 }
 
 test("a link with the token opens the controller", async () => {
-  phone = await Phone.open(browser, stack.url);
+  phone = await openPhone();
   await phone.sees("controller");
   assert.equal(await phone.page.evaluate("location.hash"), "", "the token is still in sight");
   await until("a picture is drawn", async () => (await phone.look("numPictures")) > 0);

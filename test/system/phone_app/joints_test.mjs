@@ -1,9 +1,9 @@
 // Joints mode by touch, against the real programs: a tap on a ball chooses a joint group, the pad turns
 // it, and the simulated joint follows.
 import assert from "node:assert/strict";
-import {after, before, test} from "node:test";
-import {openBrowser, Phone} from "./phone.mjs";
-import {Stack, until} from "./stack.mjs";
+import {test} from "node:test";
+import {setUp} from "./set_up.mjs";
+import {until} from "./stack.mjs";
 
 const kDegree = Math.PI / 180;
 /** Share of the pad by which the thumb is off its middle: 0.9 rad/s for head and arms; 0.2 rad/s for a leg,
@@ -13,22 +13,7 @@ const kLegReach = 0.35;
 const kMoved = 3 * kDegree;
 const kDeadlineMs = 20_000;
 
-const stack = new Stack(process.env.NAO_BIN_DIR);
-let browser;
-let phone;
-
-before(async () => {
-  await stack.start({scene: "empty"});
-  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
-  phone = await Phone.open(browser, stack.url);
-  await phone.sees("controller");
-  await phone.tap(".lock");
-});
-
-after(async () => {
-  await browser?.close();
-  await stack.stop();
-});
+const {stack, phone} = setUp({prepare: (phone) => phone.tap(".lock")});
 
 /** Taps the ball of a group once the view has come to rest. */
 async function choose(group) {

@@ -1,28 +1,17 @@
 // Phones that lose the link, that look away, and that share one robot.
 import assert from "node:assert/strict";
-import {after, before, test} from "node:test";
-import {openBrowser, Phone} from "./phone.mjs";
-import {Stack, until} from "./stack.mjs";
+import {test} from "node:test";
+import {setUp} from "./set_up.mjs";
+import {until} from "./stack.mjs";
 
-const stack = new Stack(process.env.NAO_BIN_DIR);
-let browser;
+const {stack, openPhone} = setUp({hasPhone: false});
 let ana;
 let ben;
-
-before(async () => {
-  await stack.start({scene: "empty"});
-  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
-});
-
-after(async () => {
-  await browser?.close();
-  await stack.stop();
-});
 
 const driverText = (phone) => phone.page.locator(".driver-name").textContent();
 
 test("a wrong code is refused in words, and the right one typed in connects", async () => {
-  ana = await Phone.open(browser, stack.url.replace(stack.token, "wrong"));
+  ana = await openPhone(stack.url.replace(stack.token, "wrong"));
   await ana.page.getByText("The pairing code is not the right one.").waitFor();
   await ana.page.locator('[name="token"]').fill(stack.token);
   await ana.page.locator('[name="client-name"]').fill("Ana");
@@ -33,7 +22,7 @@ test("a wrong code is refused in words, and the right one typed in connects", as
 test("the first to touch a control drives; the second phone sees who, and may ask", async () => {
   await ana.tap('[data-name="Stand"]');
   await until("Ana drives", async () => (await driverText(ana)) === "You drive");
-  ben = await Phone.open(browser, stack.url);
+  ben = await openPhone();
   await ben.sees("controller");
   await until("Ben sees it", async () => (await driverText(ben)) === "Ana drives");
   // A command of the second phone moves nothing, and says who drives.

@@ -1,31 +1,20 @@
 // The page itself: accessible, small, quiet, and nothing over anything else.
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
-import {after, before, test} from "node:test";
+import {test} from "node:test";
 import {Air} from "./air.mjs";
-import {openBrowser, Phone, requireFromApp} from "./phone.mjs";
-import {Stack, until} from "./stack.mjs";
+import {requireFromApp} from "./phone.mjs";
+import {kWebDir, setUp} from "./set_up.mjs";
+import {until} from "./stack.mjs";
 
 /** All that a phone fetches on its first visit, as it goes over the air. */
 const kMaxBytes = 400_000;
 
-const webDir = process.env.NAO_WEB_SOURCE_DIR;
-const stack = new Stack(process.env.NAO_BIN_DIR);
-let browser;
-
-before(async () => {
-  await stack.start();
-  browser = await openBrowser(webDir);
-});
-
-after(async () => {
-  await browser?.close();
-  await stack.stop();
-});
+const {stack, openPhone} = setUp({scene: "soccer", hasPhone: false});
 
 /** Violations of the accessibility rules, one line each. */
 async function violations(phone) {
-  const axe = readFileSync(requireFromApp(webDir).resolve("axe-core/axe.min.js"), "utf8");
+  const axe = readFileSync(requireFromApp(kWebDir).resolve("axe-core/axe.min.js"), "utf8");
   await phone.page.evaluate(axe);
   const {violations} = await phone.page.evaluate("axe.run()");
   return violations.flatMap(({id, nodes}) => nodes.map((node) => `${id}: ${node.html} ${node.failureSummary}`));
@@ -38,7 +27,7 @@ const robotShown = (phone) => until("the robot is drawn", () => phone.page.evalu
 test("a first visit fetches less than 400 kB, and nothing twice", async (t) => {
   const air = new Air(stack.httpPort);
   const port = await air.start();
-  const phone = await Phone.open(browser, stack.url.replace(`:${stack.httpPort}`, `:${port}`));
+  const phone = await openPhone(stack.url.replace(`:${stack.httpPort}`, `:${port}`));
   await robotShown(phone);
   t.diagnostic(`${air.paths.length} files, ${air.numBytes} bytes until the robot is seen`);
   assert.ok(air.paths.length > 20 && air.numBytes > 100_000, "the measurement saw too little");
@@ -54,7 +43,7 @@ test("a first visit fetches less than 400 kB, and nothing twice", async (t) => {
 });
 
 test("every icon of the manifest is a picture of the size it says, as phones want for their home screen", async () => {
-  const phone = await Phone.open(browser, stack.url);
+  const phone = await openPhone();
   const icons = await phone.page.evaluate(async () => {
     const manifest = await (await fetch("/manifest.webmanifest")).json();
     return Promise.all(manifest.icons.filter(({type}) => type === "image/png").map(async ({src, sizes, purpose}) => {
@@ -70,7 +59,7 @@ test("every icon of the manifest is a picture of the size it says, as phones wan
 });
 
 test("a browser that cannot draw in 3D is told so", async () => {
-  const phone = await Phone.open(browser, "about:blank");
+  const phone = await openPhone("about:blank");
   await phone.context.addInitScript(() => HTMLCanvasElement.prototype.getContext = () => null);
   await phone.page.goto(stack.url);
   await phone.page.getByText("This browser cannot draw in 3D.").waitFor();
@@ -101,7 +90,7 @@ async function lieApart(phone, size, mode) {
 for (const size of [{width: 360, height: 640}, {width: 412, height: 915}, {width: 915, height: 412},
                     {width: 1280, height: 800}]) {
   test(`every screen is accessible, and nothing lies over anything else, at ${size.width}x${size.height}`, async () => {
-    const phone = await Phone.open(browser, stack.url.replace(stack.token, "wrong"), size);
+    const phone = await openPhone(stack.url.replace(stack.token, "wrong"), size);
     await phone.page.locator(".problem").waitFor();
     assert.deepEqual(await violations(phone), []);
     await phone.page.locator('[name="token"]').fill(stack.token);

@@ -18,22 +18,27 @@ export async function openBrowser(webDir) {
 }
 
 export class Phone {
+  #isTouched = false;
   /** Complaints of the page: errors, and what it wrote to the console as one. */
   errors = [];
 
-  /** @param size  CSS pixels: {width, height}. */
-  static async open(browser, url, size = {width: 412, height: 915}, options = {}) {
+  static async open(browser, url, size, options) {
     const phone = new Phone();
-    phone.context = await browser.newContext({
-      viewport: size, deviceScaleFactor: 1, isMobile: true, hasTouch: true, locale: "en-US", ...options});
-    phone.page = await phone.context.newPage();
-    phone.page.on("pageerror", (error) => phone.errors.push(error.message));
-    phone.page.on("console", (message) => {
-      if (message.type() === "error") phone.errors.push(message.text());
-    });
-    phone.touch = await phone.context.newCDPSession(phone.page);
-    await phone.page.goto(url);
+    await phone.open(browser, url, size, options);
     return phone;
+  }
+
+  /** @param size  CSS pixels: {width, height}. */
+  async open(browser, url, size = {width: 412, height: 915}, options = {}) {
+    this.context = await browser.newContext({
+      viewport: size, deviceScaleFactor: 1, isMobile: true, hasTouch: true, locale: "en-US", ...options});
+    this.page = await this.context.newPage();
+    this.page.on("pageerror", (error) => this.errors.push(error.message));
+    this.page.on("console", (message) => {
+      if (message.type() === "error") this.errors.push(message.text());
+    });
+    this.touch = await this.context.newCDPSession(this.page);
+    await this.page.goto(url);
   }
 
   async close() {
@@ -77,6 +82,12 @@ export class Phone {
 
   /** Puts fingers on the glass, moves them, or takes them away: {x, y, id} each, px. */
   async fingers(type, points) {
+    this.#isTouched = points.length > 0;
     await this.touch.send("Input.dispatchTouchEvent", {type, touchPoints: points});
+  }
+
+  /** Takes all fingers away, if any are down. */
+  async lift() {
+    if (this.#isTouched) await this.fingers("touchEnd", []);
   }
 }

@@ -1,28 +1,14 @@
 // Every posture and action that the robot offers, pressed on the phone: done, or refused in words.
 import assert from "node:assert/strict";
-import {after, before, test} from "node:test";
-import {openBrowser, Phone} from "./phone.mjs";
-import {Stack, until} from "./stack.mjs";
+import {test} from "node:test";
+import {setUp} from "./set_up.mjs";
+import {until} from "./stack.mjs";
 
 /** Every robot of this project goes to these. */
 const kStanding = ["StandZero", "StandInit", "Stand", "Crouch"];
 const kDeadlineMs = 120_000;
 
-const stack = new Stack(process.env.NAO_BIN_DIR);
-let browser;
-let phone;
-
-before(async () => {
-  await stack.start({scene: "empty"});
-  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
-  phone = await Phone.open(browser, stack.url);
-  await phone.sees("controller");
-});
-
-after(async () => {
-  await browser?.close();
-  await stack.stop();
-});
+const {stack, phone} = setUp();
 
 /** Said where a busy machine has held a program up: no answer to a button, or one after which a person presses
  * it again. */

@@ -8,14 +8,13 @@ import {join} from "node:path";
 import {after, before, test} from "node:test";
 import {fileURLToPath} from "node:url";
 import {promisify} from "node:util";
-import {openBrowser, Phone} from "./phone.mjs";
-import {pause, Stack, until} from "./stack.mjs";
+import {setUp} from "./set_up.mjs";
+import {pause, until} from "./stack.mjs";
 
 const kDegree = Math.PI / 180;
 const kReplay = fileURLToPath(new URL("../../../scripts/replay", import.meta.url));
 
-const stack = new Stack(process.env.NAO_BIN_DIR);
-let browser;
+const {stack, openPhone} = setUp({scene: null, hasPhone: false});
 let folder;
 let log;
 let crouched;
@@ -23,18 +22,15 @@ let crouched;
 before(async () => {
   folder = await mkdtemp(join(tmpdir(), "nao-replay-"));
   log = join(folder, "run.lcmlog");
-  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
 });
 
 after(async () => {
-  await browser?.close();
-  await stack.stop();
   await rm(folder, {recursive: true, force: true});
 });
 
 test("a run to Crouch is recorded", async () => {
   await stack.start();
-  const watcher = await Phone.open(browser, stack.url);
+  const watcher = await openPhone();
   await until("somebody watches", async () => (await watcher.look("numPictures")) > 0);
   const logger = spawn("lcm-logger", ["--quiet", `--lcm-url=${stack.lcmUrl}`, log], {stdio: "ignore"});
   try {
@@ -52,7 +48,7 @@ test("a run to Crouch is recorded", async () => {
 
 test("played again, the phone shows the robot crouch, and its pictures", async () => {
   await stack.startGateway();
-  const phone = await Phone.open(browser, stack.url);
+  const phone = await openPhone();
   await phone.sees("controller");
   const replay = promisify(execFile)(kReplay, ["--lcm-url", stack.lcmUrl, log]);
   replay.catch(() => {});

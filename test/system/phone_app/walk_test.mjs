@@ -1,26 +1,12 @@
 // Walking by thumbs: two fingers at once, seen in the simulated world; and everything that must end a walk.
 import assert from "node:assert/strict";
-import {after, before, test} from "node:test";
-import {openBrowser, Phone} from "./phone.mjs";
-import {Stack, until} from "./stack.mjs";
+import {test} from "node:test";
+import {setUp} from "./set_up.mjs";
+import {until} from "./stack.mjs";
 
 const kMaxAttempts = 3;
 
-const stack = new Stack(process.env.NAO_BIN_DIR);
-let browser;
-let phone;
-
-before(async () => {
-  await stack.start({scene: "empty"});
-  browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
-  phone = await Phone.open(browser, stack.url);
-  await phone.sees("controller");
-});
-
-after(async () => {
-  await browser?.close();
-  await stack.stop();
-});
+const {stack, phone} = setUp();
 
 const headingOf = ([w, x, y, z]) => Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
 const turned = (from, to) => Math.atan2(Math.sin(to - from), Math.cos(to - from));
@@ -39,7 +25,7 @@ async function thumbs(walk, turn) {
   await phone.fingers("touchMove", [at(left, 1, walk), at(right, 2, turn)]);
 }
 
-const lift = () => phone.fingers("touchEnd", []);
+const lift = () => phone.lift();
 
 /** Asks for places until one is as wished, for some seconds of simulated time. */
 async function untilPlace(what, isSo, simulatedSeconds) {

@@ -1,0 +1,30 @@
+// What the tests of a file share from before the first to after the last: the programs, a browser, a phone.
+// NAO_BIN_DIR and NAO_WEB_SOURCE_DIR say where the programs and the app's package.json are.
+import {after, before} from "node:test";
+import {openBrowser, Phone} from "./phone.mjs";
+import {Stack} from "./stack.mjs";
+
+export const kWebDir = process.env.NAO_WEB_SOURCE_DIR;
+
+/** @param scene  the simulated world; null: the tests start the programs themselves.
+ * @param hasPhone  true: `phone` sees the controller before the first test.
+ * @param prepare  what it does then, still before the first test.
+ * @return {stack, phone, openPhone}; openPhone(url, size, options) opens one more. */
+export function setUp({scene = "empty", hasPhone = true, prepare = () => {}} = {}) {
+  const stack = new Stack(process.env.NAO_BIN_DIR);
+  const phone = new Phone();
+  let browser;
+  before(async () => {
+    if (scene) await stack.start({scene});
+    browser = await openBrowser(kWebDir);
+    if (!hasPhone) return;
+    await phone.open(browser, stack.url);
+    await phone.sees("controller");
+    await prepare(phone);
+  });
+  after(async () => {
+    await browser?.close();
+    await stack.stop();
+  });
+  return {stack, phone, openPhone: (url = stack.url, ...rest) => Phone.open(browser, url, ...rest)};
+}
