@@ -2,6 +2,7 @@
 // it, and the simulated joint follows.
 import assert from "node:assert/strict";
 import {test} from "node:test";
+import {compare, lagsOf, watchJoint} from "./following.mjs";
 import {setUp} from "./set_up.mjs";
 import {until} from "./stack.mjs";
 
@@ -11,6 +12,8 @@ const kDegree = Math.PI / 180;
 const kArmReach = 0.8;
 const kLegReach = 0.35;
 const kMoved = 3 * kDegree;
+/** The phone knows a joint by its encoder, whose step is 1.5 mrad, and shows no change that nobody sees: 0.8 mrad. */
+const kShownTolerance = 0.003;
 const kDeadlineMs = 20_000;
 
 const {stack, phone} = setUp({prepare: (phone) => phone.tap(".lock")});
@@ -36,6 +39,20 @@ async function push(right, up, what, isSo) {
   await until(what, isSo, kDeadlineMs).finally(() => phone.fingers("touchEnd", []));
 }
 
+/** Does something that turns a joint: what the phone shows meanwhile is the truth, two ticks and the app's own
+ * interpolation late at most. */
+async function follows(t, joint, act) {
+  const {frames, truth} = await watchJoint(stack, phone, joint, act);
+  const {strays, turned} = compare(frames, truth);
+  const worst = Math.max(...strays);
+  const lags = lagsOf(frames, truth, kShownTolerance).sort((a, b) => a - b);
+  const lag = (share) => lags[Math.floor(share * (lags.length - 1))]?.toFixed(0);
+  t.diagnostic(`${joint}: ${strays.length} frames, ${(1000 * worst).toFixed(1)} mrad off at most; ${lags.length} while it ` +
+               `moved, late by ${lag(0.5)} ms, 90 % by ${lag(0.9)} ms at most`);
+  assert.ok(worst < kShownTolerance, `${joint} is shown ${worst} rad off what it was`);
+  return turned;
+}
+
 /** "Reset pose": everything back to where it was before the next joint. */
 async function reset() {
   await phone.page.locator(".joint-buttons .button").nth(1).tap();
@@ -52,12 +69,14 @@ const groups = [
 ];
 
 for (const [group, joint, direction, sign] of groups) {
-  test(`${group}: the pad pushed ${direction} turns ${joint}`, async () => {
+  test(`${group}: the pad pushed ${direction} turns ${joint}, on the phone as in the simulation`, async (t) => {
     await choose(group);
     const before = (await stack.truth()).angles[joint];
     const right = direction === "right" ? kArmReach : direction === "left" ? -kArmReach : 0;
-    await push(right, direction === "up" ? kArmReach : 0, `${joint} has turned; it was at ${before}`,
-               async () => sign * ((await stack.truth()).angles[joint] - before) > kMoved);
+    const turned = await follows(t, joint, () => push(
+        right, direction === "up" ? kArmReach : 0, `${joint} has turned; it was at ${before}`,
+        async () => sign * ((await stack.truth()).angles[joint] - before) > kMoved));
+    assert.ok(turned > kMoved / 2, `the frames compared turn ${joint} by ${turned} rad only`);
   });
 }
 
@@ -65,12 +84,12 @@ const legGroups = [["left hip", "LHipPitch"], ["left knee", "LKneePitch"], ["lef
                    ["right hip", "RHipPitch"], ["right knee", "RKneePitch"], ["right ankle", "RAnklePitch"]];
 
 for (const [group, joint] of legGroups) {
-  test(`${group}: ${joint} turns, or the phone says why not`, async () => {
+  test(`${group}: ${joint} turns, on the phone as in the simulation, or the phone says why not`, async (t) => {
     await choose(group);
     const before = (await stack.truth()).angles[joint];
-    await push(0, kLegReach, `${joint} has turned, or a refusal is shown`, async () =>
+    await follows(t, joint, () => push(0, kLegReach, `${joint} has turned, or a refusal is shown`, async () =>
         Math.abs((await stack.truth()).angles[joint] - before) > kMoved ||
-        (await phone.page.locator(".message.bad").count()) > 0);
+        (await phone.page.locator(".message.bad").count()) > 0));
     await reset();
   });
 }

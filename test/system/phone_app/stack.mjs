@@ -1,5 +1,7 @@
 // The real programs on a private bus and free ports, started and ended by a test.
 import {execFile, spawn} from "node:child_process";
+import {mkdtemp, readFile, rm} from "node:fs/promises";
+import {tmpdir} from "node:os";
 import {join} from "node:path";
 
 // Deadlines are generous: the machine may be busy with other things.
@@ -115,6 +117,26 @@ export class Stack {
       orientation: robot.orientation_torso_in_world,
       angles: Object.fromEntries(robot.joint_names.map((name, i) => [name, robot.joint_position[i]])),
     };
+  }
+
+  /** Records channels while something is done. @param channels  regular expression of their names.
+   * @return the messages in order, {wallMs, channel, message}: on the clock of Date.now(). */
+  async record(channels, act) {
+    const folder = await mkdtemp(join(tmpdir(), "nao-record-"));
+    const file = join(folder, "run.lcmlog");
+    try {
+      this.run("nao", ["record", file, "--channels", channels]);
+      await act();
+      await this.end("nao", "SIGINT");
+      await this.nao("log", "json", file, "--output", `${file}.json`);
+      return (await readFile(`${file}.json`, "utf8")).trim().split("\n").map((line) => {
+        const {log_wall_utime, channel, message} = JSON.parse(line);
+        return {wallMs: log_wall_utime / 1000, channel, message};
+      });
+    } finally {
+      await this.end("nao");
+      await rm(folder, {recursive: true, force: true});
+    }
   }
 
   /** Last words of every program, for a failed test. */
