@@ -19,9 +19,9 @@ const kNumLinks = 7;
 const kNumThumbs = 24;
 const kNumHidden = 5;
 const kWalkMs = 15_000;
-/** The robot has stopped when it is so near to where it ends: m; a step is 40 mm. It has ended after so long: s. */
+/** The robot has stopped when it is so near to where it ends: m; a step is 40 mm. It has ended after so long: ms. */
 const kRest = 0.01;
-const kRestWindow = 2.5;
+const kRestWindowMs = 2500;
 
 const stack = new Stack(process.env.NAO_BIN_DIR);
 const browser = await openBrowser(process.env.NAO_WEB_SOURCE_DIR);
@@ -140,32 +140,42 @@ async function measureLongTasks() {
 
 async function measureStop() {
   const phone = await openController();
-  const times = [];
+  const toCommand = [];
+  const toRest = [];
   for (let i = 0; i < kNumHidden; i++) {
     await thumbs(phone, [0, 0.7], [0, 0]);
     await until("it walks", async () => (await phone.look("state.state.mode")) === "walking");
-    await pause(2000 + 130 * i);
-    const begin = (await stack.truth()).time;
-    await phone.hide();
-    times.push(1000 * (await timeOfRest(begin + kRestWindow) - begin));
+    let hidden = 0;
+    const recorded = await stack.record("WORLD_TRUTH|NAO_WALK_COMMAND", async () => {
+      await pause(2000 + 130 * i);
+      hidden = await phone.hide();
+      await pause(kRestWindowMs);
+    });
+    const after = recorded.filter(({wallMs}) => wallMs > hidden);
+    const zero = after.find(({channel, message: {vx}}) => channel === "NAO_WALK_COMMAND" && vx === 0);
+    toCommand.push(zero.wallMs - hidden);
+    toRest.push(timeOfRest(after.filter(({channel}) => channel === "WORLD_TRUTH")));
     await phone.fingers("touchEnd", []);
     await phone.unhide();
     await until("it holds", async () => (await phone.look("state.state.mode")) === "holding");
     await standsReady(phone);
   }
-  row("hidden to stop", times);
+  row("hidden to zero command on the bus", toCommand);
+  row("hidden to stop", toRest);
   await phone.close();
 }
 
-/** Follows the true torso for a while. @return when it had come as far ahead as it would, s of the world's clock. */
-async function timeOfRest(end) {
-  const seen = [];
-  do {
-    const {time, torso: [x, y], orientation: [w, i, j, k]} = await stack.truth();
+/** @param truths  of the world, from when the page was hidden.
+ * @return after what time the torso had come as far ahead as it would, ms of the world's clock. */
+function timeOfRest(truths) {
+  const seen = truths.map(({message: {utime, robots: [robot]}}) => {
+    const [x, y] = robot.position_torso_in_world;
+    const [w, i, j, k] = robot.orientation_torso_in_world;
     const heading = Math.atan2(2 * (w * k + i * j), 1 - 2 * (j * j + k * k));
-    seen.push({time, ahead: x * Math.cos(heading) + y * Math.sin(heading)});
-  } while (seen.at(-1).time < end);
-  return seen.find(({ahead}) => seen.at(-1).ahead - ahead < kRest).time;
+    return {utime, ahead: x * Math.cos(heading) + y * Math.sin(heading)};
+  });
+  const end = seen.at(-1).ahead;
+  return (seen.find(({ahead}) => end - ahead < kRest).utime - seen[0].utime) / 1000;
 }
 
 /** MB that the browser's processes have in memory. */

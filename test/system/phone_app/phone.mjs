@@ -65,11 +65,14 @@ export class Phone {
     return {x: box.x + box.width / 2, y: box.y + box.height / 2, radius: box.width / 2};
   }
 
-  /** As when another app comes to the front, or the screen locks: no finger is reported as lifted. */
-  async hide() {
-    await this.page.evaluate(() => {
+  /** As when another app comes to the front, or the screen locks: no finger is reported as lifted.
+   * @return when, on the clock of Date.now(), ms. */
+  hide() {
+    return this.page.evaluate(() => {
+      const wallMs = performance.timeOrigin + performance.now();
       Object.defineProperty(document, "visibilityState", {value: "hidden", configurable: true});
       document.dispatchEvent(new Event("visibilitychange"));
+      return wallMs;
     });
   }
 
