@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "log_file.h"
@@ -14,7 +13,7 @@ class LogPlayer {
   explicit LogPlayer(LogFile log) : log_(std::move(log)) {}
 
   /** Plays `seconds` of wall time on, and calls back for what was recorded in that time. */
-  void advance(double seconds, const std::function<void(const LogEvent&)>& visit) {
+  void advance(double seconds, const LogFile::Visitor& visit) {
     if (is_paused || seconds <= 0) return;
     const double from = time_;
     time_ = std::min(time_ + speed * seconds, log_.duration());
@@ -24,7 +23,7 @@ class LogPlayer {
 
   /** Jumps, and calls back for the newest message of every channel and for the `window` seconds
    * before. */
-  void seek(double time, double window, const std::function<void(const LogEvent&)>& visit) {
+  void seek(double time, double window, const LogFile::Visitor& visit) {
     time_ = std::clamp(time, 0.0, log_.duration());
     log_.read_latest(time_ - window, visit);
     log_.read(time_ - window, time_, visit);

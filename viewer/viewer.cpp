@@ -80,12 +80,15 @@ void Viewer::seek(double time) {
   store_.clear();
   plots_.clear();
   last_picture_ = -1;
-  player_->seek(time, plots_.window(), [this](const LogEvent& event) {
-    store_.receive(event.channel, event.data.data(), static_cast<int>(event.data.size()),
-                   event.time);
-    plots_.receive(event.channel, event.data.data(), static_cast<int>(event.data.size()),
-                   event.time);
-  });
+  player_->seek(time, plots_.window(), receiver());
+}
+
+LogFile::Visitor Viewer::receiver() {
+  // What does not decode was not the project's: a log may hold other channels.
+  return [this](const std::string& channel, const std::vector<uint8_t>& data, double time) {
+    store_.receive(channel, data.data(), static_cast<int>(data.size()), time);
+    plots_.receive(channel, data.data(), static_cast<int>(data.size()), time);
+  };
 }
 
 void Viewer::play(double now) {
@@ -94,13 +97,7 @@ void Viewer::play(double now) {
     seek(panels_.wished_log_time);
     panels_.wished_log_time = -1;
   }
-  player_->advance(now - last_draw_, [this](const LogEvent& event) {
-    // What does not decode was not the project's: a log may hold other channels.
-    store_.receive(event.channel, event.data.data(), static_cast<int>(event.data.size()),
-                   event.time);
-    plots_.receive(event.channel, event.data.data(), static_cast<int>(event.data.size()),
-                   event.time);
-  });
+  player_->advance(now - last_draw_, receiver());
 }
 
 void Viewer::update_picture() {

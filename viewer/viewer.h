@@ -37,6 +37,8 @@ class Viewer {
 
  private:
   void receive(const std::string& channel, const uint8_t* data, int num_bytes, double time);
+  /** Takes in what a log holds. */
+  LogFile::Visitor receiver();
   void play(double now);
   void seek(double time);
   void update_picture();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/bus.h"
-#include "nao/log_reader.h"
+#include "common/log_reader.h"
 
 namespace nao::playback {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "common/log_reader.h"
 #include "course.h"
-#include "nao/log_reader.h"
 
 namespace nao::playback {
 

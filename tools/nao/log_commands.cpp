@@ -9,8 +9,8 @@
 #include <string>
 
 #include "common/error.h"
+#include "common/log_reader.h"
 #include "nao/json_writer.h"
-#include "nao/log_reader.h"
 #include "nao/log_statistics.h"
 #include "nao/mcap_writer.h"
 #include "nao/message_json.h"

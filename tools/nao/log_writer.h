@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "nao/log_reader.h"
+#include "common/log_reader.h"
 
 namespace nao {
 

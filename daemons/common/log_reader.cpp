@@ -1,8 +1,9 @@
-#include "nao/log_reader.h"
+#include "common/log_reader.h"
 
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "common/error.h"
 
@@ -36,8 +37,15 @@ LogReader::LogReader(const std::filesystem::path& file) : file_(std::fopen(file.
 }
 
 std::optional<LogEvent> LogReader::next() {
+  auto entry = next_entry();
+  if (!entry) return std::nullopt;
+  auto message = data(entry->offset, entry->size);
+  return LogEvent{entry->number, entry->wall_utime, std::move(entry->channel), std::move(message)};
+}
+
+std::optional<LogEntry> LogReader::next_entry() {
   while (offset_ + kHeaderSize <= size_) {
-    if (auto event = read_event()) return event;
+    if (auto entry = read_entry()) return entry;
     ++offset_;
     ++num_bytes_skipped_;
   }
@@ -46,26 +54,35 @@ std::optional<LogEvent> LogReader::next() {
   return std::nullopt;
 }
 
-std::optional<LogEvent> LogReader::read_event() {
+std::optional<LogEntry> LogReader::read_entry() {
   std::array<uint8_t, kHeaderSize> header{};
-  if (std::ftell(file_.get()) != offset_) std::fseek(file_.get(), offset_, SEEK_SET);
+  seek(offset_);
   if (std::fread(header.data(), 1, header.size(), file_.get()) != header.size()) return {};
   const auto channel_size = static_cast<uint32_t>(big_endian(&header[20], 4));
   const auto data_size = static_cast<uint32_t>(big_endian(&header[24], 4));
-  const int64_t end = offset_ + kHeaderSize + channel_size + data_size;
+  const int64_t data_offset = offset_ + kHeaderSize + channel_size;
   if (big_endian(header.data(), 4) != kSync || channel_size == 0 ||
-      channel_size > kMaxChannelSize || end > size_) {
+      channel_size > kMaxChannelSize || data_offset + data_size > size_) {
     return {};
   }
-  LogEvent event{static_cast<int64_t>(big_endian(&header[4], 8)),
+  LogEntry entry{static_cast<int64_t>(big_endian(&header[4], 8)),
                  static_cast<int64_t>(big_endian(&header[12], 8)), std::string(channel_size, ' '),
-                 std::vector<uint8_t>(data_size)};
-  if (std::fread(event.channel.data(), 1, channel_size, file_.get()) != channel_size ||
-      std::fread(event.data.data(), 1, data_size, file_.get()) != data_size) {
-    return {};
-  }
-  offset_ = end;
-  return event;
+                 data_offset, data_size};
+  if (std::fread(entry.channel.data(), 1, channel_size, file_.get()) != channel_size) return {};
+  offset_ = data_offset + data_size;
+  return entry;
+}
+
+std::vector<uint8_t> LogReader::data(int64_t offset, uint32_t size) {
+  std::vector<uint8_t> bytes(size);
+  seek(offset);
+  if (std::fread(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) bytes.clear();
+  return bytes;
+}
+
+void LogReader::seek(int64_t offset) {
+  // Reading on where one stands keeps what is buffered.
+  if (std::ftell(file_.get()) != offset) std::fseek(file_.get(), offset, SEEK_SET);
 }
 
 std::vector<uint8_t> encode_log_event(const LogEvent& event) {

@@ -19,8 +19,19 @@ struct LogEvent {
   std::vector<uint8_t> data;
 };
 
+/** Where a recorded message stands in its log. */
+struct LogEntry {
+  int64_t number = 0;
+  /** When it was received, microseconds since 1970. */
+  int64_t wall_utime = 0;
+  std::string channel;
+  /** Of the message, from the file's beginning, and its length, bytes. */
+  int64_t offset = 0;
+  uint32_t size = 0;
+};
+
 /** Reads a log of lcm-logger from its beginning to its end, and goes on behind damaged places,
- * where LCM's own reader ends.
+ * where LCM's own reader ends. Keeps nothing of it in memory.
  *
  * Format: LCM's documentation, "Log file format": events of a 28-byte big-endian header (sync word
  * 0xEDA1DA01, number, time in us, lengths of channel and data), channel name, data. */
@@ -32,11 +43,18 @@ class LogReader {
   /** @return nullopt at the end. An event that is cut off there is left out. */
   std::optional<LogEvent> next();
 
+  /** As next(), without reading the message itself. */
+  std::optional<LogEntry> next_entry();
+
+  /** The message of an entry, by its offset and size; empty if the file has shrunk since. */
+  std::vector<uint8_t> data(int64_t offset, uint32_t size);
+
   /** Bytes so far that belong to no whole event. */
   int64_t num_bytes_skipped() const { return num_bytes_skipped_; }
 
  private:
-  std::optional<LogEvent> read_event();
+  std::optional<LogEntry> read_entry();
+  void seek(int64_t offset);
 
   struct Closer {
     void operator()(std::FILE* file) const { std::fclose(file); }
