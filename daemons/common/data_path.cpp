@@ -8,7 +8,7 @@ namespace nao {
 
 std::filesystem::path data_path() {
   const char* override_path = std::getenv("NAO_REMOTE_DATA");
-  const std::filesystem::path path =
+  std::filesystem::path path =
       override_path != nullptr
           ? std::filesystem::path(override_path)
           : std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "share" /

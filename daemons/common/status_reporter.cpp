@@ -8,6 +8,7 @@
 
 #include "common/channels.h"
 #include "common/program.h"
+#include "common/service_manager.h"
 #include "common/wall_clock.h"
 
 namespace nao {
@@ -53,6 +54,7 @@ void StatusReporter::publish(const std::vector<std::pair<std::string, double>>& 
     status.metric_values.push_back(value);
   }
   bus_.publish(kDaemonStatusChannel, status);
+  notify_service_manager(state_, detail_);
   period_sum_ = 0;
   period_worst_ = 0;
   num_periods_ = 0;

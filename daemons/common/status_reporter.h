@@ -8,8 +8,8 @@
 
 namespace nao {
 
-/** Publishes a program's daemon_status_t: call tick() at every turn of the main loop's own rhythm
- * and publish() once a second. */
+/** Publishes a program's daemon_status_t, and tells systemd that it lives: call tick() at every
+ * turn of the main loop's own rhythm and publish() once a second. */
 class StatusReporter {
  public:
   /** @param program  Name as in daemon_status_t, "nao-sim". The bus must outlive this. */

@@ -120,10 +120,11 @@ class Stack:
 class Program:
     """One program by itself, without supervisor."""
 
-    def __init__(self, name, lcm_url, *options):
+    def __init__(self, name, lcm_url, *options, environment=None):
         self.process = subprocess.Popen(
             [str(BIN_DIR / name), "--lcm-url", lcm_url, *[str(option) for option in options]],
-            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+            env={**os.environ, **(environment or {})})
 
     def end(self, with_signal=signal.SIGTERM):
         """Asks it to end. @return its exit status, how long it took in seconds, and what it said."""

@@ -3,6 +3,8 @@
 
 import os
 import signal
+import socket
+import tempfile
 import time
 import unittest
 
@@ -52,6 +54,32 @@ class Ending(unittest.TestCase):
                 program = Program(name, "memq://", "--no-such-option")
                 _, said = program.process.communicate(timeout=DEADLINE)
                 self.assertEqual(program.process.returncode, 2, said)
+
+
+class ServiceManager(unittest.TestCase):
+    def test_each_program_tells_systemd_that_it_is_ready_and_that_it_lives(self):
+        for name in PROGRAMS:
+            with self.subTest(program=name), Stack() as stack, \
+                    tempfile.TemporaryDirectory() as folder, \
+                    socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+                manager.bind(f"{folder}/notify")
+                manager.settimeout(DEADLINE)
+                program = Program(name, stack.lcm_url, *options_of(name),
+                                  environment={"NOTIFY_SOCKET": f"{folder}/notify"})
+                self.addCleanup(program.kill)
+                said = []
+                while sum("READY=1" in words for words in said) < 3:
+                    said.append(manager.recv(4096).decode().split("\n"))
+                    self.assertIn("WATCHDOG=1", said[-1])
+                os.kill(program.process.pid, signal.SIGSTOP)
+                # What it had said before may still be on its way.
+                manager.settimeout(3)
+                with self.assertRaises(TimeoutError):
+                    for _ in range(3):
+                        manager.recv(4096)
+                os.kill(program.process.pid, signal.SIGCONT)
+                status, _, words = program.end()
+                self.assertEqual(status, 0, words)
 
 
 class Killing(unittest.TestCase):

@@ -15,7 +15,7 @@ class HangDetector {
  public:
   struct Limits {
     /** Silence that means a hang, s; every program speaks once a second. */
-    double silence = 5.0;
+    double silence = 4.0;
     /** Longest time between two turns of a listener that is on time, s. */
     double late_turn = 1.0;
     /** Longest time between two own heartbeats heard, s. */

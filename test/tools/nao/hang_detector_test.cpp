@@ -23,8 +23,8 @@ std::vector<HangDetector::Hung> run(HangDetector& detector, double begin, double
 TEST(HangDetector, NamesAProgramThatFellSilentOnce) {
   HangDetector detector({});
   detector.handle_status(7, "nao-motion");
-  EXPECT_TRUE(run(detector, 0, 4.5).empty());
-  const auto hung = run(detector, 4.6, 20);
+  EXPECT_TRUE(run(detector, 0, 3.8).empty());
+  const auto hung = run(detector, 3.8, 4.4);
   ASSERT_EQ(hung.size(), 1u);
   EXPECT_EQ(hung[0].process_id, 7);
   EXPECT_EQ(hung[0].program, "nao-motion");
