@@ -68,7 +68,8 @@ std::unique_ptr<World> make_world(const SimOptions& options,
     robot.ideal_sensors = options.ideal_sensors;
     robot.command_latency_ticks = options.command_latency_ticks;
     // Further robots stand to the left and right of the first.
-    robot.position.y() = (i % 2 == 0 ? -0.5 : 0.5) * static_cast<double>((i + 1) / 2 * 2) / 1.25;
+    const size_t rank = (i + 1) / 2;
+    robot.position.y() = (i % 2 == 0 ? -0.8 : 0.8) * static_cast<double>(rank);
     world->add_robot(model, robot);
   }
   return world;
