@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""Usage: test/playback/broken_builds.py [--keep]
+
+Shows that the playback tests catch a broken daemon: flips one sign in each, builds that, and prints which tests
+failed. Works on a copy of the tree in build/broken, with a build of its own: half an hour on two cores.
+Exit status 1 if a break was not caught, or a test fails on the tree as it is.
+
+  --keep  leave the copy, so that the next run builds little
+  --help  this text
+"""
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+COPY = ROOT / "build/broken"
+TARGETS = ["playback_test", "picture_playback_test", "nao-head-camera", "nao-phone-gateway", "nao-phone", "nao"]
+
+# Daemon, file, what stands there, what is made of it.
+FLIPS = [
+    ("nao-sim", "sim/sensors.cpp",
+     "readings_.gyroscope = truth.angular_velocity", "readings_.gyroscope = -truth.angular_velocity"),
+    ("nao-motion", "daemons/motion/message_conversion.cpp",
+     "WalkCommand{message.vx, message.vy, message.wz}", "WalkCommand{message.vx, message.vy, -message.wz}"),
+    ("nao-head-camera", "viewer/scene/pinhole_camera.cpp",
+     "matrix(1, 1) = 2 * camera.fy", "matrix(1, 1) = -2 * camera.fy"),
+    ("nao-phone-gateway", "phone-gateway/server/bus_messages.cpp",
+     'finite(message.joint_position[i], "joint_position")', '-finite(message.joint_position[i], "joint_position")'),
+]
+
+
+def run(*command):
+    return subprocess.run(command, cwd=COPY, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+
+
+def copy_tree():
+    """Every file of the project; one that stayed the same keeps its time, so that little is built again."""
+    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard"],
+                            check=True, capture_output=True, text=True).stdout
+    for name in listed.splitlines():
+        source, target = ROOT / name, COPY / name
+        if not source.is_file() or (target.exists() and target.read_bytes() == source.read_bytes()):
+            continue
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(source, target)
+
+
+def failed_tests():
+    """Builds the copy and plays the logs. @return the names of the tests that fail."""
+    build = run("cmake", "--build", "--preset", "dev", "--target", *TARGETS)
+    if build.returncode != 0:
+        sys.exit(f"broken_builds.py: it does not build:\n{build.stdout[-4000:]}{build.stderr}")
+    tests = run("ctest", "--preset", "dev", "-L", "playback")
+    return re.findall(r"^\s*\d+ - (\S+) \(", tests.stdout, re.MULTILINE)
+
+
+def break_and_test(file, original, broken):
+    path = COPY / file
+    text = path.read_text()
+    if text.count(original) != 1:
+        sys.exit(f"broken_builds.py: {file} does not hold once: {original}")
+    path.write_text(text.replace(original, broken))
+    try:
+        return failed_tests()
+    finally:
+        path.write_text(text)
+
+
+def main():
+    if set(sys.argv[1:]) - {"--keep"}:
+        print(__doc__.strip())
+        sys.exit(0 if "--help" in sys.argv else 2)
+    copy_tree()
+    configured = run("cmake", "--preset", "dev", "--log-level=WARNING")
+    if configured.returncode != 0:
+        sys.exit(f"broken_builds.py: cannot configure:\n{configured.stderr}")
+
+    failed = failed_tests()
+    print(f"as it is: {', '.join(failed) or 'all pass'}", flush=True)
+    num_faults = len(failed)
+    for daemon, file, original, broken in FLIPS:
+        failed = break_and_test(file, original, broken)
+        print(f"{daemon}: {file}: {broken}\n  caught by {', '.join(failed) or 'NOTHING'}", flush=True)
+        num_faults += not failed
+    if "--keep" not in sys.argv:
+        shutil.rmtree(COPY)
+    sys.exit(1 if num_faults else 0)
+
+
+main()
