@@ -2,12 +2,15 @@
 """scripts/start, stop and status, as a person uses them."""
 
 import json
+import os
 import re
+import signal
 import socket
+import time
 import unittest
 import urllib.request
 
-from stack import ROOT, Stack, run
+from stack import DEADLINE, ROOT, Stack, run
 
 PROGRAMS = {"nao-sim", "nao-motion", "nao-head-camera", "nao-phone-gateway"}
 
@@ -97,6 +100,28 @@ class Start(unittest.TestCase):
             self.assertIn("nao-sim does not start", result.stderr)
             self.assertIn("no-such-scene", result.stderr)
             self.assertEqual(stack.pids(), {})
+
+
+    def test_a_program_that_crashes_again_and_again_stays_down_and_status_says_so(self):
+        with Stack() as stack:
+            stack.start_or_fail("--only", "sim,motion")
+            killed = set()
+            # The waits between ten starts add up to a minute.
+            deadline = time.monotonic() + 5 * DEADLINE
+            status = stack.script("status")
+            while "given up" not in status.stdout:
+                self.assertLess(time.monotonic(), deadline, status.stdout)
+                pid = stack.pids().get("nao-motion")
+                if pid is not None and pid not in killed:
+                    os.kill(pid, signal.SIGKILL)
+                    killed.add(pid)
+                time.sleep(0.1)
+                status = stack.script("status")
+            self.assertGreaterEqual(len(killed), 10)
+            self.assertEqual(status.returncode, 1)
+            self.assertRegex(status.stdout, r"nao-motion .*given up.*crashed ten times.*nao-motion\.log|"
+                                            r"nao-motion .*given up.*nao-motion\.log.*crashed ten times")
+            self.assertRegex(status.stdout, r"nao-sim .*ready")
 
 
 class CommandLine(unittest.TestCase):
