@@ -4,7 +4,7 @@ import type {Mesh} from "three";
 import {describe, expect, it} from "vitest";
 import {readUrdf} from "../../test_support/nao_files";
 import {JointGroupSchema} from "../protocol/generated/remote_pb";
-import {JointBalls} from "./joint_balls";
+import {JointBalls, kAxes, kAxisColors} from "./joint_balls";
 import {RobotSurface} from "./robot_surface";
 import {RobotTree} from "./robot_tree";
 
@@ -27,6 +27,38 @@ function makeCamera(): PerspectiveCamera {
   camera.updateMatrixWorld(true);
   return camera;
 }
+
+/** What the three kinds of colour-blind eyes make of linear red, green and blue. Source: G. M. Machado et al., "A
+ * physiologically-based model for simulation of color vision deficiency", IEEE TVCG 15 (6), 2009, severity 1.0. */
+const kColorBlindness: Record<string, readonly number[][]> = {
+  protanopia: [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+  deuteranopia: [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+  tritanopia: [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
+};
+
+/** CIELAB (D65) of an sRGB colour as such eyes see it. Source: IEC 61966-2-1, CIE 15:2004. */
+function labOf(color: number, eyes: readonly number[][]): [number, number, number] {
+  const linear = [color >> 16, (color >> 8) & 255, color & 255].map((byte) =>
+      byte <= 10 ? byte / 255 / 12.92 : ((byte / 255 + 0.055) / 1.055) ** 2.4);
+  const dot = (row: readonly number[], v: readonly number[]): number =>
+      row.reduce((sum, share, i) => sum + share * v[i]!, 0);
+  const seen = eyes.map((row) => Math.min(1, Math.max(0, dot(row, linear))));
+  const [x, y, z] = [[0.4339, 0.3762, 0.1899], [0.2126, 0.7152, 0.0722], [0.0177, 0.1095, 0.8729]]
+      .map((row) => Math.cbrt(dot(row, seen))) as [number, number, number];
+  return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
+}
+
+describe("the axes' colours", () => {
+  for (const [name, eyes] of Object.entries(kColorBlindness)) {
+    it(`are told apart with ${name}`, () => {
+      const labs = kAxes.map((axis) => labOf(kAxisColors[axis], eyes));
+      for (const [i, a] of labs.entries()) {
+        // Differences of some 2.3 are just noticed side by side; arcs are thin and apart.
+        for (const b of labs.slice(i + 1)) expect(Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2])).toBeGreaterThan(20);
+      }
+    });
+  }
+});
 
 describe("JointBalls", () => {
   it("takes the nearest ball within a thumb's width, and none beyond", () => {

@@ -14,8 +14,8 @@ const kArcRadius = 0.075;
 const kArcWidth = 0.008;
 /** Thumbs are this wide: a tap within it chooses the nearest ball, px. */
 const kReach = 44;
-/** Told apart by brightness too, and named beside the controls. */
-export const kAxisColors = {yaw: 0x6cc8ff, pitch: 0xffc46b, roll: 0xd9b3ff} as const;
+/** Far apart for colour-blind eyes too, as joint_balls.test.ts holds; and named beside the controls. */
+export const kAxisColors = {yaw: 0x3d9bff, pitch: 0xffb84d, roll: 0xf0c8ff} as const;
 export type Axis = keyof typeof kAxisColors;
 export const kAxes: readonly Axis[] = ["yaw", "pitch", "roll"];
 
@@ -23,6 +23,9 @@ export const kAxes: readonly Axis[] = ["yaw", "pitch", "roll"];
 export function jointOfAxis(group: JointGroup, axis: Axis): string {
   return axis === "yaw" ? group.yawJoint : axis === "pitch" ? group.pitchJoint : group.rollJoint;
 }
+
+/** The same for style sheets, "#3d9bff". */
+export const cssColorOfAxis = (axis: Axis): string => `#${kAxisColors[axis].toString(16).padStart(6, "0")}`;
 
 interface Ball {
   group: JointGroup;

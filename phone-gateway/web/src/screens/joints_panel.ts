@@ -5,7 +5,7 @@ import {Joystick} from "../controls/joystick";
 import {onPress} from "../controls/press";
 import {el} from "../dom";
 import type {Joint, JointGroup, State} from "../protocol/generated/remote_pb";
-import {jointOfAxis, kAxes} from "../robot/joint_balls";
+import {cssColorOfAxis, jointOfAxis, kAxes} from "../robot/joint_balls";
 import type {Axis} from "../robot/joint_balls";
 import {jointPosition} from "../store";
 import type {Store} from "../store";
@@ -43,8 +43,8 @@ export class JointsPanel {
     onPress(this.both, () => this.toggleBoth());
     const reset = el("button", {class: "button small"}, say("joints.reset"));
     onPress(reset, () => actions.reset());
-    this.rollRow = el("label", {class: "roll"},
-                      el("span", {class: "joystick-label"}, say("joints.roll")), this.roll);
+    this.rollRow = paint("roll", el("label", {class: "roll"},
+                                    el("span", {class: "joystick-label"}, say("joints.roll")), this.roll));
     this.roll.addEventListener("pointerdown", () => this.heldRoll = this.roll.valueAsNumber);
     this.roll.addEventListener("input", () => this.rollChanged());
     for (const type of ["pointerup", "pointercancel", "change", "blur"]) {
@@ -80,8 +80,8 @@ export class JointsPanel {
     this.element.dataset["group"] = name;
     this.limitNow = "";
     const rows = group ? kAxes.filter((axis) => jointOfAxis(group, axis) !== "") : [];
-    this.angles.replaceChildren(...rows.map((axis) => el(
-        "div", {class: `axis axis-${axis}`}, el("dt", {}, axisLabel(group!, axis)), el("dd", {}))));
+    this.angles.replaceChildren(...rows.map((axis) => paint(axis, el(
+        "div", {class: `axis axis-${axis}`}, el("dt", {}, axisLabel(group!, axis)), el("dd", {})))));
     const limits = this.joint(group, "roll");
     this.rollRow.hidden = !limits;
     if (limits) {
@@ -136,6 +136,12 @@ export class JointsPanel {
     const name = group ? jointOfAxis(group, axis) : "";
     return this.joints.find((joint) => joint.name === name);
   }
+}
+
+/** Gives an element the colour of its axis' arc. */
+function paint(axis: Axis, element: HTMLElement): HTMLElement {
+  element.style.setProperty("--axis", cssColorOfAxis(axis));
+  return element;
 }
 
 function axisLabel(group: JointGroup, axis: Axis): string {
