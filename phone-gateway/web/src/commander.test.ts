@@ -68,12 +68,12 @@ describe("Commander", () => {
 
   it("shows a refusal in the gateway's words, once however often it comes", async () => {
     store.set({control: mine});
-    answer = () => ({error: ErrorCode.STOPPED, message: "Let go first."});
+    answer = () => ({error: ErrorCode.TOO_MANY_REQUESTS, message: "Too fast."});
     for (let i = 0; i < 20; i++) {
       await commander.command(useCases.walkTurn(1, 0, 0));
       vi.advanceTimersByTime(100);
     }
-    expect(texts()).toEqual(["Let go first."]);
+    expect(texts()).toEqual(["Too fast."]);
     expect(refusals).toBe(1);
     vi.advanceTimersByTime(6000);
     expect(texts()).toEqual([]);
@@ -128,5 +128,19 @@ describe("Commander", () => {
     change("motion", false);
     change("camera", true);
     expect(store.get().missingParts).toEqual(["motion"]);
+  });
+
+  it("says in the page's language what the gateway tells by code", async () => {
+    store.set({control: mine});
+    setLanguage("de");
+    commander.notice(create(NoticeSchema, {kind: Notice_Kind.PART_CHANGED, part: "motion", message: "away"}));
+    for (const error of [ErrorCode.STOPPED, ErrorCode.CONTROL_TAKEN, ErrorCode.ROBOT_UNAVAILABLE]) {
+      answer = () => ({error, message: "in English", result: {case: "control", value: bens}});
+      await commander.command(useCases.walkTurn(1, 0, 0));
+      store.set({control: mine});
+    }
+    setLanguage("en");
+    expect(texts()).toEqual(["Das Bewegungsprogramm antwortet nicht.", "Gestoppt: erst loslassen, dann weitergehen.",
+                             "Ben steuert"]);
   });
 });

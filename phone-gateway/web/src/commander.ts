@@ -5,7 +5,7 @@ import {ErrorCode, Notice_Kind, Notice_Outcome} from "./protocol/generated/remot
 import type {Notice, Response} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import type {Store} from "./store";
-import {say} from "./text/texts";
+import {isText, say} from "./text/texts";
 
 /** The part of Connection that commands need. */
 export interface Requester {
@@ -75,8 +75,23 @@ export class Commander {
     if (response.result.case === "control") this.store.set({control: response.result.value});
     if (response.error === ErrorCode.OK) return true;
     if (response.error === ErrorCode.NO_CONTROL) this.forgetControl();
-    this.refused(response.message);
+    this.refused(this.inWords(response));
     return false;
+  }
+
+  /** What a code says, in the page's language; else the gateway's own words. */
+  private inWords({error, message, result}: Response): string {
+    switch (error) {
+      case ErrorCode.STOPPED: return say("refusal.stopped");
+      case ErrorCode.CONTROL_TAKEN:
+        return result.case === "control" ? say("control.other", {name: result.value.driverName}) : message;
+      case ErrorCode.ROBOT_UNAVAILABLE: {
+        const {missingParts} = this.store.get();
+        return missingParts.includes("motion") ? say("part.motion")
+            : missingParts.includes("robot") ? say("part.robot") : message;
+      }
+      default: return message;
+    }
   }
 
   /** The gateway says that we do not drive although we thought so: ask again with the next command. */
@@ -109,7 +124,8 @@ export class Commander {
   private partChanged(notice: Notice): void {
     const others = this.store.get().missingParts.filter((part) => part !== notice.part);
     this.store.set({missingParts: notice.available ? others : [...others, notice.part]});
-    this.messages.tell(notice.available ? "good" : "bad", notice.message);
+    const key = `part.${notice.part}${notice.available ? ".back" : ""}`;
+    this.messages.tell(notice.available ? "good" : "bad", isText(key) ? say(key) : notice.message);
   }
 }
 

@@ -1,5 +1,6 @@
 import {describe, expect, it} from "vitest";
-import {chooseLanguage, kAllTexts, kLanguages, say, sayName, setLanguage} from "./texts";
+import {readActions, readJointGroups, readPostures} from "../../test_support/nao_files";
+import {chooseLanguage, isText, kAllTexts, kLanguages, say, sayName, setLanguage} from "./texts";
 
 describe("texts", () => {
   it.each(Object.entries(kAllTexts))("%s is said in every language, with the same values", (_, row) => {
@@ -20,6 +21,15 @@ describe("texts", () => {
   it("fill values in", () => {
     setLanguage("en");
     expect(say("control.other", {name: "Ana"})).toBe("Ana drives");
+  });
+
+  it("have a row for all that the robot does and for each of its joint groups", () => {
+    const folder = new URL("../../../../robots/nao", import.meta.url).pathname;
+    const keys = [...Object.keys(readPostures(folder)).map((name) => `posture.${name}`),
+                  ...readActions(folder).map((name) => `action.${name}`),
+                  ...readJointGroups(folder).map(({name}) => `group.${name}`)];
+    expect(keys.length).toBeGreaterThan(30);
+    expect(keys.filter((key) => !isText(key))).toEqual([]);
   });
 
   it("show a name that nobody translated as it is", () => {

@@ -93,11 +93,19 @@ const kTexts = {
   "activity.moveTo": ["to the marked spot", "até ao ponto marcado", "zur markierten Stelle"],
   "activity.joints": ["single joints", "articulações", "einzelne Gelenke"],
   "activity.needsHelp": ["please put it on its feet", "por favor, ponha-o de pé", "bitte stell ihn auf die Füße"],
-  "part.motion": ["The robot's motion program is away.", "O programa de movimento está ausente.",
-                  "Das Bewegungsprogramm fehlt."],
-  "part.robot": ["The robot itself is away.", "O robô está ausente.", "Der Roboter selbst fehlt."],
-  "part.camera": ["The head camera is away.", "A câmara da cabeça está ausente.",
-                  "Die Kopfkamera fehlt."],
+  "part.motion": ["The robot's motion program does not answer.", "O programa de movimento não responde.",
+                  "Das Bewegungsprogramm antwortet nicht."],
+  "part.motion.back": ["The robot's motion program is back.", "O programa de movimento está de volta.",
+                       "Das Bewegungsprogramm ist wieder da."],
+  "part.robot": ["The robot does not answer.", "O robô não responde.", "Der Roboter antwortet nicht."],
+  "part.robot.back": ["The robot is back.", "O robô está de volta.", "Der Roboter ist wieder da."],
+  "part.camera": ["The head camera sends no pictures.", "A câmara da cabeça não envia imagens.",
+                  "Die Kopfkamera schickt keine Bilder."],
+  "part.camera.back": ["The head camera is back.", "A câmara da cabeça está de volta.",
+                       "Die Kopfkamera ist wieder da."],
+  // Refusals that the gateway tells by code.
+  "refusal.stopped": ["Stopped: let go of the pad, then walk on.", "Parado: solte o comando e depois continue.",
+                      "Gestoppt: erst loslassen, dann weitergehen."],
   // Controller.
   "drive.stop": ["Stop", "Parar", "Stopp"],
   "drive.walk": ["Walk", "Andar", "Gehen"],
@@ -238,10 +246,15 @@ export function say(key: TextKey, values: Record<string, string | number> = {}):
   return text.replace(/\{(\w+)\}/g, (place, name: string) => String(values[name] ?? place));
 }
 
+/** True for the key of a row. */
+export function isText(key: string): key is TextKey {
+  return key in kTexts;
+}
+
 /** A name from the robot ("posture", "Crouch") as a person says it; unknown names as they are. */
 export function sayName(family: "posture" | "action" | "mode" | "group", name: string): string {
   const key = `${family}.${name}`;
-  return key in kTexts ? say(key as TextKey) : name.replace(/[-_]/g, " ");
+  return isText(key) ? say(key) : name.replace(/[-_]/g, " ");
 }
 
 /** For tests: every row. */
