@@ -17,6 +17,9 @@ const char* const kProgram = "nao-head-camera";
 constexpr int kHeaderBytes = 512;
 /** Truth older than this by the wall clock means that the simulator is gone, s. */
 constexpr double kTruthValidity = 2.0;
+/** Phones that watch no pictures shall be told within 2 s when this program is gone, though one of
+ * its messages was lost. */
+constexpr double kStatusPeriod = 0.5;
 /** A state that did not change is shown again after this, s: a watcher may have come. */
 constexpr double kRepeat = 0.5;
 /** Time running back by less than this is a message overtaken by another; by more, a new start, us.
@@ -90,7 +93,7 @@ HeadCameraDaemon::HeadCameraDaemon(Bus& bus, const RobotModel& model,
 void HeadCameraDaemon::attach(EventLoop& loop) {
   loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
   loop.every(1 / kFastestRate, [this] { step(monotonic_seconds()); });
-  loop.every(1.0, [this] { publish_status(); });
+  loop.every(kStatusPeriod, [this] { publish_status(); });
 }
 
 void HeadCameraDaemon::receive_truth(const naolcm::world_truth_t& truth) {
@@ -157,7 +160,7 @@ void HeadCameraDaemon::send_pictures(const std::string& camera, const std::vecto
   const double start = monotonic_seconds();
   const CameraFrame& frame =
       camera_.take(*world_, camera, least_width, earlier_ ? &*earlier_ : nullptr);
-  drawing_time_this_second_ += monotonic_seconds() - start;
+  new_drawing_time_ += monotonic_seconds() - start;
   for (const PictureWish& wish : due) {
     if (wish.camera != camera) continue;
     const naolcm::image_t image = encode_image(frame, wish, options_.quality, encoder_);
@@ -167,7 +170,7 @@ void HeadCameraDaemon::send_pictures(const std::string& camera, const std::vecto
         std::max(largest_message_bytes_, static_cast<double>(image.getEncodedSize()));
   }
   ++num_frames_;
-  ++num_frames_this_second_;
+  ++num_new_frames_;
 }
 
 void HeadCameraDaemon::report_problems() {
@@ -196,13 +199,15 @@ void HeadCameraDaemon::update_state(double now, bool is_watched) {
 }
 
 void HeadCameraDaemon::publish_status() {
-  const double drawing_ms =
-      num_frames_this_second_ > 0 ? 1e3 * drawing_time_this_second_ / num_frames_this_second_ : 0;
-  status_.publish({{"frames", static_cast<double>(num_frames_this_second_)},
+  const double now = monotonic_seconds();
+  const double period = now - last_status_;
+  const double drawing_ms = num_new_frames_ > 0 ? 1e3 * new_drawing_time_ / num_new_frames_ : 0;
+  status_.publish({{"frames_hz", last_status_ > 0 ? num_new_frames_ / period : 0},
                    {"drawing_ms", drawing_ms},
                    {"largest_message_bytes", largest_message_bytes_}});
-  num_frames_this_second_ = 0;
-  drawing_time_this_second_ = 0;
+  last_status_ = now;
+  num_new_frames_ = 0;
+  new_drawing_time_ = 0;
   largest_message_bytes_ = 0;
 }
 

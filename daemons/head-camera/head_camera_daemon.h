@@ -82,8 +82,10 @@ class HeadCameraDaemon {
   RateLimiter warnings_{1.0};
   std::string last_state_;
   int64_t num_frames_ = 0;
-  int num_frames_this_second_ = 0;
-  double drawing_time_this_second_ = 0;
+  // Since the last status.
+  double last_status_ = 0;
+  int num_new_frames_ = 0;
+  double new_drawing_time_ = 0;
   double largest_message_bytes_ = 0;
 };
 

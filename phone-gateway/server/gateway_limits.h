@@ -38,11 +38,12 @@ struct GatewayLimits {
   /** How long a polling client counts as watching after its last GetState with picture. */
   double poll_watch_time = 2;
   /** Longest silence of nao-motion, of the robot, of the camera's pictures while somebody watches,
-   * and of the camera's DAEMON_STATUS, before the part counts as gone. */
+   * and of the camera's DAEMON_STATUS, which comes twice a second, before the part counts as gone:
+   * phones are told within 2 s. */
   double motion_silence_time = 1.0;
   double robot_silence_time = 1.0;
   double picture_silence_time = 1.5;
-  double camera_status_silence_time = 3.2;
+  double camera_status_silence_time = 1.8;
 
   /** States and pictures a second that a client may subscribe to. */
   double max_state_rate = 60;

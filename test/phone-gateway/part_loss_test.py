@@ -160,6 +160,15 @@ class HungParts(PartLossTest):
         camera.send_signal(signal.SIGCONT)
         self.wait_for_part("camera", True)
 
+    def test_the_camera_hangs_while_nobody_watches(self):
+        self.client.ask(subscribe=pb.Subscribe(state_rate=30))
+        start, _ = self.world()
+        camera = self.stop("nao-head-camera")
+        self.wait_for_part("camera", False)
+        self.assertLess(self.world()[0] - start, TIME_TO_TELL)
+        camera.send_signal(signal.SIGCONT)
+        self.wait_for_part("camera", True)
+
 
 class KilledParts(PartLossTest):
     """Programs that end are started again by supervisor."""

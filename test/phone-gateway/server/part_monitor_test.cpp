@@ -67,6 +67,15 @@ TEST_F(PartMonitorTest, MissesWatchedPicturesWithinTwoSeconds) {
   EXPECT_FALSE(monitor_.is_available(Part::kCamera));
 }
 
+TEST_F(PartMonitorTest, MissesACameraThatNobodyWatchesWithinTwoSeconds) {
+  pass(1);
+  camera_ = false;
+  pass(1.5);
+  EXPECT_TRUE(monitor_.is_available(Part::kCamera)) << "two of its messages may be lost";
+  pass(0.5);
+  EXPECT_FALSE(monitor_.is_available(Part::kCamera));
+}
+
 TEST_F(PartMonitorTest, ExpectsNoPicturesOfNobodyOrNothing) {
   pass(20);
   EXPECT_TRUE(monitor_.is_available(Part::kCamera)) << "nobody watches";
