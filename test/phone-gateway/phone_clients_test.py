@@ -100,6 +100,23 @@ class PhoneClients(unittest.TestCase):
         times = [picture.utime for picture in pictures]
         self.assertEqual(times, sorted(set(times)), "no picture comes twice")
 
+    def test_a_client_chooses_camera_size_and_quality(self):
+        def picture(client, **wish):
+            client.ask(subscribe=pb.Subscribe(picture_rate=30, picture=pb.PictureWish(**wish)))
+            last = client.picture.utime if client.picture else 0
+            # The camera goes on drawing what was wished before for a moment.
+            self.assertTrue(client.wait_until(lambda: client.picture and client.picture.utime > last + 1500000, DEADLINE))
+            self.assertEqual(client.picture.camera, wish.get("camera", pb.CAMERA_TOP))
+            self.assertEqual((client.picture.width, client.picture.height), (wish["width"], wish["width"] * 3 // 4))
+            return client.picture.jpeg
+
+        with self.phone(name="Ana") as client:
+            for width in (640, 320, 160):
+                fine = picture(client, width=width, quality=90)
+                coarse = picture(client, width=width, quality=20)
+                self.assertLess(len(coarse), len(fine) / 2, width)
+            picture(client, width=320, camera=pb.CAMERA_BOTTOM)
+
     def test_the_status_on_the_bus_has_the_figures_of_each_client(self):
         with self.phone(name="Ana") as client:
             figure = f"client_{client.connected.client_id}_requests_total"

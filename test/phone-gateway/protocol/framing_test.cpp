@@ -51,19 +51,15 @@ TEST(Framing, KeepsNothingOfWhatFollowsAnOversizedLength) {
   EXPECT_EQ(reader.num_waiting_bytes(), 0u);
 }
 
-/** The bytes of the first block of PROTOCOL.md, which stand in pairs of digits before the remarks.
- */
-std::string example_bytes() {
+/** The bytes of a block of PROTOCOL.md, counted from 0, which stand in pairs of digits before the
+ * remarks. */
+std::string example_bytes(int wanted) {
   std::ifstream document(PROTOCOL_MD);
   std::string bytes;
-  bool is_inside = false;
+  int num_marks = 0;
   for (std::string line; std::getline(document, line);) {
-    if (line == "```") {
-      if (is_inside) break;
-      is_inside = true;
-      continue;
-    }
-    if (!is_inside) continue;
+    if (line == "```") ++num_marks;
+    if (line == "```" || num_marks != 2 * wanted + 1) continue;
     std::istringstream words(line);
     for (std::string word; words >> word && word.size() == 2;) {
       bytes.push_back(static_cast<char>(std::stoi(word, nullptr, 16)));
@@ -72,13 +68,22 @@ std::string example_bytes() {
   return bytes;
 }
 
-TEST(Framing, AgreesWithTheWorkedExampleOfTheDocument) {
+TEST(Framing, AgreesWithTheWorkedExamplesOfTheDocument) {
   naoremote::Request request;
   request.set_request_id(1);
   request.mutable_connect()->set_protocol_version(1);
   request.mutable_connect()->set_token("k7");
   request.mutable_connect()->set_client_name("Ana");
-  EXPECT_EQ(frame(request.SerializeAsString()), example_bytes());
+  EXPECT_EQ(frame(request.SerializeAsString()), example_bytes(0));
+
+  naoremote::ServerMessage message;
+  naoremote::State& state = *message.mutable_state();
+  state.set_utime(123456);
+  state.set_age_ms(1.5);
+  for (const float angle : {0.5F, -0.25F}) state.add_joint_position(angle);
+  for (const float x : {1.0F, 0.0F, 0.3125F}) state.add_torso_position(x);
+  state.set_mode("holding");
+  EXPECT_EQ(frame(message.SerializeAsString()), example_bytes(1));
 }
 
 }  // namespace
