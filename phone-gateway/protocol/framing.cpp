@@ -5,11 +5,9 @@
 namespace nao {
 namespace {
 
-constexpr size_t kLengthBytes = 4;
-
 uint32_t read_length(const char* bytes) {
   uint32_t length = 0;
-  for (size_t i = 0; i < kLengthBytes; ++i) {
+  for (size_t i = 0; i < kFrameLengthBytes; ++i) {
     length = (length << 8) | static_cast<unsigned char>(bytes[i]);
   }
   return length;
@@ -17,13 +15,16 @@ uint32_t read_length(const char* bytes) {
 
 }  // namespace
 
+std::array<char, kFrameLengthBytes> frame_length(size_t size) {
+  const auto byte = [size](int shift) { return static_cast<char>((size >> shift) & 0xff); };
+  return {byte(24), byte(16), byte(8), byte(0)};
+}
+
 std::string frame(std::string_view message) {
-  const auto length = static_cast<uint32_t>(message.size());
+  const auto length = frame_length(message.size());
   std::string framed;
-  framed.reserve(kLengthBytes + message.size());
-  for (int shift = 24; shift >= 0; shift -= 8) {
-    framed.push_back(static_cast<char>((length >> shift) & 0xff));
-  }
+  framed.reserve(length.size() + message.size());
+  framed.append(length.data(), length.size());
   framed.append(message);
   return framed;
 }
@@ -37,7 +38,7 @@ void FrameReader::add(std::string_view bytes) {
 }
 
 std::optional<std::string> FrameReader::next() {
-  if (is_oversized_ || num_waiting_bytes() < kLengthBytes) return std::nullopt;
+  if (is_oversized_ || num_waiting_bytes() < kFrameLengthBytes) return std::nullopt;
   const size_t length = read_length(buffer_.data() + start_);
   if (length > max_message_bytes_) {
     is_oversized_ = true;
@@ -45,9 +46,9 @@ std::optional<std::string> FrameReader::next() {
     start_ = 0;
     return std::nullopt;
   }
-  if (num_waiting_bytes() - kLengthBytes < length) return std::nullopt;
-  std::string message = buffer_.substr(start_ + kLengthBytes, length);
-  start_ += kLengthBytes + length;
+  if (num_waiting_bytes() - kFrameLengthBytes < length) return std::nullopt;
+  std::string message = buffer_.substr(start_ + kFrameLengthBytes, length);
+  start_ += kFrameLengthBytes + length;
   return message;
 }
 

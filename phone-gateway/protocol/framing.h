@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -12,6 +13,12 @@ inline constexpr size_t kMaxRequestBytes = 65536;
 
 /** Version of the protocol in remote.proto, sent in Connect. */
 inline constexpr unsigned kProtocolVersion = 1;
+
+inline constexpr size_t kFrameLengthBytes = 4;
+
+/** What goes before a message of `size` bytes over raw TCP: that size, most significant byte first.
+ */
+std::array<char, kFrameLengthBytes> frame_length(size_t size);
 
 /** A message as it travels over raw TCP: its length in 4 bytes, most significant first, then
  * itself. */

@@ -141,36 +141,48 @@ GatewayCounters GatewayCore::counters() const {
   return counters;
 }
 
-std::optional<std::string> GatewayCore::next_message(uint32_t client, double now) {
+MessageBytes GatewayCore::next_message(uint32_t client, double now) {
   PhoneSession* session = find(client);
-  if (session == nullptr) return std::nullopt;
-  naoremote::ServerMessage message;
+  if (session == nullptr) return nullptr;
   while (true) {
     switch (session->outbox.next()) {
       case Outbox::Next::kNothing:
-        return std::nullopt;
+        return nullptr;
       case Outbox::Next::kMessage:
         ++session->num_sent;
         return session->outbox.take_message();
       case Outbox::Next::kState:
         session->outbox.take_state();
         if (!mirror_.has_state() || session->is_closing) continue;
-        mirror_.write(*message.mutable_state(), parts_.is_available(PartMonitor::Part::kRobot),
-                      now);
         ++session->num_sent;
-        return message.SerializeAsString();
+        return encode_state(now);
       case Outbox::Next::kPicture: {
         session->outbox.take_picture();
-        const StoredPicture* picture =
+        StoredPicture* picture =
             pictures_.find(session->subscription.picture, session->last_picture);
         if (picture == nullptr || session->is_closing) continue;
         session->last_picture = picture->number;
-        write_picture(*picture, *message.mutable_picture(), now);
         ++session->num_sent;
-        return message.SerializeAsString();
+        return encode_picture(*picture, now);
       }
     }
   }
+}
+
+MessageBytes GatewayCore::encode_state(double now) {
+  return state_encoding_.get(now, [&] {
+    naoremote::ServerMessage message;
+    mirror_.write(*message.mutable_state(), parts_.is_available(PartMonitor::Part::kRobot), now);
+    return message;
+  });
+}
+
+MessageBytes GatewayCore::encode_picture(StoredPicture& stored, double now) {
+  return stored.encoding.get(now, [&] {
+    naoremote::ServerMessage message;
+    write_picture(stored, *message.mutable_picture(), now);
+    return message;
+  });
 }
 
 void GatewayCore::write_picture(const StoredPicture& stored, naoremote::Picture& picture,
@@ -227,14 +239,19 @@ void GatewayCore::leave(PhoneSession& session, const std::string& why, double no
 // ---- Sending ------------------------------------------------------------------------------------
 
 void GatewayCore::push(PhoneSession& session, const naoremote::ServerMessage& message) {
+  push(session, encode(message));
+}
+
+void GatewayCore::push(PhoneSession& session, MessageBytes message) {
   if (session.is_closing) return;
-  session.outbox.push(message.SerializeAsString());
+  session.outbox.push(std::move(message));
   session.wake();
 }
 
 void GatewayCore::broadcast(const naoremote::ServerMessage& message) {
+  const MessageBytes bytes = encode(message);
   for (const auto& [id, session] : sessions_) {
-    if (session->is_connected) push(*session, message);
+    if (session->is_connected) push(*session, bytes);
   }
 }
 
@@ -308,6 +325,7 @@ naoremote::Control GatewayCore::control_for(const PhoneSession& session) const {
 
 void GatewayCore::set_robot(const RobotSnapshot& robot, double now) {
   mirror_.set(robot, now);
+  state_encoding_.reset();
   parts_.heard_robot(now);
   for (const auto& [id, session] : sessions_) {
     if (!session->is_connected || !session->state_pacer.allow(now)) continue;
@@ -318,6 +336,7 @@ void GatewayCore::set_robot(const RobotSnapshot& robot, double now) {
 
 void GatewayCore::set_motion(const MotionSnapshot& motion, double now) {
   mirror_.set(motion);
+  state_encoding_.reset();
   parts_.heard_motion(motion.mode != "no-robot", now);
 }
 
@@ -388,6 +407,7 @@ void GatewayCore::step_parts(double now) {
   parts_.set_watched(!camera_wishes(now).empty(), now);
   for (const PartMonitor::Change& change : parts_.step(now)) {
     tell_part(nullptr, change);
+    state_encoding_.reset();
     if (change.part != PartMonitor::Part::kMotion || change.is_available) continue;
     // What it was doing has ended with it, and is not taken up again when it is back.
     walk_.abandon();

@@ -13,6 +13,7 @@
 #include "server/command_tracker.h"
 #include "server/driving_lease.h"
 #include "server/gateway_limits.h"
+#include "server/message_bytes.h"
 #include "server/motion_command.h"
 #include "server/part_monitor.h"
 #include "server/phone_robot.h"
@@ -118,8 +119,8 @@ class GatewayCore {
   /** The connection is gone, for whatever reason. */
   void closed(uint32_t client, const std::string& why, double now);
 
-  /** Next message for a connection that can take one: a serialized ServerMessage. */
-  [[nodiscard]] std::optional<std::string> next_message(uint32_t client, double now);
+  /** Next message for a connection that can take one; null if there is none. */
+  [[nodiscard]] MessageBytes next_message(uint32_t client, double now);
 
   /** True once Connect has succeeded, until the client has no say any more. */
   bool has_connected(uint32_t client) const;
@@ -191,8 +192,11 @@ class GatewayCore {
   void send_event(uint32_t client, uint32_t request_id, const NumberedCommand& command, double now);
   void send_walk(double now);
 
+  MessageBytes encode_state(double now);
+  MessageBytes encode_picture(StoredPicture& stored, double now);
   void write_picture(const StoredPicture& stored, naoremote::Picture& picture, double now) const;
   void push(PhoneSession& session, const naoremote::ServerMessage& message);
+  void push(PhoneSession& session, MessageBytes message);
   void broadcast(const naoremote::ServerMessage& message);
   void tell_outcome(const CommandTracker::Entry& entry, CommandStatus status,
                     const std::string& reason, double now);
@@ -225,6 +229,7 @@ class GatewayCore {
   int64_t next_command_id_;
 
   RobotMirror mirror_;
+  SharedEncoding state_encoding_;
   PictureShelf pictures_;
   PartMonitor parts_;
   DrivingLease lease_;

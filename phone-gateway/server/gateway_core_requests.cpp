@@ -1,5 +1,6 @@
 // The use cases of remote.proto.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "protocol/framing.h"
@@ -14,6 +15,7 @@ using naoremote::ErrorCode;
 using naoremote::Response;
 
 constexpr size_t kMaxRememberedAddresses = 256;
+constexpr double kGoldenRatio = 0.6180339887;
 
 void refuse(Response& response, ErrorCode error, const std::string& message) {
   response.set_error(error);
@@ -217,7 +219,10 @@ void GatewayCore::subscribe(PhoneSession& session, const naoremote::Subscribe& r
     return;
   }
   session.subscription = std::get<Subscription>(checked);
-  session.state_pacer = Pacer(session.subscription.state_rate);
+  // Each client in a phase of its own, evenly spread for any number of them: one state does not
+  // serve all at once, the last of whom would wait for the first.
+  const double phase = std::fmod(session.id * kGoldenRatio, 1);
+  session.state_pacer = Pacer(session.subscription.state_rate, phase);
   session.picture_pacer = Pacer(session.subscription.picture_rate);
 }
 

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <optional>
-#include <string>
 #include <utility>
+
+#include "server/message_bytes.h"
 
 namespace nao {
 
@@ -16,7 +16,7 @@ class Outbox {
  public:
   enum class Next { kNothing, kMessage, kState, kPicture };
 
-  void push(std::string message) { messages_.push_back(std::move(message)); }
+  void push(MessageBytes message) { messages_.push_back(std::move(message)); }
   void want_state() { num_skipped_ += std::exchange(wants_state_, true) ? 1 : 0; }
   void want_picture() { num_skipped_ += std::exchange(wants_picture_, true) ? 1 : 0; }
 
@@ -28,8 +28,8 @@ class Outbox {
   }
 
   /** Takes out what next() told: the message itself, or the mark that one shall be made. */
-  std::string take_message() {
-    std::string message = std::move(messages_.front());
+  MessageBytes take_message() {
+    MessageBytes message = std::move(messages_.front());
     messages_.pop_front();
     return message;
   }
@@ -47,7 +47,7 @@ class Outbox {
   uint64_t num_skipped() const { return num_skipped_; }
 
  private:
-  std::deque<std::string> messages_;
+  std::deque<MessageBytes> messages_;
   bool wants_state_ = false;
   bool wants_picture_ = false;
   bool last_was_state_ = false;

@@ -64,7 +64,7 @@ void PhoneConnection::flush() {
   if (message) {
     is_writing_ = true;
     limit(is_closing() ? kClosingTime : kWriteTime);
-    write(*message);
+    write(message);
   } else if (is_closing() && !std::exchange(is_shut_down_, true)) {
     limit(kClosingTime);
     shut_down();
@@ -73,7 +73,7 @@ void PhoneConnection::flush() {
 
 void PhoneConnection::on_written(bool has_failed) {
   is_writing_ = false;
-  limit_.cancel();
+  deadline_.reset();
   if (has_failed) {
     abort("closed by the client");
   } else {
@@ -82,10 +82,23 @@ void PhoneConnection::on_written(bool has_failed) {
 }
 
 void PhoneConnection::limit(std::chrono::seconds time) {
-  limit_.expires_after(time);
+  deadline_ = asio::steady_timer::clock_type::now() + time;
+  if (!is_limit_waiting_ || limit_.expiry() > *deadline_) wait_for_limit();
+}
+
+void PhoneConnection::wait_for_limit() {
+  is_limit_waiting_ = true;
+  limit_.expires_at(*deadline_);
   limit_.async_wait([weak = weak_from_this()](const error_code& error) {
-    if (error) return;
-    if (const auto self = weak.lock()) self->abort("does not read what it is sent");
+    const auto self = weak.lock();
+    if (error || !self) return;
+    self->is_limit_waiting_ = false;
+    if (!self->deadline_) return;
+    if (asio::steady_timer::clock_type::now() < *self->deadline_) {
+      self->wait_for_limit();
+    } else {
+      self->abort("does not read what it is sent");
+    }
   });
 }
 

@@ -4,6 +4,7 @@
 //
 #include <boost/asio/steady_timer.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace nao {
@@ -35,7 +36,7 @@ class PhoneConnection : public std::enable_shared_from_this<PhoneConnection> {
 
   // What the transport does.
   /** Sends a message and calls on_written() later. */
-  virtual void write(const std::string& message) = 0;
+  virtual void write(MessageBytes message) = 0;
   /** Reading may go on after a pause. */
   virtual void take_more() = 0;
   /** All has been sent: says so to the other end. */
@@ -50,11 +51,16 @@ class PhoneConnection : public std::enable_shared_from_this<PhoneConnection> {
  private:
   void flush();
   void limit(std::chrono::seconds time);
+  void wait_for_limit();
   void leave_waiting_room();
   void finish(const std::string& why);
 
   asio::steady_timer pause_;
   asio::steady_timer limit_;
+  /** When what is being sent must have left. The timer is not set anew for each message: it looks
+   * at this when it rings. */
+  std::optional<asio::steady_timer::time_point> deadline_;
+  bool is_limit_waiting_ = false;
   uint32_t id_ = 0;
   WaitingRoom::Place place_;
   bool is_waiting_ = false;

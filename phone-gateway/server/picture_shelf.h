@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "server/message_bytes.h"
 #include "server/request_check.h"
 
 namespace nao {
@@ -20,6 +21,8 @@ struct StoredPicture {
   /** When it came, s, and its number: later pictures have greater ones. */
   double time = 0;
   uint64_t number = 0;
+  /** The message that brings it to clients. */
+  SharedEncoding encoding;
 };
 
 /** The newest picture of each camera and size. */
@@ -33,7 +36,7 @@ class PictureShelf {
   }
 
   /** @return nullptr if there is none newer than number `after`. */
-  const StoredPicture* find(const PictureChoice& choice, uint64_t after) const {
+  StoredPicture* find(const PictureChoice& choice, uint64_t after) {
     const auto found = pictures_.find({choice.camera, choice.width});
     return found != pictures_.end() && found->second.number > after ? &found->second : nullptr;
   }

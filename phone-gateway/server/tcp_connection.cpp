@@ -53,10 +53,11 @@ class TcpConnection : public PhoneConnection {
     read();
   }
 
-  void write(const std::string& message) override {
-    outgoing_ = frame(message);
+  void write(MessageBytes message) override {
+    outgoing_ = std::move(message);
+    length_ = frame_length(outgoing_->size());
     asio::async_write(
-        socket_, asio::buffer(outgoing_),
+        socket_, std::array<asio::const_buffer, 2>{asio::buffer(length_), asio::buffer(*outgoing_)},
         [self = self()](const error_code& error, size_t) { self->on_written(error.failed()); });
   }
 
@@ -75,7 +76,8 @@ class TcpConnection : public PhoneConnection {
   Tcp::socket socket_;
   FrameReader reader_{kMaxRequestBytes};
   std::array<char, 16384> bytes_;
-  std::string outgoing_;
+  MessageBytes outgoing_;
+  std::array<char, kFrameLengthBytes> length_{};
 };
 
 }  // namespace

@@ -78,9 +78,9 @@ class WebSocketConnection : public PhoneConnection {
 
   void take_more() override { read(); }
 
-  void write(const std::string& message) override {
-    outgoing_ = message;
-    socket_.async_write(asio::buffer(outgoing_), [self = self()](const error_code& error, size_t) {
+  void write(MessageBytes message) override {
+    outgoing_ = std::move(message);
+    socket_.async_write(asio::buffer(*outgoing_), [self = self()](const error_code& error, size_t) {
       self->on_written(error.failed());
     });
   }
@@ -98,7 +98,7 @@ class WebSocketConnection : public PhoneConnection {
   websocket::stream<Stream> socket_;
   WebRequest request_;
   beast::flat_buffer buffer_;
-  std::string outgoing_;
+  MessageBytes outgoing_;
   websocket::close_code close_code_ = websocket::close_code::policy_error;
 };
 

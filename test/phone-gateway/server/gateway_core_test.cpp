@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "phone-gateway/server/gateway_fixture.h"
 
@@ -487,6 +489,58 @@ TEST_F(GatewayStreams, ComeAtTheWishedRate) {
     collect(ana);
   }
   EXPECT_NEAR(num_states(ana), 100, 3);
+}
+
+TEST_F(GatewayStreams, ShareOutTheStatesAmongPhonesThatBeganTogether) {
+  std::vector<Phone> phones;
+  for (int i = 0; i < 32; ++i) {
+    phones.push_back(connect("phone " + std::to_string(i)));
+    EXPECT_EQ(subscribe(phones.back(), 30, 0).error(), naoremote::OK);
+  }
+  std::vector<int> num_served;
+  for (int tick = 0; tick < 200; ++tick) {
+    now_ += 0.01;
+    RobotSnapshot robot;
+    robot.utime = static_cast<int64_t>(now_ * 1e6);
+    core_->set_robot(robot, now_);
+    num_served.push_back(0);
+    for (const Phone& phone : phones) {
+      while (core_->next_message(phone.id, now_)) ++num_served.back();
+    }
+  }
+  EXPECT_EQ(num_served.front(), 32) << "nobody waits for the first state";
+  EXPECT_LE(*std::max_element(num_served.begin() + 2, num_served.end()), 11) << "30 of 100 of 32";
+  EXPECT_NEAR(std::accumulate(num_served.begin(), num_served.end(), 0), 32 * 60, 64);
+}
+
+TEST_F(GatewayStreams, AreEncodedOnceForAllPhonesAndTellTheirAge) {
+  Phone one = connect("one");
+  Phone two = connect("two");
+  subscribe(one, 60, 30);
+  subscribe(two, 60, 30);
+  const auto age_ms = [](const MessageBytes& bytes) {
+    naoremote::ServerMessage message;
+    EXPECT_TRUE(message.ParseFromString(*bytes));
+    return message.has_state() ? message.state().age_ms() : message.picture().age_ms();
+  };
+  pass(0.1);
+  put_picture(1);
+  collect(one);
+  collect(two);
+  pass(0.04);
+  put_picture(2);
+  // A state, then a picture.
+  for (int i = 0; i < 2; ++i) {
+    const MessageBytes bytes = core_->next_message(one.id, now_);
+    ASSERT_TRUE(bytes);
+    EXPECT_EQ(core_->next_message(two.id, now_ + 0.0005), bytes);
+  }
+  pass(0.02);
+  put_picture(3);
+  for (int i = 0; i < 2; ++i) {
+    const double age = age_ms(core_->next_message(one.id, now_));
+    EXPECT_NEAR(age_ms(core_->next_message(two.id, now_ + 0.3)), age + 300, 1) << "a late one";
+  }
 }
 
 TEST_F(GatewayStreams, SkipForASlowPhoneAndAreNeverOld) {
