@@ -508,8 +508,11 @@ void report_watching(Stack& stack, double time, std::vector<Figure>& figures) {
   const Watching many = watch(stack, kNumClients, 30, 15, time);
   figures.push_back({"gateway.clients32_cpu_percent", many.cpu_percent, "%", "bare Asio loop",
                      measure_bare_sender(many, 30, 15, time)});
-  figures.push_back({"gateway.clients32_state_age_ms.p99", percentile(many.state_age_ms, 0.99),
-                     "ms", "one client", percentile(few.state_age_ms, 0.99)});
+  for (const auto& [share, word] : {std::pair{0.5, "p50"}, {0.9, "p90"}, {0.99, "p99"}}) {
+    figures.push_back({std::string("gateway.clients32_state_age_ms.") + word,
+                       percentile(many.state_age_ms, share), "ms", "one client",
+                       percentile(few.state_age_ms, share)});
+  }
   figures.push_back(
       {"gateway.clients32_rate_hz", many.num_states / time / kNumClients, "1/s", "asked for", 30});
   figures.push_back({"gateway.clients32_rss_mib", many.rss_mib, "MiB", "one client", few.rss_mib});
