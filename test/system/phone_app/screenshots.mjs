@@ -1,4 +1,4 @@
-// Makes docs/images/app-*.png with the real programs: node screenshots.mjs OUTPUT_DIR [SIZE...]. Wants pngquant, and
+// Makes docs/images/app-*.png with the real programs: node screenshots.mjs OUTPUT_DIR [SIZE or SCREEN...]. Wants pngquant, and
 // fonts-roboto-unhinted so that letters look as on a phone. NAO_BIN_DIR, NAO_WEB_SOURCE_DIR as for the tests.
 import {execFileSync} from "node:child_process";
 import {mkdirSync, statSync} from "node:fs";
@@ -14,8 +14,10 @@ const kRestMs = 2500;
 const kGoodLatencyMs = 40;
 const kLinkMs = 12_000;
 
-const [outputDir, ...wantedSizes] = process.argv.slice(2);
-if (!outputDir) throw new Error("usage: node screenshots.mjs OUTPUT_DIR [SIZE...]");
+const [outputDir, ...words] = process.argv.slice(2);
+if (!outputDir) throw new Error("usage: node screenshots.mjs OUTPUT_DIR [SIZE or SCREEN...]");
+const wantedSizes = words.filter((word) => word in kSizes);
+const wantedScreens = words.filter((word) => !(word in kSizes));
 mkdirSync(outputDir, {recursive: true});
 
 /** So that the app draws as on a phone, with all its finery, although the processor draws here. */
@@ -30,6 +32,7 @@ const kGraphicsChip = () => {
 const stack = new Stack(process.env.NAO_BIN_DIR);
 
 async function take(phone, name) {
+  if (wantedScreens.length > 0 && !wantedScreens.includes(name.split("-")[0])) return;
   await pause(kRestMs);
   // Nor does the sign of the link tell of a phone that draws in software.
   await until("the link is good", async () => (await phone.look("state.latencyMs")) < kGoodLatencyMs, kLinkMs).catch(() => {});

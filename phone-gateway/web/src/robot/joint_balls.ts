@@ -141,7 +141,7 @@ export class JointBalls {
     const material = {color: kAxisColors[axis], depthTest: false, transparent: true, side: 2} as const;
     const ring = new Mesh(
         new RingGeometry(kArcRadius, kArcRadius + kArcWidth, 48, 1, lower, upper - lower),
-        new MeshBasicMaterial({...material, opacity: 0.55}));
+        new MeshBasicMaterial({...material, opacity: 0.8}));
     ring.renderOrder = 8;
     const needle = new Group();
     const tip = new Mesh(this.sphere, new MeshBasicMaterial(material));
