@@ -340,6 +340,8 @@ void SimDaemon::publish_sensors() {
     message.joint_position = to_vector(sensed.position);
     message.joint_velocity = to_vector(sensed.velocity);
     message.joint_torque = to_vector(sensed.torque);
+    message.joint_target_position = to_vector(world_->targets(i).position);
+    message.joint_stiffness = to_vector(world_->targets(i).stiffness);
     copy(sensed.accelerometer, message.accelerometer_torso);
     copy(sensed.gyroscope, message.gyroscope_torso);
     copy(sensed.orientation, message.orientation_torso_in_world);

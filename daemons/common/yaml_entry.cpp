@@ -20,6 +20,16 @@ YamlEntry YamlEntry::load(const std::filesystem::path& file, Thrower thrower) {
   }
 }
 
+YamlEntry YamlEntry::parse(const std::string& text, const std::string& name, Thrower thrower) {
+  const auto source = std::make_shared<const Source>(Source{name, thrower});
+  try {
+    return YamlEntry(YAML::Load(text), source, "");
+  } catch (const YAML::Exception& error) {
+    YamlEntry(YAML::Node(YAML::NodeType::Undefined), source, "")
+        .fail(std::string("is no YAML: ") + error.what());
+  }
+}
+
 YamlEntry YamlEntry::at(const std::string& key) const {
   for (const auto& [name, entry] : entries()) {
     if (name == key) {

@@ -26,6 +26,12 @@ class YamlEntry {
     return load(file, [](const std::string& text) { throw ErrorType(text); });
   }
 
+  /** The same from a text, which complaints call `name`. */
+  template <class ErrorType = ModelError>
+  static YamlEntry parse(const std::string& text, const std::string& name) {
+    return parse(text, name, [](const std::string& fault) { throw ErrorType(fault); });
+  }
+
   /** Value of a key, which must be there. */
   YamlEntry at(const std::string& key) const;
   bool has(const std::string& key) const;
@@ -56,6 +62,7 @@ class YamlEntry {
   };
 
   static YamlEntry load(const std::filesystem::path& file, Thrower thrower);
+  static YamlEntry parse(const std::string& text, const std::string& name, Thrower thrower);
   YamlEntry(const YAML::Node& node, std::shared_ptr<const Source> source, std::string where)
       : node_(node), source_(std::move(source)), where_(std::move(where)) {}
 

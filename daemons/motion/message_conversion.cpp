@@ -36,6 +36,8 @@ Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& messag
   sensors.position.assign(num_motors, 0);
   sensors.velocity.assign(num_motors, 0);
   sensors.torque.assign(num_motors, 0);
+  sensors.target_position.assign(num_motors, 0);
+  sensors.stiffness.assign(num_motors, 0);
   std::vector<bool> is_known(num_motors, false);
   for (int i = 0; i < message.num_joints; ++i) {
     const std::string& name = message.joint_names[i];
@@ -46,9 +48,15 @@ Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& messag
     sensors.position[motor] = message.joint_position[i];
     sensors.velocity[motor] = message.joint_velocity[i];
     sensors.torque[motor] = message.joint_torque[i];
+    sensors.target_position[motor] = message.joint_target_position[i];
+    sensors.stiffness[motor] = message.joint_stiffness[i];
     require_finite(message.joint_position[i], "position of", name);
     require_finite(message.joint_velocity[i], "velocity of", name);
     require_finite(message.joint_torque[i], "torque of", name);
+    require_finite(message.joint_target_position[i], "target of", name);
+    if (!(message.joint_stiffness[i] >= 0 && message.joint_stiffness[i] <= 1)) {
+      throw Error("stiffness of " + name + " is outside 0..1");
+    }
   }
   for (size_t motor = 0; motor < num_motors; ++motor) {
     if (!is_known[motor]) {

@@ -37,8 +37,6 @@ constexpr double kTakeOverTime = 0.1;
 // A joint that turned this much farther in one tick than its motor can was not turned by it:
 // somebody has placed the robot anew, rad.
 constexpr double kPlacedAngle = 0.5;
-// Servos hold a load by lagging behind their targets; a lag of more than this is no load, rad.
-constexpr double kMaxServoLag = 0.1;
 // Measured angles may be this far off a posture that the robot is said to be in, rad (5 degrees:
 // the servos' lag and the encoders' steps).
 constexpr double kInPostureTolerance = 0.09;
@@ -57,7 +55,9 @@ MotionCore::MotionCore(const RobotModel& model, const MotionOptions& options)
     : model_(&model),
       options_(options),
       limiter_(model),
-      graph_(TransitionGraph::load(model, model.folder() / "transitions.yaml")),
+      graph_(options.transitions
+                 ? *options.transitions
+                 : TransitionGraph::load(model, model.folder() / "transitions.yaml")),
       estimator_(model, options.foot_contact_force),
       tipping_guard_(model),
       collision_guard_(model),
@@ -105,7 +105,7 @@ void MotionCore::take_sensors(const Sensors& sensors, double dt) {
   }
   sensors_ = sensors;
   silence_ = 0;
-  if (is_another_robot) take_over(sensors);
+  if (is_another_robot) take_over(sensors, has_robot_);
   estimator_.update(sensors, dt);
 }
 
@@ -122,35 +122,29 @@ void MotionCore::lose_robot() {
   }
 }
 
-void MotionCore::take_over(const Sensors& sensors) {
+void MotionCore::take_over(const Sensors& sensors, bool is_placed) {
   if (has_robot_) lose_robot();
   has_robot_ = true;
   time_with_robot_ = 0;
   has_first_motion_ = false;
   needs_help_ = false;
   estimator_.reset();
-  // The servos' torques go on as they are if the targets lie ahead of the measured angles by the
-  // lag that these torques make.
-  targets_.position = sensors.position;
-  for (int motor = 0; motor < model_->num_motors(); ++motor) {
-    const double gain = model_->motor(motor).stiffness_gain;
-    const double lag = gain > 0 ? sensors.torque[motor] / gain : 0.0;
-    targets_.position[motor] += std::clamp(lag, -kMaxServoLag, kMaxServoLag);
-  }
-  clip_to_limits(*model_, targets_.position);
+  // What the servos of a robot that was put elsewhere hold may still be from before.
+  targets_.position = is_placed ? sensors.position : sensors.target_position;
+  if (is_placed) clip_to_limits(*model_, targets_.position);
   targets_.velocity.assign(model_->num_motors(), 0.0);
-  targets_.stiffness.assign(model_->num_motors(), 1.0);
+  targets_.stiffness = sensors.stiffness;
 }
 
 void MotionCore::choose_first_motion() {
   has_first_motion_ = true;
   was_lying_ = is_lying();
-  if (running_ || waiting_) return;
+  if (running_ || waiting_ || is_limp()) return;
   const std::string state = find_body_state(*model_, estimator_.state(), options_.lying_tilt);
   for (const Posture& posture : model_->postures()) {
     if (deviation_from(posture, sensors_.position).angle >= kInPostureTolerance) continue;
     if (state_of(posture) != state) continue;
-    assign({std::make_unique<PostureMotion>(posture, options_.default_speed), std::nullopt,
+    assign({std::make_unique<JourneyMotion>(graph_, posture, options_.default_speed), std::nullopt,
             posture.name});
     return;
   }
@@ -241,8 +235,14 @@ bool MotionCore::overlay_walk(const Command& command) {
   answer(command, ResultStatus::kAccepted, "");
   end_overlay(ResultStatus::kInterrupted,
               "Replaced by a newer command: " + describe(command) + ".");
+  // The joints that walk are not its concern: their speed would make it slow.
+  JointTargets start = targets_;
+  for (int motor = 0; motor < model_->num_motors(); ++motor) {
+    const bool turns = std::find(motors.begin(), motors.end(), motor) != motors.end();
+    if (!turns) start.velocity[motor] = 0;
+  }
   overlay_ = Overlay{std::make_unique<JointChangeMotion>(*change), command, std::move(motors)};
-  overlay_->generator->start(context(0), targets_);
+  overlay_->generator->start(context(0), start);
   return true;
 }
 
@@ -284,13 +284,18 @@ std::unique_ptr<MotionGenerator> MotionCore::plan_stand() const {
                                          options_.default_speed);
 }
 
+std::optional<std::string> MotionCore::refuse_walk_after_standing_up() const {
+  if (!gait_ || !sits()) return refuse_walk();
+  return find_soft_leg(LegKinematics(*model_), targets_.stiffness);
+}
+
 MotionCore::Plan MotionCore::plan_request(const WalkCommand& walk) {
-  if (const auto refusal = refuse_walk()) return *refusal;
+  if (const auto refusal = refuse_walk_after_standing_up()) return *refusal;
   return std::make_unique<WalkMotion>(*model_, *gait_, plan_stand(), walk);
 }
 
 MotionCore::Plan MotionCore::plan_request(const MoveToCommand& move_to) {
-  if (const auto refusal = refuse_walk()) return *refusal;
+  if (const auto refusal = refuse_walk_after_standing_up()) return *refusal;
   return std::make_unique<MoveToMotion>(*model_, *gait_, plan_stand(), move_to);
 }
 
@@ -544,10 +549,18 @@ Mode MotionCore::current_mode() const {
   if (running_) return running_->generator->mode();
   if (has_fallen_) return Mode::kFallen;
   if (overlay_) return Mode::kMoving;
+  return is_limp() ? Mode::kRelaxed : Mode::kHolding;
+}
+
+bool MotionCore::sits() const {
+  const Posture* posture =
+      model_->find_posture(find_body_state(*model_, estimator_.state(), options_.lying_tilt));
+  return posture != nullptr && posture->family == "sitting";
+}
+
+bool MotionCore::is_limp() const {
   const auto& stiffness = targets_.stiffness;
-  const bool is_limp =
-      std::all_of(stiffness.begin(), stiffness.end(), [](double share) { return share == 0; });
-  return is_limp ? Mode::kRelaxed : Mode::kHolding;
+  return std::all_of(stiffness.begin(), stiffness.end(), [](double share) { return share == 0; });
 }
 
 void MotionCore::report(double dt) {

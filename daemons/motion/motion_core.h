@@ -53,9 +53,10 @@ struct Output {
  *
  * No clock, thread, file, socket or log: the same inputs give the same outputs, bit for bit.
  *
- * Before the first command it takes the robot over without a jump (targets start at the measured
- * angles) and brings a standing robot to StandInit, unless it is in a known posture already. A
- * robot that has fallen, or lies in no known posture when it is taken over, gets up by itself. */
+ * Before the first command it takes the robot over without a jump (targets go on from what the
+ * servos hold) and brings a standing robot to StandInit, unless it is in a known posture already. A
+ * robot that has fallen, or lies in no known posture when it is taken over, gets up by itself. A
+ * limp one stays limp until a command wakes it. */
 class MotionCore {
  public:
   /** @param model  Must outlive this.
@@ -91,7 +92,8 @@ class MotionCore {
 
   void take_sensors(const Sensors& sensors, double dt);
   void lose_robot();
-  void take_over(const Sensors& sensors);
+  /** @param is_placed  Somebody has put the robot that it had elsewhere. */
+  void take_over(const Sensors& sensors, bool is_placed);
   void choose_first_motion();
 
   void receive(const Command& command);
@@ -107,6 +109,8 @@ class MotionCore {
   bool overlay_walk(const Command& command);
   bool is_walking() const;
   std::optional<std::string> refuse_walk() const;
+  /** The same for a walk that goes to its stand first, which it may do from a seat. */
+  std::optional<std::string> refuse_walk_after_standing_up() const;
   Plan plan_kick(bool is_left, const ActionCommand& action);
   Plan plan_script(const ActionScript& script);
   /** The way to the stand that walks begin in. */
@@ -141,6 +145,8 @@ class MotionCore {
   MotionContext context(double dt) const;
   Mode current_mode() const;
   bool is_lying() const;
+  bool is_limp() const;
+  bool sits() const;
   void report(double dt);
 
   const RobotModel* model_;

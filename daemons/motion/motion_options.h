@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "motion/transitions/transition_graph.h"
 #include "motion/walk/gait.h"
 
 namespace nao::motion {
@@ -31,9 +32,11 @@ struct MotionOptions {
   double motion_state_period = 0.1;
   /** Gets up by itself after a fall, this long after it lies still, s. */
   bool gets_up = true;
-  double get_up_delay = 0.1;
+  double get_up_delay = 0.02;
   /** How to walk; nothing: as the robot's gait.yaml says, if it has one. */
   std::optional<Gait> gait;
+  /** Ways between states of the body; nothing: as the robot's transitions.yaml says. */
+  std::optional<TransitionGraph> transitions;
 
   /** @throws ConfigError  naming the option that makes no sense. */
   void validate() const;

@@ -15,6 +15,10 @@ struct Sensors {
   std::vector<double> position;
   std::vector<double> velocity;
   std::vector<double> torque;
+  /** What the servos hold, as last commanded: rad (hands: opening), and share of the torque, 0 to
+   * 1; each (num_motors), motor order. */
+  std::vector<double> target_position;
+  std::vector<double> stiffness;
   /** Specific force, m/s^2, torso frame: (0, 0, +9.81) upright at rest. */
   Eigen::Vector3d accelerometer_torso = {0, 0, 9.81};
   /** Angular velocity of the torso, rad/s, torso frame. */

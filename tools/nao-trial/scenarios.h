@@ -73,9 +73,7 @@ class CommandsScenario : public Scenario {
   const char* summary() const override {
     return "Answer 100 random commands, in any mode, among pushes and restarts";
   }
-  std::map<std::string, std::string> units() const override {
-    return {{"restart_jump_deg", "degrees"}};
-  }
+  std::map<std::string, std::string> units() const override { return {}; }
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 

@@ -26,7 +26,7 @@ sim::WorldOptions world_options(uint64_t seed) {
   return options;
 }
 
-motion::Sensors to_core(const sim::SensorReadings& readings) {
+motion::Sensors to_core(const sim::SensorReadings& readings, const sim::MotorTargets& held) {
   const auto list = [](const Eigen::VectorXd& values) {
     return std::vector<double>(values.data(), values.data() + values.size());
   };
@@ -36,6 +36,8 @@ motion::Sensors to_core(const sim::SensorReadings& readings) {
   sensors.position = list(readings.position);
   sensors.velocity = list(readings.velocity);
   sensors.torque = list(readings.torque);
+  sensors.target_position = list(held.position);
+  sensors.stiffness = list(held.stiffness);
   sensors.accelerometer_torso = readings.accelerometer;
   sensors.gyroscope_torso = readings.gyroscope;
   sensors.orientation_torso_in_world = readings.orientation;
@@ -115,7 +117,7 @@ void Trial::step() {
     ++missed_ticks_;
   } else if (!is_dead_) {
     motion::Input input;
-    input.sensors = to_core(world_.sensors(0));
+    input.sensors = to_core(world_.sensors(0), world_.targets(0));
     input.commands = std::exchange(commands_, {});
     const double begin = clock_ != nullptr ? clock_() : 0;
     const motion::Output output = core_->step(input, (1 + std::exchange(missed_ticks_, 0)) * kTick);

@@ -30,13 +30,13 @@ void OrientationFilter::update(const Eigen::Vector3d& gyroscope,
                                const Eigen::Vector3d& accelerometer, bool is_at_rest, double dt) {
   const double norm = accelerometer.norm();
   if (!is_started_) {
-    if (norm > 1e-3) {
+    if (std::abs(norm - kGravity) < kRestAccelerationError) {
       orientation_ = Eigen::Quaterniond::FromTwoVectors(accelerometer, Eigen::Vector3d::UnitZ());
-      // The shortest turn upright has a little heading in it; heading starts at 0.
-      const Eigen::Matrix3d R = orientation_.toRotationMatrix();
-      const double heading = std::atan2(R(1, 0), R(0, 0));
-      orientation_ = Eigen::AngleAxisd(-heading, Eigen::Vector3d::UnitZ()) * orientation_;
     }
+    // The shortest turn upright has a little heading in it; heading starts at 0.
+    const Eigen::Matrix3d R = orientation_.toRotationMatrix();
+    const double heading = std::atan2(R(1, 0), R(0, 0));
+    orientation_ = Eigen::AngleAxisd(-heading, Eigen::Vector3d::UnitZ()) * orientation_;
     angular_velocity_ = gyroscope - bias_;
     is_started_ = true;
     return;

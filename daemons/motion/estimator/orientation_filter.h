@@ -13,8 +13,12 @@ namespace nao::motion {
  * vertical one while the robot rests. */
 class OrientationFilter {
  public:
-  /** Starts upright as the accelerometer sees it, with heading 0, at the next update(). */
-  void reset() { is_started_ = false; }
+  /** Starts at the next update(), with heading 0: upright as the accelerometer sees it or, if that
+   * shows more than gravity, as this estimate of somebody else's has it. */
+  void reset(const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity()) {
+    orientation_ = orientation;
+    is_started_ = false;
+  }
 
   /** Takes in one measurement.
    * @param gyroscope      rad/s, torso frame. @param accelerometer  m/s^2, torso frame.

@@ -29,7 +29,6 @@ StateEstimator::StateEstimator(const RobotModel& model, double contact_force)
 void StateEstimator::reset() {
   is_started_ = false;
   rest_time_ = 0;
-  orientation_.reset();
   torso_velocity_in_odometry_.setZero();
   state_ = RobotState();
 }
@@ -41,6 +40,7 @@ void StateEstimator::update(const Sensors& sensors, double dt) {
   state_.joint_velocity = sensors.velocity;
   kinematics_.update(sensors.position);
   watch_rest(sensors, dt);
+  if (!is_started_) orientation_.reset(sensors.orientation_torso_in_world);
   orientation_.update(sensors.gyroscope_torso, sensors.accelerometer_torso,
                       rest_time_ > kSettlingTime, dt);
   state_.torso_in_odometry.linear() = orientation_.orientation().toRotationMatrix();

@@ -11,7 +11,8 @@ namespace {
 constexpr double kStiffness = 0.3;
 constexpr double kShortest = 0.6;   // s; a fall from standing takes about that long
 constexpr double kLongest = 3.0;    // s
-constexpr double kStillTime = 0.2;  // s
+constexpr double kStillTime = 0.1;  // s
+constexpr double kStill = 0.3;      // rad/s
 
 using Pose = std::initializer_list<std::pair<const char*, double>>;
 
@@ -48,6 +49,7 @@ void write_pose(const RobotModel& model, const std::pair<const char*, double> (&
 void FallMotion::start(const MotionContext& context, const JointTargets& targets) {
   pose_ = targets.position;
   time_ = 0;
+  time_still_ = 0;
   // It falls to where up turns away from, and faster so by its angular velocity.
   const Eigen::Vector3d up = context.state.torso_in_odometry.linear().row(2);
   constexpr double kAhead = 0.3;  // s
@@ -66,7 +68,9 @@ MotionGenerator::Phase FallMotion::step(const MotionContext& context, JointTarge
   // As fast as the motors turn; the core limits it.
   targets.position = pose_;
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), kStiffness);
-  const bool lies_still = time_ >= kShortest && context.state.rest_time >= kStillTime;
+  const bool is_still = context.state.angular_velocity_torso.norm() < kStill;
+  time_still_ = is_still ? time_still_ + context.dt : 0;
+  const bool lies_still = time_ >= kShortest && time_still_ >= kStillTime;
   if (!lies_still && time_ < kLongest) return Phase::kRunning;
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
   return Phase::kDone;

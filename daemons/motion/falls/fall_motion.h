@@ -21,6 +21,7 @@ class FallMotion : public MotionGenerator {
  private:
   std::vector<double> pose_;
   double time_ = 0;
+  double time_still_ = 0;
 };
 
 }  // namespace nao::motion

@@ -16,8 +16,10 @@ constexpr double kStiffeningTime = 0.5;
 // A body that lies must have lain still this long before it moves, and is not waited for longer, s.
 constexpr double kStillTime = 0.1;
 constexpr double kLongestRest = 0.6;
-// One that goes on from one transition to the next as planned need only turn slowly, rad/s.
-constexpr double kSlow = 1.0;
+// Torso that lies still, and one that goes on from one transition to the next as planned, turn more
+// slowly than this, rad/s.
+constexpr double kStill = 0.3;
+constexpr double kSlow = 1.5;
 // Joints this near to a posture go straight to it, rad.
 constexpr double kNear = 0.3;
 
@@ -58,6 +60,8 @@ double JourneyMotion::progress() const {
 
 MotionGenerator::Phase JourneyMotion::step(const MotionContext& context, JointTargets& targets) {
   time_ += context.dt;
+  const bool is_still = context.state.angular_velocity_torso.norm() < kStill;
+  time_still_ = is_still ? time_still_ + context.dt : 0;
   switch (leg_) {
     case Leg::kStiffening:
       for (double& share : targets.stiffness) {
@@ -96,7 +100,7 @@ MotionGenerator::Phase JourneyMotion::step(const MotionContext& context, JointTa
 bool JourneyMotion::must_rest(const MotionContext& context, const std::string& state) const {
   if (state == "on-feet") return false;
   if (is_on_its_way_) return context.state.angular_velocity_torso.norm() > kSlow;
-  return context.state.rest_time < kStillTime;
+  return time_still_ < kStillTime;
 }
 
 void JourneyMotion::play(const MotionContext& context, const KeyframeSequence& sequence,
@@ -149,7 +153,12 @@ MotionGenerator::Phase JourneyMotion::choose_leg(const MotionContext& context,
 MotionGenerator::Phase JourneyMotion::step_transition(const MotionContext& context,
                                                       JointTargets& targets) {
   player_.sample(time_, targets.position, targets.stiffness);
-  const bool is_over = time_ >= player_.duration();
+  const auto is_there = [&] {
+    return find_body_state(context.model, context.state, context.options.lying_tilt) ==
+           sequence_->to;
+  };
+  const bool is_over =
+      time_ >= player_.duration() || (time_ >= player_.last_arrival() && is_there());
   const int stage = player_.stage_at(time_);
   bool has_failed = false;
   if (stage != stage_ || is_over) {
@@ -159,8 +168,7 @@ MotionGenerator::Phase JourneyMotion::step_transition(const MotionContext& conte
     stage_ = stage;
   }
   if (!is_over && !has_failed) return Phase::kRunning;
-  is_on_its_way_ = !has_failed && find_body_state(context.model, context.state,
-                                                  context.options.lying_tilt) == sequence_->to;
+  is_on_its_way_ = !has_failed && is_there();
   // Where the body is now, the next leg sees.
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
   leg_ = Leg::kResting;

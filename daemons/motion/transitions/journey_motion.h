@@ -46,6 +46,8 @@ class JourneyMotion : public MotionGenerator {
 
   Leg leg_ = Leg::kStiffening;
   double time_ = 0;
+  /** s for which the torso has not turned. */
+  double time_still_ = 0;
   const KeyframeSequence* sequence_ = nullptr;
   KeyframePlayer player_;
   int stage_ = 0;

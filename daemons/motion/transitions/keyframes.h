@@ -16,7 +16,8 @@ struct Keyframe {
   std::vector<double> position;
   /** Share of the motors' torque from its beginning on, (num_motors); NaN: as before. */
   std::vector<double> stiffness;
-  /** s for which the targets rest afterwards, at any speed. */
+  /** s for which the targets rest afterwards, at any speed. After the last stage of a transition:
+   * at most, for it is over as soon as the body is where it leads. */
   double pause = 0;
   /** What the direction of up in the torso frame must be at its end, or the motion has failed:
    * least and greatest value along x, y, z. */
@@ -63,6 +64,8 @@ class KeyframePlayer {
   /** s. */
   double duration() const { return stages_.empty() ? 0.0 : stages_.back().end; }
   int num_stages() const { return static_cast<int>(stages_.size()); }
+  /** When the last stage's targets are reached and its pause begins, s. */
+  double last_arrival() const { return stages_.empty() ? 0.0 : stages_.back().arrival; }
   /** When a stage ends, its pause included, s. */
   double end_of(int stage) const { return stages_[stage].end; }
   /** Stage that runs at a time, s since the start; the last one after the end. */

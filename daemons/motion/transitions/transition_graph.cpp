@@ -102,8 +102,15 @@ std::string state_of(const Posture& posture) {
 }
 
 TransitionGraph TransitionGraph::load(const RobotModel& model, const std::filesystem::path& file) {
+  return read(model, YamlEntry::load(file));
+}
+
+TransitionGraph TransitionGraph::parse(const RobotModel& model, const std::string& text) {
+  return read(model, YamlEntry::parse(text, "transitions"));
+}
+
+TransitionGraph TransitionGraph::read(const RobotModel& model, const YamlEntry& root) {
   TransitionGraph graph;
-  const YamlEntry root = YamlEntry::load(file);
   root.allow_only({"transitions"});
   std::set<std::string> states = {"on-feet", "belly", "back", "left", "right"};
   for (const Posture& posture : model.postures()) states.insert(state_of(posture));

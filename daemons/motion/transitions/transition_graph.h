@@ -19,6 +19,8 @@ class TransitionGraph {
  public:
   /** @throws ModelError  naming the file, the line and what is wrong. */
   static TransitionGraph load(const RobotModel& model, const std::filesystem::path& file);
+  /** The same from a file's text. */
+  static TransitionGraph parse(const RobotModel& model, const std::string& text);
 
   const std::vector<KeyframeSequence>& sequences() const { return sequences_; }
   /** @return nullptr if there is none of that name. */
@@ -39,6 +41,8 @@ class TransitionGraph {
   const KeyframeSequence* find_approach(const Posture& posture) const;
 
  private:
+  static TransitionGraph read(const RobotModel& model, const YamlEntry& root);
+
   std::vector<KeyframeSequence> sequences_;
 };
 

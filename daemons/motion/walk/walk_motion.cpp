@@ -46,8 +46,8 @@ constexpr double kPatienceAtLeast = 10;
 
 }  // namespace
 
-std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
-                                              const std::vector<double>& stiffness) {
+std::optional<std::string> find_soft_leg(const LegKinematics& legs,
+                                         const std::vector<double>& stiffness) {
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     for (int motor : legs.motors(leg)) {
       if (stiffness[motor] <= kLeastStiffness) {
@@ -57,6 +57,12 @@ std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const R
       }
     }
   }
+  return std::nullopt;
+}
+
+std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
+                                              const std::vector<double>& stiffness) {
+  if (const auto soft = find_soft_leg(legs, stiffness)) return soft;
   if (state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
     return "The robot does not stand upright.";
   }
@@ -96,6 +102,8 @@ void WalkingMotion::start(const MotionContext& context, const JointTargets& targ
 }
 
 std::optional<std::string> WalkingMotion::find_trouble(const MotionContext& context) {
+  // On its way up from a seat it lies, with its feet in the air.
+  if (is_standing_up_) return std::nullopt;
   if (context.state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
     return "The robot lost its balance.";
   }

@@ -11,6 +11,11 @@
 
 namespace nao::motion {
 
+/** Why legs of this stiffness must not walk, as a sentence; nothing if they may.
+ * @param stiffness  Of all motors, motor order. */
+std::optional<std::string> find_soft_leg(const LegKinematics& legs,
+                                         const std::vector<double>& stiffness);
+
 /** Why the robot must not start to walk, or not go on, as a sentence; nothing if it may.
  * @param stiffness  Of all motors, motor order. */
 std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
@@ -33,7 +38,8 @@ class WalkingMotion : public MotionGenerator {
   Phase step(const MotionContext& context, JointTargets& targets) override;
   bool can_be_replaced() const override;
   void finish() override;
-  Mode mode() const override { return Mode::kWalking; }
+  Mode mode() const override { return is_standing_up_ ? stand_up_->mode() : Mode::kWalking; }
+  bool means_to_stand() const override { return !is_standing_up_ || stand_up_->means_to_stand(); }
   std::string remark() const override { return remark_; }
   void describe(MotionState& state) const override;
 

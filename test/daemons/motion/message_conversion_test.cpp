@@ -33,6 +33,9 @@ TEST(MessageConversion, RefusesIncompleteAndBrokenSensorStates) {
   refuses([&](auto& m) { m.joint_position[0] = nan; });
   refuses([&](auto& m) { m.joint_velocity[0] = nan; });
   refuses([&](auto& m) { m.joint_torque[0] = nan; });
+  refuses([&](auto& m) { m.joint_target_position[0] = nan; });
+  refuses([](auto& m) { m.joint_stiffness[0] = 1.01; });
+  refuses([&](auto& m) { m.joint_stiffness[0] = nan; });
   refuses([&](auto& m) { m.gyroscope_torso[1] = nan; });
   refuses([&](auto& m) { m.accelerometer_torso[1] = nan; });
   refuses([](auto& m) { m.orientation_torso_in_world[0] = 0; });

@@ -46,6 +46,7 @@ TEST_F(MotionCoreTest, TakesOverWithoutAJumpAndGoesToStandInit) {
   auto& position = robot_.sensors().position;
   position = nao_model().find_posture("StandZero")->position;
   position[nao_model().find_motor("LShoulderPitch")] = 0.4;
+  robot_.sensors().target_position = position;
   std::vector<double> last = position;
   for (int i = 0; i < 1000; ++i) {
     const Output output = robot_.step(core_);
@@ -58,6 +59,32 @@ TEST_F(MotionCoreTest, TakesOverWithoutAJumpAndGoesToStandInit) {
   EXPECT_EQ(core_.motion_state().mode, Mode::kHolding);
   EXPECT_EQ(core_.motion_state().posture, "StandInit");
   EXPECT_EQ(last, nao_model().find_posture("StandInit")->position);
+}
+
+TEST_F(MotionCoreTest, GoesOnFromWhatTheServosHoldHoweverFarTheJointsAre) {
+  // An arm caught below the body, on motors of a third of their torque, as after a fall.
+  const int elbow = nao_model().find_motor("LElbowRoll");
+  robot_.sensors().target_position[elbow] = -1.5;
+  robot_.sensors().position[elbow] = -0.2;
+  robot_.sensors().stiffness.assign(nao_model().num_motors(), 0.3);
+  const Output output = robot_.step(core_);
+  EXPECT_EQ(output.joint_targets->position, robot_.sensors().target_position);
+  EXPECT_EQ(output.joint_targets->stiffness.at(elbow), 0.3);
+  robot_.settle(core_);
+  EXPECT_EQ(core_.motion_state().posture, "StandInit");
+  EXPECT_EQ(core_.motion_state().stiffness, 1);
+}
+
+TEST_F(MotionCoreTest, ALimpRobotStaysLimpUntilSomebodyWakesIt) {
+  robot_ = PerfectRobot("Crouch");
+  robot_.sensors().stiffness.assign(nao_model().num_motors(), 0.0);
+  for (int i = 0; i < 100; ++i) robot_.step(core_);
+  EXPECT_EQ(core_.motion_state().mode, Mode::kRelaxed);
+  EXPECT_EQ(core_.motion_state().stiffness, 0);
+  robot_.step(core_, {{"test", 1, ActionCommand{"wake-up", kNan, kNan, kNan}}});
+  robot_.settle(core_);
+  EXPECT_EQ(core_.motion_state().posture, "StandInit");
+  EXPECT_EQ(core_.motion_state().stiffness, 1);
 }
 
 TEST_F(MotionCoreTest, KeepsAKnownPostureWhenItTakesOver) {
@@ -199,10 +226,12 @@ TEST_F(MotionCoreTest, SilentSensorsMeanNoRobot) {
   EXPECT_EQ(results[0].status, ResultStatus::kFailed);
   silent.commands = {posture(2, "Stand")};
   EXPECT_EQ(core_.step(silent, 0.05).results.at(0).status, ResultStatus::kRefused);
-  // Back, with the joints elsewhere: the targets start there.
-  robot_.sensors().position[nao_model().find_motor("HeadYaw")] = 1.0;
+  // Back, with the joints elsewhere: the targets start at what their servos hold.
+  const int head = nao_model().find_motor("HeadYaw");
+  robot_.sensors().position[head] = 1.0;
+  robot_.sensors().target_position[head] = 1.1;
   const Output output = robot_.step(core_);
-  EXPECT_NEAR(output.joint_targets->position[nao_model().find_motor("HeadYaw")], 1.0, 1e-9);
+  EXPECT_NEAR(output.joint_targets->position[head], 1.1, 1e-9);
   robot_.settle(core_);
   EXPECT_EQ(core_.motion_state().posture, "StandInit");
 }

@@ -17,6 +17,8 @@ class PerfectRobot {
     sensors_.position = nao_model().find_posture(posture)->position;
     sensors_.velocity.assign(nao_model().num_motors(), 0.0);
     sensors_.torque.assign(nao_model().num_motors(), 0.0);
+    sensors_.target_position = sensors_.position;
+    sensors_.stiffness.assign(nao_model().num_motors(), 1.0);
     sensors_.foot_force.assign(nao_model().foot_sensors().size(), 6.5);
   }
 
@@ -41,6 +43,8 @@ class PerfectRobot {
       sensors_.velocity[i] = (position - sensors_.position[i]) / kTick;
       sensors_.position[i] = position;
     }
+    sensors_.target_position = output.joint_targets->position;
+    sensors_.stiffness = output.joint_targets->stiffness;
     return output;
   }
 

@@ -18,6 +18,8 @@ inline naolcm::sensor_state_t sensor_message(const std::string& posture, int64_t
     message.joint_position.push_back(position[motor]);
     message.joint_velocity.push_back(0);
     message.joint_torque.push_back(0);
+    message.joint_target_position.push_back(position[motor]);
+    message.joint_stiffness.push_back(1);
   }
   message.accelerometer_torso[2] = 9.81;
   message.orientation_torso_in_world[0] = 1;

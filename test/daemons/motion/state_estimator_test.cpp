@@ -51,6 +51,19 @@ TEST(StateEstimator, FollowsATurnAndLearnsTheBias) {
   EXPECT_NEAR(std::atan2(turned(1, 0), turned(0, 0)) - heading, 0.5, 5e-3);
 }
 
+TEST(StateEstimator, KnowsWhereUpIsWhenItStartsInAFall) {
+  // The accelerometer of a robot in the air shows next to nothing, and that in any direction.
+  StateEstimator estimator(nao_model(), 3);
+  Sensors sensors = standing("StandInit", 0);
+  sensors.accelerometer_torso = {0.1, 0.2, -0.1};
+  sensors.orientation_torso_in_world = Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ()) *
+                                       Eigen::AngleAxisd(1.2, Eigen::Vector3d::UnitY());
+  estimator.update(sensors, 0.01);
+  const Eigen::Matrix3d R = estimator.state().torso_in_odometry.linear();
+  EXPECT_NEAR(std::asin(-R(2, 0)), 1.2, 1e-6);
+  EXPECT_NEAR(std::atan2(R(1, 0), R(0, 0)), 0, 1e-6);
+}
+
 TEST(StateEstimator, CenterOfPressureFollowsTheLoadedCorner) {
   StateEstimator estimator(nao_model(), 3);
   Sensors sensors = standing("StandZero", 0);

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "nao-trial/lying_start.h"
+#include "physics_trial.h"
+
+namespace nao::trial {
+namespace {
+
+using motion::Mode;
+using motion::ResultStatus;
+
+TEST(GetUp, FromEverySideOnWhichItCanLie) {
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    Trial trial(trial_options(), static_cast<uint64_t>(quarter));
+    trial.run(0.5);
+    lay_down(trial, quarter * M_PI / 2);
+    const LyingStill lying = wait_until_still(trial);
+    EXPECT_TRUE(trial.run_until([&] { return has_got_up(trial); }, 30)) << lying.side;
+  }
+}
+
+TEST(GetUp, WithoutItTheRobotLiesUntilSomebodyTellsIt) {
+  TrialOptions options = trial_options();
+  options.motion.gets_up = false;
+  Trial trial(options, 1);
+  trial.run(1);
+  ASSERT_TRUE(knock_over(trial, 0.3));
+  trial.run(6);
+  EXPECT_GT(trial.torso_tilt(), 1.0);
+  EXPECT_EQ(trial.core().motion_state().mode, Mode::kFallen);
+  EXPECT_EQ(trial.core().motion_state().num_tries, 0);
+  // A walk does not get it up either.
+  const auto refused = trial.await_end(trial.hold_walk({0.1, 0, 0}), 1);
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->status, ResultStatus::kRefused);
+  trial.release_walk(false);
+  const auto end = trial.await_end(trial.send_action("get-up"), 60);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+  EXPECT_TRUE(has_got_up(trial));
+}
+
+TEST(GetUp, AWalkFromASeatStandsUpFirst) {
+  for (const char* seat : {"Sit", "SitRelax"}) {
+    Trial trial(trial_options(), 2);
+    trial.run(1);
+    ASSERT_TRUE(trial.await_end(trial.send_posture(seat, 0.5), 60));
+    const int64_t id = trial.hold_walk({0, 0, 0.5});
+    const bool walks =
+        trial.run_until([&] { return trial.core().motion_state().mode == Mode::kWalking; }, 40);
+    EXPECT_TRUE(walks) << seat << ": " << trial.results().back().reason;
+    trial.run(3);
+    trial.release_walk();
+    const auto end = trial.await_end(id, 5);
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+    EXPECT_LT(trial.torso_tilt(), 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace nao::trial

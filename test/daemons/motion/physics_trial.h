@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "nao-trial/trial.h"
+
+namespace nao::trial {
+
+/** Options of a trial in an empty world with everything random drawn from its seed. */
+inline TrialOptions trial_options() {
+  const std::filesystem::path data = NAO_TEST_DATA;
+  static const auto model =
+      std::make_shared<const RobotModel>(RobotModel::load(data / "robots" / "nao"));
+  TrialOptions options;
+  options.model = model;
+  options.scene = SceneFile::load(data / "scenes" / "empty.yaml");
+  return options;
+}
+
+}  // namespace nao::trial

@@ -1,0 +1,100 @@
+// nao-motion killed at any moment and started again: the servos hold, and a new core takes over.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "nao-trial/lying_start.h"
+#include "physics_trial.h"
+
+namespace nao::trial {
+namespace {
+
+constexpr double kTick = 0.01;  // s
+
+/** Watches that no target jumps while the core dies, and for a second after it is back. */
+void kill_and_restart(Trial& trial, double dead_time) {
+  std::vector<double> last = trial.targets();
+  int num_jumps = 0;
+  std::string worst;
+  trial.on_tick([&] {
+    for (int motor = 0; motor < trial.model().num_motors(); ++motor) {
+      const Joint& joint = trial.model().motor_joint(motor);
+      const double change = std::abs(trial.targets()[motor] - last[motor]);
+      if (change <= joint.max_velocity * kTick * (1 + 1e-9)) continue;
+      ++num_jumps;
+      worst = joint.name + " by " + std::to_string(change) + " rad";
+    }
+    last = trial.targets();
+  });
+  trial.set_core_dead(true);
+  trial.run(dead_time);
+  trial.restart_core();
+  trial.set_core_dead(false);
+  trial.run(1);
+  trial.on_tick({});
+  EXPECT_EQ(num_jumps, 0) << worst;
+}
+
+bool is_at_ease(Trial& trial) {
+  return trial.core().motion_state().mode == motion::Mode::kHolding &&
+         !trial.core().motion_state().posture.empty();
+}
+
+TEST(Takeover, StandingItStandsOn) {
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    Trial trial(trial_options(), seed);
+    trial.run(1 + trial.random(0, 0.5));
+    kill_and_restart(trial, 0.5);
+    EXPECT_LT(trial.torso_tilt(), 0.2);
+    EXPECT_TRUE(trial.run_until([&] { return is_at_ease(trial); }, 5));
+  }
+}
+
+TEST(Takeover, AtAnyMomentOfAPostureChange) {
+  for (uint64_t seed = 1; seed <= 8; ++seed) {
+    Trial trial(trial_options(), seed);
+    trial.run(1);
+    trial.send_posture(seed % 2 == 0 ? "SitRelax" : "LyingBelly", 0.5);
+    trial.run(0.5 + 0.6 * static_cast<double>(seed));
+    kill_and_restart(trial, 0.3);
+    EXPECT_TRUE(trial.run_until([&] { return is_at_ease(trial); }, 60)) << seed;
+  }
+}
+
+TEST(Takeover, AtAnyMomentOfAWalk) {
+  for (uint64_t seed = 1; seed <= 6; ++seed) {
+    Trial trial(trial_options(), seed);
+    trial.run(1);
+    trial.hold_walk({0.15, 0, 0});
+    trial.run(3 + 0.11 * static_cast<double>(seed));
+    trial.release_walk(false);
+    kill_and_restart(trial, 0.3);
+    EXPECT_TRUE(trial.run_until([&] { return is_at_ease(trial); }, 60)) << seed;
+  }
+}
+
+TEST(Takeover, LyingWithPressedLimbsAndGettingUp) {
+  for (uint64_t seed = 1; seed <= 6; ++seed) {
+    Trial trial(trial_options(), seed);
+    trial.run(1);
+    ASSERT_TRUE(knock_over(trial, static_cast<double>(seed)));
+    // From the middle of the fall to the middle of getting up.
+    trial.run(0.8 * static_cast<double>(seed - 1));
+    kill_and_restart(trial, 0.3);
+    EXPECT_TRUE(trial.run_until([&] { return has_got_up(trial); }, 60)) << seed;
+  }
+}
+
+TEST(Takeover, RestingItRestsOn) {
+  Trial trial(trial_options(), 1);
+  trial.run(1);
+  ASSERT_TRUE(trial.await_end(trial.send_action("rest"), 20));
+  kill_and_restart(trial, 0.5);
+  EXPECT_EQ(trial.core().motion_state().mode, motion::Mode::kRelaxed);
+  EXPECT_EQ(trial.core().motion_state().stiffness, 0);
+}
+
+}  // namespace
+}  // namespace nao::trial

@@ -1,0 +1,63 @@
+#include "nao-trial/lying_start.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nao::trial {
+namespace {
+
+constexpr double kTick = 0.01;          // s
+constexpr double kStillVelocity = 0.1;  // rad/s
+constexpr int kNumStill = 10;           // ticks
+constexpr double kLongestWait = 3;      // s
+
+}  // namespace
+
+bool knock_over(Trial& trial, double direction) {
+  const double impulse = trial.random(4, 6);
+  trial.world().push(0, 0, {impulse * std::cos(direction), impulse * std::sin(direction), 0});
+  return trial.run_until([&] { return trial.torso_tilt() > 1.0; }, 5);
+}
+
+void lay_down(Trial& trial, double side) {
+  Posture posture = *trial.model().find_posture("StandInit");
+  for (int motor = 0; motor < trial.model().num_motors(); ++motor) {
+    const Joint& joint = trial.model().motor_joint(motor);
+    const double wished = posture.position[motor] + trial.random(-0.5, 0.5);
+    posture.position[motor] = std::min(std::max(wished, joint.lower), joint.upper);
+  }
+  const Eigen::Quaterniond orientation = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()) *
+                                         Eigen::AngleAxisd(side, Eigen::Vector3d::UnitZ());
+  trial.world().place_robot(0, &posture, {0, 0, 0.01}, &orientation);
+  trial.restart_core();
+}
+
+LyingStill wait_until_still(Trial& trial) {
+  Eigen::Vector3d up = trial.torso_in_world().linear().row(2);
+  int num_still = -1;  // the first look compares with itself
+  trial.run_until(
+      [&] {
+        const Eigen::Vector3d now = trial.torso_in_world().linear().row(2);
+        const bool is_still = (now - up).norm() / kTick < kStillVelocity;
+        up = now;
+        num_still = is_still ? num_still + 1 : 0;
+        const bool gets_up = trial.core().motion_state().mode == motion::Mode::kGettingUp;
+        return gets_up || num_still >= kNumStill;
+      },
+      kLongestWait);
+  LyingStill lying;
+  lying.since = trial.time() - std::max(0, num_still) * kTick;
+  if (std::abs(up.x()) > std::abs(up.y())) {
+    lying.side = up.x() < 0 ? "belly" : "back";
+  } else {
+    lying.side = up.y() < 0 ? "left" : "right";
+  }
+  return lying;
+}
+
+bool has_got_up(Trial& trial) {
+  return trial.core().motion_state().posture == "StandInit" && trial.torso_tilt() < 0.3 &&
+         trial.torso_height() > 0.29;
+}
+
+}  // namespace nao::trial
