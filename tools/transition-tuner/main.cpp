@@ -1,0 +1,198 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/data_path.h"
+#include "common/error.h"
+#include "common/program.h"
+#include "transition-tuner/get_up_course.h"
+#include "transition-tuner/transition_text.h"
+#include "walk-tuner/cma_es.h"
+
+namespace nao {
+namespace {
+
+struct TunerOptions {
+  std::string model = "nao";
+  std::string file;
+  std::string output = "transitions.yaml";
+  std::vector<std::string> sequences;
+  std::vector<std::string> fixed = {"HeadYaw", "WristYaw", "Hand"};
+  std::vector<int> keyframes = {0, 1000};
+  std::string start = "any";
+  int generations = 60;
+  int population = 16;
+  int trials = 12;
+  int jobs = 1;
+  double sigma = 0.04;
+  uint64_t seed = 1;
+  bool is_check = false;
+};
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::stringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw Error("cannot read " + file.string());
+  return text.str();
+}
+
+/** Every text in every trial, on several cores; the answer does not depend on how many. */
+std::vector<std::vector<GetUpResult>> judge(const RobotModel& model, const GetUpCourse& course,
+                                            const std::vector<std::string>& texts,
+                                            const TunerOptions& options, uint64_t first_seed) {
+  const auto num_trials = static_cast<size_t>(options.trials);
+  std::vector<std::vector<GetUpResult>> results(texts.size(), std::vector<GetUpResult>(num_trials));
+  std::atomic<size_t> next = 0;
+  const auto work = [&] {
+    for (size_t i = next++; i < texts.size() * num_trials; i = next++) {
+      const auto graph = motion::TransitionGraph::parse(model, texts[i / num_trials]);
+      results[i / num_trials][i % num_trials] = course.run(graph, first_seed + i % num_trials);
+    }
+  };
+  std::vector<std::jthread> helpers;  // each with simulators of its own; they share `next` alone
+  for (int i = 1; i < options.jobs; ++i) helpers.emplace_back(work);
+  work();
+  helpers.clear();
+  return results;
+}
+
+struct Verdict {
+  double cost = 0;
+  int num_up = 0;
+  /** Mean of those that got up, s. */
+  double time = 0;
+};
+
+Verdict sum_up(const std::vector<GetUpResult>& results) {
+  Verdict verdict;
+  for (const GetUpResult& result : results) {
+    verdict.cost += result.cost / static_cast<double>(results.size());
+    verdict.num_up += result.is_up ? 1 : 0;
+    verdict.time += result.is_up ? result.time : 0;
+  }
+  verdict.time /= std::max(1, verdict.num_up);
+  return verdict;
+}
+
+void check(const RobotModel& model, const GetUpCourse& course, const std::string& text,
+           const TunerOptions& options) {
+  const auto results = judge(model, course, {text}, options, 1000000).front();
+  const Verdict verdict = sum_up(results);
+  std::printf("cost %.3f, %d of %d up at the first try, %.2f s\n", verdict.cost, verdict.num_up,
+              options.trials, verdict.time);
+}
+
+void tune(const TunerOptions& options) {
+  const std::filesystem::path folder = data_path() / "robots" / options.model;
+  const auto model = std::make_shared<const RobotModel>(RobotModel::load(folder));
+  const std::string text = read_text(options.file.empty() ? folder / "transitions.yaml"
+                                                          : std::filesystem::path(options.file));
+  const GetUpCourse course(model, SceneFile::find("empty"), parse_start(options.start));
+  if (options.is_check) return check(*model, course, text, options);
+
+  const TransitionText space(*model, text, options.sequences, options.fixed);
+  // Of all numbers, those of the chosen keyframes are searched for.
+  Eigen::VectorXd values(space.parameters().size());
+  std::vector<long> chosen;
+  for (long i = 0; i < values.size(); ++i) {
+    const auto& parameter = space.parameters()[static_cast<size_t>(i)];
+    values[i] = parameter.value;
+    const bool is_chosen =
+        parameter.keyframe >= options.keyframes[0] && parameter.keyframe <= options.keyframes[1];
+    if (is_chosen) chosen.push_back(i);
+  }
+  if (chosen.size() < 2) throw ConfigError("--sequence must name a transition with two numbers");
+  const auto text_of = [&](const Eigen::VectorXd& point) {
+    values(chosen) = point;
+    return space.with(values);
+  };
+  const auto outside = [&](const Eigen::VectorXd& point) {
+    double sum = 0;
+    for (size_t k = 0; k < chosen.size(); ++k) {
+      const auto& parameter = space.parameters()[static_cast<size_t>(chosen[k])];
+      const double value = point[static_cast<long>(k)];
+      sum += std::pow(value - std::clamp(value, parameter.lower, parameter.upper), 2);
+    }
+    return sum;
+  };
+  const Eigen::VectorXd start = values(chosen);
+  CmaEs search(start, options.sigma, options.population, options.seed);
+  for (int generation = 1; generation <= options.generations; ++generation) {
+    const std::vector<Eigen::VectorXd> candidates = search.ask();
+    std::vector<std::string> texts;
+    for (const Eigen::VectorXd& candidate : candidates) texts.push_back(text_of(candidate));
+    const uint64_t first_seed = options.seed * 100000 + static_cast<uint64_t>(generation) *
+                                                            static_cast<uint64_t>(options.trials);
+    const auto results = judge(*model, course, texts, options, first_seed);
+    std::vector<double> costs;
+    Verdict mean;
+    for (size_t i = 0; i < results.size(); ++i) {
+      const Verdict verdict = sum_up(results[i]);
+      costs.push_back(verdict.cost + 10 * outside(candidates[i]));
+      mean.cost += verdict.cost / static_cast<double>(results.size());
+      mean.num_up += verdict.num_up;
+      mean.time += verdict.time / static_cast<double>(results.size());
+    }
+    search.tell(costs);
+    std::printf("generation %d: cost %.3f mean, %.3f best; %d of %zu up, %.2f s; spread %.4f\n",
+                generation, mean.cost, *std::min_element(costs.begin(), costs.end()), mean.num_up,
+                results.size() * static_cast<size_t>(options.trials), mean.time, search.sigma());
+    std::fflush(stdout);
+    std::ofstream output(options.output);
+    output << text_of(search.mean());
+    if (!output) throw Error("cannot write " + options.output);
+  }
+}
+
+}  // namespace
+}  // namespace nao
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Tunes ways up from the floor: a seeded search over durations and angles of their keyframes, "
+      "judged by getting up in physics with noise, latency and friction drawn by chance. Writes "
+      "the "
+      "file of transitions anew after every generation; the same seed gives the same search.",
+      "nao-transition-tuner");
+  nao::CommonOptions common;
+  nao::add_common_options(app, common);
+  nao::TunerOptions options;
+  app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
+      ->capture_default_str();
+  app.add_option("--transitions", options.file, "File to start from (default: the robot's)");
+  app.add_option("--output", options.output, "Where the tuned transitions go")
+      ->capture_default_str();
+  app.add_option("--sequence", options.sequences, "Transitions to tune, by name");
+  app.add_option("--keyframes", options.keyframes, "First and last keyframe to tune, from 0")
+      ->expected(2);
+  app.add_option("--fixed", options.fixed, "Joints, without side, whose angles stay")
+      ->capture_default_str();
+  app.add_option("--start", options.start, "How it lies: any, belly, back, left or right")
+      ->capture_default_str();
+  app.add_option("--generations", options.generations, "Generations of the search")
+      ->capture_default_str();
+  app.add_option("--population", options.population, "Candidates in a generation")
+      ->check(CLI::Range(4, 1000))
+      ->capture_default_str();
+  app.add_option("--trials", options.trials, "Times that each candidate gets up")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--jobs", options.jobs, "Threads")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  app.add_option("--sigma", options.sigma, "First spread, rad and s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "Of the search and of all trials")->capture_default_str();
+  app.add_flag("--check", options.is_check, "Only judge the file, by --trials trials");
+  return nao::run_program(app, common, argc, argv, [&] { nao::tune(options); });
+}
