@@ -179,11 +179,17 @@ class Stack {
     }
     poll(polled.data(), polled.size(), std::max(0, static_cast<int>(timeout * 1e3)));
     if (polled[0].revents != 0) bus_.handle();
+    // First all that has come, then what it says: no phone waits until another has decoded.
+    std::vector<double> times(polled.size());
     for (size_t i = 1; i < polled.size(); ++i) {
       if (polled[i].revents == 0) continue;
-      const double now = monotonic_seconds();
-      for (const auto& message : clients_[i - 1].client->receive()) {
-        clients_[i - 1].handler(message, now);
+      clients_[i - 1].client->read();
+      times[i] = monotonic_seconds();
+    }
+    for (size_t i = 1; i < polled.size(); ++i) {
+      if (polled[i].revents == 0) continue;
+      for (const auto& message : clients_[i - 1].client->take_messages()) {
+        clients_[i - 1].handler(message, times[i]);
       }
     }
   }

@@ -120,13 +120,16 @@ void WireClient::wait_for_bytes() {
   bytes_.append(part.data(), static_cast<size_t>(size));
 }
 
-std::vector<naoremote::ServerMessage> WireClient::receive() {
+void WireClient::read() {
   std::array<char, 65536> part;
   const ssize_t size = recv(descriptor_, part.data(), part.size(), MSG_DONTWAIT);
   if (size == 0 || (size < 0 && errno != EAGAIN)) {
     throw std::runtime_error("the gateway closed the connection");
   }
   if (size > 0) bytes_.append(part.data(), static_cast<size_t>(size));
+}
+
+std::vector<naoremote::ServerMessage> WireClient::take_messages() {
   std::vector<naoremote::ServerMessage> messages;
   for (std::string bytes; take_message(bytes);) {
     messages.emplace_back();

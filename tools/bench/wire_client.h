@@ -19,7 +19,9 @@ class WireClient {
 
   /** Reads what has come, without waiting. @throws std::runtime_error  if the connection is gone.
    */
-  std::vector<naoremote::ServerMessage> receive();
+  void read();
+  /** The messages in what was read. @throws std::runtime_error  if one is none. */
+  std::vector<naoremote::ServerMessage> take_messages();
 
   int descriptor() const { return descriptor_; }
 
