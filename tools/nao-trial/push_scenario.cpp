@@ -89,8 +89,8 @@ std::vector<RunResult> measure_all_directions(const ScenarioOptions& options, ui
   return {result};
 }
 
-constexpr double kPlotScale = 100;   // pixels per N s
-constexpr double kPlotCenter = 330;  // pixels
+constexpr double kPlotScale = 90;    // pixels per N s
+constexpr double kPlotCenter = 340;  // pixels
 
 /** Ahead is up, left is left. */
 std::string polygon(const std::vector<double>& impulses, const std::string& style) {

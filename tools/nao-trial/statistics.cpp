@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace nao::trial {
 namespace {
@@ -47,7 +48,9 @@ MetricStatistics calc_statistics(const std::string& name, std::vector<double> va
   const auto at_share = [&](double share) {
     return values[static_cast<size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
   };
-  return {at_share(0.5), at_share(0.95), values.back()};
+  const double mean =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  return {mean, at_share(0.5), at_share(0.95), values.back()};
 }
 
 std::string to_table(const Summary& summary) {
@@ -57,13 +60,14 @@ std::string to_table(const Summary& summary) {
                   num_runs, num_runs > 0 ? 100.0 * summary.num_successes() / num_runs : 0.0);
   const auto values = collect(summary);
   if (!values.empty()) {
-    table +=
-        fmt::format("  {:28} {:>10} {:>10} {:>10}  {}\n", "", "median", "p95", "worst", "unit");
+    table += fmt::format("  {:28} {:>10} {:>10} {:>10} {:>10}  {}\n", "", "mean", "median", "p95",
+                         "worst", "unit");
   }
   for (const auto& [name, list] : values) {
     const MetricStatistics statistics = calc_statistics(name, list);
-    table += fmt::format("  {:28} {:>10.4g} {:>10.4g} {:>10.4g}  {}\n", name, statistics.median,
-                         statistics.p95, statistics.worst, unit_of(summary, name));
+    table +=
+        fmt::format("  {:28} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g}  {}\n", name, statistics.mean,
+                    statistics.median, statistics.p95, statistics.worst, unit_of(summary, name));
   }
   std::map<std::string, std::vector<uint64_t>> failures;
   for (size_t i = 0; i < summary.runs.size(); ++i) {
@@ -87,9 +91,10 @@ std::string to_json(const Summary& summary) {
   for (const auto& [name, list] : collect(summary)) {
     const MetricStatistics statistics = calc_statistics(name, list);
     metrics += fmt::format(
-        "{}\"{}\": {{\"median\": {}, \"p95\": {}, \"worst\": {}, \"unit\": \"{}\"}}",
-        metrics.empty() ? "" : ", ", name, json_number(statistics.median),
-        json_number(statistics.p95), json_number(statistics.worst), unit_of(summary, name));
+        "{}\"{}\": {{\"mean\": {}, \"median\": {}, \"p95\": {}, \"worst\": {}, \"unit\": \"{}\"}}",
+        metrics.empty() ? "" : ", ", name, json_number(statistics.mean),
+        json_number(statistics.median), json_number(statistics.p95), json_number(statistics.worst),
+        unit_of(summary, name));
   }
   return fmt::format(
       "{{\"scenario\": \"{}\", \"runs\": {}, \"successes\": {}, \"rate\": {}, \"metrics\": "

@@ -20,10 +20,12 @@ struct Summary {
   int num_successes() const;
 };
 
-/** Median, 95th percentile and worst of some values. "Worst" is the greatest, for names that tell
- * of something wished for (ending in "_mps", "_Ns" or "_m", or a warning) the least; p95 likewise.
+/** Mean, median, 95th percentile and worst of some values. "Worst" is the greatest, for names that
+ * tell of something wished for (ending in "_mps", "_Ns" or "_m", or a warning) the least; p95
+ * likewise.
  */
 struct MetricStatistics {
+  double mean = 0;
   double median = 0;
   double p95 = 0;
   double worst = 0;

@@ -19,7 +19,11 @@ constexpr double kLongestRest = 0.6;
 // Torso that lies still, and one that goes on from one transition to the next as planned, turn more
 // slowly than this, rad/s.
 constexpr double kStill = 0.3;
-constexpr double kSlow = 1.5;
+constexpr double kSlow = 4;
+// Feet that stand too far apart to turn under their load are brought together by this transition,
+// so many times.
+constexpr const char* kFeetTogether = "feet-together";
+constexpr int kMaxFeetTogether = 3;
 // Joints this near to a posture go straight to it, rad.
 constexpr double kNear = 0.3;
 
@@ -83,6 +87,9 @@ MotionGenerator::Phase JourneyMotion::step(const MotionContext& context, JointTa
       return step_transition(context, targets);
     case Leg::kDirect: {
       const Phase phase = direct_->step(context, targets);
+      if (phase == Phase::kFailed && brings_feet_together(context, targets)) {
+        return Phase::kRunning;
+      }
       if (phase == Phase::kFailed) remark_ = direct_->remark();
       if (phase != Phase::kDone) return phase;
       if (find_body_state(context.model, context.state, context.options.lying_tilt) ==
@@ -148,6 +155,21 @@ MotionGenerator::Phase JourneyMotion::choose_leg(const MotionContext& context,
   const int num_failed = is_from_lying_ ? num_tries_ - 1 : 0;
   play(context, graph_->find_alternative(*way.front(), num_failed), targets);
   return Phase::kRunning;
+}
+
+bool JourneyMotion::brings_feet_together(const MotionContext& context,
+                                         const JointTargets& targets) {
+  const KeyframeSequence* sequence = graph_->find(kFeetTogether);
+  const std::string state =
+      find_body_state(context.model, context.state, context.options.lying_tilt);
+  const bool can = sequence != nullptr && state == sequence->from && state == state_of(*goal_);
+  if (!can || num_feet_together_ >= kMaxFeetTogether) return false;
+  ++num_feet_together_;
+  time_ = 0;
+  stands_ = false;
+  is_from_lying_ = false;
+  play(context, *sequence, targets);
+  return true;
 }
 
 MotionGenerator::Phase JourneyMotion::step_transition(const MotionContext& context,

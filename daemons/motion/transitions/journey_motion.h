@@ -38,6 +38,8 @@ class JourneyMotion : public MotionGenerator {
             const JointTargets& targets);
   /** Whether the body must come to rest before it moves on from a state. */
   bool must_rest(const MotionContext& context, const std::string& state) const;
+  /** Begins to, if that may free legs that did not reach a posture. */
+  bool brings_feet_together(const MotionContext& context, const JointTargets& targets);
   Phase step_transition(const MotionContext& context, JointTargets& targets);
 
   const TransitionGraph* graph_;
@@ -53,6 +55,7 @@ class JourneyMotion : public MotionGenerator {
   int stage_ = 0;
   std::optional<PostureMotion> direct_;
   int num_legs_ = 0;
+  int num_feet_together_ = 0;
   /** Tries to get up: a roll and what follows it are one. */
   int num_tries_ = 0;
   bool is_from_lying_ = false;

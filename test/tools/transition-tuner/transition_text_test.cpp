@@ -1,0 +1,71 @@
+#include "transition-tuner/transition_text.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "common/error.h"
+#include "motion/transitions/transition_graph.h"
+
+namespace nao {
+namespace {
+
+const RobotModel& nao_model() {
+  static const RobotModel model =
+      RobotModel::load(std::filesystem::path(NAO_TEST_DATA) / "robots" / "nao");
+  return model;
+}
+
+const std::string kText =
+    "transitions:\n"
+    "  # About rising.\n"
+    "  - name: rise\n"
+    "    from: belly\n"
+    "    to: on-feet\n"
+    "    keyframes:\n"
+    "      - duration: 0.3  # s\n"
+    "        joints: {HeadYaw: 0, KneePitch: 2.1, LHipRoll: -0.2}\n"
+    "        stiffness: {KneePitch: 0.3}\n"
+    "        pause: 0.1\n"
+    "      - duration: 0.2\n"
+    "        posture: Crouch\n"
+    "        stiffness: {all: 1}\n"
+    "  - name: fall\n"
+    "    from: on-feet\n"
+    "    to: belly\n"
+    "    keyframes:\n"
+    "      - duration: 0.7\n"
+    "        joints: {KneePitch: 1.0}\n";
+
+TEST(TransitionText, FindsTheNumbersOfTheSequencesThatItIsToldTo) {
+  const TransitionText text(nao_model(), kText, {"rise"}, {"HeadYaw"});
+  std::vector<std::string> names;
+  for (const auto& parameter : text.parameters()) names.push_back(parameter.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"rise 0 duration", "rise 0 KneePitch",
+                                             "rise 0 LHipRoll", "rise 0 stiffness KneePitch",
+                                             "rise 0 pause", "rise 1 duration"}));
+  EXPECT_EQ(text.parameters()[1].value, 2.1);
+}
+
+TEST(TransitionText, ChangesNumbersAndNothingElseWithinTheirRanges) {
+  const TransitionText text(nao_model(), kText, {"rise"}, {"HeadYaw"});
+  Eigen::VectorXd values(6);
+  values << 0.25, 9, -0.1234, 0.05, 0, 0.4;
+  const std::string changed = text.with(values);
+  EXPECT_NE(changed.find("duration: 0.250  # s\n"), std::string::npos) << changed;
+  EXPECT_NE(changed.find("{HeadYaw: 0, KneePitch: 2.112, LHipRoll: -0.123}"), std::string::npos);
+  EXPECT_NE(changed.find("stiffness: {KneePitch: 0.100}"), std::string::npos);
+  EXPECT_NE(changed.find("joints: {KneePitch: 1.0}\n"), std::string::npos);
+  // What was written is a graph that loads: no angle is beyond its joint's limit by rounding.
+  EXPECT_NO_THROW(motion::TransitionGraph::parse(nao_model(), changed));
+}
+
+TEST(TransitionText, SaysWhichSequenceOrJointIsMissing) {
+  EXPECT_THROW(TransitionText(nao_model(), kText, {"fly"}, {}), Error);
+  std::string tail = kText;
+  tail.replace(tail.find("LHipRoll"), 8, "Tail");
+  EXPECT_THROW(TransitionText(nao_model(), tail, {"rise"}, {}), Error);
+}
+
+}  // namespace
+}  // namespace nao
