@@ -6,6 +6,11 @@
 
 namespace nao::sim {
 
+/** Mechanical stops of a joint, N m/rad and N m s/rad: 5 N m bend them by a third of a degree.
+ * Assumed. */
+inline constexpr double kStopStiffness = 1000;
+inline constexpr double kStopDamping = 5;
+
 /** A motor with gear and position servo, at the joint.
  *
  * The servo asks for u = gain * (target - angle) - damping * speed, which the motor driver clips

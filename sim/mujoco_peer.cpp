@@ -75,8 +75,9 @@ void write_body(std::ostream& out, const SimRobot& robot, int index, const PeerO
     if (part.body != index) continue;
     const bool has_sole =
         part.first_point < part.end_point && shapes.points[part.first_point].sole >= 0;
-    // With points for its sole, the foot itself meets other parts only.
-    const bool is_off_floor = has_sole && options.feet == PeerFeet::kPoints;
+    // With points on the floor, the shape itself meets other parts only.
+    const bool is_off_floor =
+        options.feet == PeerFeet::kPoints && (has_sole || options.laws == PeerLaws::kOurs);
     const Vector3d& half = part.half;
     out << "<geom contype=\"1\" conaffinity=\"" << (is_off_floor ? 1 : 3) << "\" pos=\""
         << numbers(part.center_in_body) << "\" quat=\""
@@ -154,8 +155,8 @@ std::string to_mjcf(const SimRobot& robot, const WorldOptions& world, const Peer
   return out.str();
 }
 
-MujocoPeer::MujocoPeer(const SimRobot& robot, const WorldOptions& world,
-                       const PeerOptions& options) {
+MujocoPeer::MujocoPeer(const SimRobot& robot, const WorldOptions& world, const PeerOptions& options)
+    : has_our_laws_(options.laws == PeerLaws::kOurs) {
   const std::string text = to_mjcf(robot, world, options);
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
@@ -165,7 +166,7 @@ MujocoPeer::MujocoPeer(const SimRobot& robot, const WorldOptions& world,
   model_ = mj_loadXML("robot.xml", files.get(), error.data(), error.size());
   mj_deleteVFS(files.get());
   if (model_ == nullptr) throw Error(std::string("MuJoCo: ") + error.data());
-  if (options.laws == PeerLaws::kOurs) take_our_laws(robot, world);
+  if (has_our_laws_) take_our_laws(world);
   data_ = mj_makeData(model_);
 
   const Tree& tree = robot.tree();
@@ -175,7 +176,10 @@ MujocoPeer::MujocoPeer(const SimRobot& robot, const WorldOptions& world,
   for (int i = 1; i < tree.num_bodies(); ++i) {
     joint_of_body_[i] = mj_name2id(model_, mjOBJ_JOINT, joint_name(i).c_str());
     const int motor = motor_of_body(robot, i);
-    if (motor >= 0 && !options.is_limp) actuator_of_motor_[motor] = actuator++;
+    if (motor < 0 || options.is_limp) continue;
+    actuator_of_motor_[motor] = actuator++;
+    const Motor& drive = robot.model().motor(motor);
+    back_emf_.push_back(drive.peak_torque / drive.no_load_velocity);
   }
   set_state(tree, robot.state());
   set_targets(robot.motor_position());
@@ -186,7 +190,7 @@ MujocoPeer::~MujocoPeer() {
   mj_deleteModel(model_);
 }
 
-void MujocoPeer::take_our_laws(const SimRobot& robot, const WorldOptions& world) {
+void MujocoPeer::take_our_laws(const WorldOptions& world) {
   // MuJoCo's contact force f and acceleration a obey a + R f = -b v - k r with R = (1 - d) / d * A,
   // A the body's mean inverse inertia, d the impedance, and k, b those of solref over d (direct
   // format; MuJoCo's documentation, Computation, Solver parameters). For a small d the term a means
@@ -199,30 +203,38 @@ void MujocoPeer::take_our_laws(const SimRobot& robot, const WorldOptions& world)
   const auto set_impedance = [](mjtNum* solimp, double impedance) {
     solimp[0] = solimp[1] = impedance;
   };
-  const CollisionModel& shapes = robot.collisions();
-  const bool has_soles = std::any_of(shapes.points.begin(), shapes.points.end(),
-                                     [](const CollisionModel::Point& p) { return p.sole >= 0; });
-  for (int geom = 0; has_soles && geom < model_->ngeom; ++geom) {
+  const auto set_reference = [](mjtNum* solref, double stiffness, double damping) {
+    solref[0] = -stiffness;
+    solref[1] = -damping;
+  };
+  for (int geom = 0; geom < model_->ngeom; ++geom) {
     if (model_->geom_contype[geom] != 0) continue;
     const double inverse_mass = model_->body_invweight0[2 * model_->geom_bodyid[geom]];
     const double scale = (1 - kImpedance) * inverse_mass;
     model_->geom_priority[geom] = 1;
-    model_->geom_solref[mjNREF * geom] = -scale * world.materials.contact_stiffness;
-    model_->geom_solref[mjNREF * geom + 1] = -scale * world.materials.contact_damping;
+    set_reference(&model_->geom_solref[mjNREF * geom], scale * world.materials.contact_stiffness,
+                  scale * world.materials.contact_damping);
     set_impedance(&model_->geom_solimp[mjNIMP * geom], kImpedance);
   }
-  const double soonest = 4 * world.step;
+  // Dry friction and the coupling of the hips are rigid: a velocity that is gone after one step
+  // (b = 1 / h), a gap that halves with each (k = 1 / 2 h^2).
+  const double h = world.step;
   for (int dof = 0; dof < model_->nv; ++dof) {
-    model_->dof_solref[mjNREF * dof] = soonest;
+    set_reference(&model_->dof_solref[mjNREF * dof], kRigid / (h * h) / 2, kRigid / h);
     set_impedance(&model_->dof_solimp[mjNIMP * dof], kRigid);
   }
-  for (int joint = 0; joint < model_->njnt; ++joint) {
-    model_->jnt_solref[mjNREF * joint] = soonest;
-    set_impedance(&model_->jnt_solimp[mjNIMP * joint], kRigid);
-  }
   for (int i = 0; i < model_->neq; ++i) {
-    model_->eq_solref[mjNREF * i] = soonest;
+    set_reference(&model_->eq_solref[mjNREF * i], kRigid / (h * h) / 2, kRigid / h);
     set_impedance(&model_->eq_solimp[mjNIMP * i], kRigid);
+    // A coupled joint has the stops of the one that it follows.
+    model_->jnt_limited[model_->eq_obj1id[i]] = 0;
+  }
+  for (int joint = 0; joint < model_->njnt; ++joint) {
+    if (!model_->jnt_limited[joint]) continue;
+    const double scale = (1 - kImpedance) * model_->dof_invweight0[model_->jnt_dofadr[joint]];
+    set_reference(&model_->jnt_solref[mjNREF * joint], scale * kStopStiffness,
+                  scale * kStopDamping);
+    set_impedance(&model_->jnt_solimp[mjNIMP * joint], kImpedance);
   }
 }
 
@@ -261,6 +273,26 @@ TreeState MujocoPeer::state(const Tree& tree) const {
     state.velocity[dof] = data_->qvel[model_->jnt_dofadr[joint]];
   }
   return state;
+}
+
+void MujocoPeer::limit_brakes() {
+  for (int i = 0; i < model_->nu; ++i) {
+    const int joint = model_->actuator_trnid[2 * i];
+    const int dof = model_->jnt_dofadr[joint];
+    const double speed = data_->qvel[dof];
+    const double gain = model_->actuator_gainprm[mjNGAIN * i];
+    const double damping = -model_->actuator_biasprm[mjNBIAS * i + 2];
+    const double limit = model_->actuator_forcerange[2 * i + 1];
+    const double error = data_->ctrl[i] - data_->qpos[model_->jnt_qposadr[joint]];
+    const double driven = std::clamp(gain * error - damping * speed, -limit, limit);
+    const double torque = driven - back_emf_[i] * speed;
+    data_->qfrc_applied[dof] = std::clamp(torque, -limit, limit) - torque;
+  }
+}
+
+void MujocoPeer::step() {
+  if (has_our_laws_) limit_brakes();
+  mj_step(model_, data_);
 }
 
 void MujocoPeer::set_targets(const Eigen::VectorXd& position) {

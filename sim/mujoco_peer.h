@@ -24,10 +24,11 @@ enum class PeerFeet {
 enum class PeerLaws {
   /** MuJoCo's defaults, which suit its step of 2 ms; contacts in a pyramidal cone. */
   kMujoco,
-  /** Our physics': the same spring and damper at each point of the soles, a round cone, dry
-   * friction and coupling as good as rigid. For steps of 0.1 ms and less, MuJoCo takes springs
-   * explicitly. What is left: sticking soles creep against a damper there, and hang on a spring
-   * here. */
+  /** Our physics': the floor meets the same points with the same springs and dampers, in a round
+   * cone; the same joint stops and torque of a braking motor; dry friction and the coupling of the
+   * hips rigid. For steps of 0.1 ms and less, MuJoCo takes springs explicitly. What is left: what
+   * sticks on the floor creeps against a damper there, and hangs on a spring here; parts that meet
+   * each other have sharp edges there. */
   kOurs,
 };
 
@@ -61,15 +62,21 @@ class MujocoPeer {
   /** Targets of all servos, motor order. */
   void set_targets(const Eigen::VectorXd& position);
   /** One time step. */
-  void step() { mj_step(model_, data_); }
+  void step();
 
  private:
-  void take_our_laws(const SimRobot& robot, const WorldOptions& world);
+  void take_our_laws(const WorldOptions& world);
 
+  /** Takes off what back-EMF adds to a braking motor's greatest torque. */
+  void limit_brakes();
+
+  bool has_our_laws_;
   mjModel* model_ = nullptr;
   mjData* data_ = nullptr;
   std::vector<int> joint_of_body_;
   std::vector<int> actuator_of_motor_;
+  /** Of each actuator, N m s/rad. */
+  std::vector<double> back_emf_;
 };
 
 }  // namespace nao::sim

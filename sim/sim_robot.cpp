@@ -15,9 +15,6 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/** Mechanical stops, N m/rad and N m s/rad: 5 N m bend them by a third of a degree. Assumed. */
-constexpr double kStopStiffness = 1000;
-constexpr double kStopDamping = 5;
 /** A motor that uses this share of its torque gets a bound in the solver beforehand. */
 constexpr double kBoundShare = 0.8;
 /** Share of the limit by which a motor may exceed it before a step is solved anew. */
@@ -239,18 +236,20 @@ void SimRobot::begin_tick() {
 void SimRobot::begin_step(double h, Eigen::Ref<Eigen::VectorXd> z) {
   dynamics_.update_mass_matrix();
   dynamics_.calc_bias(gravity_, bias_);
-  dynamics_.multiply_by_mass(state_.velocity, momentum_);
-  momentum_ += external_impulse_ - h * bias_;
-  if (options_.is_on_stand) {
-    momentum_.head<6>().setZero();
-  } else {
-    // The root's rows are the whole robot's momentum, which only gravity changes: Coriolis forces
-    // are in end_step()'s taking it over to the new configuration.
+  work_ = state_.velocity;
+  if (!options_.is_on_stand) {
+    // What Coriolis forces do to the root's own motion is in end_step()'s taking the momentum over
+    // to the new configuration, so it is taken back here; what they do to the joints stays.
     const Vector3d weight = tree_.total_mass() * gravity_;
-    const Vector3d arm = dynamics_.center_of_mass() - dynamics_.origin();
-    momentum_.head<3>() += h * (bias_.head<3>() + arm.cross(weight));
-    momentum_.segment<3>(3) += h * (bias_.segment<3>(3) + weight);
+    const Vector3d arm = dynamics_.center_of_mass_from_origin();
+    const SpatialVector back =
+        dynamics_.rigid_motion({bias_.head<3>() + arm.cross(weight), bias_.segment<3>(3) + weight});
+    work_.head<3>() += h * back.angular;
+    work_.segment<3>(3) += h * back.linear;
   }
+  dynamics_.multiply_by_mass(work_, momentum_);
+  momentum_ += external_impulse_ - h * bias_;
+  if (options_.is_on_stand) momentum_.head<6>().setZero();
   diagonal_.setZero();
   const MotorTargets& targets =
       delayed_targets_[static_cast<size_t>(num_ticks_) % delayed_targets_.size()];

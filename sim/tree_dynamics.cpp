@@ -30,6 +30,18 @@ double dot(const SpatialVector& motion, const SpatialVector& force) {
   return motion.angular.dot(force.angular) + motion.linear.dot(force.linear);
 }
 
+/** Motion of a rigid body that has a momentum, both about O. */
+SpatialVector motion_of(const SpatialInertia& body, const SpatialVector& momentum) {
+  const Vector3d center = body.moment / body.mass;
+  Matrix3d central = body.inertia;
+  central.diagonal().array() -= body.mass * center.squaredNorm();
+  central += body.moment * center.transpose();
+  SpatialVector motion;
+  motion.angular = central.inverse() * (momentum.angular - center.cross(momentum.linear));
+  motion.linear = momentum.linear / body.mass - motion.angular.cross(center);
+  return motion;
+}
+
 }  // namespace
 
 TreeDynamics::TreeDynamics(const Tree& tree, bool is_root_fixed)
@@ -309,19 +321,16 @@ SpatialVector TreeDynamics::momentum() const {
   return sum;
 }
 
+SpatialVector TreeDynamics::rigid_motion(const SpatialVector& momentum) const {
+  return motion_of(bodies_[0].composite, momentum);
+}
+
 SpatialVector TreeDynamics::set_momentum(const SpatialVector& wished, Eigen::VectorXd& velocity) {
   const SpatialVector present = momentum();
   SpatialInertia whole;
   for (const BodyState& now : bodies_) whole += now.inertia;
-  const Vector3d linear = wished.linear - present.linear;
-  const Vector3d center = whole.moment / whole.mass;
-  const Vector3d angular = wished.angular - present.angular - center.cross(linear);
-  Matrix3d central = whole.inertia;
-  central.diagonal().array() -= whole.mass * center.squaredNorm();
-  central += whole.moment * center.transpose();
-  SpatialVector change;
-  change.angular = central.inverse() * angular;
-  change.linear = linear / whole.mass - change.angular.cross(center);
+  const SpatialVector change =
+      motion_of(whole, {wished.angular - present.angular, wished.linear - present.linear});
   for (BodyState& now : bodies_) {
     now.velocity.angular += change.angular;
     now.velocity.linear += change.linear;

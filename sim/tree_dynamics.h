@@ -89,6 +89,9 @@ class TreeDynamics {
 
   /** Momentum of the whole tree about O. */
   SpatialVector momentum() const;
+  /** Motion of the tree as one rigid body, joints held, that has a momentum about O. After
+   * update_mass_matrix(). */
+  SpatialVector rigid_motion(const SpatialVector& momentum) const;
   /** Gives the root, and all that hangs on it, the additional motion that brings the whole tree's
    * momentum about O to a value; joints keep their speeds. Writes the root's new velocity. @return
    * The additional motion. */

@@ -154,6 +154,41 @@ TEST(FreeMotion, KeepsMomentumWhateverTheMotorsDo) {
   EXPECT_LT((dynamics.angular_momentum() - angular).norm(), 1e-2 * angular.norm());
 }
 
+/** Two rods on one axis that turns without friction, end or motor. */
+std::shared_ptr<const RobotModel> make_free_pair() {
+  return make_robot(R"(<robot name="pair"><link name="torso">
+    <inertial><origin xyz="0.1 0 0.2"/><mass value="1"/>
+      <inertia ixx="0.01" iyy="0.012" izz="0.004" ixy="0" ixz="0" iyz="0"/></inertial></link>
+    <joint name="Swing" type="revolute"><parent link="torso"/><child link="rod"/>
+      <axis xyz="0 1 0"/><limit lower="-1000" upper="1000" effort="3" velocity="6"/></joint>
+    <link name="rod"><inertial><origin xyz="0 0.05 -0.3"/><mass value="0.5"/>
+      <inertia ixx="0.01" iyy="0.01" izz="0.001" ixy="0" ixz="0" iyz="0"/></inertial></link>
+    </robot>)",
+                    "{Swing: motor}", ideal_motor(), "[[-1, -1], [1, -1], [1, 1], [-1, 1]]",
+                    "{Swing: 0}");
+}
+
+TEST(FreeMotion, KeepsTheEnergyOfALimpTumblingBody) {
+  WorldOptions options;
+  options.gravity = Vector3d::Zero();
+  World world(SceneFile{}, options);
+  RobotOptions how;
+  how.posture = "Start";
+  how.height = 10;
+  const int robot = world.add_robot(make_free_pair(), how);
+  let_go(world, robot);
+  world.push(robot, world.robot(robot).model().find_link("rod"), {1, 0.2, 0.1});
+  world.step_tick();
+  const double energy = world.energy();
+  double worst = 0;
+  for (int i = 0; i < 500; ++i) {
+    world.step_tick();
+    worst = std::max(worst, std::abs(world.energy() / energy - 1));
+  }
+  // Coriolis forces do no work: without their share on the joint the energy grew eightfold.
+  EXPECT_LT(worst, 0.02);
+}
+
 TEST(FreeMotion, PushChangesMomentumByItsImpulse) {
   WorldOptions options;
   options.gravity.setZero();
