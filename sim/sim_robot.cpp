@@ -401,15 +401,17 @@ bool SimRobot::add_missed_bounds(double h, const Eigen::VectorXd& z, ConstraintS
   return has_changed;
 }
 
+void SimRobot::take_velocities() {
+  state_.velocity = work_;
+  dynamics_.update_velocities(state_);
+}
+
 void SimRobot::end_step(double h, const ConstraintSolver& solver) {
   const auto first_of = [&](int row) { return row < 0 ? 0.0 : solver.rows()[row].impulse; };
   const Vector3d accelerometer =
       model_->accelerometer() < 0
           ? Vector3d::Zero()
           : Vector3d(tree_.pose_in_body(model_->accelerometer()).translation());
-  // As add_missed_bounds() has left them.
-  state_.velocity = work_;
-  dynamics_.update_velocities(state_);
   SpatialVector momentum = dynamics_.momentum();
   momentum.angular -= dynamics_.center_of_mass_from_origin().cross(momentum.linear);
   for (size_t i = 0; i < drives_.size(); ++i) {

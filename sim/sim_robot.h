@@ -86,7 +86,10 @@ class SimRobot {
    * Whether there were any. */
   bool add_missed_bounds(double h, const Eigen::VectorXd& z, ConstraintSolver& solver,
                          int first_dof);
-  /** Right after add_missed_bounds() had nothing to add. */
+  /** Takes over the velocities of the solver's present answer, as add_missed_bounds() found them.
+   */
+  void take_velocities();
+  /** Right after take_velocities(). */
   void end_step(double h, const ConstraintSolver& solver);
 
   int add_dof_entries(int dof, ConstraintSolver& solver, int first_dof);

@@ -117,23 +117,26 @@ void World::step() {
   solver_.warm_start(z_);
   const ConstraintSolver::Options how{options_.max_sweeps, options_.tolerance};
   last_sweeps_ = solver_.solve(z_, how);
-  // A motor may have been driven beyond its torque by what happened in the step.
+  // What happens in the step (a push, an impact) may drive a motor beyond its torque, or a body
+  // that did not move towards the floor into it.
   constexpr int kMaxRounds = 4;
-  for (int round = 0; round < kMaxRounds; ++round) {
-    bool has_missed = false;
-    for (int i = 0; i < num_robots(); ++i) {
-      has_missed |= robots_[i]->add_missed_bounds(h, z_, solver_, first_dof_[i]);
-    }
-    if (!has_missed) break;
+  for (int round = 0; add_missed_constraints() && round < kMaxRounds; ++round) {
     last_sweeps_ += solver_.solve(z_, how);
-    for (int i = 0; round == kMaxRounds - 1 && i < num_robots(); ++i) {
-      robots_[i]->add_missed_bounds(h, z_, solver_, first_dof_[i]);
-    }
   }
   finish_stage(Stage::kSolve);
   end_step();
   ++num_steps_;
   finish_stage(Stage::kIntegrate);
+}
+
+bool World::add_missed_constraints() {
+  bool has_missed = false;
+  for (int i = 0; i < num_robots(); ++i) {
+    has_missed |= robots_[i]->add_missed_bounds(options_.step, z_, solver_, first_dof_[i]);
+    robots_[i]->take_velocities();
+    has_missed |= add_missed_floor_contacts(i);
+  }
+  return has_missed;
 }
 
 void World::begin_step() {

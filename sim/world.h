@@ -160,6 +160,10 @@ class World {
   void begin_step();
   void find_contacts();
   void find_floor_contacts(int robot);
+  /** Adds contacts for points that would be in the floor after the step, as the solver's present
+   * answer has it. @return Whether there were any. */
+  bool add_missed_floor_contacts(int robot);
+  bool add_missed_constraints();
   void find_self_contacts(int robot);
   void find_robot_contacts(PairSlots& pair);
   void find_goal_contacts(int robot);

@@ -12,6 +12,8 @@ using Eigen::Vector3d;
 
 /** Surfaces farther apart than this cannot meet within a step, m: 15 m/s. */
 constexpr double kReach = 0.03;
+/** A part that turns fast reaches so many times its radius within a step at most: 300 rad/s. */
+constexpr double kMostTurned = 1.6;
 
 }  // namespace
 
@@ -102,6 +104,35 @@ void World::find_floor_contacts(int index) {
                   point.sole, robot.floor_slots_[i]);
     }
   }
+}
+
+bool World::add_missed_floor_contacts(int index) {
+  SimRobot& robot = *robots_[index];
+  const CollisionModel& model = robot.collisions();
+  const double h = options_.step;
+  bool has_missed = false;
+  for (size_t p = 0; p < model.parts.size(); ++p) {
+    const CollisionModel::Part& part = model.parts[p];
+    const Vector3d& origin = robot.dynamics().position(part.body);
+    const Vector3d& part_center = placed_[index][p].shape.center;
+    const double speed = robot.dynamics().velocity_at(part.body, part_center).z();
+    if (part_center.z() + h * speed > part.bounding_radius * kMostTurned) continue;
+    const Matrix3d& rotation = robot.dynamics().rotation(part.body);
+    for (int i = part.first_point; i < part.end_point; ++i) {
+      if (robot.floor_slots_[i].last_step == num_steps_) continue;
+      const CollisionModel::Point& point = model.points[i];
+      const Vector3d center = origin + rotation * point.center_in_body;
+      const double distance = center.z() - point.radius;
+      const Vector3d touching(center.x(), center.y(), std::min(distance, 0.0));
+      const double next = distance + h * robot.dynamics().velocity_at(part.body, touching).z();
+      if (next >= -kMargin) continue;
+      robot.floor_slots_[i] = ContactSlot();
+      add_contact({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1,
+                  {distance, Vector3d::UnitZ(), touching}, point.sole, robot.floor_slots_[i]);
+      has_missed = true;
+    }
+  }
+  return has_missed;
 }
 
 void World::find_self_contacts(int index) {

@@ -106,6 +106,20 @@ double lowest_point(const World& world, int robot) {
   return lowest;
 }
 
+TEST(Contact, FloorStopsWhatAPushThrowsAtItWithinTheStep) {
+  World world{SceneFile{}};
+  RobotOptions options;
+  options.posture = "Start";
+  options.height = 0.01;
+  const int block = world.add_robot(make_block(), options);
+  // 15 m/s down: 20 mm into the floor with the first step, were the floor noticed after it.
+  world.push(block, 0, {0, 0, -15});
+  for (int i = 0; i < 50; ++i) {
+    world.step();
+    ASSERT_GT(lowest_point(world, block), -0.016) << "step " << i;
+  }
+}
+
 TEST(Contact, RobotFallsOnTheFloorAndNotThroughIt) {
   for (int direction = 0; direction < 8; ++direction) {
     World world{SceneFile{}};

@@ -196,6 +196,39 @@ TEST_F(SimProgram, ObeysWorldCommands) {
   EXPECT_TRUE(wait_for([&] { return truth_->tick > 1000; }));
 }
 
+TEST_F(SimProgram, ReportsABadStateAndPublishesNone) {
+  start({"--scene", "empty"});
+  ASSERT_TRUE(wait_for([&] { return status_ && status_->state == "ready" && truth_; }));
+  const auto bad_states = [&] {
+    for (int i = 0; status_ && i < status_->num_metrics; ++i) {
+      if (status_->metric_names[i] == "bad_states") return status_->metric_values[i];
+    }
+    return 0.0;
+  };
+  double fastest = 0;
+  bus_.subscribe<naolcm::world_truth_t>(
+      kWorldTruthChannel, Bus::Queue::kAll, [&](const naolcm::world_truth_t& message) {
+        for (const double speed : message.robots[0].joint_velocity) {
+          fastest = std::max(fastest, std::abs(speed));
+        }
+        for (const double speed : message.robots[0].velocity_torso_in_world) {
+          fastest = std::max(fastest, std::abs(speed));
+        }
+      });
+  // No robot outlives this: its forearm alone would leave at some 500 m/s.
+  naolcm::world_command_t message{};
+  message.command = "push";
+  message.link = "LWrist";
+  message.impulse_in_world[2] = 100;
+  EXPECT_EQ(ask(message), "");
+  EXPECT_TRUE(wait_for([&] { return bad_states() == 1; }));
+  EXPECT_NEAR(truth_->robots[0].position_torso_in_world[2], 0.32, 0.01);
+  EXPECT_LT(fastest, 300);
+  const int64_t tick = truth_->tick;
+  EXPECT_TRUE(wait_for([&] { return truth_->tick > tick + 100; }));
+  EXPECT_EQ(bad_states(), 1);
+}
+
 /** What a driver of the determinism test says at a tick: on one tick in six, all joints anew. */
 naolcm::joint_command_t answer_to(int64_t tick) {
   if (tick % 6 != 0) return command(tick, {}, {}, {});
