@@ -6,6 +6,7 @@
 #include "common/bus.h"
 #include "common/event_loop.h"
 #include "common/program.h"
+#include "common/scheduling.h"
 #include "sim/sim_daemon.h"
 #include "sim/sim_options.h"
 
@@ -38,6 +39,9 @@ int main(int argc, char** argv) {
   return nao::run_program(app, common, argc, argv, [&] {
     options.robots = {common.robot};
     options.robots.insert(options.robots.end(), more_robots.begin(), more_robots.end());
+    const bool is_in_real_time = !options.lock_step && options.pace > 0;
+    if (is_in_real_time && nao::ask_for_prompt_turns())
+      spdlog::info("runs ahead of usual programs");
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);
     const nao::sim::SimDaemon daemon(bus, loop, options);

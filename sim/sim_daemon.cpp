@@ -12,6 +12,7 @@
 
 #include "common/data_path.h"
 #include "common/error.h"
+#include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "sim/joint_command.h"
 
@@ -194,6 +195,12 @@ std::string SimDaemon::carry_out(const naolcm::world_command_t& message) {
     if (!(message.pace >= 0 && message.pace <= 1000)) return "pace must be 0 to 1000";
     if (options_.lock_step) return "in lock-step the commands set the pace";
     pacer_.set_pace(message.pace, now);
+    // Who never waits must not keep others from the processor.
+    if (message.pace > 0) {
+      ask_for_prompt_turns();
+    } else {
+      take_usual_turns();
+    }
   } else if (command == "place-robot") {
     return place_robot(message, robot);
   } else if (command == "place-ball") {

@@ -10,6 +10,7 @@
 #include "common/event_loop.h"
 #include "common/program.h"
 #include "common/robot_model.h"
+#include "common/scheduling.h"
 #include "motion/motion_daemon.h"
 
 int main(int argc, char** argv) {
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   app.add_flag("!--no-get-up", options.gets_up, "After a fall, lie until told to get up");
   return nao::run_program(app, common, argc, argv, [&] {
     const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
+    if (nao::ask_for_prompt_turns()) spdlog::info("runs ahead of usual programs");
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);
     const nao::motion::MotionDaemon daemon(bus, loop, model, options, common.robot);

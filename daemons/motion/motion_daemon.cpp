@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "motion/message_conversion.h"
 
@@ -17,6 +18,8 @@ constexpr double kSilencePeriod =
     0.05;  // s of silence after which commands are answered all the same
 // A gap of robot time longer than this is a pause or another robot, not a slow tick, s.
 constexpr double kLongestStep = 0.1;
+// Robot time in a second of wall time from which on ticks do not come in real time.
+constexpr double kFastPace = 2;
 // Commands that may wait for one step. A sender cannot hurt more than this; the rest is dropped and
 // sent again by those who mean it.
 constexpr size_t kMaxWaitingCommands = 256;
@@ -110,6 +113,15 @@ void MotionDaemon::step(std::optional<Sensors> sensors, double dt) {
 }
 
 void MotionDaemon::publish_status() {
+  // With a simulator as fast as possible this never waits, and must not keep others from the
+  // processor.
+  const int64_t steps = num_steps_ - num_reported_steps_;
+  num_reported_steps_ = num_steps_;
+  if (static_cast<double>(steps) * kTick > kFastPace) {
+    take_usual_turns();
+  } else {
+    ask_for_prompt_turns();
+  }
   if (core_.motion_state().mode == Mode::kNoRobot) {
     status_.set_state("waiting", "waiting for " + channels_.sensor_state);
   } else {

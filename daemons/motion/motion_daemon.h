@@ -43,6 +43,7 @@ class MotionDaemon {
   std::vector<std::string> joint_names_;
   std::vector<Command> commands_;
   int64_t num_steps_ = 0;
+  int64_t num_reported_steps_ = 0;
   int64_t num_missed_ticks_ = 0;
   int64_t last_utime_ = 0;
   int64_t last_tick_ = -1;

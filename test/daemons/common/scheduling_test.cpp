@@ -1,0 +1,32 @@
+#include "common/scheduling.h"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+
+#include <functional>
+#include <thread>
+
+namespace nao {
+namespace {
+
+/** What a thread has made of itself must not outlive the test. */
+void run_in_thread(const std::function<void()>& body) {
+  std::thread(body).join();
+}
+
+TEST(Scheduling, PutsAThreadAndThoseThatItStartsAheadWhereThatIsAllowed) {
+  run_in_thread([] {
+    if (!ask_for_prompt_turns()) {
+      EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER);
+      GTEST_SKIP() << "takes root or RLIMIT_RTPRIO";
+    }
+    EXPECT_EQ(sched_getscheduler(0), SCHED_RR);
+    run_in_thread([] { EXPECT_EQ(sched_getscheduler(0), SCHED_RR); });
+    take_usual_turns();
+    EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER);
+  });
+  EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER);
+}
+
+}  // namespace
+}  // namespace nao
