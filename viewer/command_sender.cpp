@@ -103,7 +103,7 @@ void CommandSender::push(const std::string& robot, const std::string& link,
   send_world(message);
 }
 
-void CommandSender::send_world(naolcm::world_command_t command) {
+void CommandSender::send_world(const naolcm::world_command_t& command) {
   start(command.command, command.command_id,
         [this, command] { bus_.publish(kWorldCommandChannel, command); });
 }

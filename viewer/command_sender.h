@@ -54,7 +54,7 @@ class CommandSender {
   };
 
   void start(const std::string& what, int64_t id, std::function<void()> send);
-  void send_world(naolcm::world_command_t command);
+  void send_world(const naolcm::world_command_t& command);
   template <class Message>
   Message stamped();
 

@@ -202,6 +202,7 @@ void WorldView::add_footsteps(const naolcm::motion_state_t& motion) {
     if (!sole.matrix().allFinite()) continue;
     std::vector<Eigen::Vector3d> corners;
     const auto& outline = is_left ? model_.left_sole_outline() : model_.right_sole_outline();
+    corners.reserve(outline.size());
     for (const Eigen::Vector2d& corner : outline) {
       corners.push_back(sole * Eigen::Vector3d(corner.x(), corner.y(), 0));
     }

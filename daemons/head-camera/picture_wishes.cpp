@@ -47,6 +47,7 @@ std::vector<PictureWish> PictureWishes::merged(double now) {
     place->second.quality = std::max(place->second.quality, entry.wish.quality);
   }
   std::vector<PictureWish> wishes;
+  wishes.reserve(merged.size());
   for (const auto& [key, wish] : merged) wishes.push_back(wish);
   return wishes;
 }

@@ -18,6 +18,7 @@ void clip_to_limits(const RobotModel& model, std::vector<double>& position) {
 std::vector<JointRates> joint_rates(const RobotModel& model, double speed,
                                     double max_acceleration) {
   std::vector<JointRates> rates;
+  rates.reserve(model.num_motors());
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     rates.push_back({speed * model.motor_joint(motor).max_velocity, max_acceleration});
   }

@@ -356,7 +356,7 @@ MotionCore::Plan MotionCore::plan_request(const StopCommand& /*stop*/) {
 }
 
 std::string MotionCore::find_danger(const JointChangeCommand& change) {
-  const std::string danger = find_self_collision(change);
+  std::string danger = find_self_collision(change);
   const bool stands =
       find_body_state(*model_, estimator_.state(), options_.lying_tilt) == "on-feet";
   if (!danger.empty() || change.allow_tipping || !stands) return danger;

@@ -110,7 +110,7 @@ File open_for_writing(const std::filesystem::path& path) {
 
 CertificateFiles own_certificate(const std::filesystem::path& folder,
                                  const CertificateNames& names) {
-  const CertificateFiles files{folder / "gateway-certificate.pem", folder / "gateway-key.pem"};
+  CertificateFiles files{folder / "gateway-certificate.pem", folder / "gateway-key.pem"};
   const Certificate old = read_certificate(files.certificate);
   if (old && std::filesystem::exists(files.key) && is_good_for(old.get(), names)) return files;
 

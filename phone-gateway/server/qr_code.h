@@ -15,7 +15,8 @@ struct QrCode {
   /** False outside. */
   bool at(int row, int column) const {
     return row >= 0 && column >= 0 && row < width && column < width &&
-           is_dark[static_cast<size_t>(row * width + column)];
+           is_dark[static_cast<size_t>(row) * static_cast<size_t>(width) +
+                   static_cast<size_t>(column)];
   }
 };
 

@@ -121,7 +121,7 @@ std::string mime_type(const fs::path& file) {
 }
 
 std::optional<std::string> clean_path(std::string_view target) {
-  const auto path = decode_percent(target.substr(0, target.find_first_of("?#")));
+  auto path = decode_percent(target.substr(0, target.find_first_of("?#")));
   if (!path || path->empty() || path->front() != '/') return std::nullopt;
   for (const char c : *path) {
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f' || c == '\\') return std::nullopt;

@@ -54,7 +54,9 @@ def failed_tests():
     if build.returncode != 0:
         sys.exit(f"broken_builds.py: it does not build:\n{build.stdout[-4000:]}{build.stderr}")
     tests = run("ctest", "--preset", "dev", "-L", "playback")
-    return re.findall(r"^\s*\d+ - (\S+) \(", tests.stdout, re.MULTILINE)
+    if "tests passed" not in tests.stdout:
+        sys.exit(f"broken_builds.py: the tests do not run:\n{tests.stdout[-4000:]}{tests.stderr}")
+    return re.findall(r"^\s*\d+ - (\S+).*\(\w+\)$", tests.stdout, re.MULTILINE)
 
 
 def break_and_test(file, original, broken):
