@@ -14,6 +14,7 @@ std::atomic<long> num_allocations{0};
 }
 
 // glibc's own, below the name that everybody calls.
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" void* __libc_malloc(size_t size);
 extern "C" void* malloc(size_t size) {
   ++num_allocations;

@@ -144,8 +144,9 @@ TEST_P(KnownPixels, CrossingsOfLines) {
     constexpr int kSamples = 6;
     int count = 0;
     for (int i = 0; i < kSamples * kSamples; ++i) {
-      const Eigen::Vector2d offset((i % kSamples + 0.5) / kSamples - 0.5,
-                                   (i / kSamples + 0.5) / kSamples - 0.5);
+      const int row = i / kSamples;
+      const int column = i % kSamples;
+      const Eigen::Vector2d offset((column + 0.5) / kSamples - 0.5, (row + 0.5) / kSamples - 0.5);
       const Eigen::Vector2d at = pixel + offset;
       count += is_on_line(on_ground(at.x(), at.y()).head<2>()) ? 1 : 0;
     }

@@ -56,7 +56,8 @@ constexpr int kNumClients = 32;
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return std::nan("");
   std::sort(values.begin(), values.end());
-  const auto index = static_cast<size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  const auto index =
+      static_cast<size_t>(std::lround(share * static_cast<double>(values.size() - 1)));
   return values[index];
 }
 

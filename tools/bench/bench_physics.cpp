@@ -350,7 +350,8 @@ void measure_robots(std::vector<Figure>& figures) {
     for (int i = 0; i < count; ++i) {
       RobotOptions robot;
       robot.name = "R" + std::to_string(i);
-      robot.position = {-2 + 1.0 * (i / 2), i % 2 == 0 ? -1 : 1};
+      const int row = i / 2;
+      robot.position = {-2.0 + row, i % 2 == 0 ? -1 : 1};
       all.back()->add_robot(nao_model(), robot);
     }
     for (int i = 0; i < 200; ++i) all.back()->step_tick();

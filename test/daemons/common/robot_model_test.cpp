@@ -184,7 +184,7 @@ TEST(RobotModel, HasMirroredSolesThatHoldTheFootSensors) {
   const auto& right = robot.right_sole_outline();
   ASSERT_EQ(left.size(), right.size());
   for (size_t i = 0; i < left.size(); ++i) {
-    const Eigen::Vector2d twin = right[right.size() - 1 - i];
+    const Eigen::Vector2d& twin = right[right.size() - 1 - i];
     EXPECT_EQ(left[i], Eigen::Vector2d(twin.x(), -twin.y()));
   }
   ASSERT_EQ(robot.foot_sensors().size(), 8u);
