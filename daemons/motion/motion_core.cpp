@@ -267,9 +267,14 @@ void MotionCore::watch_kick() {
   if (!walk_kick_) return;
   const auto strike = running_ ? running_->generator->strike() : MotionGenerator::Strike::kNone;
   if (strike == MotionGenerator::Strike::kPending) return;
-  const bool is_struck = strike == MotionGenerator::Strike::kStruck;
-  answer(*walk_kick_, is_struck ? ResultStatus::kDone : ResultStatus::kFailed,
-         is_struck ? "" : "The walk ended before the kick.");
+  if (strike == MotionGenerator::Strike::kStruck) {
+    answer(*walk_kick_, ResultStatus::kDone, "");
+  } else {
+    const bool is_missed = strike == MotionGenerator::Strike::kMissed;
+    answer(
+        *walk_kick_, ResultStatus::kFailed,
+        is_missed ? "The ball could not be reached in time." : "The walk ended before the kick.");
+  }
   walk_kick_.reset();
 }
 

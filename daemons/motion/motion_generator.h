@@ -63,7 +63,7 @@ class MotionGenerator {
   virtual bool adopt(const Command& /*command*/) { return false; }
 
   /** What became of a kick that it adopted: a walk strikes in passing. */
-  enum class Strike { kNone, kPending, kStruck };
+  enum class Strike { kNone, kPending, kStruck, kMissed };
   virtual Strike strike() const { return Strike::kNone; }
 
   /** Mode while it runs. */

@@ -54,41 +54,44 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
 
 std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   constexpr double kLeastWay = 0.8;  // m, of the ball
-  // How far ahead of the torso the ball lies when somebody who sees it says to kick, m.
-  constexpr double kAhead = 0.22;
   const double vx = options.velocity.x() > 0 ? options.velocity.x() : 0.2;
   Trial trial(options.trial, seed);
   const bool is_left = seed % 2 == 1;
-  const double aside = (is_left ? 0.05 : -0.05) + trial.random(-0.01, 0.01);
   trial.run(1);
   trial.hold_walk({vx, 0, 0});
-  trial.run(2.5);
-  const auto in_robot = [&](const Eigen::Vector3d& point) {
-    const Eigen::Isometry3d torso = trial.torso_in_world();
-    const double heading = std::atan2(torso.linear()(1, 0), torso.linear()(0, 0));
-    const Eigen::Vector2d way = (point - torso.translation()).head<2>();
-    return Eigen::Vector2d(Eigen::Rotation2Dd(-heading) * way);
-  };
+  trial.run(2 + trial.random(0, 0.5));
+  // Somewhere ahead, and seen with a centimetre more or less.
+  const Eigen::Vector2d lies(trial.random(0.35, 0.9), trial.random(-0.1, 0.1));
+  const Eigen::Vector2d seen =
+      lies + Eigen::Vector2d(trial.random(-0.01, 0.01), trial.random(-0.01, 0.01));
+  const auto sole = [&](int link) { return trial.world().robot(0).link_pose(link); };
+  const Eigen::Isometry3d left = sole(trial.model().left_sole());
+  const Eigen::Isometry3d right = sole(trial.model().right_sole());
   const Eigen::Isometry3d torso = trial.torso_in_world();
   const double heading = std::atan2(torso.linear()(1, 0), torso.linear()(0, 0));
-  const Eigen::Vector2d ball =
-      torso.translation().head<2>() + Eigen::Rotation2Dd(heading) * Eigen::Vector2d(0.6, aside);
+  const Eigen::Vector2d ball = 0.5 * (left.translation() + right.translation()).head<2>() +
+                               Eigen::Rotation2Dd(heading) * lies;
   trial.world().place_ball({ball.x(), ball.y(), 0}, Eigen::Vector3d::Zero());
   const Eigen::Vector3d start = trial.world().ball().position;
-  trial.run_until([&] { return in_robot(trial.world().ball().position).x() < kAhead; }, 10);
-  const int64_t id = trial.send_action(is_left ? "kick-left" : "kick-right");
-  const auto end = trial.await_end(id, 3);
-  const bool walks_on =
-      trial.core().motion_state().mode == motion::Mode::kWalking && trial.torso_tilt() < 0.3;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const int64_t id = trial.send(
+      {"", 0,
+       motion::ActionCommand{is_left ? "kick-left" : "kick-right", seen.x(), seen.y(), nan}});
+  bool walks_on = true;
+  trial.on_tick(
+      [&] { walks_on = walks_on && trial.core().motion_state().mode == motion::Mode::kWalking; });
+  const auto end = trial.await_end(id, 12);
   // It may not walk into the ball again.
   trial.hold_walk({0.05, is_left ? -0.05 : 0.05, 0});
+  trial.run(1);
   trial.run_until([&] { return trial.world().ball().velocity.norm() < 0.01; }, 10);
+  trial.on_tick({});
   const Eigen::Vector2d way = (trial.world().ball().position - start).head<2>();
   RunResult result;
   if (!end || end->status != motion::ResultStatus::kDone) {
     result.failure = end ? end->reason : "did not end";
   } else if (!walks_on || trial.torso_tilt() > 0.5) {
-    result.failure = "fell";
+    result.failure = "did not walk on";
   } else if (way.norm() < kLeastWay) {
     result.failure = "ball too short";
   } else {

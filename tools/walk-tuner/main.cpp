@@ -44,7 +44,8 @@ const std::vector<std::string> kNotTuned = {
     "max_step_outward",   "min_foot_separation", "max_turn_outward",   "max_turn_inward",
     "max_change_forward", "max_change_sideways", "max_change_turning", "envelope_exponent",
     "shoulder_pitch",     "shoulder_roll",       "elbow_yaw",          "elbow_roll",
-    "stop_braking",       "raise_speed",         "kick_reach",         "kick_lift"};
+    "turn_centre",        "raise_duration",      "kick_distance",      "kick_reach",
+    "kick_lift"};
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();

@@ -32,10 +32,9 @@ Eigen::Vector3d FootstepPlanner::clip_velocity(const Eigen::Vector3d& velocity) 
 }
 
 Eigen::Vector3d FootstepPlanner::ramp_velocity(const Eigen::Vector3d& from,
-                                               const Eigen::Vector3d& to, double haste) const {
-  const Eigen::Vector3d greatest =
-      haste * Eigen::Vector3d(gait_->max_change_forward, gait_->max_change_sideways,
-                              gait_->max_change_turning);
+                                               const Eigen::Vector3d& to) const {
+  const Eigen::Vector3d greatest(gait_->max_change_forward, gait_->max_change_sideways,
+                                 gait_->max_change_turning);
   return from + (to - from).cwiseMax(-greatest).cwiseMin(greatest);
 }
 
@@ -48,7 +47,8 @@ Spread FootstepPlanner::spread_for(const Eigen::Vector3d& velocity) const {
 
 Pose2 FootstepPlanner::foot_in_body(bool is_left, const Spread& spread) const {
   const double side = sign_of(is_left);
-  return {{0, side * (gait_->foot_separation / 2 + spread.width)}, side * spread.heading};
+  return {{-gait_->turn_centre, side * (gait_->foot_separation / 2 + spread.width)},
+          side * spread.heading};
 }
 
 std::vector<PlannedStep> FootstepPlanner::plan(bool support_is_left, const Spread& spread,

@@ -36,10 +36,8 @@ class FootstepPlanner {
    * @param velocity  m/s ahead and to the left, rad/s. */
   Eigen::Vector3d clip_velocity(const Eigen::Vector3d& velocity) const;
 
-  /** A step towards a velocity, as large as one footstep may change it.
-   * @param haste  Factor on that. */
-  Eigen::Vector3d ramp_velocity(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                                double haste = 1) const;
+  /** A step towards a velocity, as large as one footstep may change it. */
+  Eigen::Vector3d ramp_velocity(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
   Spread spread_for(const Eigen::Vector3d& velocity) const;
 
@@ -54,7 +52,7 @@ class FootstepPlanner {
    * @param step  Sole of the swinging foot seen from the standing one. */
   Pose2 clip_step(const Pose2& step, bool swing_is_left) const;
 
-  /** Place of a foot beside the body. */
+  /** Place of a foot in the body's frame, whose origin is what the robot turns about. */
   Pose2 foot_in_body(bool is_left, const Spread& spread) const;
 
  private:

@@ -21,6 +21,7 @@ struct Gait {
   double hip_height = 0;
   double torso_pitch = 0;
   double foot_separation = 0;
+  double turn_centre = 0;
   double step_height = 0;
   double zmp_forward = 0;
   double zmp_inward = 0;
@@ -40,8 +41,7 @@ struct Gait {
   double max_change_sideways = 0;
   double max_change_turning = 0;
   double envelope_exponent = 0;
-  double stop_braking = 0;
-  double raise_speed = 0;
+  double raise_duration = 0;
   double path_gain = 0;
 
   // Servos: s; shares.
@@ -71,6 +71,7 @@ struct Gait {
   double touchdown_share = 0;
 
   // Kick out of the walk: m.
+  double kick_distance = 0;
   double kick_reach = 0;
   double kick_lift = 0;
 

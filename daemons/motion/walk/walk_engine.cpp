@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/walk/kick_approach.h"
+
 namespace nao::motion {
 namespace {
 
@@ -42,6 +44,10 @@ constexpr double kMaxBias = 0.03;  // m
 // ticks the servos have held their targets: to go on from there keeps the robot on its feet three
 // times as often as to catch up with a jump (nao-trial walk --vx 0.3 --late 0.03).
 constexpr double kLongestAdvance = 0.01;
+// A kick whose ball has not been reached after this is given up, s.
+constexpr double kKickPatience = 10;
+// How far the swing of a kick is moved to where the ball lies, m ahead and aside.
+const Vector2d kKickReach(0.03, 0.02);
 constexpr double kMaxTilt = 0.35;  // rad; beyond this the feedback's small angles mean nothing
 
 /** From 0 to 1 with zero velocity and acceleration at both ends. */
@@ -83,12 +89,16 @@ WalkEngine::WalkEngine(const RobotModel& model, const Gait& gait, const Posture&
   };
   add_arm("L", 1);
   add_arm("R", -1);
+  reference_kinematics_.update(end_posture.position);
+  const Isometry3d to_sole = reference_kinematics_.left_sole().inverse();
+  stand_lead_ = (to_sole * reference_kinematics_.center_of_mass()).x() - gait.zmp_forward;
 }
 
 void WalkEngine::start(const RobotState& state, const JointTargets& targets) {
   stage_ = Stage::kLowering;
   is_ending_ = false;
-  kick_ = {};
+  is_capturing_ = false;
+  kick_state_ = KickState::kNone;
   is_kick_step_ = false;
   velocity_.setZero();
   step_velocity_.setZero();
@@ -138,11 +148,7 @@ bool WalkEngine::step(const RobotState& state, const Kinematics& measured, doubl
   dt = std::min(dt, kLongestAdvance);
   measure(state, measured, dt);
   time_ += dt;
-  if (stage_ == Stage::kRaising) {
-    raising_.sample(time_, targets.position);
-    if (time_ >= raising_.duration()) stage_ = Stage::kDone;
-    return stage_ != Stage::kDone;
-  }
+  kick_time_ += dt;
   switch (stage_) {
     case Stage::kLowering:
       step_lowering();
@@ -157,9 +163,10 @@ bool WalkEngine::step(const RobotState& state, const Kinematics& measured, doubl
       step_stopping(dt);
       break;
   }
+  if (stage_ == Stage::kRaising) step_raising();
   follow_reference(dt, targets);
-  if (stage_ == Stage::kStopping && time_ >= gait_->stop_duration) begin_raising(targets);
-  return true;
+  if (stage_ == Stage::kStopping && time_ >= gait_->stop_duration) begin_raising();
+  return stage_ != Stage::kDone;
 }
 
 void WalkEngine::measure(const RobotState& state, const Kinematics& measured, double dt) {
@@ -184,6 +191,7 @@ void WalkEngine::measure(const RobotState& state, const Kinematics& measured, do
   last_support_heading_ = support_in_odometry_.heading;
 
   const double heading = std::atan2(R_OT(1, 0), R_OT(0, 0));
+  torso_heading_ = heading;
   const Matrix3d R_HT = AngleAxisd(-heading, Vector3d::UnitZ()).toRotationMatrix() * R_OT;
   tilt_ << std::atan2(R_HT(2, 1), R_HT(2, 2)), std::asin(std::clamp(-R_HT(2, 0), -1.0, 1.0)), 0;
   tilt_.y() -= wished_pitch_;
@@ -202,7 +210,12 @@ void WalkEngine::step_lowering() {
   reference_ = {middle(), Vector2d::Zero()};
   zmp_ = reference_.position;
   other_share_ = 0.5;
-  if (time_ >= duration_) begin_starting();
+  if (time_ < duration_) return;
+  if (is_ending_) {
+    begin_raising();
+  } else {
+    begin_starting();
+  }
 }
 
 void WalkEngine::begin_starting() {
@@ -219,20 +232,47 @@ void WalkEngine::begin_starting() {
 }
 
 void WalkEngine::plan_steps() {
+  if (!is_ending_) {
+    plan_ahead(kNumPlannedSteps);
+    return;
+  }
+  plan_ahead(1);
+  if (!can_end_square()) plan_ahead(2);
+}
+
+void WalkEngine::plan_ahead(int num_steps) {
   planned_ = planner_.plan(support_is_left_, support_spread_, step_velocity_, gait_->step_duration,
-                           kNumPlannedSteps);
+                           num_steps);
   foothold_ = planned_.front().pose;
   // Backwards from rest between the last two feet: where the divergent component must be when each
   // step begins.
   std::vector<Vector2d> points = {nominal_zmp(support_is_left_)};
   for (const PlannedStep& step : planned_) points.push_back(step.pose * nominal_zmp(step.is_left));
   const double decay = std::exp(-omega_ * gait_->step_duration);
-  Vector2d divergent = 0.5 * (points[kNumPlannedSteps - 1] + points[kNumPlannedSteps]);
-  for (int i = kNumPlannedSteps - 1; i > 0; --i) {
+  Vector2d divergent = 0.5 * (points[num_steps - 1] + points[num_steps]);
+  if (is_ending_) divergent.x() += stand_lead_;
+  for (int i = num_steps - 1; i > 0; --i) {
     divergent = points[i] + decay * (divergent - points[i]);
   }
   divergent_goal_ = divergent;
   divergent_start_ = points[0] + decay * (divergent - points[0]);
+}
+
+Vector2d WalkEngine::steer_zmp(double remaining) const {
+  const Vector2d nominal = nominal_zmp(support_is_left_);
+  const Vector2d steer =
+      steering_point(reference_.divergent(omega_), divergent_goal_, omega_, remaining);
+  const double reach = gait_->zmp_reach_sideways;
+  return clamp_to(nominal + gait_->zmp_gain * (steer - nominal),
+                  nominal - Vector2d(gait_->zmp_reach_backward, reach),
+                  nominal + Vector2d(gait_->zmp_reach_forward, reach));
+}
+
+bool WalkEngine::can_end_square() const {
+  const double remaining = std::max(duration_ - time_, kSteeringHorizon);
+  const Vector2d zmp = steer_zmp(remaining);
+  const Vector2d end = zmp + std::exp(omega_ * remaining) * (reference_.divergent(omega_) - zmp);
+  return (end - divergent_goal_).norm() < kSquareDistance / 2;
 }
 
 void WalkEngine::step_starting(double dt) {
@@ -257,11 +297,58 @@ void WalkEngine::begin_step() {
   stage_ = Stage::kStepping;
   time_ = 0;
   duration_ = gait_->step_duration;
-  is_kick_step_ = kick_.is_wished && kick_.with_left != support_is_left_;
-  if (is_kick_step_) kick_.is_wished = false;
-  const Vector3d wished = is_ending_ ? Vector3d::Zero() : planner_.clip_velocity(wished_);
-  velocity_ = planner_.ramp_velocity(velocity_, wished, is_ending_ ? gait_->stop_braking : 1);
+  const Vector3d wished = planner_.clip_velocity(choose_velocity());
+  velocity_ = is_ending_ ? wished : planner_.ramp_velocity(velocity_, wished);
   step_velocity_ = calc_step_velocity();
+  is_capturing_ = is_ending_;
+  plan_steps();
+}
+
+void WalkEngine::kick(bool with_left, const std::optional<Vector2d>& ball) {
+  kick_state_ = KickState::kPending;
+  kicks_with_left_ = with_left;
+  ball_ = ball;
+  kick_time_ = 0;
+}
+
+Vector3d WalkEngine::choose_velocity() {
+  if (is_ending_) return Vector3d::Zero();
+  if (kick_state_ != KickState::kPending || is_kick_step_) return wished_;
+  if (ball_) return approach_ball(wished_);
+  if (kicks_with_left_ != support_is_left_) begin_kick(Vector2d::Zero());
+  return wished_;
+}
+
+Vector3d WalkEngine::approach_ball(const Vector3d& wished) {
+  if (kick_time_ > kKickPatience) {
+    kick_state_ = KickState::kMissed;
+    return wished;
+  }
+  const double foot = (kicks_with_left_ ? 0.5 : -0.5) * gait_->foot_separation;
+  const Vector2d best(gait_->kick_distance - gait_->turn_centre, foot);
+  const Vector2d way = body_in_odometry().inverse() * *ball_ - best;
+  const bool kicks_next = kicks_with_left_ != support_is_left_;
+  const KickApproach approach =
+      plan_kick_approach(way, kicks_next, wished.head<2>(), gait_->step_duration);
+  if (approach.num_steps > 0) return {approach.velocity.x(), approach.velocity.y(), 0};
+  begin_kick(way);
+  return {wished.x(), 0, 0};
+}
+
+void WalkEngine::begin_kick(const Vector2d& off) {
+  is_kick_step_ = true;
+  kick_offset_ = clamp_to(off, -kKickReach, kKickReach);
+}
+
+Pose2 WalkEngine::middle_in_odometry() const {
+  return {0.5 * (soles_in_odometry_[0].position + soles_in_odometry_[1].position), torso_heading_};
+}
+
+void WalkEngine::begin_capture() {
+  is_capturing_ = true;
+  if (is_kick_step_ || duration_ - time_ < kSteeringHorizon) return;
+  velocity_.setZero();
+  step_velocity_.setZero();
   plan_steps();
 }
 
@@ -270,8 +357,17 @@ Pose2 WalkEngine::body_in_odometry() const {
          planner_.foot_in_body(support_is_left_, support_spread_).inverse();
 }
 
+Pose2 WalkEngine::standing_body(const RobotState& state) const {
+  const Pose2 left = Pose2::from(state.left_sole_in_odometry);
+  const Pose2 right = Pose2::from(state.right_sole_in_odometry);
+  const Pose2 middle{0.5 * (left.position + right.position),
+                     left.heading + 0.5 * wrapped(right.heading - left.heading)};
+  return middle * Pose2{{gait_->turn_centre, 0}, 0};
+}
+
 Vector3d WalkEngine::calc_step_velocity() {
-  if (velocity_.isZero(0)) {
+  const bool seeks_ball = kick_state_ == KickState::kPending && ball_;
+  if (velocity_.isZero(0) || is_capturing_ || seeks_ball) {
     path_.reset(body_in_odometry());
     return velocity_;
   }
@@ -279,19 +375,15 @@ Vector3d WalkEngine::calc_step_velocity() {
 }
 
 void WalkEngine::step_stepping(double dt) {
+  if (is_ending_ && !is_capturing_) begin_capture();
   path_.advance(velocity_, dt);
   give_way(dt);
   adapt_duration();
   const double remaining = duration_ - time_;
-  const Vector2d nominal = nominal_zmp(support_is_left_);
   const Vector2d error = predicted_.divergent(omega_) - reference_.divergent(omega_);
   Vector2d divergent = reference_.divergent(omega_);
   if (remaining > kSteeringHorizon) {
-    const Vector2d steer = steering_point(divergent, divergent_goal_, omega_, remaining);
-    const double reach = gait_->zmp_reach_sideways;
-    zmp_ = clamp_to(nominal + gait_->zmp_gain * (steer - nominal),
-                    nominal - Vector2d(gait_->zmp_reach_backward, reach),
-                    nominal + Vector2d(gait_->zmp_reach_forward, reach));
+    zmp_ = steer_zmp(remaining);
     divergent += gait_->step_gain * error;
     const Vector2d end = zmp_ + std::exp(omega_ * remaining) * (divergent - zmp_);
     const Pose2& planned = planned_.front().pose;
@@ -355,7 +447,7 @@ void WalkEngine::exchange_feet() {
 }
 
 void WalkEngine::change_support() {
-  has_kicked_ = has_kicked_ || is_kick_step_;
+  if (is_kick_step_) kick_state_ = KickState::kStruck;
   is_kick_step_ = false;
   bias() += gait_->bias_gain * deviation_;
   bias() = clamp_to(bias(), Vector2d::Constant(-kMaxBias), Vector2d::Constant(kMaxBias));
@@ -367,7 +459,6 @@ void WalkEngine::change_support() {
                          std::abs(wrapped(swing_.pose().heading)) < kSquareTurn;
   if (is_ending_ && velocity_.isZero(1e-6) && is_square) {
     stage_ = Stage::kStopping;
-    kick_ = {};
     time_ = 0;
     planned_.clear();
   } else {
@@ -382,7 +473,7 @@ void WalkEngine::step_stopping(double dt) {
   const Vector2d reach(gait_->zmp_reach_backward, 0);
   const Vector2d reach_up(gait_->zmp_reach_forward, 0);
   constexpr double kHorizon = 0.2;
-  zmp_ = clamp_to(steering_point(reference_.divergent(omega_), middle(), omega_, kHorizon),
+  zmp_ = clamp_to(steering_point(reference_.divergent(omega_), rest(), omega_, kHorizon),
                   here.cwiseMin(there) - reach, here.cwiseMax(there) + reach_up);
   share_by_pressure();
   reference_ = advance(reference_, zmp_, omega_, dt);
@@ -391,21 +482,15 @@ void WalkEngine::step_stopping(double dt) {
   swing_.lower(share * swing_.height());
 }
 
-void WalkEngine::begin_raising(const JointTargets& targets) {
+void WalkEngine::begin_raising() {
   stage_ = Stage::kRaising;
   time_ = 0;
   velocity_.setZero();
-  std::vector<double> goal = targets.position;
-  std::vector<JointRates> rates;
-  for (int motor = 0; motor < model_->num_motors(); ++motor) {
-    const double fastest = model_->motor_joint(motor).max_velocity;
-    rates.push_back({gait_->raise_speed * fastest, gait_->raise_speed * fastest / 0.1});
-  }
-  for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
-    for (int motor : legs_.motors(leg)) goal[motor] = end_posture_->position[motor];
-  }
-  for (const ArmJoint& joint : arms_) goal[joint.motor] = end_posture_->position[joint.motor];
-  raising_ = JointTrajectory(targets.position, std::vector<double>(goal.size(), 0.0), goal, rates);
+}
+
+void WalkEngine::step_raising() {
+  share_ = 1 - smooth_step(time_ / gait_->raise_duration);
+  if (time_ >= gait_->raise_duration) stage_ = Stage::kDone;
 }
 
 void WalkEngine::share_by_pressure() {
@@ -445,7 +530,8 @@ Isometry3d WalkEngine::swing_in_support() const {
   if (is_kick_step_ && stage_ == Stage::kStepping) {
     // Out and back within the step; at rest at both ends.
     const double out = std::sin(M_PI * std::clamp(time_ / duration_, 0.0, 1.0));
-    pose.position += pose.rotate({gait_->kick_reach * out * out, 0});
+    const Vector2d reach(gait_->kick_reach + kick_offset_.x(), kick_offset_.y());
+    pose.position += pose.rotate(out * out * reach);
     height += gait_->kick_lift * out * out;
   }
   return in_space(pose, height);
@@ -487,10 +573,15 @@ void WalkEngine::follow_reference(double dt, JointTargets& targets) {
       feedforward_.calc_torques(reference_kinematics_, up, plan_loads(torso));
   std::vector<double> balance(position.size(), 0.0);
   add_balance(balance);
+  const bool is_raising = stage_ == Stage::kRaising || stage_ == Stage::kDone;
+  // On the way up the rates are damped to the end.
+  const double balance_share = is_raising ? 1 : share_;
   const auto write = [&](int motor) {
+    const double other =
+        is_raising ? end_posture_->position[motor] - position[motor] : start_offset_[motor];
     targets.position[motor] =
-        position[motor] + (1 - share_) * start_offset_[motor] +
-        share_ * (balance[motor] + gait_->lead_time * wished_velocity_[motor] +
+        position[motor] + (1 - share_) * other + balance_share * balance[motor] +
+        share_ * (gait_->lead_time * wished_velocity_[motor] +
                   feedforward_.calc_offset(motor, gait_->torque_share * torque[motor],
                                            wished_velocity_[motor], gait_->damping_share));
   };
@@ -528,8 +619,9 @@ std::array<FootLoad, 2> WalkEngine::plan_loads(const Isometry3d& torso) const {
 
 void WalkEngine::add_balance(std::vector<double>& offset) const {
   const double ankle_pitch =
-      gait_->gyro_ankle_pitch * rate_.y() + gait_->tilt_ankle_pitch * tilt_.y();
-  const double ankle_roll = gait_->gyro_ankle_roll * rate_.x() + gait_->tilt_ankle_roll * tilt_.x();
+      gait_->gyro_ankle_pitch * rate_.y() + share_ * gait_->tilt_ankle_pitch * tilt_.y();
+  const double ankle_roll =
+      gait_->gyro_ankle_roll * rate_.x() + share_ * gait_->tilt_ankle_roll * tilt_.x();
   const double hip_pitch = gait_->gyro_hip_pitch * rate_.y();
   const double hip_roll = gait_->gyro_hip_roll * rate_.x();
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {

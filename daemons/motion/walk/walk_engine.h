@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "common/robot_model.h"
 #include "motion/joint_targets.h"
-#include "motion/joint_trajectory.h"
 #include "motion/kinematics/kinematics.h"
 #include "motion/kinematics/leg_kinematics.h"
 #include "motion/robot_state.h"
@@ -62,15 +62,16 @@ class WalkEngine {
   /** Wants to walk on after end(), as long as it is still stepping. */
   void resume() { is_ending_ = false; }
 
-  /** Strikes with a foot in its next swing that is whole, and walks on. */
-  void kick(bool with_left) {
-    kick_ = {true, with_left};
-    has_kicked_ = false;
-  }
-  /** A kick is wished for, or under way. */
-  bool is_kicking() const { return kick_.is_wished || is_kick_step_; }
-  /** The last kick wished for was struck. */
-  bool has_kicked() const { return has_kicked_; }
+  /** Strikes with a foot in passing, and walks on.
+   * @param ball  In odometry, m: the steps until then lead to where the foot hits it. Nothing: the
+   * foot's next swing that is whole strikes, wherever it passes. */
+  void kick(bool with_left, const std::optional<Eigen::Vector2d>& ball);
+  /** What became of the last kick wished for. */
+  enum class KickState { kNone, kPending, kStruck, kMissed };
+  KickState kick_state() const { return kick_state_; }
+  /** The point between the feet, and where the torso looks, in odometry: where a ball is seen from.
+   */
+  Pose2 middle_in_odometry() const;
 
   /** One tick. @param measured  Kinematics of the measured angles.
    * @param targets  Out: position of legs and arms. @return false when done. */
@@ -84,6 +85,11 @@ class WalkEngine {
   /** Next one first, in the frame of S. */
   const std::vector<PlannedStep>& planned_steps() const { return planned_; }
   bool support_is_left() const { return support_is_left_; }
+  /** The body that the standing foot was set down beside, in odometry: where it stands if the walk
+   * ends now. */
+  Pose2 body_in_odometry() const;
+  /** The body of a robot that stands on both feet. */
+  Pose2 standing_body(const RobotState& state) const;
   /** S in odometry, as of the last step(). */
   const Pose2& support_in_odometry() const { return support_in_odometry_; }
 
@@ -109,19 +115,32 @@ class WalkEngine {
   void begin_starting();
   void step_starting(double dt);
   void begin_step();
+  /** Turns the running step into the one that brings the mass to rest. */
+  void begin_capture();
   void step_stepping(double dt);
   void adapt_duration();
   /** The other foot becomes the one that stands; everything is re-expressed in its frame. */
   void exchange_feet();
   void change_support();
   void step_stopping(double dt);
-  void begin_raising(const JointTargets& targets);
+  void begin_raising();
+  void step_raising();
 
+  /** What is wished of the step that begins: the walk's velocity, the way to a ball, or the end. */
+  Eigen::Vector3d choose_velocity();
+  /** Leads to the ball, or makes the step that begins strike it. @return Velocity to walk at. */
+  Eigen::Vector3d approach_ball(const Eigen::Vector3d& wished);
+  void begin_kick(const Eigen::Vector2d& off);
   /** The velocity, and what brings the body back to its path. */
   Eigen::Vector3d calc_step_velocity();
-  /** The point between the feet, as the foot that has just landed has it. */
-  Pose2 body_in_odometry() const;
+  /** The steps that follow; at the end of a walk those that lead to rest: one, if that can end
+   * beside the standing foot, else two. */
   void plan_steps();
+  void plan_ahead(int num_steps);
+  /** Where the zero moment point shall be to end the step well, within its reach, m, in S. */
+  Eigen::Vector2d steer_zmp(double remaining) const;
+  /** The step under way, as it was planned, will end with the feet side by side. */
+  bool can_end_square() const;
   void give_way(double dt);
   Eigen::Vector2d& bias() { return bias_[support_is_left_ ? 0 : 1]; }
   void share_by_pressure();
@@ -142,6 +161,9 @@ class WalkEngine {
   }
   /** Between the two feet, m, in S. */
   Eigen::Vector2d middle() const;
+  /** Where the mass rests when the walk has ended, m, in S: from there the stand is reached without
+   * the mass moving. */
+  Eigen::Vector2d rest() const { return middle() + Eigen::Vector2d(stand_lead_, 0); }
 
   const RobotModel* model_;
   const Gait* gait_;
@@ -159,13 +181,18 @@ class WalkEngine {
   Eigen::Vector3d step_velocity_ = Eigen::Vector3d::Zero();
   PathKeeper path_;
   bool is_ending_ = false;
-  struct KickWish {
-    bool is_wished = false;
-    bool with_left = false;
-  };
-  KickWish kick_;
+  /** The running step was planned to end the walk. */
+  bool is_capturing_ = false;
+  KickState kick_state_ = KickState::kNone;
+  bool kicks_with_left_ = false;
+  /** In odometry, m. */
+  std::optional<Eigen::Vector2d> ball_;
+  /** s since the kick was wished for. */
+  double kick_time_ = 0;
+  /** The running step strikes; how far off the kick's best place the ball lies, m, in the body's
+   * frame. */
   bool is_kick_step_ = false;
-  bool has_kicked_ = false;
+  Eigen::Vector2d kick_offset_ = Eigen::Vector2d::Zero();
 
   /** s in the present stage or step, and how long that takes. */
   double time_ = 0;
@@ -201,6 +228,7 @@ class WalkEngine {
   bool has_estimate_ = false;
   bool has_changed_support_ = false;
   double last_support_heading_ = 0;
+  double torso_heading_ = 0;
   Pose2 support_in_odometry_;
   /** Left, right. */
   std::array<Pose2, 2> soles_in_odometry_;
@@ -221,7 +249,8 @@ class WalkEngine {
   double wished_pitch_ = 0;
   Eigen::Vector3d mass_centre_in_torso_ = Eigen::Vector3d::Zero();
   std::vector<ArmJoint> arms_;
-  JointTrajectory raising_;
+  /** How much farther ahead the mass is in the end posture than between loaded feet, m. */
+  double stand_lead_ = 0;
 };
 
 }  // namespace nao::motion

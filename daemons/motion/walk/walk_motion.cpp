@@ -114,10 +114,6 @@ std::optional<std::string> WalkingMotion::find_trouble(const MotionContext& cont
 }
 
 MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTargets& targets) {
-  if (const auto trouble = find_trouble(context)) {
-    remark_ = *trouble;
-    return Phase::kFailed;
-  }
   if (is_standing_up_) {
     const Phase phase = stand_up_->step(context, targets);
     if (phase == Phase::kFailed) remark_ = stand_up_->remark();
@@ -127,6 +123,11 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
     engine_.start(context.state, targets);
     start_steering(context);
     return Phase::kRunning;
+  }
+  // Not on the way up: from a seat that leads over back and belly, feet in the air.
+  if (const auto trouble = find_trouble(context)) {
+    remark_ = *trouble;
+    return Phase::kFailed;
   }
   if (const auto obstacle = find_walk_obstacle(engine_.legs(), context.state, targets.stiffness)) {
     remark_ = *obstacle;
@@ -140,6 +141,10 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
   if (is_finishing_) {
     // The motion that waits takes over in the next tick.
     return std::exchange(has_ended_, true) ? Phase::kDone : Phase::kRunning;
+  }
+  if (wants_to_go_on()) {
+    engine_.start(context.state, targets);
+    return Phase::kRunning;
   }
   return conclude(context, remark_) ? Phase::kDone : Phase::kFailed;
 }
@@ -180,7 +185,11 @@ WalkMotion::WalkMotion(const RobotModel& model, const Gait& gait,
 bool WalkMotion::adopt(const Command& command) {
   if (const auto* action = std::get_if<ActionCommand>(&command.request)) {
     if (engine().stage() != WalkEngine::Stage::kStepping) return false;
-    engine().kick(action->action == "kick-left");
+    std::optional<Eigen::Vector2d> ball;
+    if (!std::isnan(action->ball_x) && !std::isnan(action->ball_y)) {
+      ball = engine().middle_in_odometry() * Eigen::Vector2d(action->ball_x, action->ball_y);
+    }
+    engine().kick(action->action == "kick-left", ball);
     return true;
   }
   const auto* walk = std::get_if<WalkCommand>(&command.request);
@@ -191,8 +200,16 @@ bool WalkMotion::adopt(const Command& command) {
 }
 
 MotionGenerator::Strike WalkMotion::strike() const {
-  if (engine().has_kicked()) return Strike::kStruck;
-  return engine().is_kicking() ? Strike::kPending : Strike::kNone;
+  switch (engine().kick_state()) {
+    case WalkEngine::KickState::kPending:
+      return engine().stage() == WalkEngine::Stage::kStepping ? Strike::kPending : Strike::kNone;
+    case WalkEngine::KickState::kStruck:
+      return Strike::kStruck;
+    case WalkEngine::KickState::kMissed:
+      return Strike::kMissed;
+    default:
+      return Strike::kNone;
+  }
 }
 
 void WalkMotion::steer(const MotionContext& context) {
@@ -204,6 +221,11 @@ void WalkMotion::steer(const MotionContext& context) {
     engine().resume();
     engine().set_velocity(velocity);
   }
+}
+
+bool WalkMotion::wants_to_go_on() const {
+  const bool wishes = command_.vx != 0 || command_.vy != 0 || command_.wz != 0;
+  return wishes && age_ <= kCommandLifetime;
 }
 
 bool WalkMotion::conclude(const MotionContext& /*context*/, std::string& remark) {
@@ -218,8 +240,11 @@ MoveToMotion::MoveToMotion(const RobotModel& model, const Gait& gait,
       limits_(model.walk_limits()) {}
 
 void MoveToMotion::start_steering(const MotionContext& context) {
-  const Pose2 here = Pose2::from(context.state.torso_in_odometry);
-  goal_in_odometry_ = here * Pose2{{command_.x, command_.y}, command_.theta};
+  // The torso shall go there, standing as it does now; feet tell better than a swaying torso where
+  // that is.
+  const Pose2 torso = Pose2::from(context.state.torso_in_odometry);
+  const Pose2 body_in_torso = torso.inverse() * engine().standing_body(context.state);
+  goal_in_odometry_ = torso * Pose2{{command_.x, command_.y}, command_.theta} * body_in_torso;
   way_ = std::hypot(command_.x, command_.y) + 0.15 * std::abs(command_.theta);
   const double turn = std::abs(wrapped(command_.theta)) + 2 * M_PI;
   time_limit_ = kPatienceAtLeast + kPatience * (std::hypot(command_.x, command_.y) /
@@ -228,7 +253,9 @@ void MoveToMotion::start_steering(const MotionContext& context) {
 }
 
 Pose2 MoveToMotion::remaining(const MotionContext& context) const {
-  return Pose2::from(context.state.torso_in_odometry).inverse() * goal_in_odometry_;
+  const bool steps = engine().stage() == WalkEngine::Stage::kStepping;
+  const Pose2 body = steps ? engine().body_in_odometry() : engine().standing_body(context.state);
+  return body.inverse() * goal_in_odometry_;
 }
 
 void MoveToMotion::steer(const MotionContext& context) {

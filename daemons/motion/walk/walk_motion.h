@@ -48,6 +48,8 @@ class WalkingMotion : public MotionGenerator {
    * end. */
   virtual void start_steering(const MotionContext& /*context*/) {}
   virtual void steer(const MotionContext& context) = 0;
+  /** A wish to walk came while the walk was ending: it begins anew. */
+  virtual bool wants_to_go_on() const { return false; }
   /** What is to be said when the walk has ended by itself. @return false if it failed. */
   virtual bool conclude(const MotionContext& /*context*/, std::string& /*remark*/) { return true; }
 
@@ -79,6 +81,7 @@ class WalkMotion : public WalkingMotion {
 
  protected:
   void steer(const MotionContext& context) override;
+  bool wants_to_go_on() const override;
   bool conclude(const MotionContext& context, std::string& remark) override;
 
  private:
@@ -101,10 +104,11 @@ class MoveToMotion : public WalkingMotion {
   bool conclude(const MotionContext& context, std::string& remark) override;
 
  private:
-  /** Goal seen from the torso's ground projection. */
+  /** Goal seen from where the robot would stand if it stopped now. */
   Pose2 remaining(const MotionContext& context) const;
 
   MoveToCommand command_;
+  /** Of the body between the feet. */
   Pose2 goal_in_odometry_;
   WalkLimits limits_;
   double way_ = 0;

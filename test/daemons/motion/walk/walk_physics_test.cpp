@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -182,17 +183,76 @@ TEST_F(WalkPhysicsTest, KeepsStraightAndToItsSpeed) {
 }
 
 TEST_F(WalkPhysicsTest, StopsFromFullSpeedInShortOrder) {
-  Trial& trial = begin(12);
-  trial.hold_walk({0.3, 0, 0});
-  trial.run(4);
-  const Eigen::Vector2d start = place();
-  trial.release_walk();
-  trial.run(1.5);
-  const Eigen::Vector2d stood = place();
-  EXPECT_LT((stood - start).norm(), 0.25);
-  trial.run(1);
-  EXPECT_LT((place() - stood).norm(), 0.01);
-  expect_standing_in("StandInit");
+  // Let go at any moment of a step.
+  for (const double more : {0.0, 0.06, 0.12, 0.18}) {
+    Trial& trial = begin(12);
+    trial.hold_walk({0.3, 0, 0});
+    trial.run(4 + more);
+    const Eigen::Vector2d start = place();
+    trial.release_walk();
+    trial.run(1.2);
+    const Eigen::Vector2d stood = place();
+    EXPECT_LT((stood - start).norm(), 0.2);
+    trial.run(1);
+    EXPECT_LT((place() - stood).norm(), 0.005);
+    expect_standing_in("StandInit");
+  }
+}
+
+TEST_F(WalkPhysicsTest, GoesNoFartherHalfASecondAfterAThumbHasLetGo) {
+  for (const double more : {0.0, 0.06, 0.12, 0.18}) {
+    Trial& trial = begin(14);
+    trial.hold_walk({0.15, 0, 0});
+    trial.run(4 + more);
+    trial.release_walk();
+    trial.run(0.5);
+    const Eigen::Vector2d stood = place();
+    trial.run(1.5);
+    EXPECT_LT((place() - stood).norm(), 0.015);
+    expect_standing_in("StandInit");
+  }
+}
+
+TEST_F(WalkPhysicsTest, WalksOnWhenTheThumbComesBackAtOnce) {
+  for (const double pause : {0.1, 0.25, 0.4, 0.6}) {
+    Trial& trial = begin(15);
+    trial.hold_walk({0.25, 0, 0});
+    trial.run(3);
+    trial.release_walk();
+    trial.run(pause);
+    trial.hold_walk({0.25, 0, 0});
+    trial.run(3);
+    EXPECT_EQ(mode(), Mode::kWalking) << pause;
+    EXPECT_LT(trial.torso_tilt(), 0.3) << pause;
+  }
+}
+
+TEST_F(WalkPhysicsTest, StopsInTheAirAndRefusesToWalkThere) {
+  Trial& trial = begin(13);
+  const int64_t walk = trial.hold_walk({0.15, 0, 0});
+  trial.run(2);
+  // Somebody lifts it by the trunk: a spring and a damper to a place above the ground.
+  constexpr double kTick = 0.01;
+  double last = trial.torso_height();
+  const double weight = 9.81 * nao_robot()->total_mass();
+  trial.on_tick([&] {
+    const double height = trial.torso_height();
+    const double force = weight + 400 * (0.45 - height) - 80 * (height - last) / kTick;
+    last = height;
+    trial.world().push(0, 0, {0, 0, std::clamp(force, 0.0, 3 * weight) * kTick});
+  });
+  const auto end = trial.await_end(walk, 3);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->status, ResultStatus::kFailed);
+  EXPECT_NE(end->reason.find("lifted"), std::string::npos) << end->reason;
+  trial.release_walk(false);
+  trial.run(0.2);
+  const int64_t again = trial.hold_walk({0.15, 0, 0});
+  trial.run(0.1);
+  ASSERT_TRUE(last_result(again));
+  EXPECT_EQ(last_result(again)->status, ResultStatus::kRefused);
+  EXPECT_NE(last_result(again)->reason.find("No foot carries"), std::string::npos)
+      << last_result(again)->reason;
 }
 
 TEST_F(WalkPhysicsTest, AWishForNoVelocityStartsNoWalk) {

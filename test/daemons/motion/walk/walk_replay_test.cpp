@@ -1,0 +1,54 @@
+// The walk in another physics: built only where MuJoCo is installed.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "nao-trial/trial.h"
+#include "sim/mujoco_peer.h"
+
+namespace nao::trial {
+namespace {
+
+TEST(WalkReplay, TheSameTargetsLeadAsFarInMujoco) {
+  TrialOptions options;
+  options.model = std::make_shared<const RobotModel>(
+      RobotModel::load(std::filesystem::path(NAO_TEST_DATA) / "robots" / "nao"));
+  options.is_ideal = true;
+  Trial trial(options, 1);
+  std::vector<Eigen::VectorXd> targets;
+  trial.on_tick([&] {
+    targets.emplace_back(
+        Eigen::VectorXd::Map(trial.targets().data(), static_cast<long>(trial.targets().size())));
+  });
+  const double start = trial.torso_in_world().translation().x();
+  trial.run(1);
+  trial.hold_walk({0.1, 0, 0});
+  trial.run(9);
+  const double way = trial.torso_in_world().translation().x() - start;
+  EXPECT_GT(way, 0.6);
+
+  // Open loop: whatever goes otherwise there stays as it is.
+  sim::WorldOptions world_options;
+  sim::World world(SceneFile{}, world_options);
+  sim::RobotOptions robot;
+  robot.command_latency_ticks = 0;
+  world.add_robot(options.model, robot);
+  const sim::Tree& tree = world.robot(0).tree();
+  sim::MujocoPeer peer(world.robot(0), world_options);
+  peer.set_state(tree, world.robot(0).state());
+  const double peer_start = world.robot(0).state().position.x();
+  for (const Eigen::VectorXd& target : targets) {
+    peer.set_targets(target);
+    for (int i = 0; i < world_options.steps_per_tick; ++i) peer.step();
+  }
+  const sim::TreeState end = peer.state(tree);
+  EXPECT_NEAR(end.position.x() - peer_start, way, 0.1 * way);
+  EXPECT_GT(end.position.z(), 0.28);
+}
+
+}  // namespace
+}  // namespace nao::trial
