@@ -24,6 +24,9 @@ constexpr double kSteeringHorizon = 0.05;
 // Both feet stand side by side if the one is within this of its place beside the other, m and rad.
 constexpr double kSquareDistance = 0.02;
 constexpr double kSquareTurn = 0.06;
+// If the walk has not ended after this many steps that should have ended it, it marches on the spot
+// until the feet are side by side: slower, and sure.
+constexpr int kMostEndingSteps = 3;
 // A foot that met the ground too high or too low comes back to level in this time, s.
 constexpr double kHeightTimeConstant = 0.1;
 // A foot that has not met the ground in time goes on down, m/s, as far as m, for s at most.
@@ -98,6 +101,7 @@ void WalkEngine::start(const RobotState& state, const JointTargets& targets) {
   stage_ = Stage::kLowering;
   is_ending_ = false;
   is_capturing_ = false;
+  num_ending_steps_ = 0;
   kick_state_ = KickState::kNone;
   is_kick_step_ = false;
   velocity_.setZero();
@@ -232,7 +236,7 @@ void WalkEngine::begin_starting() {
 }
 
 void WalkEngine::plan_steps() {
-  if (!is_ending_) {
+  if (!is_ending_ || num_ending_steps_ > kMostEndingSteps) {
     plan_ahead(kNumPlannedSteps);
     return;
   }
@@ -297,6 +301,7 @@ void WalkEngine::begin_step() {
   stage_ = Stage::kStepping;
   time_ = 0;
   duration_ = gait_->step_duration;
+  num_ending_steps_ = is_ending_ ? num_ending_steps_ + 1 : 0;
   const Vector3d wished = planner_.clip_velocity(choose_velocity());
   velocity_ = is_ending_ ? wished : planner_.ramp_velocity(velocity_, wished);
   step_velocity_ = calc_step_velocity();

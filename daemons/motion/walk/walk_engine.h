@@ -183,6 +183,8 @@ class WalkEngine {
   bool is_ending_ = false;
   /** The running step was planned to end the walk. */
   bool is_capturing_ = false;
+  /** Steps begun since the end was wished for. */
+  int num_ending_steps_ = 0;
   KickState kick_state_ = KickState::kNone;
   bool kicks_with_left_ = false;
   /** In odometry, m. */

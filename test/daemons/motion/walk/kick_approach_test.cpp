@@ -34,6 +34,10 @@ TEST(KickApproach, ChangesTheSpeedByNoMoreThanTwoStepsOfAFootNeed) {
   EXPECT_NEAR(approach.velocity.x(), 0.2, 0.02);
 }
 
+TEST(KickApproach, GetsToABallAsideOfItInAFewSteps) {
+  EXPECT_LE(plan_kick_approach({0.15, -0.1}, true, {0.2, 0}, kStep).num_steps, 8);
+}
+
 TEST(KickApproach, GoesBackSlowlyFromABallThatIsTooNear) {
   const KickApproach approach = plan_kick_approach({-0.1, 0}, true, {0.2, 0}, kStep);
   EXPECT_GT(approach.num_steps, 0);
