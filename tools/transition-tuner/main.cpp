@@ -1,13 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "common/data_path.h"
@@ -15,35 +11,23 @@
 #include "common/program.h"
 #include "transition-tuner/get_up_course.h"
 #include "transition-tuner/transition_text.h"
-#include "walk-tuner/cma_es.h"
+#include "tuning/cma_es.h"
+#include "tuning/search.h"
 
 namespace nao {
 namespace {
 
 struct TunerOptions {
-  std::string model = "nao";
+  SearchOptions search = {
+      .output = "transitions.yaml", .generations = 60, .population = 16, .sigma = 0.04};
   std::string file;
-  std::string output = "transitions.yaml";
   std::vector<std::string> sequences;
   std::vector<std::string> fixed = {"HeadYaw", "WristYaw", "Hand"};
   std::vector<int> keyframes = {0, 1000};
   std::string start = "any";
-  int generations = 60;
-  int population = 16;
   int trials = 12;
-  int jobs = 1;
-  double sigma = 0.04;
-  uint64_t seed = 1;
   bool is_check = false;
 };
-
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw Error("cannot read " + file.string());
-  return text.str();
-}
 
 /** Every text in every trial, on several cores; the answer does not depend on how many. */
 std::vector<std::vector<GetUpResult>> judge(const RobotModel& model, const GetUpCourse& course,
@@ -51,17 +35,10 @@ std::vector<std::vector<GetUpResult>> judge(const RobotModel& model, const GetUp
                                             const TunerOptions& options, uint64_t first_seed) {
   const auto num_trials = static_cast<size_t>(options.trials);
   std::vector<std::vector<GetUpResult>> results(texts.size(), std::vector<GetUpResult>(num_trials));
-  std::atomic<size_t> next = 0;
-  const auto work = [&] {
-    for (size_t i = next++; i < texts.size() * num_trials; i = next++) {
-      const auto graph = motion::TransitionGraph::parse(model, texts[i / num_trials]);
-      results[i / num_trials][i % num_trials] = course.run(graph, first_seed + i % num_trials);
-    }
-  };
-  std::vector<std::jthread> helpers;  // each with simulators of its own; they share `next` alone
-  for (int i = 1; i < options.jobs; ++i) helpers.emplace_back(work);
-  work();
-  helpers.clear();
+  for_each_index(texts.size() * num_trials, options.search.jobs, [&](size_t i) {
+    const auto graph = motion::TransitionGraph::parse(model, texts[i / num_trials]);
+    results[i / num_trials][i % num_trials] = course.run(graph, first_seed + i % num_trials);
+  });
   return results;
 }
 
@@ -92,7 +69,7 @@ void check(const RobotModel& model, const GetUpCourse& course, const std::string
 }
 
 void tune(const TunerOptions& options) {
-  const std::filesystem::path folder = data_path() / "robots" / options.model;
+  const std::filesystem::path folder = data_path() / "robots" / options.search.model;
   const auto model = std::make_shared<const RobotModel>(RobotModel::load(folder));
   const std::string text = read_text(options.file.empty() ? folder / "transitions.yaml"
                                                           : std::filesystem::path(options.file));
@@ -125,13 +102,14 @@ void tune(const TunerOptions& options) {
     return sum;
   };
   const Eigen::VectorXd start = values(chosen);
-  CmaEs search(start, options.sigma, options.population, options.seed);
-  for (int generation = 1; generation <= options.generations; ++generation) {
+  CmaEs search(start, options.search.sigma, options.search.population, options.search.seed);
+  for (int generation = 1; generation <= options.search.generations; ++generation) {
     const std::vector<Eigen::VectorXd> candidates = search.ask();
     std::vector<std::string> texts;
     for (const Eigen::VectorXd& candidate : candidates) texts.push_back(text_of(candidate));
-    const uint64_t first_seed = options.seed * 100000 + static_cast<uint64_t>(generation) *
-                                                            static_cast<uint64_t>(options.trials);
+    const uint64_t first_seed =
+        options.search.seed * 100000 +
+        static_cast<uint64_t>(generation) * static_cast<uint64_t>(options.trials);
     const auto results = judge(*model, course, texts, options, first_seed);
     std::vector<double> costs;
     Verdict mean;
@@ -147,9 +125,7 @@ void tune(const TunerOptions& options) {
                 generation, mean.cost, *std::min_element(costs.begin(), costs.end()), mean.num_up,
                 results.size() * static_cast<size_t>(options.trials), mean.time, search.sigma());
     std::fflush(stdout);
-    std::ofstream output(options.output);
-    output << text_of(search.mean());
-    if (!output) throw Error("cannot write " + options.output);
+    write_text(options.search.output, text_of(search.mean()));
   }
 }
 
@@ -166,11 +142,8 @@ int main(int argc, char** argv) {
   nao::CommonOptions common;
   nao::add_common_options(app, common);
   nao::TunerOptions options;
-  app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
-      ->capture_default_str();
+  nao::add_search_options(app, options.search, "transitions", "rad and s");
   app.add_option("--transitions", options.file, "File to start from (default: the robot's)");
-  app.add_option("--output", options.output, "Where the tuned transitions go")
-      ->capture_default_str();
   app.add_option("--sequence", options.sequences, "Transitions to tune, by name");
   app.add_option("--keyframes", options.keyframes, "First and last keyframe to tune, from 0")
       ->expected(2);
@@ -178,21 +151,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--start", options.start, "How it lies: any, belly, back, left or right")
       ->capture_default_str();
-  app.add_option("--generations", options.generations, "Generations of the search")
-      ->capture_default_str();
-  app.add_option("--population", options.population, "Candidates in a generation")
-      ->check(CLI::Range(4, 1000))
-      ->capture_default_str();
   app.add_option("--trials", options.trials, "Times that each candidate gets up")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--jobs", options.jobs, "Threads")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  app.add_option("--sigma", options.sigma, "First spread, rad and s")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--seed", options.seed, "Of the search and of all trials")->capture_default_str();
   app.add_flag("--check", options.is_check, "Only judge the file, by --trials trials");
   return nao::run_program(app, common, argc, argv, [&] { nao::tune(options); });
 }

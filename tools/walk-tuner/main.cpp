@@ -1,18 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
-#include "walk-tuner/cma_es.h"
+#include "tuning/cma_es.h"
+#include "tuning/search.h"
 #include "walk-tuner/gait_file.h"
 #include "walk-tuner/walk_course.h"
 
@@ -22,19 +19,14 @@ namespace {
 using motion::Gait;
 
 struct TunerOptions {
-  std::string model = "nao";
+  SearchOptions search = {
+      .output = "gait.yaml", .generations = 30, .population = 14, .sigma = 0.05};
   std::string gait_file;
-  std::string output = "gait.yaml";
   std::vector<std::string> only;
   std::vector<std::string> settings;
-  int generations = 30;
-  int population = 14;
   int courses = 1;
-  int jobs = 1;
   double speed = 1;
-  double sigma = 0.05;
   double late_share = 0.01;
-  uint64_t seed = 1;
   bool is_check = false;
 };
 
@@ -49,14 +41,6 @@ const std::vector<std::string> kNotTuned = {
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw Error("cannot read " + file.string());
-  return text.str();
 }
 
 /** Between a gait and a point in the unit cube of the tuned parameters' ranges. */
@@ -111,26 +95,19 @@ void apply(const std::vector<std::string>& settings, const std::vector<Gait::Par
 std::vector<CourseResult> judge(const WalkCourse& course, const std::vector<Gait>& gaits,
                                 const TunerOptions& options, uint64_t first_seed) {
   std::vector<CourseResult> results(gaits.size());
-  std::atomic<size_t> next = 0;
-  const auto work = [&] {
-    for (size_t i = next++; i < gaits.size(); i = next++) {
-      for (int k = 0; k < options.courses; ++k) {
-        const CourseResult result = course.run(gaits[i], first_seed + static_cast<uint64_t>(k));
-        results[i].cost += result.cost / options.courses;
-        results[i].num_walks += result.num_walks;
-        results[i].num_falls += result.num_falls;
-      }
+  for_each_index(gaits.size(), options.search.jobs, [&](size_t i) {
+    for (int k = 0; k < options.courses; ++k) {
+      const CourseResult result = course.run(gaits[i], first_seed + static_cast<uint64_t>(k));
+      results[i].cost += result.cost / options.courses;
+      results[i].num_walks += result.num_walks;
+      results[i].num_falls += result.num_falls;
     }
-  };
-  std::vector<std::jthread> helpers;  // each with simulators of its own; they share `next` alone
-  for (int i = 1; i < options.jobs; ++i) helpers.emplace_back(work);
-  work();
-  helpers.clear();
+  });
   return results;
 }
 
 void tune(const TunerOptions& options) {
-  const std::filesystem::path folder = data_path() / "robots" / options.model;
+  const std::filesystem::path folder = data_path() / "robots" / options.search.model;
   const std::filesystem::path file =
       options.gait_file.empty() ? folder / "gait.yaml" : std::filesystem::path(options.gait_file);
   const auto model = std::make_shared<const RobotModel>(RobotModel::load(folder));
@@ -154,13 +131,14 @@ void tune(const TunerOptions& options) {
   if (tuned.size() < 2) throw ConfigError("--only must name two parameters of the gait at least");
   const GaitSpace space(gait, tuned);
   const std::string text = read_text(file);
-  CmaEs search(space.point(), options.sigma, options.population, options.seed);
-  for (int generation = 1; generation <= options.generations; ++generation) {
+  CmaEs search(space.point(), options.search.sigma, options.search.population, options.search.seed);
+  for (int generation = 1; generation <= options.search.generations; ++generation) {
     const std::vector<Eigen::VectorXd> candidates = search.ask();
     std::vector<Gait> gaits;
     for (const Eigen::VectorXd& candidate : candidates) gaits.push_back(space.gait(candidate));
     const auto courses = static_cast<uint64_t>(options.courses);
-    const uint64_t first_seed = options.seed * 10000 + static_cast<uint64_t>(generation) * courses;
+    const uint64_t first_seed =
+        options.search.seed * 10000 + static_cast<uint64_t>(generation) * courses;
     const std::vector<CourseResult> results = judge(course, gaits, options, first_seed);
     std::vector<double> costs;
     CourseResult sum;
@@ -176,9 +154,8 @@ void tune(const TunerOptions& options) {
                 generation, sum.cost, *std::min_element(costs.begin(), costs.end()), sum.num_falls,
                 sum.num_walks, search.sigma());
     std::fflush(stdout);
-    std::ofstream output(options.output);
-    output << with_gait_values(text, space.gait(search.mean()), parameters);
-    if (!output) throw Error("cannot write " + options.output);
+    write_text(options.search.output,
+               with_gait_values(text, space.gait(search.mean()), parameters));
   }
 }
 
@@ -194,22 +171,12 @@ int main(int argc, char** argv) {
   nao::CommonOptions common;
   nao::add_common_options(app, common);
   nao::TunerOptions options;
-  app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
-      ->capture_default_str();
+  nao::add_search_options(app, options.search, "gait", "share of the parameters' ranges");
   app.add_option("--gait", options.gait_file, "Gait file to start from (default: the robot's)");
-  app.add_option("--output", options.output, "Where the tuned gait goes")->capture_default_str();
   app.add_option("--set", options.settings, "KEY=NUMBER instead of the file's value");
   app.add_option("--only", options.only, "Parameters to tune (default: all but bounds and looks)");
-  app.add_option("--generations", options.generations, "Generations of the search")
-      ->capture_default_str();
-  app.add_option("--population", options.population, "Candidates in a generation")
-      ->check(CLI::Range(4, 1000))
-      ->capture_default_str();
   app.add_option("--courses", options.courses, "Courses of ten walks for each candidate")
       ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--jobs", options.jobs, "Threads")
-      ->check(CLI::Range(1, 256))
       ->capture_default_str();
   app.add_option("--speed", options.speed, "Share of the robot's walk limits to ask for")
       ->check(CLI::PositiveNumber)
@@ -217,10 +184,6 @@ int main(int argc, char** argv) {
   app.add_option("--late", options.late_share,
                  "Chance in each tick that motion misses it and up to three more")
       ->capture_default_str();
-  app.add_option("--sigma", options.sigma, "First spread, share of the parameters' ranges")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--seed", options.seed, "Of the search and of all walks")->capture_default_str();
   app.add_flag("--check", options.is_check, "Only judge the gait, by --courses courses");
   return nao::run_program(app, common, argc, argv, [&] { nao::tune(options); });
 }

@@ -1,4 +1,4 @@
-#include "walk-tuner/cma_es.h"
+#include "tuning/cma_es.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

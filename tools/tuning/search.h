@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace nao {
+
+/** What every seeded search of a tuner takes. */
+struct SearchOptions {
+  std::string model = "nao";
+  std::string output;
+  int generations = 30;
+  int population = 14;
+  int jobs = 1;
+  /** First spread, in units of the tuner's parameters. */
+  double sigma = 0.05;
+  uint64_t seed = 1;
+};
+
+/** Adds --model, --output, --generations, --population, --jobs, --sigma and --seed.
+ * @param result      What --output holds: "gait".
+ * @param sigma_unit  Of --sigma, in words. */
+void add_search_options(CLI::App& app, SearchOptions& options, const std::string& result,
+                        const std::string& sigma_unit);
+
+/** Calls `work` once for every index below `count`, on `jobs` threads, in no order; ends when all
+ * are done. Calls share nothing but what `work` itself does. */
+void for_each_index(size_t count, int jobs, const std::function<void(size_t)>& work);
+
+/** @throws Error  if the file cannot be read. */
+std::string read_text(const std::filesystem::path& file);
+
+/** @throws Error  if the file cannot be written. */
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace nao
