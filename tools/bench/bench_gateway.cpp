@@ -51,6 +51,8 @@ constexpr double kYawChange = 0.4;
  * on the way to the goal. Before, the reading has stood still for this long, s. */
 constexpr double kMoved = 0.001;
 constexpr double kStillTime = 0.2;
+/** The simulator's control tick, s. */
+constexpr double kTick = 0.01;
 constexpr int kNumClients = 32;
 
 double percentile(std::vector<double> values, double share) {
@@ -217,11 +219,19 @@ struct WayTimes {
   std::vector<double> to_moved_ms;
 };
 
-/** Turns the head and times what follows. @param ask  Sends the change, rad. */
-void time_way(Stack& stack, const std::function<void(double)>& ask, double change,
+/** Turns the head and times what follows.
+ * @param ask  Sends the change, rad.
+ * @param phase  How long after a measurement it is asked for, s, in [0, kTick]. */
+void time_way(Stack& stack, const std::function<void(double)>& ask, double change, double phase,
               WayTimes& times) {
-  stack.run_until([&] { return stack.yaw_time - stack.yaw_still_since > kStillTime; },
-                  "the head is at rest");
+  const double heard_before = stack.yaw_time;
+  stack.run_until(
+      [&] {
+        return stack.yaw_time > heard_before &&
+               stack.yaw_time - stack.yaw_still_since > kStillTime;
+      },
+      "the head is at rest");
+  stack.run_for(phase);
   const double target_before = stack.yaw_target;
   const double yaw_before = stack.yaw;
   const double direction = change > 0 ? 1 : -1;
@@ -247,8 +257,18 @@ void time_way(Stack& stack, const std::function<void(double)>& ask, double chang
   times.to_moved_ms.push_back((moved_time - start) * 1e3);
 }
 
+/** Moments of the control tick, one in each of `num` equal parts of it, in random order, s. The
+ * median over phases drawn freely would scatter by 0.8 ms with 40 of them. */
+std::vector<double> tick_phases(int num, std::mt19937& random) {
+  std::uniform_real_distribution<double> within_part(0, 1);
+  std::vector<double> phases;
+  for (int i = 0; i < num; ++i) phases.push_back((i + within_part(random)) / num * kTick);
+  std::shuffle(phases.begin(), phases.end(), random);
+  return phases;
+}
+
 /** The way of a command over raw TCP, over WebSocket, and straight on the bus without a gateway: in
- * turns, at random moments of the control tick. */
+ * turns, at all moments of the control tick alike. */
 std::map<std::string, WayTimes> measure_ways(Stack& stack, int num_rounds) {
   const auto tcp = nao::connect_tcp(stack.tcp_port());
   const auto websocket = nao::connect_websocket(stack.http_port());
@@ -281,8 +301,10 @@ std::map<std::string, WayTimes> measure_ways(Stack& stack, int num_rounds) {
       {"tcp", ask_phone(*tcp)}, {"websocket", ask_phone(*websocket)}, {"bus", ask_bus}};
 
   std::map<std::string, WayTimes> times;
+  std::map<std::string, std::vector<double>> phases;
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> pause(0.3, 0.4);
+  for (const auto& [name, ask] : ways) phases[name] = tick_phases(num_rounds, random);
+  constexpr double kPause = 0.3;
   double change = kYawChange;
   for (int round = 0; round < num_rounds; ++round) {
     for (const auto& [name, ask] : ways) {
@@ -292,10 +314,10 @@ std::map<std::string, WayTimes> measure_ways(Stack& stack, int num_rounds) {
       naoremote::Request request;
       request.mutable_take_control();
       if (driver != nullptr) driver->send(request);
-      stack.run_for(pause(random));
-      time_way(stack, ask, change, times[name]);
+      stack.run_for(kPause);
+      time_way(stack, ask, change, phases[name][static_cast<size_t>(round)], times[name]);
       change = -change;
-      stack.run_for(pause(random));
+      stack.run_for(kPause);
       request.mutable_release_control();
       if (driver != nullptr) driver->send(request);
       // Both connections stay alive.
