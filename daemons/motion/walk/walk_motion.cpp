@@ -102,8 +102,6 @@ void WalkingMotion::start(const MotionContext& context, const JointTargets& targ
 }
 
 std::optional<std::string> WalkingMotion::find_trouble(const MotionContext& context) {
-  // On its way up from a seat it lies, with its feet in the air.
-  if (is_standing_up_) return std::nullopt;
   if (context.state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
     return "The robot lost its balance.";
   }
@@ -124,16 +122,17 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
     start_steering(context);
     return Phase::kRunning;
   }
-  // Not on the way up: from a seat that leads over back and belly, feet in the air.
+  // Only now: the way up from a seat leads over back and belly, feet in the air.
   if (const auto trouble = find_trouble(context)) {
     remark_ = *trouble;
     return Phase::kFailed;
   }
-  if (const auto obstacle = find_walk_obstacle(engine_.legs(), context.state, targets.stiffness)) {
-    remark_ = *obstacle;
+  if (const auto soft = find_soft_leg(engine_.legs(), targets.stiffness)) {
+    remark_ = *soft;
     if (engine_.has_both_feet_down()) return Phase::kFailed;
     engine_.end();
   } else if (!is_finishing_) {
+    remark_.clear();
     steer(context);
   }
   if (engine_.step(context.state, context.kinematics, context.dt, targets)) return Phase::kRunning;

@@ -16,7 +16,7 @@ namespace nao::motion {
 std::optional<std::string> find_soft_leg(const LegKinematics& legs,
                                          const std::vector<double>& stiffness);
 
-/** Why the robot must not start to walk, or not go on, as a sentence; nothing if it may.
+/** Why the robot must not start to walk, as a sentence; nothing if it may.
  * @param stiffness  Of all motors, motor order. */
 std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
                                               const std::vector<double>& stiffness);
