@@ -227,8 +227,7 @@ void time_way(Stack& stack, const std::function<void(double)>& ask, double chang
   const double heard_before = stack.yaw_time;
   stack.run_until(
       [&] {
-        return stack.yaw_time > heard_before &&
-               stack.yaw_time - stack.yaw_still_since > kStillTime;
+        return stack.yaw_time > heard_before && stack.yaw_time - stack.yaw_still_since > kStillTime;
       },
       "the head is at rest");
   stack.run_for(phase);

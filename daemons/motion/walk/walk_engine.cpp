@@ -97,7 +97,7 @@ WalkEngine::WalkEngine(const RobotModel& model, const Gait& gait, const Posture&
   stand_lead_ = (to_sole * reference_kinematics_.center_of_mass()).x() - gait.zmp_forward;
 }
 
-void WalkEngine::start(const RobotState& state, const JointTargets& targets) {
+void WalkEngine::start(const JointTargets& targets) {
   stage_ = Stage::kLowering;
   is_ending_ = false;
   is_capturing_ = false;
@@ -143,7 +143,6 @@ void WalkEngine::start(const RobotState& state, const JointTargets& targets) {
   const std::vector<double> posture = pose_joints();
   for (size_t i = 0; i < posture.size(); ++i) start_offset_[i] = start_position_[i] - posture[i];
   wished_position_ = posture;
-  (void)state;
 }
 
 bool WalkEngine::step(const RobotState& state, const Kinematics& measured, double dt,

@@ -52,7 +52,7 @@ class WalkEngine {
   WalkEngine(const RobotModel& model, const Gait& gait, const Posture& end_posture);
 
   /** Begins with both feet on the ground. @param targets  As sent in the last tick. */
-  void start(const RobotState& state, const JointTargets& targets);
+  void start(const JointTargets& targets);
 
   /** @param velocity  Wished: m/s ahead and to the left, rad/s. Takes effect at the next step,
    * clipped to what the gait holds. All zero: walks on the spot. */

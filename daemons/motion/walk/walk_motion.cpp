@@ -96,7 +96,7 @@ void WalkingMotion::start(const MotionContext& context, const JointTargets& targ
   if (is_standing_up_) {
     stand_up_->start(context, targets);
   } else {
-    engine_.start(context.state, targets);
+    engine_.start(targets);
     start_steering(context);
   }
 }
@@ -118,7 +118,7 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
     if (phase != Phase::kDone) return phase;
     is_standing_up_ = false;
     if (is_finishing_) return Phase::kDone;
-    engine_.start(context.state, targets);
+    engine_.start(targets);
     start_steering(context);
     return Phase::kRunning;
   }
@@ -142,7 +142,7 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
     return std::exchange(has_ended_, true) ? Phase::kDone : Phase::kRunning;
   }
   if (wants_to_go_on()) {
-    engine_.start(context.state, targets);
+    engine_.start(targets);
     return Phase::kRunning;
   }
   return conclude(context, remark_) ? Phase::kDone : Phase::kFailed;
