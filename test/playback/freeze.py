@@ -79,7 +79,8 @@ def gateway(events):
 def main():
     kinds = {function.__name__: function for function in (commands, sensors, truth, gateway)}
     if len(sys.argv) != 4 or sys.argv[1] not in kinds:
-        raise SystemExit(__doc__.strip())
+        print(__doc__.strip())
+        raise SystemExit(0 if "--help" in sys.argv else 2)
     frozen = kinds[sys.argv[1]](read_log(Path(sys.argv[2])))
     if not frozen:
         raise SystemExit(f"freeze: {sys.argv[2]} holds nothing of the kind {sys.argv[1]}")

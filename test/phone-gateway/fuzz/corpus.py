@@ -57,7 +57,8 @@ def unpack(file, folder):
 
 def main():
     if len(sys.argv) < 3 or sys.argv[1] not in ("seed", "pack", "unpack"):
-        sys.exit(__doc__)
+        print(__doc__.strip())
+        sys.exit(0 if "--help" in sys.argv else 2)
     paths = [Path(argument) for argument in sys.argv[2:]]
     if sys.argv[1] != "pack":
         paths[-1].mkdir(parents=True, exist_ok=True)

@@ -1,0 +1,138 @@
+#!/usr/bin/python3
+"""What the documents say of command lines is what the programs' own help texts say."""
+
+import functools
+import os
+import re
+import shlex
+import unittest
+
+from stack import BIN_DIR, ROOT, run
+
+# Words between which one command line ends and the next begins.
+SEPARATORS = {";", "&&", "||", "|", "&", "(", ")", ">", "<"}
+
+
+def tracked(*patterns):
+    listed = run(["git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard", *patterns]).stdout
+    return [ROOT / name for name in listed.splitlines() if (ROOT / name).exists()]
+
+
+@functools.cache
+def commands():
+    """Everything that a person may call: name as documents say it -> file."""
+    # nao-bare-sender is what nao-bench-bus sends against: nobody calls it.
+    found = {file.name: file for file in BIN_DIR.glob("nao*") if "_" not in file.name and file.name != "nao-bare-sender"}
+    for file in tracked("scripts/*", ".ci/*", "test/*.py", "test/playback/record", "tools/*.py", "phone-gateway/*.py"):
+        if os.access(file, os.X_OK):
+            found[str(file.relative_to(ROOT))] = file
+    return found
+
+
+@functools.cache
+def help_text(*words):
+    result = run([*words, "--help"])
+    assert result.returncode == 0, f"{words}: {result.returncode} {result.stderr}"
+    return result.stdout
+
+
+def subcommands(text):
+    section = re.search(r"^Subcommands:\n((?:[ \t]+.*\n?)*)", text, re.MULTILINE)
+    return set(re.findall(r"^  (\S+)", section[1], re.MULTILINE)) if section else set()
+
+
+def options(text):
+    return set(re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", text))
+
+
+def words_of(line):
+    lexer = shlex.shlex(line, posix=True, punctuation_chars=True)
+    lexer.whitespace_split = True
+    try:
+        return list(lexer)
+    except ValueError:  # a quotation mark in a sentence
+        return line.split()
+
+
+def command_lines(text):
+    """The lines of code of a document: blocks, indented or fenced, and what stands in `marks`."""
+    fenced = re.findall(r"^```\w*\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    outside = re.sub(r"^```\w*\n.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
+    lines = [line for block in fenced for line in block.splitlines() if not re.search("[│─]", line)]  # no diagrams
+    lines += re.findall(r"^    (\S.*)$", outside, re.MULTILINE)
+    return lines + re.findall(r"`([^`]+)`", outside)
+
+
+def calls(line):
+    """The command lines within a line. @return [(name, [word after it])]."""
+    found, current = [], None
+    for word in words_of(line.split(" # ")[0]):
+        name = re.sub(r"^(?:\./)?(?:build/[a-z]+/bin/)?", "", word)
+        if current is None and name in commands():
+            current = (name, [])
+            found.append(current)
+        elif word in SEPARATORS:
+            current = None
+        elif current is not None:
+            current[1].append(re.sub(r"^\[|\]$", "", word))
+    return found
+
+
+def complaint(name, words):
+    """What the help texts of a command say against a call of it; None if nothing."""
+    path = [commands()[name]]
+    text = help_text(*path)
+    for word in words:
+        if word.startswith("--"):
+            if word.split("=")[0].rstrip(",:") not in options(text) | {"--help", "--version"}:
+                return f"{' '.join([name, *map(str, path[1:])])} has no option {word}"
+            continue
+        # Alternatives: list|take. Capitals stand for what a person puts there.
+        known = subcommands(help_text(*path))
+        if known and word.isupper():
+            text += "".join(help_text(*path, name) for name in known)
+        for alternative in word.split("|") if known else []:
+            if re.fullmatch(r"[a-z][a-z-]*", alternative) and alternative not in known:
+                return f"{name} has no subcommand {alternative}"
+        if known and word.split("|")[0] in known:
+            path.append(word.split("|")[0])
+            text += help_text(*path)
+    return None
+
+
+class HelpTexts(unittest.TestCase):
+    def test_what_documents_call_is_what_help_texts_know(self):
+        num_calls = 0
+        for document in tracked("*.md"):
+            for line in command_lines(document.read_text()):
+                for name, words in calls(line):
+                    num_calls += 1
+                    with self.subTest(document=str(document.relative_to(ROOT)), line=line):
+                        self.assertIsNone(complaint(name, words))
+        self.assertGreater(num_calls, 100)
+
+    def test_every_option_that_is_named_alone_belongs_to_some_command(self):
+        known = options("".join(help_text(file) for file in commands().values()))
+        for document in tracked("*.md"):
+            for option in re.findall(r"`(--[a-z][a-z-]*)", document.read_text()):
+                with self.subTest(document=str(document.relative_to(ROOT)), option=option):
+                    self.assertIn(option, known)
+
+    def test_scripts_explain_every_option_that_they_take(self):
+        for name, file in commands().items():
+            source = file.read_bytes()
+            if not source.startswith(b"#!/usr/bin/env bash"):
+                continue
+            for taken in re.findall(r"^\s+(?:[\w-]+ \| )*(--[a-z-]+)(?: \| [\w-]+)*\)", source.decode(), re.MULTILINE):
+                with self.subTest(script=name, option=taken):
+                    self.assertIn(taken, options(help_text(file)) | {"--help"})
+
+    def test_the_readme_of_nao_names_every_subcommand(self):
+        page = (ROOT / "tools/nao/README.md").read_text()
+        for name in subcommands(help_text(BIN_DIR / "nao")):
+            with self.subTest(subcommand=name):
+                self.assertRegex(page, rf"(?m)^    nao {name}\b")
+
+
+if __name__ == "__main__":
+    unittest.main()
