@@ -97,6 +97,12 @@ int main(int argc, char** argv) {
         ->add_option("--late", options.trial.late_share,
                      "Chance in each tick that motion misses it and up to three more")
         ->capture_default_str();
+    command
+        ->add_option(
+            "--latency", options.trial.command_latency_ticks,
+            "Ticks of 10 ms between a joint command and the motors' following it, 0: 1 or 2")
+        ->check(CLI::Range(0, 10))
+        ->capture_default_str();
     command->add_option("--trace", options.trace_file,
                         "walk: write true and estimated pose to this file, CSV");
     command->add_flag("--ideal", options.trial.is_ideal, "No randomisation, noise or latency");

@@ -59,6 +59,9 @@ Trial::Trial(const TrialOptions& options, uint64_t seed)
     robot.friction_scale = random(0.5, 1.0) / 0.8;
     robot.mass_scale = random(0.97, 1.03);
     robot.command_latency_ticks = random(0, 1) < 0.5 ? 1 : 2;
+    if (options.command_latency_ticks > 0) {
+      robot.command_latency_ticks = options.command_latency_ticks;
+    }
   }
   world_.add_robot(options.model, robot);
   restart_core();

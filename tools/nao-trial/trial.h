@@ -23,6 +23,9 @@ struct TrialOptions {
   /** Chance in each tick that the mind misses it and up to three more, as under a busy operating
    * system: the servos hold their targets, and the mind goes on with the newest sensors. */
   double late_share = 0;
+  /** Ticks between a joint command and the motors' following it, as over a slow network; 0: 1 or 2
+   * by chance. */
+  int command_latency_ticks = 0;
   /** Posture that the robot starts in. */
   std::string posture = "StandInit";
   motion::MotionOptions motion;
