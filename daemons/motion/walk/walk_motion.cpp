@@ -62,7 +62,7 @@ std::optional<std::string> find_soft_leg(const LegKinematics& legs,
 
 std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
                                               const std::vector<double>& stiffness) {
-  if (const auto soft = find_soft_leg(legs, stiffness)) return soft;
+  if (auto soft = find_soft_leg(legs, stiffness)) return soft;
   if (state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
     return "The robot does not stand upright.";
   }
