@@ -28,6 +28,9 @@ constexpr double kSilence = 0.5;
  * moment ago, s: on a busy machine a world that is a little late is better than a robot that falls.
  */
 constexpr double kPatience = 0.03;
+/** ... but only if some of its answers come within a tick, s: at the far end of a slow network they
+ * never do, and waiting for each would slow the world for good. */
+constexpr double kNear = 0.01;
 constexpr double kMomentAgo = 0.1;
 constexpr size_t kRememberedCommands = 64;
 constexpr double kGreatestImpulse = 100;
@@ -146,6 +149,7 @@ void SimDaemon::take_joint_command(int robot, const naolcm::joint_command_t& mes
   world_->set_targets(robot, port.targets);
   port.answered_tick = std::max(port.answered_tick, message.tick);
   port.answer_time = monotonic_seconds();
+  port.answer_delay.note_answer(message.tick, port.answer_time);
   port.has_answered = true;
 }
 
@@ -273,7 +277,7 @@ double SimDaemon::next_tick(double now) const {
   if (options_.lock_step || pacer_.pace() == 0) return due;
   const bool is_awaited = std::any_of(ports_.begin(), ports_.end(), [&](const Port& port) {
     return port.has_answered && port.answered_tick < world_->tick() &&
-           now - port.answer_time < kMomentAgo;
+           now - port.answer_time < kMomentAgo && port.answer_delay.least() < kNear;
   });
   return is_awaited ? std::max(due, last_tick_time_ + kPatience) : due;
 }
@@ -301,6 +305,7 @@ void SimDaemon::run_tick(double now) {
     if (is_driven && port.answered_tick < world_->tick()) ++num_late_commands_;
   }
   world_->step_tick();
+  for (Port& port : ports_) port.answer_delay.note_tick(world_->tick(), now);
   ++ticks_run_;
   if (ticks_to_step_ > 0) --ticks_to_step_;
   publish_sensors();

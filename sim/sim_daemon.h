@@ -14,6 +14,7 @@
 #include "common/event_loop.h"
 #include "common/rate_limiter.h"
 #include "common/status_reporter.h"
+#include "sim/answer_delay.h"
 #include "sim/pacer.h"
 #include "sim/sim_options.h"
 #include "sim/world.h"
@@ -43,6 +44,7 @@ class SimDaemon {
     int64_t answered_tick = -1;
     double answer_time = -1e9;
     bool has_answered = false;
+    AnswerDelay answer_delay{};
   };
 
   void take_joint_command(int robot, const naolcm::joint_command_t& message);
