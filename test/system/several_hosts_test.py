@@ -2,7 +2,9 @@
 """Simulator and camera, motion, and gateway on three hosts, with a network between them that delays and loses."""
 
 import json
+import math
 import os
+import subprocess
 import time
 import unittest
 
@@ -13,6 +15,9 @@ WORLD, MOTION, GATEWAY = "world", "motion", "gate"
 ONLY = {WORLD: "sim,head-camera", MOTION: "motion", GATEWAY: "phone-gateway"}
 DELAY = 0.02  # s, one way
 LOSS = 0.01
+# From the last walk command that comes through to a robot at rest: motion lets a command stand for 0.5 s; the steps
+# that end the walk take more at this delay (nao-trial walk --latency 6 --late 0.02: up to 1 s).
+STOP_TIME = 2.0
 
 
 class HostStack(Stack):
@@ -32,8 +37,11 @@ class HostStack(Stack):
     def nao(self, *arguments):
         return run([*self.hosts.on(self.host), BIN_DIR / "nao", "--lcm-url", self.lcm_url, *arguments])
 
+    def phone_command(self, *arguments):
+        return [*self.hosts.on(self.host), str(BIN_DIR / "nao-phone"), "--port", "7668", *arguments]
+
     def phone(self, *arguments):
-        return run([*self.hosts.on(self.host), BIN_DIR / "nao-phone", "--port", "7668", *arguments])
+        return run(self.phone_command(*arguments))
 
 
 @unittest.skipIf(Hosts.missing(), Hosts.missing())
@@ -71,6 +79,48 @@ class SeveralHosts(unittest.TestCase):
         result = self.part[GATEWAY].phone("picture", picture)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertTrue(picture.read_bytes().startswith(b"\xff\xd8"))
+
+    def place(self):
+        """Where the torso truly is, m, and on the world's clock, s."""
+        world = json.loads(self.part[WORLD].nao("world", "show", "--json").stdout)
+        return world["robots"][0]["position_torso_in_world"], world["utime"] * 1e-6
+
+    def assert_upright(self, position):
+        self.assertGreater(position[2], 0.28, "it has fallen")
+
+    def test_a_phone_walks_the_robot(self):
+        before, start = self.place()
+        result = self.part[GATEWAY].phone("walk", "-0.33", "--duration", "8")  # 0.1 m/s
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        after, end = self.place()
+        self.assert_upright(after)
+        self.assertGreater(end - start, 4, "the world waits for what comes late")
+        self.assertGreater(math.dist(after[:2], before[:2]), 0.3, "it should have gone 0.8 m, and takes a while to get going")
+        self.assert_obeys("StandInit", 0.322)
+
+    def test_a_gateway_that_is_cut_off_while_a_phone_walks_leaves_a_robot_that_stands(self):
+        start = self.place()[0]
+        walk = subprocess.Popen(self.part[GATEWAY].phone_command("walk", "-0.33", "--duration", "60"),
+                                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            deadline = time.monotonic() + DEADLINE
+            while math.dist(self.place()[0][:2], start[:2]) < 0.15:
+                self.assertLess(time.monotonic(), deadline, "it does not walk")
+            self.hosts.cut(GATEWAY)
+            cut_at = self.place()[1]
+            while self.place()[1] < cut_at + STOP_TIME:
+                self.assertLess(time.monotonic(), deadline)
+            stopped, stopped_at = self.place()
+            while self.place()[1] < stopped_at + 2:
+                self.assertLess(time.monotonic(), deadline)
+            self.assertLess(math.dist(self.place()[0], stopped), 0.015, "it walks on")
+            self.assert_upright(stopped)
+        finally:
+            walk.kill()
+            walk.wait()
+            self.hosts.mend(GATEWAY)
+            self.part[GATEWAY].nao("status", "--wait", "nao-sim,nao-motion", "--timeout", "60")
+        self.assert_obeys("StandInit", 0.322)
 
     def test_a_motion_host_that_is_cut_off_comes_back(self):
         before = self.truth()["position_torso_in_world"]
