@@ -40,8 +40,8 @@ void JointChangeMotion::start(const MotionContext& context, const JointTargets& 
           : standing_rates(context, change_.speed);
   const JointTrajectory::Start how = choose_start(context, rates);
   // The joints that are not named stop; the named ones start from where they are.
-  std::vector<double> base =
-      JointTrajectory::stopping(targets.position, targets.velocity, rates).goal();
+  stop_ = JointTrajectory::stopping(targets.position, targets.velocity, stopping_rates(context));
+  std::vector<double> base = stop_.goal();
   for (const std::string& name : change_.joint_names) {
     const int motor = context.model.find_motor(name);
     base[motor] = targets.position[motor];
@@ -55,8 +55,45 @@ void JointChangeMotion::start(const MotionContext& context, const JointTargets& 
     remark_ += name;
   }
   if (!remark_.empty()) remark_ += ".";
-  trajectory_ = JointTrajectory(targets.position, targets.velocity, goal, rates, 0, how);
+  std::vector<double> start = goal;
+  std::vector<double> velocity(goal.size(), 0.0);
+  turning_.clear();
+  for (int motor = 0; motor < context.model.num_motors(); ++motor) {
+    const std::string& name = context.model.motor_joint(motor).name;
+    const auto& names = change_.joint_names;
+    const bool is_named = std::find(names.begin(), names.end(), name) != names.end();
+    if (!is_named && goal[motor] == base[motor]) continue;
+    turning_.push_back(motor);
+    start[motor] = targets.position[motor];
+    velocity[motor] = targets.velocity[motor];
+  }
+  trajectory_ = JointTrajectory(start, velocity, goal, rates, 0, how);
   time_ = 0;
+}
+
+void JointChangeMotion::sample(double time, std::vector<double>& position) const {
+  stop_.sample(time, position);
+  std::vector<double> turned;
+  trajectory_.sample(time, turned);
+  for (int motor : turning_) position[motor] = turned[motor];
+}
+
+std::vector<std::vector<double>> JointChangeMotion::calc_way(const RobotModel& model) const {
+  constexpr double kStep = 0.005;  // s
+  constexpr double kTurn = 0.05;   // rad: an arm's end then moves 1 cm
+  std::vector<std::vector<double>> way(1);
+  sample(0, way.front());
+  std::vector<double> position;
+  for (double time = kStep; time < duration() + kStep; time += kStep) {
+    sample(time, position);
+    clip_to_limits(model, position);
+    double largest = 0;
+    for (size_t i = 0; i < position.size(); ++i) {
+      largest = std::max(largest, std::abs(position[i] - way.back()[i]));
+    }
+    if (largest >= kTurn || time >= duration()) way.push_back(position);
+  }
+  return way;
 }
 
 JointTrajectory::Start JointChangeMotion::choose_start(const MotionContext& context,
@@ -75,18 +112,17 @@ JointTrajectory::Start JointChangeMotion::choose_start(const MotionContext& cont
 MotionGenerator::Phase JointChangeMotion::step(const MotionContext& context,
                                                JointTargets& targets) {
   time_ += context.dt;
-  trajectory_.sample(time_, targets.position);
-  return time_ < trajectory_.duration() ? Phase::kRunning : Phase::kDone;
+  sample(time_, targets.position);
+  return time_ < duration() ? Phase::kRunning : Phase::kDone;
 }
 
 double JointChangeMotion::progress() const {
-  return trajectory_.duration() > 0 ? std::min(1.0, time_ / trajectory_.duration()) : 1.0;
+  return duration() > 0 ? std::min(1.0, time_ / duration()) : 1.0;
 }
 
 void StopMotion::start(const MotionContext& context, const JointTargets& targets) {
   trajectory_ =
-      JointTrajectory::stopping(targets.position, targets.velocity,
-                                joint_rates(context.model, 1, context.options.max_acceleration));
+      JointTrajectory::stopping(targets.position, targets.velocity, stopping_rates(context));
   time_ = 0;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,8 @@
 
 namespace nao::motion {
 
-/** Turns single joints to their goals; the others come to rest where they are. */
+/** Turns single joints to their goals; the others come to rest where they are, each of both in its
+ * own time: one that had to arrive together with a slow change would coast far. */
 class JointChangeMotion : public MotionGenerator {
  public:
   /** @param change  Checked: known joints, finite numbers. */
@@ -24,14 +26,23 @@ class JointChangeMotion : public MotionGenerator {
   Mode mode() const override { return Mode::kMoving; }
   double progress() const override;
   std::string remark() const override { return remark_; }
+  /** Targets from the start to the end, rad, each (num_motors); from one to the next no joint turns
+   * farther than it must within 5 ms, or 0.05 rad. After start(). */
+  std::vector<std::vector<double>> calc_way(const RobotModel& model) const;
 
  private:
+  double duration() const { return std::max(stop_.duration(), trajectory_.duration()); }
+  void sample(double time, std::vector<double>& position) const;
   /** Brisk, with the rates that go with it, if none of the joints carries the body. */
   JointTrajectory::Start choose_start(const MotionContext& context,
                                       std::vector<JointRates>& rates) const;
 
   JointChangeCommand change_;
+  /** Of all joints, but those that turn. */
+  JointTrajectory stop_;
+  /** Of those that turn: the named ones, and those whose limits depend on them. */
   JointTrajectory trajectory_;
+  std::vector<int> turning_;
   double time_ = 0;
   std::string remark_;
 };

@@ -227,7 +227,13 @@ bool MotionCore::overlay_walk(const Command& command) {
     motors.push_back(model_->find_motor(name));
     if (carries_body(context(0), motors.back())) return false;
   }
-  const std::string danger = find_self_collision(*change);
+  // The joints that walk are not its concern.
+  JointTargets start = targets_;
+  for (int motor = 0; motor < model_->num_motors(); ++motor) {
+    const bool turns = std::find(motors.begin(), motors.end(), motor) != motors.end();
+    if (!turns) start.velocity[motor] = 0;
+  }
+  const std::string danger = find_self_collision(*change, start);
   if (!danger.empty()) {
     answer(command, ResultStatus::kRefused, danger);
     return true;
@@ -235,12 +241,6 @@ bool MotionCore::overlay_walk(const Command& command) {
   answer(command, ResultStatus::kAccepted, "");
   end_overlay(ResultStatus::kInterrupted,
               "Replaced by a newer command: " + describe(command) + ".");
-  // The joints that walk are not its concern: their speed would make it slow.
-  JointTargets start = targets_;
-  for (int motor = 0; motor < model_->num_motors(); ++motor) {
-    const bool turns = std::find(motors.begin(), motors.end(), motor) != motors.end();
-    if (!turns) start.velocity[motor] = 0;
-  }
   overlay_ = Overlay{std::make_unique<JointChangeMotion>(*change), command, std::move(motors)};
   overlay_->generator->start(context(0), start);
   return true;
@@ -361,27 +361,30 @@ MotionCore::Plan MotionCore::plan_request(const StopCommand& /*stop*/) {
 }
 
 std::string MotionCore::find_danger(const JointChangeCommand& change) {
-  std::string danger = find_self_collision(change);
+  std::string danger = find_self_collision(change, targets_);
   const bool stands =
       find_body_state(*model_, estimator_.state(), options_.lying_tilt) == "on-feet";
   if (!danger.empty() || change.allow_tipping || !stands) return danger;
   return find_tipping(change);
 }
 
-std::string MotionCore::how_far(int motor, double share, const std::vector<double>& goal) const {
-  const double way = share * (goal[motor] - targets_.position[motor]);
-  const long degrees = std::lround(std::trunc(way * 180 / M_PI));
+std::string MotionCore::how_far(double angle) {
+  const long degrees = std::lround(std::trunc(angle * 180 / M_PI));
   if (degrees == 0) return "it cannot turn that way from here.";
   return "it may turn by " + std::to_string(degrees) + " degrees at most.";
 }
 
-std::string MotionCore::find_self_collision(const JointChangeCommand& change) {
-  const std::vector<double> goal = JointChangeMotion::calc_goal(*model_, change, targets_.position);
+std::string MotionCore::find_self_collision(const JointChangeCommand& change,
+                                            const JointTargets& start) {
+  JointChangeMotion motion(change);
+  motion.start(context(0), start);
+  const std::vector<std::vector<double>> way = motion.calc_way(*model_);
   SelfCollision collision;
-  const double share = collision_guard_.find_safe_share(targets_.position, goal, collision);
-  if (share >= 1) return "";
+  const size_t last = collision_guard_.find_last_free(way, collision);
+  if (last + 1 == way.size()) return "";
   return model_->motor_joint(collision.motor).name + " would bring " + collision.link_a + " into " +
-         collision.link_b + "; " + how_far(collision.motor, share, goal);
+         collision.link_b + "; " +
+         how_far(way[last][collision.motor] - way.front()[collision.motor]);
 }
 
 std::string MotionCore::find_tipping(const JointChangeCommand& change) {
@@ -409,7 +412,7 @@ std::string MotionCore::find_tipping(const JointChangeCommand& change) {
                           ? (direction.x() > 0 ? "forwards" : "backwards")
                           : (direction.y() > 0 ? "to the left" : "to the right");
   return model_->motor_joint(culprit).name + " would tip the robot over " + where + "; " +
-         how_far(culprit, safe_share, goal);
+         how_far(safe_share * (goal[culprit] - targets_.position[culprit]));
 }
 
 void MotionCore::assign(Assignment assignment) {

@@ -124,10 +124,11 @@ class MotionCore {
   Plan plan_request(const StopCommand& stop);
   /** Why a joint change would end badly, as a sentence; empty if it would not. */
   std::string find_danger(const JointChangeCommand& change);
-  std::string find_self_collision(const JointChangeCommand& change);
+  /** @param start  What the change would go on from. */
+  std::string find_self_collision(const JointChangeCommand& change, const JointTargets& start);
   std::string find_tipping(const JointChangeCommand& change);
-  /** "it may turn by 12 degrees at most": share of a motor's way to its goal. */
-  std::string how_far(int motor, double share, const std::vector<double>& goal) const;
+  /** "it may turn by 12 degrees at most." @param angle  rad. */
+  static std::string how_far(double angle);
   void assign(Assignment assignment);
 
   void move(double dt);

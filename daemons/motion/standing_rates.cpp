@@ -16,6 +16,16 @@ std::vector<JointRates> standing_rates(const MotionContext& context, double spee
   return rates;
 }
 
+std::vector<JointRates> stopping_rates(const MotionContext& context) {
+  std::vector<JointRates> rates = joint_rates(context.model, 1, context.options.max_acceleration);
+  for (int motor = 0; motor < context.model.num_motors(); ++motor) {
+    if (!carries_body(context, motor)) {
+      rates[motor].max_acceleration = context.options.free_acceleration;
+    }
+  }
+  return rates;
+}
+
 bool carries_body(const MotionContext& context, int motor) {
   for (int sole : {context.model.left_sole(), context.model.right_sole()}) {
     if (!context.kinematics.calc_angular_jacobian(sole).col(motor).isZero(0)) return true;

@@ -13,10 +13,6 @@ namespace {
 constexpr double kClearance = 0.003;
 // Links that touch already may come this much closer before it counts, m.
 constexpr double kTouchTolerance = 0.0005;
-// The way is looked at every so many rad of the joint that turns most: an arm's end then moves 1
-// cm, less than any link is thick.
-constexpr double kSampleAngle = 0.05;
-constexpr int kMaxSamples = 100;
 // Edges of boxes are rounded by this much, m.
 constexpr double kEdgeRadius = 0.004;
 
@@ -67,34 +63,27 @@ double SelfCollisionGuard::calc_clearance(const std::vector<double>& position) {
   return least;
 }
 
-double SelfCollisionGuard::find_safe_share(const std::vector<double>& from,
-                                           const std::vector<double>& to,
-                                           SelfCollision& collision) {
-  double largest = 0;
-  for (size_t i = 0; i < from.size(); ++i) largest = std::max(largest, std::abs(to[i] - from[i]));
-  const int num_samples =
-      std::clamp(static_cast<int>(std::ceil(largest / kSampleAngle)), 1, kMaxSamples);
-  place(from);
+size_t SelfCollisionGuard::find_last_free(const std::vector<std::vector<double>>& way,
+                                          SelfCollision& collision) {
+  place(way.front());
   std::vector<double> needed;
   for (const auto& pair : pairs_) {
     needed.push_back(std::min(kClearance, distance(pair, kClearance) - kTouchTolerance));
   }
-  std::vector<double> position = from;
-  for (int k = 1; k <= num_samples; ++k) {
-    const double share = static_cast<double>(k) / num_samples;
-    for (size_t i = 0; i < from.size(); ++i) position[i] = from[i] + share * (to[i] - from[i]);
-    place(position);
+  for (size_t k = 1; k < way.size(); ++k) {
+    place(way[k]);
     for (size_t i = 0; i < pairs_.size(); ++i) {
       if (distance(pairs_[i], kClearance) >= needed[i]) continue;
       const std::vector<Link>& links = kinematics_.model().links();
       collision.link_a = links[parts_[pairs_[i].first].link].name;
       collision.link_b = links[parts_[pairs_[i].second].link].name;
-      for (size_t m = 0; m < from.size(); ++m) position[m] = to[m] - from[m];
-      collision.motor = find_mover(pairs_[i], position);
-      return static_cast<double>(k - 1) / num_samples;
+      std::vector<double> change = way[k];
+      for (size_t m = 0; m < change.size(); ++m) change[m] -= way.front()[m];
+      collision.motor = find_mover(pairs_[i], change);
+      return k - 1;
     }
   }
-  return 1;
+  return way.size() - 1;
 }
 
 int SelfCollisionGuard::find_mover(const std::pair<int, int>& pair,

@@ -29,11 +29,12 @@ class SelfCollisionGuard {
   /** Least distance between any two links that should not touch, m; negative if they overlap. */
   double calc_clearance(const std::vector<double>& position);
 
-  /** Share of the straight way from one set of angles to another without self-collision. Links that
-   * touch at its beginning may go on touching, no deeper.
-   * @param collision  Set if the answer is below 1. @return 0..1. */
-  double find_safe_share(const std::vector<double>& from, const std::vector<double>& to,
-                         SelfCollision& collision);
+  /** How far along a way there is no self-collision. Links that touch at its beginning may go on
+   * touching, no deeper.
+   * @param way  Joint angles, rad, so dense that no link jumps over another.
+   * @param collision  Set if the way is not free to its end. @return Index of the last point before
+   * the collision, or of the last one. */
+  size_t find_last_free(const std::vector<std::vector<double>>& way, SelfCollision& collision);
 
  private:
   struct Part {

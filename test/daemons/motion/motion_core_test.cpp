@@ -333,6 +333,21 @@ TEST_F(MotionCoreTest, RefusesToHitItself) {
   EXPECT_NE(result.reason.find("would bring"), std::string::npos) << result.reason;
 }
 
+TEST_F(MotionCoreTest, AJointThatANewerSlowChangeLeavesTurningStopsAtOnce) {
+  robot_.settle(core_);
+  const int shoulder = nao_model().find_motor("LShoulderPitch");
+  robot_.step(core_, {joint_change(1, {"LShoulderPitch"}, {-1.5})});
+  for (int i = 0; i < 15; ++i) robot_.step(core_);
+  const double left_at = robot_.sensors().position[shoulder];
+  robot_.step(core_, {joint_change(2, {"HeadYaw"}, {0.6}, false, 0.05)});
+  double farthest = 0;
+  for (int i = 0; i < 200; ++i) {
+    robot_.step(core_);
+    farthest = std::max(farthest, std::abs(robot_.sensors().position[shoulder] - left_at));
+  }
+  EXPECT_LT(farthest, 0.3);
+}
+
 TEST_F(MotionCoreTest, WavesRestsAndWakesUp) {
   robot_.settle(core_);
   robot_.step(core_, {{"test", 1, ActionCommand{"wave", kNan, kNan, kNan}}});
