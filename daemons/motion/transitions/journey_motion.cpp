@@ -142,7 +142,8 @@ MotionGenerator::Phase JourneyMotion::choose_leg(const MotionContext& context,
     direct_->start(context, targets);
     return Phase::kRunning;
   }
-  const auto way = graph_->find_way(state, state_of(*goal_));
+  auto way = graph_->find_way(state, state_of(*goal_), failed_);
+  if (way.empty()) way = graph_->find_way(state, state_of(*goal_));
   if (way.empty()) {
     remark_ = "There is no safe way from " + in_words(state) + " to " + goal_->name + ".";
     return Phase::kFailed;
@@ -191,6 +192,7 @@ MotionGenerator::Phase JourneyMotion::step_transition(const MotionContext& conte
   }
   if (!is_over && !has_failed) return Phase::kRunning;
   is_on_its_way_ = !has_failed && is_there();
+  if (!is_on_its_way_) failed_.push_back(sequence_);
   // Where the body is now, the next leg sees.
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
   leg_ = Leg::kResting;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "motion/motion_generator.h"
 #include "motion/posture_motion.h"
@@ -55,6 +56,8 @@ class JourneyMotion : public MotionGenerator {
   int stage_ = 0;
   std::optional<PostureMotion> direct_;
   int num_legs_ = 0;
+  /** Transitions that did not lead where they should: another way comes first from then on. */
+  std::vector<const KeyframeSequence*> failed_;
   int num_feet_together_ = 0;
   /** Tries to get up: a roll and what follows it are one. */
   int num_tries_ = 0;

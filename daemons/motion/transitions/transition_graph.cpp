@@ -160,8 +160,9 @@ const KeyframeSequence* TransitionGraph::find_approach(const Posture& posture) c
   return nullptr;
 }
 
-std::vector<const KeyframeSequence*> TransitionGraph::find_way(const std::string& from,
-                                                               const std::string& to) const {
+std::vector<const KeyframeSequence*> TransitionGraph::find_way(
+    const std::string& from, const std::string& to,
+    const std::vector<const KeyframeSequence*>& without) const {
   // Dijkstra; the graph has a dozen nodes.
   struct Reached {
     double duration = 0;
@@ -179,6 +180,7 @@ std::vector<const KeyframeSequence*> TransitionGraph::find_way(const std::string
     nearest->second.is_settled = true;
     for (const KeyframeSequence& sequence : sequences_) {
       if (sequence.from != nearest->first) continue;
+      if (std::find(without.begin(), without.end(), &sequence) != without.end()) continue;
       const double duration = nearest->second.duration + sequence.duration();
       const auto [other, is_new] = reached.try_emplace(sequence.to);
       if (is_new || duration < other->second.duration) {

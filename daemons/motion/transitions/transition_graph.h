@@ -27,9 +27,11 @@ class TransitionGraph {
   const KeyframeSequence* find(const std::string& name) const;
 
   /** Quickest chain of sequences from one state to another.
+   * @param without  Sequences that it must do without.
    * @return Empty if there is none, or if the two are the same. */
-  std::vector<const KeyframeSequence*> find_way(const std::string& from,
-                                                const std::string& to) const;
+  std::vector<const KeyframeSequence*> find_way(
+      const std::string& from, const std::string& to,
+      const std::vector<const KeyframeSequence*>& without = {}) const;
 
   /** Of the sequences between the same two states as this one, the one for the n-th try, from 0, in
    * the order of the file and over again: what failed once in some place fails there again. */

@@ -1,0 +1,39 @@
+#include "motion/transitions/transition_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "nao_model.h"
+
+namespace nao::motion {
+namespace {
+
+constexpr const char* kTransitions = R"(
+transitions:
+  - {name: up, from: back, to: on-feet, keyframes: [{duration: 2}]}
+  - {name: roll, from: back, to: belly, keyframes: [{duration: 1}]}
+  - {name: push, from: belly, to: on-feet, keyframes: [{duration: 4}]}
+)";
+
+std::vector<std::string> names(const std::vector<const KeyframeSequence*>& way) {
+  std::vector<std::string> result;
+  for (const KeyframeSequence* sequence : way) result.push_back(sequence->name);
+  return result;
+}
+
+TEST(TransitionGraph, FindsTheQuickestWay) {
+  const auto graph = TransitionGraph::parse(nao_model(), kTransitions);
+  EXPECT_EQ(names(graph.find_way("back", "on-feet")), std::vector<std::string>{"up"});
+}
+
+TEST(TransitionGraph, GoesAroundWhatFailed) {
+  const auto graph = TransitionGraph::parse(nao_model(), kTransitions);
+  EXPECT_EQ(names(graph.find_way("back", "on-feet", {graph.find("up")})),
+            (std::vector<std::string>{"roll", "push"}));
+  EXPECT_TRUE(graph.find_way("back", "on-feet", {graph.find("up"), graph.find("push")}).empty());
+}
+
+}  // namespace
+}  // namespace nao::motion
