@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "nao-trial/fall_warning.h"
 #include "nao-trial/scenarios.h"
 #include "nao-trial/statistics.h"
 
@@ -27,37 +28,18 @@ struct Outcome {
   std::optional<double> warning;
 };
 
-bool touches_floor_with_body(Trial& trial) {
-  const RobotModel& model = trial.model();
-  for (const sim::Contact& contact : trial.world().contacts()) {
-    if (contact.a.kind != sim::Surface::Kind::kFloor &&
-        contact.b.kind != sim::Surface::Kind::kFloor) {
-      continue;
-    }
-    const sim::Surface& body = contact.a.kind == sim::Surface::Kind::kRobot ? contact.a : contact.b;
-    const std::string& name = model.links()[body.link].name;
-    if (name.find("Foot") == std::string::npos && name.find("Sole") == std::string::npos)
-      return true;
-  }
-  return false;
-}
-
 Outcome push(const ScenarioOptions& options, uint64_t seed, double direction, double impulse) {
   TrialOptions trial_options = options.trial;
   trial_options.motion.gets_up = false;
   Trial trial(trial_options, seed);
   trial.run(0.5);
   trial.world().push(0, 0, {impulse * std::cos(direction), impulse * std::sin(direction), 0});
-  std::optional<double> told;
-  std::optional<double> touched;
-  trial.on_tick([&] {
-    if (!told && trial.core().motion_state().mode == motion::Mode::kFalling) told = trial.time();
-    if (!touched && touches_floor_with_body(trial)) touched = trial.time();
-  });
+  FallWarning fall;
+  trial.on_tick([&] { fall.look(trial); });
   trial.run(kWatch);
   Outcome outcome;
-  outcome.stands = !touched && trial.torso_tilt() < 0.3 && trial.torso_height() > 0.28;
-  if (touched) outcome.warning = told ? *touched - *told : -1.0;
+  outcome.stands = !fall.has_touched() && trial.torso_tilt() < 0.3 && trial.torso_height() > 0.28;
+  outcome.warning = fall.warning();
   return outcome;
 }
 

@@ -1,0 +1,36 @@
+#include "nao-trial/fall_warning.h"
+
+#include <string>
+
+namespace nao::trial {
+namespace {
+
+bool touches_floor_with_body(Trial& trial) {
+  const RobotModel& model = trial.model();
+  for (const sim::Contact& contact : trial.world().contacts()) {
+    if (contact.a.kind != sim::Surface::Kind::kFloor &&
+        contact.b.kind != sim::Surface::Kind::kFloor) {
+      continue;
+    }
+    const sim::Surface& body = contact.a.kind == sim::Surface::Kind::kRobot ? contact.a : contact.b;
+    const std::string& name = model.links()[body.link].name;
+    if (name.find("Foot") == std::string::npos && name.find("Sole") == std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void FallWarning::look(Trial& trial) {
+  if (touched_) return;
+  if (!told_ && trial.core().motion_state().mode == motion::Mode::kFalling) told_ = trial.time();
+  if (touches_floor_with_body(trial)) touched_ = trial.time();
+}
+
+std::optional<double> FallWarning::warning() const {
+  if (!touched_) return std::nullopt;
+  return told_ ? *touched_ - *told_ : -1.0;
+}
+
+}  // namespace nao::trial
