@@ -6,9 +6,10 @@
 namespace nao::motion {
 namespace {
 
-// The spline's greatest velocity is up to 1.5 times the mean of a stage that starts and ends at
-// rest.
-constexpr double kPeakOverMean = 1.5;
+// A stage takes at least this many times as long as its joints at their greatest speeds. The spline
+// of one that starts and ends at rest asks for 1.5 times the mean velocity: the motion core limits
+// that peak, and the targets catch up towards the end.
+constexpr double kLeastOverQuickest = 1.15;
 
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -77,8 +78,8 @@ KeyframePlayer::KeyframePlayer(const RobotModel& model, const KeyframeSequence& 
     for (size_t i = 0; i < num_motors; ++i) {
       if (!std::isnan(keyframe.position[i])) stage.to[i] = keyframe.position[i];
       const double distance = std::abs(stage.to[i] - stage.from[i]);
-      duration = std::max(
-          duration, kPeakOverMean * distance / model.motor_joint(static_cast<int>(i)).max_velocity);
+      duration = std::max(duration, kLeastOverQuickest * distance /
+                                        model.motor_joint(static_cast<int>(i)).max_velocity);
     }
     stage.stiffness = keyframe.stiffness;
     stage.start = time;
