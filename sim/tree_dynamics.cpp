@@ -329,7 +329,7 @@ SpatialVector TreeDynamics::set_momentum(const SpatialVector& wished, Eigen::Vec
   const SpatialVector present = momentum();
   SpatialInertia whole;
   for (const BodyState& now : bodies_) whole += now.inertia;
-  const SpatialVector change =
+  SpatialVector change =
       motion_of(whole, {wished.angular - present.angular, wished.linear - present.linear});
   for (BodyState& now : bodies_) {
     now.velocity.angular += change.angular;

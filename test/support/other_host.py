@@ -22,10 +22,12 @@ def enter_private_network():
         ip("link", "set", "lo", "up", "multicast", "on")
         ip("route", "add", "224.0.0.0/4", "dev", "lo")
         return True
-    unshare = ["unshare", "--user", "--map-root-user", "--net"]
-    if subprocess.run([*unshare, "ip", "link", "add", "type", "veth"], capture_output=True, check=False).returncode != 0:
-        return False
-    os.execvpe(unshare[0], [*unshare, sys.executable, *sys.argv], {**os.environ, PRIVATE: "1"})
+    # Root may without a user of its own, also in a chroot, where the kernel gives none.
+    for unshare in (["unshare", "--net"], ["unshare", "--user", "--map-root-user", "--net"]):
+        probe = [*unshare, "ip", "link", "add", "type", "veth"]
+        if subprocess.run(probe, capture_output=True, check=False).returncode == 0:
+            os.execvpe(unshare[0], [*unshare, sys.executable, *sys.argv], {**os.environ, PRIVATE: "1"})
+    return False
 
 
 def ip(*words):
