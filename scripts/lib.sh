@@ -5,6 +5,8 @@ set -euo pipefail
 
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 PROGRAM=$(basename "$0")
+# How a person calls the scripts: an installed copy has one command for all, "nao-remote start".
+CALL=${NAO_REMOTE_CALL:-scripts/}
 
 say() { printf '%s\n' "$*"; }
 warn() { printf '%s: %s\n' "$PROGRAM" "$*" >&2; }
@@ -17,7 +19,7 @@ die() {
 
 # die_usage MESSAGE...: the command line is wrong, exit status 2.
 die_usage() {
-    warn "$* (try: scripts/$PROGRAM --help)"
+    warn "$* (try: $CALL$PROGRAM --help)"
     exit 2
 }
 

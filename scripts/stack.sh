@@ -77,5 +77,5 @@ tool() {
             return
         fi
     done
-    die "$1 is not built yet; scripts/start builds it"
+    die "$1 is not built yet; ${CALL}start builds it"
 }

@@ -29,6 +29,16 @@ class Installation(unittest.TestCase):
             result = run([self.prefix / "bin" / name, "--version"])
             self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_the_one_command_speaks_of_itself(self):
+        command = self.prefix / "bin/nao-remote"
+        for words, said in ((["status"], "start it: nao-remote start"),
+                            (["status", "--no-such"], "(try: nao-remote status --help)"),
+                            (["start", "--no-such"], "(try: nao-remote start --help)")):
+            with self.subTest(words=words):
+                result = run([command, *words], env={**os.environ, "NAO_REMOTE_RUN_DIR": str(self.prefix / "run")})
+                self.assertNotEqual(result.returncode, 0)
+                self.assertIn(said, result.stderr)
+
     @unittest.skipUnless(shutil.which("systemd-analyze"), "no systemd here")
     def test_the_systemd_units_are_sound(self):
         units = self.prefix / "lib/systemd/user"
