@@ -94,6 +94,23 @@ TEST_F(WalkPhysicsTest, WalksSidewaysBackAndTurns) {
   expect_standing_in("StandInit");
 }
 
+TEST_F(WalkPhysicsTest, TurnsAsFastAsItsLimitsSay) {
+  for (const double sign : {1.0, -1.0}) {
+    Trial& trial = begin(5);
+    trial.hold_walk({0, 0, sign * nao_robot()->walk_limits().turning});
+    trial.run(2);
+    double turned = 0;
+    double looks = heading();
+    trial.on_tick([&] {
+      turned += std::remainder(heading() - looks, 2 * M_PI);
+      looks = heading();
+    });
+    trial.run(5);
+    EXPECT_NEAR(sign * turned / 5, 2.0, 0.2);
+    EXPECT_EQ(mode(), Mode::kWalking);
+  }
+}
+
 TEST_F(WalkPhysicsTest, StopsWhenCommandsStopComing) {
   Trial& trial = begin(3);
   const int64_t walk = trial.hold_walk({0.15, 0, 0});
