@@ -26,6 +26,7 @@ struct Gait {
   double zmp_forward = 0;
   double zmp_inward = 0;
   double swing_arrival = 0;
+  double swing_pitch = 0;
 
   // Steps: m, rad.
   double max_step_forward = 0;

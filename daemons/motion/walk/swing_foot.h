@@ -22,6 +22,10 @@ class SwingFoot {
   void step(const Pose2& goal, double remaining, double phase, double lift, double dt);
 
   const Pose2& pose() const { return pose_; }
+  /** How fast it moves ahead, seen from itself, m/s. */
+  double forward_speed() const {
+    return (Eigen::Rotation2Dd(-pose_.heading) * velocity_.head<2>()).x();
+  }
   /** Over the ground, m. */
   double height() const { return height_; }
   /** Lowers a foot that has not met the ground where it should. */

@@ -538,7 +538,8 @@ Isometry3d WalkEngine::swing_in_support() const {
     pose.position += pose.rotate(out * out * reach);
     height += gait_->kick_lift * out * out;
   }
-  return in_space(pose, height);
+  const double toe_up = gait_->swing_pitch * swing_.forward_speed();
+  return in_space(pose, height) * AngleAxisd(-toe_up, Vector3d::UnitY());
 }
 
 std::vector<double> WalkEngine::pose_joints() {

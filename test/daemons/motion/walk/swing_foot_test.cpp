@@ -29,6 +29,19 @@ TEST(SwingFoot, RestsOverAGoalThatMovedUnderWay) {
   EXPECT_LT(greatest_jump, 1.3 * kTick);
 }
 
+TEST(SwingFoot, SaysHowFastItGoesAheadSeenFromItself) {
+  SwingFoot foot;
+  foot.start({{-0.06, -0.1}, M_PI / 2}, 0);
+  double way = 0;
+  for (int tick = 0; tick < 10; ++tick) {
+    way += 0.5 * kTick * foot.forward_speed();
+    foot.step({{-0.06, -0.02}, M_PI / 2}, 0.2 - tick * kTick, 0.5, 0.015, kTick);
+    way += 0.5 * kTick * foot.forward_speed();
+  }
+  EXPECT_GT(foot.forward_speed(), 0.5);
+  EXPECT_NEAR(way, foot.pose().position.y() + 0.1, 1e-3);
+}
+
 TEST(SwingFoot, LiftsHalfWayAndComesDownFromWhereItWas) {
   SwingFoot foot;
   foot.start({{0, -0.1}, 0}, 0.004);

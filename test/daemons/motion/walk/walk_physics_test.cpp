@@ -111,6 +111,29 @@ TEST_F(WalkPhysicsTest, TurnsAsFastAsItsLimitsSay) {
   }
 }
 
+TEST_F(WalkPhysicsTest, TheToeOfAFootInTheAirStaysUp) {
+  // Out of a quick turn into full speed, where the swing is the fastest. The foot is lifted by 10
+  // mm, the toe 100 mm ahead.
+  Trial& trial = begin(5);
+  double lowest = 0;
+  trial.on_tick([&] {
+    const motion::RobotState& state = trial.estimate();
+    const auto pitch = [&](int sole) {
+      return std::asin(-trial.world().robot(0).link_pose(sole).linear()(2, 0));
+    };
+    if (state.left_foot_force == 0) lowest = std::max(lowest, pitch(nao_robot()->left_sole()));
+    if (state.right_foot_force == 0) lowest = std::max(lowest, pitch(nao_robot()->right_sole()));
+  });
+  for (int i = 0; i < 5; ++i) {
+    trial.hold_walk({0.2, 0, i % 2 == 0 ? 1.2 : -1.2});
+    trial.run(2);
+    trial.hold_walk({0.3, 0, 0});
+    trial.run(1);
+  }
+  EXPECT_EQ(mode(), Mode::kWalking);
+  EXPECT_LT(lowest, 0.04);
+}
+
 TEST_F(WalkPhysicsTest, StopsWhenCommandsStopComing) {
   Trial& trial = begin(3);
   const int64_t walk = trial.hold_walk({0.15, 0, 0});
