@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "common/scene_file.h"
+#include "nao-trial/fall_warning.h"
 #include "nao-trial/trial.h"
 
 namespace nao::trial {
@@ -265,6 +266,23 @@ TEST_F(WalkPhysicsTest, WalksOnWhenTheThumbComesBackAtOnce) {
     EXPECT_EQ(mode(), Mode::kWalking) << pause;
     EXPECT_LT(trial.torso_tilt(), 0.3) << pause;
   }
+}
+
+TEST_F(WalkPhysicsTest, TellsAFallWellBeforeTheImpact) {
+  int num_falls = 0;
+  for (int i = 0; i < 8; ++i) {
+    const double direction = i * M_PI / 4;
+    Trial& trial = begin(21 + i);
+    trial.hold_walk({0.15, 0, 0});
+    trial.run(3);
+    trial.world().push(0, 0, {3.2 * std::cos(direction), 3.2 * std::sin(direction), 0});
+    FallWarning fall;
+    trial.on_tick([&] { fall.look(trial); });
+    if (!trial.run_until([&] { return fall.has_touched(); }, 4)) continue;
+    ++num_falls;
+    EXPECT_GE(*fall.warning(), 0.145) << direction;
+  }
+  EXPECT_GE(num_falls, 5);
 }
 
 TEST_F(WalkPhysicsTest, AHopDoesNotEndTheWalk) {
