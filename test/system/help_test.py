@@ -21,7 +21,7 @@ def tracked(*patterns):
 @functools.cache
 def commands():
     """Everything that a person may call: name as documents say it -> file."""
-    # nao-bare-sender is what nao-bench-bus sends against: nobody calls it.
+    # nao-bare-sender is the peer that nao-bench-gateway starts: nobody calls it.
     found = {file.name: file for file in BIN_DIR.glob("nao*") if "_" not in file.name and file.name != "nao-bare-sender"}
     for file in tracked("scripts/*", ".ci/*", "test/*.py", "test/playback/record", "tools/*.py", "phone-gateway/*.py"):
         if os.access(file, os.X_OK):
