@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
     options.robots = {common.robot};
     options.robots.insert(options.robots.end(), more_robots.begin(), more_robots.end());
     const bool is_in_real_time = !options.lock_step && options.pace > 0;
-    if (is_in_real_time && nao::ask_for_prompt_turns())
+    if (is_in_real_time && nao::ask_for_prompt_turns(nao::Turns::kControl))
       spdlog::info("runs ahead of usual programs");
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);

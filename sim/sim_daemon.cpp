@@ -201,7 +201,7 @@ std::string SimDaemon::carry_out(const naolcm::world_command_t& message) {
     pacer_.set_pace(message.pace, now);
     // Who never waits must not keep others from the processor.
     if (message.pace > 0) {
-      ask_for_prompt_turns();
+      ask_for_prompt_turns(Turns::kControl);
     } else {
       take_usual_turns();
     }

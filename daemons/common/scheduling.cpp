@@ -3,11 +3,19 @@
 #include <sched.h>
 
 namespace nao {
+namespace {
 
-bool ask_for_prompt_turns() {
-  sched_param lowest{};
-  lowest.sched_priority = sched_get_priority_min(SCHED_RR);
-  return sched_setscheduler(0, SCHED_RR, &lowest) == 0;
+bool take_turns_at(int priority) {
+  sched_param param{};
+  param.sched_priority = priority;
+  return sched_setscheduler(0, SCHED_RR, &param) == 0;
+}
+
+}  // namespace
+
+bool ask_for_prompt_turns(Turns turns) {
+  const int lowest = sched_get_priority_min(SCHED_RR);
+  return (turns == Turns::kControl && take_turns_at(lowest + 1)) || take_turns_at(lowest);
 }
 
 void take_usual_turns() {

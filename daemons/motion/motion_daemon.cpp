@@ -120,7 +120,7 @@ void MotionDaemon::publish_status() {
   if (static_cast<double>(steps) * kTick > kFastPace) {
     take_usual_turns();
   } else {
-    ask_for_prompt_turns();
+    ask_for_prompt_turns(Turns::kControl);
   }
   if (core_.motion_state().mode == Mode::kNoRobot) {
     status_.set_state("waiting", "waiting for " + channels_.sensor_state);

@@ -10,6 +10,7 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
+#include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "server/certificate.h"
 #include "server/gateway_daemon.h"
@@ -126,6 +127,7 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   if (options.token.empty()) options.token = make_token();
   prepare_tls(options);
   const std::filesystem::path folder = data_path() / "robots" / options.model;
+  if (ask_for_prompt_turns(Turns::kServing)) spdlog::info("runs ahead of usual programs");
   Bus bus(common.lcm_url);
   GatewayDaemon daemon(bus, common.robot, describe_robot(RobotModel::load(folder)), options.limits,
                        options.token, options.audit_file);

@@ -56,6 +56,20 @@ class Ending(unittest.TestCase):
                 self.assertEqual(program.process.returncode, 2, said)
 
 
+class Turns(unittest.TestCase):
+    def test_control_goes_ahead_of_the_gateway_and_that_ahead_of_pictures(self):
+        try:
+            os.sched_setscheduler(os.getpid(), os.SCHED_RR, os.sched_param(2))
+        except PermissionError:
+            self.skipTest("takes root or RLIMIT_RTPRIO of 2")
+        os.sched_setscheduler(os.getpid(), os.SCHED_OTHER, os.sched_param(0))
+        with Stack() as stack:
+            stack.start_or_fail()
+            pids = stack.pids()
+            priorities = {name: os.sched_getparam(pids[name]).sched_priority for name in PROGRAMS}
+        self.assertEqual(priorities, {"nao-sim": 2, "nao-motion": 2, "nao-phone-gateway": 1, "nao-head-camera": 0})
+
+
 class ServiceManager(unittest.TestCase):
     def test_each_program_tells_systemd_that_it_is_ready_and_that_it_lives(self):
         for name in PROGRAMS:

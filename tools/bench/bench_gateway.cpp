@@ -31,6 +31,7 @@
 #include "child_process.h"
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "disturbing_clients.h"
 #include "figures.h"
@@ -588,6 +589,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   spdlog::set_level(spdlog::level::warn);
+  // Phones are machines of their own: what they see must not wait for a turn on this one.
+  nao::ask_for_prompt_turns(nao::Turns::kControl);
   try {
     nao::report(run(num_rounds, time), json_file);
   } catch (const std::exception& error) {

@@ -11,6 +11,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/scheduling.h"
+
 namespace nao {
 
 ChildProcess::ChildProcess(const std::vector<std::string>& command) {
@@ -23,6 +25,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command) {
   arguments.push_back(nullptr);
   pid_ = fork();
   if (pid_ == 0) {
+    take_usual_turns();
     dup2(file, STDOUT_FILENO);
     dup2(file, STDERR_FILENO);
     execv(arguments[0], arguments.data());

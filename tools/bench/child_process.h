@@ -7,7 +7,8 @@
 
 namespace nao {
 
-/** A program that a benchmark starts and ends. */
+/** A program that a benchmark starts and ends. It takes usual turns until it asks for others,
+ * however the benchmark itself runs. */
 class ChildProcess {
  public:
   /** @param command  Path and arguments. Its output goes to a file in the temporary folder.
