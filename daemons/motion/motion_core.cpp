@@ -426,14 +426,27 @@ void MotionCore::start_waiting() {
   if (!waiting_) return;
   if (running_ && !running_->generator->can_be_replaced()) {
     running_->generator->finish();
+    waiting_->has_waited = true;
     return;
   }
   end_running(ResultStatus::kInterrupted,
               waiting_->command ? "Replaced by a newer command: " + waiting_->detail + "."
                                 : "Replaced by " + waiting_->detail + ".");
   end_overlay(ResultStatus::kInterrupted, "Replaced by " + waiting_->detail + ".");
+  const std::string danger = find_new_danger(*waiting_);
+  if (!danger.empty()) {
+    answer(*waiting_->command, ResultStatus::kFailed, danger);
+    waiting_.reset();
+    return;
+  }
   running_ = std::exchange(waiting_, std::nullopt);
   running_->generator->start(context(0), targets_);
+}
+
+std::string MotionCore::find_new_danger(const Assignment& assignment) {
+  if (!assignment.has_waited || !assignment.command) return "";
+  const auto* change = std::get_if<JointChangeCommand>(&assignment.command->request);
+  return change == nullptr ? "" : find_danger(*change);
 }
 
 void MotionCore::step_overlay(double dt, const JointTargets& last) {

@@ -78,6 +78,8 @@ class MotionCore {
     std::unique_ptr<MotionGenerator> generator;
     std::optional<Command> command;
     std::string detail;
+    /** Its turn did not come at once: where it was safe, the robot is no more. */
+    bool has_waited = false;
   };
 
   /** Joints of head and arms that turn, or have turned, while the robot walks on. */
@@ -135,6 +137,9 @@ class MotionCore {
   void watch_for_falls(double dt);
   bool means_to_stand() const;
   void start_waiting();
+  /** What speaks against beginning `assignment` now, though nothing did when it came; empty if
+   * nothing does. */
+  std::string find_new_danger(const Assignment& assignment);
   void end_running(ResultStatus status, const std::string& reason);
   /** Writes the overlaid joints over what the walk wants of them. @param last  Targets of the last
    * tick. */

@@ -326,6 +326,24 @@ TEST_F(MotionCoreTest, RefusesToTipAndSaysHowFarItMayGo) {
   EXPECT_EQ(robot_.step(core_, {allowed}).results.at(0).status, ResultStatus::kAccepted);
 }
 
+TEST_F(MotionCoreTest, AChangeThatWaitedIsLookedAtAgainWhenItsTurnComes) {
+  robot_ = PerfectRobot("Sit");
+  robot_.settle(core_);
+  robot_.step(core_, {posture(1, "StandInit")});
+  for (int i = 0; i < 100; ++i) robot_.step(core_);
+  // Nothing that stands can tip over while it sits.
+  const Output output =
+      robot_.step(core_, {joint_change(2, {"LHipPitch", "RHipPitch"}, {0.9, 0.9}, true)});
+  ASSERT_EQ(output.results.at(0).status, ResultStatus::kAccepted) << output.results.at(0).reason;
+  const std::vector<CommandResult> results = robot_.settle(core_, 60);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0].id, 1);
+  EXPECT_EQ(results[1].status, ResultStatus::kFailed);
+  EXPECT_NE(results[1].reason.find("would tip the robot over"), std::string::npos)
+      << results[1].reason;
+  EXPECT_EQ(core_.motion_state().mode, Mode::kHolding);
+}
+
 TEST_F(MotionCoreTest, RefusesToHitItself) {
   robot_.settle(core_);
   const CommandResult result = refused(joint_change(
