@@ -98,10 +98,12 @@ void MotionDaemon::step(std::optional<Sensors> sensors, double dt) {
     bus_.publish(channels_.robot_state, to_message(*output.robot_state, joint_names_));
   }
   if (output.motion_state) bus_.publish(channels_.motion_state, to_message(*output.motion_state));
+  for (const CommandResult& result : reminder_.due(dt)) publish(result);
   for (const CommandResult& result : output.results) {
     spdlog::info("{} {} of {}: {}{}{}", to_string(result.kind), result.id, quoted(result.source),
                  to_string(result.status), result.reason.empty() ? "" : ": ", result.reason);
-    bus_.publish(channels_.command_result, to_message(result, last_utime_));
+    publish(result);
+    reminder_.note(result);
   }
   const double end = monotonic_seconds();
   if (has_sensors) {
@@ -110,6 +112,10 @@ void MotionDaemon::step(std::optional<Sensors> sensors, double dt) {
     status_.tick(end);
     worst_step_seconds_ = std::max(worst_step_seconds_, end - start);
   }
+}
+
+void MotionDaemon::publish(const CommandResult& result) {
+  bus_.publish(channels_.command_result, to_message(result, last_utime_));
 }
 
 void MotionDaemon::publish_status() {

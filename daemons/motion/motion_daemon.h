@@ -12,6 +12,7 @@
 #include "common/robot_model.h"
 #include "common/status_reporter.h"
 #include "motion/motion_core.h"
+#include "motion/result_reminder.h"
 
 namespace nao::motion {
 
@@ -33,6 +34,7 @@ class MotionDaemon {
   void take_sensor_state(const naolcm::sensor_state_t& message);
   void watch_for_silence();
   void step(std::optional<Sensors> sensors, double dt);
+  void publish(const CommandResult& result);
   void publish_status();
 
   Bus& bus_;
@@ -40,6 +42,7 @@ class MotionDaemon {
   RobotChannels channels_;
   StatusReporter status_;
   MotionCore core_;
+  ResultReminder reminder_;
   std::vector<std::string> joint_names_;
   std::vector<Command> commands_;
   int64_t num_steps_ = 0;
