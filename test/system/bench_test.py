@@ -61,6 +61,13 @@ class Bench(unittest.TestCase):
         self.assertIn("bus: ", result.stderr)
         self.assertIn("status 3", result.stderr)
 
+    def test_a_figure_that_could_not_be_measured_hides_no_other(self):
+        self.put("camera", None, peer="floor", peer_value=0, ratio=None)
+        result = self.bench("--only", "bus", "--only", "camera")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("UDP: 12, ratio 2.92", result.stdout)
+        self.assertRegex(result.stdout, r"camera\.time +- +ms +floor: 0, ratio -\n")
+
     def test_the_document_keeps_what_was_written_by_hand_and_joins_parts_of_one_run(self):
         first = self.document("bus")
         self.assertTrue(first.startswith(PAGE + "\n## All figures\n"), first)

@@ -1,4 +1,5 @@
-// Measures the message bus: a message to another process and back, against the same by bare UDP.
+// Measures the message bus: a message to another process and back, and how many a second get there,
+// against the same by bare UDP.
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -12,11 +13,15 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <lcm/lcm-cpp.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "figures.h"
@@ -27,6 +32,9 @@ namespace {
 /** About what a robot_state_t has. */
 constexpr int kMessageBytes = 1200;
 constexpr int kWarmUps = 100;
+/** Messages under way at once where throughput is measured: fewer than the 30 that LCM lets wait
+ * for a subscriber, so that none is lost. */
+constexpr int kBurst = 16;
 constexpr int kReceiveTimeoutMs = 500;
 
 double now_us() {
@@ -55,50 +63,116 @@ class Child {
   pid_t process_id_;
 };
 
-/** Counts what comes back. */
-struct EchoCounter {
-  int num_received = 0;
-  void receive(const lcm::ReceiveBuffer*, const std::string&) { ++num_received; }
+/** What every message begins with. */
+struct Header {
+  /** Number of the burst that it belongs to. */
+  int32_t burst = 0;
+  /** On the way there: 1 in the burst's last message, which is answered. On the way back: how many
+   * of the burst came. */
+  int32_t number = 0;
 };
 
-/** Sends every message back on another channel. */
-struct Echo {
+using Message = std::array<uint8_t, kMessageBytes>;
+
+Message make_message(Header header) {
+  Message message{};
+  std::memcpy(message.data(), &header, sizeof header);
+  return message;
+}
+
+Header header_of(const void* bytes) {
+  Header header;
+  std::memcpy(&header, bytes, sizeof header);
+  return header;
+}
+
+/** Counts the messages of a burst. */
+class BurstCounter {
+ public:
+  /** @return What to send back, after the burst's last message. */
+  std::optional<Message> add(Header header) {
+    if (header.burst != burst_) num_received_ = 0;
+    burst_ = header.burst;
+    ++num_received_;
+    if (header.number != 1) return std::nullopt;
+    return make_message({burst_, num_received_});
+  }
+
+ private:
+  int32_t burst_ = -1;
+  int32_t num_received_ = 0;
+};
+
+/** How a burst of messages went. */
+struct Exchange {
+  /** From the first message sent to the answer received, µs. */
+  double time_us = 0;
+  int num_lost = 0;
+};
+
+/** Sends a burst and waits for the answer to its last message.
+ * @param send  Sends a message.
+ * @param receive  Waits for an answer; nothing after kReceiveTimeoutMs. */
+template <class Send, class Receive>
+Exchange exchange_burst(int32_t burst, int num_messages, const Send& send, const Receive& receive) {
+  const double start = now_us();
+  for (int i = 1; i < num_messages; ++i) send(make_message({burst, 0}));
+  send(make_message({burst, 1}));
+  // An answer that came too late for its own burst must not be taken for this one's.
+  std::optional<Header> answer;
+  do {
+    answer = receive();
+  } while (answer && answer->burst != burst);
+  return {now_us() - start, answer ? num_messages - answer->number : num_messages};
+}
+
+/** Answers every burst. */
+struct LcmEcho {
   lcm::LCM* lcm;
+  BurstCounter counter;
   void receive(const lcm::ReceiveBuffer* buffer, const std::string&) {
-    lcm->publish("BENCH_BACK", buffer->data, buffer->data_size);
+    if (const auto answer = counter.add(header_of(buffer->data))) {
+      lcm->publish("BENCH_BACK", answer->data(), kMessageBytes);
+    }
   }
 };
 
 void run_lcm_echo(const std::string& url) {
   lcm::LCM lcm(url);
-  Echo echo{&lcm};
-  lcm.subscribe("BENCH_THERE", &Echo::receive, &echo);
+  LcmEcho echo{&lcm, {}};
+  lcm.subscribe("BENCH_THERE", &LcmEcho::receive, &echo);
   while (lcm.handle() == 0) {
   }
 }
 
-/** Round trips through the bus, one at a time. */
-class LcmPing {
+/** Messages to another process through the bus. */
+class LcmPeer {
  public:
-  explicit LcmPing(const std::string& url) : echo_([&url] { run_lcm_echo(url); }), lcm_(url) {
+  explicit LcmPeer(const std::string& url) : echo_([&url] { run_lcm_echo(url); }), lcm_(url) {
     if (!lcm_.good()) throw std::runtime_error("cannot open the bus " + url);
-    lcm_.subscribe("BENCH_BACK", &EchoCounter::receive, &counter_);
+    lcm_.subscribe("BENCH_BACK", &LcmPeer::take, this);
   }
 
-  /** @return Time of one round trip, µs; negative if the message was lost. */
-  double ping() {
-    const std::array<char, kMessageBytes> message{};
-    const int num_before = counter_.num_received;
-    const double start = now_us();
-    lcm_.publish("BENCH_THERE", message.data(), kMessageBytes);
-    if (lcm_.handleTimeout(kReceiveTimeoutMs) <= 0) return -1;
-    return counter_.num_received > num_before ? now_us() - start : -1;
+  Exchange exchange(int32_t burst, int num_messages) {
+    return exchange_burst(
+        burst, num_messages,
+        [this](const Message& message) {
+          lcm_.publish("BENCH_THERE", message.data(), kMessageBytes);
+        },
+        [this]() -> std::optional<Header> {
+          if (lcm_.handleTimeout(kReceiveTimeoutMs) <= 0) return std::nullopt;
+          return answer_;
+        });
   }
 
  private:
+  void take(const lcm::ReceiveBuffer* buffer, const std::string&) {
+    answer_ = header_of(buffer->data);
+  }
+
   Child echo_;
   lcm::LCM lcm_;
-  EchoCounter counter_;
+  Header answer_;
 };
 
 /** A UDP socket on a loopback port of the system's choice. */
@@ -113,42 +187,51 @@ int open_socket(sockaddr_in& address) {
       getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
     throw std::runtime_error("cannot open a UDP socket");
   }
-  const timeval timeout{0, kReceiveTimeoutMs * 1000};
-  setsockopt(descriptor, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
   return descriptor;
 }
 
+void send_to(int descriptor, const Message& message, const sockaddr_in& address) {
+  sendto(descriptor, message.data(), message.size(), 0, reinterpret_cast<const sockaddr*>(&address),
+         sizeof address);
+}
+
 void run_udp_echo(int descriptor, const sockaddr_in& back) {
-  std::array<char, kMessageBytes> message{};
+  Message message{};
+  BurstCounter counter;
   while (true) {
-    const ssize_t size = recv(descriptor, message.data(), message.size(), 0);
-    if (size > 0) {
-      sendto(descriptor, message.data(), static_cast<size_t>(size), 0,
-             reinterpret_cast<const sockaddr*>(&back), sizeof back);
+    if (recv(descriptor, message.data(), message.size(), 0) <= 0) continue;
+    if (const auto answer = counter.add(header_of(message.data()))) {
+      send_to(descriptor, *answer, back);
     }
   }
 }
 
 /** The same without LCM: one socket here, one in the other process. */
-class UdpPing {
+class UdpPeer {
  public:
-  UdpPing()
+  UdpPeer()
       : descriptor_(open_socket(own_)),
         echo_descriptor_(open_socket(echo_address_)),
-        echo_([this] { run_udp_echo(echo_descriptor_, own_); }) {}
-  ~UdpPing() {
+        echo_([this] { run_udp_echo(echo_descriptor_, own_); }) {
+    const timeval timeout{0, kReceiveTimeoutMs * 1000};
+    setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
+  }
+  ~UdpPeer() {
     close(descriptor_);
     close(echo_descriptor_);
   }
-  UdpPing(const UdpPing&) = delete;
-  UdpPing& operator=(const UdpPing&) = delete;
+  UdpPeer(const UdpPeer&) = delete;
+  UdpPeer& operator=(const UdpPeer&) = delete;
 
-  double ping() {
-    std::array<char, kMessageBytes> message{};
-    const double start = now_us();
-    sendto(descriptor_, message.data(), message.size(), 0,
-           reinterpret_cast<const sockaddr*>(&echo_address_), sizeof echo_address_);
-    return recv(descriptor_, message.data(), message.size(), 0) > 0 ? now_us() - start : -1;
+  Exchange exchange(int32_t burst, int num_messages) {
+    return exchange_burst(
+        burst, num_messages,
+        [this](const Message& message) { send_to(descriptor_, message, echo_address_); },
+        [this]() -> std::optional<Header> {
+          Message message{};
+          if (recv(descriptor_, message.data(), message.size(), 0) <= 0) return std::nullopt;
+          return header_of(message.data());
+        });
   }
 
  private:
@@ -165,32 +248,53 @@ double percentile(std::vector<double> values, double share) {
   return values[static_cast<size_t>(std::lround(share * last))];
 }
 
-std::vector<Figure> measure(const std::string& url, int num_rounds) {
-  LcmPing lcm(url);
-  UdpPing udp;
-  for (int i = 0; i < kWarmUps; ++i) {
-    lcm.ping();
-    udp.ping();
-  }
-  std::vector<double> lcm_us;
-  std::vector<double> udp_us;
+/** What many bursts took. */
+struct Times {
+  std::vector<double> us;
   int num_lost = 0;
-  // Interleaved, so that a busy moment of the machine hits both alike.
-  for (int i = 0; i < num_rounds; ++i) {
-    const double by_lcm = lcm.ping();
-    const double by_udp = udp.ping();
-    if (by_lcm < 0 || by_udp < 0) {
-      ++num_lost;
-      continue;
-    }
-    lcm_us.push_back(by_lcm);
-    udp_us.push_back(by_udp);
+
+  void add(const Exchange& exchange) {
+    num_lost += exchange.num_lost;
+    if (exchange.num_lost == 0) us.push_back(exchange.time_us);
   }
-  if (lcm_us.empty()) throw std::runtime_error("no message came back; try: nao bus");
-  return {
-      {"bus.round_trip_us.p50", percentile(lcm_us, 0.5), "us", "UDP", percentile(udp_us, 0.5)},
-      {"bus.round_trip_us.p99", percentile(lcm_us, 0.99), "us", "UDP", percentile(udp_us, 0.99)},
-      {"bus.lost", static_cast<double>(num_lost), "messages", "", 0}};
+};
+
+/** Bursts through LCM and UDP in turns, so that a busy moment of the machine hits both alike. */
+std::pair<Times, Times> exchange_in_turns(LcmPeer& lcm, UdpPeer& udp, int num_messages,
+                                          int num_rounds, int32_t& burst) {
+  std::pair<Times, Times> times;
+  for (int i = 0; i < num_rounds; ++i) {
+    times.first.add(lcm.exchange(++burst, num_messages));
+    times.second.add(udp.exchange(++burst, num_messages));
+  }
+  if (times.first.us.empty() || times.second.us.empty()) {
+    throw std::runtime_error("no message came back; try: nao bus");
+  }
+  return times;
+}
+
+std::vector<Figure> measure(const std::string& url, int num_rounds) {
+  LcmPeer lcm(url);
+  UdpPeer udp;
+  int32_t burst = 0;
+  for (int i = 0; i < kWarmUps; ++i) {
+    lcm.exchange(++burst, 1);
+    udp.exchange(++burst, 1);
+  }
+  const auto [lcm_trips, udp_trips] = exchange_in_turns(lcm, udp, 1, num_rounds, burst);
+  const auto [lcm_bursts, udp_bursts] = exchange_in_turns(lcm, udp, kBurst, num_rounds, burst);
+  const auto per_second = [](const Times& times) {
+    return kBurst / percentile(times.us, 0.5) * 1e6;
+  };
+  return {{"bus.round_trip_us.p50", percentile(lcm_trips.us, 0.5), "us", "UDP",
+           percentile(udp_trips.us, 0.5)},
+          {"bus.round_trip_us.p99", percentile(lcm_trips.us, 0.99), "us", "UDP",
+           percentile(udp_trips.us, 0.99)},
+          {"bus.messages_per_s", per_second(lcm_bursts), "1/s", "UDP", per_second(udp_bursts)},
+          {"bus.mb_per_s", per_second(lcm_bursts) * kMessageBytes * 1e-6, "MB/s", "UDP",
+           per_second(udp_bursts) * kMessageBytes * 1e-6},
+          {"bus.lost", static_cast<double>(lcm_trips.num_lost + lcm_bursts.num_lost), "messages", "",
+           0}};
 }
 
 }  // namespace
