@@ -293,8 +293,8 @@ std::vector<Figure> measure(const std::string& url, int num_rounds) {
           {"bus.messages_per_s", per_second(lcm_bursts), "1/s", "UDP", per_second(udp_bursts)},
           {"bus.mb_per_s", per_second(lcm_bursts) * kMessageBytes * 1e-6, "MB/s", "UDP",
            per_second(udp_bursts) * kMessageBytes * 1e-6},
-          {"bus.lost", static_cast<double>(lcm_trips.num_lost + lcm_bursts.num_lost), "messages", "",
-           0}};
+          {"bus.lost", static_cast<double>(lcm_trips.num_lost + lcm_bursts.num_lost), "messages",
+           "", 0}};
 }
 
 }  // namespace
