@@ -11,6 +11,7 @@
 #include <string>
 
 #include "server/network.h"
+#include "server/turn_queue.h"
 #include "server/waiting_room.h"
 
 namespace nao {
@@ -28,6 +29,9 @@ struct Hub {
   std::unique_ptr<asio::ssl::context> tls;
   WaitingRoom waiting_room;
   NetworkCounters counters;
+  /** Pictures for 32 phones take half a millisecond: a state that comes meanwhile shall not wait.
+   */
+  TurnQueue pictures;
   /** The network is being taken down: connections end without a word. */
   bool is_ending = false;
 };

@@ -206,6 +206,11 @@ bool GatewayCore::has_connected(uint32_t client) const {
   return session != nullptr && session->is_connected;
 }
 
+bool GatewayCore::is_picture_next(uint32_t client) const {
+  const PhoneSession* session = find(client);
+  return session != nullptr && session->outbox.next() == Outbox::Next::kPicture;
+}
+
 bool GatewayCore::is_closing(uint32_t client) const {
   const PhoneSession* session = find(client);
   return session == nullptr || session->is_closing;

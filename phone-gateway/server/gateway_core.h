@@ -122,6 +122,9 @@ class GatewayCore {
   /** Next message for a connection that can take one; null if there is none. */
   [[nodiscard]] MessageBytes next_message(uint32_t client, double now);
 
+  /** True if that message would be a picture. */
+  bool is_picture_next(uint32_t client) const;
+
   /** True once Connect has succeeded, until the client has no say any more. */
   bool has_connected(uint32_t client) const;
 

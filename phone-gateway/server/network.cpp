@@ -105,8 +105,15 @@ double measure_round_trip(Tcp::socket& socket) {
 
 struct Network::Impl {
   Impl(const NetworkOptions& options, AccessRules rules, GatewayCore& core, WebPages& pages)
-      : hub{io, core, pages, std::move(rules), load_tls(options), WaitingRoom(kWaitingPlaces),
-            {}, false},
+      : hub{io,
+            core,
+            pages,
+            std::move(rules),
+            load_tls(options),
+            WaitingRoom(kWaitingPlaces),
+            {},
+            TurnQueue(io),
+            false},
         http{listen(io, options.bind, options.http_port, "--http-port"), asio::steady_timer(io),
              serve_http},
         tcp{listen(io, options.bind, options.tcp_port, "--tcp-port"), asio::steady_timer(io),

@@ -20,10 +20,11 @@ class Outbox {
   void want_state() { num_skipped_ += std::exchange(wants_state_, true) ? 1 : 0; }
   void want_picture() { num_skipped_ += std::exchange(wants_picture_, true) ? 1 : 0; }
 
-  /** What the connection shall send next. States and pictures take turns. */
+  /** What the connection shall send next. A state goes before a picture, which is ten times as
+   * long, but only once: a slow client gets both. */
   Next next() const {
     if (!messages_.empty()) return Next::kMessage;
-    if (wants_state_ && !(wants_picture_ && last_was_state_)) return Next::kState;
+    if (wants_state_ && !is_picture_passed_over_) return Next::kState;
     return wants_picture_ ? Next::kPicture : Next::kNothing;
   }
 
@@ -35,11 +36,11 @@ class Outbox {
   }
   void take_state() {
     wants_state_ = false;
-    last_was_state_ = true;
+    is_picture_passed_over_ = wants_picture_;
   }
   void take_picture() {
     wants_picture_ = false;
-    last_was_state_ = false;
+    is_picture_passed_over_ = false;
   }
 
   size_t num_messages() const { return messages_.size(); }
@@ -50,7 +51,7 @@ class Outbox {
   std::deque<MessageBytes> messages_;
   bool wants_state_ = false;
   bool wants_picture_ = false;
-  bool last_was_state_ = false;
+  bool is_picture_passed_over_ = false;
   uint64_t num_skipped_ = 0;
 };
 

@@ -35,7 +35,10 @@ void PhoneConnection::open(const Peer& peer) {
   const auto wake = [weak] {
     const auto self = weak.lock();
     if (!self || std::exchange(self->is_flush_due_, true)) return;
-    asio::post(self->hub_.io, [self] { self->flush(); });
+    asio::post(self->hub_.io, [self] {
+      self->is_flush_due_ = false;
+      self->flush_in_turn();
+    });
   };
   id_ = hub_.core.open(peer, wake, monotonic_seconds());
 }
@@ -57,8 +60,20 @@ void PhoneConnection::violate(const std::string& why) {
   hub_.core.violate(id_, why, monotonic_seconds());
 }
 
+void PhoneConnection::flush_in_turn() {
+  if (is_writing_ || !hub_.core.is_picture_next(id_)) {
+    flush();
+  } else if (!std::exchange(is_picture_due_, true)) {
+    hub_.pictures.add([weak = weak_from_this()] {
+      const auto self = weak.lock();
+      if (!self) return;
+      self->is_picture_due_ = false;
+      self->flush();
+    });
+  }
+}
+
 void PhoneConnection::flush() {
-  is_flush_due_ = false;
   if (is_writing_ || is_finished_) return;
   const auto message = hub_.core.next_message(id_, monotonic_seconds());
   if (message) {
@@ -77,7 +92,7 @@ void PhoneConnection::on_written(bool has_failed) {
   if (has_failed) {
     abort("closed by the client");
   } else {
-    flush();
+    flush_in_turn();
   }
 }
 
