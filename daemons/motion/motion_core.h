@@ -78,7 +78,7 @@ class MotionCore {
     std::unique_ptr<MotionGenerator> generator;
     std::optional<Command> command;
     std::string detail;
-    /** Its turn did not come at once: where it was safe, the robot is no more. */
+    /** Its turn did not come at once: what was safe when it came may not be so now. */
     bool has_waited = false;
   };
 
