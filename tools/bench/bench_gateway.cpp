@@ -43,6 +43,7 @@ using nao::Bus;
 using nao::ChildProcess;
 using nao::Figure;
 using nao::monotonic_seconds;
+using nao::percentile;
 using nao::WireClient;
 
 constexpr double kDeadline = 60;
@@ -55,14 +56,6 @@ constexpr double kStillTime = 0.2;
 /** The simulator's control tick, s. */
 constexpr double kTick = 0.01;
 constexpr int kNumClients = 32;
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  const auto index =
-      static_cast<size_t>(std::lround(share * static_cast<double>(values.size() - 1)));
-  return values[index];
-}
 
 naoremote::Request hello(const std::string& name) {
   naoremote::Request request;

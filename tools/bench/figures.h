@@ -19,11 +19,16 @@ struct Figure {
 /** Middle value; the mean of both where their number is even. @param values  Not empty. */
 double median(std::vector<double> values);
 
+/** The value below which that share of the others lies, nearest rank; NaN for no values.
+ * @param share  [0, 1]: 0.99 for the 99th percentile. */
+double percentile(std::vector<double> values, double share);
+
 /** The figures as a table for people. */
 std::string to_table(const std::vector<Figure>& figures);
 
 /** As an array of {"name", "value", "unit", "peer", "peer_value", "ratio"}; peer, its value and the
- * ratio value / peer_value are null where there is no peer. */
+ * ratio value / peer_value are null where there is no peer, and so is every number that is not
+ * finite. */
 std::string to_json(const std::vector<Figure>& figures);
 
 /** Prints the table, and writes the JSON to a file unless its name is empty.
