@@ -14,7 +14,7 @@ from stack import BIN_DIR, DEADLINE, ROOT, Stack, run
 WORLD, MOTION, GATEWAY = "world", "motion", "gate"
 ONLY = {WORLD: "sim,head-camera", MOTION: "motion", GATEWAY: "phone-gateway"}
 DELAY = 0.02  # s, one way
-LOSS = 0.01
+LOSS = float(os.environ.get("NAO_TEST_LOSS", "0.01"))
 # From the last walk command that comes through to a robot at rest: motion lets a command stand for 0.5 s; the steps
 # that end the walk take more at this delay (nao-trial walk --latency 6 --late 0.02: up to 1 s).
 STOP_TIME = 2.0
