@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "common/collision_shape.h"
+#include "robot_model/collision_shape.h"
 
 namespace nao::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/robot_model.h"
+#include "robot_model/robot_model.h"
 #include "sim/tree.h"
 
 namespace nao::sim {

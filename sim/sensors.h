@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/robot_model.h"
+#include "robot_model/robot_model.h"
 #include "sim/random.h"
 
 namespace nao::sim {

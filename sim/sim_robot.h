@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/robot_model.h"
+#include "robot_model/robot_model.h"
 #include "sim/collision_model.h"
 #include "sim/constraint_solver.h"
 #include "sim/motor.h"

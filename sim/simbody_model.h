@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "common/robot_model.h"
+#include "robot_model/robot_model.h"
 #include "sim/tree.h"
 
 namespace nao::sim {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "common/robot_model.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::sim {
 

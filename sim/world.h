@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/closest_points.h"
-#include "common/robot_model.h"
-#include "common/scene_file.h"
+#include "robot_model/closest_points.h"
+#include "robot_model/robot_model.h"
+#include "robot_model/scene_file.h"
 #include "sim/constraint_solver.h"
 #include "sim/sensors.h"
 #include "sim/sim_robot.h"

@@ -1,4 +1,4 @@
-#include "log_file.h"
+#include "viewer/log_file.h"
 
 #include <algorithm>
 #include <map>

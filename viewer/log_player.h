@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "log_file.h"
+#include "viewer/log_file.h"
 
 namespace nao {
 

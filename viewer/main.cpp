@@ -15,13 +15,13 @@
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/program.h"
-#include "common/robot_model.h"
 #include "common/wall_clock.h"
-#include "scene/egl_context.h"
-#include "scene/gl_objects.h"
-#include "scene/picture.h"
-#include "viewer.h"
-#include "viewer_options.h"
+#include "rendering/egl_context.h"
+#include "rendering/gl_objects.h"
+#include "rendering/picture.h"
+#include "robot_model/robot_model.h"
+#include "viewer/viewer.h"
+#include "viewer/viewer_options.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "message_store.h"
+#include "viewer/message_store.h"
 
 namespace nao {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/pinhole_camera.h"
+#include "rendering/pinhole_camera.h"
 
 namespace nao {
 

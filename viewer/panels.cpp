@@ -1,4 +1,4 @@
-#include "panels.h"
+#include "viewer/panels.h"
 
 #include <imgui.h>
 
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "message_fields.h"
+#include "viewer/message_fields.h"
 
 namespace nao {
 namespace {

@@ -1,9 +1,9 @@
-#include "picture_texture.h"
+#include "viewer/picture_texture.h"
 
 #include <turbojpeg.h>
 
 #include "common/error.h"
-#include "scene/gl_objects.h"
+#include "rendering/gl_objects.h"
 
 namespace nao {
 

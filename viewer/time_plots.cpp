@@ -1,10 +1,10 @@
-#include "time_plots.h"
+#include "viewer/time_plots.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "message_fields.h"
+#include "viewer/message_fields.h"
 
 namespace nao {
 

@@ -1,4 +1,4 @@
-#include "viewer.h"
+#include "viewer/viewer.h"
 
 #include <imgui.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 
 #include "backends/imgui_impl_opengl3.h"
 #include "common/wall_clock.h"
-#include "scene/gl_objects.h"
+#include "rendering/gl_objects.h"
 
 namespace nao {
 namespace {

@@ -4,18 +4,18 @@
 #include <optional>
 #include <string>
 
-#include "command_sender.h"
 #include "common/bus.h"
-#include "common/robot_model.h"
-#include "log_player.h"
-#include "message_store.h"
-#include "orbit_camera.h"
-#include "panels.h"
-#include "picture_texture.h"
-#include "scene/scene_renderer.h"
-#include "time_plots.h"
-#include "viewer_options.h"
-#include "world_view.h"
+#include "rendering/scene_renderer.h"
+#include "robot_model/robot_model.h"
+#include "viewer/command_sender.h"
+#include "viewer/log_player.h"
+#include "viewer/message_store.h"
+#include "viewer/orbit_camera.h"
+#include "viewer/panels.h"
+#include "viewer/picture_texture.h"
+#include "viewer/time_plots.h"
+#include "viewer/viewer_options.h"
+#include "viewer/world_view.h"
 
 namespace nao {
 

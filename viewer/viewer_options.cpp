@@ -1,4 +1,4 @@
-#include "viewer_options.h"
+#include "viewer/viewer_options.h"
 
 #include "common/error.h"
 

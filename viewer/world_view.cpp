@@ -1,11 +1,11 @@
-#include "world_view.h"
+#include "viewer/world_view.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/error.h"
-#include "scene/decode_state.h"
-#include "scene/primitives.h"
+#include "rendering/decode_state.h"
+#include "rendering/primitives.h"
 
 namespace nao {
 namespace {

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "common/robot_model.h"
-#include "message_store.h"
-#include "scene/robot_visual.h"
-#include "scene/scene.h"
-#include "scene/scene_renderer.h"
-#include "scene/world_state.h"
+#include "rendering/robot_visual.h"
+#include "rendering/scene.h"
+#include "rendering/scene_renderer.h"
+#include "rendering/world_state.h"
+#include "robot_model/robot_model.h"
+#include "viewer/message_store.h"
 
 namespace nao {
 

@@ -1,4 +1,4 @@
-#include "exposure.h"
+#include "daemons/head-camera/exposure.h"
 
 #include <cstddef>
 

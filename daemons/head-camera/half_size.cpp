@@ -1,4 +1,4 @@
-#include "half_size.h"
+#include "daemons/head-camera/half_size.h"
 
 #include <cstring>
 

@@ -1,8 +1,8 @@
-#include "head_camera.h"
+#include "daemons/head-camera/head_camera.h"
 
 #include "common/error.h"
-#include "half_size.h"
-#include "picture_wishes.h"
+#include "daemons/head-camera/half_size.h"
+#include "daemons/head-camera/picture_wishes.h"
 
 namespace nao {
 namespace {

@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "common/robot_model.h"
-#include "exposure.h"
-#include "head_camera_options.h"
-#include "lens.h"
-#include "picture_noise.h"
-#include "scene/egl_context.h"
-#include "scene/gl_objects.h"
-#include "scene/robot_visual.h"
-#include "scene/scene_renderer.h"
-#include "scene/world_state.h"
+#include "daemons/head-camera/exposure.h"
+#include "daemons/head-camera/head_camera_options.h"
+#include "daemons/head-camera/lens.h"
+#include "daemons/head-camera/picture_noise.h"
+#include "rendering/egl_context.h"
+#include "rendering/gl_objects.h"
+#include "rendering/robot_visual.h"
+#include "rendering/scene_renderer.h"
+#include "rendering/world_state.h"
+#include "robot_model/robot_model.h"
 
 namespace nao {
 

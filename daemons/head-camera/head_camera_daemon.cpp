@@ -1,4 +1,4 @@
-#include "head_camera_daemon.h"
+#include "daemons/head-camera/head_camera_daemon.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "common/error.h"
 #include "common/wall_clock.h"
-#include "scene/decode_state.h"
+#include "rendering/decode_state.h"
 
 namespace nao {
 namespace {

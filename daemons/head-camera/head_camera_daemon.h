@@ -14,10 +14,10 @@
 #include "common/channels.h"
 #include "common/event_loop.h"
 #include "common/status_reporter.h"
-#include "head_camera.h"
-#include "head_camera_options.h"
-#include "jpeg_encoder.h"
-#include "picture_wishes.h"
+#include "daemons/head-camera/head_camera.h"
+#include "daemons/head-camera/head_camera_options.h"
+#include "daemons/head-camera/jpeg_encoder.h"
+#include "daemons/head-camera/picture_wishes.h"
 
 namespace nao {
 

@@ -1,9 +1,9 @@
-#include "head_camera_options.h"
+#include "daemons/head-camera/head_camera_options.h"
 
 #include <cmath>
 
 #include "common/error.h"
-#include "picture_wishes.h"
+#include "daemons/head-camera/picture_wishes.h"
 
 namespace nao {
 

@@ -1,4 +1,4 @@
-#include "jpeg_encoder.h"
+#include "daemons/head-camera/jpeg_encoder.h"
 
 #include <turbojpeg.h>
 

@@ -1,4 +1,4 @@
-#include "lens.h"
+#include "daemons/head-camera/lens.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/pinhole_camera.h"
+#include "rendering/pinhole_camera.h"
 
 namespace nao {
 

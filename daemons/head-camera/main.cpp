@@ -10,9 +10,9 @@
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/program.h"
-#include "common/robot_model.h"
-#include "head_camera_daemon.h"
-#include "head_camera_options.h"
+#include "daemons/head-camera/head_camera_daemon.h"
+#include "daemons/head-camera/head_camera_options.h"
+#include "robot_model/robot_model.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Shows what the robot's head camera sees, without a screen", "nao-head-camera");

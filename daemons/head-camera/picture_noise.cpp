@@ -1,4 +1,4 @@
-#include "picture_noise.h"
+#include "daemons/head-camera/picture_noise.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "picture_wishes.h"
+#include "daemons/head-camera/picture_wishes.h"
 
 #include <algorithm>
 

@@ -9,9 +9,9 @@
 #include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/program.h"
-#include "common/robot_model.h"
 #include "common/scheduling.h"
-#include "motion/motion_daemon.h"
+#include "daemons/motion/motion_daemon.h"
+#include "robot_model/robot_model.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Decides where the robot's joints go: postures, joint changes, balance.",

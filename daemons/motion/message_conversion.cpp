@@ -1,4 +1,4 @@
-#include "motion/message_conversion.h"
+#include "daemons/motion/message_conversion.h"
 
 #include <cmath>
 

@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "common/robot_model.h"
-#include "motion/command.h"
-#include "motion/joint_targets.h"
-#include "motion/motion_state.h"
-#include "motion/robot_state.h"
-#include "motion/sensors.h"
+#include "daemons/motion/commands/command.h"
+#include "daemons/motion/joint_targets.h"
+#include "daemons/motion/motion_state.h"
+#include "daemons/motion/robot_state.h"
+#include "daemons/motion/sensors.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

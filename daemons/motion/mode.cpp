@@ -1,4 +1,4 @@
-#include "motion/mode.h"
+#include "daemons/motion/mode.h"
 
 namespace nao::motion {
 

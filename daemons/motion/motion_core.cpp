@@ -1,23 +1,23 @@
-#include "motion/motion_core.h"
+#include "daemons/motion/motion_core.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "common/error.h"
-#include "motion/acceptance.h"
-#include "motion/actions/kick_motion.h"
-#include "motion/actions/script_motion.h"
-#include "motion/command_check.h"
-#include "motion/falls/fall_motion.h"
-#include "motion/joint_change_motion.h"
-#include "motion/posture_motion.h"
-#include "motion/rest_motion.h"
-#include "motion/sequence_motion.h"
-#include "motion/standing_rates.h"
-#include "motion/transitions/body_state.h"
-#include "motion/transitions/journey_motion.h"
-#include "motion/walk/walk_motion.h"
+#include "daemons/motion/commands/acceptance.h"
+#include "daemons/motion/commands/command_check.h"
+#include "daemons/motion/generators/fall_motion.h"
+#include "daemons/motion/generators/joint_change_motion.h"
+#include "daemons/motion/generators/journey_motion.h"
+#include "daemons/motion/generators/kick_motion.h"
+#include "daemons/motion/generators/posture_motion.h"
+#include "daemons/motion/generators/rest_motion.h"
+#include "daemons/motion/generators/script_motion.h"
+#include "daemons/motion/generators/sequence_motion.h"
+#include "daemons/motion/generators/walk_motion.h"
+#include "daemons/motion/standing_rates.h"
+#include "daemons/motion/transitions/body_state.h"
 
 namespace nao::motion {
 namespace {

@@ -1,4 +1,4 @@
-#include "motion/motion_daemon.h"
+#include "daemons/motion/motion_daemon.h"
 
 #include <spdlog/spdlog.h>
 
@@ -8,7 +8,7 @@
 #include "common/error.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
-#include "motion/message_conversion.h"
+#include "daemons/motion/message_conversion.h"
 
 namespace nao::motion {
 namespace {

@@ -9,10 +9,10 @@
 #include "common/bus.h"
 #include "common/channels.h"
 #include "common/event_loop.h"
-#include "common/robot_model.h"
 #include "common/status_reporter.h"
-#include "motion/motion_core.h"
-#include "motion/result_reminder.h"
+#include "daemons/motion/commands/result_reminder.h"
+#include "daemons/motion/motion_core.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

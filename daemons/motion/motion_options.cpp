@@ -1,4 +1,4 @@
-#include "motion/motion_options.h"
+#include "daemons/motion/motion_options.h"
 
 #include <string>
 

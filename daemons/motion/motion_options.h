@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "motion/transitions/transition_graph.h"
-#include "motion/walk/gait.h"
+#include "daemons/motion/transitions/transition_graph.h"
+#include "daemons/motion/walk/gait.h"
 
 namespace nao::motion {
 

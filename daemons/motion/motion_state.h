@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/mode.h"
+#include "daemons/motion/mode.h"
 
 namespace nao::motion {
 

@@ -1,6 +1,6 @@
-#include "motion/standing_rates.h"
+#include "daemons/motion/standing_rates.h"
 
-#include "motion/joint_limits.h"
+#include "daemons/motion/guards/joint_limits.h"
 
 namespace nao::motion {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "motion/joint_trajectory.h"
-#include "motion/motion_generator.h"
+#include "daemons/motion/generators/joint_trajectory.h"
+#include "daemons/motion/generators/motion_generator.h"
 
 namespace nao::motion {
 

@@ -1,4 +1,4 @@
-#include "client/message_socket.h"
+#include "phone-gateway/client/message_socket.h"
 
 #include <fcntl.h>
 #include <netdb.h>

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "common/error.h"
-#include "protocol/framing.h"
+#include "phone-gateway/protocol/framing.h"
 
 namespace nao {
 

@@ -6,8 +6,8 @@
 #include <iostream>
 #include <string>
 
-#include "client/phone_client.h"
 #include "common/program.h"
+#include "phone-gateway/client/phone_client.h"
 
 namespace nao {
 namespace {

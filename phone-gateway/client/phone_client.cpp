@@ -1,4 +1,4 @@
-#include "client/phone_client.h"
+#include "phone-gateway/client/phone_client.h"
 
 #include <algorithm>
 #include <utility>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "client/message_socket.h"
+#include "phone-gateway/client/message_socket.h"
 #include "remote.pb.h"
 
 namespace nao {

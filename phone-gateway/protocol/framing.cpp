@@ -1,4 +1,4 @@
-#include "protocol/framing.h"
+#include "phone-gateway/protocol/framing.h"
 
 #include <cstdint>
 

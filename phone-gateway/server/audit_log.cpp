@@ -1,4 +1,4 @@
-#include "server/audit_log.h"
+#include "phone-gateway/server/audit_log.h"
 
 #include <spdlog/spdlog.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/rate_limiter.h"
-#include "server/gateway_core.h"
+#include "phone-gateway/server/gateway_core.h"
 
 namespace nao {
 

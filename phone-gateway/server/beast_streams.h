@@ -1,6 +1,6 @@
 #pragma once
 
-#include "server/connection.h"
+#include "phone-gateway/server/connection.h"
 //
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/empty_body.hpp>

@@ -1,4 +1,4 @@
-#include "server/bus_messages.h"
+#include "phone-gateway/server/bus_messages.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "common/robot_model.h"
-#include "server/picture_shelf.h"
-#include "server/robot_mirror.h"
+#include "phone-gateway/server/picture_shelf.h"
+#include "phone-gateway/server/robot_mirror.h"
+#include "robot_model/robot_model.h"
 
 namespace nao {
 

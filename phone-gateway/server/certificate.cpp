@@ -1,4 +1,4 @@
-#include "server/certificate.h"
+#include "phone-gateway/server/certificate.h"
 
 #include <openssl/bn.h>
 #include <openssl/ec.h>

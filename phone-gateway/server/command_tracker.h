@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "server/gateway_limits.h"
-#include "server/motion_command.h"
+#include "phone-gateway/server/gateway_limits.h"
+#include "phone-gateway/server/motion_command.h"
 
 namespace nao {
 

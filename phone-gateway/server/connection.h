@@ -10,9 +10,9 @@
 #include <memory>
 #include <string>
 
-#include "server/network.h"
-#include "server/turn_queue.h"
-#include "server/waiting_room.h"
+#include "phone-gateway/server/network.h"
+#include "phone-gateway/server/turn_queue.h"
+#include "phone-gateway/server/waiting_room.h"
 
 namespace nao {
 

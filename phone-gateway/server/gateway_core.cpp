@@ -1,12 +1,12 @@
 // Connections, robot and time; the use cases are in gateway_core_requests.cpp.
-#include "server/gateway_core.h"
+#include "phone-gateway/server/gateway_core.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "protocol/framing.h"
-#include "server/client_name.h"
+#include "phone-gateway/protocol/framing.h"
+#include "phone-gateway/server/client_name.h"
 
 namespace nao {
 namespace {

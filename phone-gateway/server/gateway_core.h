@@ -9,18 +9,18 @@
 #include <string_view>
 #include <vector>
 
+#include "phone-gateway/server/command_tracker.h"
+#include "phone-gateway/server/driving_lease.h"
+#include "phone-gateway/server/gateway_limits.h"
+#include "phone-gateway/server/message_bytes.h"
+#include "phone-gateway/server/motion_command.h"
+#include "phone-gateway/server/part_monitor.h"
+#include "phone-gateway/server/phone_robot.h"
+#include "phone-gateway/server/phone_session.h"
+#include "phone-gateway/server/picture_shelf.h"
+#include "phone-gateway/server/robot_mirror.h"
+#include "phone-gateway/server/walk_stream.h"
 #include "remote.pb.h"
-#include "server/command_tracker.h"
-#include "server/driving_lease.h"
-#include "server/gateway_limits.h"
-#include "server/message_bytes.h"
-#include "server/motion_command.h"
-#include "server/part_monitor.h"
-#include "server/phone_robot.h"
-#include "server/phone_session.h"
-#include "server/picture_shelf.h"
-#include "server/robot_mirror.h"
-#include "server/walk_stream.h"
 
 namespace nao {
 

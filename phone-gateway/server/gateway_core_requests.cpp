@@ -3,10 +3,10 @@
 #include <cmath>
 #include <utility>
 
-#include "protocol/framing.h"
-#include "server/client_name.h"
-#include "server/gateway_core.h"
-#include "server/secret.h"
+#include "phone-gateway/protocol/framing.h"
+#include "phone-gateway/server/client_name.h"
+#include "phone-gateway/server/gateway_core.h"
+#include "phone-gateway/server/secret.h"
 
 namespace nao {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/gateway_daemon.h"
+#include "phone-gateway/server/gateway_daemon.h"
 
 #include <unistd.h>
 
@@ -16,7 +16,7 @@
 #include "common/error.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
-#include "server/prometheus_text.h"
+#include "phone-gateway/server/prometheus_text.h"
 
 namespace nao {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
-#include "common/robot_model.h"
 #include "common/status_reporter.h"
-#include "server/audit_log.h"
-#include "server/bus_messages.h"
-#include "server/gateway_core.h"
-#include "server/metric.h"
+#include "phone-gateway/server/audit_log.h"
+#include "phone-gateway/server/bus_messages.h"
+#include "phone-gateway/server/gateway_core.h"
+#include "phone-gateway/server/metric.h"
+#include "robot_model/robot_model.h"
 
 namespace nao {
 

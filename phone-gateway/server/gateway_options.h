@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "server/gateway_limits.h"
-#include "server/network.h"
+#include "phone-gateway/server/gateway_limits.h"
+#include "phone-gateway/server/network.h"
 
 namespace nao {
 

@@ -1,4 +1,4 @@
-#include "server/gzip.h"
+#include "phone-gateway/server/gzip.h"
 
 #include <zlib.h>
 

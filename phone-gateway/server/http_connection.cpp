@@ -1,4 +1,4 @@
-#include "server/beast_streams.h"
+#include "phone-gateway/server/beast_streams.h"
 //
 #include <boost/beast/core/detect_ssl.hpp>
 #include <boost/beast/core/flat_buffer.hpp>

@@ -12,14 +12,14 @@
 #include "common/program.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
-#include "server/certificate.h"
-#include "server/gateway_daemon.h"
-#include "server/gateway_options.h"
-#include "server/network.h"
-#include "server/own_addresses.h"
-#include "server/qr_code.h"
-#include "server/secret.h"
-#include "server/web_pages.h"
+#include "phone-gateway/server/certificate.h"
+#include "phone-gateway/server/gateway_daemon.h"
+#include "phone-gateway/server/gateway_options.h"
+#include "phone-gateway/server/network.h"
+#include "phone-gateway/server/own_addresses.h"
+#include "phone-gateway/server/qr_code.h"
+#include "phone-gateway/server/secret.h"
+#include "phone-gateway/server/web_pages.h"
 
 namespace nao {
 namespace {

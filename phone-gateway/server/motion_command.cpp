@@ -1,4 +1,4 @@
-#include "server/motion_command.h"
+#include "phone-gateway/server/motion_command.h"
 
 namespace nao {
 namespace {

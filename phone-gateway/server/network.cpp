@@ -1,4 +1,4 @@
-#include "server/connection.h"
+#include "phone-gateway/server/connection.h"
 //
 #include <netinet/tcp.h>
 #include <sys/socket.h>

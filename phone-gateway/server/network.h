@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "server/access_rules.h"
-#include "server/gateway_core.h"
-#include "server/metric.h"
-#include "server/web_pages.h"
+#include "phone-gateway/server/access_rules.h"
+#include "phone-gateway/server/gateway_core.h"
+#include "phone-gateway/server/metric.h"
+#include "phone-gateway/server/web_pages.h"
 
 namespace nao {
 

@@ -5,7 +5,7 @@
 #include <deque>
 #include <utility>
 
-#include "server/message_bytes.h"
+#include "phone-gateway/server/message_bytes.h"
 
 namespace nao {
 

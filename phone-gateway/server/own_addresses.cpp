@@ -1,4 +1,4 @@
-#include "server/own_addresses.h"
+#include "phone-gateway/server/own_addresses.h"
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>

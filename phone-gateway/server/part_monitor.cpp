@@ -1,4 +1,4 @@
-#include "server/part_monitor.h"
+#include "phone-gateway/server/part_monitor.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "server/gateway_limits.h"
+#include "phone-gateway/server/gateway_limits.h"
 
 namespace nao {
 

@@ -1,4 +1,4 @@
-#include "server/phone_connection.h"
+#include "phone-gateway/server/phone_connection.h"
 
 #include <boost/asio/post.hpp>
 #include <chrono>

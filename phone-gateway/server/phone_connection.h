@@ -1,6 +1,6 @@
 #pragma once
 
-#include "server/connection.h"
+#include "phone-gateway/server/connection.h"
 //
 #include <boost/asio/steady_timer.hpp>
 #include <memory>

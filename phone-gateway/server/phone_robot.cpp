@@ -1,4 +1,4 @@
-#include "server/phone_robot.h"
+#include "phone-gateway/server/phone_robot.h"
 
 namespace nao {
 namespace {

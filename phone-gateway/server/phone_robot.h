@@ -1,7 +1,7 @@
 #pragma once
 
-#include "common/robot_model.h"
 #include "remote.pb.h"
+#include "robot_model/robot_model.h"
 
 namespace nao {
 

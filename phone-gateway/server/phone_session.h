@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "server/outbox.h"
-#include "server/pacer.h"
-#include "server/request_budget.h"
-#include "server/request_check.h"
+#include "phone-gateway/server/outbox.h"
+#include "phone-gateway/server/pacer.h"
+#include "phone-gateway/server/request_budget.h"
+#include "phone-gateway/server/request_check.h"
 
 namespace nao {
 

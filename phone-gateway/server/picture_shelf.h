@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "server/message_bytes.h"
-#include "server/request_check.h"
+#include "phone-gateway/server/message_bytes.h"
+#include "phone-gateway/server/request_check.h"
 
 namespace nao {
 

@@ -1,4 +1,4 @@
-#include "server/request_check.h"
+#include "phone-gateway/server/request_check.h"
 
 #include <algorithm>
 #include <array>

@@ -3,10 +3,10 @@
 #include <string>
 #include <variant>
 
+#include "phone-gateway/server/gateway_limits.h"
+#include "phone-gateway/server/motion_command.h"
+#include "phone-gateway/server/phone_robot.h"
 #include "remote.pb.h"
-#include "server/gateway_limits.h"
-#include "server/motion_command.h"
-#include "server/phone_robot.h"
 
 namespace nao {
 

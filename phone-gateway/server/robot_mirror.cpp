@@ -1,4 +1,4 @@
-#include "server/robot_mirror.h"
+#include "phone-gateway/server/robot_mirror.h"
 
 #include <cmath>
 

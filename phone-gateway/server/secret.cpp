@@ -1,4 +1,4 @@
-#include "server/secret.h"
+#include "phone-gateway/server/secret.h"
 
 #include <sys/random.h>
 

@@ -1,10 +1,10 @@
-#include "server/phone_connection.h"
+#include "phone-gateway/server/phone_connection.h"
 //
 #include <array>
 #include <boost/asio/write.hpp>
 #include <optional>
 
-#include "protocol/framing.h"
+#include "phone-gateway/protocol/framing.h"
 
 namespace nao {
 namespace {

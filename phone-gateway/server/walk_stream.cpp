@@ -1,4 +1,4 @@
-#include "server/walk_stream.h"
+#include "phone-gateway/server/walk_stream.h"
 
 #include <utility>
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "server/gateway_limits.h"
-#include "server/motion_command.h"
+#include "phone-gateway/server/gateway_limits.h"
+#include "phone-gateway/server/motion_command.h"
 
 namespace nao {
 

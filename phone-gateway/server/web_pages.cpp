@@ -1,4 +1,4 @@
-#include "server/web_pages.h"
+#include "phone-gateway/server/web_pages.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "server/gzip.h"
+#include "phone-gateway/server/gzip.h"
 
 namespace nao {
 namespace {

@@ -1,12 +1,12 @@
-#include "server/beast_streams.h"
+#include "phone-gateway/server/beast_streams.h"
 //
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 
 #include "common/program.h"
-#include "protocol/framing.h"
-#include "server/phone_connection.h"
+#include "phone-gateway/protocol/framing.h"
+#include "phone-gateway/server/phone_connection.h"
 
 namespace nao {
 namespace {

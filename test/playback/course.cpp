@@ -1,4 +1,4 @@
-#include "course.h"
+#include "test/playback/course.h"
 
 #include <algorithm>
 #include <cmath>

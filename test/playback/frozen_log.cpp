@@ -1,4 +1,4 @@
-#include "frozen_log.h"
+#include "test/playback/frozen_log.h"
 
 #include <naolcm/action_command_t.hpp>
 #include <naolcm/joint_change_command_t.hpp>

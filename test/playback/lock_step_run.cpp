@@ -1,4 +1,4 @@
-#include "lock_step_run.h"
+#include "test/playback/lock_step_run.h"
 
 #include <cmath>
 #include <functional>
@@ -16,9 +16,9 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/event_loop.h"
-#include "frozen_log.h"
-#include "motion/motion_daemon.h"
+#include "daemons/motion/motion_daemon.h"
 #include "sim/sim_daemon.h"
+#include "test/playback/frozen_log.h"
 
 namespace nao::playback {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/log_reader.h"
-#include "course.h"
+#include "test/playback/course.h"
 
 namespace nao::playback {
 

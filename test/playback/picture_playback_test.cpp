@@ -11,8 +11,8 @@
 
 #include "common/bus.h"
 #include "common/wall_clock.h"
-#include "frozen_log.h"
-#include "support/child_program.h"
+#include "test/playback/frozen_log.h"
+#include "test/support/child_program.h"
 
 namespace nao::playback {
 namespace {

@@ -13,10 +13,10 @@
 
 #include "common/data_path.h"
 #include "common/error.h"
-#include "course.h"
-#include "frozen_log.h"
-#include "lock_step_run.h"
-#include "motion/motion_daemon.h"
+#include "daemons/motion/motion_daemon.h"
+#include "test/playback/course.h"
+#include "test/playback/frozen_log.h"
+#include "test/playback/lock_step_run.h"
 
 namespace nao::playback {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "sim/random.h"
 #include "sim/world.h"
-#include "sim_fixture.h"
+#include "test/sim/sim_fixture.h"
 
 namespace {
 std::atomic<long> num_allocations{0};

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "sim/world.h"
-#include "sim_fixture.h"
+#include "test/sim/sim_fixture.h"
 
 namespace nao::sim {
 namespace {

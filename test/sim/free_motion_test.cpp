@@ -7,8 +7,8 @@
 
 #include "sim/random.h"
 #include "sim/world.h"
-#include "sim_fixture.h"
-#include "test_robots.h"
+#include "test/sim/sim_fixture.h"
+#include "test/sim/test_robots.h"
 
 namespace nao::sim {
 namespace {

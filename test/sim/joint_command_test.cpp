@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim_fixture.h"
+#include "test/sim/sim_fixture.h"
 
 namespace nao::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include "sim/mujoco_peer.h"
 #include "sim/random.h"
 #include "sim/world.h"
-#include "sim_fixture.h"
+#include "test/sim/sim_fixture.h"
 
 namespace nao::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "sim/world.h"
-#include "sim_fixture.h"
+#include "test/sim/sim_fixture.h"
 
 namespace nao::sim {
 namespace {

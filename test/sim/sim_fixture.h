@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "common/data_path.h"
-#include "common/robot_model.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::sim {
 

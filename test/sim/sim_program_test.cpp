@@ -17,8 +17,8 @@
 #include "sim/joint_command.h"
 #include "sim/random.h"
 #include "sim/world.h"
-#include "sim_fixture.h"
-#include "support/child_program.h"
+#include "test/sim/sim_fixture.h"
+#include "test/support/child_program.h"
 
 namespace nao::sim {
 namespace {

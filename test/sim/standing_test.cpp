@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/world.h"
-#include "sim_fixture.h"
+#include "test/sim/sim_fixture.h"
 
 namespace nao::sim {
 namespace {

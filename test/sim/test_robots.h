@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "common/robot_model.h"
-#include "support/temporary_folder.h"
+#include "robot_model/robot_model.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao::sim {
 

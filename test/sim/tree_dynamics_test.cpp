@@ -8,7 +8,7 @@
 #include <random>
 
 #include "sim/simbody_model.h"
-#include "sim_fixture.h"
+#include "test/sim/sim_fixture.h"
 
 namespace nao::sim {
 namespace {

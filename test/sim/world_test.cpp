@@ -6,7 +6,7 @@
 
 #include "common/error.h"
 #include "sim/random.h"
-#include "sim_fixture.h"
+#include "test/sim/sim_fixture.h"
 
 namespace nao::sim {
 namespace {

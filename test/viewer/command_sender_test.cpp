@@ -1,4 +1,4 @@
-#include "command_sender.h"
+#include "viewer/command_sender.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "log_file.h"
+#include "viewer/log_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "common/error.h"
-#include "log_player.h"
+#include "viewer/log_player.h"
 
 namespace nao {
 namespace {

@@ -1,4 +1,4 @@
-#include "message_store.h"
+#include "viewer/message_store.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <map>
 #include <naolcm/stop_command_t.hpp>
 
-#include "message_fields.h"
-#include "time_plots.h"
-#include "viewer_options.h"
+#include "viewer/message_fields.h"
+#include "viewer/time_plots.h"
+#include "viewer/viewer_options.h"
 
 #include "common/error.h"
 

@@ -5,11 +5,11 @@
 
 #include "common/data_path.h"
 #include "common/wall_clock.h"
-#include "daemons/head-camera/truth.h"
-#include "scene/decode_state.h"
-#include "scene/egl_context.h"
-#include "scene/gl_objects.h"
-#include "viewer.h"
+#include "rendering/decode_state.h"
+#include "rendering/egl_context.h"
+#include "rendering/gl_objects.h"
+#include "test/daemons/head-camera/truth.h"
+#include "viewer/viewer.h"
 
 namespace nao {
 namespace {

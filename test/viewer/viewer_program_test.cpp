@@ -13,9 +13,9 @@
 #include <string>
 
 #include "common/data_path.h"
-#include "common/robot_model.h"
-#include "daemons/head-camera/truth.h"
-#include "scene/picture.h"
+#include "rendering/picture.h"
+#include "robot_model/robot_model.h"
+#include "test/daemons/head-camera/truth.h"
 
 namespace nao {
 namespace {

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-#include "figures.h"
+#include "tools/bench/figures.h"
 
 namespace nao {
 namespace {

@@ -17,15 +17,15 @@
 #include "common/channels.h"
 #include "common/data_path.h"
 #include "common/event_loop.h"
-#include "common/robot_model.h"
 #include "common/wall_clock.h"
-#include "figures.h"
-#include "half_size.h"
-#include "head_camera.h"
-#include "head_camera_daemon.h"
-#include "jpeg_encoder.h"
-#include "picture_wishes.h"
-#include "scene/decode_state.h"
+#include "daemons/head-camera/half_size.h"
+#include "daemons/head-camera/head_camera.h"
+#include "daemons/head-camera/head_camera_daemon.h"
+#include "daemons/head-camera/jpeg_encoder.h"
+#include "daemons/head-camera/picture_wishes.h"
+#include "rendering/decode_state.h"
+#include "robot_model/robot_model.h"
+#include "tools/bench/figures.h"
 
 namespace {
 

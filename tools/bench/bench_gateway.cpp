@@ -28,14 +28,14 @@
 #include <stdexcept>
 #include <thread>
 
-#include "child_process.h"
 #include "common/bus.h"
 #include "common/channels.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
-#include "disturbing_clients.h"
-#include "figures.h"
-#include "wire_client.h"
+#include "tools/bench/child_process.h"
+#include "tools/bench/disturbing_clients.h"
+#include "tools/bench/figures.h"
+#include "tools/bench/wire_client.h"
 
 namespace {
 

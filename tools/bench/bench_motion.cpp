@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "closed_loop/closed_loop.h"
 #include "common/data_path.h"
-#include "common/robot_model.h"
-#include "figures.h"
-#include "nao-trial/trial.h"
+#include "robot_model/robot_model.h"
+#include "tools/bench/figures.h"
 
 namespace nao {
 namespace {
@@ -24,8 +24,8 @@ double processor_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-trial::TrialOptions trial_options() {
-  trial::TrialOptions options;
+ClosedLoopOptions trial_options() {
+  ClosedLoopOptions options;
   options.model = std::make_shared<RobotModel>(RobotModel::load(data_path() / "robots/nao"));
   options.scene = SceneFile::find("empty");
   return options;
@@ -33,7 +33,7 @@ trial::TrialOptions trial_options() {
 
 /** Median over ticks of a core's step, us, with the sensors of a trial that runs beside it. */
 double step_us(const Eigen::Vector3d& velocity, double seconds) {
-  trial::Trial trial(trial_options(), 1);
+  ClosedLoop trial(trial_options(), 1);
   std::vector<double> times;
   trial.measure_steps(processor_seconds, times);
   trial.run(1);
@@ -47,7 +47,7 @@ double step_us(const Eigen::Vector3d& velocity, double seconds) {
 }
 
 double real_time_factor(double seconds) {
-  trial::Trial trial(trial_options(), 1);
+  ClosedLoop trial(trial_options(), 1);
   trial.run(1);
   const double begin = processor_seconds();
   trial.run(seconds);

@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "closed_loop/closed_loop.h"
 #include "common/data_path.h"
-#include "common/robot_model.h"
-#include "figures.h"
-#include "nao-trial/trial.h"
+#include "robot_model/robot_model.h"
 #include "sim/world.h"
+#include "tools/bench/figures.h"
 #ifdef NAO_HAS_MUJOCO
 #include "sim/mujoco_peer.h"
 #endif
@@ -60,10 +60,10 @@ struct Scenario {
 Scenario walking() {
   Scenario scenario;
   scenario.name = "walking";
-  trial::TrialOptions options;
+  ClosedLoopOptions options;
   options.model = nao_model();
   options.is_ideal = true;
-  trial::Trial trial(options, 1);
+  ClosedLoop trial(options, 1);
   trial.on_tick([&] {
     const std::vector<double>& targets = trial.targets();
     scenario.targets.emplace_back(

@@ -1,4 +1,4 @@
-#include "child_process.h"
+#include "tools/bench/child_process.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>

@@ -1,11 +1,11 @@
-#include "disturbing_clients.h"
+#include "tools/bench/disturbing_clients.h"
 
 #include <sys/socket.h>
 
 #include <array>
 #include <chrono>
 
-#include "protocol/framing.h"
+#include "phone-gateway/protocol/framing.h"
 
 namespace nao {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <thread>
 
-#include "wire_client.h"
+#include "tools/bench/wire_client.h"
 
 namespace nao {
 

@@ -1,4 +1,4 @@
-#include "figures.h"
+#include "tools/bench/figures.h"
 
 #include <algorithm>
 #include <array>

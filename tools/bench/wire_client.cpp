@@ -1,4 +1,4 @@
-#include "wire_client.h"
+#include "tools/bench/wire_client.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <stdexcept>
 
-#include "protocol/framing.h"
+#include "phone-gateway/protocol/framing.h"
 
 namespace nao {
 namespace {

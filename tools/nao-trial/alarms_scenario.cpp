@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "nao-trial/scenarios.h"
+#include "tools/nao-trial/scenarios.h"
 
 namespace nao::trial {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 constexpr double kDuration = 600;  // s
 
 /** Something to do for a few seconds, on the feet. */
-void do_something(Trial& trial) {
+void do_something(ClosedLoop& trial) {
   constexpr std::array<const char*, 4> kPostures = {"StandInit", "StandZero", "Stand", "Crouch"};
   const double kind = trial.random(0, 3);
   if (kind < 1) {
@@ -36,7 +36,7 @@ void do_something(Trial& trial) {
 
 std::vector<RunResult> AlarmsScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   const double duration = options.duration > 0 ? options.duration : kDuration;
-  Trial trial(options.trial, seed);
+  ClosedLoop trial(options.trial, seed);
   int num_alarms = 0;
   bool was_falling = false;
   trial.on_tick([&] {

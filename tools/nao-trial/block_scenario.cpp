@@ -1,4 +1,4 @@
-#include "nao-trial/block_scenario.h"
+#include "tools/nao-trial/block_scenario.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ class FirstTime {
   double time_ = std::numeric_limits<double>::quiet_NaN();
 };
 
-double stance_width(Trial& trial) {
+double stance_width(ClosedLoop& trial) {
   const auto sole = [&](int link) {
     return Eigen::Vector3d(trial.world().robot(0).link_pose(link).translation());
   };
@@ -35,7 +35,7 @@ double stance_width(Trial& trial) {
 }
 
 RunResult act(const ScenarioOptions& options, uint64_t seed, const std::string& action) {
-  Trial trial(options.trial, seed);
+  ClosedLoop trial(options.trial, seed);
   trial.run(1);
   const bool dives = action != "block";
   const double start = trial.time();

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "nao-trial/scenarios.h"
+#include "tools/nao-trial/scenarios.h"
 
 namespace nao::trial {
 namespace {
@@ -17,7 +17,7 @@ constexpr double kPushShare = 0.03;     // of the commands, with a push that thr
 constexpr double kRestartShare = 0.02;  // of the commands, after which the mind dies
 constexpr double kTimeToEnd = 150;      // s for the last command, six tries to get up included
 
-motion::Command random_joint_change(Trial& trial) {
+motion::Command random_joint_change(ClosedLoop& trial) {
   motion::JointChangeCommand change;
   const int motor = static_cast<int>(trial.random(0, trial.model().num_motors()));
   change.joint_names = {trial.model().motor_joint(motor).name};
@@ -27,7 +27,7 @@ motion::Command random_joint_change(Trial& trial) {
   return {"", 0, change};
 }
 
-motion::Command random_command(Trial& trial) {
+motion::Command random_command(ClosedLoop& trial) {
   const auto& postures = trial.model().postures();
   const auto& actions = trial.model().actions();
   const double kind = trial.random(0, 10);
@@ -56,7 +56,7 @@ motion::Command random_command(Trial& trial) {
 /** Watches targets and results while commands rain. */
 class Watch {
  public:
-  Watch(Trial& trial, RunResult& result) : trial_(trial), result_(result) {
+  Watch(ClosedLoop& trial, RunResult& result) : trial_(trial), result_(result) {
     last_ = trial.targets();
     trial.on_tick([this] { tick(); });
   }
@@ -100,7 +100,7 @@ class Watch {
     open_[answer.id] = false;
   }
 
-  Trial& trial_;
+  ClosedLoop& trial_;
   RunResult& result_;
   std::vector<double> last_;
   std::map<int64_t, bool> open_;
@@ -111,7 +111,7 @@ class Watch {
 }  // namespace
 
 std::vector<RunResult> CommandsScenario::run(const ScenarioOptions& options, uint64_t seed) const {
-  Trial trial(options.trial, seed);
+  ClosedLoop trial(options.trial, seed);
   trial.run(1);
   RunResult result;
   Watch watch(trial, result);

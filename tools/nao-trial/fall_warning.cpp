@@ -1,11 +1,11 @@
-#include "nao-trial/fall_warning.h"
+#include "tools/nao-trial/fall_warning.h"
 
 #include <string>
 
 namespace nao::trial {
 namespace {
 
-bool touches_floor_with_body(Trial& trial) {
+bool touches_floor_with_body(ClosedLoop& trial) {
   const RobotModel& model = trial.model();
   for (const sim::Contact& contact : trial.world().contacts()) {
     if (contact.a.kind != sim::Surface::Kind::kFloor &&
@@ -22,7 +22,7 @@ bool touches_floor_with_body(Trial& trial) {
 
 }  // namespace
 
-void FallWarning::look(Trial& trial) {
+void FallWarning::look(ClosedLoop& trial) {
   if (touched_) return;
   if (!told_ && trial.core().motion_state().mode == motion::Mode::kFalling) told_ = trial.time();
   if (touches_floor_with_body(trial)) touched_ = trial.time();

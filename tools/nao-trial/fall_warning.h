@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "nao-trial/trial.h"
+#include "closed_loop/closed_loop.h"
 
 namespace nao::trial {
 
@@ -10,7 +10,7 @@ namespace nao::trial {
 class FallWarning {
  public:
   /** Looks at a tick. */
-  void look(Trial& trial);
+  void look(ClosedLoop& trial);
 
   /** Whether anything but a foot has touched the floor. */
   bool has_touched() const { return touched_.has_value(); }

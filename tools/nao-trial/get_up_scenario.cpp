@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nao-trial/lying_start.h"
-#include "nao-trial/scenarios.h"
+#include "tools/nao-trial/lying_start.h"
+#include "tools/nao-trial/scenarios.h"
 
 namespace nao::trial {
 namespace {
@@ -13,7 +13,7 @@ constexpr int kMaxTries = 3;
 }  // namespace
 
 std::vector<RunResult> GetUpScenario::run(const ScenarioOptions& options, uint64_t seed) const {
-  Trial trial(options.trial, seed);
+  ClosedLoop trial(options.trial, seed);
   RunResult result;
   const bool falls = seed % 2 == 1;
   result.label = falls ? "pushed" : "laid down";

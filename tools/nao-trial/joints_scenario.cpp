@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nao-trial/scenarios.h"
+#include "tools/nao-trial/scenarios.h"
 
 namespace nao::trial {
 namespace {
@@ -12,7 +12,7 @@ constexpr double kTick = 0.01;
 constexpr double kDeepest = 0.01;  // s of self-contact force that a brush may last
 
 /** A command for one to three random joints, sensible or absurd. */
-motion::Command random_command(Trial& trial) {
+motion::Command random_command(ClosedLoop& trial) {
   motion::JointChangeCommand change;
   const int num_joints = 1 + static_cast<int>(trial.random(0, 3));
   for (int i = 0; i < num_joints; ++i) {
@@ -37,9 +37,9 @@ motion::Command random_command(Trial& trial) {
 
 std::vector<RunResult> JointsScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   const int num_commands = 100;
-  TrialOptions trial_options = options.trial;
+  ClosedLoopOptions trial_options = options.trial;
   trial_options.motion.gets_up = false;
-  Trial trial(trial_options, seed);
+  ClosedLoop trial(trial_options, seed);
   trial.run(1);
   RunResult result;
   std::vector<double> last = trial.targets();

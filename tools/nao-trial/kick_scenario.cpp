@@ -1,4 +1,4 @@
-#include "nao-trial/kick_scenario.h"
+#include "tools/nao-trial/kick_scenario.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@ namespace nao::trial {
 
 std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   constexpr double kLeastWay = 2.5;  // m, of the ball
-  Trial trial(options.trial, seed);
+  ClosedLoop trial(options.trial, seed);
   const bool is_left = seed % 2 == 1;
   // Where a robot that sees and walks would have it, a centimetre more or less.
   const Eigen::Vector2d seen(0.18, is_left ? 0.05 : -0.05);
@@ -55,7 +55,7 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
 std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   constexpr double kLeastWay = 0.8;  // m, of the ball
   const double vx = options.velocity.x() > 0 ? options.velocity.x() : 0.2;
-  Trial trial(options.trial, seed);
+  ClosedLoop trial(options.trial, seed);
   const bool is_left = seed % 2 == 1;
   trial.run(1);
   trial.hold_walk({vx, 0, 0});

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nao-trial/scenario.h"
+#include "tools/nao-trial/scenario.h"
 
 namespace nao::trial {
 

@@ -1,4 +1,4 @@
-#include "nao-trial/lying_start.h"
+#include "tools/nao-trial/lying_start.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,13 @@ constexpr double kLongestWait = 3;      // s
 
 }  // namespace
 
-bool knock_over(Trial& trial, double direction) {
+bool knock_over(ClosedLoop& trial, double direction) {
   const double impulse = trial.random(4, 6);
   trial.world().push(0, 0, {impulse * std::cos(direction), impulse * std::sin(direction), 0});
   return trial.run_until([&] { return trial.torso_tilt() > 1.0; }, 5);
 }
 
-void lay_down(Trial& trial, double side) {
+void lay_down(ClosedLoop& trial, double side) {
   Posture posture = *trial.model().find_posture("StandInit");
   for (int motor = 0; motor < trial.model().num_motors(); ++motor) {
     const Joint& joint = trial.model().motor_joint(motor);
@@ -32,7 +32,7 @@ void lay_down(Trial& trial, double side) {
   trial.restart_core();
 }
 
-LyingStill wait_until_still(Trial& trial) {
+LyingStill wait_until_still(ClosedLoop& trial) {
   Eigen::Vector3d up = trial.torso_in_world().linear().row(2);
   int num_still = -1;  // the first look compares with itself
   trial.run_until(
@@ -55,7 +55,7 @@ LyingStill wait_until_still(Trial& trial) {
   return lying;
 }
 
-bool has_got_up(Trial& trial) {
+bool has_got_up(ClosedLoop& trial) {
   return trial.core().motion_state().posture == "StandInit" && trial.torso_tilt() < 0.3 &&
          trial.torso_height() > 0.29;
 }

@@ -8,8 +8,8 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
-#include "nao-trial/scenario.h"
-#include "nao-trial/statistics.h"
+#include "tools/nao-trial/scenario.h"
+#include "tools/nao-trial/statistics.h"
 
 namespace nao::trial {
 namespace {

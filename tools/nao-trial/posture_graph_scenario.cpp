@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nao-trial/scenarios.h"
+#include "tools/nao-trial/scenarios.h"
 
 namespace nao::trial {
 namespace {
@@ -14,7 +14,7 @@ constexpr double kTolerance = 3 * M_PI / 180;
 constexpr double kLyingTolerance = 8 * M_PI / 180;
 
 /** Goes one way. @return Why it failed, or nothing. */
-std::string go(Trial& trial, const Posture& goal, RunResult& result) {
+std::string go(ClosedLoop& trial, const Posture& goal, RunResult& result) {
   const double start = trial.time();
   const auto end = trial.await_end(trial.send_posture(goal.name, kSpeed), kTimeout);
   if (!end) return "no end";
@@ -46,7 +46,7 @@ std::vector<RunResult> PostureGraphScenario::run(const ScenarioOptions& options,
       if (&from == &to) continue;
       RunResult result;
       result.label = from.name + " to " + to.name;
-      Trial trial(options.trial, seed);
+      ClosedLoop trial(options.trial, seed);
       trial.run(1);
       RunResult way_there;
       result.failure = go(trial, from, way_there);

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "nao-trial/fall_warning.h"
-#include "nao-trial/scenarios.h"
-#include "nao-trial/statistics.h"
+#include "tools/nao-trial/fall_warning.h"
+#include "tools/nao-trial/scenarios.h"
+#include "tools/nao-trial/statistics.h"
 
 namespace nao::trial {
 namespace {
@@ -29,9 +29,9 @@ struct Outcome {
 };
 
 Outcome push(const ScenarioOptions& options, uint64_t seed, double direction, double impulse) {
-  TrialOptions trial_options = options.trial;
+  ClosedLoopOptions trial_options = options.trial;
   trial_options.motion.gets_up = false;
-  Trial trial(trial_options, seed);
+  ClosedLoop trial(trial_options, seed);
   trial.run(0.5);
   trial.world().push(0, 0, {impulse * std::cos(direction), impulse * std::sin(direction), 0});
   FallWarning fall;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "nao-trial/trial.h"
+#include "closed_loop/closed_loop.h"
 
 namespace nao::trial {
 
@@ -24,7 +24,7 @@ struct RunResult {
 
 /** Options of the command line that scenarios look at. */
 struct ScenarioOptions {
-  TrialOptions trial;
+  ClosedLoopOptions trial;
   /** s; 0: as the scenario says. */
   double duration = 0;
   /** Wished for, where the scenario walks: m/s ahead and to the left, rad/s. */

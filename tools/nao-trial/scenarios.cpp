@@ -1,8 +1,8 @@
-#include "nao-trial/scenarios.h"
+#include "tools/nao-trial/scenarios.h"
 
-#include "nao-trial/block_scenario.h"
-#include "nao-trial/kick_scenario.h"
-#include "nao-trial/walk_scenarios.h"
+#include "tools/nao-trial/block_scenario.h"
+#include "tools/nao-trial/kick_scenario.h"
+#include "tools/nao-trial/walk_scenarios.h"
 
 namespace nao::trial {
 

@@ -1,4 +1,4 @@
-#include "nao-trial/scenarios.h"
+#include "tools/nao-trial/scenarios.h"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@ namespace nao::trial {
 
 std::vector<RunResult> StandScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   const double duration = options.duration > 0 ? options.duration : 60;
-  Trial trial(options.trial, seed);
+  ClosedLoop trial(options.trial, seed);
   trial.run(2);
   const Eigen::Vector3d start = trial.torso_in_world().translation();
   double drift = 0;

@@ -1,4 +1,4 @@
-#include "nao-trial/statistics.h"
+#include "tools/nao-trial/statistics.h"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "nao-trial/scenario.h"
+#include "tools/nao-trial/scenario.h"
 
 namespace nao::trial {
 

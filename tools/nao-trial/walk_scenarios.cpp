@@ -1,4 +1,4 @@
-#include "nao-trial/walk_scenarios.h"
+#include "tools/nao-trial/walk_scenarios.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "common/error.h"
-#include "nao-trial/fall_warning.h"
+#include "tools/nao-trial/fall_warning.h"
 
 namespace nao::trial {
 namespace {
@@ -42,24 +42,24 @@ double wrapped(double angle) {
   return std::remainder(angle, 2 * M_PI);
 }
 
-bool has_fallen(const Trial& trial) {
+bool has_fallen(const ClosedLoop& trial) {
   return trial.torso_height() < kFallenHeight || trial.torso_tilt() > kFallenTilt;
 }
 
-GroundPose true_pose(const Trial& trial) {
+GroundPose true_pose(const ClosedLoop& trial) {
   return GroundPose(trial.torso_in_world());
 }
 
-GroundPose estimated_pose(const Trial& trial) {
+GroundPose estimated_pose(const ClosedLoop& trial) {
   return GroundPose(trial.estimate().torso_in_odometry);
 }
 
 /** How far odometry and truth disagree about the way between two moments, m. */
 class OdometryCheck {
  public:
-  explicit OdometryCheck(const Trial& trial)
+  explicit OdometryCheck(const ClosedLoop& trial)
       : truth_(true_pose(trial)), estimate_(estimated_pose(trial)) {}
-  double error(const Trial& trial) const {
+  double error(const ClosedLoop& trial) const {
     return (truth_.from_here(true_pose(trial).position) -
             estimate_.from_here(estimated_pose(trial).position))
         .norm();
@@ -71,7 +71,7 @@ class OdometryCheck {
 };
 
 /** Runs until a time has passed or the robot fell. @return false if it fell. */
-bool run_upright(Trial& trial, double duration) {
+bool run_upright(ClosedLoop& trial, double duration) {
   trial.run_until([&] { return has_fallen(trial); }, duration);
   return !has_fallen(trial);
 }
@@ -80,8 +80,8 @@ bool run_upright(Trial& trial, double duration) {
  * frame that leads from its pose at the beginning to the one at the end. */
 class VelocityMean {
  public:
-  explicit VelocityMean(const Trial& trial) : last_(true_pose(trial)) {}
-  void add(const Trial& trial) {
+  explicit VelocityMean(const ClosedLoop& trial) : last_(true_pose(trial)) {}
+  void add(const ClosedLoop& trial) {
     if (++ticks_ < kTicks) return;
     ticks_ = 0;
     const GroundPose now = true_pose(trial);
@@ -110,9 +110,9 @@ class VelocityMean {
 /** True and estimated way of a robot, both seen from where they began. */
 class Trace {
  public:
-  explicit Trace(const Trial& trial)
+  explicit Trace(const ClosedLoop& trial)
       : truth_(true_pose(trial)), estimate_(estimated_pose(trial)), start_(trial.time()) {}
-  void add(const Trial& trial) {
+  void add(const ClosedLoop& trial) {
     if (ticks_++ % 10 != 0) return;
     const Vector2d truth = truth_.from_here(true_pose(trial).position);
     const Vector2d estimate = estimate_.from_here(estimated_pose(trial).position);
@@ -137,9 +137,9 @@ class Trace {
 /** Tells when a robot that stops has come to a stand: from when on its torso moves no faster. */
 class StandstillWatch {
  public:
-  explicit StandstillWatch(const Trial& trial)
+  explicit StandstillWatch(const ClosedLoop& trial)
       : start_(trial.time()), last_(trial.torso_in_world()), place_(true_pose(trial)) {}
-  void look(const Trial& trial) {
+  void look(const ClosedLoop& trial) {
     const Eigen::Isometry3d now = trial.torso_in_world();
     const double speed = (now.translation() - last_.translation()).norm() / kTick;
     const double turning = Eigen::AngleAxisd(last_.linear().transpose() * now.linear()).angle();
@@ -149,7 +149,7 @@ class StandstillWatch {
   /** s from the beginning until it stood still. */
   double duration() const { return std::max(0.0, still_since_ - start_); }
   /** m from the place of the beginning. */
-  double way(const Trial& trial) const {
+  double way(const ClosedLoop& trial) const {
     return (true_pose(trial).position - place_.position).norm();
   }
 
@@ -179,7 +179,7 @@ std::map<std::string, std::string> WalkScenario::units() const {
 
 std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   const double duration = options.duration > 0 ? options.duration : 10;
-  Trial trial(options.trial, seed);
+  ClosedLoop trial(options.trial, seed);
   trial.run(kStand);
   const GroundPose start_pose = true_pose(trial);
   const int64_t walk = trial.hold_walk(options.velocity);
@@ -240,7 +240,7 @@ std::map<std::string, std::string> SprintScenario::units() const {
 
 std::vector<RunResult> SprintScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   const double distance = options.distance > 0 ? options.distance : 10;
-  Trial trial(options.trial, seed);
+  ClosedLoop trial(options.trial, seed);
   trial.run(kStand);
   const GroundPose start = true_pose(trial);
   const OdometryCheck odometry(trial);
@@ -270,7 +270,7 @@ std::map<std::string, std::string> JoystickScenario::units() const {
 
 std::vector<RunResult> JoystickScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   const double duration = options.duration > 0 ? options.duration : 600;
-  Trial trial(options.trial, seed);
+  ClosedLoop trial(options.trial, seed);
   const WalkLimits limits = trial.model().walk_limits();
   trial.run(kStand);
   const double start = trial.time();
@@ -303,7 +303,7 @@ std::map<std::string, std::string> MoveToScenario::units() const {
 }
 
 std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint64_t seed) const {
-  Trial trial(options.trial, seed);
+  ClosedLoop trial(options.trial, seed);
   trial.run(kStand);
   const double distance = trial.random(0.1, 2);
   const double direction = trial.random(-M_PI, M_PI);
@@ -362,7 +362,7 @@ std::vector<RunResult> WalkPushScenario::run(const ScenarioOptions& options, uin
   RunResult result;
   // The same robot, moment and direction each time.
   const auto survives = [&](double impulse) {
-    Trial trial(options.trial, seed);
+    ClosedLoop trial(options.trial, seed);
     direction = trial.random(-M_PI, M_PI);
     const double when = trial.random(3, 4);
     trial.run(kStand);

@@ -23,7 +23,7 @@
 #include "common/error.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
-#include "nao/subcommand.h"
+#include "tools/nao/subcommand.h"
 
 namespace nao {
 namespace {

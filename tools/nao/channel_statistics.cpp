@@ -1,8 +1,8 @@
-#include "nao/channel_statistics.h"
+#include "tools/nao/channel_statistics.h"
 
-#include "nao/json_writer.h"
-#include "nao/message_types.h"
-#include "nao/text_table.h"
+#include "tools/nao/json_writer.h"
+#include "tools/nao/message_types.h"
+#include "tools/nao/text_table.h"
 
 namespace nao {
 

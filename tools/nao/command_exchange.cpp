@@ -1,4 +1,4 @@
-#include "nao/command_exchange.h"
+#include "tools/nao/command_exchange.h"
 
 namespace nao {
 

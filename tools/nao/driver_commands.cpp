@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "client/phone_client.h"
-#include "nao/json_writer.h"
-#include "nao/subcommand.h"
-#include "nao/text_table.h"
+#include "phone-gateway/client/phone_client.h"
+#include "tools/nao/json_writer.h"
+#include "tools/nao/subcommand.h"
+#include "tools/nao/text_table.h"
 
 namespace nao {
 namespace {

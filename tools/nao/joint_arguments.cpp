@@ -1,4 +1,4 @@
-#include "nao/joint_arguments.h"
+#include "tools/nao/joint_arguments.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "nao/json_writer.h"
+#include "tools/nao/json_writer.h"
 
 #include <array>
 #include <charconv>

@@ -10,13 +10,13 @@
 
 #include "common/error.h"
 #include "common/log_reader.h"
-#include "nao/json_writer.h"
-#include "nao/log_statistics.h"
-#include "nao/mcap_writer.h"
-#include "nao/message_json.h"
-#include "nao/message_table.h"
-#include "nao/message_types.h"
-#include "nao/subcommand.h"
+#include "tools/nao/json_writer.h"
+#include "tools/nao/log_statistics.h"
+#include "tools/nao/mcap_writer.h"
+#include "tools/nao/message_json.h"
+#include "tools/nao/message_table.h"
+#include "tools/nao/message_types.h"
+#include "tools/nao/subcommand.h"
 
 namespace nao {
 namespace {

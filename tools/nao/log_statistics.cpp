@@ -1,13 +1,13 @@
-#include "nao/log_statistics.h"
+#include "tools/nao/log_statistics.h"
 
 #include <algorithm>
 #include <ctime>
 #include <optional>
 
-#include "nao/json_writer.h"
-#include "nao/message_types.h"
-#include "nao/message_walk.h"
-#include "nao/text_table.h"
+#include "tools/nao/json_writer.h"
+#include "tools/nao/message_types.h"
+#include "tools/nao/message_walk.h"
+#include "tools/nao/text_table.h"
 
 namespace nao {
 namespace {

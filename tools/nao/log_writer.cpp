@@ -1,4 +1,4 @@
-#include "nao/log_writer.h"
+#include "tools/nao/log_writer.h"
 
 #include <cerrno>
 #include <cstring>

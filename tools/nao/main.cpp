@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/program.h"
-#include "nao/subcommand.h"
+#include "tools/nao/subcommand.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Drive and watch the robot from a terminal.", "nao");

@@ -1,4 +1,4 @@
-#include "nao/mcap_writer.h"
+#include "tools/nao/mcap_writer.h"
 
 #include <algorithm>
 #include <array>

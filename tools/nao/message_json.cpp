@@ -1,7 +1,7 @@
-#include "nao/message_json.h"
+#include "tools/nao/message_json.h"
 
-#include "nao/json_writer.h"
-#include "nao/message_walk.h"
+#include "tools/nao/json_writer.h"
+#include "tools/nao/message_walk.h"
 
 namespace nao {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "nao/message_layout.h"
+#include "tools/nao/message_layout.h"
 
 namespace nao {
 

@@ -1,10 +1,10 @@
-#include "nao/message_table.h"
+#include "tools/nao/message_table.h"
 
 #include <array>
 #include <charconv>
 #include <functional>
 
-#include "nao/message_walk.h"
+#include "tools/nao/message_walk.h"
 
 namespace nao {
 namespace {

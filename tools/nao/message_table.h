@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "nao/message_layout.h"
+#include "tools/nao/message_layout.h"
 
 namespace nao {
 

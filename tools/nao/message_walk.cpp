@@ -1,4 +1,4 @@
-#include "nao/message_walk.h"
+#include "tools/nao/message_walk.h"
 
 #include <bit>
 #include <charconv>

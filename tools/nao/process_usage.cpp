@@ -1,4 +1,4 @@
-#include "nao/process_usage.h"
+#include "tools/nao/process_usage.h"
 
 #include <unistd.h>
 

@@ -10,8 +10,8 @@
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
-#include "nao/log_writer.h"
-#include "nao/subcommand.h"
+#include "tools/nao/log_writer.h"
+#include "tools/nao/subcommand.h"
 
 namespace nao {
 namespace {

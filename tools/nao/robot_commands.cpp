@@ -22,9 +22,9 @@
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
-#include "nao/command_exchange.h"
-#include "nao/joint_arguments.h"
-#include "nao/subcommand.h"
+#include "tools/nao/command_exchange.h"
+#include "tools/nao/joint_arguments.h"
+#include "tools/nao/subcommand.h"
 
 namespace nao {
 namespace {

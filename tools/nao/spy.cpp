@@ -8,9 +8,9 @@
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
-#include "nao/channel_statistics.h"
-#include "nao/subcommand.h"
-#include "nao/terminal.h"
+#include "tools/nao/channel_statistics.h"
+#include "tools/nao/subcommand.h"
+#include "tools/nao/terminal.h"
 
 namespace nao {
 namespace {

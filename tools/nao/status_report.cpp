@@ -16,10 +16,10 @@
 #include "common/channels.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
-#include "nao/json_writer.h"
-#include "nao/process_usage.h"
-#include "nao/subcommand.h"
-#include "nao/text_table.h"
+#include "tools/nao/json_writer.h"
+#include "tools/nao/process_usage.h"
+#include "tools/nao/subcommand.h"
+#include "tools/nao/text_table.h"
 
 namespace nao {
 namespace {

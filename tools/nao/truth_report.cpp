@@ -11,9 +11,9 @@
 #include "common/bus.h"
 #include "common/channels.h"
 #include "common/wall_clock.h"
-#include "nao/json_writer.h"
-#include "nao/subcommand.h"
-#include "nao/text_table.h"
+#include "tools/nao/json_writer.h"
+#include "tools/nao/subcommand.h"
+#include "tools/nao/text_table.h"
 
 namespace nao {
 namespace {

@@ -17,8 +17,8 @@
 #include "common/event_loop.h"
 #include "common/status_reporter.h"
 #include "common/wall_clock.h"
-#include "nao/hang_detector.h"
-#include "nao/subcommand.h"
+#include "tools/nao/hang_detector.h"
+#include "tools/nao/subcommand.h"
 
 namespace nao {
 namespace {

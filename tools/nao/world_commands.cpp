@@ -14,7 +14,7 @@
 #include "common/channels.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
-#include "nao/subcommand.h"
+#include "tools/nao/subcommand.h"
 
 namespace nao {
 namespace {

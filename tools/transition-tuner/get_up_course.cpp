@@ -1,10 +1,10 @@
-#include "transition-tuner/get_up_course.h"
+#include "tools/transition-tuner/get_up_course.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/error.h"
-#include "nao-trial/lying_start.h"
+#include "tools/nao-trial/lying_start.h"
 
 namespace nao {
 namespace {
@@ -33,11 +33,11 @@ double direction_of(GetUpCourse::Start start) {
 }  // namespace
 
 GetUpResult GetUpCourse::run(const motion::TransitionGraph& transitions, uint64_t seed) const {
-  trial::TrialOptions options;
+  ClosedLoopOptions options;
   options.model = model_;
   options.scene = scene_;
   options.motion.transitions = transitions;
-  trial::Trial trial(options, seed);
+  ClosedLoop trial(options, seed);
   const double spread = start_ == Start::kAny ? M_PI : kSpread;
   const double direction = direction_of(start_) + trial.random(-spread, spread);
   trial.run(0.5);

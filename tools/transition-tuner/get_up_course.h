@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "common/robot_model.h"
-#include "common/scene_file.h"
-#include "motion/transitions/transition_graph.h"
+#include "daemons/motion/transitions/transition_graph.h"
+#include "robot_model/robot_model.h"
+#include "robot_model/scene_file.h"
 
 namespace nao {
 

@@ -9,10 +9,10 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
-#include "transition-tuner/get_up_course.h"
-#include "transition-tuner/transition_text.h"
-#include "tuning/cma_es.h"
-#include "tuning/search.h"
+#include "tools/transition-tuner/get_up_course.h"
+#include "tools/transition-tuner/transition_text.h"
+#include "tools/tuning/cma_es.h"
+#include "tools/tuning/search.h"
 
 namespace nao {
 namespace {

@@ -1,4 +1,4 @@
-#include "transition-tuner/transition_text.h"
+#include "tools/transition-tuner/transition_text.h"
 
 #include <spdlog/fmt/fmt.h>
 

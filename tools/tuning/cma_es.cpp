@@ -1,4 +1,4 @@
-#include "tuning/cma_es.h"
+#include "tools/tuning/cma_es.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

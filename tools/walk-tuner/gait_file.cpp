@@ -1,4 +1,4 @@
-#include "walk-tuner/gait_file.h"
+#include "tools/walk-tuner/gait_file.h"
 
 #include <spdlog/fmt/fmt.h>
 

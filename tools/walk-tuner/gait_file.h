@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/walk/gait.h"
+#include "daemons/motion/walk/gait.h"
 
 namespace nao {
 

@@ -8,10 +8,10 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
-#include "tuning/cma_es.h"
-#include "tuning/search.h"
-#include "walk-tuner/gait_file.h"
-#include "walk-tuner/walk_course.h"
+#include "tools/tuning/cma_es.h"
+#include "tools/tuning/search.h"
+#include "tools/walk-tuner/gait_file.h"
+#include "tools/walk-tuner/walk_course.h"
 
 namespace nao {
 namespace {

@@ -1,17 +1,16 @@
-#include "walk-tuner/walk_course.h"
+#include "tools/walk-tuner/walk_course.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
 
-#include "nao-trial/trial.h"
+#include "closed_loop/closed_loop.h"
 
 namespace nao {
 namespace {
 
 using Eigen::Vector3d;
-using trial::Trial;
 
 constexpr double kTick = 0.01;
 constexpr double kStand = 0.5;  // s before the walk
@@ -28,13 +27,13 @@ const Vector3d kScale(1, 1, 0.15);
 /** One walk, and the sums that it is judged by. */
 class JudgedWalk {
  public:
-  JudgedWalk(const trial::TrialOptions& options, uint64_t seed, double planned_time)
+  JudgedWalk(const ClosedLoopOptions& options, uint64_t seed, double planned_time)
       : trial_(options, seed), planned_time_(planned_time) {
     trial_.run(kStand);
     last_ = trial_.torso_in_world();
   }
 
-  Trial& trial() { return trial_; }
+  ClosedLoop& trial() { return trial_; }
   bool has_fallen() const { return has_fallen_; }
 
   /** Walks on for a while. @param wished  Velocity to be judged by, if any. */
@@ -83,7 +82,7 @@ class JudgedWalk {
     has_fallen_ = trial_.torso_height() < kFallenHeight || trial_.torso_tilt() > kFallenTilt;
   }
 
-  Trial trial_;
+  ClosedLoop trial_;
   double planned_time_;
   Eigen::Isometry3d last_;
   bool has_fallen_ = false;
@@ -97,7 +96,7 @@ class JudgedWalk {
 }  // namespace
 
 CourseResult WalkCourse::run(const motion::Gait& gait, uint64_t seed) const {
-  trial::TrialOptions options;
+  ClosedLoopOptions options;
   options.model = model_;
   options.scene = scene_;
   options.motion.gait = gait;
@@ -130,7 +129,7 @@ CourseResult WalkCourse::run(const motion::Gait& gait, uint64_t seed) const {
   for (int i = 0; i < 2; ++i) {
     JudgedWalk walk(options, next_seed(), kThumb);
     for (double time = 0; time < kThumb;) {
-      Trial& trial = walk.trial();
+      ClosedLoop& trial = walk.trial();
       const double x = trial.random(-1, 1);
       const Vector3d wish(x * (x > 0 ? limits.forward : limits.backward),
                           trial.random(-1, 1) * limits.sideways,
@@ -144,7 +143,7 @@ CourseResult WalkCourse::run(const motion::Gait& gait, uint64_t seed) const {
   }
   for (int i = 0; i < 2; ++i) {
     JudgedWalk walk(options, next_seed(), kSpeedUp + kWalk);
-    Trial& trial = walk.trial();
+    ClosedLoop& trial = walk.trial();
     const Vector3d wish(0.5 * forward, 0, 0);
     trial.hold_walk(wish);
     walk.run(trial.random(3, 4), nullptr);

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "common/robot_model.h"
-#include "common/scene_file.h"
-#include "motion/walk/gait.h"
+#include "daemons/motion/walk/gait.h"
+#include "robot_model/robot_model.h"
+#include "robot_model/scene_file.h"
 
 namespace nao {
 

@@ -1,9 +1,9 @@
-#include "motion/actions/action_script.h"
+#include "daemons/motion/actions/action_script.h"
 
 #include <algorithm>
 
 #include "common/yaml_entry.h"
-#include "motion/transitions/transition_graph.h"
+#include "daemons/motion/transitions/transition_graph.h"
 
 namespace nao::motion {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/robot_model.h"
-#include "motion/transitions/keyframes.h"
+#include "daemons/motion/transitions/keyframes.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

@@ -1,4 +1,4 @@
-#include "motion/actions/kick.h"
+#include "daemons/motion/actions/kick.h"
 
 #include "common/yaml_entry.h"
 

@@ -1,4 +1,4 @@
-#include "motion/estimator/body_outline.h"
+#include "daemons/motion/estimator/body_outline.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "common/robot_model.h"
-#include "motion/kinematics/kinematics.h"
+#include "kinematics/kinematics.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

@@ -1,4 +1,4 @@
-#include "motion/estimator/orientation_filter.h"
+#include "daemons/motion/estimator/orientation_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "motion/estimator/state_estimator.h"
+#include "daemons/motion/estimator/state_estimator.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "motion/kinematics/support_polygon.h"
+#include "kinematics/support_polygon.h"
 
 namespace nao::motion {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "common/robot_model.h"
-#include "motion/estimator/body_outline.h"
-#include "motion/estimator/orientation_filter.h"
-#include "motion/kinematics/kinematics.h"
-#include "motion/robot_state.h"
-#include "motion/sensors.h"
+#include "daemons/motion/estimator/body_outline.h"
+#include "daemons/motion/estimator/orientation_filter.h"
+#include "daemons/motion/robot_state.h"
+#include "daemons/motion/sensors.h"
+#include "kinematics/kinematics.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

@@ -1,9 +1,9 @@
-#include "motion/falls/fall_monitor.h"
+#include "daemons/motion/falls/fall_monitor.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "motion/kinematics/support_polygon.h"
+#include "kinematics/support_polygon.h"
 
 namespace nao::motion {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "motion/robot_state.h"
+#include "daemons/motion/robot_state.h"
 
 namespace nao::motion {
 

@@ -1,10 +1,10 @@
-#include "motion/transitions/body_state.h"
+#include "daemons/motion/transitions/body_state.h"
 
 #include <cmath>
 #include <limits>
 
-#include "motion/posture_motion.h"
-#include "motion/transitions/transition_graph.h"
+#include "daemons/motion/generators/posture_motion.h"
+#include "daemons/motion/transitions/transition_graph.h"
 
 namespace nao::motion {
 namespace {

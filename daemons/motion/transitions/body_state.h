@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "common/robot_model.h"
-#include "motion/robot_state.h"
+#include "daemons/motion/robot_state.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

@@ -1,4 +1,4 @@
-#include "motion/transitions/keyframes.h"
+#include "daemons/motion/transitions/keyframes.h"
 
 #include <algorithm>
 #include <cmath>

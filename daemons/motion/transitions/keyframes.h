@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/robot_model.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

@@ -1,4 +1,4 @@
-#include "motion/transitions/transition_graph.h"
+#include "daemons/motion/transitions/transition_graph.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "common/robot_model.h"
 #include "common/yaml_entry.h"
-#include "motion/transitions/keyframes.h"
+#include "daemons/motion/transitions/keyframes.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

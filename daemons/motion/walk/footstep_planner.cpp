@@ -1,4 +1,4 @@
-#include "motion/walk/footstep_planner.h"
+#include "daemons/motion/walk/footstep_planner.h"
 
 #include <algorithm>
 #include <cmath>

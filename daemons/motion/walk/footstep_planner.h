@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "common/robot_model.h"
-#include "motion/walk/gait.h"
-#include "motion/walk/pose2.h"
+#include "daemons/motion/walk/gait.h"
+#include "kinematics/pose2.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

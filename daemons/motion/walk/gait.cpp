@@ -1,4 +1,4 @@
-#include "motion/walk/gait.h"
+#include "daemons/motion/walk/gait.h"
 
 #include <algorithm>
 #include <string>

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "motion/walk/pose2.h"
+#include "kinematics/pose2.h"
 
 namespace nao::motion {
 

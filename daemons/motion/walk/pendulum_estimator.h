@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "motion/walk/pendulum.h"
+#include "daemons/motion/walk/pendulum.h"
 
 namespace nao::motion {
 

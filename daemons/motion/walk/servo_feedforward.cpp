@@ -1,4 +1,4 @@
-#include "motion/walk/servo_feedforward.h"
+#include "daemons/motion/walk/servo_feedforward.h"
 
 #include <algorithm>
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "common/robot_model.h"
-#include "motion/kinematics/kinematics.h"
+#include "kinematics/kinematics.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "motion/walk/pose2.h"
+#include "kinematics/pose2.h"
 
 namespace nao::motion {
 

@@ -1,9 +1,9 @@
-#include "motion/walk/walk_engine.h"
+#include "daemons/motion/walk/walk_engine.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "motion/walk/kick_approach.h"
+#include "daemons/motion/walk/kick_approach.h"
 
 namespace nao::motion {
 namespace {

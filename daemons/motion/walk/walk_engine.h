@@ -5,19 +5,19 @@
 #include <optional>
 #include <vector>
 
-#include "common/robot_model.h"
-#include "motion/joint_targets.h"
-#include "motion/kinematics/kinematics.h"
-#include "motion/kinematics/leg_kinematics.h"
-#include "motion/robot_state.h"
-#include "motion/walk/footstep_planner.h"
-#include "motion/walk/gait.h"
-#include "motion/walk/path_keeper.h"
-#include "motion/walk/pendulum.h"
-#include "motion/walk/pendulum_estimator.h"
-#include "motion/walk/pose2.h"
-#include "motion/walk/servo_feedforward.h"
-#include "motion/walk/swing_foot.h"
+#include "daemons/motion/joint_targets.h"
+#include "daemons/motion/robot_state.h"
+#include "daemons/motion/walk/footstep_planner.h"
+#include "daemons/motion/walk/gait.h"
+#include "daemons/motion/walk/path_keeper.h"
+#include "daemons/motion/walk/pendulum.h"
+#include "daemons/motion/walk/pendulum_estimator.h"
+#include "daemons/motion/walk/servo_feedforward.h"
+#include "daemons/motion/walk/swing_foot.h"
+#include "kinematics/kinematics.h"
+#include "kinematics/leg_kinematics.h"
+#include "kinematics/pose2.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

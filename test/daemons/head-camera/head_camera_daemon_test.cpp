@@ -1,4 +1,4 @@
-#include "head_camera_daemon.h"
+#include "daemons/head-camera/head_camera_daemon.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/wall_clock.h"
-#include "truth.h"
+#include "test/daemons/head-camera/truth.h"
 
 namespace nao {
 namespace {

@@ -17,7 +17,7 @@
 #include "common/channels.h"
 #include "common/data_path.h"
 #include "common/wall_clock.h"
-#include "truth.h"
+#include "test/daemons/head-camera/truth.h"
 
 namespace nao {
 namespace {

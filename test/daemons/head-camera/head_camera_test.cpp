@@ -1,10 +1,10 @@
-#include "head_camera.h"
+#include "daemons/head-camera/head_camera.h"
 
 #include <gtest/gtest.h>
 
 #include "common/data_path.h"
-#include "scene/decode_state.h"
-#include "truth.h"
+#include "rendering/decode_state.h"
+#include "test/daemons/head-camera/truth.h"
 
 namespace nao {
 namespace {

@@ -1,4 +1,4 @@
-#include "jpeg_encoder.h"
+#include "daemons/head-camera/jpeg_encoder.h"
 
 #include <gtest/gtest.h>
 #include <turbojpeg.h>
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "common/error.h"
-#include "half_size.h"
+#include "daemons/head-camera/half_size.h"
 
 namespace nao {
 namespace {

@@ -1,4 +1,4 @@
-#include "lens.h"
+#include "daemons/head-camera/lens.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "common/error.h"
-#include "exposure.h"
-#include "picture_noise.h"
+#include "daemons/head-camera/exposure.h"
+#include "daemons/head-camera/picture_noise.h"
 
 namespace nao {
 namespace {

@@ -3,7 +3,7 @@
 #include <naolcm/world_truth_t.hpp>
 #include <string>
 
-#include "common/robot_model.h"
+#include "robot_model/robot_model.h"
 
 namespace nao {
 

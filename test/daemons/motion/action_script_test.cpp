@@ -1,4 +1,4 @@
-#include "motion/actions/action_script.h"
+#include "daemons/motion/actions/action_script.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "common/error.h"
-#include "nao_model.h"
+#include "test/daemons/motion/nao_model.h"
 
 namespace nao::motion {
 namespace {

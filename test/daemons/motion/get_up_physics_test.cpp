@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "nao-trial/lying_start.h"
-#include "physics_trial.h"
+#include "test/daemons/motion/physics_trial.h"
+#include "tools/nao-trial/lying_start.h"
 
 namespace nao::trial {
 namespace {
@@ -14,7 +14,7 @@ using motion::ResultStatus;
 
 TEST(GetUp, FromEverySideOnWhichItCanLie) {
   for (int quarter = 0; quarter < 4; ++quarter) {
-    Trial trial(trial_options(), static_cast<uint64_t>(quarter));
+    ClosedLoop trial(trial_options(), static_cast<uint64_t>(quarter));
     trial.run(0.5);
     lay_down(trial, quarter * M_PI / 2);
     const LyingStill lying = wait_until_still(trial);
@@ -23,9 +23,9 @@ TEST(GetUp, FromEverySideOnWhichItCanLie) {
 }
 
 TEST(GetUp, WithoutItTheRobotLiesUntilSomebodyTellsIt) {
-  TrialOptions options = trial_options();
+  ClosedLoopOptions options = trial_options();
   options.motion.gets_up = false;
-  Trial trial(options, 1);
+  ClosedLoop trial(options, 1);
   trial.run(1);
   ASSERT_TRUE(knock_over(trial, 0.3));
   trial.run(6);
@@ -45,7 +45,7 @@ TEST(GetUp, WithoutItTheRobotLiesUntilSomebodyTellsIt) {
 
 TEST(GetUp, AWalkFromASeatStandsUpFirst) {
   for (const char* seat : {"Sit", "SitRelax"}) {
-    Trial trial(trial_options(), 2);
+    ClosedLoop trial(trial_options(), 2);
     trial.run(1);
     ASSERT_TRUE(trial.await_end(trial.send_posture(seat, 0.5), 60));
     const int64_t id = trial.hold_walk({0, 0, 0.5});

@@ -1,4 +1,4 @@
-#include "motion/joint_trajectory.h"
+#include "daemons/motion/generators/joint_trajectory.h"
 
 #include <gtest/gtest.h>
 

@@ -3,24 +3,24 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "nao-trial/trial.h"
+#include "closed_loop/closed_loop.h"
 
 namespace nao::trial {
 namespace {
 
 using motion::ResultStatus;
 
-Trial make_trial(uint64_t seed) {
+ClosedLoop make_trial(uint64_t seed) {
   const std::filesystem::path data = NAO_TEST_DATA;
   static const auto model =
       std::make_shared<const RobotModel>(RobotModel::load(data / "robots" / "nao"));
-  TrialOptions options;
+  ClosedLoopOptions options;
   options.model = model;
   options.scene = SceneFile::load(data / "scenes" / "empty.yaml");
-  return Trial(options, seed);
+  return ClosedLoop(options, seed);
 }
 
-double sole_distance(Trial& trial) {
+double sole_distance(ClosedLoop& trial) {
   const auto sole = [&](int link) {
     return Eigen::Vector3d(trial.world().robot(0).link_pose(link).translation());
   };
@@ -28,7 +28,7 @@ double sole_distance(Trial& trial) {
 }
 
 TEST(Block, StandsWideAndLowAndComesBack) {
-  Trial trial = make_trial(1);
+  ClosedLoop trial = make_trial(1);
   trial.run(1);
   const double narrow = sole_distance(trial);
   const int64_t id = trial.send_action("block");
@@ -44,7 +44,7 @@ TEST(Block, StandsWideAndLowAndComesBack) {
 
 TEST(Dive, ThrowsItselfToItsSideAndSaysDoneWhenItStandsAgain) {
   for (const bool is_left : {true, false}) {
-    Trial trial = make_trial(2);
+    ClosedLoop trial = make_trial(2);
     trial.run(1);
     const int64_t id = trial.send_action(is_left ? "dive-left" : "dive-right");
     ASSERT_TRUE(trial.run_until([&] { return trial.torso_tilt() > 1.2; }, 1));
@@ -60,7 +60,7 @@ TEST(Dive, ThrowsItselfToItsSideAndSaysDoneWhenItStandsAgain) {
 }
 
 TEST(Keeper, RefusesWhatSoftLegsCannotDo) {
-  Trial trial = make_trial(3);
+  ClosedLoop trial = make_trial(3);
   trial.run(1);
   ASSERT_TRUE(trial.await_end(trial.send_action("rest"), 20));
   for (const char* action : {"block", "dive-left", "kick-left"}) {

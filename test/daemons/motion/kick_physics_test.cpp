@@ -5,8 +5,8 @@
 #include <limits>
 #include <memory>
 
-#include "motion/actions/kick.h"
-#include "nao-trial/trial.h"
+#include "closed_loop/closed_loop.h"
+#include "daemons/motion/actions/kick.h"
 
 namespace nao::trial {
 namespace {
@@ -19,17 +19,17 @@ std::filesystem::path data() {
   return NAO_TEST_DATA;
 }
 
-Trial make_trial(uint64_t seed) {
+ClosedLoop make_trial(uint64_t seed) {
   static const auto model =
       std::make_shared<const RobotModel>(RobotModel::load(data() / "robots" / "nao"));
-  TrialOptions options;
+  ClosedLoopOptions options;
   options.model = model;
   options.scene = SceneFile::load(data() / "scenes" / "soccer.yaml");
-  return Trial(options, seed);
+  return ClosedLoop(options, seed);
 }
 
 /** Kicks a ball that lies well. @return Its way, m, in W; the robot looks along x. */
-Eigen::Vector2d kick(Trial& trial, bool is_left, double strength) {
+Eigen::Vector2d kick(ClosedLoop& trial, bool is_left, double strength) {
   const auto sole = [&](int link) {
     return Eigen::Vector3d(trial.world().robot(0).link_pose(link).translation());
   };
@@ -52,7 +52,7 @@ Eigen::Vector2d kick(Trial& trial, bool is_left, double strength) {
 
 TEST(Kick, SendsTheBallMetresAndLeavesTheRobotStanding) {
   for (const bool is_left : {true, false}) {
-    Trial trial = make_trial(is_left ? 1 : 2);
+    ClosedLoop trial = make_trial(is_left ? 1 : 2);
     const Eigen::Vector2d way = kick(trial, is_left, kNan);
     EXPECT_GT(way.x(), 2);
     EXPECT_LT(std::abs(std::atan2(way.y(), way.x())), 0.2);
@@ -62,13 +62,13 @@ TEST(Kick, SendsTheBallMetresAndLeavesTheRobotStanding) {
 }
 
 TEST(Kick, IsGentlerWithLessStrength) {
-  Trial strong = make_trial(3);
-  Trial gentle = make_trial(3);
+  ClosedLoop strong = make_trial(3);
+  ClosedLoop gentle = make_trial(3);
   EXPECT_LT(kick(gentle, true, 0.05).norm(), 0.8 * kick(strong, true, 1.0).norm());
 }
 
 TEST(Kick, RefusesABallOutOfReachAndSaysWhereItMayLie) {
-  Trial trial = make_trial(4);
+  ClosedLoop trial = make_trial(4);
   trial.run(0.5);
   const int64_t id = trial.send({"", 0, motion::ActionCommand{"kick-left", 0.5, 0.05, kNan}});
   const auto end = trial.await_end(id, 1);
@@ -78,7 +78,7 @@ TEST(Kick, RefusesABallOutOfReachAndSaysWhereItMayLie) {
 }
 
 TEST(Kick, APostureWaitsUntilBothFeetStand) {
-  Trial trial = make_trial(5);
+  ClosedLoop trial = make_trial(5);
   trial.run(0.5);
   const int64_t id = trial.send({"", 0, motion::ActionCommand{"kick-left", kNan, kNan, kNan}});
   trial.run(0.8);
@@ -91,7 +91,7 @@ TEST(Kick, APostureWaitsUntilBothFeetStand) {
 }
 
 TEST(Kick, OutOfTheWalkDoesNotStopIt) {
-  Trial trial = make_trial(6);
+  ClosedLoop trial = make_trial(6);
   trial.run(0.5);
   trial.hold_walk({0.15, 0, 0});
   trial.run(2);
@@ -105,7 +105,7 @@ TEST(Kick, OutOfTheWalkDoesNotStopIt) {
 }
 
 TEST(Kick, AStrongOneEndsTheWalkFirst) {
-  Trial trial = make_trial(7);
+  ClosedLoop trial = make_trial(7);
   trial.run(0.5);
   trial.hold_walk({0.15, 0, 0});
   trial.run(2);

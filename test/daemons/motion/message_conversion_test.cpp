@@ -1,4 +1,4 @@
-#include "motion/message_conversion.h"
+#include "daemons/motion/message_conversion.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "common/error.h"
-#include "sensor_message.h"
+#include "test/daemons/motion/sensor_message.h"
 
 namespace nao::motion {
 namespace {

@@ -1,4 +1,4 @@
-#include "motion/motion_core.h"
+#include "daemons/motion/motion_core.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-#include "perfect_robot.h"
+#include "test/daemons/motion/perfect_robot.h"
 
 namespace nao::motion {
 namespace {

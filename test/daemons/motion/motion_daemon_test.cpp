@@ -1,4 +1,4 @@
-#include "motion/motion_daemon.h"
+#include "daemons/motion/motion_daemon.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <naolcm/stop_command_t.hpp>
 #include <utility>
 
-#include "sensor_message.h"
+#include "test/daemons/motion/sensor_message.h"
 
 namespace nao::motion {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "common/robot_model.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "physics_trial.h"
+#include "test/daemons/motion/physics_trial.h"
 
 namespace nao::trial {
 namespace {
@@ -39,7 +39,7 @@ class OverlayTest : public testing::Test {
     return ends;
   }
 
-  Trial trial_{trial_options(), 3};
+  ClosedLoop trial_{trial_options(), 3};
   int64_t walk_ = 0;
 };
 

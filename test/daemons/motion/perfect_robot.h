@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "motion/motion_core.h"
-#include "nao_model.h"
+#include "daemons/motion/motion_core.h"
+#include "test/daemons/motion/nao_model.h"
 
 namespace nao::motion {
 

@@ -2,7 +2,7 @@
 
 #include <naolcm/sensor_state_t.hpp>
 
-#include "nao_model.h"
+#include "test/daemons/motion/nao_model.h"
 
 namespace nao::motion {
 

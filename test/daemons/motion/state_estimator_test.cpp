@@ -1,10 +1,10 @@
-#include "motion/estimator/state_estimator.h"
+#include "daemons/motion/estimator/state_estimator.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "perfect_robot.h"
+#include "test/daemons/motion/perfect_robot.h"
 
 namespace nao::motion {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "nao-trial/lying_start.h"
-#include "physics_trial.h"
+#include "test/daemons/motion/physics_trial.h"
+#include "tools/nao-trial/lying_start.h"
 
 namespace nao::trial {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 constexpr double kTick = 0.01;  // s
 
 /** Watches that no target jumps while the core dies, and for a second after it is back. */
-void kill_and_restart(Trial& trial, double dead_time) {
+void kill_and_restart(ClosedLoop& trial, double dead_time) {
   std::vector<double> last = trial.targets();
   int num_jumps = 0;
   std::string worst;
@@ -37,14 +37,14 @@ void kill_and_restart(Trial& trial, double dead_time) {
   EXPECT_EQ(num_jumps, 0) << worst;
 }
 
-bool is_at_ease(Trial& trial) {
+bool is_at_ease(ClosedLoop& trial) {
   return trial.core().motion_state().mode == motion::Mode::kHolding &&
          !trial.core().motion_state().posture.empty();
 }
 
 TEST(Takeover, StandingItStandsOn) {
   for (uint64_t seed = 1; seed <= 3; ++seed) {
-    Trial trial(trial_options(), seed);
+    ClosedLoop trial(trial_options(), seed);
     trial.run(1 + trial.random(0, 0.5));
     kill_and_restart(trial, 0.5);
     EXPECT_LT(trial.torso_tilt(), 0.2);
@@ -54,7 +54,7 @@ TEST(Takeover, StandingItStandsOn) {
 
 TEST(Takeover, AtAnyMomentOfAPostureChange) {
   for (uint64_t seed = 1; seed <= 8; ++seed) {
-    Trial trial(trial_options(), seed);
+    ClosedLoop trial(trial_options(), seed);
     trial.run(1);
     trial.send_posture(seed % 2 == 0 ? "SitRelax" : "LyingBelly", 0.5);
     trial.run(0.5 + 0.6 * static_cast<double>(seed));
@@ -65,7 +65,7 @@ TEST(Takeover, AtAnyMomentOfAPostureChange) {
 
 TEST(Takeover, AtAnyMomentOfAWalk) {
   for (uint64_t seed = 1; seed <= 6; ++seed) {
-    Trial trial(trial_options(), seed);
+    ClosedLoop trial(trial_options(), seed);
     trial.run(1);
     trial.hold_walk({0.15, 0, 0});
     trial.run(3 + 0.11 * static_cast<double>(seed));
@@ -77,7 +77,7 @@ TEST(Takeover, AtAnyMomentOfAWalk) {
 
 TEST(Takeover, LyingWithPressedLimbsAndGettingUp) {
   for (uint64_t seed = 1; seed <= 6; ++seed) {
-    Trial trial(trial_options(), seed);
+    ClosedLoop trial(trial_options(), seed);
     trial.run(1);
     ASSERT_TRUE(knock_over(trial, static_cast<double>(seed)));
     // From the middle of the fall to the middle of getting up.
@@ -88,7 +88,7 @@ TEST(Takeover, LyingWithPressedLimbsAndGettingUp) {
 }
 
 TEST(Takeover, RestingItRestsOn) {
-  Trial trial(trial_options(), 1);
+  ClosedLoop trial(trial_options(), 1);
   trial.run(1);
   ASSERT_TRUE(trial.await_end(trial.send_action("rest"), 20));
   kill_and_restart(trial, 0.5);

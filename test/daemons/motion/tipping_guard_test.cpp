@@ -1,10 +1,10 @@
-#include "motion/guard/tipping_guard.h"
+#include "daemons/motion/guards/tipping_guard.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "nao_model.h"
+#include "test/daemons/motion/nao_model.h"
 
 namespace nao::motion {
 namespace {

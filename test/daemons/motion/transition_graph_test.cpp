@@ -1,11 +1,11 @@
-#include "motion/transitions/transition_graph.h"
+#include "daemons/motion/transitions/transition_graph.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "nao_model.h"
+#include "test/daemons/motion/nao_model.h"
 
 namespace nao::motion {
 namespace {

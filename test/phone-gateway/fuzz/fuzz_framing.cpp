@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "protocol/framing.h"
+#include "phone-gateway/protocol/framing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "phone-gateway/server/test_robot.h"
-#include "server/gateway_core.h"
+#include "phone-gateway/server/gateway_core.h"
+#include "test/phone-gateway/server/test_robot.h"
 
 namespace {
 

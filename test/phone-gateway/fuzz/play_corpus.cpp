@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "protocol/framing.h"
+#include "phone-gateway/protocol/framing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 

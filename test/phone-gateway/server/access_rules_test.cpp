@@ -1,4 +1,4 @@
-#include "server/access_rules.h"
+#include "phone-gateway/server/access_rules.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "server/audit_log.h"
+#include "phone-gateway/server/audit_log.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "common/error.h"
-#include "support/temporary_folder.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao {
 namespace {

@@ -1,11 +1,11 @@
-#include "server/bus_messages.h"
+#include "phone-gateway/server/bus_messages.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "common/error.h"
-#include "phone-gateway/server/test_robot.h"
+#include "test/phone-gateway/server/test_robot.h"
 
 namespace nao {
 namespace {

@@ -1,9 +1,9 @@
-#include "server/certificate.h"
+#include "phone-gateway/server/certificate.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "support/temporary_folder.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/client_name.h"
+#include "phone-gateway/server/client_name.h"
 
 #include <gtest/gtest.h>
 

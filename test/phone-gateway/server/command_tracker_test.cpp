@@ -1,4 +1,4 @@
-#include "server/command_tracker.h"
+#include "phone-gateway/server/command_tracker.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/driving_lease.h"
+#include "phone-gateway/server/driving_lease.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/gateway_core.h"
+#include "phone-gateway/server/gateway_core.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "phone-gateway/server/gateway_fixture.h"
+#include "test/phone-gateway/server/gateway_fixture.h"
 
 namespace nao {
 namespace {

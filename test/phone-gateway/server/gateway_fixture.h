@@ -10,9 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "phone-gateway/server/test_robot.h"
-#include "protocol/framing.h"
-#include "server/gateway_core.h"
+#include "phone-gateway/protocol/framing.h"
+#include "phone-gateway/server/gateway_core.h"
+#include "test/phone-gateway/server/test_robot.h"
 
 namespace nao {
 

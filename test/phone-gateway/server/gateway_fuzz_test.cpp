@@ -5,7 +5,7 @@
 #include <cstring>
 #include <random>
 
-#include "phone-gateway/server/gateway_fixture.h"
+#include "test/phone-gateway/server/gateway_fixture.h"
 
 namespace nao {
 namespace {

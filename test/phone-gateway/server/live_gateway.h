@@ -8,11 +8,11 @@
 #include <thread>
 
 #include "common/wall_clock.h"
-#include "phone-gateway/server/test_robot.h"
-#include "server/gateway_daemon.h"
-#include "server/network.h"
-#include "support/fake_motion.h"
-#include "support/temporary_folder.h"
+#include "phone-gateway/server/gateway_daemon.h"
+#include "phone-gateway/server/network.h"
+#include "test/phone-gateway/server/test_robot.h"
+#include "test/support/fake_motion.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao {
 

@@ -1,12 +1,12 @@
 // Real sockets on the loopback interface; the robot is a fake on a bus inside the process.
-#include "phone-gateway/server/live_gateway.h"
+#include "test/phone-gateway/server/live_gateway.h"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
 #include <random>
 
-#include "client/phone_client.h"
+#include "phone-gateway/client/phone_client.h"
 
 namespace nao {
 namespace {

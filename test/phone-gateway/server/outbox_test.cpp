@@ -1,4 +1,4 @@
-#include "server/outbox.h"
+#include "phone-gateway/server/outbox.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/pacer.h"
+#include "phone-gateway/server/pacer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/qr_code.h"
+#include "phone-gateway/server/qr_code.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "server/request_check.h"
+#include "phone-gateway/server/request_check.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "phone-gateway/server/test_robot.h"
+#include "test/phone-gateway/server/test_robot.h"
 
 namespace nao {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "server/phone_robot.h"
+#include "phone-gateway/server/phone_robot.h"
 
 namespace nao {
 

@@ -1,4 +1,4 @@
-#include "server/turn_queue.h"
+#include "phone-gateway/server/turn_queue.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

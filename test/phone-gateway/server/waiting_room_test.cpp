@@ -1,4 +1,4 @@
-#include "server/waiting_room.h"
+#include "phone-gateway/server/waiting_room.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/web_pages.h"
+#include "phone-gateway/server/web_pages.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

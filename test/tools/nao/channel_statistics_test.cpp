@@ -1,4 +1,4 @@
-#include "nao/channel_statistics.h"
+#include "tools/nao/channel_statistics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "nao/hang_detector.h"
+#include "tools/nao/hang_detector.h"
 
 #include <gtest/gtest.h>
 

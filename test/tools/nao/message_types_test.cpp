@@ -1,4 +1,4 @@
-#include "nao/message_types.h"
+#include "tools/nao/message_types.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "nao/message_walk.h"
+#include "tools/nao/message_walk.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <naolcm/world_truth_t.hpp>
 #include <random>
 
-#include "nao/log_statistics.h"
-#include "nao/message_json.h"
-#include "nao/message_table.h"
-#include "nao/message_types.h"
+#include "tools/nao/log_statistics.h"
+#include "tools/nao/message_json.h"
+#include "tools/nao/message_table.h"
+#include "tools/nao/message_types.h"
 
 namespace nao {
 namespace {

@@ -1,4 +1,4 @@
-#include "nao/text_table.h"
+#include "tools/nao/text_table.h"
 
 #include <gtest/gtest.h>
 

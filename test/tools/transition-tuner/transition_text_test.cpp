@@ -1,11 +1,11 @@
-#include "transition-tuner/transition_text.h"
+#include "tools/transition-tuner/transition_text.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "common/error.h"
-#include "motion/transitions/transition_graph.h"
+#include "daemons/motion/transitions/transition_graph.h"
 
 namespace nao {
 namespace {

@@ -1,4 +1,4 @@
-#include "tuning/cma_es.h"
+#include "tools/tuning/cma_es.h"
 
 #include <gtest/gtest.h>
 

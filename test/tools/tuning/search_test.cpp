@@ -1,4 +1,4 @@
-#include "tuning/search.h"
+#include "tools/tuning/search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "motion/walk/footstep_planner.h"
+#include "daemons/motion/walk/footstep_planner.h"
 
 #include <gtest/gtest.h>
 
-#include "../nao_model.h"
+#include "test/daemons/motion/nao_model.h"
 
 namespace nao::motion {
 namespace {

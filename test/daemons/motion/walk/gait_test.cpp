@@ -1,13 +1,13 @@
-#include "motion/walk/gait.h"
+#include "daemons/motion/walk/gait.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "../nao_model.h"
 #include "common/error.h"
-#include "support/temporary_folder.h"
+#include "test/daemons/motion/nao_model.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao::motion {
 namespace {

@@ -1,4 +1,4 @@
-#include "motion/walk/kick_approach.h"
+#include "daemons/motion/walk/kick_approach.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "motion/walk/path_keeper.h"
+#include "daemons/motion/walk/path_keeper.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "motion/walk/pendulum.h"
+#include "daemons/motion/walk/pendulum.h"
 
 #include <gtest/gtest.h>
 
-#include "motion/walk/pendulum_estimator.h"
+#include "daemons/motion/walk/pendulum_estimator.h"
 
 namespace nao::motion {
 namespace {

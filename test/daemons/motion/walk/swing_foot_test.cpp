@@ -1,4 +1,4 @@
-#include "motion/walk/swing_foot.h"
+#include "daemons/motion/walk/swing_foot.h"
 
 #include <gtest/gtest.h>
 

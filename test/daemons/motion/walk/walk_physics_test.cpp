@@ -6,9 +6,9 @@
 #include <memory>
 #include <optional>
 
-#include "common/scene_file.h"
-#include "nao-trial/fall_warning.h"
-#include "nao-trial/trial.h"
+#include "closed_loop/closed_loop.h"
+#include "robot_model/scene_file.h"
+#include "tools/nao-trial/fall_warning.h"
 
 namespace nao::trial {
 namespace {
@@ -25,12 +25,12 @@ std::shared_ptr<const RobotModel> nao_robot() {
 class WalkPhysicsTest : public testing::Test {
  protected:
   /** A robot that stands; noise, latency and a physics of its own for each seed. */
-  Trial& begin(uint64_t seed, double late_share = 0) {
-    TrialOptions options;
+  ClosedLoop& begin(uint64_t seed, double late_share = 0) {
+    ClosedLoopOptions options;
     options.model = nao_robot();
     options.scene = SceneFile::load(std::filesystem::path(NAO_TEST_DATA) / "scenes" / "empty.yaml");
     options.late_share = late_share;
-    trial_ = std::make_unique<Trial>(options, seed);
+    trial_ = std::make_unique<ClosedLoop>(options, seed);
     trial_->run(0.5);
     return *trial_;
   }
@@ -54,11 +54,11 @@ class WalkPhysicsTest : public testing::Test {
     EXPECT_LT(trial_->torso_tilt(), 0.2);
   }
 
-  std::unique_ptr<Trial> trial_;
+  std::unique_ptr<ClosedLoop> trial_;
 };
 
 TEST_F(WalkPhysicsTest, WalksAheadAndStandsAgain) {
-  Trial& trial = begin(1);
+  ClosedLoop& trial = begin(1);
   const int64_t walk = trial.hold_walk({0.15, 0, 0});
   trial.run(2);
   const Eigen::Vector2d start = place();
@@ -76,7 +76,7 @@ TEST_F(WalkPhysicsTest, WalksAheadAndStandsAgain) {
 }
 
 TEST_F(WalkPhysicsTest, WalksSidewaysBackAndTurns) {
-  Trial& trial = begin(2);
+  ClosedLoop& trial = begin(2);
   trial.hold_walk({0, 0.1, 0});
   trial.run(5);
   EXPECT_GT(place().y(), 0.25);
@@ -97,7 +97,7 @@ TEST_F(WalkPhysicsTest, WalksSidewaysBackAndTurns) {
 
 TEST_F(WalkPhysicsTest, TurnsAsFastAsItsLimitsSay) {
   for (const double sign : {1.0, -1.0}) {
-    Trial& trial = begin(5);
+    ClosedLoop& trial = begin(5);
     trial.hold_walk({0, 0, sign * nao_robot()->walk_limits().turning});
     trial.run(2);
     double turned = 0;
@@ -115,7 +115,7 @@ TEST_F(WalkPhysicsTest, TurnsAsFastAsItsLimitsSay) {
 TEST_F(WalkPhysicsTest, TheToeOfAFootInTheAirStaysUp) {
   // Out of a quick turn into full speed, where the swing is the fastest. The foot is lifted by 10
   // mm, the toe 100 mm ahead.
-  Trial& trial = begin(5);
+  ClosedLoop& trial = begin(5);
   double lowest = 0;
   trial.on_tick([&] {
     const motion::RobotState& state = trial.estimate();
@@ -136,7 +136,7 @@ TEST_F(WalkPhysicsTest, TheToeOfAFootInTheAirStaysUp) {
 }
 
 TEST_F(WalkPhysicsTest, StopsWhenCommandsStopComing) {
-  Trial& trial = begin(3);
+  ClosedLoop& trial = begin(3);
   const int64_t walk = trial.hold_walk({0.15, 0, 0});
   trial.run(3);
   trial.release_walk(false);
@@ -149,7 +149,7 @@ TEST_F(WalkPhysicsTest, StopsWhenCommandsStopComing) {
 }
 
 TEST_F(WalkPhysicsTest, APostureInterruptsAWalk) {
-  Trial& trial = begin(4);
+  ClosedLoop& trial = begin(4);
   const int64_t walk = trial.hold_walk({0.15, 0, 0});
   trial.run(3);
   trial.release_walk(false);
@@ -163,7 +163,7 @@ TEST_F(WalkPhysicsTest, APostureInterruptsAWalk) {
 }
 
 TEST_F(WalkPhysicsTest, SaysHowFastItReallyWalksAndWhereItWillStep) {
-  Trial& trial = begin(5);
+  ClosedLoop& trial = begin(5);
   trial.hold_walk({5, 0, 0});
   trial.run(4);
   const motion::MotionState& state = trial.core().motion_state();
@@ -176,7 +176,7 @@ TEST_F(WalkPhysicsTest, SaysHowFastItReallyWalksAndWhereItWillStep) {
 }
 
 TEST_F(WalkPhysicsTest, MovesToAPlaceByOdometry) {
-  Trial& trial = begin(6);
+  ClosedLoop& trial = begin(6);
   const int64_t move = trial.send({"", 0, motion::MoveToCommand{0.6, 0.2, M_PI / 2}});
   const auto end = trial.await_end(move, 40);
   ASSERT_TRUE(end);
@@ -187,7 +187,7 @@ TEST_F(WalkPhysicsTest, MovesToAPlaceByOdometry) {
 }
 
 TEST_F(WalkPhysicsTest, AWalkFromACrouchStandsUpFirst) {
-  Trial& trial = begin(7);
+  ClosedLoop& trial = begin(7);
   ASSERT_TRUE(trial.await_end(trial.send_posture("Crouch", 0.5), 15));
   trial.hold_walk({0.15, 0, 0});
   trial.run(12);
@@ -196,7 +196,7 @@ TEST_F(WalkPhysicsTest, AWalkFromACrouchStandsUpFirst) {
 }
 
 TEST_F(WalkPhysicsTest, KeepsWalkingWhenPushed) {
-  Trial& trial = begin(8);
+  ClosedLoop& trial = begin(8);
   trial.hold_walk({0.15, 0, 0});
   trial.run(3);
   trial.world().push(0, 0, {0, 0.3, 0});
@@ -206,7 +206,7 @@ TEST_F(WalkPhysicsTest, KeepsWalkingWhenPushed) {
 }
 
 TEST_F(WalkPhysicsTest, KeepsWalkingWhenItMissesTicks) {
-  Trial& trial = begin(10, 0.02);
+  ClosedLoop& trial = begin(10, 0.02);
   trial.hold_walk({0.12, 0, 0});
   trial.run(8);
   EXPECT_EQ(mode(), Mode::kWalking);
@@ -214,7 +214,7 @@ TEST_F(WalkPhysicsTest, KeepsWalkingWhenItMissesTicks) {
 }
 
 TEST_F(WalkPhysicsTest, KeepsStraightAndToItsSpeed) {
-  Trial& trial = begin(11);
+  ClosedLoop& trial = begin(11);
   trial.hold_walk({0.25, 0, 0});
   trial.run(2.5);
   const Eigen::Vector2d start = place();
@@ -226,7 +226,7 @@ TEST_F(WalkPhysicsTest, KeepsStraightAndToItsSpeed) {
 TEST_F(WalkPhysicsTest, StopsFromFullSpeedInShortOrder) {
   // Let go at any moment of a step.
   for (const double more : {0.0, 0.06, 0.12, 0.18}) {
-    Trial& trial = begin(12);
+    ClosedLoop& trial = begin(12);
     trial.hold_walk({0.3, 0, 0});
     trial.run(4 + more);
     const Eigen::Vector2d start = place();
@@ -242,7 +242,7 @@ TEST_F(WalkPhysicsTest, StopsFromFullSpeedInShortOrder) {
 
 TEST_F(WalkPhysicsTest, GoesNoFartherHalfASecondAfterAThumbHasLetGo) {
   for (const double more : {0.0, 0.06, 0.12, 0.18}) {
-    Trial& trial = begin(14);
+    ClosedLoop& trial = begin(14);
     trial.hold_walk({0.15, 0, 0});
     trial.run(4 + more);
     trial.release_walk();
@@ -256,7 +256,7 @@ TEST_F(WalkPhysicsTest, GoesNoFartherHalfASecondAfterAThumbHasLetGo) {
 
 TEST_F(WalkPhysicsTest, WalksOnWhenTheThumbComesBackAtOnce) {
   for (const double pause : {0.1, 0.25, 0.4, 0.6}) {
-    Trial& trial = begin(15);
+    ClosedLoop& trial = begin(15);
     trial.hold_walk({0.25, 0, 0});
     trial.run(3);
     trial.release_walk();
@@ -272,7 +272,7 @@ TEST_F(WalkPhysicsTest, TellsAFallWellBeforeTheImpact) {
   int num_falls = 0;
   for (int i = 0; i < 8; ++i) {
     const double direction = i * M_PI / 4;
-    Trial& trial = begin(21 + i);
+    ClosedLoop& trial = begin(21 + i);
     trial.hold_walk({0.15, 0, 0});
     trial.run(3);
     trial.world().push(0, 0, {3.2 * std::cos(direction), 3.2 * std::sin(direction), 0});
@@ -286,7 +286,7 @@ TEST_F(WalkPhysicsTest, TellsAFallWellBeforeTheImpact) {
 }
 
 TEST_F(WalkPhysicsTest, AHopDoesNotEndTheWalk) {
-  Trial& trial = begin(13);
+  ClosedLoop& trial = begin(13);
   const int64_t walk = trial.hold_walk({0.15, 0, 0});
   trial.run(3);
   // Up at 0.25 m/s: both feet are in the air for 50 ms.
@@ -306,7 +306,7 @@ TEST_F(WalkPhysicsTest, AHopDoesNotEndTheWalk) {
 }
 
 TEST_F(WalkPhysicsTest, StopsInTheAirAndRefusesToWalkThere) {
-  Trial& trial = begin(13);
+  ClosedLoop& trial = begin(13);
   const int64_t walk = trial.hold_walk({0.15, 0, 0});
   trial.run(2);
   // Somebody lifts it by the trunk: a spring and a damper to a place above the ground.
@@ -334,7 +334,7 @@ TEST_F(WalkPhysicsTest, StopsInTheAirAndRefusesToWalkThere) {
 }
 
 TEST_F(WalkPhysicsTest, AWishForNoVelocityStartsNoWalk) {
-  Trial& trial = begin(9);
+  ClosedLoop& trial = begin(9);
   const int64_t walk = trial.hold_walk({0, 0, 0});
   trial.run(0.1);
   EXPECT_EQ(mode(), Mode::kHolding);

@@ -7,18 +7,18 @@
 #include <memory>
 #include <vector>
 
-#include "nao-trial/trial.h"
+#include "closed_loop/closed_loop.h"
 #include "sim/mujoco_peer.h"
 
 namespace nao::trial {
 namespace {
 
 TEST(WalkReplay, TheSameTargetsLeadAsFarInMujoco) {
-  TrialOptions options;
+  ClosedLoopOptions options;
   options.model = std::make_shared<const RobotModel>(
       RobotModel::load(std::filesystem::path(NAO_TEST_DATA) / "robots" / "nao"));
   options.is_ideal = true;
-  Trial trial(options, 1);
+  ClosedLoop trial(options, 1);
   std::vector<Eigen::VectorXd> targets;
   trial.on_tick([&] {
     targets.emplace_back(

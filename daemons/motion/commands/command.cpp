@@ -1,0 +1,72 @@
+#include "daemons/motion/commands/command.h"
+
+namespace nao::motion {
+namespace {
+
+constexpr size_t kMaxQuotedLength = 40;
+constexpr size_t kMaxNamesListed = 4;
+
+}  // namespace
+
+const char* to_string(CommandKind kind) {
+  switch (kind) {
+    case CommandKind::kWalk:
+      return "walk";
+    case CommandKind::kMoveTo:
+      return "move-to";
+    case CommandKind::kPosture:
+      return "posture";
+    case CommandKind::kJointChange:
+      return "joint-change";
+    case CommandKind::kAction:
+      return "action";
+    case CommandKind::kStop:
+      return "stop";
+  }
+  return "";
+}
+
+const char* to_string(ResultStatus status) {
+  switch (status) {
+    case ResultStatus::kAccepted:
+      return "accepted";
+    case ResultStatus::kRefused:
+      return "refused";
+    case ResultStatus::kDone:
+      return "done";
+    case ResultStatus::kInterrupted:
+      return "interrupted";
+    case ResultStatus::kFailed:
+      return "failed";
+  }
+  return "";
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"" + text.substr(0, kMaxQuotedLength);
+  for (char& c : result) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return result + (text.size() > kMaxQuotedLength ? "...\"" : "\"");
+}
+
+std::string describe(const Command& command) {
+  switch (kind_of(command)) {
+    case CommandKind::kPosture:
+      return std::get<PostureCommand>(command.request).posture;
+    case CommandKind::kAction:
+      return std::get<ActionCommand>(command.request).action;
+    case CommandKind::kJointChange: {
+      const auto& names = std::get<JointChangeCommand>(command.request).joint_names;
+      std::string result;
+      for (size_t i = 0; i < names.size() && i < kMaxNamesListed; ++i) {
+        result += (i == 0 ? "" : ", ") + names[i];
+      }
+      return result + (names.size() > kMaxNamesListed ? ", ..." : "");
+    }
+    default:
+      return to_string(kind_of(command));
+  }
+}
+
+}  // namespace nao::motion

@@ -1,0 +1,48 @@
+#include "daemons/motion/generators/posture_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "daemons/motion/standing_rates.h"
+
+namespace nao::motion {
+namespace {
+
+// How long the joints may take to follow their last targets, s.
+constexpr double kSettlingTime = 1.5;
+
+}  // namespace
+
+PostureDeviation deviation_from(const Posture& posture, const std::vector<double>& position) {
+  PostureDeviation result;
+  for (size_t motor = 0; motor < position.size(); ++motor) {
+    const double angle = std::abs(position[motor] - posture.position[motor]);
+    if (angle > result.angle) result = {angle, static_cast<int>(motor)};
+  }
+  return result;
+}
+
+void PostureMotion::start(const MotionContext& context, const JointTargets& targets) {
+  trajectory_ = JointTrajectory(targets.position, targets.velocity, posture_->position,
+                                standing_rates(context, speed_));
+  time_ = 0;
+}
+
+MotionGenerator::Phase PostureMotion::step(const MotionContext& context, JointTargets& targets) {
+  time_ += context.dt;
+  trajectory_.sample(time_, targets.position);
+  if (time_ < trajectory_.duration()) return Phase::kRunning;
+  const PostureDeviation deviation = deviation_from(*posture_, context.sensors.position);
+  if (deviation.angle <= context.options.posture_tolerance) return Phase::kDone;
+  if (time_ < trajectory_.duration() + kSettlingTime) return Phase::kRunning;
+  remark_ = context.model.motor_joint(deviation.motor).name + " stays " +
+            std::to_string(std::lround(deviation.angle * 180 / M_PI)) + " degrees away from " +
+            posture_->name + "; something holds it.";
+  return Phase::kFailed;
+}
+
+double PostureMotion::progress() const {
+  return trajectory_.duration() > 0 ? std::min(1.0, time_ / trajectory_.duration()) : 1.0;
+}
+
+}  // namespace nao::motion

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "daemons/motion/generators/joint_trajectory.h"
+#include "daemons/motion/generators/motion_generator.h"
+
+namespace nao::motion {
+
+/** How far a joint is from a posture at most, rad, and which joint that is. */
+struct PostureDeviation {
+  double angle = 0;
+  int motor = 0;
+};
+
+/** @param position  Measured angles, rad, (num_motors). */
+PostureDeviation deviation_from(const Posture& posture, const std::vector<double>& position);
+
+/** Straight way of all joints to a posture on both feet, then a moment to settle.
+ *
+ * Between the standing and crouching postures hip, knee and ankle turn in proportion, so that the
+ * soles stay flat and the centre of mass stays over them all the way (checked in the tests). */
+class PostureMotion : public MotionGenerator {
+ public:
+  /** @param posture  Must outlive this. @param speed  Fraction of the maximum, (0, 1]. */
+  PostureMotion(const Posture& posture, double speed) : posture_(&posture), speed_(speed) {}
+
+  void start(const MotionContext& context, const JointTargets& targets) override;
+  Phase step(const MotionContext& context, JointTargets& targets) override;
+  Mode mode() const override { return Mode::kMoving; }
+  double progress() const override;
+  std::string remark() const override { return remark_; }
+
+ private:
+  const Posture* posture_;
+  double speed_;
+  JointTrajectory trajectory_;
+  double time_ = 0;
+  std::string remark_;
+};
+
+}  // namespace nao::motion

@@ -1,0 +1,298 @@
+#include "daemons/motion/generators/walk_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "common/error.h"
+
+namespace nao::motion {
+namespace {
+
+constexpr const char* kStandingPosture = "StandInit";
+
+// Least stiffness of the legs: the vendor's walk refuses at 0.6 or less.
+constexpr double kLeastStiffness = 0.6;
+// A walk command is valid for this long, s.
+constexpr double kCommandLifetime = 0.5;
+// Torso tilted more than this falls, rad.
+constexpr double kFallingTilt = 0.6;
+// s without weight on any foot after which the robot has been lifted: longer than any hop.
+constexpr double kLiftedTime = 0.2;
+
+// A stance that a walk can begin in: soles level within rad, at one height within m, at most m and
+// rad from each other, hips at least m above the ground.
+constexpr double kLevel = 0.06;
+constexpr double kSameHeight = 0.01;
+constexpr double kFarthestApart = 0.2;
+constexpr double kNearest = 0.085;
+constexpr double kGreatestLead = 0.08;
+constexpr double kGreatestTurn = 0.7;
+constexpr double kLowestHips = 0.19;
+
+// Move-to: velocity per distance left, 1/s; it has arrived within m and rad.
+constexpr double kApproach = 1.2;
+constexpr double kArrivedDistance = 0.012;
+constexpr double kArrivedTurn = 0.025;
+// Farther than this it is shorter to turn towards the goal and walk ahead, m.
+constexpr double kFar = 0.4;
+// Walks ahead only when it looks this nearly at the goal, rad.
+constexpr double kAimed = 0.5;
+// Gives up after this many times the time that the way should take, s, plus some.
+constexpr double kPatience = 3;
+constexpr double kPatienceAtLeast = 10;
+
+}  // namespace
+
+std::optional<std::string> find_soft_leg(const LegKinematics& legs,
+                                         const std::vector<double>& stiffness) {
+  for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
+    for (int motor : legs.motors(leg)) {
+      if (stiffness[motor] <= kLeastStiffness) {
+        return "The legs are too soft to walk: stiffness " +
+               std::to_string(std::lround(100 * stiffness[motor])) +
+               " %, and more than 60 % is needed.";
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
+                                              const std::vector<double>& stiffness) {
+  if (auto soft = find_soft_leg(legs, stiffness)) return soft;
+  if (state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
+    return "The robot does not stand upright.";
+  }
+  if (!state.left_foot_carries && !state.right_foot_carries) {
+    return "No foot carries weight; put the robot on the ground.";
+  }
+  return std::nullopt;
+}
+
+bool is_walking_stance(const RobotModel& model, const std::vector<double>& position) {
+  Kinematics kinematics(model);
+  kinematics.update(position);
+  const Eigen::Isometry3d right = kinematics.left_sole().inverse() * kinematics.right_sole();
+  const LegKinematics legs(model);
+  const Eigen::Vector3d hips = 0.5 * (legs.hip(Leg::kLeft) + legs.hip(Leg::kRight));
+  const double height = (kinematics.left_sole().inverse() * hips).z();
+  const double apart = -right.translation().y();
+  const double turn = std::atan2(right.linear()(1, 0), right.linear()(0, 0));
+  return right.linear()(2, 2) > std::cos(kLevel) &&
+         std::abs(right.translation().z()) < kSameHeight && apart > kNearest &&
+         apart < kFarthestApart && std::abs(right.translation().x()) < kGreatestLead &&
+         std::abs(turn) < kGreatestTurn && height > kLowestHips;
+}
+
+WalkingMotion::WalkingMotion(const RobotModel& model, const Gait& gait,
+                             std::unique_ptr<MotionGenerator> stand_up)
+    : engine_(model, gait, *model.find_posture(kStandingPosture)), stand_up_(std::move(stand_up)) {}
+
+void WalkingMotion::start(const MotionContext& context, const JointTargets& targets) {
+  is_standing_up_ = !is_walking_stance(context.model, targets.position);
+  if (is_standing_up_) {
+    stand_up_->start(context, targets);
+  } else {
+    engine_.start(targets);
+    start_steering(context);
+  }
+}
+
+std::optional<std::string> WalkingMotion::find_trouble(const MotionContext& context) {
+  if (context.state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
+    return "The robot lost its balance.";
+  }
+  const bool is_in_air = !context.state.left_foot_carries && !context.state.right_foot_carries;
+  time_in_air_ = is_in_air ? time_in_air_ + context.dt : 0;
+  if (time_in_air_ > kLiftedTime) return "The robot was lifted off the ground.";
+  return std::nullopt;
+}
+
+MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTargets& targets) {
+  if (is_standing_up_) {
+    const Phase phase = stand_up_->step(context, targets);
+    if (phase == Phase::kFailed) remark_ = stand_up_->remark();
+    if (phase != Phase::kDone) return phase;
+    is_standing_up_ = false;
+    if (is_finishing_) return Phase::kDone;
+    engine_.start(targets);
+    start_steering(context);
+    return Phase::kRunning;
+  }
+  // Only now: the way up from a seat leads over back and belly, feet in the air.
+  if (const auto trouble = find_trouble(context)) {
+    remark_ = *trouble;
+    return Phase::kFailed;
+  }
+  if (const auto soft = find_soft_leg(engine_.legs(), targets.stiffness)) {
+    remark_ = *soft;
+    if (engine_.has_both_feet_down()) return Phase::kFailed;
+    engine_.end();
+  } else if (!is_finishing_) {
+    remark_.clear();
+    steer(context);
+  }
+  if (engine_.step(context.state, context.kinematics, context.dt, targets)) return Phase::kRunning;
+  if (!remark_.empty()) return Phase::kFailed;
+  if (is_finishing_) {
+    // The motion that waits takes over in the next tick.
+    return std::exchange(has_ended_, true) ? Phase::kDone : Phase::kRunning;
+  }
+  if (wants_to_go_on()) {
+    engine_.start(targets);
+    return Phase::kRunning;
+  }
+  return conclude(context, remark_) ? Phase::kDone : Phase::kFailed;
+}
+
+bool WalkingMotion::can_be_replaced() const {
+  if (is_standing_up_) return stand_up_->can_be_replaced();
+  switch (engine_.stage()) {
+    case WalkEngine::Stage::kLowering:
+    case WalkEngine::Stage::kDone:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void WalkingMotion::finish() {
+  is_finishing_ = true;
+  if (is_standing_up_) {
+    stand_up_->finish();
+  } else {
+    engine_.end();
+  }
+}
+
+void WalkingMotion::describe(MotionState& state) const {
+  if (is_standing_up_) return;
+  state.walk_velocity = engine_.velocity();
+  for (const PlannedStep& step : engine_.planned_steps()) {
+    const Pose2 pose = engine_.support_in_odometry() * step.pose;
+    state.footsteps.push_back({step.is_left, pose.position, wrapped(pose.heading)});
+  }
+}
+
+WalkMotion::WalkMotion(const RobotModel& model, const Gait& gait,
+                       std::unique_ptr<MotionGenerator> stand_up, const WalkCommand& command)
+    : WalkingMotion(model, gait, std::move(stand_up)), command_(command) {}
+
+bool WalkMotion::adopt(const Command& command) {
+  if (const auto* action = std::get_if<ActionCommand>(&command.request)) {
+    if (engine().stage() != WalkEngine::Stage::kStepping) return false;
+    std::optional<Eigen::Vector2d> ball;
+    if (!std::isnan(action->ball_x) && !std::isnan(action->ball_y)) {
+      ball = engine().middle_in_odometry() * Eigen::Vector2d(action->ball_x, action->ball_y);
+    }
+    engine().kick(action->action == "kick-left", ball);
+    return true;
+  }
+  const auto* walk = std::get_if<WalkCommand>(&command.request);
+  if (walk == nullptr) return false;
+  command_ = *walk;
+  age_ = 0;
+  return true;
+}
+
+MotionGenerator::Strike WalkMotion::strike() const {
+  switch (engine().kick_state()) {
+    case WalkEngine::KickState::kPending:
+      return engine().stage() == WalkEngine::Stage::kStepping ? Strike::kPending : Strike::kNone;
+    case WalkEngine::KickState::kStruck:
+      return Strike::kStruck;
+    case WalkEngine::KickState::kMissed:
+      return Strike::kMissed;
+    default:
+      return Strike::kNone;
+  }
+}
+
+void WalkMotion::steer(const MotionContext& context) {
+  age_ += context.dt;
+  const Eigen::Vector3d velocity(command_.vx, command_.vy, command_.wz);
+  if (age_ > kCommandLifetime || velocity.isZero(0)) {
+    engine().end();
+  } else {
+    engine().resume();
+    engine().set_velocity(velocity);
+  }
+}
+
+bool WalkMotion::wants_to_go_on() const {
+  const bool wishes = command_.vx != 0 || command_.vy != 0 || command_.wz != 0;
+  return wishes && age_ <= kCommandLifetime;
+}
+
+bool WalkMotion::conclude(const MotionContext& /*context*/, std::string& remark) {
+  if (age_ > kCommandLifetime) remark = "No walk command came for half a second.";
+  return true;
+}
+
+MoveToMotion::MoveToMotion(const RobotModel& model, const Gait& gait,
+                           std::unique_ptr<MotionGenerator> stand_up, const MoveToCommand& command)
+    : WalkingMotion(model, gait, std::move(stand_up)),
+      command_(command),
+      limits_(model.walk_limits()) {}
+
+void MoveToMotion::start_steering(const MotionContext& context) {
+  // The torso shall go there, standing as it does now; feet tell better than a swaying torso where
+  // that is.
+  const Pose2 torso = Pose2::from(context.state.torso_in_odometry);
+  const Pose2 body_in_torso = torso.inverse() * engine().standing_body(context.state);
+  goal_in_odometry_ = torso * Pose2{{command_.x, command_.y}, command_.theta} * body_in_torso;
+  way_ = std::hypot(command_.x, command_.y) + 0.15 * std::abs(command_.theta);
+  const double turn = std::abs(wrapped(command_.theta)) + 2 * M_PI;
+  time_limit_ = kPatienceAtLeast + kPatience * (std::hypot(command_.x, command_.y) /
+                                                    std::min(limits_.forward, limits_.sideways) +
+                                                turn / limits_.turning);
+}
+
+Pose2 MoveToMotion::remaining(const MotionContext& context) const {
+  const bool steps = engine().stage() == WalkEngine::Stage::kStepping;
+  const Pose2 body = steps ? engine().body_in_odometry() : engine().standing_body(context.state);
+  return body.inverse() * goal_in_odometry_;
+}
+
+void MoveToMotion::steer(const MotionContext& context) {
+  time_ += context.dt;
+  const Pose2 left = remaining(context);
+  const double distance = left.position.norm();
+  const double turn = wrapped(left.heading);
+  const double left_way = distance + 0.15 * std::abs(turn);
+  if (way_ > 0) progress_ = std::max(progress_, std::clamp(1 - left_way / way_, 0.0, 1.0));
+  is_there_ = is_there_ || (distance < kArrivedDistance && std::abs(turn) < kArrivedTurn);
+  if (is_there_ || time_ > time_limit_) {
+    engine().end();
+    return;
+  }
+  Eigen::Vector3d velocity(kApproach * left.position.x(), kApproach * left.position.y(),
+                           kApproach * turn);
+  if (distance > kFar) {
+    const double aim = std::atan2(left.position.y(), left.position.x());
+    velocity.z() = kApproach * aim;
+    const double share = std::clamp(1 - std::abs(aim) / kAimed, 0.0, 1.0);
+    velocity.x() = share * std::max(0.0, velocity.x());
+    velocity.y() *= share;
+  }
+  const Eigen::Vector3d greatest(velocity.x() > 0 ? limits_.forward : limits_.backward,
+                                 limits_.sideways, limits_.turning);
+  engine().set_velocity(velocity.cwiseMax(-greatest).cwiseMin(greatest));
+}
+
+bool MoveToMotion::conclude(const MotionContext& context, std::string& remark) {
+  if (is_there_) {
+    progress_ = 1;
+    return true;
+  }
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "Did not get there in time; %.2f m are left.",
+                remaining(context).position.norm());
+  remark = text.data();
+  return false;
+}
+
+}  // namespace nao::motion

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "daemons/motion/generators/motion_generator.h"
+#include "daemons/motion/walk/gait.h"
+#include "daemons/motion/walk/walk_engine.h"
+#include "robot_model/robot_model.h"
+
+namespace nao::motion {
+
+/** Why legs of this stiffness must not walk, as a sentence; nothing if they may.
+ * @param stiffness  Of all motors, motor order. */
+std::optional<std::string> find_soft_leg(const LegKinematics& legs,
+                                         const std::vector<double>& stiffness);
+
+/** Why the robot must not start to walk, as a sentence; nothing if it may.
+ * @param stiffness  Of all motors, motor order. */
+std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
+                                              const std::vector<double>& stiffness);
+
+/** Whether the walk can begin in the pose that these targets make: both soles flat on one level,
+ * side by side, below bent knees. */
+bool is_walking_stance(const RobotModel& model, const std::vector<double>& position);
+
+/** What walk and move-to have in common: a stand before, the engine, and the reasons to stop. */
+class WalkingMotion : public MotionGenerator {
+ public:
+  /** @param gait       Must outlive this.
+   * @param stand_up   Way to the posture that a walk begins and ends in; taken if the robot does
+   * not stand already. */
+  WalkingMotion(const RobotModel& model, const Gait& gait,
+                std::unique_ptr<MotionGenerator> stand_up);
+
+  void start(const MotionContext& context, const JointTargets& targets) override;
+  Phase step(const MotionContext& context, JointTargets& targets) override;
+  bool can_be_replaced() const override;
+  void finish() override;
+  Mode mode() const override { return is_standing_up_ ? stand_up_->mode() : Mode::kWalking; }
+  bool means_to_stand() const override { return !is_standing_up_ || stand_up_->means_to_stand(); }
+  std::string remark() const override { return remark_; }
+  void describe(MotionState& state) const override;
+
+ protected:
+  /** Once, when the engine begins, and in every tick before the engine's: wishes a velocity or the
+   * end. */
+  virtual void start_steering(const MotionContext& /*context*/) {}
+  virtual void steer(const MotionContext& context) = 0;
+  /** A wish to walk came while the walk was ending: it begins anew. */
+  virtual bool wants_to_go_on() const { return false; }
+  /** What is to be said when the walk has ended by itself. @return false if it failed. */
+  virtual bool conclude(const MotionContext& /*context*/, std::string& /*remark*/) { return true; }
+
+  WalkEngine& engine() { return engine_; }
+  const WalkEngine& engine() const { return engine_; }
+
+ private:
+  std::optional<std::string> find_trouble(const MotionContext& context);
+
+  WalkEngine engine_;
+  std::unique_ptr<MotionGenerator> stand_up_;
+  bool is_standing_up_ = false;
+  bool is_finishing_ = false;
+  bool has_ended_ = false;
+  double time_in_air_ = 0;
+  std::string remark_;
+};
+
+/** Walks at the velocity of the newest walk command, until it asks for none, until it is too old,
+ * or until something else waits. */
+class WalkMotion : public WalkingMotion {
+ public:
+  WalkMotion(const RobotModel& model, const Gait& gait, std::unique_ptr<MotionGenerator> stand_up,
+             const WalkCommand& command);
+
+  /** A walk's new velocity, or a kick to strike in passing. */
+  bool adopt(const Command& command) override;
+  Strike strike() const override;
+
+ protected:
+  void steer(const MotionContext& context) override;
+  bool wants_to_go_on() const override;
+  bool conclude(const MotionContext& context, std::string& remark) override;
+
+ private:
+  WalkCommand command_;
+  /** s since the command came. */
+  double age_ = 0;
+};
+
+/** Walks to a pose and stops there, by odometry. */
+class MoveToMotion : public WalkingMotion {
+ public:
+  MoveToMotion(const RobotModel& model, const Gait& gait, std::unique_ptr<MotionGenerator> stand_up,
+               const MoveToCommand& command);
+
+  double progress() const override { return progress_; }
+
+ protected:
+  void start_steering(const MotionContext& context) override;
+  void steer(const MotionContext& context) override;
+  bool conclude(const MotionContext& context, std::string& remark) override;
+
+ private:
+  /** Goal seen from where the robot would stand if it stopped now. */
+  Pose2 remaining(const MotionContext& context) const;
+
+  MoveToCommand command_;
+  /** Of the body between the feet. */
+  Pose2 goal_in_odometry_;
+  WalkLimits limits_;
+  double way_ = 0;
+  double time_ = 0;
+  double time_limit_ = 0;
+  double progress_ = 0;
+  bool is_there_ = false;
+};
+
+}  // namespace nao::motion

@@ -1,0 +1,54 @@
+#include "daemons/motion/guards/joint_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nao::motion {
+
+void clip_to_limits(const RobotModel& model, std::vector<double>& position) {
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    const Joint& joint = model.motor_joint(motor);
+    position[motor] = std::clamp(position[motor], joint.lower, joint.upper);
+  }
+  for (const CoupledLimit& limit : model.coupled_limits()) {
+    position[limit.motor] = model.clip_to_limits(limit.motor, position[limit.motor], position);
+  }
+}
+
+std::vector<JointRates> joint_rates(const RobotModel& model, double speed,
+                                    double max_acceleration) {
+  std::vector<JointRates> rates;
+  rates.reserve(model.num_motors());
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    rates.push_back({speed * model.motor_joint(motor).max_velocity, max_acceleration});
+  }
+  return rates;
+}
+
+void TargetLimiter::limit(const std::vector<double>& last, double dt,
+                          std::vector<double>& wished) const {
+  for (int motor = 0; motor < model_->num_motors(); ++motor) {
+    const Joint& joint = model_->motor_joint(motor);
+    const double step = joint.max_velocity * dt;
+    if (!std::isfinite(wished[motor])) wished[motor] = last[motor];
+    wished[motor] = std::clamp(wished[motor], joint.lower, joint.upper);
+    wished[motor] = std::clamp(wished[motor], last[motor] - step, last[motor] + step);
+  }
+  for (const CoupledLimit& limit : model_->coupled_limits()) {
+    const double step = model_->motor_joint(limit.motor).max_velocity * dt;
+    const auto is_in_reach = [&](double angle) {
+      return std::abs(angle - last[limit.motor]) <= step * (1 + 1e-12);
+    };
+    double angle = model_->clip_to_limits(limit.motor, wished[limit.motor], wished);
+    if (!is_in_reach(angle)) {
+      // The range runs away faster than this joint can follow: the other one waits for it.
+      wished[limit.other_motor] = last[limit.other_motor];
+      angle = model_->clip_to_limits(limit.motor, wished[limit.motor], wished);
+    }
+    // Out of reach even so only if the last targets were out of the range, as when somebody moved
+    // the robot by hand: come nearer as fast as allowed.
+    wished[limit.motor] = std::clamp(angle, last[limit.motor] - step, last[limit.motor] + step);
+  }
+}
+
+}  // namespace nao::motion

@@ -1,0 +1,106 @@
+#include "daemons/motion/guards/self_collision_guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "robot_model/collision_shape.h"
+
+namespace nao::motion {
+namespace {
+
+// Links keep this far from each other: the servos' lag and the encoders' steps, m.
+constexpr double kClearance = 0.003;
+// Links that touch already may come this much closer before it counts, m.
+constexpr double kTouchTolerance = 0.0005;
+// Edges of boxes are rounded by this much, m.
+constexpr double kEdgeRadius = 0.004;
+
+}  // namespace
+
+SelfCollisionGuard::SelfCollisionGuard(const RobotModel& model) : kinematics_(model) {
+  for (int link = 0; link < static_cast<int>(model.links().size()); ++link) {
+    for (const Shape& shape : model.links()[link].collisions) {
+      Part part{link, rounded_box_in_link(model.links()[link], shape, kEdgeRadius), 0};
+      part.bounding_radius = part.box_in_link.half.norm() + part.box_in_link.radius;
+      parts_.push_back(part);
+    }
+  }
+  const auto& allowed = model.allowed_contacts();
+  for (int a = 0; a < static_cast<int>(parts_.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(parts_.size()); ++b) {
+      if (parts_[a].link == parts_[b].link) continue;
+      const std::pair<int, int> links = std::minmax(parts_[a].link, parts_[b].link);
+      if (std::find(allowed.begin(), allowed.end(), links) == allowed.end()) {
+        pairs_.emplace_back(a, b);
+      }
+    }
+  }
+  placed_.resize(parts_.size());
+}
+
+void SelfCollisionGuard::place(const std::vector<double>& position) {
+  kinematics_.update(position);
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    const Eigen::Isometry3d& pose = kinematics_.link_pose(parts_[i].link);
+    placed_[i] = parts_[i].box_in_link;
+    placed_[i].center = pose * parts_[i].box_in_link.center;
+    placed_[i].rotation = pose.linear() * parts_[i].box_in_link.rotation;
+  }
+}
+
+double SelfCollisionGuard::distance(const std::pair<int, int>& pair, double enough) const {
+  const auto [a, b] = pair;
+  const double bound = (placed_[a].center - placed_[b].center).norm() - parts_[a].bounding_radius -
+                       parts_[b].bounding_radius;
+  return bound > enough ? bound : closest_points(placed_[a], placed_[b]).distance;
+}
+
+double SelfCollisionGuard::calc_clearance(const std::vector<double>& position) {
+  place(position);
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& pair : pairs_) least = std::min(least, distance(pair, least));
+  return least;
+}
+
+size_t SelfCollisionGuard::find_last_free(const std::vector<std::vector<double>>& way,
+                                          SelfCollision& collision) {
+  place(way.front());
+  std::vector<double> needed;
+  for (const auto& pair : pairs_) {
+    needed.push_back(std::min(kClearance, distance(pair, kClearance) - kTouchTolerance));
+  }
+  for (size_t k = 1; k < way.size(); ++k) {
+    place(way[k]);
+    for (size_t i = 0; i < pairs_.size(); ++i) {
+      if (distance(pairs_[i], kClearance) >= needed[i]) continue;
+      const std::vector<Link>& links = kinematics_.model().links();
+      collision.link_a = links[parts_[pairs_[i].first].link].name;
+      collision.link_b = links[parts_[pairs_[i].second].link].name;
+      std::vector<double> change = way[k];
+      for (size_t m = 0; m < change.size(); ++m) change[m] -= way.front()[m];
+      collision.motor = find_mover(pairs_[i], change);
+      return k - 1;
+    }
+  }
+  return way.size() - 1;
+}
+
+int SelfCollisionGuard::find_mover(const std::pair<int, int>& pair,
+                                   const std::vector<double>& change) const {
+  const Proximity proximity = closest_points(placed_[pair.first], placed_[pair.second]);
+  const Eigen::Matrix3Xd parting =
+      kinematics_.calc_point_jacobian(parts_[pair.first].link, proximity.point) -
+      kinematics_.calc_point_jacobian(parts_[pair.second].link, proximity.point);
+  int mover = -1;
+  double fastest = 0;
+  for (int motor = 0; motor < static_cast<int>(change.size()); ++motor) {
+    const double closing = -proximity.normal.dot(parting.col(motor)) * change[motor];
+    if (mover >= 0 && closing <= fastest) continue;
+    fastest = closing;
+    mover = motor;
+  }
+  return mover;
+}
+
+}  // namespace nao::motion

@@ -1,0 +1,106 @@
+#include "kinematics/kinematics.h"
+
+namespace nao {
+
+Kinematics::Kinematics(const RobotModel& model)
+    : model_(&model),
+      link_poses_(model.links().size(), Eigen::Isometry3d::Identity()),
+      mass_(model.total_mass()) {
+  std::vector<int> motor_of_joint(model.joints().size(), -1);
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    motor_of_joint[model.motors()[motor]] = motor;
+  }
+  for (size_t i = 0; i < model.joints().size(); ++i) {
+    const Joint& joint = model.joints()[i];
+    JointEntry entry{joint.parent_link,
+                     joint.child_link,
+                     joint.pose_in_parent,
+                     joint.axis,
+                     joint.pose_in_parent.linear().isIdentity(0),
+                     motor_of_joint[i],
+                     1,
+                     0};
+    if (joint.mimic_joint >= 0) {
+      entry.motor = motor_of_joint[joint.mimic_joint];
+      entry.multiplier = joint.mimic_multiplier;
+      entry.offset = joint.mimic_offset;
+    }
+    joints_.push_back(entry);
+  }
+  update(std::vector<double>(model.num_motors(), 0.0));
+}
+
+void Kinematics::update(const std::vector<double>& position) {
+  for (const JointEntry& joint : joints_) {
+    const Eigen::Isometry3d& parent = link_poses_[joint.parent_link];
+    Eigen::Isometry3d& child = link_poses_[joint.child_link];
+    child.translation() =
+        parent.translation() + parent.linear() * joint.pose_in_parent.translation();
+    Eigen::Matrix3d rotation = parent.linear();
+    if (!joint.is_pure_translation) rotation *= joint.pose_in_parent.linear();
+    if (joint.motor >= 0) {
+      const double angle = joint.multiplier * position[joint.motor] + joint.offset;
+      rotation *= Eigen::AngleAxisd(angle, joint.axis).toRotationMatrix();
+    }
+    child.linear() = rotation;
+  }
+  center_of_mass_.setZero();
+  const std::vector<Link>& links = model_->links();
+  for (size_t i = 0; i < links.size(); ++i) {
+    if (links[i].mass > 0) {
+      center_of_mass_ += links[i].mass * (link_poses_[i] * links[i].center_of_mass);
+    }
+  }
+  center_of_mass_ /= mass_;
+}
+
+Eigen::Matrix3Xd Kinematics::calc_point_jacobian(int link, const Eigen::Vector3d& point) const {
+  Eigen::Matrix3Xd jacobian = Eigen::Matrix3Xd::Zero(3, model_->num_motors());
+  for (int joint = model_->links()[link].parent_joint; joint >= 0;
+       joint = model_->links()[joints_[joint].parent_link].parent_joint) {
+    const JointEntry& entry = joints_[joint];
+    if (entry.motor < 0) continue;
+    const Eigen::Isometry3d& pose = link_poses_[entry.child_link];
+    const Eigen::Vector3d axis = pose.linear() * entry.axis * entry.multiplier;
+    jacobian.col(entry.motor) += axis.cross(point - pose.translation());
+  }
+  return jacobian;
+}
+
+Eigen::Matrix3Xd Kinematics::calc_angular_jacobian(int link) const {
+  Eigen::Matrix3Xd jacobian = Eigen::Matrix3Xd::Zero(3, model_->num_motors());
+  for (int joint = model_->links()[link].parent_joint; joint >= 0;
+       joint = model_->links()[joints_[joint].parent_link].parent_joint) {
+    const JointEntry& entry = joints_[joint];
+    if (entry.motor < 0) continue;
+    jacobian.col(entry.motor) +=
+        link_poses_[entry.child_link].linear() * entry.axis * entry.multiplier;
+  }
+  return jacobian;
+}
+
+Eigen::Matrix3Xd Kinematics::calc_center_of_mass_jacobian() const {
+  // Everything beyond a joint turns with it as one body: sum its mass and first moment from the
+  // leaves to the root.
+  const std::vector<Link>& links = model_->links();
+  std::vector<double> mass(links.size());
+  std::vector<Eigen::Vector3d> moment(links.size());
+  for (size_t i = 0; i < links.size(); ++i) {
+    mass[i] = links[i].mass;
+    moment[i] = links[i].mass * (link_poses_[i] * links[i].center_of_mass);
+  }
+  Eigen::Matrix3Xd jacobian = Eigen::Matrix3Xd::Zero(3, model_->num_motors());
+  for (auto joint = joints_.rbegin(); joint != joints_.rend(); ++joint) {
+    const int child = joint->child_link;
+    mass[joint->parent_link] += mass[child];
+    moment[joint->parent_link] += moment[child];
+    if (joint->motor < 0) continue;
+    const Eigen::Isometry3d& pose = link_poses_[child];
+    const Eigen::Vector3d axis = pose.linear() * joint->axis * joint->multiplier;
+    jacobian.col(joint->motor) +=
+        axis.cross(moment[child] - mass[child] * pose.translation()) / mass_;
+  }
+  return jacobian;
+}
+
+}  // namespace nao

@@ -1,0 +1,231 @@
+#include "rendering/gl_objects.h"
+
+#include <array>
+#include <cstddef>
+
+#include "common/error.h"
+
+namespace nao::gl {
+namespace {
+
+constexpr int kGreatestSize = 8192;
+
+unsigned compile(const std::string& name, unsigned kind, const std::string& source) {
+  const unsigned shader = glCreateShader(kind);
+  const char* text = source.c_str();
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  int compiled = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+  if (compiled == 0) {
+    std::array<char, 2048> log{};
+    glGetShaderInfoLog(shader, log.size(), nullptr, log.data());
+    glDeleteShader(shader);
+    throw Error("shader " + name + " does not compile: " + log.data());
+  }
+  return shader;
+}
+
+void require_complete(const char* what) {
+  const unsigned status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE) {
+    throw Error(std::string("the graphics driver refuses the ") + what + " (status " +
+                std::to_string(status) + ")");
+  }
+}
+
+}  // namespace
+
+ShaderProgram::ShaderProgram(const std::string& name, const std::string& vertex_source,
+                             const std::string& fragment_source) {
+  const unsigned vertex = compile(name + " (vertex)", GL_VERTEX_SHADER, vertex_source);
+  const unsigned fragment = compile(name + " (fragment)", GL_FRAGMENT_SHADER, fragment_source);
+  id_ = glCreateProgram();
+  glAttachShader(id_, vertex);
+  glAttachShader(id_, fragment);
+  glLinkProgram(id_);
+  glDeleteShader(vertex);
+  glDeleteShader(fragment);
+  int linked = 0;
+  glGetProgramiv(id_, GL_LINK_STATUS, &linked);
+  if (linked == 0) {
+    std::array<char, 2048> log{};
+    glGetProgramInfoLog(id_, log.size(), nullptr, log.data());
+    glDeleteProgram(id_);
+    throw Error("shader " + name + " does not link: " + log.data());
+  }
+}
+
+ShaderProgram::~ShaderProgram() {
+  glDeleteProgram(id_);
+}
+
+void ShaderProgram::use() const {
+  glUseProgram(id_);
+}
+
+int ShaderProgram::location(const char* name) const {
+  return glGetUniformLocation(id_, name);
+}
+
+void ShaderProgram::set(const char* name, int value) const {
+  glUniform1i(location(name), value);
+}
+
+void ShaderProgram::set(const char* name, float value) const {
+  glUniform1f(location(name), value);
+}
+
+void ShaderProgram::set(const char* name, const Eigen::Vector2f& value) const {
+  glUniform2fv(location(name), 1, value.data());
+}
+
+void ShaderProgram::set(const char* name, const Eigen::Vector3f& value) const {
+  glUniform3fv(location(name), 1, value.data());
+}
+
+void ShaderProgram::set(const char* name, const Eigen::Vector4f& value) const {
+  glUniform4fv(location(name), 1, value.data());
+}
+
+void ShaderProgram::set(const char* name, const Eigen::Matrix4f& value) const {
+  glUniformMatrix4fv(location(name), 1, GL_FALSE, value.data());
+}
+
+MeshBuffer::MeshBuffer(const Mesh& mesh) : num_indices_(static_cast<int>(mesh.indices.size())) {
+  glGenVertexArrays(1, &vertex_array_);
+  glBindVertexArray(vertex_array_);
+  glGenBuffers(1, &vertices_);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(Vertex)),
+               mesh.vertices.data(), GL_STATIC_DRAW);
+  glGenBuffers(1, &indices_);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+               static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(uint32_t)), mesh.indices.data(),
+               GL_STATIC_DRAW);
+  constexpr int kStride = sizeof(Vertex);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride,
+                        reinterpret_cast<const void*>(offsetof(Vertex, position)));
+  glEnableVertexAttribArray(1);
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, kStride,
+                        reinterpret_cast<const void*>(offsetof(Vertex, normal)));
+  glEnableVertexAttribArray(2);
+  glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
+                        reinterpret_cast<const void*>(offsetof(Vertex, encoded_color)));
+  glBindVertexArray(0);
+}
+
+MeshBuffer::~MeshBuffer() {
+  glDeleteBuffers(1, &indices_);
+  glDeleteBuffers(1, &vertices_);
+  glDeleteVertexArrays(1, &vertex_array_);
+}
+
+void MeshBuffer::draw() const {
+  glBindVertexArray(vertex_array_);
+  glDrawElements(GL_TRIANGLES, num_indices_, GL_UNSIGNED_INT, nullptr);
+}
+
+StreamBuffer::StreamBuffer() {
+  glGenVertexArrays(1, &vertex_array_);
+  glBindVertexArray(vertex_array_);
+  glGenBuffers(1, &vertices_);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_);
+  constexpr int kStride = sizeof(Vertex);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride,
+                        reinterpret_cast<const void*>(offsetof(Vertex, position)));
+  glEnableVertexAttribArray(1);
+  glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, kStride,
+                        reinterpret_cast<const void*>(offsetof(Vertex, color)));
+  glBindVertexArray(0);
+}
+
+StreamBuffer::~StreamBuffer() {
+  glDeleteBuffers(1, &vertices_);
+  glDeleteVertexArrays(1, &vertex_array_);
+}
+
+void StreamBuffer::draw(unsigned mode, const std::vector<Vertex>& vertices) const {
+  if (vertices.empty()) return;
+  glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
+               vertices.data(), GL_STREAM_DRAW);
+  glDrawArrays(mode, 0, static_cast<int>(vertices.size()));
+}
+
+EmptyVertexArray::EmptyVertexArray() {
+  glGenVertexArrays(1, &id_);
+}
+
+EmptyVertexArray::~EmptyVertexArray() {
+  glDeleteVertexArrays(1, &id_);
+}
+
+void EmptyVertexArray::draw_triangles(int num_vertices) const {
+  glBindVertexArray(id_);
+  glDrawArrays(GL_TRIANGLES, 0, num_vertices);
+}
+
+Framebuffer::Framebuffer(int width, int height) : width_(width), height_(height) {
+  if (width < 1 || height < 1 || width > kGreatestSize || height > kGreatestSize) {
+    throw Error("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                " cannot be drawn: each side must be 1 to " + std::to_string(kGreatestSize) +
+                " pixels");
+  }
+  glGenFramebuffers(1, &id_);
+  glBindFramebuffer(GL_FRAMEBUFFER, id_);
+  glGenRenderbuffers(1, &color_);
+  glBindRenderbuffer(GL_RENDERBUFFER, color_);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_);
+  glGenRenderbuffers(1, &depth_);
+  glBindRenderbuffer(GL_RENDERBUFFER, depth_);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
+  require_complete("picture buffer");
+}
+
+Framebuffer::~Framebuffer() {
+  glDeleteFramebuffers(1, &id_);
+  glDeleteRenderbuffers(1, &color_);
+  glDeleteRenderbuffers(1, &depth_);
+}
+
+void Framebuffer::read(std::vector<uint8_t>& pixels) const {
+  pixels.resize(static_cast<size_t>(4) * width_ * height_);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, width_, height_, GL_BGRA, GL_UNSIGNED_BYTE, pixels.data());
+}
+
+ShadowMap::ShadowMap(int size) : size_(size) {
+  glGenTextures(1, &texture_);
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, size, size, 0, GL_DEPTH_COMPONENT,
+               GL_UNSIGNED_INT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  constexpr std::array<float, 4> kFar{1, 1, 1, 1};
+  glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, kFar.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  glGenFramebuffers(1, &framebuffer_);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture_, 0);
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
+  require_complete("shadow map");
+}
+
+ShadowMap::~ShadowMap() {
+  glDeleteFramebuffers(1, &framebuffer_);
+  glDeleteTextures(1, &texture_);
+}
+
+}  // namespace nao::gl

@@ -1,0 +1,143 @@
+#pragma once
+
+#ifndef GL_GLEXT_PROTOTYPES
+#define GL_GLEXT_PROTOTYPES
+#endif
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rendering/mesh.h"
+
+/** Owners of OpenGL objects. Each must be made, used and destroyed while the same context is
+ * current. */
+namespace nao::gl {
+
+/** Vertex and fragment shader, linked. */
+class ShaderProgram {
+ public:
+  /** @param name  For messages. @throws Error  with the compiler's own words. */
+  ShaderProgram(const std::string& name, const std::string& vertex_source,
+                const std::string& fragment_source);
+  ~ShaderProgram();
+  ShaderProgram(const ShaderProgram&) = delete;
+  ShaderProgram& operator=(const ShaderProgram&) = delete;
+
+  void use() const;
+
+  /** Setters for the program in use. A name that the shader does not use is ignored. */
+  void set(const char* name, int value) const;
+  void set(const char* name, float value) const;
+  void set(const char* name, const Eigen::Vector2f& value) const;
+  void set(const char* name, const Eigen::Vector3f& value) const;
+  void set(const char* name, const Eigen::Vector4f& value) const;
+  void set(const char* name, const Eigen::Matrix4f& value) const;
+
+ private:
+  int location(const char* name) const;
+
+  unsigned id_ = 0;
+};
+
+/** A mesh in the graphics card's memory: attributes 0 position, 1 normal, 2 encoded colour. */
+class MeshBuffer {
+ public:
+  explicit MeshBuffer(const Mesh& mesh);
+  ~MeshBuffer();
+  MeshBuffer(const MeshBuffer&) = delete;
+  MeshBuffer& operator=(const MeshBuffer&) = delete;
+
+  void draw() const;
+  int num_triangles() const { return num_indices_ / 3; }
+
+ private:
+  unsigned vertex_array_ = 0;
+  unsigned vertices_ = 0;
+  unsigned indices_ = 0;
+  int num_indices_ = 0;
+};
+
+/** Vertices that change with every picture: attributes 0 position, 1 colour. */
+class StreamBuffer {
+ public:
+  struct Vertex {
+    Eigen::Vector3f position;
+    Eigen::Vector4f color;
+  };
+
+  StreamBuffer();
+  ~StreamBuffer();
+  StreamBuffer(const StreamBuffer&) = delete;
+  StreamBuffer& operator=(const StreamBuffer&) = delete;
+
+  /** @param mode  GL_LINES, GL_TRIANGLES, ... */
+  void draw(unsigned mode, const std::vector<Vertex>& vertices) const;
+
+ private:
+  unsigned vertex_array_ = 0;
+  unsigned vertices_ = 0;
+};
+
+/** Draws without any vertex data: the vertex shader makes the corners from gl_VertexID. */
+class EmptyVertexArray {
+ public:
+  EmptyVertexArray();
+  ~EmptyVertexArray();
+  EmptyVertexArray(const EmptyVertexArray&) = delete;
+  EmptyVertexArray& operator=(const EmptyVertexArray&) = delete;
+
+  void draw_triangles(int num_vertices) const;
+
+ private:
+  unsigned id_ = 0;
+};
+
+/** Picture to draw into: 8-bit colour and 24-bit depth. */
+class Framebuffer {
+ public:
+  /** @param width, height  1 to 8192 pixels. @throws Error  if the driver refuses the size. */
+  Framebuffer(int width, int height);
+  ~Framebuffer();
+  Framebuffer(const Framebuffer&) = delete;
+  Framebuffer& operator=(const Framebuffer&) = delete;
+
+  unsigned id() const { return id_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /** Waits for the drawing and copies it: rows from the lowest up, 4 bytes a pixel (blue, green,
+   * red, 255). @param pixels  Resized to 4 * width * height. */
+  void read(std::vector<uint8_t>& pixels) const;
+
+ private:
+  int width_;
+  int height_;
+  unsigned id_ = 0;
+  unsigned color_ = 0;
+  unsigned depth_ = 0;
+};
+
+/** Square depth picture that shaders read as a shadow map: 1 where lit, outside included. */
+class ShadowMap {
+ public:
+  explicit ShadowMap(int size);
+  ~ShadowMap();
+  ShadowMap(const ShadowMap&) = delete;
+  ShadowMap& operator=(const ShadowMap&) = delete;
+
+  unsigned framebuffer() const { return framebuffer_; }
+  unsigned texture() const { return texture_; }
+  int size() const { return size_; }
+
+ private:
+  int size_;
+  unsigned framebuffer_ = 0;
+  unsigned texture_ = 0;
+};
+
+}  // namespace nao::gl

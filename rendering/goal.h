@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "rendering/mesh.h"
+#include "robot_model/scene_file.h"
+
+namespace nao {
+
+/** Posts, crossbar and the bars that carry the net, in the world.
+ * @param end  1 for the goal at positive x, -1 for the other. */
+Mesh make_goal(const FieldDimensions& field, const GoalDimensions& goals, int end);
+
+/** A corner of a net: where in the world, and where on the net, both m. */
+struct NetCorner {
+  Eigen::Vector3f position;
+  Eigen::Vector2f on_net;
+};
+
+/** Nets of both goals as triangles, three corners each. */
+std::vector<NetCorner> make_nets(const FieldDimensions& field, const GoalDimensions& goals);
+
+}  // namespace nao

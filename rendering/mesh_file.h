@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "rendering/mesh.h"
+
+namespace nao {
+
+/** Reads a mesh file (binary glTF, or any that assimp knows), in metres, axes as in the file.
+ *
+ * Materials become vertex colours by their base colour; textures are ignored; missing normals are
+ * computed; node transforms are applied.
+ * @throws ModelError  if the file is missing, unreadable, or has no triangles or a non-finite
+ *   vertex. */
+Mesh load_mesh(const std::filesystem::path& file);
+
+}  // namespace nao

@@ -1,0 +1,238 @@
+#include "robot_model/closest_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace nao {
+namespace {
+
+using Eigen::Vector3d;
+
+/** Corner of the inner box that lies farthest in a direction. */
+Vector3d support(const RoundedBox& box, const Vector3d& direction) {
+  const Vector3d local = box.rotation.transpose() * direction;
+  const Vector3d corner(std::copysign(box.half.x(), local.x()),
+                        std::copysign(box.half.y(), local.y()),
+                        std::copysign(box.half.z(), local.z()));
+  return box.center + box.rotation * corner;
+}
+
+/** A corner of the difference a - b, with the points it was made of and its share. */
+struct Vertex {
+  Vector3d difference;
+  Vector3d on_a;
+  Vector3d on_b;
+  double weight = 0;
+};
+
+/** Up to four corners of the difference whose hull is searched for the point nearest to 0. */
+struct Simplex {
+  std::array<Vertex, 4> vertices;
+  int size = 0;
+
+  Vector3d nearest() const {
+    Vector3d sum = Vector3d::Zero();
+    for (int i = 0; i < size; ++i) sum += vertices[i].weight * vertices[i].difference;
+    return sum;
+  }
+};
+
+/** Nearest point of a segment to 0; returns its square distance, writes the corners' shares. */
+double nearest_on_segment(const Vector3d& a, const Vector3d& b, double* weight) {
+  const Vector3d ab = b - a;
+  const double length = ab.squaredNorm();
+  const double t = length > 0 ? std::clamp(-a.dot(ab) / length, 0.0, 1.0) : 0.0;
+  weight[0] = 1 - t;
+  weight[1] = t;
+  return (a + t * ab).squaredNorm();
+}
+
+/** As above for a triangle. */
+double nearest_on_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c,
+                           double* weight) {
+  const Vector3d normal = (b - a).cross(c - a);
+  const double area = normal.squaredNorm();
+  if (area > 1e-30) {
+    // Shares of the corners at the foot of the perpendicular from 0.
+    const double u = b.cross(c).dot(normal) / area;
+    const double v = c.cross(a).dot(normal) / area;
+    const double w = 1 - u - v;
+    if (u >= 0 && v >= 0 && w >= 0) {
+      weight[0] = u;
+      weight[1] = v;
+      weight[2] = w;
+      return (u * a + v * b + w * c).squaredNorm();
+    }
+  }
+  const Vector3d* corners[] = {&a, &b, &c};
+  double best = -1;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    double pair[2];
+    const double distance = nearest_on_segment(*corners[i], *corners[j], pair);
+    if (best >= 0 && distance >= best) continue;
+    best = distance;
+    weight[i] = pair[0];
+    weight[j] = pair[1];
+    weight[3 - i - j] = 0;
+  }
+  return best;
+}
+
+/** As above for a tetrahedron. @return false if 0 lies inside. */
+bool nearest_on_tetrahedron(const Simplex& simplex, double* weight) {
+  static constexpr int kFaces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
+  double best = -1;
+  bool is_inside = true;
+  for (const auto& face : kFaces) {
+    const Vector3d& a = simplex.vertices[face[0]].difference;
+    const Vector3d& b = simplex.vertices[face[1]].difference;
+    const Vector3d& c = simplex.vertices[face[2]].difference;
+    const Vector3d& opposite = simplex.vertices[face[3]].difference;
+    const Vector3d normal = (b - a).cross(c - a);
+    const double side_of_zero = -a.dot(normal);
+    const double side_of_opposite = (opposite - a).dot(normal);
+    const bool is_flat = std::abs(side_of_opposite) < 1e-15;
+    if (!is_flat && side_of_zero * side_of_opposite >= 0) continue;
+    is_inside = false;
+    double shares[3];
+    const double distance = nearest_on_triangle(a, b, c, shares);
+    if (best >= 0 && distance >= best) continue;
+    best = distance;
+    for (int i = 0; i < 3; ++i) weight[face[i]] = shares[i];
+    weight[face[3]] = 0;
+  }
+  return !is_inside;
+}
+
+/** Reduces the simplex to the corners that carry its point nearest to 0. @return false if the
+ * simplex contains 0. */
+bool reduce(Simplex& simplex) {
+  double weight[4] = {1, 0, 0, 0};
+  auto& v = simplex.vertices;
+  if (simplex.size == 2) nearest_on_segment(v[0].difference, v[1].difference, weight);
+  if (simplex.size == 3) {
+    nearest_on_triangle(v[0].difference, v[1].difference, v[2].difference, weight);
+  }
+  if (simplex.size == 4 && !nearest_on_tetrahedron(simplex, weight)) return false;
+  int kept = 0;
+  for (int i = 0; i < simplex.size; ++i) {
+    if (weight[i] <= 0) continue;
+    v[kept] = v[i];
+    v[kept].weight = weight[i];
+    ++kept;
+  }
+  simplex.size = kept;
+  return true;
+}
+
+Proximity from_core_points(const RoundedBox& a, const RoundedBox& b, const Vector3d& on_a,
+                           const Vector3d& on_b, double distance) {
+  Proximity result;
+  result.distance = distance - a.radius - b.radius;
+  result.normal = (on_a - on_b) / distance;
+  const Vector3d surface_a = on_a - a.radius * result.normal;
+  const Vector3d surface_b = on_b + b.radius * result.normal;
+  result.point = (surface_a + surface_b) / 2;
+  return result;
+}
+
+/** For inner boxes that overlap: the axis along which they do so least. */
+Proximity least_overlap(const RoundedBox& a, const RoundedBox& b) {
+  const Vector3d offset = a.center - b.center;
+  double least = -1;
+  Vector3d best = Vector3d::UnitZ();
+  const auto try_axis = [&](const Vector3d& direction) {
+    const double length = direction.norm();
+    if (length < 1e-9) return;
+    const Vector3d axis = direction / length;
+    const double reach = (a.rotation.transpose() * axis).cwiseAbs().dot(a.half) +
+                         (b.rotation.transpose() * axis).cwiseAbs().dot(b.half);
+    const double along = offset.dot(axis);
+    const double overlap = reach - std::abs(along);
+    if (least >= 0 && overlap >= least) return;
+    least = std::max(overlap, 0.0);
+    best = along >= 0 ? axis : Vector3d(-axis);
+  };
+  for (int i = 0; i < 3; ++i) {
+    try_axis(a.rotation.col(i));
+    try_axis(b.rotation.col(i));
+    for (int j = 0; j < 3; ++j) try_axis(a.rotation.col(i).cross(b.rotation.col(j)));
+  }
+  Proximity result;
+  result.distance = -least - a.radius - b.radius;
+  result.normal = best;
+  result.point = (support(a, -best) + support(b, best)) / 2;
+  return result;
+}
+
+bool is_line(const RoundedBox& box) {
+  return box.half.x() == 0 && box.half.y() == 0;
+}
+
+/** Two spheres or capsules: the segments' nearest points (Ericson, Real-Time Collision Detection,
+ * 5.1.9). @return false if the segments meet. */
+bool closest_of_lines(const RoundedBox& a, const RoundedBox& b, Proximity& result) {
+  const Vector3d u = a.rotation.col(2) * a.half.z();
+  const Vector3d v = b.rotation.col(2) * b.half.z();
+  const Vector3d r = a.center - b.center;
+  // Points a.center + s u and b.center + t v, s and t in -1..1.
+  const double uu = u.squaredNorm();
+  const double vv = v.squaredNorm();
+  const double uv = u.dot(v);
+  const double ur = u.dot(r);
+  const double vr = v.dot(r);
+  const double determinant = uu * vv - uv * uv;
+  double s = 0;
+  if (determinant > 1e-12 * uu * vv) {
+    s = std::clamp((uv * vr - ur * vv) / determinant, -1.0, 1.0);
+  }
+  double t = vv > 0 ? (uv * s + vr) / vv : 0.0;
+  if (t < -1 || t > 1) t = std::clamp(t, -1.0, 1.0);
+  if (uu > 0) s = std::clamp((uv * t - ur) / uu, -1.0, 1.0);
+  const Vector3d on_a = a.center + s * u;
+  const Vector3d on_b = b.center + t * v;
+  const double distance = (on_a - on_b).norm();
+  if (distance < 1e-9) return false;
+  result = from_core_points(a, b, on_a, on_b, distance);
+  return true;
+}
+
+}  // namespace
+
+Proximity closest_points(const RoundedBox& a, const RoundedBox& b) {
+  Proximity result;
+  if (is_line(a) && is_line(b)) {
+    return closest_of_lines(a, b, result) ? result : least_overlap(a, b);
+  }
+  constexpr int kMaxIterations = 32;
+  constexpr double kTolerance = 1e-10;
+  Simplex simplex;
+  Vector3d nearest = a.center - b.center;
+  if (nearest.squaredNorm() == 0) return least_overlap(a, b);
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    Vertex vertex;
+    vertex.on_a = support(a, -nearest);
+    vertex.on_b = support(b, nearest);
+    vertex.difference = vertex.on_a - vertex.on_b;
+    const double square = nearest.squaredNorm();
+    if (simplex.size > 0 && square - nearest.dot(vertex.difference) <= kTolerance * square) break;
+    if (simplex.size == 4) break;
+    simplex.vertices[simplex.size++] = vertex;
+    if (!reduce(simplex)) return least_overlap(a, b);
+    const Vector3d next = simplex.nearest();
+    if (next.squaredNorm() < 1e-18) return least_overlap(a, b);
+    if (iteration > 0 && next.squaredNorm() >= square) break;
+    nearest = next;
+  }
+  Vector3d on_a = Vector3d::Zero();
+  Vector3d on_b = Vector3d::Zero();
+  for (int i = 0; i < simplex.size; ++i) {
+    on_a += simplex.vertices[i].weight * simplex.vertices[i].on_a;
+    on_b += simplex.vertices[i].weight * simplex.vertices[i].on_b;
+  }
+  return from_core_points(a, b, on_a, on_b, (on_a - on_b).norm());
+}
+
+}  // namespace nao

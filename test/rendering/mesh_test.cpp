@@ -1,0 +1,138 @@
+#include "rendering/mesh.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "common/data_path.h"
+#include "common/error.h"
+#include "rendering/goal.h"
+#include "rendering/mesh_file.h"
+#include "rendering/primitives.h"
+#include "robot_model/scene_file.h"
+
+namespace nao {
+namespace {
+
+/** Volume enclosed by the triangles, m^3; negative if they are seen from inside. */
+double volume(const Mesh& mesh) {
+  double sum = 0;
+  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const auto corner = [&](size_t k) {
+      return mesh.vertices[mesh.indices[i + k]].position.cast<double>().eval();
+    };
+    sum += corner(0).dot(corner(1).cross(corner(2))) / 6;
+  }
+  return sum;
+}
+
+/** Share of the triangles' area whose corners' normals point the way that the triangle faces. */
+double outward_share(const Mesh& mesh) {
+  double outward = 0;
+  double all = 0;
+  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const auto vertex = [&](size_t k) { return mesh.vertices[mesh.indices[i + k]]; };
+    const Eigen::Vector3f area =
+        (vertex(1).position - vertex(0).position).cross(vertex(2).position - vertex(0).position);
+    const Eigen::Vector3f normal = vertex(0).normal + vertex(1).normal + vertex(2).normal;
+    all += area.norm();
+    if (area.dot(normal) > 0) outward += area.norm();
+  }
+  return outward / all;
+}
+
+TEST(Primitives, EncloseTheirVolumeAndFaceOutwards) {
+  const Color white = Color::Ones();
+  EXPECT_NEAR(volume(make_box({0.1f, 0.2f, 0.3f}, white)), 0.006, 1e-7);
+  // A polygon in a circle has less area: with 96 sides 0.1 % less, a sphere 0.15 %.
+  EXPECT_NEAR(volume(make_cylinder(0.5f, 2, white, 96)), M_PI / 2, 0.002);
+  EXPECT_NEAR(volume(make_sphere(1, white, 96)), 4 * M_PI / 3, 0.01);
+  EXPECT_NEAR(volume(make_capsule(1, 1, white, 96)), 4 * M_PI / 3 + M_PI, 0.015);
+  for (const Mesh& mesh :
+       {make_box({1, 2, 3}, white), make_cylinder(1, 2, white), make_sphere(1, white),
+        make_capsule(1, 2, white), make_arrow(0.02f, white)}) {
+    EXPECT_GT(volume(mesh), 0);
+    EXPECT_GT(outward_share(mesh), 0.999);
+  }
+}
+
+TEST(Goals, StandWhereTheRulesPutThem) {
+  SceneFile scene = SceneFile::find("soccer");
+  Mesh goals;
+  for (const int end : {-1, 1}) {
+    const Mesh goal = make_goal(*scene.field, *scene.goals, end);
+    EXPECT_GT(outward_share(goal), 0.999);
+    append(goals, goal);
+  }
+  float low = 1;
+  float high = 0;
+  float wide = 0;
+  for (const Vertex& vertex : goals.vertices) {
+    low = std::min(low, vertex.position.z());
+    high = std::max(high, vertex.position.z());
+    wide = std::max(wide, std::abs(vertex.position.y()));
+    EXPECT_GE(std::abs(vertex.position.x()), 4.5f + 0.025f - 0.05f - 1e-5f);
+  }
+  EXPECT_NEAR(low, 0, 1e-6);
+  EXPECT_NEAR(high, 0.9, 1e-6);   // outer height
+  EXPECT_NEAR(wide, 0.85, 1e-6);  // half the distance of the posts, and their radius
+}
+
+TEST(MeshFile, EveryMeshOfTheRobotIsAClosedSolidSeenFromOutside) {
+  int num_meshes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(data_path() / "robots/nao/meshes")) {
+    if (entry.path().extension() != ".glb") continue;
+    const Mesh mesh = load_mesh(entry.path());
+    ++num_meshes;
+    EXPECT_GT(volume(mesh), 0) << entry.path();
+    EXPECT_GT(outward_share(mesh), 0.95) << entry.path();
+    EXPECT_LT(bounding_sphere(mesh).radius, 0.2) << entry.path() << ": not in metres?";
+  }
+  EXPECT_GE(num_meshes, 20);
+}
+
+TEST(MeshFile, NamesAFileThatIsMissing) {
+  try {
+    load_mesh("/nonexistent/head.glb");
+    FAIL();
+  } catch (const ModelError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("/nonexistent/head.glb"));
+  }
+}
+
+TEST(MeshFile, RefusesAFileThatIsNoMesh) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("mesh_test." + std::to_string(getpid()) + ".glb");
+  for (const std::string& text : {std::string(), std::string("no mesh at all"),
+                                  std::string("glTF\x02\0\0\0\xff\xff\xff\x7fJSON", 16)}) {
+    std::ofstream(file, std::ios::binary) << text;
+    EXPECT_THROW(load_mesh(file), ModelError);
+  }
+  std::filesystem::remove(file);
+}
+
+TEST(Mesh, SimplifiedKeepsItsShapeWithFewerTriangles) {
+  const Mesh fine = make_sphere(0.05f, Color::Ones(), 96);
+  const Mesh coarse = simplified(fine, 0.008f);
+  EXPECT_LT(coarse.indices.size(), fine.indices.size() / 5);
+  EXPECT_NEAR(volume(coarse) / volume(fine), 1, 0.1);
+  EXPECT_NEAR(bounding_sphere(coarse).radius, 0.05f, 0.004f);
+  const Mesh same = simplified(make_box({0.1f, 0.1f, 0.1f}, Color::Ones()), 0.008f);
+  EXPECT_NEAR(volume(same), 1e-3, 1e-6);
+}
+
+TEST(Mesh, EncodesColoursAsSquareRoots) {
+  const auto encoded = encode_color({0.25f, 1, -3, 0.5f});
+  EXPECT_EQ(encoded[0], 128);
+  EXPECT_EQ(encoded[1], 255);
+  EXPECT_EQ(encoded[2], 0);
+  EXPECT_EQ(encoded[3], 128);
+}
+
+}  // namespace
+}  // namespace nao

@@ -1,0 +1,214 @@
+#include "rendering/scene_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "common/data_path.h"
+#include "common/error.h"
+#include "rendering/primitives.h"
+#include "rendering/robot_visual.h"
+#include "test/rendering/offscreen.h"
+
+namespace nao {
+namespace {
+
+const PinholeCamera kCamera = PinholeCamera::from_fov(320, 240, 1.06, 0.83);
+
+/** Scene of simple solids on the field; does not change with the robot's meshes. */
+Scene solids(SceneRenderer& renderer) {
+  Scene scene;
+  const auto add = [&](const Mesh& mesh, const Eigen::Vector3f& at, float turn, const Color& tint) {
+    MeshInstance instance;
+    instance.mesh = renderer.add_mesh(mesh);
+    instance.pose_in_world = Eigen::Translation3f(at) *
+                             Eigen::AngleAxisf(turn, Eigen::Vector3f(0.3f, 1, 0.5f).normalized());
+    instance.tint = tint;
+    scene.instances.push_back(instance);
+  };
+  const Color white(0.8f, 0.8f, 0.8f, 1);
+  add(make_box({0.2f, 0.3f, 0.1f}, white), {0, 0, 0.3f}, 0.4f, Color::Ones());
+  add(make_capsule(0.05f, 0.2f, {0.8f, 0.3f, 0.1f, 1}), {0.1f, 0.3f, 0.2f}, 0.3f, Color::Ones());
+  add(make_cylinder(0.06f, 0.2f, white), {-0.1f, -0.3f, 0.1f}, 0, {0.2f, 0.4f, 1, 1});
+  add(make_sphere(0.1f, white), {0.3f, 0, 0.25f}, 0, {1, 1, 1, 0.4f});
+  scene.ball = SceneBall{};
+  scene.ball->pose_in_world =
+      Eigen::Translation3f(0.4f, -0.3f, 0.05f) * Eigen::AngleAxisf(0.4f, Eigen::Vector3f(1, 0, 0));
+  return scene;
+}
+
+Eigen::Isometry3d outside() {
+  return look_at({1.3, 0.9, 0.7}, {0, -0.1, 0.2});
+}
+
+TEST(SceneRenderer, DrawsTheSamePictureEveryTime) {
+  Offscreen first;
+  first.renderer.set_surroundings(SceneFile::find("soccer"));
+  const Scene scene = solids(first.renderer);
+  const Picture picture = first.draw(scene, kCamera, outside());
+  first.draw({}, kCamera, look_at({0, 0, 1}, {-1, 0, 0}));  // something else between
+  EXPECT_EQ(first.draw(scene, kCamera, outside()).rgb, picture.rgb);
+}
+
+/** The picture must not change by mistake. Other drivers round otherwise, so a little is allowed: a
+ * mean difference of 1.5 of 255, and 1 pixel in 100 that differs by more than 40 (edges).
+ * After a wished change, NAO_WRITE_PICTURES=test/viewer/pictures writes the new one; look at it. */
+TEST(SceneRenderer, DrawsThePictureThatIsKept) {
+  Offscreen offscreen;
+  offscreen.renderer.set_surroundings(SceneFile::find("soccer"));
+  const Picture drawn = offscreen.draw(solids(offscreen.renderer), kCamera, outside());
+  if (const char* folder = std::getenv("NAO_WRITE_PICTURES")) {
+    write_png(std::filesystem::path(folder) / "solids.png", drawn);
+  }
+  const Picture kept = read_png(std::filesystem::path(NAO_PICTURES) / "solids.png");
+  ASSERT_EQ(drawn.rgb.size(), kept.rgb.size());
+  double sum = 0;
+  int num_far = 0;
+  for (size_t i = 0; i < drawn.rgb.size(); ++i) {
+    const int difference = std::abs(drawn.rgb[i] - kept.rgb[i]);
+    sum += difference;
+    num_far += difference > 40 ? 1 : 0;
+  }
+  EXPECT_LT(sum / static_cast<double>(drawn.rgb.size()), 1.5);
+  EXPECT_LT(num_far, static_cast<int>(drawn.rgb.size() / 100));
+}
+
+TEST(SceneRenderer, LeavesOutWhatTheCameraCannotSee) {
+  Offscreen offscreen(RendererOptions{.shadow_size = 0});
+  Scene scene;
+  MeshInstance instance;
+  instance.mesh = offscreen.renderer.add_mesh(make_sphere(0.1f, Color::Ones()));
+  scene.instances.assign(10, instance);
+  const Eigen::Isometry3d away = look_at({1, 0, 0.5}, {2, 0, 0.5});
+  const Picture empty = offscreen.draw({}, kCamera, away);
+  const int num_draws = offscreen.statistics.num_draws;
+  EXPECT_EQ(offscreen.draw(scene, kCamera, away).rgb, empty.rgb);
+  EXPECT_EQ(offscreen.statistics.num_draws, num_draws);
+  offscreen.draw(scene, kCamera, look_at({1, 0, 0.5}, {0, 0, 0.1}));
+  EXPECT_EQ(offscreen.statistics.num_draws, num_draws + 10);
+}
+
+TEST(SceneRenderer, ShowsSolidsFromOutsideOnly) {
+  Offscreen offscreen(RendererOptions{.shadow_size = 0});
+  Scene scene;
+  MeshInstance instance;
+  instance.mesh = offscreen.renderer.add_mesh(make_sphere(0.5f, Color::Ones()));
+  instance.pose_in_world.translation().z() = 1;
+  scene.instances.push_back(instance);
+  const Eigen::Isometry3d inside = look_at({0, 0, 1}, {1, 0, 1});
+  EXPECT_EQ(offscreen.draw(scene, kCamera, inside).rgb, offscreen.draw({}, kCamera, inside).rgb);
+}
+
+TEST(SceneRenderer, ThrowsShadowsAwayFromTheLamp) {
+  Offscreen offscreen;
+  offscreen.renderer.set_surroundings(SceneFile::find("empty"));
+  Scene scene;
+  MeshInstance instance;
+  instance.mesh = offscreen.renderer.add_mesh(make_box({0.2f, 0.2f, 0.2f}, Color::Ones()));
+  instance.pose_in_world.translation().z() = 0.6f;
+  scene.instances.push_back(instance);
+  Scene unshadowed = scene;
+  unshadowed.instances[0].casts_shadow = false;
+  const Eigen::Isometry3d above = look_at({0, 0.01, 4}, {0, 0, 0});
+  const Picture with = offscreen.draw(scene, kCamera, above);
+  const Picture without = offscreen.draw(unshadowed, kCamera, above);
+  // From a box over the origin the shadow runs away from the lamp: (-0.18, -0.42) / 0.85 of height.
+  const Eigen::Vector3d shadow(-0.6 * 0.18 / 0.85, -0.6 * 0.42 / 0.85, 0);
+  const Eigen::Vector2d pixel = kCamera.project(above.inverse() * shadow);
+  const int u = static_cast<int>(std::lround(pixel.x()));
+  const int v = static_cast<int>(std::lround(pixel.y()));
+  EXPECT_LT(brightness(with, u, v), 0.85 * brightness(without, u, v));
+  const Eigen::Vector2d mirrored = kCamera.project(above.inverse() * -shadow);
+  EXPECT_EQ(difference(with, without, static_cast<int>(std::lround(mirrored.x())),
+                       static_cast<int>(std::lround(mirrored.y()))),
+            0);
+}
+
+TEST(SceneRenderer, LetsOneSeeThroughTranslucentBodies) {
+  Offscreen offscreen(RendererOptions{.shadow_size = 0});
+  Scene scene;
+  MeshInstance instance;
+  instance.mesh = offscreen.renderer.add_mesh(make_box({0.3f, 0.3f, 0.3f}, {1, 0, 0, 1}));
+  instance.pose_in_world.translation().z() = 0.5f;
+  scene.instances.push_back(instance);
+  const Eigen::Isometry3d pose = look_at({2, 0, 0.6}, {0, 0, 0.5});
+  const Picture behind = offscreen.draw({}, kCamera, pose);
+  const Picture opaque = offscreen.draw(scene, kCamera, pose);
+  scene.instances[0].tint.w() = 0.5f;
+  const Picture through = offscreen.draw(scene, kCamera, pose);
+  for (int channel = 0; channel < 3; ++channel) {
+    const int mean = (behind.at(160, 120)[channel] + opaque.at(160, 120)[channel]) / 2;
+    EXPECT_NEAR(through.at(160, 120)[channel], mean, 2);
+  }
+}
+
+TEST(SceneRenderer, LeavesCoveredPartsAsTheyAre) {
+  Offscreen offscreen;
+  offscreen.renderer.set_surroundings(SceneFile::find("soccer"));
+  const Scene scene = solids(offscreen.renderer);
+  const Picture whole = offscreen.draw(scene, kCamera, outside());
+  const gl::Framebuffer framebuffer(kCamera.width, kCamera.height);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  glClearColor(1, 0, 1, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  const PixelBox box{100, 60, 220, 200};  // rows from the bottom up
+  offscreen.renderer.render(scene, kCamera, outside(), framebuffer.id(), {box});
+  std::vector<uint8_t> pixels;
+  framebuffer.read(pixels);
+  const Picture picture = picture_from_bgrx(kCamera.width, kCamera.height, pixels);
+  for (int v = 0; v < kCamera.height; ++v) {
+    for (int u = 0; u < kCamera.width; ++u) {
+      const int row = kCamera.height - 1 - v;
+      const bool is_covered = u >= box.left && u < box.right && row >= box.bottom && row < box.top;
+      const uint8_t* expected = whole.at(u, v);
+      const uint8_t* pixel = picture.at(u, v);
+      ASSERT_EQ(pixel[0], is_covered ? 255 : expected[0]) << u << ", " << v;
+      ASSERT_EQ(pixel[1], is_covered ? 0 : expected[1]) << u << ", " << v;
+    }
+  }
+}
+
+TEST(SceneRenderer, RefusesABrokenSize) {
+  Offscreen offscreen;
+  EXPECT_THROW(gl::Framebuffer(0, 480), Error);
+  EXPECT_THROW(gl::Framebuffer(640, -1), Error);
+  EXPECT_THROW(gl::Framebuffer(1 << 20, 480), Error);
+}
+
+TEST(RobotVisual, StandsInForAMeshThatCannotBeRead) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("robot_visual_test." + std::to_string(getpid()));
+  std::filesystem::copy(data_path() / "robots" / "nao", folder,
+                        std::filesystem::copy_options::recursive);
+  const RobotModel whole = RobotModel::load(folder);
+  const std::filesystem::path mesh = whole.links()[whole.find_link("torso")].visuals.at(0).mesh;
+  std::ofstream(mesh) << "damaged";
+  const RobotModel model = RobotModel::load(folder);
+  Offscreen offscreen(RendererOptions{.shadow_size = 0});
+  const RobotVisual visual(model, offscreen.renderer);
+  std::filesystem::remove_all(folder);
+
+  ASSERT_EQ(visual.problems().size(), 1u);
+  EXPECT_NE(visual.problems()[0].find(mesh.filename().string()), std::string::npos);
+  Scene scene;
+  Eigen::Isometry3d torso = Eigen::Isometry3d::Identity();
+  torso.translation().z() = 0.33;
+  visual.append(scene,
+                link_poses_in_world(model, torso, model.find_posture("StandInit")->position));
+  const Eigen::Isometry3d pose = look_at({1, 0, 0.4}, {0, 0, 0.36});
+  const Picture with = offscreen.draw(scene, kCamera, pose);
+  const Picture without = offscreen.draw({}, kCamera, pose);
+  EXPECT_GT(difference(with, without, 160, 120), 20) << "no chest in the middle of the picture";
+}
+
+TEST(RobotVisual, HidesTheLinkThatCarriesTheCamera) {
+  const RobotModel model = RobotModel::load(data_path() / "robots" / "nao");
+  for (const CameraModel& camera : model.cameras()) {
+    EXPECT_EQ(model.links()[carrying_link(model, camera.link)].name, "Head");
+  }
+}
+
+}  // namespace
+}  // namespace nao

@@ -1,0 +1,467 @@
+/** What RobotModel::load() does with files that are wrong. */
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "common/data_path.h"
+#include "common/error.h"
+#include "robot_model/robot_model.h"
+#include "test/support/temporary_folder.h"
+
+namespace nao {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kFiles = {"nao.urdf", "robot.yaml", "postures.yaml"};
+
+/** A copy of the NAO's files that may be damaged. */
+class CopiedRobot {
+ public:
+  CopiedRobot() {
+    const fs::path source = data_path() / "robots" / "nao";
+    for (const std::string& file : kFiles) {
+      fs::copy_file(source / file, folder_.path() / file);
+    }
+    fs::create_directory_symlink(source / "meshes", folder_.path() / "meshes");
+  }
+  const fs::path& path() const { return folder_.path(); }
+  std::string read(const std::string& file) const { return read_text(path() / file); }
+  void write(const std::string& file, const std::string& text) const {
+    write_text(path() / file, text);
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+/** @return The complaint, or "" if the folder loads. */
+std::string complaint_about(const fs::path& folder) {
+  try {
+    RobotModel::load(folder);
+    return "";
+  } catch (const ModelError& error) {
+    return error.what();
+  }
+}
+
+TEST(RobotFiles, LoadAsTheyAre) {
+  const CopiedRobot robot;
+  EXPECT_EQ(complaint_about(robot.path()), "");
+}
+
+TEST(RobotFiles, AreMissedByName) {
+  for (const std::string& file : kFiles) {
+    const CopiedRobot robot;
+    fs::remove(robot.path() / file);
+    EXPECT_EQ(complaint_about(robot.path()),
+              (robot.path() / file).string() + ": the file is missing");
+  }
+  EXPECT_THAT(complaint_about("/nowhere"), testing::HasSubstr("/nowhere/robot.yaml"));
+}
+
+/** One fault, and what the complaint about it must contain besides the file's name. */
+struct Fault {
+  std::string claim;
+  std::string file;
+  /** The first occurrence of `from` after `after` becomes `to`. */
+  std::string after;
+  std::string from;
+  std::string to;
+  std::vector<std::string> complaint;
+};
+
+// NOLINTNEXTLINE(readability-identifier-naming): found by googletest by this name
+void PrintTo(const Fault& fault, std::ostream* stream) {
+  *stream << fault.claim;
+}
+
+class FaultyRobotFile : public testing::TestWithParam<Fault> {};
+
+TEST_P(FaultyRobotFile, IsRefusedByFileElementAndReason) {
+  const Fault& fault = GetParam();
+  const CopiedRobot robot;
+  std::string text = robot.read(fault.file);
+  const size_t start = text.find(fault.after);
+  ASSERT_NE(start, std::string::npos);
+  const size_t at = text.find(fault.from, start);
+  ASSERT_NE(at, std::string::npos);
+  robot.write(fault.file, text.replace(at, fault.from.size(), fault.to));
+
+  const std::string complaint = complaint_about(robot.path());
+  EXPECT_THAT(complaint, testing::HasSubstr(fault.file));
+  for (const std::string& part : fault.complaint) {
+    EXPECT_THAT(complaint, testing::HasSubstr(part));
+  }
+}
+
+const std::string kKnee = "<joint name=\"LKneePitch\"";
+const std::string kThigh = "<link name=\"LThigh\"";
+const std::string kRoot = "<robot";
+
+INSTANTIATE_TEST_SUITE_P(
+    Urdf, FaultyRobotFile,
+    testing::Values(
+        Fault{"ThatIsNoXml", "nao.urdf", kRoot, "</link>", "</lin", {"robot"}},
+        Fault{"ThatIsEmpty", "nao.urdf", kRoot, "<robot name", "<car name", {"<robot>"}},
+        Fault{"WithTwoLinksOfOneName",
+              "nao.urdf",
+              kRoot,
+              "<link name=\"RThigh\"",
+              "<link name=\"LThigh\"",
+              {"link LThigh", "twice"}},
+        Fault{"WithTwoJointsOfOneName",
+              "nao.urdf",
+              kRoot,
+              "<joint name=\"RKneePitch\"",
+              "<joint name=\"LKneePitch\"",
+              {"joint LKneePitch", "twice"}},
+        Fault{"WithLimitsReversed",
+              "nao.urdf",
+              kKnee,
+              "upper=\"2.112528\"",
+              "upper=\"-1\"",
+              {"joint LKneePitch", "lower limit"}},
+        Fault{"WithoutLimits", "nao.urdf", kKnee, "<limit", "<limits", {"LKneePitch", "limit"}},
+        Fault{"WithALimitOfNan",
+              "nao.urdf",
+              kKnee,
+              "upper=\"2.112528\"",
+              "upper=\"nan\"",
+              {"upper", "nan"}},
+        Fault{"WithAMassOfInfinity",
+              "nao.urdf",
+              kThigh,
+              "value=\"0.38968\"",
+              "value=\"1e999\"",
+              {"LThigh", "1e999"}},
+        Fault{"WithANegativeMass",
+              "nao.urdf",
+              kThigh,
+              "value=\"0.38968\"",
+              "value=\"-1\"",
+              {"link LThigh", "mass"}},
+        Fault{"WithAnImpossibleInertia",
+              "nao.urdf",
+              kThigh,
+              "izz=\"0.000301215\"",
+              "izz=\"0.301215\"",
+              {"link LThigh", "inertia"}},
+        Fault{"WithAnUnknownParent",
+              "nao.urdf",
+              kKnee,
+              "parent link=\"LThigh\"",
+              "parent link=\"LTigh\"",
+              {"LTigh"}},
+        Fault{"WithAnUnknownChild",
+              "nao.urdf",
+              kKnee,
+              "child link=\"LTibia\"",
+              "child link=\"LTibbia\"",
+              {"LTibbia"}},
+        Fault{"WithACycle",
+              "nao.urdf",
+              "<joint name=\"LHipYawPitch\"",
+              "parent link=\"torso\"",
+              "parent link=\"LFoot\"",
+              {"joint LHipYawPitch", "LFoot", "cycle"}},
+        Fault{"WithTwoParentsOfOneLink",
+              "nao.urdf",
+              kKnee,
+              "child link=\"LTibia\"",
+              "child link=\"LHip\"",
+              {"LHip"}},
+        Fault{"WithALinkThatNothingHolds",
+              "nao.urdf",
+              "</joint>",
+              "<link name=\"Neck\">",
+              "<link name=\"Stray\"/>\n<link name=\"Neck\">",
+              {"root"}},
+        Fault{"WithAnAxisOfNoDirection",
+              "nao.urdf",
+              kKnee,
+              "<axis xyz=\"0 1 0\"/>",
+              "<axis xyz=\"0 0 0\"/>",
+              {"joint LKneePitch", "axis"}},
+        Fault{"WithAJointOfAnUnknownType",
+              "nao.urdf",
+              kKnee,
+              "type=\"revolute\"",
+              "type=\"rubber\"",
+              {"LKneePitch", "rubber"}},
+        Fault{"WithAJointThatSlides",
+              "nao.urdf",
+              kKnee,
+              "type=\"revolute\"",
+              "type=\"prismatic\"",
+              {"joint LKneePitch", "revolute or fixed"}},
+        Fault{"ThatMimicsNothing",
+              "nao.urdf",
+              kRoot,
+              "mimic joint=\"LHipYawPitch\"",
+              "mimic joint=\"Nobody\"",
+              {"joint RHipYawPitch", "Nobody"}},
+        Fault{"ThatMimicsItself",
+              "nao.urdf",
+              kRoot,
+              "mimic joint=\"LHipYawPitch\"",
+              "mimic joint=\"RHipYawPitch\"",
+              {"joint RHipYawPitch", "no joint with a motor"}},
+        Fault{"WithAMeshThatIsMissing",
+              "nao.urdf",
+              kThigh,
+              "meshes/LThigh.glb",
+              "meshes/LTigh.glb",
+              {"link LThigh", "LTigh.glb", "no such file"}},
+        Fault{"WithAMeshOutsideItsFolder",
+              "nao.urdf",
+              kThigh,
+              "meshes/LThigh.glb",
+              "meshes/../../passwd",
+              {"link LThigh", "not inside"}},
+        Fault{"WithAMeshOfAnAbsolutePath",
+              "nao.urdf",
+              kThigh,
+              "meshes/LThigh.glb",
+              "/etc/passwd",
+              {"link LThigh", "not inside"}},
+        Fault{"WithACollisionWithoutShape",
+              "nao.urdf",
+              kThigh,
+              "<geometry><cylinder",
+              "<geometry><tube",
+              {"LThigh", "tube"}},
+        Fault{"WithANegativeRadius",
+              "nao.urdf",
+              kThigh,
+              "radius=\"0.041\"",
+              "radius=\"-0.041\"",
+              {"link LThigh: collision thigh_capsule", "radius"}},
+        Fault{"WithAFlatBox",
+              "nao.urdf",
+              kRoot,
+              "box size=\"0.109 0.14 0.102\"",
+              "box size=\"0.109 0 0.102\"",
+              {"link torso: collision chest", "size"}},
+        Fault{"WithANumberTooFew",
+              "nao.urdf",
+              kThigh,
+              "xyz=\"0.00138 0.00221 -0.05373\"",
+              "xyz=\"0.00138 0.00221\"",
+              {"LThigh"}}),
+    [](const auto& info) { return info.param.claim; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Yaml, FaultyRobotFile,
+    testing::Values(Fault{"ThatIsNoYaml", "robot.yaml", "", "motors:", "motors: [", {"robot.yaml"}},
+                    Fault{"WithAnUnknownKey",
+                          "robot.yaml",
+                          "",
+                          "actions:",
+                          "acttions: [a]\nactions:",
+                          {"acttions", "unknown"}},
+                    Fault{"WithoutAKey",
+                          "robot.yaml",
+                          "",
+                          "damping_gain: 0.8\n",
+                          "\n",
+                          {"lacks \"damping_gain\""}},
+                    Fault{"WithAKeyTwice",
+                          "robot.yaml",
+                          "",
+                          "dry_friction: 0.032",
+                          "dry_friction: 0.032\n    dry_friction: 1",
+                          {"dry_friction", "twice"}},
+                    Fault{"WithAnUnknownMotorType",
+                          "robot.yaml",
+                          "motors:",
+                          "HeadYaw: type_3A",
+                          "HeadYaw: type_9",
+                          {"motors.HeadYaw", "type_9"}},
+                    Fault{"WithAnUnknownJoint",
+                          "robot.yaml",
+                          "motors:",
+                          "HeadYaw:",
+                          "HeadYoww:",
+                          {"motors.HeadYoww", "no joint"}},
+                    Fault{"WithoutAMotor",
+                          "robot.yaml",
+                          "motors:",
+                          "HeadYaw:",
+                          "# HeadYaw:",
+                          {"motors", "lacks \"HeadYaw\""}},
+                    Fault{"WithAMotorForTheMimic",
+                          "robot.yaml",
+                          "motors:",
+                          "RHipRoll:",
+                          "RHipYawPitch:",
+                          {"motors.RHipYawPitch", "no joint with a motor"}},
+                    Fault{"WithANumberThatIsNone",
+                          "robot.yaml",
+                          "",
+                          "no_load_velocity: 7.4566",
+                          "no_load_velocity: fast",
+                          {"no_load_velocity", "number"}},
+                    Fault{"WithAnInfiniteNumber",
+                          "robot.yaml",
+                          "",
+                          "no_load_velocity: 7.4566",
+                          "no_load_velocity: .inf",
+                          {"no_load_velocity", "finite"}},
+                    Fault{"WithANegativeTorque",
+                          "robot.yaml",
+                          "",
+                          "continuous_torque: 1.547",
+                          "continuous_torque: -1.547",
+                          {"continuous_torque", "above 0"}},
+                    Fault{"WithCoupledLimitsReversed",
+                          "robot.yaml",
+                          "joint: HeadPitch",
+                          "-0.449073, 0.330041",
+                          "0.449073, 0.330041",
+                          {"coupled_limits[0].rows[0]"}},
+                    Fault{"WithCoupledRowsOutOfOrder",
+                          "robot.yaml",
+                          "joint: HeadPitch",
+                          "[-1.526988",
+                          "[-2.526988",
+                          {"coupled_limits[0].rows[1]", "greater"}},
+                    Fault{"WithAGroupOfAnUnknownJoint",
+                          "robot.yaml",
+                          "joint_groups:",
+                          "pitch: HeadPitch",
+                          "pitch: HeadPitsch",
+                          {"joint_groups[0].pitch", "HeadPitsch"}},
+                    Fault{"WithACameraOnNoLink",
+                          "robot.yaml",
+                          "cameras:",
+                          "link: CameraTop",
+                          "link: CameraTip",
+                          {"cameras[0].link", "CameraTip"}},
+                    Fault{"WithASoleThatIsNotConvex",
+                          "robot.yaml",
+                          "soles:",
+                          "[-0.05072, -0.02138]",
+                          "[0.05072, 0.0]",
+                          {"soles.left.outline", "convex"}},
+                    Fault{"WithALinkInTwoClusters",
+                          "robot.yaml",
+                          "contact_clusters:",
+                          "[LTibia]",
+                          "[LHip]",
+                          {"contact_clusters[6]", "LHip", "twice"}},
+                    Fault{"WithAUrdfElsewhere",
+                          "robot.yaml",
+                          "",
+                          "urdf: nao.urdf",
+                          "urdf: ../nao.urdf",
+                          {"urdf", "this folder"}},
+                    Fault{"WithAPostureOfAnUnknownJoint",
+                          "postures.yaml",
+                          "",
+                          "HeadYaw:",
+                          "HeadYoww:",
+                          {"postures[0].joints.HeadYoww", "no joint"}},
+                    Fault{"WithAPostureThatLacksAJoint",
+                          "postures.yaml",
+                          "",
+                          "HeadYaw:",
+                          "# HeadYaw:",
+                          {"postures[0].joints", "lacks \"HeadYaw\""}},
+                    Fault{"WithAPostureOutsideItsLimits",
+                          "postures.yaml",
+                          "",
+                          "LKneePitch: 0",
+                          "LKneePitch: -0.5",
+                          {"postures[0].joints.LKneePitch", "outside"}},
+                    Fault{"WithAPostureOutsideCoupledLimits",
+                          "postures.yaml",
+                          "name: Crouch",
+                          "LAnkleRoll: 0",
+                          "LAnkleRoll: 0.3",
+                          {"LAnkleRoll", "outside"}},
+                    Fault{"WithAPostureOfNoFamily",
+                          "postures.yaml",
+                          "",
+                          "family: standing",
+                          "family: floating",
+                          {"family", "floating"}},
+                    Fault{"WithTwoPosturesOfOneName",
+                          "postures.yaml",
+                          "",
+                          "name: StandInit",
+                          "name: StandZero",
+                          {"postures[1].name", "twice"}},
+                    Fault{"WithNanInAPosture",
+                          "postures.yaml",
+                          "",
+                          "HeadPitch: 0",
+                          "HeadPitch: .nan",
+                          {"HeadPitch", "finite"}}),
+    [](const auto& info) { return info.param.claim; });
+
+/** Damages a text in one to four places: bytes changed, cut out, repeated, or words put in. */
+std::string damaged(std::string text, std::mt19937& random) {
+  static const std::vector<std::string> kWords = {
+      "nan",       "-1",   "1e999", "0",       "\"",    "<",     ">",      "/>",          "</link>",
+      "<link>",    "[",    "]",     "{",       "}",     ":",     "- ",     "\n",          "\t",
+      "&a ",       "*a",   "<<: ",  {"\0", 1}, "\xff",  "!!",    "|",      "99999999999", "<!--",
+      "<![CDATA[", "&#0;", "? ",    "name",    "LFoot", "torso", "HeadYaw"};
+  const auto below = [&random](size_t count) {
+    return std::uniform_int_distribution<size_t>(0, count - 1)(random);
+  };
+  const size_t num_places = 1 + below(4);
+  for (size_t i = 0; i < num_places && !text.empty(); ++i) {
+    const size_t at = below(text.size());
+    const size_t length = std::min(text.size() - at, 1 + below(80));
+    switch (below(5)) {
+      case 0:
+        text[at] = static_cast<char>(below(256));
+        break;
+      case 1:
+        text.erase(at, length);
+        break;
+      case 2:
+        text.insert(below(text.size()), text.substr(at, length));
+        break;
+      case 3:
+        text.insert(at, kWords[below(kWords.size())]);
+        break;
+      default:
+        // Now and then the end is missing.
+        if (below(20) == 0) {
+          text.resize(at);
+        }
+        break;
+    }
+  }
+  return text;
+}
+
+TEST(RobotFiles, NeverCrashTheReaderHoweverDamaged) {
+  const CopiedRobot robot;
+  std::mt19937 random(20140613);
+  int num_refused = 0;
+  constexpr int kVariants = 3000;
+  for (int i = 0; i < kVariants; ++i) {
+    const std::string& file = kFiles[i % kFiles.size()];
+    const std::string whole = robot.read(file);
+    robot.write(file, damaged(whole, random));
+    num_refused += complaint_about(robot.path()).empty() ? 0 : 1;
+    robot.write(file, whole);
+  }
+  // Changed digits and comments load; most damage is found.
+  EXPECT_GT(num_refused, kVariants / 2);
+  EXPECT_EQ(complaint_about(robot.path()), "");
+}
+
+TEST(RobotFiles, NeverCrashTheReaderWhenNestedDeeply) {
+  const CopiedRobot robot;
+  const std::string whole = robot.read("robot.yaml");
+  robot.write("robot.yaml", whole + "extra: " + std::string(100000, '['));
+  EXPECT_NE(complaint_about(robot.path()), "");
+}
+
+}  // namespace
+}  // namespace nao

@@ -1,0 +1,84 @@
+#include "robot_model/scene_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.h"
+
+namespace nao {
+namespace {
+
+/** A scene file that lives as long as this. */
+class TemporaryScene {
+ public:
+  explicit TemporaryScene(const std::string& text)
+      : path_(std::filesystem::temp_directory_path() /
+              ("scene_file_test." + std::to_string(getpid()) + ".yaml")) {
+    std::ofstream(path_) << text;
+  }
+  ~TemporaryScene() { std::filesystem::remove(path_); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+void expect_refused(const std::string& text, const std::string& reason) {
+  const TemporaryScene scene(text);
+  try {
+    SceneFile::load(scene.path());
+    ADD_FAILURE() << "accepted: " << text;
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr(reason));
+    EXPECT_THAT(error.what(), testing::HasSubstr("scene_file_test"));
+  }
+}
+
+TEST(SceneFile, ReadsTheSoccerField) {
+  const SceneFile scene =
+      SceneFile::load(std::filesystem::path(NAO_SOURCE_DIR) / "scenes/soccer.yaml");
+  EXPECT_EQ(scene.name, "soccer");
+  ASSERT_TRUE(scene.field && scene.goals && scene.ball);
+  EXPECT_DOUBLE_EQ(scene.field->length, 9);
+  EXPECT_DOUBLE_EQ(scene.field->penalty_area_width, 4);
+  EXPECT_DOUBLE_EQ(scene.goals->post_distance, 1.6);
+  EXPECT_DOUBLE_EQ(scene.ball->radius, 0.05);
+}
+
+TEST(SceneFile, ReadsAnEmptyScene) {
+  const SceneFile scene =
+      SceneFile::load(std::filesystem::path(NAO_SOURCE_DIR) / "scenes/empty.yaml");
+  EXPECT_EQ(scene.name, "empty");
+  EXPECT_FALSE(scene.field || scene.goals || scene.ball);
+}
+
+TEST(SceneFile, RefusesWhatItDoesNotUnderstand) {
+  const std::string ball = "name: x\nball: {radius: 0.05, mass: 0.045, position: [0, 0]";
+  expect_refused("", "must be keys");
+  expect_refused("- 1\n", "must be keys");
+  expect_refused("name: [", "no YAML");
+  expect_refused("ball: {}\n", "lacks \"name\"");
+  expect_refused("name: x\nbal: {}\n", "bal is unknown");
+  expect_refused(ball + ", colour: red}", "ball.colour is unknown");
+  expect_refused("name: x\nball: {radius: -1, mass: 1, position: [0, 0]}", "radius");
+  expect_refused("name: x\nball: {radius: .nan, mass: 1, position: [0, 0]}", "radius");
+  expect_refused("name: x\nball: {radius: big, mass: 1, position: [0, 0]}", "radius");
+  expect_refused("name: x\nball: {radius: 1, mass: 1, position: [0]}", "position");
+  expect_refused("name: x\nball: {radius: 1, mass: 1, position: [0, 1e9]}", "position");
+  expect_refused("name: x\nball: {radius: 1, radius: 1, mass: 1, position: [0, 0]}", "twice");
+  expect_refused(
+      "name: x\ngoals: {post_diameter: 0.1, post_distance: 1, post_offset: 0, crossbar_height: 1, "
+      "depth: 1}",
+      "need a field");
+}
+
+TEST(SceneFile, NamesAFileThatIsMissing) {
+  EXPECT_THROW(SceneFile::load("/nonexistent/soccer.yaml"), ConfigError);
+}
+
+}  // namespace
+}  // namespace nao
