@@ -4,9 +4,10 @@
 
 namespace nao {
 
-/** Channels that belong to the simulated world and to the programs; see lcmtypes/README.md. */
+/** Channels of the simulated world, of a match and of the programs; see lcmtypes/README.md. */
 inline constexpr const char* kWorldTruthChannel = "WORLD_TRUTH";
 inline constexpr const char* kWorldCommandChannel = "WORLD_COMMAND";
+inline constexpr const char* kMatchStateChannel = "MATCH_STATE";
 inline constexpr const char* kDaemonStatusChannel = "DAEMON_STATUS";
 
 /** Channels of one robot: every name begins with the robot's own, so that several share a bus. */
@@ -25,7 +26,15 @@ struct RobotChannels {
         stop_command(robot + "_STOP_COMMAND"),
         command_result(robot + "_COMMAND_RESULT"),
         head_camera_image(robot + "_HEAD_CAMERA_IMAGE"),
-        head_camera_command(robot + "_HEAD_CAMERA_COMMAND") {}
+        head_camera_command(robot + "_HEAD_CAMERA_COMMAND"),
+        body_state(robot + "_BODY_STATE"),
+        light_command(robot + "_LIGHT_COMMAND"),
+        speech_command(robot + "_SPEECH_COMMAND"),
+        vision_state(robot + "_VISION_STATE"),
+        play_command(robot + "_PLAY_COMMAND"),
+        play_state(robot + "_PLAY_STATE"),
+        motion_file_command(robot + "_MOTION_FILE_COMMAND"),
+        motion_file_result(robot + "_MOTION_FILE_RESULT") {}
 
   std::string sensor_state;
   std::string joint_command;
@@ -40,6 +49,14 @@ struct RobotChannels {
   std::string command_result;
   std::string head_camera_image;
   std::string head_camera_command;
+  std::string body_state;
+  std::string light_command;
+  std::string speech_command;
+  std::string vision_state;
+  std::string play_command;
+  std::string play_state;
+  std::string motion_file_command;
+  std::string motion_file_result;
 };
 
 }  // namespace nao

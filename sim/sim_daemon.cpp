@@ -347,6 +347,7 @@ void SimDaemon::publish_sensors() {
     naolcm::sensor_state_t message;
     message.utime = std::llround(sensed.time * 1e6);
     message.tick = sensed.tick;
+    message.period = world_->options().step * world_->options().steps_per_tick;
     message.num_joints = static_cast<int>(joint_names_.size());
     message.joint_names = joint_names_;
     message.joint_position = to_vector(sensed.position);
@@ -355,7 +356,9 @@ void SimDaemon::publish_sensors() {
     message.joint_target_position = to_vector(world_->targets(i).position);
     message.joint_stiffness = to_vector(world_->targets(i).stiffness);
     copy(sensed.accelerometer, message.accelerometer_torso);
+    message.is_accelerometer_new = 1;
     copy(sensed.gyroscope, message.gyroscope_torso);
+    message.is_gyroscope_new = 1;
     copy(sensed.orientation, message.orientation_torso_in_world);
     message.num_foot_sensors = static_cast<int>(foot_sensor_names_.size());
     message.foot_sensor_names = foot_sensor_names_;
@@ -384,6 +387,11 @@ void SimDaemon::publish_truth() {
   message.utime = std::llround(world_->sensors(0).time * 1e6);
   message.tick = world_->tick();
   message.scene = options_.scene;
+  message.engine = "fast";
+  message.disturbances = options_.ideal_sensors ? "none" : "default";
+  message.seed = static_cast<int64_t>(options_.seed);
+  message.floor_seed = 0;
+  copy(world_->options().gravity, message.gravity_in_world);
   message.is_paused = is_paused_ && ticks_to_step_ == 0 ? 1 : 0;
   message.real_time_factor = real_time_factor_;
   message.pace = pacer_.pace();

@@ -128,11 +128,12 @@ void draw_motion_panel(const MessageStore& store, const RobotModel& model, Comma
       ImGui::TextColored(kBad, "No motion: waiting for %s", store.channels().motion_state.c_str());
     } else {
       const naolcm::motion_state_t& message = motion->message;
-      ImGui::TextColored(kGood, "%s", message.mode.c_str());
+      ImGui::TextColored(kGood, "%s", to_string(static_cast<Mode>(message.mode)));
       ImGui::SameLine();
       ImGui::Text("%s", message.posture.c_str());
-      if (!message.command.empty()) {
-        ImGui::Text("%s %s", message.command.c_str(), message.command_detail.c_str());
+      if (message.command_kind != message.COMMAND_KIND_NONE) {
+        ImGui::Text("%s %s", to_string(static_cast<CommandKind>(message.command_kind)),
+                    message.command_name.c_str());
         if (std::isfinite(message.command_progress)) {
           ImGui::ProgressBar(static_cast<float>(message.command_progress), {-1, 12}, "");
         }
@@ -188,10 +189,14 @@ void draw_motion_panel(const MessageStore& store, const RobotModel& model, Comma
     ImGui::TextColored(kFaint, "Results, newest first");
     ImGui::BeginChild("results");
     for (auto result = store.results().rbegin(); result != store.results().rend(); ++result) {
-      const bool is_bad = result->message.status == "refused" || result->message.status == "failed";
+      const naolcm::command_result_t& message = result->message;
+      const bool is_bad =
+          message.status == message.STATUS_REFUSED || message.status == message.STATUS_FAILED;
       ImGui::PushTextWrapPos(0);
-      ImGui::TextColored(is_bad ? kBad : kFaint, "%s %s %s", result->message.command.c_str(),
-                         result->message.status.c_str(), result->message.reason.c_str());
+      ImGui::TextColored(is_bad ? kBad : kFaint, "%s %s %s",
+                         to_string(static_cast<CommandKind>(message.command_kind)),
+                         to_string(static_cast<ResultStatus>(message.status)),
+                         message.reason.c_str());
       ImGui::PopTextWrapPos();
     }
     ImGui::EndChild();

@@ -120,6 +120,7 @@ void Viewer::send(double now) {
   constexpr double kCameraPeriod = 1;
   if (panels_.watches_camera && now - last_camera_command_ >= kCameraPeriod) {
     naolcm::camera_command_t command{};
+    command.utime = 0;
     command.wall_utime = wall_utime();
     command.source = "viewer." + std::to_string(getpid());
     command.camera = panels_.camera;

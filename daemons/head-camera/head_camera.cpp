@@ -33,6 +33,7 @@ HeadCamera::HeadCamera(const RobotModel& model, const HeadCameraOptions& options
       framebuffer_(kFullWidth, kFullHeight),
       problems_(visual_.problems()) {
   if (options.noise > 0) noise_.emplace(options.noise);
+  frame_.distortion = {options.k1, options.k2, 0, 0, 0};
   if (options.k1 == 0 && options.k2 == 0) return;
   for (const CameraModel& camera : model.cameras()) {
     lenses_.try_emplace(camera.name, pinhole_of(camera), options.k1, options.k2);
@@ -124,7 +125,9 @@ const CameraFrame& HeadCamera::take(const WorldState& world, const std::string& 
                                     int least_width, const WorldState* earlier) {
   if (options_.exposure > 0 && earlier != nullptr && earlier->utime < world.utime) {
     expose(*earlier, world, camera);
+    frame_.exposure_time = options_.exposure;
   } else {
+    frame_.exposure_time = 0;
     draw(world, camera);
     read_back();
   }

@@ -28,6 +28,10 @@ struct CameraFrame {
   std::string camera;
   /** Of the largest picture. */
   PinholeCamera pinhole;
+  /** Brown-Conrady coefficients k1, k2, p1, p2, k3. */
+  std::array<double, 5> distortion{};
+  /** s. */
+  double exposure_time = 0;
   Eigen::Isometry3d pose_camera_in_world = Eigen::Isometry3d::Identity();
   /** 640x480, 320x240, 160x120: rows from the bottom up, 4 bytes a pixel (blue, green, red, 255).
    */

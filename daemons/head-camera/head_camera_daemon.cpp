@@ -45,7 +45,8 @@ naolcm::image_t encode_image(const CameraFrame& frame, const PictureWish& wish, 
                              JpegEncoder& encoder) {
   const PinholeCamera pinhole = frame.pinhole.resized(wish.width);
   naolcm::image_t image;
-  image.utime = frame.utime;
+  // The exposure ends at the state's time; the message has its middle.
+  image.utime = frame.utime - std::llround(frame.exposure_time * 1e6 / 2);
   image.camera = frame.camera;
   image.width = pinhole.width;
   image.height = pinhole.height;
@@ -53,13 +54,8 @@ naolcm::image_t encode_image(const CameraFrame& frame, const PictureWish& wish, 
   image.fy = pinhole.fy;
   image.cx = pinhole.cx;
   image.cy = pinhole.cy;
-  Eigen::Map<Eigen::Vector3d>(image.position_camera_in_world) =
-      frame.pose_camera_in_world.translation();
-  const Eigen::Quaterniond rotation(frame.pose_camera_in_world.linear());
-  image.orientation_camera_in_world[0] = rotation.w();
-  image.orientation_camera_in_world[1] = rotation.x();
-  image.orientation_camera_in_world[2] = rotation.y();
-  image.orientation_camera_in_world[3] = rotation.z();
+  std::copy(frame.distortion.begin(), frame.distortion.end(), image.distortion);
+  image.exposure_time = frame.exposure_time;
   image.format = "jpeg";
   const int quality = wish.quality > 0 ? wish.quality : default_quality;
   image.data = encoder.encode(frame.bgrx[CameraFrame::level(wish.width)], image.width, image.height,

@@ -1,6 +1,7 @@
 #include "daemons/motion/message_conversion.h"
 
 #include <cmath>
+#include <limits>
 
 #include "common/error.h"
 
@@ -8,6 +9,10 @@ namespace nao::motion {
 namespace {
 
 constexpr double kOrientationTolerance = 0.01;
+// Control periods that a robot may have, s.
+constexpr double kShortestPeriod = 0.001;
+constexpr double kLongestPeriod = 0.1;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void require_finite(double value, const char* what, const std::string& name) {
   if (!std::isfinite(value)) throw Error(std::string(what) + " " + name + " is not a number");
@@ -31,6 +36,10 @@ Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& messag
   Sensors sensors;
   sensors.utime = message.utime;
   sensors.tick = message.tick;
+  if (!(message.period >= kShortestPeriod && message.period <= kLongestPeriod)) {
+    throw Error("period is outside 0.001 to 0.1 s");
+  }
+  sensors.period = message.period;
 
   const size_t num_motors = model.num_motors();
   sensors.position.assign(num_motors, 0);
@@ -120,9 +129,9 @@ Command to_command(const naolcm::posture_command_t& message) {
 
 Command to_command(const naolcm::joint_change_command_t& message) {
   Command command = command_from(message);
-  command.request =
-      JointChangeCommand{message.joint_names, message.joint_position, message.is_relative != 0,
-                         message.speed, message.allow_tipping != 0};
+  command.request = JointChangeCommand{message.joint_names,     message.joint_position,
+                                       message.joint_stiffness, message.is_relative != 0,
+                                       message.speed,           message.allow_tipping != 0};
   return command;
 }
 
@@ -146,6 +155,10 @@ naolcm::joint_command_t to_message(const JointTargets& targets, const RobotState
   message.num_joints = static_cast<int>(names.size());
   message.joint_names = names;
   message.joint_position = targets.position;
+  message.joint_velocity.assign(names.size(), kNan);
+  message.joint_torque.assign(names.size(), 0.0);
+  message.joint_kp.assign(names.size(), kNan);
+  message.joint_kd.assign(names.size(), kNan);
   message.joint_stiffness = targets.stiffness;
   return message;
 }
@@ -183,16 +196,21 @@ naolcm::robot_state_t to_message(const RobotState& state, const std::vector<std:
 naolcm::motion_state_t to_message(const MotionState& state) {
   naolcm::motion_state_t message;
   message.utime = state.utime;
-  message.mode = to_string(state.mode);
+  message.mode = static_cast<int8_t>(state.mode);
   message.posture = state.posture;
-  message.command = state.command;
-  message.command_detail = state.command_detail;
+  message.command_kind = state.command_kind ? static_cast<int8_t>(*state.command_kind)
+                                            : naolcm::motion_state_t::COMMAND_KIND_NONE;
+  message.command_name = state.command_name;
   message.command_source = state.command_source;
   message.command_id = state.command_id;
   message.command_progress = state.command_progress;
   message.balance_margin = state.balance_margin;
-  for (int i = 0; i < 3; ++i) message.walk_velocity[i] = state.walk_velocity[i];
+  message.needs_help = state.needs_help ? 1 : 0;
+  message.vx = state.walk_velocity.x();
+  message.vy = state.walk_velocity.y();
+  message.wz = state.walk_velocity.z();
   message.stiffness = state.stiffness;
+  message.num_last_refusal_arguments = 0;
   message.last_refusal = state.last_refusal;
   message.num_footsteps = static_cast<int>(state.footsteps.size());
   for (const Footstep& footstep : state.footsteps) {
@@ -211,8 +229,11 @@ naolcm::command_result_t to_message(const CommandResult& result, int64_t utime) 
   message.utime = utime;
   message.source = result.source;
   message.command_id = result.id;
-  message.command = to_string(result.kind);
-  message.status = to_string(result.status);
+  message.command_kind = static_cast<int8_t>(result.kind);
+  message.status = static_cast<int8_t>(result.status);
+  message.reason_code = result.reason_code;
+  message.num_reason_arguments = static_cast<int>(result.reason_arguments.size());
+  message.reason_arguments = result.reason_arguments;
   message.reason = result.reason;
   return message;
 }

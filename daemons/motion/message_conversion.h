@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "daemons/motion/commands/command.h"
+#include "messages/command.h"
 #include "daemons/motion/joint_targets.h"
 #include "daemons/motion/motion_state.h"
 #include "daemons/motion/robot_state.h"

@@ -30,7 +30,6 @@ constexpr const char* kScriptFile = "actions/keeper.yaml";
 // this.
 constexpr double kWalkKickStrength = 0.5;
 constexpr const char* kRestPosture = "Crouch";
-constexpr const char* kNeedsHelp = "needs help";
 
 // Time after taking over in which the estimate settles before the first motion is chosen, s.
 constexpr double kTakeOverTime = 0.1;
@@ -44,9 +43,9 @@ constexpr double kInPostureTolerance = 0.09;
 constexpr double kLeastStandingHeight = 0.15;
 
 bool has_changed(const MotionState& a, const MotionState& b) {
-  return a.mode != b.mode || a.posture != b.posture || a.command != b.command ||
+  return a.mode != b.mode || a.posture != b.posture || a.command_kind != b.command_kind ||
          a.command_source != b.command_source || a.command_id != b.command_id ||
-         a.command_detail != b.command_detail || a.last_refusal != b.last_refusal;
+         a.command_name != b.command_name || a.needs_help != b.needs_help || a.last_refusal != b.last_refusal;
 }
 
 }  // namespace
@@ -550,7 +549,8 @@ void MotionCore::watch_for_falls(double dt) {
 
 void MotionCore::answer(const Command& command, ResultStatus status, const std::string& reason,
                         bool is_remembered) {
-  const CommandResult result{command.source, command.id, kind_of(command), status, reason};
+  const CommandResult result{
+      command.source, command.id, kind_of(command), status, {}, {}, reason};
   if (is_remembered) ledger_.note(result);
   if (status == ResultStatus::kRefused) last_refusal_ = reason;
   output_.results.push_back(result);
@@ -608,15 +608,15 @@ void MotionCore::report(double dt) {
   }
   if (running_) {
     if (running_->command) {
-      state.command = to_string(kind_of(*running_->command));
+      state.command_kind = kind_of(*running_->command);
       state.command_source = running_->command->source;
       state.command_id = running_->command->id;
     }
-    state.command_detail = running_->detail;
+    state.command_name = running_->detail;
     state.command_progress = running_->generator->progress();
     running_->generator->describe(state);
   }
-  if (needs_help_ && !running_) state.command_detail = kNeedsHelp;
+  state.needs_help = needs_help_ && !running_;
   since_motion_state_ += dt;
   // A hair less than the period, so that rounding does not make it one tick longer.
   const bool is_due = since_motion_state_ >= options_.motion_state_period - 1e-6;

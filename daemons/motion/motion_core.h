@@ -10,7 +10,7 @@
 
 #include "daemons/motion/actions/action_script.h"
 #include "daemons/motion/actions/kick.h"
-#include "daemons/motion/commands/command.h"
+#include "messages/command.h"
 #include "daemons/motion/commands/command_ledger.h"
 #include "daemons/motion/estimator/state_estimator.h"
 #include "daemons/motion/falls/fall_monitor.h"

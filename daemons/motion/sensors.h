@@ -11,6 +11,8 @@ struct Sensors {
   /** Robot time, microseconds, and its tick. */
   int64_t utime = 0;
   int64_t tick = 0;
+  /** Control period, s. */
+  double period = 0.01;
   /** rad (hands: opening), rad/s, N m; each (num_motors), motor order. */
   std::vector<double> position;
   std::vector<double> velocity;

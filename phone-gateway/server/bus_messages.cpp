@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "messages/command.h"
+#include "messages/mode.h"
 
 namespace nao {
 namespace {
@@ -47,16 +49,18 @@ RobotSnapshot RobotStateReader::read(const naolcm::robot_state_t& message) const
 
 MotionSnapshot read_motion_state(const naolcm::motion_state_t& message) {
   MotionSnapshot motion;
-  motion.mode = message.mode;
+  motion.mode = to_string(static_cast<Mode>(message.mode));
   motion.posture = message.posture;
-  motion.activity = message.command;
-  if (!message.command_detail.empty()) {
-    motion.activity += (motion.activity.empty() ? "" : " ") + message.command_detail;
+  if (message.command_kind != message.COMMAND_KIND_NONE) {
+    motion.activity = to_string(static_cast<CommandKind>(message.command_kind));
+  }
+  const std::string detail = message.needs_help ? "needs help" : message.command_name;
+  if (!detail.empty()) {
+    motion.activity += (motion.activity.empty() ? "" : " ") + detail;
   }
   motion.progress = std::isfinite(message.command_progress) ? message.command_progress : -1;
-  for (size_t i = 0; i < 3; ++i) {
-    motion.walk_velocity[i] = finite(message.walk_velocity[i], "walk_velocity");
-  }
+  motion.walk_velocity = {finite(message.vx, "vx"), finite(message.vy, "vy"),
+                          finite(message.wz, "wz")};
   motion.stiffness = finite(message.stiffness, "stiffness");
   return motion;
 }

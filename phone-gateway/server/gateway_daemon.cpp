@@ -24,13 +24,20 @@ namespace {
 constexpr const char* kProgram = "nao-phone-gateway";
 constexpr const char* kCameraProgram = "nao-head-camera";
 
-CommandStatus read_status(const std::string& status) {
-  if (status == "accepted") return CommandStatus::kAccepted;
-  if (status == "refused") return CommandStatus::kRefused;
-  if (status == "done") return CommandStatus::kDone;
-  if (status == "interrupted") return CommandStatus::kInterrupted;
-  if (status == "failed") return CommandStatus::kFailed;
-  throw Error("a result of status " + status);
+CommandStatus read_status(int8_t status) {
+  switch (status) {
+    case naolcm::command_result_t::STATUS_ACCEPTED:
+      return CommandStatus::kAccepted;
+    case naolcm::command_result_t::STATUS_REFUSED:
+      return CommandStatus::kRefused;
+    case naolcm::command_result_t::STATUS_DONE:
+      return CommandStatus::kDone;
+    case naolcm::command_result_t::STATUS_INTERRUPTED:
+      return CommandStatus::kInterrupted;
+    case naolcm::command_result_t::STATUS_FAILED:
+      return CommandStatus::kFailed;
+  }
+  throw Error("unknown result status " + std::to_string(status));
 }
 
 /** Publishes a command as the message of its channel. */
@@ -64,6 +71,8 @@ class CommandPublisher {
     message.num_joints = static_cast<int32_t>(change.joint_names.size());
     message.joint_names = change.joint_names;
     message.joint_position = change.change;
+    message.joint_stiffness.assign(change.joint_names.size(),
+                                   std::numeric_limits<double>::quiet_NaN());
     message.is_relative = 1;
     message.speed = change.speed;
     message.allow_tipping = change.allow_tipping ? 1 : 0;
@@ -85,6 +94,7 @@ class CommandPublisher {
   template <class Message>
   Message begin() const {
     Message message;
+    message.utime = 0;
     message.wall_utime = wall_utime();
     message.source = numbered_.source;
     message.command_id = numbered_.command_id;
@@ -186,6 +196,7 @@ void GatewayDaemon::step(double now) {
 void GatewayDaemon::send_camera_wishes(const std::vector<CameraWish>& wishes) {
   for (const CameraWish& wish : wishes) {
     naolcm::camera_command_t message;
+    message.utime = 0;
     message.wall_utime = wall_utime();
     message.source = source_;
     message.camera = wish.picture.camera == naoremote::CAMERA_BOTTOM ? "bottom" : "top";

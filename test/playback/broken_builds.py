@@ -25,7 +25,7 @@ FLIPS = [
      "readings_.gyroscope = truth.angular_velocity", "readings_.gyroscope = -truth.angular_velocity"),
     ("nao-motion", "daemons/motion/message_conversion.cpp",
      "WalkCommand{message.vx, message.vy, message.wz}", "WalkCommand{message.vx, message.vy, -message.wz}"),
-    ("nao-head-camera", "viewer/scene/pinhole_camera.cpp",
+    ("nao-head-camera", "rendering/pinhole_camera.cpp",
      "matrix(1, 1) = 2 * camera.fy", "matrix(1, 1) = -2 * camera.fy"),
     ("nao-phone-gateway", "phone-gateway/server/bus_messages.cpp",
      'finite(message.joint_position[i], "joint_position")', '-finite(message.joint_position[i], "joint_position")'),

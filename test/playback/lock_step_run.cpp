@@ -37,7 +37,9 @@ class CourseWriter {
    * once. */
   CourseWriter(Bus& bus, const RobotChannels& channels, int64_t end) : end_(end) {
     bus.subscribe<naolcm::motion_state_t>(channels.motion_state, Bus::Queue::kAll,
-                                          [this](const auto& message) { mode_ = message.mode; });
+                                          [this](const auto& message) {
+                                            mode_ = to_string(static_cast<Mode>(message.mode));
+                                          });
     bus.subscribe<naolcm::command_result_t>(
         channels.command_result, Bus::Queue::kAll,
         [this](const naolcm::command_result_t& message) { note(message); });
@@ -55,10 +57,14 @@ class CourseWriter {
   void note(const naolcm::command_result_t& message) {
     // Walks are replaced by one another many times a second, and a result is told again as long as
     // its command is.
-    if (message.command == "walk" || message.status == "accepted") return;
+    if (message.command_kind == message.COMMAND_KIND_WALK ||
+        message.status == message.STATUS_ACCEPTED) {
+      return;
+    }
     const auto key = std::make_pair(message.source, message.command_id);
     if (!known_results_.insert(key).second) return;
-    course_.results.push_back(message.command + " " + message.status);
+    course_.results.push_back(std::string(to_string(static_cast<CommandKind>(message.command_kind))) +
+                              " " + to_string(static_cast<ResultStatus>(message.status)));
   }
 
   void note(const naolcm::world_truth_t& message) {

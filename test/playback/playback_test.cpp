@@ -81,9 +81,8 @@ Reaction react_to(const std::vector<LogEvent>& sensors) {
   bus.subscribe<naolcm::motion_state_t>(
       "NAO_MOTION_STATE", Bus::Queue::kAll, [&](const naolcm::motion_state_t& message) {
         reaction.least_stiffness = std::min(reaction.least_stiffness, message.stiffness);
-        if (reaction.modes.empty() || reaction.modes.back() != message.mode) {
-          reaction.modes.push_back(message.mode);
-        }
+        const std::string mode = to_string(static_cast<Mode>(message.mode));
+        if (reaction.modes.empty() || reaction.modes.back() != mode) reaction.modes.push_back(mode);
       });
   const motion::MotionDaemon daemon(bus, loop, model, motion::MotionOptions(), "NAO");
   for (const LogEvent& event : sensors) {

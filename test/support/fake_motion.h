@@ -73,7 +73,8 @@ class FakeMotion {
     if (tick_ % 10 != 0) return;
     naolcm::motion_state_t motion{};
     motion.utime = state.utime;
-    motion.mode = "holding";
+    motion.mode = motion.MODE_HOLDING;
+    motion.command_kind = motion.COMMAND_KIND_NONE;
     motion.posture = posture_;
     motion.stiffness = 1;
     bus_.publish(channels_.motion_state, motion);
@@ -124,8 +125,10 @@ class FakeMotion {
     result.utime = tick_ * 10000;
     result.source = source;
     result.command_id = command_id;
-    result.command = command;
-    result.status = status;
+    result.command_kind = command == "posture"        ? result.COMMAND_KIND_POSTURE
+                          : command == "joint-change" ? result.COMMAND_KIND_JOINT_CHANGE
+                                                      : result.COMMAND_KIND_STOP;
+    result.status = status == "done" ? result.STATUS_DONE : result.STATUS_ACCEPTED;
     bus_.publish(channels_.command_result, result);
   }
 

@@ -10,6 +10,9 @@ _UTIME = struct.Struct(">8xq")
 _TICK = struct.Struct(">16xq")
 _INT32 = struct.Struct(">i")
 
+# In the order of motion_state_t.MODE_*.
+MODES = ("relaxed", "holding", "moving", "walking", "acting", "falling", "fallen", "getting-up", "no-robot")
+
 
 def read_utime(message):
     """Robot time, microseconds."""
@@ -23,11 +26,10 @@ def read_tick(message):
 
 def read_mode(message):
     """Mode of a motion_state_t."""
-    size = _INT32.unpack_from(message, 16)[0]
-    return message[20:20 + size - 1].decode()
+    return MODES[message[16]]
 
 
 def read_walk(message):
     """Velocity that a walk_command_t asks for: m/s ahead, m/s to the left, rad/s."""
-    size = _INT32.unpack_from(message, 16)[0]
-    return struct.unpack_from(">3d", message, 20 + size + 8)
+    size = _INT32.unpack_from(message, 24)[0]
+    return struct.unpack_from(">3d", message, 28 + size + 8)

@@ -118,13 +118,14 @@ TEST(MessageStore, ListsARepeatedResultOnce) {
   MessageStore store("NAO");
   naolcm::command_result_t result{};
   result.source = "nao.1";
-  for (const char* status : {"accepted", "accepted", "accepted", "done"}) {
+  for (const int8_t status : {result.STATUS_ACCEPTED, result.STATUS_ACCEPTED,
+                              result.STATUS_ACCEPTED, result.STATUS_DONE}) {
     result.status = status;
     const auto data = encode(result);
     store.receive("NAO_COMMAND_RESULT", data.data(), static_cast<int>(data.size()), 1);
   }
   ASSERT_EQ(store.results().size(), 2u);
-  EXPECT_EQ(store.results().back().message.status, "done");
+  EXPECT_EQ(store.results().back().message.status, naolcm::command_result_t::STATUS_DONE);
 }
 
 TEST(TimePlots, KeepTheLastSecondsOfTheChosenFields) {

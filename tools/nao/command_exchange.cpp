@@ -9,13 +9,13 @@ bool CommandExchange::should_send(double now) {
   return true;
 }
 
-void CommandExchange::handle_result(const std::string& status, const std::string& reason,
+void CommandExchange::handle_result(ResultStatus status, const std::string& reason,
                                     double now) {
   last_heard_ = now;
-  if (status == "accepted") {
+  if (status == ResultStatus::kAccepted) {
     is_accepted_ = true;
   } else if (!result_) {
-    result_ = Outcome{status == "done", status, reason};
+    result_ = Outcome{status == ResultStatus::kDone, to_string(status), reason};
   }
 }
 

@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "messages/command.h"
+
 namespace nao {
 
 /** Where one command stands between its sender and nao-motion, from the sender's side.
@@ -36,7 +38,7 @@ class CommandExchange {
   bool should_send(double now);
 
   /** A command_result_t for this command came in. */
-  void handle_result(const std::string& status, const std::string& reason, double now);
+  void handle_result(ResultStatus status, const std::string& reason, double now);
 
   /** nao-motion published something else. */
   void handle_sign_of_life(double now);

@@ -56,7 +56,8 @@ class Conversation {
     bus_.subscribe<naolcm::command_result_t>(
         channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
           if (result.source == source_ && result.command_id == command_id_) {
-            exchange_.handle_result(result.status, result.reason, monotonic_seconds());
+            exchange_.handle_result(static_cast<ResultStatus>(result.status), result.reason,
+                                    monotonic_seconds());
           }
         });
     bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
@@ -71,6 +72,7 @@ class Conversation {
   /** Fills in the sender and publishes the command. */
   template <class Command>
   void publish(const std::string& channel, Command& command) {
+    command.utime = 0;
     command.wall_utime = wall_utime();
     command.source = source_;
     command.command_id = command_id_;

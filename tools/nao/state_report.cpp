@@ -13,6 +13,8 @@
 #include "common/channels.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
+#include "messages/command.h"
+#include "messages/mode.h"
 #include "tools/nao/json_writer.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/terminal.h"
@@ -38,11 +40,13 @@ std::string to_text(const naolcm::robot_state_t& robot, const naolcm::motion_sta
   const auto degrees = [](double radians) {
     return format_number(radians * 180 / std::numbers::pi, 1);
   };
-  std::string text = "mode      " + motion.mode;
+  std::string text = std::string("mode      ") + to_string(static_cast<Mode>(motion.mode));
   if (!motion.posture.empty()) text += ", posture " + motion.posture;
-  if (!motion.command.empty()) {
-    text += ", carrying out " + motion.command + " " + motion.command_detail + " for " +
-            motion.command_source;
+  if (motion.needs_help) text += ", needs help";
+  if (motion.command_kind != motion.COMMAND_KIND_NONE) {
+    text += std::string(", executing ") +
+            to_string(static_cast<CommandKind>(motion.command_kind)) + " " + motion.command_name +
+            " for " + motion.command_source;
     if (std::isfinite(motion.command_progress)) {
       text += " (" + format_number(motion.command_progress * 100, 0) + " %)";
     }
@@ -91,15 +95,18 @@ std::string to_json(const naolcm::robot_state_t& robot, const naolcm::motion_sta
   json.end();
   json.begin_object("motion_state");
   json.add("utime", motion.utime);
-  json.add("mode", motion.mode);
+  json.add("mode", std::string(to_string(static_cast<Mode>(motion.mode))));
   json.add("posture", motion.posture);
-  json.add("command", motion.command);
-  json.add("command_detail", motion.command_detail);
+  json.add("command_kind", long{motion.command_kind});
+  json.add("command_name", motion.command_name);
+  json.add("needs_help", motion.needs_help != 0);
   json.add("command_source", motion.command_source);
   json.add("command_id", motion.command_id);
   json.add("command_progress", motion.command_progress);
   json.add("balance_margin", motion.balance_margin);
-  json.add("walk_velocity", motion.walk_velocity, 3);
+  json.add("vx", motion.vx);
+  json.add("vy", motion.vy);
+  json.add("wz", motion.wz);
   json.add("stiffness", motion.stiffness);
   json.add("last_refusal", motion.last_refusal);
   json.end();

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "daemons/motion/commands/command.h"
-#include "daemons/motion/mode.h"
+#include "messages/command.h"
+#include "messages/mode.h"
 
 namespace nao::motion {
 

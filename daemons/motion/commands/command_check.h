@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "daemons/motion/commands/command.h"
+#include "messages/command.h"
 #include "robot_model/robot_model.h"
 
 namespace nao::motion {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "daemons/motion/commands/command.h"
+#include "messages/command.h"
 
 namespace nao::motion {
 

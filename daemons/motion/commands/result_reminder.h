@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-#include "daemons/motion/commands/command.h"
+#include "messages/command.h"
 
 namespace nao::motion {
 

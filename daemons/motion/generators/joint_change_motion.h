@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "daemons/motion/commands/command.h"
+#include "messages/command.h"
 #include "daemons/motion/generators/joint_trajectory.h"
 #include "daemons/motion/generators/motion_generator.h"
 

@@ -3,9 +3,9 @@
 #include <limits>
 #include <string>
 
-#include "daemons/motion/commands/command.h"
+#include "messages/command.h"
 #include "daemons/motion/joint_targets.h"
-#include "daemons/motion/mode.h"
+#include "messages/mode.h"
 #include "daemons/motion/motion_options.h"
 #include "daemons/motion/motion_state.h"
 #include "daemons/motion/robot_state.h"

@@ -100,18 +100,18 @@ TEST_F(HeadCameraDaemonTest, SendsWhatIsWatched) {
   }
 }
 
-TEST_F(HeadCameraDaemonTest, TellsWhereTheCameraIs) {
-  watch("top", 640);
+TEST_F(HeadCameraDaemonTest, StatesIntrinsicsDistortionAndExposure) {
+  watch("top", 320);
   turn();
   ASSERT_EQ(images_.size(), 1u);
-  const auto poses = model_->link_poses(truth_.robots[0].joint_position);
-  const Eigen::Isometry3d& pose = poses[model_->find_link("CameraTop")];
-  const Eigen::Map<const Eigen::Vector3d> position(images_[0].position_camera_in_world);
-  EXPECT_LT((position - pose.translation() - Eigen::Vector3d(0, 0, 0.32)).norm(), 1e-9);
-  const double* q = images_[0].orientation_camera_in_world;
-  EXPECT_LT(
-      Eigen::Quaterniond(q[0], q[1], q[2], q[3]).angularDistance(Eigen::Quaterniond(pose.linear())),
-      1e-9);
+  const naolcm::image_t& image = images_[0];
+  const auto camera = std::find_if(model_->cameras().begin(), model_->cameras().end(),
+                                   [](const CameraModel& c) { return c.name == "top"; });
+  const PinholeCamera pinhole = pinhole_of(*camera).resized(320);
+  EXPECT_EQ(image.fx, pinhole.fx);
+  EXPECT_EQ(image.cy, pinhole.cy);
+  for (const double coefficient : image.distortion) EXPECT_EQ(coefficient, 0);
+  EXPECT_EQ(image.exposure_time, 0);
 }
 
 TEST_F(HeadCameraDaemonTest, ObeysTheQualityWishedFor) {

@@ -102,7 +102,7 @@ TEST_F(MotionCoreTest, GoesToEachPostureOnItsFeet) {
     EXPECT_EQ(output.results[0].status, ResultStatus::kAccepted);
     EXPECT_EQ(core_.motion_state().mode, Mode::kMoving);
     EXPECT_EQ(core_.motion_state().command, "posture");
-    EXPECT_EQ(core_.motion_state().command_detail, name);
+    EXPECT_EQ(core_.motion_state().command_name, name);
     const auto results = robot_.settle(core_);
     ASSERT_EQ(results.size(), 1u);
     EXPECT_EQ(results[0].status, ResultStatus::kDone);
@@ -390,12 +390,12 @@ TEST_F(MotionCoreTest, AsksForHelpAfterSixTriesAndObeysThen) {
   const auto step = [&] {
     robot_.step(core_);
     num_tries = std::max(num_tries, core_.motion_state().num_tries);
-    return core_.motion_state().command_detail == "needs help";
+    return core_.motion_state().needs_help;
   };
   int num_ticks = 0;
   while (num_ticks < 20000 && !step()) ++num_ticks;
   EXPECT_EQ(core_.motion_state().mode, Mode::kFallen);
-  EXPECT_EQ(core_.motion_state().command_detail, "needs help");
+  EXPECT_TRUE(core_.motion_state().needs_help);
   EXPECT_GE(num_tries, 6);
   for (int i = 0; i < 500; ++i) EXPECT_TRUE(step());
   const Command get_up = {"test", 1, ActionCommand{"get-up", kNan, kNan, kNan}};

@@ -73,7 +73,7 @@ TEST_F(MotionDaemonTest, PublishesResultsOfCommands) {
   tick();
   tick();
   ASSERT_EQ(results_.size(), 1u);
-  EXPECT_EQ(results_[0].status, "refused");
+  EXPECT_EQ(results_[0].status, naolcm::command_result_t::STATUS_REFUSED);
   EXPECT_EQ(results_[0].command, "posture");
   EXPECT_EQ(results_[0].command_id, 1);
 }
@@ -89,10 +89,10 @@ TEST_F(MotionDaemonTest, TellsTheEndOfACommandThreeTimesForTheBusMayLoseOne) {
   for (int i = 0; i < 200; ++i) {
     tick();
     for (const auto& result : std::exchange(results_, {})) {
-      if (result.status == "accepted") {
+      if (result.status == result.STATUS_ACCEPTED) {
         ++num_accepted;
       } else {
-        EXPECT_EQ(result.status, "done");
+        EXPECT_EQ(result.status, result.STATUS_DONE);
         EXPECT_EQ(result.command_id, 1);
         done_at.push_back(next_tick_);
       }

@@ -11,6 +11,7 @@ inline naolcm::sensor_state_t sensor_message(const std::string& posture, int64_t
   naolcm::sensor_state_t message{};
   message.utime = tick * 10000;
   message.tick = tick;
+  message.period = 0.01;
   const auto& position = nao_model().find_posture(posture)->position;
   message.num_joints = nao_model().num_motors();
   for (int motor = 0; motor < nao_model().num_motors(); ++motor) {

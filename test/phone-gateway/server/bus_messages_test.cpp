@@ -45,13 +45,13 @@ TEST(RobotStateReader, RefusesWhatPhonesMustNotSee) {
 
 TEST(ReadMotionState, TurnsAnOpenEndIntoANegativeProgress) {
   naolcm::motion_state_t motion{};
-  motion.mode = "walking";
-  motion.command = "walk";
+  motion.mode = motion.MODE_WALKING;
+  motion.command_kind = motion.COMMAND_KIND_WALK;
   motion.command_progress = kNaN;
   EXPECT_LT(read_motion_state(motion).progress, 0);
   EXPECT_EQ(read_motion_state(motion).activity, "walk");
-  motion.command = "posture";
-  motion.command_detail = "Crouch";
+  motion.command_kind = motion.COMMAND_KIND_POSTURE;
+  motion.command_name = "Crouch";
   motion.command_progress = 0.5;
   EXPECT_EQ(read_motion_state(motion).progress, 0.5);
   EXPECT_EQ(read_motion_state(motion).activity, "posture Crouch");

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-namespace nao::motion {
+namespace nao {
 
 /** m/s ahead, m/s to the left, rad/s to the left. All zero ends the walk. */
 struct WalkCommand {
@@ -31,6 +31,8 @@ struct PostureCommand {
 struct JointChangeCommand {
   std::vector<std::string> joint_names;
   std::vector<double> joint_position;
+  /** Fraction of the peak torque, 0..1; NaN keeps the present one. Empty: all NaN. */
+  std::vector<double> joint_stiffness;
   bool is_relative = false;
   double speed = 0;
   bool allow_tipping = false;
@@ -46,9 +48,9 @@ struct ActionCommand {
 
 struct StopCommand {};
 
-/** What somebody wants the robot to do; see the messages of the same names for every field. */
+/** A command; see the messages of the same names for every field. */
 struct Command {
-  /** Who asks, and the sender's number for it. */
+  /** Sender, and its number for this command. */
   std::string source;
   int64_t id = 0;
   /** In the order of CommandKind. */
@@ -57,6 +59,7 @@ struct Command {
       request;
 };
 
+/** The values are those of command_result_t::COMMAND_KIND_*. */
 enum class CommandKind { kWalk, kMoveTo, kPosture, kJointChange, kAction, kStop };
 
 inline constexpr int kNumCommandKinds = 6;
@@ -65,28 +68,32 @@ inline CommandKind kind_of(const Command& command) {
   return static_cast<CommandKind>(command.request.index());
 }
 
-/** Name as in command_result_t: "joint-change". */
+/** Name for logs and people: "joint-change"; "unknown" for a value outside the enumeration. */
 const char* to_string(CommandKind kind);
 
 /** What a command asks for, in words for a person: "Crouch", "kick-left", "HeadYaw, HeadPitch". */
 std::string describe(const Command& command);
 
-/** Somebody's text made fit for a sentence: at most 40 characters, the unprintable ones as '?'. */
+/** A received text quoted for a sentence: at most 40 characters, unprintable ones as '?'. */
 std::string quoted(const std::string& text);
 
+/** The values are those of command_result_t::STATUS_*. */
 enum class ResultStatus { kAccepted, kRefused, kDone, kInterrupted, kFailed };
 
-/** Name as in command_result_t: "interrupted". */
+/** Name for logs and people: "interrupted"; "unknown" for a value outside the enumeration. */
 const char* to_string(ResultStatus status);
 
-/** What became of a command. */
+/** Result of a command. */
 struct CommandResult {
   std::string source;
   int64_t id = 0;
   CommandKind kind = CommandKind::kStop;
   ResultStatus status = ResultStatus::kAccepted;
-  /** Why, as a sentence for a person. */
+  /** Why, as a code that programs translate, and the values in the translated sentence. */
+  std::string reason_code;
+  std::vector<std::string> reason_arguments;
+  /** Why, as an English sentence. */
   std::string reason;
 };
 
-}  // namespace nao::motion
+}  // namespace nao

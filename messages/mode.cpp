@@ -1,6 +1,6 @@
-#include "daemons/motion/mode.h"
+#include "messages/mode.h"
 
-namespace nao::motion {
+namespace nao {
 
 const char* to_string(Mode mode) {
   switch (mode) {
@@ -23,7 +23,7 @@ const char* to_string(Mode mode) {
     case Mode::kNoRobot:
       return "no-robot";
   }
-  return "";
+  return "unknown";
 }
 
-}  // namespace nao::motion
+}  // namespace nao

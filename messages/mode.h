@@ -1,8 +1,8 @@
 #pragma once
 
-namespace nao::motion {
+namespace nao {
 
-/** What the robot is doing, as motion_state_t names it. */
+/** What the robot is doing; the values are those of motion_state_t::MODE_*. */
 enum class Mode {
   kRelaxed,
   kHolding,
@@ -17,7 +17,7 @@ enum class Mode {
 
 inline constexpr int kNumModes = 9;
 
-/** Name as in motion_state_t: "getting-up". */
+/** Name for logs and people: "getting-up"; "unknown" for a value outside the enumeration. */
 const char* to_string(Mode mode);
 
-}  // namespace nao::motion
+}  // namespace nao

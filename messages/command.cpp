@@ -1,6 +1,6 @@
-#include "daemons/motion/commands/command.h"
+#include "messages/command.h"
 
-namespace nao::motion {
+namespace nao {
 namespace {
 
 constexpr size_t kMaxQuotedLength = 40;
@@ -23,7 +23,7 @@ const char* to_string(CommandKind kind) {
     case CommandKind::kStop:
       return "stop";
   }
-  return "";
+  return "unknown";
 }
 
 const char* to_string(ResultStatus status) {
@@ -39,7 +39,7 @@ const char* to_string(ResultStatus status) {
     case ResultStatus::kFailed:
       return "failed";
   }
-  return "";
+  return "unknown";
 }
 
 std::string quoted(const std::string& text) {
@@ -69,4 +69,4 @@ std::string describe(const Command& command) {
   }
 }
 
-}  // namespace nao::motion
+}  // namespace nao
