@@ -75,7 +75,7 @@ double ClosedLoop::random(double low, double high) {
   return low + (high - low) * static_cast<double>(next_random(random_state_) >> 11) * 0x1p-53;
 }
 
-int64_t ClosedLoop::send(motion::Command command) {
+int64_t ClosedLoop::send(Command command) {
   command.source = "trial";
   command.id = ++last_id_;
   commands_.push_back(std::move(command));
@@ -83,24 +83,24 @@ int64_t ClosedLoop::send(motion::Command command) {
 }
 
 int64_t ClosedLoop::send_posture(const std::string& posture, double speed) {
-  return send({"", 0, motion::PostureCommand{posture, speed}});
+  return send({"", 0, PostureCommand{posture, speed}});
 }
 
 int64_t ClosedLoop::send_action(const std::string& action) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  return send({"", 0, motion::ActionCommand{action, nan, nan, nan}});
+  return send({"", 0, ActionCommand{action, nan, nan, nan}});
 }
 
 int64_t ClosedLoop::hold_walk(const Eigen::Vector3d& velocity) {
-  if (!walk_) walk_ = motion::Command{"trial", ++last_id_, {}};
-  walk_->request = motion::WalkCommand{velocity.x(), velocity.y(), velocity.z()};
+  if (!walk_) walk_ = Command{"trial", ++last_id_, {}};
+  walk_->request = WalkCommand{velocity.x(), velocity.y(), velocity.z()};
   ticks_since_walk_ = kTicksPerWalkCommand;
   return walk_->id;
 }
 
 void ClosedLoop::release_walk(bool says_so) {
   if (walk_ && says_so) {
-    walk_->request = motion::WalkCommand{};
+    walk_->request = WalkCommand{};
     commands_.push_back(*walk_);
   }
   walk_.reset();
@@ -151,14 +151,14 @@ bool ClosedLoop::run_until(const std::function<bool()>& condition, double timeou
   return condition();
 }
 
-std::optional<motion::CommandResult> ClosedLoop::await_end(int64_t id, double timeout) {
+std::optional<CommandResult> ClosedLoop::await_end(int64_t id, double timeout) {
   size_t next = 0;
-  std::optional<motion::CommandResult> end;
+  std::optional<CommandResult> end;
   run_until(
       [&] {
         for (; next < results_.size(); ++next) {
-          const motion::CommandResult& result = results_[next];
-          if (result.id == id && result.status != motion::ResultStatus::kAccepted) end = result;
+          const CommandResult& result = results_[next];
+          if (result.id == id && result.status != ResultStatus::kAccepted) end = result;
         }
         return end.has_value();
       },

@@ -51,7 +51,7 @@ class ClosedLoop {
   double random(double low, double high);
 
   /** Queues a command for the next tick. @return Its number. */
-  int64_t send(motion::Command command);
+  int64_t send(Command command);
   int64_t send_posture(const std::string& posture, double speed);
   int64_t send_action(const std::string& action);
   /** Wishes to walk: sends the velocity now and five times a second, as a thumb on a joystick does,
@@ -66,12 +66,12 @@ class ClosedLoop {
   /** Steps for so many s. */
   void run(double duration);
   /** Steps until the command has ended. @return Its end, or nothing after `timeout` s. */
-  std::optional<motion::CommandResult> await_end(int64_t id, double timeout);
+  std::optional<CommandResult> await_end(int64_t id, double timeout);
   /** Steps until the condition holds. @return false after `timeout` s. */
   bool run_until(const std::function<bool()>& condition, double timeout);
 
   /** All results so far. */
-  const std::vector<motion::CommandResult>& results() const { return results_; }
+  const std::vector<CommandResult>& results() const { return results_; }
   /** Last targets of the core. */
   const std::vector<double>& targets() const { return targets_; }
   /** What the core last made of its sensors. */
@@ -101,13 +101,13 @@ class ClosedLoop {
   std::unique_ptr<motion::MotionCore> core_;
   uint64_t random_state_;
   bool is_dead_ = false;
-  std::vector<motion::Command> commands_;
-  std::optional<motion::Command> walk_;
+  std::vector<Command> commands_;
+  std::optional<Command> walk_;
   int ticks_since_walk_ = 0;
   int ticks_to_miss_ = 0;
   int missed_ticks_ = 0;
   int64_t last_id_ = 0;
-  std::vector<motion::CommandResult> results_;
+  std::vector<CommandResult> results_;
   std::vector<double> targets_;
   motion::RobotState estimate_;
   std::function<void()> on_tick_;

@@ -23,7 +23,7 @@ void do_something(ClosedLoop& trial) {
     trial.await_end(trial.send_posture(kPostures[index], trial.random(0.2, 1)), 10);
   } else {
     const int motor = static_cast<int>(trial.random(0, trial.model().num_motors()));
-    motion::JointChangeCommand change;
+    JointChangeCommand change;
     change.joint_names = {trial.model().motor_joint(motor).name};
     change.joint_position = {trial.random(-0.6, 0.6)};
     change.is_relative = true;
@@ -40,7 +40,7 @@ std::vector<RunResult> AlarmsScenario::run(const ScenarioOptions& options, uint6
   int num_alarms = 0;
   bool was_falling = false;
   trial.on_tick([&] {
-    const bool is_falling = trial.core().motion_state().mode == motion::Mode::kFalling;
+    const bool is_falling = trial.core().motion_state().mode == Mode::kFalling;
     num_alarms += is_falling && !was_falling ? 1 : 0;
     was_falling = is_falling;
   });

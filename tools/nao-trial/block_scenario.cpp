@@ -63,7 +63,7 @@ RunResult act(const ScenarioOptions& options, uint64_t seed, const std::string& 
   const bool stands = trial.torso_tilt() < 0.3 && trial.torso_height() > 0.29;
   if (fell) {
     result.failure = "fell";
-  } else if (!end || end->status != motion::ResultStatus::kDone) {
+  } else if (!end || end->status != ResultStatus::kDone) {
     result.failure = end ? end->reason : "did not end";
   } else if (!stands) {
     result.failure = "does not stand";

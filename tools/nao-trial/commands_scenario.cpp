@@ -17,8 +17,8 @@ constexpr double kPushShare = 0.03;     // of the commands, with a push that thr
 constexpr double kRestartShare = 0.02;  // of the commands, after which the mind dies
 constexpr double kTimeToEnd = 150;      // s for the last command, six tries to get up included
 
-motion::Command random_joint_change(ClosedLoop& trial) {
-  motion::JointChangeCommand change;
+Command random_joint_change(ClosedLoop& trial) {
+  JointChangeCommand change;
   const int motor = static_cast<int>(trial.random(0, trial.model().num_motors()));
   change.joint_names = {trial.model().motor_joint(motor).name};
   change.joint_position = {trial.random(-2, 2)};
@@ -27,29 +27,27 @@ motion::Command random_joint_change(ClosedLoop& trial) {
   return {"", 0, change};
 }
 
-motion::Command random_command(ClosedLoop& trial) {
+Command random_command(ClosedLoop& trial) {
   const auto& postures = trial.model().postures();
   const auto& actions = trial.model().actions();
   const double kind = trial.random(0, 10);
   if (kind < 2) {
     const auto index = static_cast<size_t>(trial.random(0, static_cast<double>(postures.size())));
-    return {"", 0, motion::PostureCommand{postures[index].name, trial.random(0.1, 1.05)}};
+    return {"", 0, PostureCommand{postures[index].name, trial.random(0.1, 1.05)}};
   }
   if (kind < 4) {
-    return {
-        "", 0,
-        motion::WalkCommand{trial.random(-0.3, 0.3), trial.random(-0.2, 0.2), trial.random(-1, 1)}};
+    return {"", 0,
+            WalkCommand{trial.random(-0.3, 0.3), trial.random(-0.2, 0.2), trial.random(-1, 1)}};
   }
   if (kind < 5) {
     return {"", 0,
-            motion::MoveToCommand{trial.random(-0.3, 0.3), trial.random(-0.2, 0.2),
-                                  trial.random(-1, 1)}};
+            MoveToCommand{trial.random(-0.3, 0.3), trial.random(-0.2, 0.2), trial.random(-1, 1)}};
   }
   if (kind < 6) {
     const auto index = static_cast<size_t>(trial.random(0, static_cast<double>(actions.size())));
-    return {"", 0, motion::ActionCommand{actions[index], kNan, kNan, kNan}};
+    return {"", 0, ActionCommand{actions[index], kNan, kNan, kNan}};
   }
-  if (kind < 7) return {"", 0, motion::StopCommand{}};
+  if (kind < 7) return {"", 0, StopCommand{}};
   return random_joint_change(trial);
 }
 
@@ -92,8 +90,8 @@ class Watch {
     for (; next_ < trial_.results().size(); ++next_) take(trial_.results()[next_]);
   }
 
-  void take(const motion::CommandResult& answer) {
-    if (answer.status == motion::ResultStatus::kAccepted) return;
+  void take(const CommandResult& answer) {
+    if (answer.status == ResultStatus::kAccepted) return;
     if (!open_[answer.id] && !is_forgiven(answer.id)) {
       fail(fmt::format("{} got a second result", answer.id));
     }
@@ -135,7 +133,7 @@ std::vector<RunResult> CommandsScenario::run(const ScenarioOptions& options, uin
     }
   }
   // A walk has no end of its own.
-  if (result.failure.empty()) watch.expect_result(trial.send({"", 0, motion::StopCommand{}}));
+  if (result.failure.empty()) watch.expect_result(trial.send({"", 0, StopCommand{}}));
   const bool all_ended =
       trial.run_until([&] { return !watch.has_open() || !result.failure.empty(); }, kTimeToEnd);
   if (!all_ended) watch.fail("a command got no result");

@@ -24,7 +24,7 @@ bool touches_floor_with_body(ClosedLoop& trial) {
 
 void FallWarning::look(ClosedLoop& trial) {
   if (touched_) return;
-  if (!told_ && trial.core().motion_state().mode == motion::Mode::kFalling) told_ = trial.time();
+  if (!told_ && trial.core().motion_state().mode == Mode::kFalling) told_ = trial.time();
   if (touches_floor_with_body(trial)) touched_ = trial.time();
 }
 

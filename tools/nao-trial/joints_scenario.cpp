@@ -12,8 +12,8 @@ constexpr double kTick = 0.01;
 constexpr double kDeepest = 0.01;  // s of self-contact force that a brush may last
 
 /** A command for one to three random joints, sensible or absurd. */
-motion::Command random_command(ClosedLoop& trial) {
-  motion::JointChangeCommand change;
+Command random_command(ClosedLoop& trial) {
+  JointChangeCommand change;
   const int num_joints = 1 + static_cast<int>(trial.random(0, 3));
   for (int i = 0; i < num_joints; ++i) {
     const int motor = static_cast<int>(trial.random(0, trial.model().num_motors()));
@@ -77,9 +77,9 @@ std::vector<RunResult> JointsScenario::run(const ScenarioOptions& options, uint6
     trial.run(trial.random(0.02, 1.0));
   }
   trial.run(3);
-  for (const motion::CommandResult& answer : trial.results()) {
-    num_accepted += answer.status == motion::ResultStatus::kAccepted ? 1 : 0;
-    num_refused += answer.status == motion::ResultStatus::kRefused ? 1 : 0;
+  for (const CommandResult& answer : trial.results()) {
+    num_accepted += answer.status == ResultStatus::kAccepted ? 1 : 0;
+    num_refused += answer.status == ResultStatus::kRefused ? 1 : 0;
   }
   result.is_success = result.failure.empty();
   result.metrics = {{"accepted", num_accepted}, {"refused", num_refused}};

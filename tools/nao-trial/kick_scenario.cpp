@@ -26,8 +26,8 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   double speed = 0;
   trial.on_tick([&] { speed = std::max(speed, trial.world().ball().velocity.norm()); });
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const int64_t id = trial.send(
-      {"", 0, motion::ActionCommand{is_left ? "kick-left" : "kick-right", nan, nan, nan}});
+  const int64_t id =
+      trial.send({"", 0, ActionCommand{is_left ? "kick-left" : "kick-right", nan, nan, nan}});
   const auto end = trial.await_end(id, 10);
   // Until the ball lies still.
   trial.run_until([&] { return trial.world().ball().velocity.norm() < 0.01; }, 20);
@@ -36,10 +36,10 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   RunResult result;
   const double distance = way.head<2>().norm();
   result.is_success =
-      is_upright && end && end->status == motion::ResultStatus::kDone && distance >= kLeastWay;
+      is_upright && end && end->status == ResultStatus::kDone && distance >= kLeastWay;
   if (!is_upright) {
     result.failure = "fell";
-  } else if (!end || end->status != motion::ResultStatus::kDone) {
+  } else if (!end || end->status != ResultStatus::kDone) {
     result.failure = end ? end->reason : "did not end";
   } else if (!result.is_success) {
     result.failure = "ball too short";
@@ -75,11 +75,9 @@ std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uin
   const Eigen::Vector3d start = trial.world().ball().position;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const int64_t id = trial.send(
-      {"", 0,
-       motion::ActionCommand{is_left ? "kick-left" : "kick-right", seen.x(), seen.y(), nan}});
+      {"", 0, ActionCommand{is_left ? "kick-left" : "kick-right", seen.x(), seen.y(), nan}});
   bool walks_on = true;
-  trial.on_tick(
-      [&] { walks_on = walks_on && trial.core().motion_state().mode == motion::Mode::kWalking; });
+  trial.on_tick([&] { walks_on = walks_on && trial.core().motion_state().mode == Mode::kWalking; });
   const auto end = trial.await_end(id, 12);
   // It may not walk into the ball again.
   trial.hold_walk({0.05, is_left ? -0.05 : 0.05, 0});
@@ -88,7 +86,7 @@ std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uin
   trial.on_tick({});
   const Eigen::Vector2d way = (trial.world().ball().position - start).head<2>();
   RunResult result;
-  if (!end || end->status != motion::ResultStatus::kDone) {
+  if (!end || end->status != ResultStatus::kDone) {
     result.failure = end ? end->reason : "did not end";
   } else if (!walks_on || trial.torso_tilt() > 0.5) {
     result.failure = "did not walk on";

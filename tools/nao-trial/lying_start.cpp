@@ -41,7 +41,7 @@ LyingStill wait_until_still(ClosedLoop& trial) {
         const bool is_still = (now - up).norm() / kTick < kStillVelocity;
         up = now;
         num_still = is_still ? num_still + 1 : 0;
-        const bool gets_up = trial.core().motion_state().mode == motion::Mode::kGettingUp;
+        const bool gets_up = trial.core().motion_state().mode == Mode::kGettingUp;
         return gets_up || num_still >= kNumStill;
       },
       kLongestWait);

@@ -18,7 +18,7 @@ std::string go(ClosedLoop& trial, const Posture& goal, RunResult& result) {
   const double start = trial.time();
   const auto end = trial.await_end(trial.send_posture(goal.name, kSpeed), kTimeout);
   if (!end) return "no end";
-  if (end->status != motion::ResultStatus::kDone) {
+  if (end->status != ResultStatus::kDone) {
     return std::string(to_string(end->status)) + ": " + end->reason;
   }
   result.metrics.emplace_back("time_s", trial.time() - start);

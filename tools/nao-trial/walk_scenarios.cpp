@@ -206,7 +206,7 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   const auto end = trial.await_end(walk, 10);
   trial.run(0.5);
   RunResult result;
-  result.is_success = end && end->status == motion::ResultStatus::kDone && !has_fallen(trial);
+  result.is_success = end && end->status == ResultStatus::kDone && !has_fallen(trial);
   if (!result.is_success) {
     result.failure = has_fallen(trial) ? "fell while stopping" : "did not stop";
     return {result};
@@ -312,14 +312,14 @@ std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint6
   const GroundPose start = true_pose(trial);
   const GroundPose estimated_start = estimated_pose(trial);
   const double start_time = trial.time();
-  const int64_t id = trial.send({"", 0, motion::MoveToCommand{goal.x(), goal.y(), turn}});
-  std::optional<motion::CommandResult> end;
+  const int64_t id = trial.send({"", 0, MoveToCommand{goal.x(), goal.y(), turn}});
+  std::optional<CommandResult> end;
   size_t next = 0;
   trial.run_until(
       [&] {
         for (; next < trial.results().size(); ++next) {
-          const motion::CommandResult& found = trial.results()[next];
-          if (found.id == id && found.status != motion::ResultStatus::kAccepted) end = found;
+          const CommandResult& found = trial.results()[next];
+          if (found.id == id && found.status != ResultStatus::kAccepted) end = found;
         }
         return end || has_fallen(trial);
       },
@@ -338,8 +338,8 @@ std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint6
   RunResult result;
   // Within 3 cm and 3 degrees for each metre of the way, and no less than for one.
   const double scale = std::max(1.0, distance);
-  result.is_success = end && end->status == motion::ResultStatus::kDone &&
-                      by_odometry < 0.03 * scale && turned < 3 * scale;
+  result.is_success =
+      end && end->status == ResultStatus::kDone && by_odometry < 0.03 * scale && turned < 3 * scale;
   if (!result.is_success) result.failure = end ? "missed; " + end->reason : "did not end";
   result.metrics = {{"odometry_miss_mm", 1e3 * by_odometry},
                     {"odometry_miss_deg", turned},
@@ -375,7 +375,7 @@ std::vector<RunResult> WalkPushScenario::run(const ScenarioOptions& options, uin
     const bool is_upright = run_upright(trial, 4);
     if (!is_upright) trial.run_until([&] { return fall.has_touched(); }, kFallTime);
     if (fall.warning()) result.metrics.emplace_back("warning_ms", *fall.warning() * 1e3);
-    return is_upright && trial.core().motion_state().mode == motion::Mode::kWalking;
+    return is_upright && trial.core().motion_state().mode == Mode::kWalking;
   };
   double low = 0;
   double high = kGreatest;

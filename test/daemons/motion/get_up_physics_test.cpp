@@ -9,9 +9,6 @@
 namespace nao::trial {
 namespace {
 
-using motion::Mode;
-using motion::ResultStatus;
-
 TEST(GetUp, FromEverySideOnWhichItCanLie) {
   for (int quarter = 0; quarter < 4; ++quarter) {
     ClosedLoop trial(trial_options(), static_cast<uint64_t>(quarter));

@@ -8,8 +8,6 @@
 namespace nao::trial {
 namespace {
 
-using motion::ResultStatus;
-
 ClosedLoop make_trial(uint64_t seed) {
   const std::filesystem::path data = NAO_TEST_DATA;
   static const auto model =

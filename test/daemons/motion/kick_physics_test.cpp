@@ -11,8 +11,6 @@
 namespace nao::trial {
 namespace {
 
-using motion::ResultStatus;
-
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::filesystem::path data() {
@@ -40,7 +38,7 @@ Eigen::Vector2d kick(ClosedLoop& trial, bool is_left, double strength) {
   trial.run(0.5);
   const Eigen::Vector3d start = trial.world().ball().position;
   const int64_t id = trial.send(
-      {"", 0, motion::ActionCommand{is_left ? "kick-left" : "kick-right", kNan, kNan, strength}});
+      {"", 0, ActionCommand{is_left ? "kick-left" : "kick-right", kNan, kNan, strength}});
   const auto end = trial.await_end(id, 10);
   EXPECT_TRUE(end);
   if (end) {
@@ -70,7 +68,7 @@ TEST(Kick, IsGentlerWithLessStrength) {
 TEST(Kick, RefusesABallOutOfReachAndSaysWhereItMayLie) {
   ClosedLoop trial = make_trial(4);
   trial.run(0.5);
-  const int64_t id = trial.send({"", 0, motion::ActionCommand{"kick-left", 0.5, 0.05, kNan}});
+  const int64_t id = trial.send({"", 0, ActionCommand{"kick-left", 0.5, 0.05, kNan}});
   const auto end = trial.await_end(id, 1);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->status, ResultStatus::kRefused);
@@ -80,7 +78,7 @@ TEST(Kick, RefusesABallOutOfReachAndSaysWhereItMayLie) {
 TEST(Kick, APostureWaitsUntilBothFeetStand) {
   ClosedLoop trial = make_trial(5);
   trial.run(0.5);
-  const int64_t id = trial.send({"", 0, motion::ActionCommand{"kick-left", kNan, kNan, kNan}});
+  const int64_t id = trial.send({"", 0, ActionCommand{"kick-left", kNan, kNan, kNan}});
   trial.run(0.8);
   const int64_t posture = trial.send_posture("Crouch", 0.5);
   const auto end = trial.await_end(posture, 15);
@@ -95,12 +93,12 @@ TEST(Kick, OutOfTheWalkDoesNotStopIt) {
   trial.run(0.5);
   trial.hold_walk({0.15, 0, 0});
   trial.run(2);
-  const int64_t id = trial.send({"", 0, motion::ActionCommand{"kick-left", kNan, kNan, kNan}});
+  const int64_t id = trial.send({"", 0, ActionCommand{"kick-left", kNan, kNan, kNan}});
   const auto end = trial.await_end(id, 2);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
   trial.run(2);
-  EXPECT_EQ(trial.core().motion_state().mode, motion::Mode::kWalking);
+  EXPECT_EQ(trial.core().motion_state().mode, Mode::kWalking);
   EXPECT_LT(trial.torso_tilt(), 0.3);
 }
 
@@ -110,7 +108,7 @@ TEST(Kick, AStrongOneEndsTheWalkFirst) {
   trial.hold_walk({0.15, 0, 0});
   trial.run(2);
   trial.release_walk(false);
-  const int64_t id = trial.send({"", 0, motion::ActionCommand{"kick-left", kNan, kNan, 1.0}});
+  const int64_t id = trial.send({"", 0, ActionCommand{"kick-left", kNan, kNan, 1.0}});
   const auto end = trial.await_end(id, 10);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;

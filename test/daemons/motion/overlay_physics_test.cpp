@@ -11,9 +11,6 @@
 namespace nao::trial {
 namespace {
 
-using motion::Mode;
-using motion::ResultStatus;
-
 class OverlayTest : public testing::Test {
  protected:
   void walk() {
@@ -24,16 +21,15 @@ class OverlayTest : public testing::Test {
   }
   int64_t turn(std::vector<std::string> names, std::vector<double> angles, double speed = 0.5) {
     return trial_.send(
-        {"", 0,
-         motion::JointChangeCommand{std::move(names), std::move(angles), false, speed, false}});
+        {"", 0, JointChangeCommand{std::move(names), std::move(angles), false, speed, false}});
   }
   double angle(const char* name) {
     return trial_.world().robot(0).motor_position()[trial_.model().find_motor(name)];
   }
   /** Final results of a command so far. */
-  std::vector<motion::CommandResult> ends(int64_t id) {
-    std::vector<motion::CommandResult> ends;
-    for (const motion::CommandResult& result : trial_.results()) {
+  std::vector<CommandResult> ends(int64_t id) {
+    std::vector<CommandResult> ends;
+    for (const CommandResult& result : trial_.results()) {
       if (result.id == id && result.status != ResultStatus::kAccepted) ends.push_back(result);
     }
     return ends;

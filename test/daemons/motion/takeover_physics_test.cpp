@@ -38,7 +38,7 @@ void kill_and_restart(ClosedLoop& trial, double dead_time) {
 }
 
 bool is_at_ease(ClosedLoop& trial) {
-  return trial.core().motion_state().mode == motion::Mode::kHolding &&
+  return trial.core().motion_state().mode == Mode::kHolding &&
          !trial.core().motion_state().posture.empty();
 }
 
@@ -92,7 +92,7 @@ TEST(Takeover, RestingItRestsOn) {
   trial.run(1);
   ASSERT_TRUE(trial.await_end(trial.send_action("rest"), 20));
   kill_and_restart(trial, 0.5);
-  EXPECT_EQ(trial.core().motion_state().mode, motion::Mode::kRelaxed);
+  EXPECT_EQ(trial.core().motion_state().mode, Mode::kRelaxed);
   EXPECT_EQ(trial.core().motion_state().stiffness, 0);
 }
 

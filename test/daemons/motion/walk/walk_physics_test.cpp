@@ -13,9 +13,6 @@
 namespace nao::trial {
 namespace {
 
-using motion::Mode;
-using motion::ResultStatus;
-
 std::shared_ptr<const RobotModel> nao_robot() {
   static const auto model = std::make_shared<const RobotModel>(
       RobotModel::load(std::filesystem::path(NAO_TEST_DATA) / "robots" / "nao"));
@@ -41,9 +38,9 @@ class WalkPhysicsTest : public testing::Test {
     return std::atan2(R(1, 0), R(0, 0));
   }
   Mode mode() const { return trial_->core().motion_state().mode; }
-  std::optional<motion::CommandResult> last_result(int64_t id) const {
-    std::optional<motion::CommandResult> found;
-    for (const motion::CommandResult& result : trial_->results()) {
+  std::optional<CommandResult> last_result(int64_t id) const {
+    std::optional<CommandResult> found;
+    for (const CommandResult& result : trial_->results()) {
       if (result.id == id) found = result;
     }
     return found;
@@ -177,7 +174,7 @@ TEST_F(WalkPhysicsTest, SaysHowFastItReallyWalksAndWhereItWillStep) {
 
 TEST_F(WalkPhysicsTest, MovesToAPlaceByOdometry) {
   ClosedLoop& trial = begin(6);
-  const int64_t move = trial.send({"", 0, motion::MoveToCommand{0.6, 0.2, M_PI / 2}});
+  const int64_t move = trial.send({"", 0, MoveToCommand{0.6, 0.2, M_PI / 2}});
   const auto end = trial.await_end(move, 40);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
