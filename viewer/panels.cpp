@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "messages/command.h"
+#include "messages/mode.h"
 #include "viewer/message_fields.h"
 
 namespace nao {
