@@ -31,11 +31,11 @@ struct PostureCommand {
 struct JointChangeCommand {
   std::vector<std::string> joint_names;
   std::vector<double> joint_position;
-  /** Fraction of the peak torque, 0..1; NaN keeps the present one. Empty: all NaN. */
-  std::vector<double> joint_stiffness;
   bool is_relative = false;
   double speed = 0;
   bool allow_tipping = false;
+  /** Fraction of the peak torque, 0..1; NaN keeps the present one. Empty: all NaN. */
+  std::vector<double> joint_stiffness{};
 };
 
 /** NaN in a number: as the action says. */
@@ -90,10 +90,10 @@ struct CommandResult {
   CommandKind kind = CommandKind::kStop;
   ResultStatus status = ResultStatus::kAccepted;
   /** Why, as a code that programs translate, and the values in the translated sentence. */
-  std::string reason_code;
-  std::vector<std::string> reason_arguments;
+  std::string reason_code{};
+  std::vector<std::string> reason_arguments{};
   /** Why, as an English sentence. */
-  std::string reason;
+  std::string reason{};
 };
 
 }  // namespace nao

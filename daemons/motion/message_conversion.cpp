@@ -129,9 +129,12 @@ Command to_command(const naolcm::posture_command_t& message) {
 
 Command to_command(const naolcm::joint_change_command_t& message) {
   Command command = command_from(message);
-  command.request = JointChangeCommand{message.joint_names,     message.joint_position,
-                                       message.joint_stiffness, message.is_relative != 0,
-                                       message.speed,           message.allow_tipping != 0};
+  command.request = JointChangeCommand{message.joint_names,
+                                       message.joint_position,
+                                       message.is_relative != 0,
+                                       message.speed,
+                                       message.allow_tipping != 0,
+                                       message.joint_stiffness};
   return command;
 }
 

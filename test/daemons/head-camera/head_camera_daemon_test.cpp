@@ -107,9 +107,10 @@ TEST_F(HeadCameraDaemonTest, StatesIntrinsicsDistortionAndExposure) {
   const naolcm::image_t& image = images_[0];
   const auto camera = std::find_if(model_->cameras().begin(), model_->cameras().end(),
                                    [](const CameraModel& c) { return c.name == "top"; });
-  const PinholeCamera pinhole = pinhole_of(*camera).resized(320);
-  EXPECT_EQ(image.fx, pinhole.fx);
-  EXPECT_EQ(image.cy, pinhole.cy);
+  // Half of the full width of 640 pixels: pixel centres are at integers.
+  EXPECT_NEAR(image.fx, image.fy, 1e-9);
+  EXPECT_NEAR(image.fx, 160 / std::tan(camera->horizontal_fov / 2), 1e-9);
+  EXPECT_NEAR(image.cx, 159.5, 0.51);
   for (const double coefficient : image.distortion) EXPECT_EQ(coefficient, 0);
   EXPECT_EQ(image.exposure_time, 0);
 }

@@ -101,7 +101,7 @@ TEST_F(MotionCoreTest, GoesToEachPostureOnItsFeet) {
     ASSERT_EQ(output.results.size(), 1u);
     EXPECT_EQ(output.results[0].status, ResultStatus::kAccepted);
     EXPECT_EQ(core_.motion_state().mode, Mode::kMoving);
-    EXPECT_EQ(core_.motion_state().command, "posture");
+    EXPECT_EQ(core_.motion_state().command_kind, CommandKind::kPosture);
     EXPECT_EQ(core_.motion_state().command_name, name);
     const auto results = robot_.settle(core_);
     ASSERT_EQ(results.size(), 1u);
@@ -409,9 +409,9 @@ TEST_F(MotionCoreTest, AsksForHelpAfterSixTriesAndObeysThen) {
 
 TEST(CommandLedger, ForgetsTheOldestEndedCommandFirst) {
   CommandLedger ledger(3);
-  ledger.note({"a", 1, CommandKind::kPosture, ResultStatus::kAccepted, ""});
+  ledger.note({"a", 1, CommandKind::kPosture, ResultStatus::kAccepted});
   for (int64_t id = 2; id <= 10; ++id) {
-    ledger.note({"a", id, CommandKind::kStop, ResultStatus::kRefused, ""});
+    ledger.note({"a", id, CommandKind::kStop, ResultStatus::kRefused});
     EXPECT_LE(ledger.size(), 3u);
   }
   EXPECT_NE(ledger.find("a", 1), nullptr);

@@ -74,7 +74,7 @@ TEST_F(MotionDaemonTest, PublishesResultsOfCommands) {
   tick();
   ASSERT_EQ(results_.size(), 1u);
   EXPECT_EQ(results_[0].status, naolcm::command_result_t::STATUS_REFUSED);
-  EXPECT_EQ(results_[0].command, "posture");
+  EXPECT_EQ(results_[0].command_kind, naolcm::command_result_t::COMMAND_KIND_POSTURE);
   EXPECT_EQ(results_[0].command_id, 1);
 }
 
