@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <naolcm/daemon_status_t.hpp>
 
@@ -108,7 +110,7 @@ TEST_F(HeadCameraDaemonTest, StatesIntrinsicsDistortionAndExposure) {
   const auto camera = std::find_if(model_->cameras().begin(), model_->cameras().end(),
                                    [](const CameraModel& c) { return c.name == "top"; });
   // Half of the full width of 640 pixels: pixel centres are at integers.
-  EXPECT_NEAR(image.fx, image.fy, 1e-9);
+  EXPECT_NEAR(image.fy, 120 / std::tan(camera->vertical_fov / 2), 1e-9);
   EXPECT_NEAR(image.fx, 160 / std::tan(camera->horizontal_fov / 2), 1e-9);
   EXPECT_NEAR(image.cx, 159.5, 0.51);
   for (const double coefficient : image.distortion) EXPECT_EQ(coefficient, 0);
