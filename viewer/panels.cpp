@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <limits>
 
+#include "message_reflection/number_fields.h"
 #include "messages/command.h"
 #include "messages/mode.h"
-#include "viewer/message_fields.h"
 
 namespace nao {
 namespace {
@@ -373,13 +373,13 @@ void draw_field_picker(const MessageStore& store, TimePlots& plots, PanelState& 
   const auto raw = store.raw().find(state.plot_channel);
   if (ImGui::BeginCombo("##field", "add a field")) {
     if (raw != store.raw().end()) {
-      visit_fields(raw->second.data(), static_cast<int>(raw->second.size()),
-                   [&](const std::string& name, double value) {
-                     if (name.find(state.field_filter) == std::string::npos) return;
-                     char text[160];
-                     std::snprintf(text, sizeof text, "%s = %.5g", name.c_str(), value);
-                     if (ImGui::Selectable(text)) plots.add(state.plot_channel, name);
-                   });
+      visit_numbers(raw->second, [&](const NumberField& field) {
+        if (field.path.find(state.field_filter) == std::string::npos) return;
+        char text[160];
+        std::snprintf(text, sizeof text, "%s = %.5g %s", field.path.c_str(), field.value,
+                      field.constant.c_str());
+        if (ImGui::Selectable(text)) plots.add(state.plot_channel, field.path);
+      });
     }
     ImGui::EndCombo();
   }

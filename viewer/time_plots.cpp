@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "viewer/message_fields.h"
+#include "message_reflection/number_fields.h"
 
 namespace nao {
 
@@ -27,12 +27,13 @@ bool TimePlots::wants(const std::string& channel) const {
 void TimePlots::receive(const std::string& channel, const uint8_t* data, int num_bytes,
                         double time) {
   if (!wants(channel)) return;
-  visit_fields(data, num_bytes, [&](const std::string& name, double value) {
-    if (!std::isfinite(value)) return;
+  const std::span message(data, static_cast<size_t>(num_bytes));
+  visit_numbers(message, [&](const NumberField& field) {
+    if (!std::isfinite(field.value)) return;
     for (PlotSeries& series : series_) {
-      if (series.channel != channel || series.field != name) continue;
+      if (series.channel != channel || series.field != field.path) continue;
       if (!series.points.empty() && time < series.points.back().time) series.points.clear();
-      series.points.push_back({time, value});
+      series.points.push_back({time, field.value});
       while (series.points.front().time < time - window_) series.points.pop_front();
     }
   });

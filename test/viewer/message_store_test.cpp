@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <naolcm/stop_command_t.hpp>
 
-#include "viewer/message_fields.h"
 #include "viewer/time_plots.h"
 #include "viewer/viewer_options.h"
 
@@ -33,41 +31,6 @@ naolcm::robot_state_t some_state() {
   state.num_support_corners = 1;
   state.support_corner_in_odometry = {{3, 4}};
   return state;
-}
-
-std::map<std::string, double> fields(const std::vector<uint8_t>& data) {
-  std::map<std::string, double> fields;
-  visit_fields(data.data(), static_cast<int>(data.size()),
-               [&](const std::string& name, double value) { fields[name] = value; });
-  return fields;
-}
-
-TEST(MessageFields, NameEveryNumber) {
-  const auto names = fields(encode(some_state()));
-  EXPECT_EQ(names.at("utime"), 123);
-  EXPECT_EQ(names.at("joint_position[HeadYaw]"), 0.5);
-  EXPECT_EQ(names.at("joint_velocity[LHand]"), 1);
-  EXPECT_EQ(names.at("support_corner_in_odometry[0][1]"), 4);
-  EXPECT_TRUE(std::isnan(names.at("center_of_pressure_in_odometry[1]")));
-}
-
-TEST(MessageFields, ReachIntoPartsOfMessages) {
-  naolcm::world_truth_t truth{};
-  truth.num_robots = 1;
-  truth.robots.resize(1);
-  truth.robots[0].position_torso_in_world[2] = 0.32;
-  truth.num_contacts = 1;
-  truth.contacts.resize(1);
-  truth.contacts[0].force_on_a_in_world[2] = 26;
-  const auto names = fields(encode(truth));
-  EXPECT_EQ(names.at("robots[0].position_torso_in_world[2]"), 0.32);
-  EXPECT_EQ(names.at("contacts[0].force_on_a_in_world[2]"), 26);
-}
-
-TEST(MessageFields, KnowNothingOfForeignBytes) {
-  const std::vector<uint8_t> garbage(100, 7);
-  EXPECT_FALSE(visit_fields(garbage.data(), 100, [](const std::string&, double) { FAIL(); }));
-  EXPECT_FALSE(visit_fields(garbage.data(), 3, [](const std::string&, double) { FAIL(); }));
 }
 
 TEST(MessageStore, KeepsTheNewestOfEachKind) {

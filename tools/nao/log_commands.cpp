@@ -10,12 +10,12 @@
 
 #include "common/error.h"
 #include "common/log_reader.h"
+#include "message_reflection/message_types.h"
 #include "tools/nao/json_writer.h"
 #include "tools/nao/log_statistics.h"
 #include "tools/nao/mcap_writer.h"
 #include "tools/nao/message_json.h"
 #include "tools/nao/message_table.h"
-#include "tools/nao/message_types.h"
 #include "tools/nao/subcommand.h"
 
 namespace nao {

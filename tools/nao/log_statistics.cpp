@@ -4,9 +4,9 @@
 #include <ctime>
 #include <optional>
 
+#include "message_reflection/message_types.h"
+#include "message_reflection/message_walk.h"
 #include "tools/nao/json_writer.h"
-#include "tools/nao/message_types.h"
-#include "tools/nao/message_walk.h"
 #include "tools/nao/text_table.h"
 
 namespace nao {

@@ -1,7 +1,7 @@
 #include "tools/nao/message_json.h"
 
+#include "message_reflection/message_walk.h"
 #include "tools/nao/json_writer.h"
-#include "tools/nao/message_walk.h"
 
 namespace nao {
 namespace {

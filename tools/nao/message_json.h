@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "tools/nao/message_layout.h"
+#include "message_reflection/message_layout.h"
 
 namespace nao {
 

@@ -4,54 +4,35 @@
 #include <charconv>
 #include <functional>
 
-#include "tools/nao/message_walk.h"
+#include "message_reflection/number_fields.h"
 
 namespace nao {
 namespace {
 
 /** Gives every value the name of its column. */
-class Flattener : public MessageVisitor {
+class Flattener : public PathVisitor {
  public:
   using Take = std::function<void(const std::string& column, const std::string& value)>;
   explicit Flattener(Take take) : take_(std::move(take)) {}
 
-  void begin_struct(const std::string& key) override { enter(key, false); }
-  void end_struct() override { levels_.pop_back(); }
-  void begin_list(const std::string& key) override { enter(key, true); }
-  void end_list() override { levels_.pop_back(); }
   void integer(const std::string& key, int64_t value) override {
-    take_(name_of(key), std::to_string(value));
+    take_(path(key), std::to_string(value));
   }
   void number(const std::string& key, double value) override {
     std::array<char, 32> digits{};
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    take_(name_of(key), std::string(digits.data(), end));
+    take_(path(key), std::string(digits.data(), end));
   }
-  void boolean(const std::string& key, bool value) override {
-    take_(name_of(key), value ? "1" : "0");
-  }
+  void boolean(const std::string& key, bool value) override { take_(path(key), value ? "1" : "0"); }
   void text(const std::string& key, const std::string& value) override {
-    take_(name_of(key), csv_quoted(value));
+    take_(path(key), csv_quoted(value));
   }
   void bytes(const std::string& key, std::span<const uint8_t> value) override {
-    take_(name_of(key), std::to_string(value.size()));
+    take_(path(key), std::to_string(value.size()));
   }
 
  private:
-  struct Level {
-    std::string name;
-    bool is_list;
-  };
-
-  std::string name_of(const std::string& key) const {
-    if (levels_.empty()) return key;
-    const Level& level = levels_.back();
-    return level.is_list ? level.name + "[" + key + "]" : level.name + "." + key;
-  }
-  void enter(const std::string& key, bool is_list) { levels_.push_back({name_of(key), is_list}); }
-
   Take take_;
-  std::vector<Level> levels_;
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/nao/message_layout.h"
+#include "message_reflection/message_layout.h"
 
 namespace nao {
 

@@ -4,12 +4,14 @@
 #include <span>
 #include <string>
 
-#include "tools/nao/message_layout.h"
+#include "message_reflection/message_layout.h"
 
 namespace nao {
 
-/** Receives the fields of a message, in their order. The key of a list's element is its label: what
- * the list of names of the same length says, such as a joint's name, or else its number. */
+/** Receives the fields of a message in the order of the wire format.
+ *
+ * The key of a field is its name. The key of an array element is its label: the entry of the string
+ * array of the same length, such as a joint's name, else the element's index. */
 class MessageVisitor {
  public:
   virtual ~MessageVisitor() = default;
@@ -18,16 +20,19 @@ class MessageVisitor {
   virtual void begin_list(const std::string& key) = 0;
   virtual void end_list() = 0;
   virtual void integer(const std::string& key, int64_t value) = 0;
+  /** An integer that equals a constant of its field; handled as integer() by default.
+   * @param constant  Name of the constant, such as "STATUS_DONE". */
+  virtual void enumerator(const std::string& key, int64_t value, const std::string& constant);
   virtual void number(const std::string& key, double value) = 0;
   virtual void boolean(const std::string& key, bool value) = 0;
   virtual void text(const std::string& key, const std::string& value) = 0;
   virtual void bytes(const std::string& key, std::span<const uint8_t> value) = 0;
 };
 
-/** Walks through an encoded message whose type is known: its fields, without the struct around
- * them.
- * @param message  Whole, with the fingerprint.
- * @return false if the bytes are not such a message; what was visited before is then void. */
+/** Visits the fields of an encoded message of a known type; the outermost struct itself is not
+ * visited.
+ * @param message  The whole message, with its fingerprint.
+ * @return false if the bytes are not a message of this type; what was visited is then invalid. */
 [[nodiscard]] bool walk_message(const MessageLayout& layout, std::span<const uint8_t> message,
                                 MessageVisitor& visitor);
 

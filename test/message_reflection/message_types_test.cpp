@@ -1,4 +1,4 @@
-#include "tools/nao/message_types.h"
+#include "message_reflection/message_types.h"
 
 #include <gtest/gtest.h>
 
@@ -11,13 +11,15 @@ namespace nao {
 namespace {
 
 std::vector<uint8_t> encoded_stop() {
-  naolcm::stop_command_t command{1, "test", 2};
+  naolcm::stop_command_t command{};
+  command.source = "test";
+  command.command_id = 2;
   std::vector<uint8_t> bytes(command.getEncodedSize());
   command.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return bytes;
 }
 
-TEST(MessageTypes, KnowsEveryFileOfTheFolderByADifferentFingerprint) {
+TEST(MessageTypes, EveryLcmFileHasATypeWithItsOwnFingerprint) {
   std::set<int64_t> fingerprints;
   std::set<std::string> names;
   for (const MessageType& type : message_types()) {
@@ -34,7 +36,7 @@ TEST(MessageTypes, KnowsEveryFileOfTheFolderByADifferentFingerprint) {
   EXPECT_EQ(fingerprints.size(), num_files);
 }
 
-TEST(MessageTypes, RecognisesAMessage) {
+TEST(MessageTypes, FindsTheTypeOfAMessage) {
   const auto bytes = encoded_stop();
   const MessageType* type = find_message_type(bytes.data(), static_cast<int>(bytes.size()));
   ASSERT_NE(type, nullptr);
@@ -42,7 +44,7 @@ TEST(MessageTypes, RecognisesAMessage) {
   EXPECT_TRUE(type->decodes(bytes.data(), static_cast<int>(bytes.size())));
 }
 
-TEST(MessageTypes, DoesNotDecodeCutOffOrForeignMessages) {
+TEST(MessageTypes, RejectsTruncatedAndUnknownMessages) {
   auto bytes = encoded_stop();
   const MessageType* type = find_message_type(bytes.data(), static_cast<int>(bytes.size()));
   ASSERT_NE(type, nullptr);

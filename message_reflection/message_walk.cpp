@@ -1,4 +1,4 @@
-#include "tools/nao/message_walk.h"
+#include "message_reflection/message_walk.h"
 
 #include <bit>
 #include <charconv>
@@ -10,8 +10,9 @@ namespace {
 
 constexpr size_t kFingerprintSize = 8;
 
-/** Reads LCM's wire format: big-endian numbers; strings with their length and a final zero. After a
- * read beyond the end it is not good, and all that it reads is zero. */
+/** Reads LCM's wire format: big-endian numbers; strings as a 32-bit length, the characters and a
+ * final zero, both counted in the length. After a read beyond the end is_good() is false, and every
+ * further read gives zero. Source: LCM's documentation, "type specification language". */
 class WireReader {
  public:
   explicit WireReader(std::span<const uint8_t> bytes) : rest_(bytes) {}
@@ -53,7 +54,7 @@ class WireReader {
   bool is_good_ = true;
 };
 
-/** One struct on its way from the wire to a visitor. */
+/** Reads one struct and passes its fields to a visitor. */
 class StructWalk {
  public:
   StructWalk(const MessageLayout& layout, WireReader& reader, MessageVisitor& visitor)
@@ -67,7 +68,7 @@ class StructWalk {
   }
 
  private:
-  /** Elements of a list from one of its dimensions inwards; the value itself behind the last. */
+  /** Reads the elements of one dimension of an array; after the last dimension, the value. */
   void walk_dimension(const FieldLayout& field, size_t depth, const std::string& key) {
     if (depth == field.dimensions.size()) {
       walk_value(field, key);
@@ -79,7 +80,8 @@ class StructWalk {
       visitor_.bytes(key, reader_.take(length));
       return;
     }
-    // Every element takes a byte at least, unless it is a struct without fields, which nobody has.
+    // Every element takes at least one byte (no type is an empty struct), so a damaged length is
+    // rejected before it causes a long loop.
     if (length > reader_.size_left()) return reader_.fail();
     visitor_.begin_list(key);
     for (size_t i = 0; i < length && reader_.is_good(); ++i) {
@@ -119,7 +121,12 @@ class StructWalk {
 
   void integer(const FieldLayout& field, const std::string& key, int64_t value) {
     if (field.dimensions.empty()) lengths_[field.name] = value;
-    visitor_.integer(key, value);
+    const std::string* constant = find_constant_name(field, value);
+    if (constant != nullptr) {
+      visitor_.enumerator(key, value, *constant);
+    } else {
+      visitor_.integer(key, value);
+    }
   }
 
   void text(const FieldLayout& field, const std::string& key) {
@@ -150,18 +157,17 @@ class StructWalk {
   const MessageLayout& layout_;
   WireReader& reader_;
   MessageVisitor& visitor_;
+  /** Values of the integer fields read so far, by name: array lengths are among them. */
   std::map<std::string, int64_t> lengths_;
-  /** By the dimension that they share with what they name. */
+  /** Entries of string arrays, by the dimension that they share with the arrays that they label. */
   std::map<std::string, std::vector<std::string>> names_;
 };
 
 }  // namespace
 
-const MessageLayout* find_message_layout(const std::string& name) {
-  for (const MessageLayout& layout : message_layouts()) {
-    if (layout.name == name) return &layout;
-  }
-  return nullptr;
+void MessageVisitor::enumerator(const std::string& key, int64_t value,
+                                const std::string& /*constant*/) {
+  integer(key, value);
 }
 
 bool walk_message(const MessageLayout& layout, std::span<const uint8_t> message,
