@@ -400,7 +400,7 @@ void SimDaemon::publish_truth() {
   for (int i = 0; i < world_->num_robots(); ++i) {
     const SimRobot& robot = world_->robot(i);
     const TreeState& state = robot.state();
-    naolcm::robot_truth_t truth;
+    naolcm::robot_truth_t truth{};
     truth.robot = options_.robots[i];
     copy(state.position, truth.position_torso_in_world);
     copy(state.orientation, truth.orientation_torso_in_world);

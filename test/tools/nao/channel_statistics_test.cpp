@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 std::vector<uint8_t> encoded_stop() {
-  naolcm::stop_command_t command{1, "test", 2};
+  naolcm::stop_command_t command{0, 1, "test", 2};
   std::vector<uint8_t> bytes(command.getEncodedSize());
   command.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return bytes;

@@ -11,7 +11,7 @@ TEST(CommandExchange, RepeatsQuicklyUntilAnsweredThenSlowly) {
   for (int i = 0; i < 100; ++i) num_sent += exchange.should_send(i * 0.01) ? 1 : 0;
   EXPECT_EQ(num_sent, 10);
 
-  exchange.handle_result("accepted", "", 1.0);
+  exchange.handle_result(ResultStatus::kAccepted, "", 1.0);
   num_sent = 0;
   for (int i = 0; i < 300; ++i) num_sent += exchange.should_send(1.0 + i * 0.01) ? 1 : 0;
   EXPECT_EQ(num_sent, 3);
@@ -20,17 +20,17 @@ TEST(CommandExchange, RepeatsQuicklyUntilAnsweredThenSlowly) {
 TEST(CommandExchange, IsOpenUntilTheFinalResult) {
   CommandExchange exchange({}, 0);
   EXPECT_FALSE(exchange.outcome(0.1));
-  exchange.handle_result("accepted", "", 0.2);
+  exchange.handle_result(ResultStatus::kAccepted, "", 0.2);
   EXPECT_TRUE(exchange.is_accepted());
   EXPECT_FALSE(exchange.outcome(0.3));
-  exchange.handle_result("done", "", 0.4);
+  exchange.handle_result(ResultStatus::kDone, "", 0.4);
   ASSERT_TRUE(exchange.outcome(0.5));
   EXPECT_TRUE(exchange.outcome(0.5)->is_success);
 }
 
 TEST(CommandExchange, KeepsTheReasonOfARefusal) {
   CommandExchange exchange({}, 0);
-  exchange.handle_result("refused", "no posture Handstand", 0.1);
+  exchange.handle_result(ResultStatus::kRefused, "no posture Handstand", 0.1);
   ASSERT_TRUE(exchange.outcome(0.1));
   EXPECT_FALSE(exchange.outcome(0.1)->is_success);
   EXPECT_EQ(exchange.outcome(0.1)->status, "refused");
@@ -47,7 +47,7 @@ TEST(CommandExchange, GivesUpWhenNobodyAnswersEvenIfSomebodyTalks) {
 
 TEST(CommandExchange, WaitsAnyTimeForAnAcceptedCommandWhileMotionLives) {
   CommandExchange exchange({}, 0);
-  exchange.handle_result("accepted", "", 0.1);
+  exchange.handle_result(ResultStatus::kAccepted, "", 0.1);
   for (double now = 1; now < 600; now += 1) {
     exchange.handle_sign_of_life(now);
     ASSERT_FALSE(exchange.outcome(now + 0.9)) << now;
@@ -58,8 +58,8 @@ TEST(CommandExchange, WaitsAnyTimeForAnAcceptedCommandWhileMotionLives) {
 
 TEST(CommandExchange, KeepsItsFirstFinalResult) {
   CommandExchange exchange({}, 0);
-  exchange.handle_result("interrupted", "a newer command came", 0.1);
-  exchange.handle_result("done", "", 0.2);
+  exchange.handle_result(ResultStatus::kInterrupted, "a newer command came", 0.1);
+  exchange.handle_result(ResultStatus::kDone, "", 0.2);
   EXPECT_EQ(exchange.outcome(0.2)->status, "interrupted");
 }
 
