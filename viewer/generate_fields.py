@@ -58,7 +58,7 @@ def main():
     output, paths = sys.argv[1], sorted(sys.argv[2:])
     structs = dict(read_struct(path) for path in paths)
     with open(output, "w", encoding="utf-8") as out:
-        out.write('// Written by generate_fields.py.\n#include "message_fields.h"\n\n')
+        out.write('// Written by generate_fields.py.\n#include "viewer/message_fields.h"\n\n')
         for name in structs:
             out.write(f"#include <naolcm/{name}.hpp>\n")
         out.write("\nnamespace nao {\nnamespace {\n\n")

@@ -45,7 +45,7 @@ def read_struct(path):
 def main():
     output, paths = sys.argv[1], sorted(sys.argv[2:])
     with open(output, "w", encoding="utf-8") as out:
-        out.write('// Written by generate_message_layouts.py.\n#include "nao/message_layout.h"\n\n'
+        out.write('// Written by generate_message_layouts.py.\n#include "tools/nao/message_layout.h"\n\n'
                   "namespace nao {\n\nconst std::vector<MessageLayout>& message_layouts() {\n"
                   "  static const std::vector<MessageLayout> kLayouts{\n")
         for name, comment, fields in map(read_struct, paths):
