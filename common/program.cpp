@@ -3,9 +3,10 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <exception>
 #include <string>
+
+#include "common/command_line.h"
 
 #ifndef NAO_REMOTE_VERSION
 #error "NAO_REMOTE_VERSION comes from the build"
@@ -17,28 +18,31 @@ const char* version() {
   return NAO_REMOTE_VERSION;
 }
 
-void add_common_options(CLI::App& app, CommonOptions& options) {
-  app.set_version_flag("--version", app.get_name() + " " + version());
-  app.add_option("--lcm-url", options.lcm_url, "Bus to meet the other programs on")
-      ->envname("LCM_DEFAULT_URL")
-      ->capture_default_str();
-  app.add_option("--log-level", options.log_level, "Least severe log line to print")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}))
-      ->capture_default_str();
-  const CLI::Validator robot_name(
-      [](const std::string& name) -> std::string {
-        const bool valid =
-            !name.empty() && name.size() <= 20 &&
-            name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
-        return valid ? "" : "a robot's name is 1 to 20 of A-Z, 0-9 and _";
-      },
-      "NAME", "robot name");
-  app.add_option("--robot", options.robot, "Name of the robot, which its channels begin with")
-      ->check(robot_name)
-      ->capture_default_str();
+namespace {
+
+std::string fault_of_robot_name(const std::string& name) {
+  const bool is_valid =
+      !name.empty() && name.size() <= 20 &&
+      name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
+  return is_valid ? "" : "a robot's name is 1 to 20 of A-Z, 0-9 and _";
 }
 
-int run_program(CLI::App& app, const CommonOptions& common, int argc, char** argv,
+}  // namespace
+
+void add_common_options(CommandLine& app, CommonOptions& options) {
+  app.add_version_flag("--version", app.name() + " " + version());
+  app.add_option("--lcm-url", options.lcm_url, "Bus to meet the other programs on")
+      ->from_environment("LCM_DEFAULT_URL")
+      ->show_default();
+  app.add_option("--log-level", options.log_level, "Least severe log line to print")
+      ->one_of({"trace", "debug", "info", "warning", "error"})
+      ->show_default();
+  app.add_option("--robot", options.robot, "Name of the robot, which its channels begin with")
+      ->check(fault_of_robot_name, "NAME")
+      ->show_default();
+}
+
+int run_program(CommandLine& app, const CommonOptions& common, int argc, char** argv,
                 const std::function<void()>& body) {
   return run_program_with_status(app, common, argc, argv, [&body] {
     body();
@@ -46,14 +50,10 @@ int run_program(CLI::App& app, const CommonOptions& common, int argc, char** arg
   });
 }
 
-int run_program_with_status(CLI::App& app, const CommonOptions& common, int argc, char** argv,
+int run_program_with_status(CommandLine& app, const CommonOptions& common, int argc, char** argv,
                             const std::function<int()>& body) {
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  auto logger = spdlog::stderr_color_mt(app.get_name());
+  if (const auto status = app.parse(argc, argv)) return *status;
+  auto logger = spdlog::stderr_color_mt(app.name());
   logger->set_pattern("%Y-%m-%d %H:%M:%S.%e %^%l%$ %n: %v");
   logger->set_level(spdlog::level::from_str(common.log_level));
   spdlog::set_default_logger(logger);

@@ -3,11 +3,9 @@
 #include <functional>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace nao {
+
+class CommandLine;
 
 /** Options that every program on the bus takes. */
 struct CommonOptions {
@@ -23,7 +21,7 @@ struct CommonOptions {
 const char* version();
 
 /** Adds --version, --lcm-url, --log-level and --robot to a program's options. */
-void add_common_options(CLI::App& app, CommonOptions& options);
+void add_common_options(CommandLine& app, CommonOptions& options);
 
 /** Runs a program: parses the command line, sets up logging to stderr, runs the body.
  *
@@ -31,11 +29,11 @@ void add_common_options(CLI::App& app, CommonOptions& options);
  * @param common  The options that add_common_options() bound to `app`; read after parsing.
  * @param body    The program itself; what it throws becomes one line on stderr.
  * @return Exit status: 0 the body returned (or --help), 1 it threw, 2 the command line is wrong. */
-int run_program(CLI::App& app, const CommonOptions& common, int argc, char** argv,
+int run_program(CommandLine& app, const CommonOptions& common, int argc, char** argv,
                 const std::function<void()>& body);
 
 /** As above for programs whose body decides the exit status itself (command-line clients). */
-int run_program_with_status(CLI::App& app, const CommonOptions& common, int argc, char** argv,
+int run_program_with_status(CommandLine& app, const CommonOptions& common, int argc, char** argv,
                             const std::function<int()>& body);
 
 }  // namespace nao

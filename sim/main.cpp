@@ -1,9 +1,9 @@
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "common/bus.h"
+#include "common/command_line.h"
 #include "common/event_loop.h"
 #include "common/program.h"
 #include "common/scheduling.h"
@@ -11,31 +11,31 @@
 #include "sim/sim_options.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Simulates the robot's world: bodies, contacts, motors, sensors, ball.", "nao-sim");
+  nao::CommandLine app("Simulates the robot's world: bodies, contacts, motors, sensors, ball.",
+                       "nao-sim");
   nao::CommonOptions common;
   nao::add_common_options(app, common);
   nao::sim::SimOptions options;
   std::vector<std::string> more_robots;
   app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
-      ->capture_default_str();
+      ->show_default();
   app.add_option("--scene", options.scene, "What stands around the robot: soccer or empty")
-      ->capture_default_str();
-  app.add_option("--posture", options.posture, "Posture that the robot starts in")
-      ->capture_default_str();
+      ->show_default();
+  app.add_option("--posture", options.posture, "Posture that the robot starts in")->show_default();
   app.add_option("--also-robot", more_robots, "Name of a further robot; may be repeated");
   app.add_option("--pace", options.pace,
                  "Simulated seconds per second of wall time, 0 as fast as possible")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
+      ->range(0.0, 1000.0)
+      ->show_default();
   app.add_flag("--lock-step", options.lock_step,
                "Compute a tick only when the joint command for the one before has come");
   app.add_flag("--ideal-sensors", options.ideal_sensors,
                "Sensors without quantization, noise, bias, range or drift");
-  app.add_option("--seed", options.seed, "Seed of all noise")->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed of all noise")->show_default();
   app.add_option("--command-latency-ticks", options.command_latency_ticks,
                  "Ticks of 10 ms between a joint command and the motors' following it")
-      ->check(CLI::Range(0, 10))
-      ->capture_default_str();
+      ->range(0, 10)
+      ->show_default();
   return nao::run_program(app, common, argc, argv, [&] {
     options.robots = {common.robot};
     options.robots.insert(options.robots.end(), more_robots.begin(), more_robots.end());

@@ -4,13 +4,13 @@
 #include <imgui.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
 
 #include "backends/imgui_impl_glfw.h"
 #include "common/bus.h"
+#include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/event_loop.h"
@@ -30,31 +30,30 @@ using nao::ViewerOptions;
 /** Frames a second: enough for eyes, and the simulator needs the processor too. */
 constexpr double kRate = 30;
 
-void add_options(CLI::App& app, ViewerOptions& options) {
+void add_options(nao::CommandLine& app, ViewerOptions& options) {
   app.add_option("--log", options.log_file, "Log of lcm-logger to play instead of the bus")
-      ->check(CLI::ExistingFile);
-  app.add_option("--log-start", options.log_start, "Where to start in the log, s")
-      ->capture_default_str();
+      ->existing_file();
+  app.add_option("--log-start", options.log_start, "Where to start in the log, s")->show_default();
   app.add_flag("--paused", options.is_paused, "Stand still in the log");
   app.add_option("--screenshot", options.screenshot, "Write a PNG file after --frames, then end");
   app.add_option("--frames", options.num_frames, "Frames before the screenshot, 30 a second")
-      ->capture_default_str();
+      ->show_default();
   app.add_flag("--offscreen", options.is_offscreen, "Draw the screenshot without window or screen");
   app.add_flag("--no-panels", options.without_panels, "Show the world alone");
   app.add_option("--supersample", options.supersample,
                  "With --offscreen --no-panels: draw this many times finer, then average")
-      ->capture_default_str();
-  app.add_option("--width", options.width, "Width, pixels")->capture_default_str();
-  app.add_option("--height", options.height, "Height, pixels")->capture_default_str();
+      ->show_default();
+  app.add_option("--width", options.width, "Width, pixels")->show_default();
+  app.add_option("--height", options.height, "Height, pixels")->show_default();
   app.add_option("--shadow-size", options.shadow_size, "Side of the shadow map, texels; 0: none")
-      ->capture_default_str();
+      ->show_default();
   app.add_option("--view", options.view,
                  "Camera: azimuth and elevation (degrees), distance (m), and x, y, z of what it "
                  "looks at (m)")
-      ->delimiter(',');
+      ->separated_by(',');
   app.add_option("--plot", options.plots, "Curve to begin with: CHANNEL:FIELD; may be repeated");
   app.add_option("--posture", options.waiting_posture, "Posture shown until a robot is heard of")
-      ->capture_default_str();
+      ->show_default();
   app.add_flag("!--no-follow", options.follow, "Leave the camera where it is");
   app.add_flag("--no-marks", options.without_marks,
                "Show robots and ball alone, no forces or feet");
@@ -201,7 +200,7 @@ void run_window(nao::EventLoop& loop, nao::Bus* bus, const nao::RobotModel& mode
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Shows the robot, its world and its messages in a window", "nao-viewer");
+  nao::CommandLine app("Shows the robot, its world and its messages in a window", "nao-viewer");
   nao::CommonOptions common;
   ViewerOptions options;
   nao::add_common_options(app, common);

@@ -1,11 +1,11 @@
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <string>
 
 #include "common/bus.h"
+#include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/program.h"
@@ -14,17 +14,17 @@
 #include "robot_model/robot_model.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Decides where the robot's joints go: postures, joint changes, balance.",
-               "nao-motion");
+  nao::CommandLine app("Decides where the robot's joints go: postures, joint changes, balance.",
+                       "nao-motion");
   nao::CommonOptions common;
   nao::add_common_options(app, common);
   std::string model_name = "nao";
   nao::motion::MotionOptions options;
   app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
-      ->capture_default_str();
+      ->show_default();
   app.add_option("--default-speed", options.default_speed,
                  "Speed of motions that nobody gave one for, fraction of the maximum")
-      ->capture_default_str();
+      ->show_default();
   app.add_flag("!--no-get-up", options.gets_up, "After a fall, lie until told to get up");
   return nao::run_program(app, common, argc, argv, [&] {
     const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);

@@ -1,11 +1,11 @@
 // nao-phone: a phone for the command line. Speaks the protocol over raw TCP; see README.md.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <functional>
 #include <iostream>
 #include <string>
 
+#include "common/command_line.h"
 #include "common/program.h"
 #include "phone-gateway/client/phone_client.h"
 
@@ -155,11 +155,11 @@ void print_refusal(const Notice& notice) {
 }
 
 /** A subcommand that drives: connects, then does `act`. */
-CLI::App* add_action(CLI::App& app, PhoneOptions& options, std::function<int()>& chosen,
-                     const std::string& name, const std::string& description,
-                     std::function<int(PhoneClient&)> act) {
-  CLI::App* subcommand = app.add_subcommand(name, description);
-  subcommand->callback([&options, &chosen, act = std::move(act)] {
+CommandLine* add_action(CommandLine& app, PhoneOptions& options, std::function<int()>& chosen,
+                        const std::string& name, const std::string& description,
+                        std::function<int(PhoneClient&)> act) {
+  CommandLine* subcommand = app.add_subcommand(name, description);
+  subcommand->on_parsed([&options, &chosen, act = std::move(act)] {
     chosen = [&options, act] {
       PhoneClient::Handlers handlers;
       handlers.on_notice = print_refusal;
@@ -170,15 +170,15 @@ CLI::App* add_action(CLI::App& app, PhoneOptions& options, std::function<int()>&
   return subcommand;
 }
 
-void add_subcommands(CLI::App& app, PhoneOptions& o, std::function<int()>& chosen) {
-  app.require_subcommand(1);
+void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& chosen) {
+  app.require_subcommand();
   add_action(app, o, chosen, "state", "Show the robot's state", show_state);
-  CLI::App* picture =
+  CommandLine* picture =
       add_action(app, o, chosen, "picture", "Save a picture of the head camera",
                  [&o](PhoneClient& client) { return save_picture(client, o.file); });
   picture->add_option("file", o.file, "JPEG file to write")->required();
 
-  CLI::App* posture =
+  CommandLine* posture =
       add_action(app, o, chosen, "posture", "Go to a posture", [&o](PhoneClient& c) {
         return command(
             c, [&o](PhoneClient& client) { return client.go_to_posture(o.posture, o.speed); });
@@ -186,7 +186,7 @@ void add_subcommands(CLI::App& app, PhoneOptions& o, std::function<int()>& chose
   posture->add_option("name", o.posture, "Posture, such as Crouch")->required();
   posture->add_option("--speed", o.speed, "Fraction of the maximum speed; 0: as the gateway likes");
 
-  CLI::App* joints = add_action(app, o, chosen, "joints", "Turn joints", [&o](PhoneClient& c) {
+  CommandLine* joints = add_action(app, o, chosen, "joints", "Turn joints", [&o](PhoneClient& c) {
     return command(c, [&o](PhoneClient& client) {
       return client.change_joints(o.group, o.yaw, o.pitch, o.roll, o.speed);
     });
@@ -198,20 +198,20 @@ void add_subcommands(CLI::App& app, PhoneOptions& o, std::function<int()>& chose
   joints->add_option("--roll", o.roll, "Change about this axis, rad");
   joints->add_option("--speed", o.speed, "Fraction of the maximum speed; 0: as the gateway likes");
 
-  CLI::App* action = add_action(app, o, chosen, "action", "Do an action", [&o](PhoneClient& c) {
+  CommandLine* action = add_action(app, o, chosen, "action", "Do an action", [&o](PhoneClient& c) {
     return command(c, [&o](PhoneClient& client) { return client.do_action(o.action); });
   });
   action->add_option("name", o.action, "Action, such as wave")->required();
 
-  CLI::App* walking = add_action(app, o, chosen, "walk", "Walk and turn",
-                                 [&o](PhoneClient& client) { return walk(client, o); });
-  CLI::App* move = add_action(app, o, chosen, "move", "Walk to a place", [&o](PhoneClient& c) {
+  CommandLine* walking = add_action(app, o, chosen, "walk", "Walk and turn",
+                                    [&o](PhoneClient& client) { return walk(client, o); });
+  CommandLine* move = add_action(app, o, chosen, "move", "Walk to a place", [&o](PhoneClient& c) {
     return command(c, [&o](PhoneClient& client) { return client.move_to(o.x, o.y, o.theta); });
   });
   walking->add_option("x", o.x, "Ahead, share of the greatest speed, -1 to 1")->required();
   walking->add_option("y", o.y, "To the left, share of the greatest speed, -1 to 1");
   walking->add_option("theta", o.theta, "Turning to the left, share of the greatest rate, -1 to 1");
-  walking->add_option("--duration", o.duration, "How long, s")->capture_default_str();
+  walking->add_option("--duration", o.duration, "How long, s")->show_default();
   move->add_option("x", o.x, "Ahead, m")->required();
   move->add_option("y", o.y, "To the left, m");
   move->add_option("theta", o.theta, "Heading there relative to the present one, rad");
@@ -219,13 +219,12 @@ void add_subcommands(CLI::App& app, PhoneOptions& o, std::function<int()>& chose
   add_action(app, o, chosen, "stop", "End any motion",
              [](PhoneClient& client) { return report(client.stop()); });
 
-  CLI::App* watching = app.add_subcommand("watch", "Print states and notices as they come");
-  watching->add_option("--duration", o.duration, "How long, s")->capture_default_str();
-  watching->add_option("--rate", o.rate, "States a second, up to 60")->capture_default_str();
-  watching->add_option("--pictures", o.picture_rate, "Pictures a second, up to 30")
-      ->capture_default_str();
-  watching->callback([&] { chosen = [&o] { return watch(o); }; });
-  app.add_subcommand("list", "Show who is connected (on the gateway's host only)")->callback([&] {
+  CommandLine* watching = app.add_subcommand("watch", "Print states and notices as they come");
+  watching->add_option("--duration", o.duration, "How long, s")->show_default();
+  watching->add_option("--rate", o.rate, "States a second, up to 60")->show_default();
+  watching->add_option("--pictures", o.picture_rate, "Pictures a second, up to 30")->show_default();
+  watching->on_parsed([&] { chosen = [&o] { return watch(o); }; });
+  app.add_subcommand("list", "Show who is connected (on the gateway's host only)")->on_parsed([&] {
     chosen = [&o] { return list_clients(o); };
   });
 }
@@ -234,18 +233,18 @@ void add_subcommands(CLI::App& app, PhoneOptions& o, std::function<int()>& chose
 }  // namespace nao
 
 int main(int argc, char** argv) {
-  CLI::App app("A phone for the command line: drives the robot through nao-phone-gateway",
-               "nao-phone");
+  nao::CommandLine app("A phone for the command line: drives the robot through nao-phone-gateway",
+                       "nao-phone");
   nao::CommonOptions common;
   nao::PhoneOptions options;
   options.client.name = "nao-phone";
   options.client.software = std::string("nao-phone ") + nao::version();
-  app.set_version_flag("--version", app.get_name() + " " + nao::version());
-  app.add_option("--host", options.client.host, "The gateway's host")->capture_default_str();
-  app.add_option("--port", options.client.port, "Its TCP port")->capture_default_str();
+  app.add_version_flag("--version", app.name() + " " + nao::version());
+  app.add_option("--host", options.client.host, "The gateway's host")->show_default();
+  app.add_option("--port", options.client.port, "Its TCP port")->show_default();
   app.add_option("--token", options.client.token, "Its token; not needed on its own host");
   app.add_option("--name", options.client.name, "What others shall call this phone")
-      ->capture_default_str();
+      ->show_default();
   std::function<int()> chosen;
   nao::add_subcommands(app, options, chosen);
   return nao::run_program_with_status(app, common, argc, argv, [&] { return chosen(); });

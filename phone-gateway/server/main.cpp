@@ -2,11 +2,11 @@
 #include <google/protobuf/stubs/logging.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 
 #include "common/bus.h"
+#include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
@@ -31,16 +31,15 @@ constexpr double kDrainTime = 0.2;
 /** Pixels per module of the code in a file. */
 constexpr int kQrScale = 8;
 
-void add_gateway_options(CLI::App& app, GatewayOptions& options) {
+void add_gateway_options(CommandLine& app, GatewayOptions& options) {
   NetworkOptions& network = options.network;
   app.add_option("--http-port", network.http_port, "Port of the app and of WebSockets; 0: any free")
-      ->capture_default_str();
+      ->show_default();
   app.add_option("--tcp-port", network.tcp_port, "Port of raw TCP clients; 0: any free")
-      ->capture_default_str();
-  app.add_option("--bind", network.bind, "Address to listen on; 0.0.0.0: all")
-      ->capture_default_str();
+      ->show_default();
+  app.add_option("--bind", network.bind, "Address to listen on; 0.0.0.0: all")->show_default();
   app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
-      ->capture_default_str();
+      ->show_default();
   app.add_option("--token", options.token,
                  "What phones must say to connect; default: a new one at each start");
   app.add_option("--host-name", options.host_names,
@@ -52,12 +51,12 @@ void add_gateway_options(CLI::App& app, GatewayOptions& options) {
                "Serve https beside http, on the same port: phones give tilt to secure pages only");
   app.add_option("--tls-dir", options.tls_folder,
                  "Folder of the gateway's own certificate; default: ~/.local/state/nao-remote");
-  app.add_option("--key", network.key_file, "Key of --certificate, PEM")->check(CLI::ExistingFile);
+  app.add_option("--key", network.key_file, "Key of --certificate, PEM")->existing_file();
   app.add_option("--certificate", network.certificate_file,
                  "Certificate chain to use in place of an own one, PEM")
       ->needs("--tls")
       ->needs("--key")
-      ->check(CLI::ExistingFile);
+      ->existing_file();
   app.add_option("--audit-log", options.audit_file,
                  "File to append who connected, drove and was refused to, as JSON lines");
   app.add_flag("--print-qr", options.prints_qr, "Print the address for phones as a QR code");
@@ -165,7 +164,7 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
 }  // namespace nao
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  nao::CommandLine app(
       "Lets phones drive the robot: the app over HTTP, the protocol over WebSocket and TCP",
       "nao-phone-gateway");
   nao::CommonOptions common;

@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -22,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/command_line.h"
 #include "tools/bench/figures.h"
 
 namespace nao {
@@ -293,16 +293,14 @@ std::vector<Figure> measure(const std::string& url, int num_rounds) {
 }  // namespace nao
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures the message bus against bare UDP", "nao-bench-bus");
+  nao::CommandLine app("Measures the message bus against bare UDP", "nao-bench-bus");
   std::string url = "udpm://239.255.76.67:7699?ttl=0";
   std::string json_file;
   int num_rounds = 2000;
-  app.add_option("--lcm-url", url, "A bus that nobody else uses")->capture_default_str();
+  app.add_option("--lcm-url", url, "A bus that nobody else uses")->show_default();
   app.add_option("--json", json_file, "File for the figures as JSON");
-  app.add_option("--rounds", num_rounds, "Messages to send")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  app.add_option("--rounds", num_rounds, "Messages to send")->positive()->show_default();
+  if (const auto status = app.parse(argc, argv)) return *status;
   try {
     nao::report(nao::measure(url, num_rounds), json_file);
   } catch (const std::exception& error) {

@@ -5,7 +5,6 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ctime>
 #include <functional>
@@ -15,6 +14,7 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
@@ -248,15 +248,13 @@ std::vector<Figure> run(int num_rounds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures the head camera; times are processor time of one process",
-               "nao-bench-camera");
+  nao::CommandLine app("Measures the head camera; times are processor time of one process",
+                       "nao-bench-camera");
   std::string json_file;
   int num_rounds = 100;
   app.add_option("--json", json_file, "File for the figures as JSON");
-  app.add_option("--rounds", num_rounds, "Pictures of each kind")
-      ->check(CLI::Range(5, 100000))
-      ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  app.add_option("--rounds", num_rounds, "Pictures of each kind")->range(5, 100000)->show_default();
+  if (const auto status = app.parse(argc, argv)) return *status;
   try {
     nao::report(run(num_rounds), json_file);
   } catch (const std::exception& error) {

@@ -9,7 +9,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <csignal>
@@ -30,6 +29,7 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/command_line.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "tools/bench/child_process.h"
@@ -569,18 +569,18 @@ std::vector<Figure> run(int num_rounds, double time) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures the gateway in front of a simulated robot", "nao-bench-gateway");
+  nao::CommandLine app("Measures the gateway in front of a simulated robot", "nao-bench-gateway");
   std::string json_file;
   int num_rounds = 40;
   double time = 10;
   app.add_option("--json", json_file, "File for the figures as JSON");
   app.add_option("--rounds", num_rounds, "Commands to time on each way")
-      ->check(CLI::Range(2, 10000))
-      ->capture_default_str();
+      ->range(2, 10000)
+      ->show_default();
   app.add_option("--time", time, "How long clients watch in each measurement, s")
-      ->check(CLI::Range(2.0, 3600.0))
-      ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+      ->range(2.0, 3600.0)
+      ->show_default();
+  if (const auto status = app.parse(argc, argv)) return *status;
   spdlog::set_level(spdlog::level::warn);
   // Phones are machines of their own: what they see must not wait for a turn on this one.
   nao::ask_for_prompt_turns(nao::Turns::kControl);

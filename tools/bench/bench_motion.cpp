@@ -1,7 +1,6 @@
 // Measures the motion core: processor time of one step while it stands and while it walks, and how
 // fast simulator and core run together on one core.
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
 #include <exception>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "closed_loop/closed_loop.h"
+#include "common/command_line.h"
 #include "common/data_path.h"
 #include "robot_model/robot_model.h"
 #include "tools/bench/figures.h"
@@ -64,14 +64,14 @@ std::vector<Figure> measure(double seconds) {
 }  // namespace nao
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures the motion core's step, and simulator and core together on one core.",
-               "nao-bench-motion");
+  nao::CommandLine app(
+      "Measures the motion core's step, and simulator and core together on one core.",
+      "nao-bench-motion");
   std::string json_file;
   double seconds = 20;
   app.add_option("--json", json_file, "Write the figures to this file too");
-  app.add_option("--seconds", seconds, "Simulated time of each measurement, s")
-      ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  app.add_option("--seconds", seconds, "Simulated time of each measurement, s")->show_default();
+  if (const auto status = app.parse(argc, argv)) return *status;
   try {
     nao::report(nao::measure(seconds), json_file);
   } catch (const std::exception& error) {

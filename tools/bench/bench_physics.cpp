@@ -2,7 +2,6 @@
 // that is installed, on the same robot in turns, and the error of both at 2 ms against their own
 // answers at a fortieth of that.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "closed_loop/closed_loop.h"
+#include "common/command_line.h"
 #include "common/data_path.h"
 #include "robot_model/robot_model.h"
 #include "sim/world.h"
@@ -411,14 +411,15 @@ void measure(int rounds, const std::string& json_file) {
 }  // namespace nao
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures the physics, beside MuJoCo where that is installed.", "nao-bench-physics");
+  nao::CommandLine app("Measures the physics, beside MuJoCo where that is installed.",
+                       "nao-bench-physics");
   std::string json_file;
   int rounds = 40;
   app.add_option("--json", json_file, "File for the figures");
   app.add_option("--rounds", rounds, "Turns of each simulator in each scenario")
-      ->check(CLI::Range(3, 1000))
-      ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+      ->range(3, 1000)
+      ->show_default();
+  if (const auto status = app.parse(argc, argv)) return *status;
   try {
     nao::measure(rounds, json_file);
   } catch (const std::exception& error) {

@@ -1,10 +1,10 @@
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <memory>
 #include <string>
 
+#include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
@@ -64,13 +64,13 @@ void write_file(const std::string& name, const std::string& text) {
 
 int main(int argc, char** argv) {
   using namespace nao::trial;
-  CLI::App app(
+  nao::CommandLine app(
       "Runs seeded trials of simulator and motion core in one process, in lock-step, without a "
       "bus.",
       "nao-trial");
   nao::CommonOptions common;
   nao::add_common_options(app, common);
-  app.require_subcommand(1);
+  app.require_subcommand();
   std::string seeds = "1-10";
   std::string json_file;
   std::string plot_file;
@@ -79,35 +79,34 @@ int main(int argc, char** argv) {
   ScenarioOptions options;
   std::string chosen;
   for (const auto& scenario : scenarios()) {
-    CLI::App* command = app.add_subcommand(scenario->name(), scenario->summary());
-    command->add_option("--seeds", seeds, "First and last seed, one run each")
-        ->capture_default_str();
+    nao::CommandLine* command = app.add_subcommand(scenario->name(), scenario->summary());
+    command->add_option("--seeds", seeds, "First and last seed, one run each")->show_default();
     command->add_option("--json", json_file, "Write the summary to this file too");
     command->add_option("--plot", plot_file, "Draw the results to this SVG file (push)");
     command->add_option("--model", model_name, "Folder of robots/ that describes the robot")
-        ->capture_default_str();
+        ->show_default();
     command->add_option("--duration", options.duration, "Length of a run, s (0: as usual)")
-        ->capture_default_str();
+        ->show_default();
     command->add_option("--vx", options.velocity.x(), "Where it walks: ahead, m/s");
     command->add_option("--vy", options.velocity.y(), "To the left, m/s");
     command->add_option("--wz", options.velocity.z(), "Turning to the left, rad/s");
     command->add_option("--distance", options.distance, "Way to go, m (0: as usual)")
-        ->capture_default_str();
+        ->show_default();
     command
         ->add_option("--late", options.trial.late_share,
                      "Chance in each tick that motion misses it and up to three more")
-        ->capture_default_str();
+        ->show_default();
     command
         ->add_option(
             "--latency", options.trial.command_latency_ticks,
             "Ticks of 10 ms between a joint command and the motors' following it, 0: 1 or 2")
-        ->check(CLI::Range(0, 10))
-        ->capture_default_str();
+        ->range(0, 10)
+        ->show_default();
     command->add_option("--trace", options.trace_file,
                         "walk: write true and estimated pose to this file, CSV");
     command->add_flag("--ideal", options.trial.is_ideal, "No randomisation, noise or latency");
     command->add_flag("--verbose", is_verbose, "Print a line for each run");
-    command->callback([&chosen, &scenario] { chosen = scenario->name(); });
+    command->on_parsed([&chosen, &scenario] { chosen = scenario->name(); });
   }
   return nao::run_program(app, common, argc, argv, [&] {
     for (const auto& scenario : scenarios()) {

@@ -5,7 +5,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -20,6 +19,7 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
@@ -211,12 +211,12 @@ int run_bus_check(const std::string& url, bool is_quick) {
 
 }  // namespace
 
-void add_bus_command(CLI::App& app, Invocation& invocation) {
+void add_bus_command(CommandLine& app, Invocation& invocation) {
   auto is_quick = std::make_shared<bool>(false);
-  CLI::App* bus = app.add_subcommand(
+  CommandLine* bus = app.add_subcommand(
       "bus", "Check the message bus: route, loop, buffers, who else is there; say what mends it");
   bus->add_flag("--quick", *is_quick, "Only route and loop");
-  bus->callback([&invocation, is_quick] {
+  bus->on_parsed([&invocation, is_quick] {
     invocation.run = [&invocation, is_quick] {
       return run_bus_check(invocation.common.lcm_url, *is_quick);
     };

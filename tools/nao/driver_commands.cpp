@@ -1,11 +1,11 @@
 // The operator's console: who may drive from a phone. Speaks to the gateway, not to the bus.
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "common/command_line.h"
 #include "phone-gateway/client/phone_client.h"
 #include "tools/nao/json_writer.h"
 #include "tools/nao/subcommand.h"
@@ -85,22 +85,22 @@ int list(const DriverOptions& options) {
 
 }  // namespace
 
-void add_driver_commands(CLI::App& app, Invocation& invocation) {
-  CLI::App* driver = app.add_subcommand(
+void add_driver_commands(CommandLine& app, Invocation& invocation) {
+  CommandLine* driver = app.add_subcommand(
       "driver", "See and decide who drives from a phone (on the gateway's host)");
-  driver->require_subcommand(1);
+  driver->require_subcommand();
   const auto options = std::make_shared<DriverOptions>();
-  driver->add_option("--port", options->port, "TCP port of the gateway")->capture_default_str();
+  driver->add_option("--port", options->port, "TCP port of the gateway")->show_default();
 
-  CLI::App* listing = driver->add_subcommand("list", "Show who is connected, and who drives");
+  CommandLine* listing = driver->add_subcommand("list", "Show who is connected, and who drives");
   listing->add_flag("--json", options->as_json, "As JSON");
-  listing->callback(
+  listing->on_parsed(
       [&invocation, options] { invocation.run = [options] { return list(*options); }; });
 
   const auto add = [&](const std::string& name, const std::string& description,
                        Operate::Operation operation) {
-    CLI::App* subcommand = driver->add_subcommand(name, description);
-    subcommand->callback([&invocation, options, operation, name] {
+    CommandLine* subcommand = driver->add_subcommand(name, description);
+    subcommand->on_parsed([&invocation, options, operation, name] {
       invocation.run = [options, operation, name] {
         Response response;
         return run_operation(*options, operation, name, response);

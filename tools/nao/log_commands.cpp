@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -8,6 +7,7 @@
 #include <regex>
 #include <string>
 
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/log_reader.h"
 #include "message_reflection/message_types.h"
@@ -281,57 +281,57 @@ int write_cut(const LogOptions& options) {
   return 0;
 }
 
-CLI::App* add_log_subcommand(CLI::App& log, Invocation& invocation,
-                             const std::shared_ptr<LogOptions>& options, const std::string& name,
-                             const std::string& description, int (*run)(const LogOptions&)) {
-  CLI::App* command = log.add_subcommand(name, description);
+CommandLine* add_log_subcommand(CommandLine& log, Invocation& invocation,
+                                const std::shared_ptr<LogOptions>& options, const std::string& name,
+                                const std::string& description, int (*run)(const LogOptions&)) {
+  CommandLine* command = log.add_subcommand(name, description);
   command->add_option("file", options->file, "Log of scripts/record")->required();
-  command->callback(
+  command->on_parsed(
       [&invocation, options, run] { invocation.run = [options, run] { return run(*options); }; });
   return command;
 }
 
 }  // namespace
 
-void add_log_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* log =
+void add_log_command(CommandLine& app, Invocation& invocation) {
+  CommandLine* log =
       app.add_subcommand("log", "Read what scripts/record has recorded; needs no running robot");
-  log->require_subcommand(1);
+  log->require_subcommand();
   const auto options = std::make_shared<LogOptions>();
-  const auto add_channels = [&](CLI::App* command) {
+  const auto add_channels = [&](CommandLine* command) {
     command
         ->add_option("--channels", options->channels,
                      "Only channels whose whole name matches this (extended) regular expression")
-        ->capture_default_str();
+        ->show_default();
   };
-  const auto add_output = [&](CLI::App* command) {
+  const auto add_output = [&](CommandLine* command) {
     command->add_option("--output", options->output, "File to write (default: stdout)");
   };
 
-  CLI::App* info = add_log_subcommand(
+  CommandLine* info = add_log_subcommand(
       *log, invocation, options, "info",
       "Channels with type, rate, longest gap, size and lost messages", show_info);
   info->add_flag("--json", options->as_json, "As JSON");
 
-  CLI::App* csv =
+  CommandLine* csv =
       add_log_subcommand(*log, invocation, options, "csv",
                          "One channel as a table for pandas or a spreadsheet", write_csv);
   csv->add_option("channel", options->channel, "Such as NAO_ROBOT_STATE")->required();
   add_output(csv);
 
-  CLI::App* json = add_log_subcommand(*log, invocation, options, "json",
-                                      "One line of JSON for every message", write_json);
+  CommandLine* json = add_log_subcommand(*log, invocation, options, "json",
+                                         "One line of JSON for every message", write_json);
   add_channels(json);
   add_output(json);
 
-  CLI::App* mcap = add_log_subcommand(
+  CommandLine* mcap = add_log_subcommand(
       *log, invocation, options, "mcap",
       "An MCAP file with JSON schemas, for Foxglove and PlotJuggler", write_mcap);
   mcap->add_option("output", options->output, "File to write, such as run.mcap")->required();
   add_channels(mcap);
 
-  CLI::App* cut = add_log_subcommand(*log, invocation, options, "cut",
-                                     "A part of a log, as a log of its own", write_cut);
+  CommandLine* cut = add_log_subcommand(*log, invocation, options, "cut",
+                                        "A part of a log, as a log of its own", write_cut);
   cut->add_option("output", options->output, "File to write")->required();
   cut->add_option("--from", options->from, "Since the log's first message, s");
   cut->add_option("--to", options->to, "Since the log's first message, s");

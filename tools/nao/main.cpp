@@ -1,14 +1,13 @@
 // nao: drive and watch the robot from a terminal. See README.md.
 
-#include <CLI/CLI.hpp>
-
+#include "common/command_line.h"
 #include "common/program.h"
 #include "tools/nao/subcommand.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Drive and watch the robot from a terminal.", "nao");
-  app.require_subcommand(1);
-  app.fallthrough();
+  nao::CommandLine app("Drive and watch the robot from a terminal.", "nao");
+  app.require_subcommand();
+  app.share_options();
   app.footer(
       "Examples:\n"
       "  nao posture Stand             stand up, wait until the robot stands\n"

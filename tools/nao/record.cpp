@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <lcm/lcm-cpp.hpp>
 #include <limits>
@@ -7,6 +6,7 @@
 #include <regex>
 #include <string>
 
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
@@ -92,27 +92,28 @@ int run_record(const CommonOptions& common, const RecordOptions& options) {
 
 }  // namespace
 
-void add_record_command(CLI::App& app, Invocation& invocation) {
+void add_record_command(CommandLine& app, Invocation& invocation) {
   const auto options = std::make_shared<RecordOptions>();
-  CLI::App* record = app.add_subcommand(
+  CommandLine* record = app.add_subcommand(
       "record", "Record messages into a log until Ctrl-C; scripts/record knows the stack's bus");
   record->add_option("file", options->file, "Log to write; must not be there yet")->required();
   record
       ->add_option("--channels", options->channels,
                    "Only channels whose whole name matches this regular expression")
-      ->capture_default_str();
+      ->show_default();
   record->add_option("--without", options->without, "But not those that match this one");
-  record->add_option("--for", options->duration, "End by itself, s")->check(CLI::PositiveNumber);
-  CLI::Option* split = record
-                           ->add_option("--split-mb", options->split_mb,
-                                        "Begin a new file, FILE.00, FILE.01 ..., at this size")
-                           ->check(CLI::PositiveNumber);
+  record->add_option("--for", options->duration, "End by itself, s")->positive();
+  CommandLine::Option* split =
+      record
+          ->add_option("--split-mb", options->split_mb,
+                       "Begin a new file, FILE.00, FILE.01 ..., at this size")
+          ->positive();
   record
       ->add_option("--rotate", options->num_kept,
                    "Keep only this many files, FILE.0 being the newest")
-      ->check(CLI::PositiveNumber)
+      ->positive()
       ->needs(split);
-  record->callback([&invocation, options] {
+  record->on_parsed([&invocation, options] {
     invocation.run = [&invocation, options] { return run_record(invocation.common, *options); };
   });
 }

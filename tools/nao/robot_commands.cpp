@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -19,6 +18,7 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
@@ -150,55 +150,50 @@ class Conversation {
 };
 
 /** A length, speed or angle that is no number may not leave this program. */
-const CLI::Validator& finite() {
-  static const CLI::Validator kFinite(
-      [](const std::string& text) -> std::string {
-        char* end = nullptr;
-        const double number = std::strtod(text.c_str(), &end);
-        return *end == '\0' && std::isfinite(number) ? "" : "'" + text + "' is no finite number";
-      },
-      "", "finite");
-  return kFinite;
+std::string fault_unless_finite(const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  return *end == '\0' && std::isfinite(number) ? "" : "'" + text + "' is no finite number";
 }
 
-void add_patience(CLI::App& command, Patience& patience) {
-  command.add_option("--wait", patience.wait, "Wait at most so long for the end, s")
-      ->check(CLI::PositiveNumber);
+void add_patience(CommandLine& command, Patience& patience) {
+  command.add_option("--wait", patience.wait, "Wait at most so long for the end, s")->positive();
   command.add_flag("--no-wait", patience.accepts_only, "Return as soon as the robot accepts it");
 }
 
-void add_walk(CLI::App& app, Invocation& invocation) {
+void add_walk(CommandLine& app, Invocation& invocation) {
   auto command = std::make_shared<naolcm::walk_command_t>();
   auto duration = std::make_shared<double>(kNever);
-  CLI::App* walk = app.add_subcommand(
+  CommandLine* walk = app.add_subcommand(
       "walk", "Walk at a velocity until Ctrl-C; the robot is told ten times a second");
-  walk->add_option("vx", command->vx, "Ahead, m/s")->required()->check(finite());
-  walk->add_option("vy", command->vy, "To the left, m/s")->required()->check(finite());
-  walk->add_option("wz", command->wz, "Turning to the left, rad/s")->required()->check(finite());
-  walk->add_option("--for", *duration, "Walk for so long, then stand, s")
-      ->check(CLI::PositiveNumber);
-  walk->callback([&invocation, command, duration] {
+  walk->add_option("vx", command->vx, "Ahead, m/s")->required()->check(fault_unless_finite);
+  walk->add_option("vy", command->vy, "To the left, m/s")->required()->check(fault_unless_finite);
+  walk->add_option("wz", command->wz, "Turning to the left, rad/s")
+      ->required()
+      ->check(fault_unless_finite);
+  walk->add_option("--for", *duration, "Walk for so long, then stand, s")->positive();
+  walk->on_parsed([&invocation, command, duration] {
     invocation.run = [&invocation, command, duration] {
       return Conversation(invocation.common, "walk").run_walk(*command, *duration);
     };
   });
 }
 
-void add_move_to(CLI::App& app, Invocation& invocation) {
+void add_move_to(CommandLine& app, Invocation& invocation) {
   auto command = std::make_shared<naolcm::move_to_command_t>();
   auto theta = std::make_shared<std::string>("0");
   auto patience = std::make_shared<Patience>();
-  CLI::App* move_to = app.add_subcommand("move-to", "Walk to a place seen from the robot");
-  move_to->add_option("x", command->x, "Ahead, m")->required()->check(finite());
-  move_to->add_option("y", command->y, "To the left, m")->required()->check(finite());
+  CommandLine* move_to = app.add_subcommand("move-to", "Walk to a place seen from the robot");
+  move_to->add_option("x", command->x, "Ahead, m")->required()->check(fault_unless_finite);
+  move_to->add_option("y", command->y, "To the left, m")->required()->check(fault_unless_finite);
   move_to->add_option("theta", *theta, "Heading there, to the left, rad, or such as 90deg")
-      ->capture_default_str();
+      ->show_default();
   add_patience(*move_to, *patience);
-  move_to->callback([&invocation, command, theta, patience] {
+  move_to->on_parsed([&invocation, command, theta, patience] {
     try {
       command->theta = parse_joint_arguments({"theta", "=" + *theta}).positions[0];
     } catch (const ConfigError&) {
-      throw CLI::ValidationError("theta", "'" + *theta + "' is no angle");
+      throw UsageError("theta", "'" + *theta + "' is no angle");
     }
     invocation.run = [&invocation, command, patience] {
       Conversation conversation(invocation.common, "move-to");
@@ -207,17 +202,17 @@ void add_move_to(CLI::App& app, Invocation& invocation) {
   });
 }
 
-void add_posture(CLI::App& app, Invocation& invocation) {
+void add_posture(CommandLine& app, Invocation& invocation) {
   auto command = std::make_shared<naolcm::posture_command_t>();
   command->speed = 0.5;
   auto patience = std::make_shared<Patience>();
-  CLI::App* posture = app.add_subcommand("posture", "Go to a posture: Stand, Crouch, Sit ...");
+  CommandLine* posture = app.add_subcommand("posture", "Go to a posture: Stand, Crouch, Sit ...");
   posture->add_option("name", command->posture, "Name as in robots/nao/postures.yaml")->required();
   posture->add_option("--speed", command->speed, "Fraction of the maximum speed, above 0 up to 1")
-      ->check(finite())
-      ->capture_default_str();
+      ->check(fault_unless_finite)
+      ->show_default();
   add_patience(*posture, *patience);
-  posture->callback([&invocation, command, patience] {
+  posture->on_parsed([&invocation, command, patience] {
     invocation.run = [&invocation, command, patience] {
       Conversation conversation(invocation.common, "posture " + command->posture);
       return conversation.run_event(conversation.channels().posture_command, *command, *patience);
@@ -225,28 +220,28 @@ void add_posture(CLI::App& app, Invocation& invocation) {
   });
 }
 
-void add_joint(CLI::App& app, Invocation& invocation) {
+void add_joint(CommandLine& app, Invocation& invocation) {
   auto command = std::make_shared<naolcm::joint_change_command_t>();
   command->speed = 0.3;
   auto allow_tipping = std::make_shared<bool>(false);
   auto arguments = std::make_shared<std::vector<std::string>>();
   auto patience = std::make_shared<Patience>();
-  CLI::App* joint = app.add_subcommand(
+  CommandLine* joint = app.add_subcommand(
       "joint", "Turn joints: \"HeadYaw +0.3\" by an angle, \"HeadYaw =0.3\" to an angle");
   joint
       ->add_option("joints", *arguments, "Pairs of a joint and +, - or = with an angle, rad or deg")
       ->required();
   joint->add_option("--speed", command->speed, "Fraction of the maximum speed, above 0 up to 1")
-      ->check(finite())
-      ->capture_default_str();
+      ->check(fault_unless_finite)
+      ->show_default();
   joint->add_flag("--allow-tipping", *allow_tipping, "Do it even if the robot tips over");
   add_patience(*joint, *patience);
-  joint->callback([&invocation, command, allow_tipping, arguments, patience] {
+  joint->on_parsed([&invocation, command, allow_tipping, arguments, patience] {
     JointArguments joints;
     try {
       joints = parse_joint_arguments(*arguments);
     } catch (const ConfigError& error) {
-      throw CLI::ValidationError("joints", error.what());
+      throw UsageError("joints", error.what());
     }
     command->num_joints = static_cast<int32_t>(joints.names.size());
     command->joint_names = joints.names;
@@ -261,23 +256,23 @@ void add_joint(CLI::App& app, Invocation& invocation) {
   });
 }
 
-void add_action(CLI::App& app, Invocation& invocation) {
+void add_action(CommandLine& app, Invocation& invocation) {
   auto command = std::make_shared<naolcm::action_command_t>();
   command->ball_x = command->ball_y = command->strength = std::nan("");
   auto ball = std::make_shared<std::vector<double>>();
   auto patience = std::make_shared<Patience>();
-  CLI::App* action = app.add_subcommand(
+  CommandLine* action = app.add_subcommand(
       "action",
       "Do something: kick-left, kick-right, block, dive-left, dive-right, wave, get-up, wake-up, "
       "rest");
   action->add_option("name", command->action, "Its name")->required();
   action->add_option("--ball", *ball, "For kicks: where the ball lies, ahead and to the left, m")
-      ->expected(2)
-      ->check(finite());
+      ->count(2)
+      ->check(fault_unless_finite);
   action->add_option("--strength", command->strength, "For kicks: above 0 up to 1")
-      ->check(finite());
+      ->check(fault_unless_finite);
   add_patience(*action, *patience);
-  action->callback([&invocation, command, ball, patience] {
+  action->on_parsed([&invocation, command, ball, patience] {
     if (ball->size() == 2) {
       command->ball_x = (*ball)[0];
       command->ball_y = (*ball)[1];
@@ -289,11 +284,11 @@ void add_action(CLI::App& app, Invocation& invocation) {
   });
 }
 
-void add_stop(CLI::App& app, Invocation& invocation) {
+void add_stop(CommandLine& app, Invocation& invocation) {
   auto patience = std::make_shared<Patience>();
-  CLI::App* stop = app.add_subcommand("stop", "End any motion");
+  CommandLine* stop = app.add_subcommand("stop", "End any motion");
   add_patience(*stop, *patience);
-  stop->callback([&invocation, patience] {
+  stop->on_parsed([&invocation, patience] {
     invocation.run = [&invocation, patience] {
       Conversation conversation(invocation.common, "stop");
       return conversation.run_event(conversation.channels().stop_command, naolcm::stop_command_t(),
@@ -304,7 +299,7 @@ void add_stop(CLI::App& app, Invocation& invocation) {
 
 }  // namespace
 
-void add_robot_commands(CLI::App& app, Invocation& invocation) {
+void add_robot_commands(CommandLine& app, Invocation& invocation) {
   add_walk(app, invocation);
   add_move_to(app, invocation);
   add_posture(app, invocation);

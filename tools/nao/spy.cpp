@@ -1,10 +1,11 @@
-#include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <lcm/lcm-cpp.hpp>
 #include <limits>
 #include <memory>
 #include <string>
 
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
@@ -64,15 +65,14 @@ int run_spy(const CommonOptions& common, double duration, bool as_json) {
 
 }  // namespace
 
-void add_spy_command(CLI::App& app, Invocation& invocation) {
+void add_spy_command(CommandLine& app, Invocation& invocation) {
   auto duration = std::make_shared<double>(std::numeric_limits<double>::infinity());
   auto as_json = std::make_shared<bool>(false);
-  CLI::App* spy = app.add_subcommand(
+  CommandLine* spy = app.add_subcommand(
       "spy", "Show every channel on the bus with its type and rate, until Ctrl-C");
-  spy->add_option("--for", *duration, "Listen for so long, print once, end, s")
-      ->check(CLI::PositiveNumber);
+  spy->add_option("--for", *duration, "Listen for so long, print once, end, s")->positive();
   spy->add_flag("--json", *as_json, "As JSON, one line each time");
-  spy->callback([&invocation, duration, as_json] {
+  spy->on_parsed([&invocation, duration, as_json] {
     invocation.run = [&invocation, duration, as_json] {
       return run_spy(invocation.common, *duration, *as_json);
     };

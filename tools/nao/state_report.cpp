@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -11,6 +10,7 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/command_line.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
 #include "messages/command.h"
@@ -152,14 +152,14 @@ int run_state(const CommonOptions& common, bool as_json, bool watches) {
 
 }  // namespace
 
-void add_state_command(CLI::App& app, Invocation& invocation) {
+void add_state_command(CommandLine& app, Invocation& invocation) {
   auto as_json = std::make_shared<bool>(false);
   auto watches = std::make_shared<bool>(false);
-  CLI::App* state =
+  CommandLine* state =
       app.add_subcommand("state", "Show what the robot does and how its joints stand");
   state->add_flag("--json", *as_json, "One line of JSON, fields as in the messages");
   state->add_flag("--watch", *watches, "Over and over, five times a second, until Ctrl-C");
-  state->callback([&invocation, as_json, watches] {
+  state->on_parsed([&invocation, as_json, watches] {
     invocation.run = [&invocation, as_json, watches] {
       return run_state(invocation.common, *as_json, *watches);
     };

@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +13,7 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/command_line.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
 #include "tools/nao/json_writer.h"
@@ -172,20 +172,18 @@ int run_status(const CommonOptions& common, const std::vector<std::string>& want
 
 }  // namespace
 
-void add_status_command(CLI::App& app, Invocation& invocation) {
+void add_status_command(CommandLine& app, Invocation& invocation) {
   auto wanted = std::make_shared<std::vector<std::string>>();
   auto timeout = std::make_shared<double>(30);
   auto as_json = std::make_shared<bool>(false);
-  CLI::App* status = app.add_subcommand("status", "List the programs on the bus, on every host");
+  CommandLine* status = app.add_subcommand("status", "List the programs on the bus, on every host");
   status->add_flag("--json", *as_json, "As JSON, fields as in daemon_status_t");
   status
       ->add_option("--wait", *wanted,
                    "List nothing; wait until these programs are ready: nao-sim,nao-motion")
-      ->delimiter(',');
-  status->add_option("--timeout", *timeout, "Longest wait, s")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  status->callback([&invocation, wanted, timeout, as_json] {
+      ->separated_by(',');
+  status->add_option("--timeout", *timeout, "Longest wait, s")->positive()->show_default();
+  status->on_parsed([&invocation, wanted, timeout, as_json] {
     invocation.run = [&invocation, wanted, timeout, as_json] {
       return run_status(invocation.common, *wanted, *timeout, *as_json);
     };

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +9,7 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/command_line.h"
 #include "common/wall_clock.h"
 #include "tools/nao/json_writer.h"
 #include "tools/nao/subcommand.h"
@@ -99,11 +99,11 @@ int run_show(const CommonOptions& common, bool as_json) {
 
 }  // namespace
 
-void add_show_command(CLI::App& world, Invocation& invocation) {
+void add_show_command(CommandLine& world, Invocation& invocation) {
   auto as_json = std::make_shared<bool>(false);
-  CLI::App* show = world.add_subcommand("show", "Show the true state of the simulated world");
+  CommandLine* show = world.add_subcommand("show", "Show the true state of the simulated world");
   show->add_flag("--json", *as_json, "One line of JSON, fields as in world_truth_t");
-  show->callback([&invocation, as_json] {
+  show->on_parsed([&invocation, as_json] {
     invocation.run = [&invocation, as_json] { return run_show(invocation.common, *as_json); };
   });
 }

@@ -2,7 +2,6 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -14,6 +13,7 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/command_line.h"
 #include "common/event_loop.h"
 #include "common/status_reporter.h"
 #include "common/wall_clock.h"
@@ -78,12 +78,13 @@ int run_watchdog(const CommonOptions& common) {
 
 }  // namespace
 
-void add_watchdog_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* watchdog = app.add_subcommand("watchdog",
-                                          "Kill programs of the own stack that hang, so that they "
-                                          "are started again; scripts/start runs "
-                                          "it");
-  watchdog->callback([&invocation] {
+void add_watchdog_command(CommandLine& app, Invocation& invocation) {
+  CommandLine* watchdog =
+      app.add_subcommand("watchdog",
+                         "Kill programs of the own stack that hang, so that they "
+                         "are started again; scripts/start runs "
+                         "it");
+  watchdog->on_parsed([&invocation] {
     invocation.run = [&invocation] { return run_watchdog(invocation.common); };
   });
 }

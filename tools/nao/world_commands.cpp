@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -12,6 +11,7 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/command_line.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
 #include "tools/nao/subcommand.h"
@@ -64,14 +64,14 @@ int run_world(const CommonOptions& common, naolcm::world_command_t command) {
 }
 
 /** Adds one subcommand of `nao world`. @return The subcommand and its message, for its options. */
-std::pair<CLI::App*, std::shared_ptr<naolcm::world_command_t>> add_world_command(
-    CLI::App& world, Invocation& invocation, const std::string& name, const std::string& help,
+std::pair<CommandLine*, std::shared_ptr<naolcm::world_command_t>> add_world_command(
+    CommandLine& world, Invocation& invocation, const std::string& name, const std::string& help,
     std::function<void(naolcm::world_command_t&)> complete = [](naolcm::world_command_t&) {}) {
   auto command = std::make_shared<naolcm::world_command_t>();
   *command = naolcm::world_command_t{};
   command->command = name;
-  CLI::App* subcommand = world.add_subcommand(name, help);
-  subcommand->callback([&invocation, command, complete = std::move(complete)] {
+  CommandLine* subcommand = world.add_subcommand(name, help);
+  subcommand->on_parsed([&invocation, command, complete = std::move(complete)] {
     complete(*command);
     invocation.run = [&invocation, command] { return run_world(invocation.common, *command); };
   });
@@ -80,9 +80,9 @@ std::pair<CLI::App*, std::shared_ptr<naolcm::world_command_t>> add_world_command
 
 }  // namespace
 
-void add_world_commands(CLI::App& app, Invocation& invocation) {
-  CLI::App* world = app.add_subcommand("world", "Show and change the simulated world");
-  world->require_subcommand(1);
+void add_world_commands(CommandLine& app, Invocation& invocation) {
+  CommandLine* world = app.add_subcommand("world", "Show and change the simulated world");
+  world->require_subcommand();
   add_show_command(*world, invocation);
   add_world_command(*world, invocation, "pause", "Stop simulated time");
   add_world_command(*world, invocation, "resume", "Let simulated time go on");
@@ -91,15 +91,13 @@ void add_world_commands(CLI::App& app, Invocation& invocation) {
   const auto [step, step_command] = add_world_command(
       *world, invocation, "step", "While paused: run some control ticks of 10 ms");
   step_command->num_ticks = 1;
-  step->add_option("ticks", step_command->num_ticks, "How many")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  step->add_option("ticks", step_command->num_ticks, "How many")->positive()->show_default();
 
   const auto [pace, pace_command] =
       add_world_command(*world, invocation, "set-pace", "How fast simulated time runs");
   pace->add_option("pace", pace_command->pace, "Simulated seconds per second; 0: all it can")
       ->required()
-      ->check(CLI::NonNegativeNumber);
+      ->not_negative();
 
   const auto [push, push_command] =
       add_world_command(*world, invocation, "push", "Give the robot or the ball a knock");
@@ -108,8 +106,7 @@ void add_world_commands(CLI::App& app, Invocation& invocation) {
       ->required();
   push->add_option("y", push_command->impulse_in_world[1], "To the left of it, N s")->required();
   push->add_option("z", push_command->impulse_in_world[2], "Upwards, N s")->required();
-  push->add_option("--link", push_command->link, "Link as in the URDF, or ball")
-      ->capture_default_str();
+  push->add_option("--link", push_command->link, "Link as in the URDF, or ball")->show_default();
 
   auto ball_velocity = std::make_shared<std::vector<double>>();
   const auto [ball, ball_command] =
@@ -122,7 +119,7 @@ void add_world_commands(CLI::App& app, Invocation& invocation) {
   ball->add_option("x", ball_command->position_in_world[0], "Along the field, m")->required();
   ball->add_option("y", ball_command->position_in_world[1], "To the left of it, m")->required();
   ball->add_option("--height", ball_command->position_in_world[2], "Above the ground, m");
-  ball->add_option("--velocity", *ball_velocity, "m/s")->expected(3);
+  ball->add_option("--velocity", *ball_velocity, "m/s")->count(3);
 
   auto theta = std::make_shared<double>(0);
   const auto [place, place_command] =
@@ -133,11 +130,10 @@ void add_world_commands(CLI::App& app, Invocation& invocation) {
                         });
   place->add_option("x", place_command->position_in_world[0], "Along the field, m")->required();
   place->add_option("y", place_command->position_in_world[1], "To the left of it, m")->required();
-  place->add_option("--theta", *theta, "Heading, rad")->capture_default_str();
+  place->add_option("--theta", *theta, "Heading, rad")->show_default();
   place->add_option("--height", place_command->position_in_world[2], "Above the ground, m");
-  place->add_option("--posture", place_command->posture, "Posture to put it in")
-      ->capture_default_str();
-  place->final_callback([&invocation, command = place_command] {
+  place->add_option("--posture", place_command->posture, "Posture to put it in")->show_default();
+  place->on_end([&invocation, command = place_command] {
     // --robot names the robot here as everywhere; the simulator knows it by the same name.
     command->robot = invocation.common.robot;
   });

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -6,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
@@ -133,7 +133,7 @@ void tune(const TunerOptions& options) {
 }  // namespace nao
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  nao::CommandLine app(
       "Tunes ways up from the floor: a seeded search over durations and angles of their keyframes, "
       "judged by getting up in physics with noise, latency and friction drawn by chance. Writes "
       "the "
@@ -146,14 +146,14 @@ int main(int argc, char** argv) {
   app.add_option("--transitions", options.file, "File to start from (default: the robot's)");
   app.add_option("--sequence", options.sequences, "Transitions to tune, by name");
   app.add_option("--keyframes", options.keyframes, "First and last keyframe to tune, from 0")
-      ->expected(2);
+      ->count(2);
   app.add_option("--fixed", options.fixed, "Joints, without side, whose angles stay")
-      ->capture_default_str();
+      ->show_default();
   app.add_option("--start", options.start, "How it lies: any, belly, back, left or right")
-      ->capture_default_str();
+      ->show_default();
   app.add_option("--trials", options.trials, "Times that each candidate gets up")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      ->positive()
+      ->show_default();
   app.add_flag("--check", options.is_check, "Only judge the file, by --trials trials");
   return nao::run_program(app, common, argc, argv, [&] { nao::tune(options); });
 }

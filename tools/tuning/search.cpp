@@ -1,34 +1,30 @@
 #include "tools/tuning/search.h"
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <fstream>
 #include <sstream>
 #include <thread>
 #include <vector>
 
+#include "common/command_line.h"
 #include "common/error.h"
 
 namespace nao {
 
-void add_search_options(CLI::App& app, SearchOptions& options, const std::string& result,
+void add_search_options(CommandLine& app, SearchOptions& options, const std::string& result,
                         const std::string& sigma_unit) {
   app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
-      ->capture_default_str();
-  app.add_option("--output", options.output, "Where the tuned " + result + " goes")
-      ->capture_default_str();
-  app.add_option("--generations", options.generations, "Generations of the search")
-      ->capture_default_str();
+      ->show_default();
+  app.add_option("--output", options.output, "Where the tuned " + result + " goes")->show_default();
+  app.add_option("--generations", options.generations, "Generations of the search")->show_default();
   app.add_option("--population", options.population, "Candidates in a generation")
-      ->check(CLI::Range(4, 1000))
-      ->capture_default_str();
-  app.add_option("--jobs", options.jobs, "Threads")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+      ->range(4, 1000)
+      ->show_default();
+  app.add_option("--jobs", options.jobs, "Threads")->range(1, 256)->show_default();
   app.add_option("--sigma", options.sigma, "First spread, " + sigma_unit)
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--seed", options.seed, "Of the search and of all trials")->capture_default_str();
+      ->positive()
+      ->show_default();
+  app.add_option("--seed", options.seed, "Of the search and of all trials")->show_default();
 }
 
 void for_each_index(size_t count, int jobs, const std::function<void(size_t)>& work) {

@@ -5,11 +5,9 @@
 #include <functional>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace nao {
+
+class CommandLine;
 
 /** What every seeded search of a tuner takes. */
 struct SearchOptions {
@@ -26,7 +24,7 @@ struct SearchOptions {
 /** Adds --model, --output, --generations, --population, --jobs, --sigma and --seed.
  * @param result      What --output holds: "gait".
  * @param sigma_unit  Of --sigma, in words. */
-void add_search_options(CLI::App& app, SearchOptions& options, const std::string& result,
+void add_search_options(CommandLine& app, SearchOptions& options, const std::string& result,
                         const std::string& sigma_unit);
 
 /** Calls `work` once for every index below `count`, on `jobs` threads, in no order; ends when all

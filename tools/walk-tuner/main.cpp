@@ -1,10 +1,10 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
@@ -163,7 +163,7 @@ void tune(const TunerOptions& options) {
 }  // namespace nao
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  nao::CommandLine app(
       "Tunes a robot's gait: a seeded search over its parameters, each within the range that the "
       "gait file gives, judged by walks in physics with noise, latency and pushes. Writes the gait "
       "file anew after every generation; the same seed gives the same search.",
@@ -176,14 +176,14 @@ int main(int argc, char** argv) {
   app.add_option("--set", options.settings, "KEY=NUMBER instead of the file's value");
   app.add_option("--only", options.only, "Parameters to tune (default: all but bounds and looks)");
   app.add_option("--courses", options.courses, "Courses of ten walks for each candidate")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      ->positive()
+      ->show_default();
   app.add_option("--speed", options.speed, "Share of the robot's walk limits to ask for")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      ->positive()
+      ->show_default();
   app.add_option("--late", options.late_share,
                  "Chance in each tick that motion misses it and up to three more")
-      ->capture_default_str();
+      ->show_default();
   app.add_flag("--check", options.is_check, "Only judge the gait, by --courses courses");
   return nao::run_program(app, common, argc, argv, [&] { nao::tune(options); });
 }

@@ -1,0 +1,223 @@
+#include "common/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <deque>
+#include <utility>
+
+namespace nao {
+
+struct CommandLine::Parts {
+  /** Of a program; its subcommands belong to it. */
+  std::unique_ptr<CLI::App> own_app;
+  CLI::App& app;
+  std::deque<Option> options;
+  std::vector<std::unique_ptr<CommandLine>> subcommands;
+};
+
+namespace {
+
+std::function<void()> with_usage_errors(std::function<void()> act) {
+  return [act = std::move(act)] {
+    try {
+      act();
+    } catch (const UsageError& error) {
+      throw CLI::ValidationError(error.option, error.what());
+    }
+  };
+}
+
+}  // namespace
+
+CommandLine::Option* CommandLine::Option::show_default() {
+  option_.capture_default_str();
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::required() {
+  option_.required();
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::from_environment(const std::string& variable) {
+  option_.envname(variable);
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::count(int least, int most) {
+  option_.expected(least, most);
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::separated_by(char delimiter) {
+  option_.delimiter(delimiter);
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::needs(const Option* other) {
+  option_.needs(&other->option_);
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::needs(const std::string& name) {
+  option_.needs(name);
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::range(int least, int greatest) {
+  option_.check(CLI::Range(least, greatest));
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::range(double least, double greatest) {
+  option_.check(CLI::Range(least, greatest));
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::positive() {
+  option_.check(CLI::PositiveNumber);
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::not_negative() {
+  option_.check(CLI::NonNegativeNumber);
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::existing_file() {
+  option_.check(CLI::ExistingFile);
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::one_of(std::vector<std::string> choices) {
+  option_.check(CLI::IsMember(std::move(choices)));
+  return this;
+}
+
+CommandLine::Option* CommandLine::Option::check(
+    std::function<std::string(const std::string&)> fault, const std::string& shown) {
+  option_.check(CLI::Validator(
+      [fault = std::move(fault)](std::string& value) { return fault(value); }, shown));
+  return this;
+}
+
+CommandLine::CommandLine(const std::string& description, const std::string& name) {
+  auto app = std::make_unique<CLI::App>(description, name);
+  CLI::App& reference = *app;
+  parts_ = std::unique_ptr<Parts>(new Parts{std::move(app), reference, {}, {}});
+}
+
+CommandLine::CommandLine(CLI::App& app)
+    : parts_(std::unique_ptr<Parts>(new Parts{nullptr, app, {}, {}})) {}
+
+CommandLine::~CommandLine() = default;
+
+std::string CommandLine::name() const {
+  return parts_->app.get_name();
+}
+
+CommandLine::Option* CommandLine::keep(CLI::Option* option) {
+  return &parts_->options.emplace_back(*option);
+}
+
+template <class Variable>
+CommandLine::Option* CommandLine::bind(const std::string& name, Variable& variable,
+                                       const std::string& help) {
+  return keep(parts_->app.add_option(name, variable, help));
+}
+
+CommandLine::Option* CommandLine::add_option(const std::string& name, std::string& variable,
+                                             const std::string& help) {
+  return bind(name, variable, help);
+}
+
+CommandLine::Option* CommandLine::add_option(const std::string& name, uint16_t& variable,
+                                             const std::string& help) {
+  return bind(name, variable, help);
+}
+
+CommandLine::Option* CommandLine::add_option(const std::string& name, int32_t& variable,
+                                             const std::string& help) {
+  return bind(name, variable, help);
+}
+
+CommandLine::Option* CommandLine::add_option(const std::string& name, uint32_t& variable,
+                                             const std::string& help) {
+  return bind(name, variable, help);
+}
+
+CommandLine::Option* CommandLine::add_option(const std::string& name, int64_t& variable,
+                                             const std::string& help) {
+  return bind(name, variable, help);
+}
+
+CommandLine::Option* CommandLine::add_option(const std::string& name, uint64_t& variable,
+                                             const std::string& help) {
+  return bind(name, variable, help);
+}
+
+CommandLine::Option* CommandLine::add_option(const std::string& name, double& variable,
+                                             const std::string& help) {
+  return bind(name, variable, help);
+}
+
+CommandLine::Option* CommandLine::add_option(const std::string& name,
+                                             std::vector<std::string>& variable,
+                                             const std::string& help) {
+  return bind(name, variable, help);
+}
+
+CommandLine::Option* CommandLine::add_option(const std::string& name, std::vector<int>& variable,
+                                             const std::string& help) {
+  return bind(name, variable, help);
+}
+
+CommandLine::Option* CommandLine::add_option(const std::string& name, std::vector<double>& variable,
+                                             const std::string& help) {
+  return bind(name, variable, help);
+}
+
+CommandLine::Option* CommandLine::add_flag(const std::string& name, bool& variable,
+                                           const std::string& help) {
+  return keep(parts_->app.add_flag(name, variable, help));
+}
+
+void CommandLine::add_version_flag(const std::string& name, const std::string& version) {
+  parts_->app.set_version_flag(name, version);
+}
+
+CommandLine* CommandLine::add_subcommand(const std::string& name, const std::string& help) {
+  CLI::App* app = parts_->app.add_subcommand(name, help);
+  parts_->subcommands.push_back(std::unique_ptr<CommandLine>(new CommandLine(*app)));
+  return parts_->subcommands.back().get();
+}
+
+void CommandLine::require_subcommand() {
+  parts_->app.require_subcommand(1);
+}
+
+void CommandLine::share_options() {
+  parts_->app.fallthrough();
+}
+
+void CommandLine::footer(const std::string& text) {
+  parts_->app.footer(text);
+}
+
+void CommandLine::on_parsed(std::function<void()> act) {
+  parts_->app.callback(with_usage_errors(std::move(act)));
+}
+
+void CommandLine::on_end(std::function<void()> act) {
+  parts_->app.final_callback(with_usage_errors(std::move(act)));
+}
+
+std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
+  try {
+    parts_->app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return parts_->app.exit(error) == 0 ? 0 : 2;
+  }
+  return std::nullopt;
+}
+
+}  // namespace nao
