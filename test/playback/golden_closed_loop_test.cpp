@@ -10,7 +10,6 @@
 #include <set>
 #include <sstream>
 #include <string>
-#include <tuple>
 
 #include "common/channels.h"
 #include "common/data_path.h"
@@ -176,15 +175,11 @@ class ClosedLoop {
   }
 
   void note(const naolcm::command_result_t& message) {
+    if (last_tick_[0] >= kNumTicks - 1) return;
     // The end of a command is published several times.
-    if (last_tick_[0] >= kNumTicks - 1 ||
-        !known_results_.emplace(message.command_id, message.status).second) {
-      return;
-    }
-    std::ostringstream text;
-    text << last_tick_[0] << " " << message.source << " " << message.command_id << " "
-         << message.command << " " << message.status;
-    trace_.results.push_back(text.str());
+    const std::string text = to_text(message);
+    if (!known_results_.insert(text).second) return;
+    trace_.results.push_back(std::to_string(last_tick_[0]) + " " + text);
   }
 
   const uint64_t seed_;
@@ -193,7 +188,7 @@ class ClosedLoop {
   size_t next_command_ = 0;
   std::array<int64_t, 2> last_tick_{-1, -1};
   std::array<GoldenHash, 2> hashes_;
-  std::set<std::pair<int64_t, std::string>> known_results_;
+  std::set<std::string> known_results_;
   GoldenTrace trace_;
 };
 

@@ -3,7 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <fstream>
 #include <limits>
 #include <naolcm/action_command_t.hpp>
@@ -20,6 +20,22 @@
 
 namespace nao::playback {
 namespace {
+
+// s, of sessions without a column "period".
+constexpr double kPeriod = 0.01;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// As the results stand in the expected traces, in the order of the message's constants.
+constexpr std::array kCommandKinds{"walk", "move-to", "posture", "joint-change", "action", "stop"};
+constexpr std::array kStatuses{"accepted", "refused", "done", "interrupted", "failed"};
+
+template <size_t N>
+std::string name_of(const std::array<const char*, N>& names, int index) {
+  if (index < 0 || index >= static_cast<int>(N)) {
+    throw Error("a command result has the unknown constant " + std::to_string(index));
+  }
+  return names[static_cast<size_t>(index)];
+}
 
 template <size_t N>
 void copy(const std::vector<double>& from, double (&to)[N]) {
@@ -45,6 +61,10 @@ naolcm::sensor_state_t to_sensor_state(const GoldenTable& table, size_t row) {
   naolcm::sensor_state_t message{};
   message.utime = static_cast<int64_t>(table.values(row, "utime").at(0));
   message.tick = table.tick(row);
+  const std::vector<double> period = table.values(row, "period");
+  message.period = period.empty() ? kPeriod : period[0];
+  message.is_accelerometer_new = 1;
+  message.is_gyroscope_new = 1;
   message.joint_names = table.names("joint_position");
   message.num_joints = static_cast<int>(message.joint_names.size());
   message.joint_position = table.values(row, "joint_position");
@@ -68,6 +88,10 @@ naolcm::joint_command_t to_joint_command(const GoldenTable& table, size_t row) {
   message.joint_names = table.names("target_position");
   message.num_joints = static_cast<int>(message.joint_names.size());
   message.joint_position = table.values(row, "target_position");
+  message.joint_velocity.assign(message.joint_names.size(), kNan);
+  message.joint_torque.assign(message.joint_names.size(), 0);
+  message.joint_kp.assign(message.joint_names.size(), kNan);
+  message.joint_kd.assign(message.joint_names.size(), kNan);
   message.joint_stiffness = table.values(row, "target_stiffness");
   return message;
 }
@@ -79,7 +103,7 @@ struct GoldenCommand::Fields {
   bool flag(const char* key) const { return node[key] && node[key].as<bool>(); }
   /** Null, and what is left out, is not a number. */
   static double number(const YAML::Node& value) {
-    return value && !value.IsNull() ? value.as<double>() : std::numeric_limits<double>::quiet_NaN();
+    return value && !value.IsNull() ? value.as<double>() : kNan;
   }
   double number(const char* key) const { return number(node[key]); }
   std::vector<double> numbers(const char* key) const {
@@ -146,6 +170,7 @@ void GoldenCommand::publish(Bus& bus) const {
     message.joint_names = fields.texts("joint_names");
     message.num_joints = static_cast<int>(message.joint_names.size());
     message.joint_position = fields.numbers("joint_position");
+    message.joint_stiffness.assign(message.joint_names.size(), kNan);
     message.is_relative = fields.flag("is_relative") ? 1 : 0;
     message.speed = fields.number("speed");
     message.allow_tipping = fields.flag("allow_tipping") ? 1 : 0;
@@ -179,6 +204,11 @@ std::vector<GoldenCommand> read_golden_commands(const std::filesystem::path& fil
   std::vector<GoldenCommand> commands;
   for (std::string line; std::getline(stream, line);) commands.emplace_back(line);
   return commands;
+}
+
+std::string to_text(const naolcm::command_result_t& message) {
+  return message.source + " " + std::to_string(message.command_id) + " " +
+         name_of(kCommandKinds, message.command_kind) + " " + name_of(kStatuses, message.status);
 }
 
 std::vector<double> targets_of(const naolcm::joint_command_t& message,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <naolcm/command_result_t.hpp>
 #include <naolcm/joint_command_t.hpp>
 #include <naolcm/sensor_state_t.hpp>
 #include <naolcm/world_truth_t.hpp>
@@ -55,6 +56,10 @@ uint64_t hash_of(const naolcm::sensor_state_t& message, const std::vector<std::s
 /** Pose and velocity of the first robot's torso, position, velocity and torque of its joints, pose
  * and velocity of the ball, bit by bit. */
 uint64_t hash_of(const naolcm::world_truth_t& message, const std::vector<std::string>& joints);
+
+/** "SOURCE COMMAND_ID COMMAND STATUS", such as "golden 7 move-to done".
+ * @throws Error  if the kind of command or the status has no name here. */
+std::string to_text(const naolcm::command_result_t& message);
 
 /** Target position of each joint, rad (hands: opening), in the recording's order of joints. */
 std::vector<double> targets_of(const naolcm::joint_command_t& message,

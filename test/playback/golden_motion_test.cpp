@@ -8,7 +8,6 @@
 #include <set>
 #include <sstream>
 #include <string>
-#include <tuple>
 
 #include "common/channels.h"
 #include "common/data_path.h"
@@ -86,18 +85,16 @@ class MotionReplay {
 
   void note(const naolcm::command_result_t& message) {
     // The end of a command is published several times.
-    if (!known_results_.emplace(message.source, message.command_id, message.status).second) return;
-    std::ostringstream text;
-    text << table_.tick(row_) << " " << message.source << " " << message.command_id << " "
-         << message.command << " " << message.status;
-    run_.trace.results.push_back(text.str());
+    const std::string text = to_text(message);
+    if (!known_results_.insert(text).second) return;
+    run_.trace.results.push_back(std::to_string(table_.tick(row_)) + " " + text);
   }
 
   const GoldenTable table_;
   const std::vector<GoldenCommand> commands_;
   const std::vector<std::string> joints_;
   size_t row_ = 0;
-  std::set<std::tuple<std::string, int64_t, std::string>> known_results_;
+  std::set<std::string> known_results_;
   MotionRun run_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 #include "common/channels.h"
@@ -19,6 +20,11 @@ struct PhysicsSession {
   uint64_t seed;
   int command_latency_ticks;
 };
+
+/** Names the session where GoogleTest prints a parameter. */
+std::ostream& operator<<(std::ostream& stream, const PhysicsSession& session) {
+  return stream << session.name;
+}
 
 /** Plays a golden session to a simulator, open loop: the joint targets are the recorded ones
  * whatever the robot measures. */
