@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "messages/reason.h"
+
 namespace nao {
 
 /** m/s ahead, m/s to the left, rad/s to the left. All zero ends the walk. */
@@ -89,11 +91,8 @@ struct CommandResult {
   int64_t id = 0;
   CommandKind kind = CommandKind::kStop;
   ResultStatus status = ResultStatus::kAccepted;
-  /** Why, as a code that programs translate, and the values in the translated sentence. */
-  std::string reason_code{};
-  std::vector<std::string> reason_arguments{};
-  /** Why, as an English sentence. */
-  std::string reason{};
+  /** Why the command was refused, interrupted or failed; of one that is done a remark. */
+  Reason reason{};
 };
 
 }  // namespace nao

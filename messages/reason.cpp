@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <ostream>
 
 namespace nao {
 
@@ -25,6 +26,10 @@ std::string to_sentence(const Reason& reason) {
     i += 2;
   }
   return result;
+}
+
+std::ostream& operator<<(std::ostream& stream, const Reason& reason) {
+  return stream << reason.code << ": " << to_sentence(reason);
 }
 
 std::string to_argument(double value) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,6 +43,9 @@ struct Reason {
 /** The English sentence of the table with the arguments filled in: "" for no reason, the code
  * itself for one that the table does not have. */
 std::string to_sentence(const Reason& reason);
+
+/** Writes code and sentence, for test failures. */
+std::ostream& operator<<(std::ostream& stream, const Reason& reason);
 
 /** A number as an argument: at most six significant digits, "nan" or "inf" if it is not finite. */
 std::string to_argument(double value);

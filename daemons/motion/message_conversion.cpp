@@ -213,8 +213,10 @@ naolcm::motion_state_t to_message(const MotionState& state) {
   message.vy = state.walk_velocity.y();
   message.wz = state.walk_velocity.z();
   message.stiffness = state.stiffness;
-  message.num_last_refusal_arguments = 0;
-  message.last_refusal = state.last_refusal;
+  message.last_refusal_code = state.last_refusal.code;
+  message.num_last_refusal_arguments = static_cast<int>(state.last_refusal.arguments.size());
+  message.last_refusal_arguments = state.last_refusal.arguments;
+  message.last_refusal = to_sentence(state.last_refusal);
   message.num_footsteps = static_cast<int>(state.footsteps.size());
   for (const Footstep& footstep : state.footsteps) {
     naolcm::footstep_t part;
@@ -234,10 +236,10 @@ naolcm::command_result_t to_message(const CommandResult& result, int64_t utime) 
   message.command_id = result.id;
   message.command_kind = static_cast<int8_t>(result.kind);
   message.status = static_cast<int8_t>(result.status);
-  message.reason_code = result.reason_code;
-  message.num_reason_arguments = static_cast<int>(result.reason_arguments.size());
-  message.reason_arguments = result.reason_arguments;
-  message.reason = result.reason;
+  message.reason_code = result.reason.code;
+  message.num_reason_arguments = static_cast<int>(result.reason.arguments.size());
+  message.reason_arguments = result.reason.arguments;
+  message.reason = to_sentence(result.reason);
   return message;
 }
 

@@ -42,10 +42,16 @@ constexpr double kInPostureTolerance = 0.09;
 // Torso height below which a robot does not stand, m; a crouch has 0.229.
 constexpr double kLeastStandingHeight = 0.15;
 
+/** An angle as an argument, rounded towards 0. @param angle  rad. */
+std::string whole_degrees(double angle) {
+  return std::to_string(std::lround(std::trunc(angle * 180 / M_PI)));
+}
+
 bool has_changed(const MotionState& a, const MotionState& b) {
   return a.mode != b.mode || a.posture != b.posture || a.command_kind != b.command_kind ||
          a.command_source != b.command_source || a.command_id != b.command_id ||
-         a.command_name != b.command_name || a.needs_help != b.needs_help || a.last_refusal != b.last_refusal;
+         a.command_name != b.command_name || a.needs_help != b.needs_help ||
+         a.last_refusal != b.last_refusal;
 }
 
 }  // namespace
@@ -110,12 +116,12 @@ void MotionCore::take_sensors(const Sensors& sensors, double dt) {
 
 void MotionCore::lose_robot() {
   has_robot_ = false;
-  end_running(ResultStatus::kFailed, refusal_in(Mode::kNoRobot));
-  end_overlay(ResultStatus::kFailed, refusal_in(Mode::kNoRobot));
+  end_running(ResultStatus::kFailed, {"no-robot"});
+  end_overlay(ResultStatus::kFailed, {"no-robot"});
   overlaid_.clear();
   if (waiting_) {
     if (waiting_->command) {
-      answer(*waiting_->command, ResultStatus::kFailed, refusal_in(Mode::kNoRobot));
+      answer(*waiting_->command, ResultStatus::kFailed, {"no-robot"});
     }
     waiting_.reset();
   }
@@ -179,18 +185,17 @@ void MotionCore::receive(const Command& command) {
     answer(command, ResultStatus::kRefused, *fault);
     return;
   }
-  const Mode mode = current_mode();
-  if (acceptance_of(kind_of(command), mode) == Acceptance::kRefuse) {
-    answer(command, ResultStatus::kRefused, refusal_in(mode));
+  if (const auto obstacle = find_mode_obstacle(kind_of(command), current_mode())) {
+    answer(command, ResultStatus::kRefused, *obstacle);
     return;
   }
   if (adopt_walk(command) || adopt_kick(command) || overlay_walk(command)) return;
   Plan planned = plan(command);
-  if (const auto* refusal = std::get_if<std::string>(&planned)) {
+  if (const auto* refusal = std::get_if<Reason>(&planned)) {
     answer(command, ResultStatus::kRefused, *refusal);
     return;
   }
-  answer(command, ResultStatus::kAccepted, "");
+  answer(command, ResultStatus::kAccepted, {});
   assign(
       {std::move(std::get<std::unique_ptr<MotionGenerator>>(planned)), command, describe(command)});
 }
@@ -202,13 +207,13 @@ bool MotionCore::adopt_walk(const Command& command) {
       running_ && running_->command && kind_of(*running_->command) == CommandKind::kWalk;
   if (!is_walking) {
     if (walk->vx != 0 || walk->vy != 0 || walk->wz != 0) return false;
-    answer(command, ResultStatus::kAccepted, "");
-    answer(command, ResultStatus::kDone, "The robot does not walk.");
+    answer(command, ResultStatus::kAccepted, {});
+    answer(command, ResultStatus::kDone, {"not-walking"});
     return true;
   }
   if (!running_->generator->adopt(command)) return false;
-  answer(*running_->command, ResultStatus::kInterrupted, "Replaced by a newer walk.");
-  answer(command, ResultStatus::kAccepted, "");
+  answer(*running_->command, ResultStatus::kInterrupted, {"replaced", {describe(command)}});
+  answer(command, ResultStatus::kAccepted, {});
   running_->command = command;
   running_->detail = describe(command);
   return true;
@@ -232,14 +237,12 @@ bool MotionCore::overlay_walk(const Command& command) {
     const bool turns = std::find(motors.begin(), motors.end(), motor) != motors.end();
     if (!turns) start.velocity[motor] = 0;
   }
-  const std::string danger = find_self_collision(*change, start);
-  if (!danger.empty()) {
-    answer(command, ResultStatus::kRefused, danger);
+  if (const auto danger = find_self_collision(*change, start)) {
+    answer(command, ResultStatus::kRefused, *danger);
     return true;
   }
-  answer(command, ResultStatus::kAccepted, "");
-  end_overlay(ResultStatus::kInterrupted,
-              "Replaced by a newer command: " + describe(command) + ".");
+  answer(command, ResultStatus::kAccepted, {});
+  end_overlay(ResultStatus::kInterrupted, {"replaced", {describe(command)}});
   overlay_ = Overlay{std::make_unique<JointChangeMotion>(*change), command, std::move(motors)};
   overlay_->generator->start(context(0), start);
   return true;
@@ -256,8 +259,9 @@ bool MotionCore::adopt_kick(const Command& command) {
   // No strength said is NaN, which is not above.
   if (!is_kick || action->strength > kWalkKickStrength) return false;
   if (!running_->generator->adopt(command)) return false;
-  if (walk_kick_) answer(*walk_kick_, ResultStatus::kInterrupted, "A newer kick came first.");
-  answer(command, ResultStatus::kAccepted, "");
+  if (walk_kick_)
+    answer(*walk_kick_, ResultStatus::kInterrupted, {"replaced", {describe(command)}});
+  answer(command, ResultStatus::kAccepted, {});
   walk_kick_ = command;
   return true;
 }
@@ -267,19 +271,18 @@ void MotionCore::watch_kick() {
   const auto strike = running_ ? running_->generator->strike() : MotionGenerator::Strike::kNone;
   if (strike == MotionGenerator::Strike::kPending) return;
   if (strike == MotionGenerator::Strike::kStruck) {
-    answer(*walk_kick_, ResultStatus::kDone, "");
+    answer(*walk_kick_, ResultStatus::kDone, {});
   } else {
     const bool is_missed = strike == MotionGenerator::Strike::kMissed;
-    answer(
-        *walk_kick_, ResultStatus::kFailed,
-        is_missed ? "The ball could not be reached in time." : "The walk ended before the kick.");
+    answer(*walk_kick_, ResultStatus::kFailed,
+           is_missed ? Reason("kick-missed") : Reason("walk-ended-before-kick"));
   }
   walk_kick_.reset();
 }
 
-std::optional<std::string> MotionCore::refuse_walk() const {
-  if (!gait_) return model_->name() + " has no gait.";
-  if (is_lying()) return "The robot lies on the ground; let it get up first.";
+std::optional<Reason> MotionCore::refuse_walk() const {
+  if (!gait_) return Reason("no-gait", {model_->name()});
+  if (is_lying()) return Reason("robot-fallen");
   return find_walk_obstacle(LegKinematics(*model_), estimator_.state(), targets_.stiffness);
 }
 
@@ -288,7 +291,7 @@ std::unique_ptr<MotionGenerator> MotionCore::plan_stand() const {
                                          options_.default_speed);
 }
 
-std::optional<std::string> MotionCore::refuse_walk_after_standing_up() const {
+std::optional<Reason> MotionCore::refuse_walk_after_standing_up() const {
   if (!gait_ || !sits()) return refuse_walk();
   return find_soft_leg(LegKinematics(*model_), targets_.stiffness);
 }
@@ -308,14 +311,13 @@ MotionCore::Plan MotionCore::plan_request(const PostureCommand& posture) {
   const std::string state = find_body_state(*model_, estimator_.state(), options_.lying_tilt);
   const bool is_there = state == state_of(goal);
   if (!is_there && !state.empty() && graph_.find_way(state, state_of(goal)).empty()) {
-    return "There is no safe way from here to " + goal.name + " yet.";
+    return Reason("no-path", {state, goal.name});
   }
   return std::make_unique<JourneyMotion>(graph_, goal, posture.speed);
 }
 
 MotionCore::Plan MotionCore::plan_request(const JointChangeCommand& change) {
-  std::string danger = find_danger(change);
-  if (!danger.empty()) return danger;
+  if (auto danger = find_danger(change)) return *danger;
   return std::make_unique<JointChangeMotion>(change);
 }
 
@@ -335,14 +337,17 @@ MotionCore::Plan MotionCore::plan_request(const ActionCommand& action) {
     if (script.sequence.name == action.action) return plan_script(script);
   }
   const KeyframeSequence* sequence = graph_.find(action.action);
-  if (sequence == nullptr) return "The action " + action.action + " is not built yet.";
+  if (sequence == nullptr) return Reason("action-without-motion", {action.action});
   const std::string state = find_body_state(*model_, estimator_.state(), options_.lying_tilt);
-  if (sequence->from != state) return "The robot can " + action.action + " only while it stands.";
+  if (sequence->from != state) {
+    return Reason("action-needs-state",
+                  {action.action, sequence->from, state.empty() ? "unknown" : state});
+  }
   return std::make_unique<SequenceMotion>(*sequence);
 }
 
 MotionCore::Plan MotionCore::plan_kick(bool is_left, const ActionCommand& action) {
-  if (!kick_) return model_->name() + " has no kick.";
+  if (!kick_) return Reason("no-kick", {model_->name()});
   if (const auto refusal = refuse_walk()) return *refusal;
   const Eigen::Vector2d ball(action.ball_x, action.ball_y);
   if (const auto refusal = KickMotion::find_obstacle(*kick_, is_left, ball)) return *refusal;
@@ -359,39 +364,33 @@ MotionCore::Plan MotionCore::plan_request(const StopCommand& /*stop*/) {
   return std::make_unique<StopMotion>();
 }
 
-std::string MotionCore::find_danger(const JointChangeCommand& change) {
-  std::string danger = find_self_collision(change, targets_);
+std::optional<Reason> MotionCore::find_danger(const JointChangeCommand& change) {
+  std::optional<Reason> danger = find_self_collision(change, targets_);
   const bool stands =
       find_body_state(*model_, estimator_.state(), options_.lying_tilt) == "on-feet";
-  if (!danger.empty() || change.allow_tipping || !stands) return danger;
+  if (danger || change.allow_tipping || !stands) return danger;
   return find_tipping(change);
 }
 
-std::string MotionCore::how_far(double angle) {
-  const long degrees = std::lround(std::trunc(angle * 180 / M_PI));
-  if (degrees == 0) return "it cannot turn that way from here.";
-  return "it may turn by " + std::to_string(degrees) + " degrees at most.";
-}
-
-std::string MotionCore::find_self_collision(const JointChangeCommand& change,
-                                            const JointTargets& start) {
+std::optional<Reason> MotionCore::find_self_collision(const JointChangeCommand& change,
+                                                      const JointTargets& start) {
   JointChangeMotion motion(change);
   motion.start(context(0), start);
   const std::vector<std::vector<double>> way = motion.calc_way(*model_);
   SelfCollision collision;
   const size_t last = collision_guard_.find_last_free(way, collision);
-  if (last + 1 == way.size()) return "";
-  return model_->motor_joint(collision.motor).name + " would bring " + collision.link_a + " into " +
-         collision.link_b + "; " +
-         how_far(way[last][collision.motor] - way.front()[collision.motor]);
+  if (last + 1 == way.size()) return std::nullopt;
+  return Reason("self-collision",
+                {model_->motor_joint(collision.motor).name, collision.link_a, collision.link_b,
+                 whole_degrees(way[last][collision.motor] - way.front()[collision.motor])});
 }
 
-std::string MotionCore::find_tipping(const JointChangeCommand& change) {
+std::optional<Reason> MotionCore::find_tipping(const JointChangeCommand& change) {
   const std::vector<double> goal = JointChangeMotion::calc_goal(*model_, change, targets_.position);
   Rest tipping;
   const Eigen::Vector3d up = estimator_.state().torso_in_odometry.linear().row(2);
   const double safe_share = tipping_guard_.find_safe_share(targets_.position, goal, up, tipping);
-  if (safe_share >= 1) return "";
+  if (safe_share >= 1) return std::nullopt;
   // Of the joints named, the one that turns the body over its feet most: legs before all others.
   const Eigen::Matrix3Xd left = estimator_.kinematics().calc_angular_jacobian(model_->left_sole());
   const Eigen::Matrix3Xd right =
@@ -407,16 +406,19 @@ std::string MotionCore::find_tipping(const JointChangeCommand& change) {
     culprit = motor;
   }
   const Eigen::Vector3d& direction = tipping.tipping_direction;
-  const char* where = std::abs(direction.x()) >= std::abs(direction.y())
-                          ? (direction.x() > 0 ? "forwards" : "backwards")
-                          : (direction.y() > 0 ? "to the left" : "to the right");
-  return model_->motor_joint(culprit).name + " would tip the robot over " + where + "; " +
-         how_far(safe_share * (goal[culprit] - targets_.position[culprit]));
+  const std::vector<std::string> arguments = {
+      model_->motor_joint(culprit).name,
+      whole_degrees(safe_share * (goal[culprit] - targets_.position[culprit]))};
+  if (std::abs(direction.x()) >= std::abs(direction.y())) {
+    return direction.x() > 0 ? Reason("tipping-forward", arguments)
+                             : Reason("tipping-backward", arguments);
+  }
+  return direction.y() > 0 ? Reason("tipping-left", arguments) : Reason("tipping-right", arguments);
 }
 
 void MotionCore::assign(Assignment assignment) {
   if (waiting_ && waiting_->command) {
-    answer(*waiting_->command, ResultStatus::kInterrupted, "A newer command came first.");
+    answer(*waiting_->command, ResultStatus::kInterrupted, {"replaced-before-start"});
   }
   waiting_ = std::move(assignment);
 }
@@ -428,13 +430,14 @@ void MotionCore::start_waiting() {
     waiting_->has_waited = true;
     return;
   }
-  end_running(ResultStatus::kInterrupted,
-              waiting_->command ? "Replaced by a newer command: " + waiting_->detail + "."
-                                : "Replaced by " + waiting_->detail + ".");
-  end_overlay(ResultStatus::kInterrupted, "Replaced by " + waiting_->detail + ".");
-  const std::string danger = find_new_danger(*waiting_);
-  if (!danger.empty()) {
-    answer(*waiting_->command, ResultStatus::kFailed, danger);
+  end_running(ResultStatus::kInterrupted, waiting_->command
+                                              ? Reason("replaced", {waiting_->detail})
+                                              : Reason("replaced-by-motion", {waiting_->detail}));
+  end_overlay(ResultStatus::kInterrupted, waiting_->command
+                                              ? Reason("replaced", {waiting_->detail})
+                                              : Reason("replaced-by-motion", {waiting_->detail}));
+  if (const auto danger = find_new_danger(*waiting_)) {
+    answer(*waiting_->command, ResultStatus::kFailed, *danger);
     waiting_.reset();
     return;
   }
@@ -442,10 +445,10 @@ void MotionCore::start_waiting() {
   running_->generator->start(context(0), targets_);
 }
 
-std::string MotionCore::find_new_danger(const Assignment& assignment) {
-  if (!assignment.has_waited || !assignment.command) return "";
+std::optional<Reason> MotionCore::find_new_danger(const Assignment& assignment) {
+  if (!assignment.has_waited || !assignment.command) return std::nullopt;
   const auto* change = std::get_if<JointChangeCommand>(&assignment.command->request);
-  return change == nullptr ? "" : find_danger(*change);
+  return change == nullptr ? std::nullopt : find_danger(*change);
 }
 
 void MotionCore::step_overlay(double dt, const JointTargets& last) {
@@ -454,20 +457,20 @@ void MotionCore::step_overlay(double dt, const JointTargets& last) {
     const MotionGenerator::Phase phase = overlay_->generator->step(context(dt), turned);
     for (int motor : overlay_->motors) overlaid_[motor] = turned.position[motor];
     if (phase == MotionGenerator::Phase::kDone) {
-      end_overlay(ResultStatus::kDone, overlay_->generator->remark());
+      end_overlay(ResultStatus::kDone, overlay_->generator->reason());
     }
   }
   if (!overlay_ && !is_walking()) overlaid_.clear();
   for (const auto& [motor, angle] : overlaid_) targets_.position[motor] = angle;
 }
 
-void MotionCore::end_overlay(ResultStatus status, const std::string& reason) {
+void MotionCore::end_overlay(ResultStatus status, const Reason& reason) {
   if (!overlay_) return;
   answer(overlay_->command, status, reason);
   overlay_.reset();
 }
 
-void MotionCore::end_running(ResultStatus status, const std::string& reason) {
+void MotionCore::end_running(ResultStatus status, const Reason& reason) {
   if (!running_) return;
   if (running_->command) answer(*running_->command, status, reason);
   running_.reset();
@@ -482,7 +485,7 @@ void MotionCore::move(double dt) {
   if (running_) {
     const MotionGenerator::Phase phase = running_->generator->step(context(dt), targets_);
     if (phase != MotionGenerator::Phase::kRunning) {
-      const std::string remark = running_->generator->remark();
+      const Reason reason = running_->generator->reason();
       if (phase == MotionGenerator::Phase::kDone && running_->generator->mode() != Mode::kFalling) {
         has_fallen_ = false;
         was_lying_ = is_lying();
@@ -490,7 +493,7 @@ void MotionCore::move(double dt) {
       needs_help_ = phase == MotionGenerator::Phase::kFailed && has_fallen_ && is_lying();
       end_running(
           phase == MotionGenerator::Phase::kDone ? ResultStatus::kDone : ResultStatus::kFailed,
-          remark);
+          reason);
     }
   }
   watch_kick();
@@ -517,11 +520,11 @@ void MotionCore::watch_for_falls(double dt) {
       fall_monitor_.reset();
       has_fallen_ = true;
       time_fallen_ = 0;
-      end_running(ResultStatus::kFailed, "The robot fell.");
-      end_overlay(ResultStatus::kFailed, "The robot fell.");
+      end_running(ResultStatus::kFailed, {"robot-fell"});
+      end_overlay(ResultStatus::kFailed, {"robot-fell"});
       overlaid_.clear();
       if (waiting_ && waiting_->command) {
-        answer(*waiting_->command, ResultStatus::kFailed, "The robot fell.");
+        answer(*waiting_->command, ResultStatus::kFailed, {"robot-fell"});
       }
       waiting_.reset();
       running_ = Assignment{std::make_unique<FallMotion>(), std::nullopt, "fall"};
@@ -547,10 +550,9 @@ void MotionCore::watch_for_falls(double dt) {
           std::nullopt, "get-up"});
 }
 
-void MotionCore::answer(const Command& command, ResultStatus status, const std::string& reason,
+void MotionCore::answer(const Command& command, ResultStatus status, const Reason& reason,
                         bool is_remembered) {
-  const CommandResult result{
-      command.source, command.id, kind_of(command), status, {}, {}, reason};
+  const CommandResult result{command.source, command.id, kind_of(command), status, reason};
   if (is_remembered) ledger_.note(result);
   if (status == ResultStatus::kRefused) last_refusal_ = reason;
   output_.results.push_back(result);

@@ -10,7 +10,6 @@
 
 #include "daemons/motion/actions/action_script.h"
 #include "daemons/motion/actions/kick.h"
-#include "messages/command.h"
 #include "daemons/motion/commands/command_ledger.h"
 #include "daemons/motion/estimator/state_estimator.h"
 #include "daemons/motion/falls/fall_monitor.h"
@@ -25,6 +24,7 @@
 #include "daemons/motion/sensors.h"
 #include "daemons/motion/transitions/transition_graph.h"
 #include "daemons/motion/walk/gait.h"
+#include "messages/command.h"
 #include "robot_model/robot_model.h"
 
 namespace nao::motion {
@@ -90,7 +90,7 @@ class MotionCore {
   };
 
   /** A motion that carries out a command, or why there is none. */
-  using Plan = std::variant<std::unique_ptr<MotionGenerator>, std::string>;
+  using Plan = std::variant<std::unique_ptr<MotionGenerator>, Reason>;
 
   void take_sensors(const Sensors& sensors, double dt);
   void lose_robot();
@@ -110,9 +110,9 @@ class MotionCore {
    * @return false if the command needs a motion of its own. */
   bool overlay_walk(const Command& command);
   bool is_walking() const;
-  std::optional<std::string> refuse_walk() const;
+  std::optional<Reason> refuse_walk() const;
   /** The same for a walk that goes to its stand first, which it may do from a seat. */
-  std::optional<std::string> refuse_walk_after_standing_up() const;
+  std::optional<Reason> refuse_walk_after_standing_up() const;
   Plan plan_kick(bool is_left, const ActionCommand& action);
   Plan plan_script(const ActionScript& script);
   /** The way to the stand that walks begin in. */
@@ -124,28 +124,27 @@ class MotionCore {
   Plan plan_request(const JointChangeCommand& change);
   Plan plan_request(const ActionCommand& action);
   Plan plan_request(const StopCommand& stop);
-  /** Why a joint change would end badly, as a sentence; empty if it would not. */
-  std::string find_danger(const JointChangeCommand& change);
+  /** Why a joint change would end badly; nothing if it would not. */
+  std::optional<Reason> find_danger(const JointChangeCommand& change);
   /** @param start  What the change would go on from. */
-  std::string find_self_collision(const JointChangeCommand& change, const JointTargets& start);
-  std::string find_tipping(const JointChangeCommand& change);
-  /** "it may turn by 12 degrees at most." @param angle  rad. */
-  static std::string how_far(double angle);
+  std::optional<Reason> find_self_collision(const JointChangeCommand& change,
+                                            const JointTargets& start);
+  std::optional<Reason> find_tipping(const JointChangeCommand& change);
   void assign(Assignment assignment);
 
   void move(double dt);
   void watch_for_falls(double dt);
   bool means_to_stand() const;
   void start_waiting();
-  /** What speaks against beginning `assignment` now, though nothing did when it came; empty if
-   * nothing does. */
-  std::string find_new_danger(const Assignment& assignment);
-  void end_running(ResultStatus status, const std::string& reason);
+  /** What speaks against beginning `assignment` now, though nothing did when it came;
+   * nothing if nothing does. */
+  std::optional<Reason> find_new_danger(const Assignment& assignment);
+  void end_running(ResultStatus status, const Reason& reason);
   /** Writes the overlaid joints over what the walk wants of them. @param last  Targets of the last
    * tick. */
   void step_overlay(double dt, const JointTargets& last);
-  void end_overlay(ResultStatus status, const std::string& reason);
-  void answer(const Command& command, ResultStatus status, const std::string& reason,
+  void end_overlay(ResultStatus status, const Reason& reason);
+  void answer(const Command& command, ResultStatus status, const Reason& reason,
               bool is_remembered = true);
 
   MotionContext context(double dt) const;
@@ -191,7 +190,7 @@ class MotionCore {
   std::map<int, double> overlaid_;
 
   MotionState state_;
-  std::string last_refusal_;
+  Reason last_refusal_;
   double since_motion_state_ = 0;
   Output output_;
 };

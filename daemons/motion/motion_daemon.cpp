@@ -101,7 +101,8 @@ void MotionDaemon::step(std::optional<Sensors> sensors, double dt) {
   for (const CommandResult& result : reminder_.due(dt)) publish(result);
   for (const CommandResult& result : output.results) {
     spdlog::info("{} {} of {}: {}{}{}", to_string(result.kind), result.id, quoted(result.source),
-                 to_string(result.status), result.reason.empty() ? "" : ": ", result.reason);
+                 to_string(result.status), result.reason.empty() ? "" : ": ",
+                 to_sentence(result.reason));
     publish(result);
     reminder_.note(result);
   }

@@ -36,7 +36,8 @@ struct MotionState {
   double balance_margin = std::numeric_limits<double>::quiet_NaN();
   Eigen::Vector3d walk_velocity = Eigen::Vector3d::Zero();
   double stiffness = 0;
-  std::string last_refusal;
+  /** Of the last refused command; none if there was none. */
+  Reason last_refusal;
   std::vector<Footstep> footsteps;
 };
 

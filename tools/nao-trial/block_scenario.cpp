@@ -64,7 +64,7 @@ RunResult act(const ScenarioOptions& options, uint64_t seed, const std::string& 
   if (fell) {
     result.failure = "fell";
   } else if (!end || end->status != ResultStatus::kDone) {
-    result.failure = end ? end->reason : "did not end";
+    result.failure = end ? to_sentence(end->reason) : "did not end";
   } else if (!stands) {
     result.failure = "does not stand";
   } else if (!reached.is_within(kAsked)) {

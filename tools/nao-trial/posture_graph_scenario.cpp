@@ -19,7 +19,7 @@ std::string go(ClosedLoop& trial, const Posture& goal, RunResult& result) {
   const auto end = trial.await_end(trial.send_posture(goal.name, kSpeed), kTimeout);
   if (!end) return "no end";
   if (end->status != ResultStatus::kDone) {
-    return std::string(to_string(end->status)) + ": " + end->reason;
+    return std::string(to_string(end->status)) + ": " + to_sentence(end->reason);
   }
   result.metrics.emplace_back("time_s", trial.time() - start);
   trial.run(0.3);

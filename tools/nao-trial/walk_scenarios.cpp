@@ -340,7 +340,7 @@ std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint6
   const double scale = std::max(1.0, distance);
   result.is_success =
       end && end->status == ResultStatus::kDone && by_odometry < 0.03 * scale && turned < 3 * scale;
-  if (!result.is_success) result.failure = end ? "missed; " + end->reason : "did not end";
+  if (!result.is_success) result.failure = end ? "missed; " + to_sentence(end->reason) : "did not end";
   result.metrics = {{"odometry_miss_mm", 1e3 * by_odometry},
                     {"odometry_miss_deg", turned},
                     {"true_miss_mm", 1e3 * miss(start, true_pose(trial))},

@@ -48,13 +48,13 @@ void JointChangeMotion::start(const MotionContext& context, const JointTargets& 
   }
   const std::vector<double> wished = wished_angles(context.model, change_, base);
   const std::vector<double> goal = calc_goal(context.model, change_, base);
+  std::string clipped;
   for (const std::string& name : change_.joint_names) {
     const int motor = context.model.find_motor(name);
     if (std::abs(goal[motor] - wished[motor]) < kClippingTolerance) continue;
-    remark_ += remark_.empty() ? "Clipped to the limit: " : ", ";
-    remark_ += name;
+    clipped += (clipped.empty() ? "" : ", ") + name;
   }
-  if (!remark_.empty()) remark_ += ".";
+  if (!clipped.empty()) reason_ = Reason("clipped-to-limits", {clipped});
   std::vector<double> start = goal;
   std::vector<double> velocity(goal.size(), 0.0);
   turning_.clear();

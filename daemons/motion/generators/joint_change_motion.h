@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "messages/command.h"
 #include "daemons/motion/generators/joint_trajectory.h"
 #include "daemons/motion/generators/motion_generator.h"
+#include "messages/command.h"
 
 namespace nao::motion {
 
@@ -25,7 +25,7 @@ class JointChangeMotion : public MotionGenerator {
   Phase step(const MotionContext& context, JointTargets& targets) override;
   Mode mode() const override { return Mode::kMoving; }
   double progress() const override;
-  std::string remark() const override { return remark_; }
+  Reason reason() const override { return reason_; }
   /** Targets from the start to the end, rad, each (num_motors); from one to the next no joint turns
    * farther than it must within 5 ms, or 0.05 rad. After start(). */
   std::vector<std::vector<double>> calc_way(const RobotModel& model) const;
@@ -44,7 +44,7 @@ class JointChangeMotion : public MotionGenerator {
   JointTrajectory trajectory_;
   std::vector<int> turning_;
   double time_ = 0;
-  std::string remark_;
+  Reason reason_;
 };
 
 /** Brings all joints to rest as soon as their accelerations allow. */

@@ -31,14 +31,6 @@ bool is_lying(const std::string& state) {
   return state == "belly" || state == "back" || state == "left" || state == "right";
 }
 
-std::string in_words(const std::string& state) {
-  if (state.empty()) return "where it is now";
-  if (state == "on-feet") return "standing";
-  if (is_lying(state))
-    return "lying on its " + state + (state.size() == 4 || state[0] == 'b' ? "" : " side");
-  return state;
-}
-
 }  // namespace
 
 void JourneyMotion::start(const MotionContext& /*context*/, const JointTargets& targets) {
@@ -90,7 +82,7 @@ MotionGenerator::Phase JourneyMotion::step(const MotionContext& context, JointTa
       if (phase == Phase::kFailed && brings_feet_together(context, targets)) {
         return Phase::kRunning;
       }
-      if (phase == Phase::kFailed) remark_ = direct_->remark();
+      if (phase == Phase::kFailed) reason_ = direct_->reason();
       if (phase != Phase::kDone) return phase;
       if (find_body_state(context.model, context.state, context.options.lying_tilt) ==
           state_of(*goal_)) {
@@ -125,7 +117,7 @@ MotionGenerator::Phase JourneyMotion::choose_leg(const MotionContext& context,
       find_body_state(context.model, context.state, context.options.lying_tilt);
   stands_ = state == "on-feet" && state_of(*goal_) == state;
   if (++num_legs_ > kMaxLegs) {
-    remark_ = "The way to " + goal_->name + " leads nowhere.";
+    reason_ = Reason("path-too-long", {goal_->name, std::to_string(kMaxLegs)});
     return Phase::kFailed;
   }
   if (state == state_of(*goal_)) {
@@ -145,12 +137,12 @@ MotionGenerator::Phase JourneyMotion::choose_leg(const MotionContext& context,
   auto way = graph_->find_way(state, state_of(*goal_), failed_);
   if (way.empty()) way = graph_->find_way(state, state_of(*goal_));
   if (way.empty()) {
-    remark_ = "There is no safe way from " + in_words(state) + " to " + goal_->name + ".";
+    reason_ = Reason("no-path", {state.empty() ? "unknown" : state, goal_->name});
     return Phase::kFailed;
   }
   is_from_lying_ = is_lying(state);
   if (is_from_lying_ && !is_on_its_way_ && ++num_tries_ > kMaxTries) {
-    remark_ = "It did not get up in " + std::to_string(kMaxTries) + " tries; it needs help.";
+    reason_ = Reason("get-up-failed", {std::to_string(kMaxTries)});
     return Phase::kFailed;
   }
   const int num_failed = is_from_lying_ ? num_tries_ - 1 : 0;

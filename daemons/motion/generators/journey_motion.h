@@ -28,7 +28,7 @@ class JourneyMotion : public MotionGenerator {
   Mode mode() const override;
   bool means_to_stand() const override { return stands_; }
   double progress() const override;
-  std::string remark() const override { return remark_; }
+  Reason reason() const override { return reason_; }
   void describe(MotionState& state) const override { state.num_tries = num_tries_; }
 
  private:
@@ -68,7 +68,7 @@ class JourneyMotion : public MotionGenerator {
   /** The leg is a straight way on the feet. */
   bool stands_ = false;
   bool is_finishing_ = false;
-  std::string remark_;
+  Reason reason_;
 };
 
 }  // namespace nao::motion

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "daemons/motion/generators/walk_motion.h"
@@ -33,18 +32,15 @@ double smooth_step(double s) {
 
 }  // namespace
 
-std::optional<std::string> KickMotion::find_obstacle(const Kick& kick, bool is_left,
-                                                     const Vector2d& ball) {
+std::optional<Reason> KickMotion::find_obstacle(const Kick& kick, bool is_left,
+                                                const Vector2d& ball) {
   const Vector2d best(kick.ball.x(), (is_left ? 1 : -1) * kick.ball.y());
   for (int i = 0; i < 2; ++i) {
     if (std::isnan(ball[i]) || std::abs(ball[i] - best[i]) <= kick.ball_reach[i]) continue;
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(),
-                  "The ball is out of reach: it must lie %.2f to %.2f m ahead and %.2f to %.2f m "
-                  "to the left.",
-                  best.x() - kick.ball_reach.x(), best.x() + kick.ball_reach.x(),
-                  best.y() - kick.ball_reach.y(), best.y() + kick.ball_reach.y());
-    return text.data();
+    const Vector2d least = best - kick.ball_reach;
+    const Vector2d greatest = best + kick.ball_reach;
+    return Reason("ball-out-of-reach", {to_argument(least.x()), to_argument(greatest.x()),
+                                        to_argument(least.y()), to_argument(greatest.y())});
   }
   return std::nullopt;
 }
@@ -146,7 +142,7 @@ std::vector<double> KickMotion::solve(const Wish& wish, const Isometry3d& torso,
 MotionGenerator::Phase KickMotion::step(const MotionContext& context, JointTargets& targets) {
   if (is_standing_up_) {
     const Phase phase = stand_up_->step(context, targets);
-    if (phase == Phase::kFailed) remark_ = stand_up_->remark();
+    if (phase == Phase::kFailed) reason_ = stand_up_->reason();
     if (phase != Phase::kDone) return phase;
     is_standing_up_ = false;
     if (is_finishing_) return Phase::kDone;

@@ -28,9 +28,9 @@ class KickMotion : public MotionGenerator {
              std::unique_ptr<MotionGenerator> stand_up, bool is_left, const Eigen::Vector2d& ball,
              double strength);
 
-  /** Why a ball cannot be kicked, as a sentence; nothing if it can. NaN counts as well placed. */
-  static std::optional<std::string> find_obstacle(const Kick& kick, bool is_left,
-                                                  const Eigen::Vector2d& ball);
+  /** Why a ball cannot be kicked; nothing if it can. NaN counts as well placed. */
+  static std::optional<Reason> find_obstacle(const Kick& kick, bool is_left,
+                                             const Eigen::Vector2d& ball);
 
   void start(const MotionContext& context, const JointTargets& targets) override;
   Phase step(const MotionContext& context, JointTargets& targets) override;
@@ -38,7 +38,7 @@ class KickMotion : public MotionGenerator {
   void finish() override;
   Mode mode() const override { return Mode::kActing; }
   double progress() const override;
-  std::string remark() const override { return remark_; }
+  Reason reason() const override { return reason_; }
 
  private:
   /** What the body does at a moment, in S. */
@@ -79,7 +79,7 @@ class KickMotion : public MotionGenerator {
   Eigen::Vector3d mass_centre_in_torso_ = Eigen::Vector3d::Zero();
   double height_ = 0.26;
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
-  std::string remark_;
+  Reason reason_;
 };
 
 }  // namespace nao::motion

@@ -3,14 +3,14 @@
 #include <limits>
 #include <string>
 
-#include "messages/command.h"
 #include "daemons/motion/joint_targets.h"
-#include "messages/mode.h"
 #include "daemons/motion/motion_options.h"
 #include "daemons/motion/motion_state.h"
 #include "daemons/motion/robot_state.h"
 #include "daemons/motion/sensors.h"
 #include "kinematics/kinematics.h"
+#include "messages/command.h"
+#include "messages/mode.h"
 #include "robot_model/robot_model.h"
 
 namespace nao::motion {
@@ -75,8 +75,8 @@ class MotionGenerator {
   /** Share done, 0..1; NaN where the end is open. */
   virtual double progress() const { return std::numeric_limits<double>::quiet_NaN(); }
 
-  /** After kDone: what should be said of it, after kFailed: why. A sentence, or empty. */
-  virtual std::string remark() const { return ""; }
+  /** Why it failed after kFailed; a remark, usually none, after kDone. */
+  virtual Reason reason() const { return {}; }
 
   /** Adds what a walk has to say: velocity after clipping, footsteps. */
   virtual void describe(MotionState& /*state*/) const {}

@@ -35,9 +35,9 @@ MotionGenerator::Phase PostureMotion::step(const MotionContext& context, JointTa
   const PostureDeviation deviation = deviation_from(*posture_, context.sensors.position);
   if (deviation.angle <= context.options.posture_tolerance) return Phase::kDone;
   if (time_ < trajectory_.duration() + kSettlingTime) return Phase::kRunning;
-  remark_ = context.model.motor_joint(deviation.motor).name + " stays " +
-            std::to_string(std::lround(deviation.angle * 180 / M_PI)) + " degrees away from " +
-            posture_->name + "; something holds it.";
+  reason_ = Reason("posture-not-reached",
+                   {context.model.motor_joint(deviation.motor).name,
+                    std::to_string(std::lround(deviation.angle * 180 / M_PI)), posture_->name});
   return Phase::kFailed;
 }
 

@@ -30,14 +30,14 @@ class PostureMotion : public MotionGenerator {
   Phase step(const MotionContext& context, JointTargets& targets) override;
   Mode mode() const override { return Mode::kMoving; }
   double progress() const override;
-  std::string remark() const override { return remark_; }
+  Reason reason() const override { return reason_; }
 
  private:
   const Posture* posture_;
   double speed_;
   JointTrajectory trajectory_;
   double time_ = 0;
-  std::string remark_;
+  Reason reason_;
 };
 
 }  // namespace nao::motion

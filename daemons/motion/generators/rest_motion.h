@@ -22,7 +22,7 @@ class RestMotion : public MotionGenerator {
   void finish() override { journey_.finish(); }
   Mode mode() const override { return journey_.mode(); }
   bool means_to_stand() const override { return !is_there_ && journey_.means_to_stand(); }
-  std::string remark() const override { return journey_.remark(); }
+  Reason reason() const override { return journey_.reason(); }
 
  private:
   JourneyMotion journey_;

@@ -49,7 +49,7 @@ MotionGenerator::Phase ScriptMotion::step(const MotionContext& context, JointTar
   if (part_ == Part::kPlaying) return play(context, targets);
   MotionGenerator& way = part_ == Part::kStandingUp ? *stand_up_ : *get_up_;
   const Phase phase = way.step(context, targets);
-  if (phase == Phase::kFailed) remark_ = way.remark();
+  if (phase == Phase::kFailed) reason_ = way.reason();
   if (phase != Phase::kDone || part_ == Part::kGettingUp || is_finishing_) return phase;
   start_playing(context, targets);
   return Phase::kRunning;

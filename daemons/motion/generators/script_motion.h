@@ -30,7 +30,7 @@ class ScriptMotion : public MotionGenerator {
   Mode mode() const override;
   bool means_to_stand() const override;
   double progress() const override;
-  std::string remark() const override { return remark_; }
+  Reason reason() const override { return reason_; }
 
  private:
   enum class Part { kStandingUp, kPlaying, kGettingUp };
@@ -52,7 +52,7 @@ class ScriptMotion : public MotionGenerator {
   KeyframePlayer player_;
   double time_ = 0;
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
-  std::string remark_;
+  Reason reason_;
 };
 
 }  // namespace nao::motion

@@ -46,28 +46,27 @@ constexpr double kPatienceAtLeast = 10;
 
 }  // namespace
 
-std::optional<std::string> find_soft_leg(const LegKinematics& legs,
-                                         const std::vector<double>& stiffness) {
+std::optional<Reason> find_soft_leg(const LegKinematics& legs,
+                                    const std::vector<double>& stiffness) {
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     for (int motor : legs.motors(leg)) {
       if (stiffness[motor] <= kLeastStiffness) {
-        return "The legs are too soft to walk: stiffness " +
-               std::to_string(std::lround(100 * stiffness[motor])) +
-               " %, and more than 60 % is needed.";
+        return Reason("legs-too-soft", {std::to_string(std::lround(100 * stiffness[motor])),
+                                        std::to_string(std::lround(100 * kLeastStiffness))});
       }
     }
   }
   return std::nullopt;
 }
 
-std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
-                                              const std::vector<double>& stiffness) {
+std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
+                                         const std::vector<double>& stiffness) {
   if (auto soft = find_soft_leg(legs, stiffness)) return soft;
   if (state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
-    return "The robot does not stand upright.";
+    return Reason("not-upright");
   }
   if (!state.left_foot_carries && !state.right_foot_carries) {
-    return "No foot carries weight; put the robot on the ground.";
+    return Reason("no-foot-contact");
   }
   return std::nullopt;
 }
@@ -101,20 +100,20 @@ void WalkingMotion::start(const MotionContext& context, const JointTargets& targ
   }
 }
 
-std::optional<std::string> WalkingMotion::find_trouble(const MotionContext& context) {
+std::optional<Reason> WalkingMotion::find_trouble(const MotionContext& context) {
   if (context.state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
-    return "The robot lost its balance.";
+    return Reason("balance-lost");
   }
   const bool is_in_air = !context.state.left_foot_carries && !context.state.right_foot_carries;
   time_in_air_ = is_in_air ? time_in_air_ + context.dt : 0;
-  if (time_in_air_ > kLiftedTime) return "The robot was lifted off the ground.";
+  if (time_in_air_ > kLiftedTime) return Reason("robot-lifted");
   return std::nullopt;
 }
 
 MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTargets& targets) {
   if (is_standing_up_) {
     const Phase phase = stand_up_->step(context, targets);
-    if (phase == Phase::kFailed) remark_ = stand_up_->remark();
+    if (phase == Phase::kFailed) reason_ = stand_up_->reason();
     if (phase != Phase::kDone) return phase;
     is_standing_up_ = false;
     if (is_finishing_) return Phase::kDone;
@@ -124,19 +123,19 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
   }
   // Only now: the way up from a seat leads over back and belly, feet in the air.
   if (const auto trouble = find_trouble(context)) {
-    remark_ = *trouble;
+    reason_ = *trouble;
     return Phase::kFailed;
   }
   if (const auto soft = find_soft_leg(engine_.legs(), targets.stiffness)) {
-    remark_ = *soft;
+    reason_ = *soft;
     if (engine_.has_both_feet_down()) return Phase::kFailed;
     engine_.end();
   } else if (!is_finishing_) {
-    remark_.clear();
+    reason_ = Reason();
     steer(context);
   }
   if (engine_.step(context.state, context.kinematics, context.dt, targets)) return Phase::kRunning;
-  if (!remark_.empty()) return Phase::kFailed;
+  if (!reason_.empty()) return Phase::kFailed;
   if (is_finishing_) {
     // The motion that waits takes over in the next tick.
     return std::exchange(has_ended_, true) ? Phase::kDone : Phase::kRunning;
@@ -145,7 +144,7 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
     engine_.start(targets);
     return Phase::kRunning;
   }
-  return conclude(context, remark_) ? Phase::kDone : Phase::kFailed;
+  return conclude(context, reason_) ? Phase::kDone : Phase::kFailed;
 }
 
 bool WalkingMotion::can_be_replaced() const {
@@ -227,8 +226,9 @@ bool WalkMotion::wants_to_go_on() const {
   return wishes && age_ <= kCommandLifetime;
 }
 
-bool WalkMotion::conclude(const MotionContext& /*context*/, std::string& remark) {
-  if (age_ > kCommandLifetime) remark = "No walk command came for half a second.";
+bool WalkMotion::conclude(const MotionContext& /*context*/, Reason& reason) {
+  if (age_ > kCommandLifetime)
+    reason = Reason("walk-command-timeout", {to_argument(kCommandLifetime)});
   return true;
 }
 
@@ -283,15 +283,14 @@ void MoveToMotion::steer(const MotionContext& context) {
   engine().set_velocity(velocity.cwiseMax(-greatest).cwiseMin(greatest));
 }
 
-bool MoveToMotion::conclude(const MotionContext& context, std::string& remark) {
+bool MoveToMotion::conclude(const MotionContext& context, Reason& reason) {
   if (is_there_) {
     progress_ = 1;
     return true;
   }
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "Did not get there in time; %.2f m are left.",
-                remaining(context).position.norm());
-  remark = text.data();
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%.2f", remaining(context).position.norm());
+  reason = Reason("goal-timeout", {text.data()});
   return false;
 }
 

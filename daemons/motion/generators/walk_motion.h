@@ -11,15 +11,15 @@
 
 namespace nao::motion {
 
-/** Why legs of this stiffness must not walk, as a sentence; nothing if they may.
+/** Why legs of this stiffness must not walk; nothing if they may.
  * @param stiffness  Of all motors, motor order. */
-std::optional<std::string> find_soft_leg(const LegKinematics& legs,
-                                         const std::vector<double>& stiffness);
+std::optional<Reason> find_soft_leg(const LegKinematics& legs,
+                                    const std::vector<double>& stiffness);
 
-/** Why the robot must not start to walk, as a sentence; nothing if it may.
+/** Why the robot must not start to walk; nothing if it may.
  * @param stiffness  Of all motors, motor order. */
-std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
-                                              const std::vector<double>& stiffness);
+std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
+                                         const std::vector<double>& stiffness);
 
 /** Whether the walk can begin in the pose that these targets make: both soles flat on one level,
  * side by side, below bent knees. */
@@ -40,7 +40,7 @@ class WalkingMotion : public MotionGenerator {
   void finish() override;
   Mode mode() const override { return is_standing_up_ ? stand_up_->mode() : Mode::kWalking; }
   bool means_to_stand() const override { return !is_standing_up_ || stand_up_->means_to_stand(); }
-  std::string remark() const override { return remark_; }
+  Reason reason() const override { return reason_; }
   void describe(MotionState& state) const override;
 
  protected:
@@ -51,13 +51,13 @@ class WalkingMotion : public MotionGenerator {
   /** A wish to walk came while the walk was ending: it begins anew. */
   virtual bool wants_to_go_on() const { return false; }
   /** What is to be said when the walk has ended by itself. @return false if it failed. */
-  virtual bool conclude(const MotionContext& /*context*/, std::string& /*remark*/) { return true; }
+  virtual bool conclude(const MotionContext& /*context*/, Reason& /*reason*/) { return true; }
 
   WalkEngine& engine() { return engine_; }
   const WalkEngine& engine() const { return engine_; }
 
  private:
-  std::optional<std::string> find_trouble(const MotionContext& context);
+  std::optional<Reason> find_trouble(const MotionContext& context);
 
   WalkEngine engine_;
   std::unique_ptr<MotionGenerator> stand_up_;
@@ -65,7 +65,7 @@ class WalkingMotion : public MotionGenerator {
   bool is_finishing_ = false;
   bool has_ended_ = false;
   double time_in_air_ = 0;
-  std::string remark_;
+  Reason reason_;
 };
 
 /** Walks at the velocity of the newest walk command, until it asks for none, until it is too old,
@@ -82,7 +82,7 @@ class WalkMotion : public WalkingMotion {
  protected:
   void steer(const MotionContext& context) override;
   bool wants_to_go_on() const override;
-  bool conclude(const MotionContext& context, std::string& remark) override;
+  bool conclude(const MotionContext& context, Reason& reason) override;
 
  private:
   WalkCommand command_;
@@ -101,7 +101,7 @@ class MoveToMotion : public WalkingMotion {
  protected:
   void start_steering(const MotionContext& context) override;
   void steer(const MotionContext& context) override;
-  bool conclude(const MotionContext& context, std::string& remark) override;
+  bool conclude(const MotionContext& context, Reason& reason) override;
 
  private:
   /** Goal seen from where the robot would stand if it stopped now. */

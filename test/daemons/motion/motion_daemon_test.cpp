@@ -75,6 +75,10 @@ TEST_F(MotionDaemonTest, PublishesResultsOfCommands) {
   ASSERT_EQ(results_.size(), 1u);
   EXPECT_EQ(results_[0].status, naolcm::command_result_t::STATUS_REFUSED);
   EXPECT_EQ(results_[0].command_kind, naolcm::command_result_t::COMMAND_KIND_POSTURE);
+  EXPECT_EQ(results_[0].reason_code, "posture-unknown");
+  EXPECT_EQ(results_[0].num_reason_arguments, 2);
+  EXPECT_EQ(results_[0].reason_arguments.at(0), "\"Nirvana\"");
+  EXPECT_NE(results_[0].reason.find("\"Nirvana\""), std::string::npos);
   EXPECT_EQ(results_[0].command_id, 1);
 }
 
