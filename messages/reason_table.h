@@ -57,7 +57,7 @@ inline constexpr auto kReasons = std::to_array<ReasonEntry>({
     {"legs-too-soft", "stiffness in percent, limit in percent", "The legs are too soft to walk: their stiffness is {0} %, more than {1} % is needed."},
     {"not-upright", "", "The robot does not stand upright."},
     {"no-foot-contact", "", "No foot carries weight; put the robot on the ground."},
-    {"no-foot-force-sensors", "", "The robot has no foot force sensors, which the walk needs."},
+    {"no-foot-force-sensors", "", "The robot has no foot force sensors, so its contact with the ground is unknown."},
     {"balance-lost", "", "The robot lost its balance."},
     {"robot-lifted", "", "The robot was lifted off the ground."},
     {"walk-command-timeout", "seconds", "The walk ended: no walk command for {0} s."},

@@ -3,13 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "common/constants.h"
+#include "test/daemons/motion/nao_variant.h"
 #include "test/daemons/motion/perfect_robot.h"
 
 namespace nao::motion {
 namespace {
-
-constexpr double kGravity = 9.81;
 
 Sensors standing(const std::string& posture, double pitch) {
   Sensors sensors = PerfectRobot(posture).sensors();
@@ -51,8 +53,8 @@ TEST(StateEstimator, FollowsATurnAndLearnsTheBias) {
   EXPECT_NEAR(std::atan2(turned(1, 0), turned(0, 0)) - heading, 0.5, 5e-3);
 }
 
-TEST(StateEstimator, KnowsWhereUpIsWhenItStartsInAFall) {
-  // The accelerometer of a robot in the air shows next to nothing, and that in any direction.
+TEST(StateEstimator, UsesTheInertialUnitsOrientationWhenItStartsInAFall) {
+  // In free fall the accelerometer measures almost nothing, in any direction.
   StateEstimator estimator(nao_model(), 3);
   Sensors sensors = standing("StandInit", 0);
   sensors.accelerometer_torso = {0.1, 0.2, -0.1};
@@ -80,7 +82,57 @@ TEST(StateEstimator, CenterOfPressureFollowsTheLoadedCorner) {
   EXPECT_TRUE(std::isnan(estimator.state().balance_margin));
 }
 
-TEST(StateEstimator, LyingOnTheBackItIsAsHighAsItsBackIsDeep) {
+/** Sensors of a robot with other foot force sensors than the NAO's. */
+Sensors standing_with_forces(std::vector<double> foot_force) {
+  Sensors sensors = standing("StandZero", 0);
+  sensors.foot_force = std::move(foot_force);
+  return sensors;
+}
+
+TEST(StateEstimator, TakesAnyNumberOfForceSensorsPerFoot) {
+  // One on the left foot, three on the right one, in any order.
+  const RobotModel model = load_nao_variant("foot_sensors", "[RFsrFL, LFsrFR, RFsrRL, RFsrRR]");
+  StateEstimator estimator(model, 3);
+  estimator.update(standing_with_forces({5, 20, 6, 7}), 0.01);
+  const RobotState& state = estimator.state();
+  EXPECT_TRUE(state.has_foot_force_sensors);
+  EXPECT_DOUBLE_EQ(state.left_foot_force, 20);
+  EXPECT_DOUBLE_EQ(state.right_foot_force, 18);
+  EXPECT_TRUE(state.left_foot_carries);
+  EXPECT_TRUE(state.right_foot_carries);
+}
+
+TEST(StateEstimator, WithOneForceSensorPerFootTheCenterOfPressureIsBetweenThem) {
+  const RobotModel model = load_nao_variant("foot_sensors", "[LFsrFL, RFsrFL]");
+  StateEstimator estimator(model, 3);
+  estimator.update(standing_with_forces({10, 30}), 0.01);
+  Kinematics kinematics(model);
+  kinematics.update(nao_posture("StandZero"));
+  const auto sensor = [&](const char* name) -> Eigen::Vector3d {
+    return kinematics.link_pose(model.find_link(name)).translation();
+  };
+  const Eigen::Vector3d expected = 0.25 * sensor("LFsrFL") + 0.75 * sensor("RFsrFL");
+  const RobotState& state = estimator.state();
+  EXPECT_LT((state.center_of_pressure_in_odometry - (state.torso_in_odometry * expected).head<2>())
+                .norm(),
+            1e-9);
+}
+
+TEST(StateEstimator, ReportsThatAFootHasNoForceSensor) {
+  for (const char* sensors : {"[]", "[LFsrFL, LFsrFR]"}) {
+    const RobotModel model = load_nao_variant("foot_sensors", sensors);
+    StateEstimator estimator(model, 3);
+    estimator.update(standing_with_forces(std::vector<double>(model.foot_sensors().size(), 20)),
+                     0.01);
+    EXPECT_FALSE(estimator.state().has_foot_force_sensors) << sensors;
+    EXPECT_FALSE(estimator.state().left_foot_carries) << sensors;
+    EXPECT_FALSE(estimator.state().right_foot_carries) << sensors;
+    estimator.reset();
+    EXPECT_FALSE(estimator.state().has_foot_force_sensors) << sensors;
+  }
+}
+
+TEST(StateEstimator, LyingOnTheBackTheTorsoIsAsHighAsTheBackIsDeep) {
   StateEstimator estimator(nao_model(), 3);
   Sensors sensors = standing("StandZero", -M_PI / 2);
   estimator.update(sensors, 0.01);
