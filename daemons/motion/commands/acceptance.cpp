@@ -20,7 +20,7 @@ constexpr bool kIsAccepted[kNumCommandKinds][kNumModes] = {
 };
 // clang-format on
 
-/** What a mode that refuses a command says. */
+/** Reason with which a mode refuses commands. */
 Reason reason_of(Mode mode) {
   switch (mode) {
     case Mode::kRelaxed:

@@ -8,7 +8,8 @@
 
 namespace nao::motion {
 
-/** Checks the values of a command against the robot's description, whatever the robot is doing.
+/** Checks the values of a command against the robot's description, independent of the robot's
+ * state.
  * @return What is wrong; nothing if the command is well formed. */
 std::optional<Reason> find_fault(const RobotModel& model, const Command& command);
 

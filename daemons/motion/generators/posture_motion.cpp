@@ -8,7 +8,8 @@
 namespace nao::motion {
 namespace {
 
-// How long the joints may take to follow their last targets, s.
+// Time in which the joints must reach their last targets, s. Chosen; a joint that takes longer is
+// blocked.
 constexpr double kSettlingTime = 1.5;
 
 }  // namespace

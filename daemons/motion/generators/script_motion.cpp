@@ -120,8 +120,8 @@ Mode ScriptMotion::mode() const {
   return part_ == Part::kGettingUp ? get_up_->mode() : Mode::kActing;
 }
 
-bool ScriptMotion::means_to_stand() const {
-  if (part_ == Part::kGettingUp) return get_up_->means_to_stand();
+bool ScriptMotion::must_stay_upright() const {
+  if (part_ == Part::kGettingUp) return get_up_->must_stay_upright();
   return part_ == Part::kStandingUp || script_->end == ActionScript::End::kOnFeet;
 }
 

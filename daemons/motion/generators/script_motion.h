@@ -28,7 +28,7 @@ class ScriptMotion : public MotionGenerator {
   bool can_be_replaced() const override;
   void finish() override;
   Mode mode() const override;
-  bool means_to_stand() const override;
+  bool must_stay_upright() const override;
   double progress() const override;
   Reason reason() const override { return reason_; }
 

@@ -39,7 +39,9 @@ class WalkingMotion : public MotionGenerator {
   bool can_be_replaced() const override;
   void finish() override;
   Mode mode() const override { return is_standing_up_ ? stand_up_->mode() : Mode::kWalking; }
-  bool means_to_stand() const override { return !is_standing_up_ || stand_up_->means_to_stand(); }
+  bool must_stay_upright() const override {
+    return !is_standing_up_ || stand_up_->must_stay_upright();
+  }
   Reason reason() const override { return reason_; }
   void describe(MotionState& state) const override;
 

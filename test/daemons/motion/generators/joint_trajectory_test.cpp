@@ -11,7 +11,7 @@ namespace {
 TEST(JointTrajectory, KeepsItsLimitsFromAnyStart) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> angle(-2, 2);
-  std::uniform_real_distribution<double> share(-1, 1);
+  std::uniform_real_distribution<double> fraction(-1, 1);
   for (int trial = 0; trial < 1000; ++trial) {
     const auto how =
         trial % 2 == 0 ? JointTrajectory::Start::kSmooth : JointTrajectory::Start::kBrisk;
@@ -22,7 +22,7 @@ TEST(JointTrajectory, KeepsItsLimitsFromAnyStart) {
     for (const JointRates& rate : rates) {
       start.push_back(angle(random));
       goal.push_back(angle(random));
-      velocity.push_back(trial % 3 == 0 ? 0 : share(random) * rate.max_velocity);
+      velocity.push_back(trial % 3 == 0 ? 0 : fraction(random) * rate.max_velocity);
     }
     const JointTrajectory trajectory(start, velocity, goal, rates, 0, how);
     constexpr double kStep = 1e-3;
@@ -34,7 +34,8 @@ TEST(JointTrajectory, KeepsItsLimitsFromAnyStart) {
       trajectory.sample(t, b);
       trajectory.sample(t + kStep, c);
       for (size_t i = 0; i < rates.size(); ++i) {
-        // Planned against 24 samples of the way: between them a few percent more may hide.
+        // The rates are checked at 24 samples of the path: between them they may be exceeded a
+        // little.
         EXPECT_LE(std::abs(b[i] - a[i]) / kStep, rates[i].max_velocity * 1.02);
         EXPECT_LE(std::abs(a[i] - 2 * b[i] + c[i]) / (kStep * kStep),
                   rates[i].max_acceleration * 1.05);
@@ -47,14 +48,14 @@ TEST(JointTrajectory, KeepsItsLimitsFromAnyStart) {
   }
 }
 
-TEST(JointTrajectory, StartsWithTheVelocityItWasGiven) {
+TEST(JointTrajectory, StartsWithTheGivenVelocity) {
   const JointTrajectory trajectory({0.0}, {-2.0}, {1.0}, {{3, 30}});
   std::vector<double> position;
   trajectory.sample(1e-6, position);
   EXPECT_NEAR(position[0] / 1e-6, -2.0, 1e-3);
 }
 
-TEST(JointTrajectory, BriskStartUsesTheWholeAccelerationAtOnceAndArrivesGently) {
+TEST(JointTrajectory, ABriskStartUsesTheGreatestAccelerationAtOnce) {
   const JointTrajectory trajectory({0.0}, {0.0}, {0.4}, {{7, 200}}, 0,
                                    JointTrajectory::Start::kBrisk);
   constexpr double kStep = 1e-4;
@@ -87,7 +88,7 @@ TEST(JointTrajectory, StoppingNeverTurnsBack) {
   }
 }
 
-TEST(JointTrajectory, TakesAtLeastTheTimeAskedFor) {
+TEST(JointTrajectory, TakesAtLeastTheShortestDuration) {
   EXPECT_DOUBLE_EQ(JointTrajectory({0.0}, {0.0}, {0.01}, {{3, 30}}, 2.0).duration(), 2.0);
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 
-/** How the torso of a robot with these joint angles would measure up, if its soles are level and
- * its inertial unit is wrong by some angle about x and about y, rad. */
+/** Up as measured in the torso of a robot whose soles are level, with an error of the inertial unit
+ * about x and about y, rad. */
 Eigen::Vector3d up_with_error(const std::vector<double>& position, double about_x, double about_y) {
   Kinematics kinematics(nao_model());
   kinematics.update(position);
@@ -31,33 +31,33 @@ class TippingGuardTest : public ::testing::Test {
 
   const std::vector<double> stand_ = nao_model().find_posture("StandInit")->position;
   TippingGuard guard_{nao_model()};
-  Rest tipping_;
+  Equilibrium tipping_;
 };
 
-TEST_F(TippingGuardTest, LetsTheHeadTurnHoweverTheInertialUnitErrs) {
+TEST_F(TippingGuardTest, LetsTheHeadTurnWithAnyErrorOfTheInertialUnit) {
   for (const double x : {-1.5, -1.0, -0.6, 0.0, 0.6, 1.0, 1.5}) {
     for (const double y : {-1.5, -0.6, 0.0, 0.6, 1.5}) {
       if (std::hypot(x, y) > 1.9) continue;
       const Eigen::Vector3d up = up_with_error(stand_, x * kDegree, y * kDegree);
       for (const double yaw : {-2.0, 2.0}) {
-        EXPECT_EQ(guard_.find_safe_share(stand_, turned("HeadYaw", yaw), up, tipping_), 1)
+        EXPECT_EQ(guard_.find_safe_fraction(stand_, turned("HeadYaw", yaw), up, tipping_), 1)
             << "up is wrong by " << x << " and " << y << " degrees; yaw " << yaw;
       }
     }
   }
 }
 
-TEST_F(TippingGuardTest, StopsALegThatWouldTipTheRobotHoweverTheInertialUnitErrs) {
+TEST_F(TippingGuardTest, StopsALegThatWouldTipTheRobotWithAnyErrorOfTheInertialUnit) {
   for (const double error : {-1.5, 0.0, 1.5}) {
     const Eigen::Vector3d up = up_with_error(stand_, 0, error * kDegree);
-    EXPECT_LT(guard_.find_safe_share(stand_, turned("LAnklePitch", 0.6), up, tipping_), 1);
-    EXPECT_LT(guard_.find_safe_share(stand_, turned("LKneePitch", 1.8), up, tipping_), 1);
+    EXPECT_LT(guard_.find_safe_fraction(stand_, turned("LAnklePitch", 0.6), up, tipping_), 1);
+    EXPECT_LT(guard_.find_safe_fraction(stand_, turned("LKneePitch", 1.8), up, tipping_), 1);
   }
 }
 
-TEST_F(TippingGuardTest, ARobotThatLeansFarIsNotSaidToStandFlat) {
+TEST_F(TippingGuardTest, TakesTheMeasurementOfARobotThatLeansFar) {
   const Eigen::Vector3d up = up_with_error(stand_, 5 * kDegree, 0);
-  EXPECT_EQ(guard_.find_standing_up(stand_, up), up);
+  EXPECT_EQ(guard_.find_support_normal(stand_, up), up);
 }
 
 }  // namespace

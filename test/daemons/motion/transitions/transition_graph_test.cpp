@@ -17,22 +17,22 @@ transitions:
   - {name: push, from: belly, to: on-feet, keyframes: [{duration: 4}]}
 )";
 
-std::vector<std::string> names(const std::vector<const KeyframeSequence*>& way) {
+std::vector<std::string> names(const std::vector<const KeyframeSequence*>& path) {
   std::vector<std::string> result;
-  for (const KeyframeSequence* sequence : way) result.push_back(sequence->name);
+  for (const KeyframeSequence* sequence : path) result.push_back(sequence->name);
   return result;
 }
 
-TEST(TransitionGraph, FindsTheQuickestWay) {
+TEST(TransitionGraph, FindsThePathOfLeastDuration) {
   const auto graph = TransitionGraph::parse(nao_model(), kTransitions);
-  EXPECT_EQ(names(graph.find_way("back", "on-feet")), std::vector<std::string>{"up"});
+  EXPECT_EQ(names(graph.find_path("back", "on-feet")), std::vector<std::string>{"up"});
 }
 
-TEST(TransitionGraph, GoesAroundWhatFailed) {
+TEST(TransitionGraph, AvoidsExcludedTransitions) {
   const auto graph = TransitionGraph::parse(nao_model(), kTransitions);
-  EXPECT_EQ(names(graph.find_way("back", "on-feet", {graph.find("up")})),
+  EXPECT_EQ(names(graph.find_path("back", "on-feet", {graph.find("up")})),
             (std::vector<std::string>{"roll", "push"}));
-  EXPECT_TRUE(graph.find_way("back", "on-feet", {graph.find("up"), graph.find("push")}).empty());
+  EXPECT_TRUE(graph.find_path("back", "on-feet", {graph.find("up"), graph.find("push")}).empty());
 }
 
 }  // namespace
