@@ -39,7 +39,7 @@ class MessageSocket {
   int descriptor() const { return descriptor_; }
 
  private:
-  /** The gateway's greatest message is a picture, below 64 kB; anything much longer is no gateway.
+  /** The gateway's greatest message is an image, below 64 kB; anything much longer is no gateway.
    */
   static constexpr size_t kMaxMessageBytes = 1 << 20;
 

@@ -1,4 +1,5 @@
 // nao-phone: a phone for the command line. Speaks the protocol over raw TCP; see README.md.
+#include <cctype>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -15,10 +16,10 @@ namespace {
 using naoremote::Notice;
 using naoremote::Response;
 
-constexpr double kOutcomeTimeout = 60;
+constexpr double kResultTimeout = 60;
 constexpr double kWalkPeriod = 0.1;
 constexpr double kPollPeriod = 0.1;
-constexpr int kPictureTries = 50;
+constexpr int kImageTries = 50;
 
 /** Everything that the command line can say. */
 struct PhoneOptions {
@@ -30,18 +31,30 @@ struct PhoneOptions {
   double x = 0;
   double y = 0;
   double theta = 0;
+  double vx = 0;
+  double vy = 0;
+  double wz = 0;
   double yaw = 0;
   double pitch = 0;
   double roll = 0;
   double speed = 0;
   double duration = 5;
   double rate = 10;
-  double picture_rate = 0;
+  double image_rate = 0;
 };
+
+/** "holding" for MODE_HOLDING, as nao-motion calls it. */
+std::string mode_name(naoremote::Mode mode) {
+  std::string name = naoremote::Mode_Name(mode);
+  name.erase(0, std::string("MODE_").size());
+  for (char& c : name) c = c == '_' ? '-' : static_cast<char>(std::tolower(c));
+  return name;
+}
 
 void print_state(const naoremote::State& state, const naoremote::RobotDescription& robot) {
   std::printf("time %.2f s, age %.0f ms, mode %s, posture %s, torso height %.3f m\n",
-              static_cast<double>(state.utime()) * 1e-6, state.age_ms(), state.mode().c_str(),
+              static_cast<double>(state.utime()) * 1e-6, state.age_ms(),
+              mode_name(state.mode()).c_str(),
               state.posture().empty() ? "-" : state.posture().c_str(), state.torso_position(2));
   for (int i = 0; i < state.joint_position_size(); ++i) {
     std::printf("%-16s %8.4f\n", robot.joints(i).name().c_str(),
@@ -61,21 +74,21 @@ int command(PhoneClient& client, const std::function<Response(PhoneClient&)>& as
   if (const int status = report(client.take_control()); status != 0) return status;
   const Response response = ask(client);
   if (const int status = report(response); status != 0) return status;
-  const auto outcome = client.wait_for_outcome(response.request_id(), kOutcomeTimeout);
-  if (!outcome) {
-    std::cerr << "nothing was heard of its end within 60 s\n";
+  const auto result = client.wait_for_result(response.request_id(), kResultTimeout);
+  if (!result) {
+    std::cerr << "no result within 60 s\n";
     return 1;
   }
-  std::cout << Notice::Outcome_Name(outcome->outcome())
-            << (outcome->message().empty() ? "" : ": " + outcome->message()) << "\n";
-  return outcome->outcome() == Notice::DONE ? 0 : 1;
+  std::cout << Notice::Status_Name(result->status())
+            << (result->message().empty() ? "" : ": " + result->message()) << "\n";
+  return result->status() == Notice::DONE ? 0 : 1;
 }
 
 int walk(PhoneClient& client, const PhoneOptions& options) {
   if (const int status = report(client.take_control()); status != 0) return status;
   const int num_commands = static_cast<int>(options.duration / kWalkPeriod);
   for (int i = 0; i < num_commands; ++i) {
-    const Response response = client.walk_turn(options.x, options.y, options.theta);
+    const Response response = client.walk_turn(options.vx, options.vy, options.wz);
     if (const int status = report(response); status != 0) return status;
     client.run_for(kWalkPeriod);
   }
@@ -85,51 +98,51 @@ int walk(PhoneClient& client, const PhoneOptions& options) {
 int show_state(PhoneClient& client) {
   const Response response = client.get_state(false);
   if (const int status = report(response); status != 0) return status;
-  print_state(response.state_and_picture().state(), client.robot());
+  print_state(response.state_and_image().state(), client.robot());
   return 0;
 }
 
-int save_picture(PhoneClient& client, const std::string& file) {
-  // The camera starts when somebody watches: the first picture takes a moment.
+int save_image(PhoneClient& client, const std::string& file) {
+  // The camera starts when somebody watches: the first image takes a moment.
   Response response = client.get_state(true);
-  for (int i = 0; i < kPictureTries && response.error() == naoremote::OK &&
-                  !response.state_and_picture().has_picture();
+  for (int i = 0; i < kImageTries && response.error() == naoremote::OK &&
+                  !response.state_and_image().has_image();
        ++i) {
     client.run_for(kPollPeriod);
     response = client.get_state(true);
   }
   if (const int status = report(response); status != 0) return status;
-  if (!response.state_and_picture().has_picture()) {
-    std::cerr << "the head camera sends no picture\n";
+  if (!response.state_and_image().has_image()) {
+    std::cerr << "the head camera sends no image\n";
     return 1;
   }
-  const naoremote::Picture& picture = response.state_and_picture().picture();
-  std::ofstream(file, std::ios::binary) << picture.jpeg();
-  std::cout << file << ": " << picture.width() << "x" << picture.height() << ", age "
-            << picture.age_ms() << " ms\n";
+  const naoremote::Image& image = response.state_and_image().image();
+  std::ofstream(file, std::ios::binary) << image.jpeg();
+  std::cout << file << ": " << image.width() << "x" << image.height() << ", age " << image.age_ms()
+            << " ms\n";
   return 0;
 }
 
-/** Prints a line for each state and picture, and every notice, until the time is over. */
+/** Prints a line for each state and image, and every notice, until the time is over. */
 int watch(const PhoneOptions& options) {
   PhoneClient::Handlers handlers;
   handlers.on_state = [](const naoremote::State& state) {
     std::printf(
         "%.3f s  %-10s %-10s height %.3f m  walk %+.2f %+.2f m/s %+.2f rad/s  age %.0f ms\n",
-        static_cast<double>(state.utime()) * 1e-6, state.mode().c_str(), state.posture().c_str(),
-        static_cast<double>(state.torso_position(2)), static_cast<double>(state.walk_velocity(0)),
-        static_cast<double>(state.walk_velocity(1)), static_cast<double>(state.walk_velocity(2)),
-        state.age_ms());
+        static_cast<double>(state.utime()) * 1e-6, mode_name(state.mode()).c_str(),
+        state.posture().c_str(), static_cast<double>(state.torso_position(2)),
+        static_cast<double>(state.vx()), static_cast<double>(state.vy()),
+        static_cast<double>(state.wz()), state.age_ms());
   };
   handlers.on_notice = [](const Notice& notice) {
     std::printf("%s %s\n", Notice::Kind_Name(notice.kind()).c_str(), notice.message().c_str());
   };
-  handlers.on_picture = [](const naoremote::Picture& picture) {
-    std::printf("picture %ux%u, %zu bytes, age %.0f ms\n", picture.width(), picture.height(),
-                picture.jpeg().size(), picture.age_ms());
+  handlers.on_image = [](const naoremote::Image& image) {
+    std::printf("image %ux%u, %zu bytes, age %.0f ms\n", image.width(), image.height(),
+                image.jpeg().size(), image.age_ms());
   };
   PhoneClient client(options.client, handlers);
-  if (const int status = report(client.subscribe(options.rate, options.picture_rate)); status != 0)
+  if (const int status = report(client.subscribe(options.rate, options.image_rate)); status != 0)
     return status;
   client.run_for(options.duration);
   return 0;
@@ -149,8 +162,8 @@ int list_clients(const PhoneOptions& options) {
 
 /** A walk is refused in a notice, after its commands were passed on. */
 void print_refusal(const Notice& notice) {
-  const bool is_bad = notice.kind() == Notice::COMMAND_OUTCOME &&
-                      (notice.outcome() == Notice::REFUSED || notice.outcome() == Notice::FAILED);
+  const bool is_bad = notice.kind() == Notice::COMMAND_RESULT &&
+                      (notice.status() == Notice::REFUSED || notice.status() == Notice::FAILED);
   if (is_bad) std::cerr << notice.message() << "\n";
 }
 
@@ -173,10 +186,9 @@ CommandLine* add_action(CommandLine& app, PhoneOptions& options, std::function<i
 void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& chosen) {
   app.require_subcommand();
   add_action(app, o, chosen, "state", "Show the robot's state", show_state);
-  CommandLine* picture =
-      add_action(app, o, chosen, "picture", "Save a picture of the head camera",
-                 [&o](PhoneClient& client) { return save_picture(client, o.file); });
-  picture->add_option("file", o.file, "JPEG file to write")->required();
+  CommandLine* image = add_action(app, o, chosen, "image", "Save an image of the head camera",
+                                  [&o](PhoneClient& client) { return save_image(client, o.file); });
+  image->add_option("file", o.file, "JPEG file to write")->required();
 
   CommandLine* posture =
       add_action(app, o, chosen, "posture", "Go to a posture", [&o](PhoneClient& c) {
@@ -208,9 +220,9 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
   CommandLine* move = add_action(app, o, chosen, "move", "Walk to a place", [&o](PhoneClient& c) {
     return command(c, [&o](PhoneClient& client) { return client.move_to(o.x, o.y, o.theta); });
   });
-  walking->add_option("x", o.x, "Ahead, share of the greatest speed, -1 to 1")->required();
-  walking->add_option("y", o.y, "To the left, share of the greatest speed, -1 to 1");
-  walking->add_option("theta", o.theta, "Turning to the left, share of the greatest rate, -1 to 1");
+  walking->add_option("vx", o.vx, "Velocity forward, m/s; negative: backward")->required();
+  walking->add_option("vy", o.vy, "Velocity to the left, m/s");
+  walking->add_option("wz", o.wz, "Turning rate to the left, rad/s");
   walking->add_option("--duration", o.duration, "How long, s")->show_default();
   move->add_option("x", o.x, "Ahead, m")->required();
   move->add_option("y", o.y, "To the left, m");
@@ -222,7 +234,7 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
   CommandLine* watching = app.add_subcommand("watch", "Print states and notices as they come");
   watching->add_option("--duration", o.duration, "How long, s")->show_default();
   watching->add_option("--rate", o.rate, "States a second, up to 60")->show_default();
-  watching->add_option("--pictures", o.picture_rate, "Pictures a second, up to 30")->show_default();
+  watching->add_option("--images", o.image_rate, "Images a second, up to 30")->show_default();
   watching->on_parsed([&] { chosen = [&o] { return watch(o); }; });
   app.add_subcommand("list", "Show who is connected (on the gateway's host only)")->on_parsed([&] {
     chosen = [&o] { return list_clients(o); };

@@ -40,7 +40,7 @@ class PhoneClient {
   /** What the gateway sends unasked; empty ones are ignored. Called inside the calls that wait. */
   struct Handlers {
     std::function<void(const naoremote::State&)> on_state;
-    std::function<void(const naoremote::Picture&)> on_picture;
+    std::function<void(const naoremote::Image&)> on_image;
     std::function<void(const naoremote::Notice&)> on_notice;
   };
 
@@ -73,14 +73,14 @@ class PhoneClient {
 
   /** Waits for the end of a command: DONE, REFUSED, INTERRUPTED or FAILED.
    * @return nothing if none came in time. */
-  std::optional<naoremote::Notice> wait_for_outcome(uint32_t request_id, double timeout);
+  std::optional<naoremote::Notice> wait_for_result(uint32_t request_id, double timeout);
 
   // The use cases, each waiting for its answer.
   naoremote::Response take_control();
   naoremote::Response release_control();
-  naoremote::Response get_state(bool with_picture);
-  naoremote::Response subscribe(double state_rate, double picture_rate);
-  naoremote::Response walk_turn(double x, double y, double theta);
+  naoremote::Response get_state(bool with_image);
+  naoremote::Response subscribe(double state_rate, double image_rate);
+  naoremote::Response walk_turn(double vx, double vy, double wz);
   naoremote::Response move_to(double x, double y, double theta);
   naoremote::Response go_to_posture(const std::string& posture, double speed = 0);
   naoremote::Response change_joints(const std::string& group, double yaw, double pitch, double roll,
@@ -100,8 +100,8 @@ class PhoneClient {
   uint32_t last_request_id_ = 0;
   double last_sent_ = 0;
   std::map<uint32_t, naoremote::Response> responses_;
-  /** The latest outcomes told in notices, oldest first. */
-  std::vector<naoremote::Notice> outcomes_;
+  /** Latest final results of commands, oldest first. */
+  std::vector<naoremote::Notice> results_;
   /** Pings that the client sent by itself, whose answers nobody waits for. */
   uint32_t own_ping_ = 0;
 };

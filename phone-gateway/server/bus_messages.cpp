@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/error.h"
-#include "messages/command.h"
 #include "messages/mode.h"
 
 namespace nao {
@@ -13,6 +12,11 @@ namespace {
 double finite(double value, const char* field) {
   if (!std::isfinite(value)) throw Error(std::string(field) + " is not finite");
   return value;
+}
+
+Mode read_mode(int8_t mode) {
+  if (mode < 0 || mode >= kNumModes) throw Error("unknown mode " + std::to_string(mode));
+  return static_cast<Mode>(mode);
 }
 
 }  // namespace
@@ -49,38 +53,35 @@ RobotSnapshot RobotStateReader::read(const naolcm::robot_state_t& message) const
 
 MotionSnapshot read_motion_state(const naolcm::motion_state_t& message) {
   MotionSnapshot motion;
-  motion.mode = to_string(static_cast<Mode>(message.mode));
+  motion.mode = read_mode(message.mode);
   motion.posture = message.posture;
-  if (message.command_kind != message.COMMAND_KIND_NONE) {
-    motion.activity = to_string(static_cast<CommandKind>(message.command_kind));
+  // The protocol counts command kinds from 1: 0, none, is what an absent field means.
+  const int kind = message.command_kind + 1;
+  if (!naoremote::CommandKind_IsValid(kind)) {
+    throw Error("unknown command kind " + std::to_string(message.command_kind));
   }
-  const std::string detail = message.needs_help ? "needs help" : message.command_name;
-  if (!detail.empty()) {
-    motion.activity += (motion.activity.empty() ? "" : " ") + detail;
+  if (kind != naoremote::COMMAND_KIND_NONE || !message.command_name.empty() || message.needs_help) {
+    naoremote::Activity& activity = motion.activity.emplace();
+    activity.set_kind(static_cast<naoremote::CommandKind>(kind));
+    activity.set_name(message.command_name);
+    activity.set_needs_help(message.needs_help);
   }
   motion.progress = std::isfinite(message.command_progress) ? message.command_progress : -1;
-  motion.walk_velocity = {finite(message.vx, "vx"), finite(message.vy, "vy"),
-                          finite(message.wz, "wz")};
+  motion.velocity = {finite(message.vx, "vx"), finite(message.vy, "vy"), finite(message.wz, "wz")};
   motion.stiffness = finite(message.stiffness, "stiffness");
   return motion;
 }
 
-StoredPicture read_image(const naolcm::image_t& message) {
-  if (message.format != "jpeg") throw Error("a picture of format " + message.format);
-  if (message.width <= 0 || message.height <= 0) throw Error("a picture without size");
-  StoredPicture picture;
-  picture.utime = message.utime;
-  if (message.camera == "top") {
-    picture.camera = naoremote::CAMERA_TOP;
-  } else if (message.camera == "bottom") {
-    picture.camera = naoremote::CAMERA_BOTTOM;
-  } else {
-    throw Error("a picture of the camera " + message.camera);
-  }
-  picture.width = static_cast<uint32_t>(message.width);
-  picture.height = static_cast<uint32_t>(message.height);
-  picture.jpeg.assign(message.data.begin(), message.data.end());
-  return picture;
+StoredImage read_image(const naolcm::image_t& message) {
+  if (message.format != "jpeg") throw Error("an image of format " + message.format);
+  if (message.width <= 0 || message.height <= 0) throw Error("an image without size");
+  StoredImage image;
+  image.utime = message.utime;
+  image.camera = message.camera;
+  image.width = static_cast<uint32_t>(message.width);
+  image.height = static_cast<uint32_t>(message.height);
+  image.jpeg.assign(message.data.begin(), message.data.end());
+  return image;
 }
 
 }  // namespace nao

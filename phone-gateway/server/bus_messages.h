@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "phone-gateway/server/picture_shelf.h"
+#include "phone-gateway/server/image_cache.h"
 #include "phone-gateway/server/robot_mirror.h"
 #include "robot_model/robot_model.h"
 
@@ -26,10 +26,11 @@ class RobotStateReader {
   std::unordered_map<std::string, int> motors_;
 };
 
-/** @throws Error  if a number that must be finite is not. */
+/** @throws Error  if a number that must be finite is not, or an enumeration has an unknown value.
+ */
 MotionSnapshot read_motion_state(const naolcm::motion_state_t& message);
 
-/** @throws Error  if the message is no JPEG of a camera and size that phones know. */
-StoredPicture read_image(const naolcm::image_t& message);
+/** @throws Error  if the message is no JPEG or has no size. */
+StoredImage read_image(const naolcm::image_t& message);
 
 }  // namespace nao

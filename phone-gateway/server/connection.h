@@ -29,9 +29,9 @@ struct Hub {
   std::unique_ptr<asio::ssl::context> tls;
   WaitingRoom waiting_room;
   NetworkCounters counters;
-  /** Pictures for 32 phones take half a millisecond: a state that comes meanwhile shall not wait.
+  /** Images for 32 phones take half a millisecond: a state that comes meanwhile shall not wait.
    */
-  TurnQueue pictures;
+  TurnQueue images;
   /** The network is being taken down: connections end without a word. */
   bool is_ending = false;
 };
@@ -43,7 +43,7 @@ void note_eviction(Hub& hub, const std::string& address);
 Peer make_peer(const Tcp::socket& socket, const std::string& transport);
 
 /** Sets up an accepted socket: no delay, and little room for what has not been sent, so that a slow
- * client's next picture is chosen late. */
+ * client's next image is chosen late. */
 void prepare_socket(Tcp::socket& socket);
 
 /** The system's estimate of the time to the other end and back, s; 0 if it has none. */

@@ -15,11 +15,11 @@ namespace {
 constexpr double kPause = 0.02;
 constexpr double kStaleStatePeriod = 1.0;
 constexpr double kRepeatedReasonTime = 2.0;
-// A polling client's pictures, 1/s: enough for ten polls a second to find a new one each.
-constexpr double kPolledPictureRate = 15;
-constexpr double kPictureLife = 10;
+// A polling client's images, 1/s: enough for ten polls a second to find a new one each.
+constexpr double kPolledImageRate = 15;
+constexpr double kImageLife = 10;
 
-naoremote::Notice::Outcome to_outcome(CommandStatus status) {
+naoremote::Notice::Status to_notice_status(CommandStatus status) {
   switch (status) {
     case CommandStatus::kAccepted:
       return naoremote::Notice::ACCEPTED;
@@ -33,6 +33,18 @@ naoremote::Notice::Outcome to_outcome(CommandStatus status) {
       return naoremote::Notice::FAILED;
   }
   return naoremote::Notice::FAILED;
+}
+
+naoremote::Notice::Component to_component(PartMonitor::Part part) {
+  switch (part) {
+    case PartMonitor::Part::kMotion:
+      return naoremote::Notice::MOTION;
+    case PartMonitor::Part::kRobot:
+      return naoremote::Notice::ROBOT;
+    case PartMonitor::Part::kCamera:
+      return naoremote::Notice::CAMERA;
+  }
+  return naoremote::Notice::MOTION;
 }
 
 void add_counts(GatewayCounters& counters, const PhoneSession& session) {
@@ -156,14 +168,13 @@ MessageBytes GatewayCore::next_message(uint32_t client, double now) {
         if (!mirror_.has_state() || session->is_closing) continue;
         ++session->num_sent;
         return encode_state(now);
-      case Outbox::Next::kPicture: {
-        session->outbox.take_picture();
-        StoredPicture* picture =
-            pictures_.find(session->subscription.picture, session->last_picture);
-        if (picture == nullptr || session->is_closing) continue;
-        session->last_picture = picture->number;
+      case Outbox::Next::kImage: {
+        session->outbox.take_image();
+        StoredImage* image = images_.find(session->subscription.image, session->last_image);
+        if (image == nullptr || session->is_closing) continue;
+        session->last_image = image->number;
         ++session->num_sent;
-        return encode_picture(*picture, now);
+        return encode_image(*image, now);
       }
     }
   }
@@ -177,28 +188,28 @@ MessageBytes GatewayCore::encode_state(double now) {
   });
 }
 
-MessageBytes GatewayCore::encode_picture(StoredPicture& stored, double now) {
+MessageBytes GatewayCore::encode_image(StoredImage& stored, double now) {
   return stored.encoding.get(now, [&] {
     naoremote::ServerMessage message;
-    write_picture(stored, *message.mutable_picture(), now);
+    write_image(stored, *message.mutable_image(), now);
     return message;
   });
 }
 
-void GatewayCore::write_picture(const StoredPicture& stored, naoremote::Picture& picture,
-                                double now) const {
-  picture.set_utime(static_cast<uint64_t>(stored.utime));
+void GatewayCore::write_image(const StoredImage& stored, naoremote::Image& image,
+                              double now) const {
+  image.set_utime(static_cast<uint64_t>(stored.utime));
   // From the moment that it shows, by the robot's clock, where that makes sense: robot and camera
   // may have been restarted apart.
   const double since_arrival = now - stored.time;
   const double since_shown =
       static_cast<double>(mirror_.calc_robot_utime(now) - stored.utime) * 1e-6;
   const bool is_plausible = since_shown >= since_arrival && since_shown < since_arrival + 2;
-  picture.set_age_ms((is_plausible ? since_shown : since_arrival) * 1e3);
-  picture.set_camera(stored.camera);
-  picture.set_width(stored.width);
-  picture.set_height(stored.height);
-  picture.set_jpeg(stored.jpeg);
+  image.set_age_ms((is_plausible ? since_shown : since_arrival) * 1e3);
+  image.set_camera(stored.camera);
+  image.set_width(stored.width);
+  image.set_height(stored.height);
+  image.set_jpeg(stored.jpeg);
 }
 
 bool GatewayCore::has_connected(uint32_t client) const {
@@ -206,9 +217,9 @@ bool GatewayCore::has_connected(uint32_t client) const {
   return session != nullptr && session->is_connected;
 }
 
-bool GatewayCore::is_picture_next(uint32_t client) const {
+bool GatewayCore::is_image_next(uint32_t client) const {
   const PhoneSession* session = find(client);
-  return session != nullptr && session->outbox.next() == Outbox::Next::kPicture;
+  return session != nullptr && session->outbox.next() == Outbox::Next::kImage;
 }
 
 bool GatewayCore::is_closing(uint32_t client) const {
@@ -279,9 +290,9 @@ void GatewayCore::tell_outcome(const CommandTracker::Entry& entry, CommandStatus
   }
   naoremote::ServerMessage message;
   naoremote::Notice& notice = *message.mutable_notice();
-  notice.set_kind(naoremote::Notice::COMMAND_OUTCOME);
+  notice.set_kind(naoremote::Notice::COMMAND_RESULT);
   notice.set_request_id(entry.request_id);
-  notice.set_outcome(to_outcome(status));
+  notice.set_status(to_notice_status(status));
   notice.set_message(text);
   push(*session, message);
 }
@@ -301,10 +312,10 @@ void GatewayCore::tell_control_changed(const std::string& text) {
 void GatewayCore::tell_part(PhoneSession* session, const PartMonitor::Change& change) {
   naoremote::ServerMessage message;
   naoremote::Notice& notice = *message.mutable_notice();
-  notice.set_kind(naoremote::Notice::PART_CHANGED);
+  notice.set_kind(naoremote::Notice::COMPONENT_CHANGED);
   notice.set_message(describe(change));
-  notice.set_part(part_name(change.part));
-  notice.set_available(change.is_available);
+  notice.set_component(to_component(change.part));
+  notice.set_is_available(change.is_available);
   if (session != nullptr) {
     push(*session, message);
   } else {
@@ -342,17 +353,17 @@ void GatewayCore::set_robot(const RobotSnapshot& robot, double now) {
 void GatewayCore::set_motion(const MotionSnapshot& motion, double now) {
   mirror_.set(motion);
   state_encoding_.reset();
-  parts_.heard_motion(motion.mode != "no-robot", now);
+  parts_.heard_motion(motion.mode != Mode::kNoRobot, now);
 }
 
-void GatewayCore::add_picture(StoredPicture picture, double now) {
-  parts_.heard_picture(now);
-  const PictureChoice shown{picture.camera, picture.width, 0};
-  pictures_.put(std::move(picture), now);
+void GatewayCore::add_image(StoredImage image, double now) {
+  parts_.heard_image(now);
+  const ImageSelection shown{image.camera, image.width, 0};
+  images_.put(std::move(image), now);
   for (const auto& [id, session] : sessions_) {
-    if (!session->is_connected || !session->subscription.picture.shows_same(shown)) continue;
-    if (!session->picture_pacer.allow(now)) continue;
-    session->outbox.want_picture();
+    if (!session->is_connected || !session->subscription.image.shows_same(shown)) continue;
+    if (!session->image_pacer.allow(now)) continue;
+    session->outbox.want_image();
     session->wake();
   }
 }
@@ -369,23 +380,23 @@ void GatewayCore::add_result(const CommandResult& result, double now) {
   }
 }
 
-std::vector<CameraWish> GatewayCore::camera_wishes(double now) const {
-  std::vector<CameraWish> wishes;
-  const auto add = [&wishes](const PictureChoice& picture, double rate) {
-    for (CameraWish& wish : wishes) {
-      if (!wish.picture.shows_same(picture)) continue;
+std::vector<CameraRequest> GatewayCore::camera_requests(double now) const {
+  std::vector<CameraRequest> wishes;
+  const auto add = [&wishes](const ImageSelection& image, double rate) {
+    for (CameraRequest& wish : wishes) {
+      if (!wish.image.shows_same(image)) continue;
       wish.rate = std::max(wish.rate, rate);
-      wish.picture.quality = std::max(wish.picture.quality, picture.quality);
+      wish.image.quality = std::max(wish.image.quality, image.quality);
       return;
     }
-    wishes.push_back({picture, rate});
+    wishes.push_back({image, rate});
   };
   for (const auto& [id, session] : sessions_) {
     if (!session->is_connected) continue;
     const Subscription& subscription = session->subscription;
-    if (subscription.picture_rate > 0) add(subscription.picture, subscription.picture_rate);
+    if (subscription.image_rate > 0) add(subscription.image, subscription.image_rate);
     if (now - session->last_poll < limits_.poll_watch_time) {
-      add(session->polled_picture, kPolledPictureRate);
+      add(session->polled_image, kPolledImageRate);
     }
   }
   return wishes;
@@ -397,7 +408,7 @@ void GatewayCore::step(double now) {
   step_commands(now);
   step_parts(now);
   step_sessions(now);
-  pictures_.drop_before(now - kPictureLife);
+  images_.drop_before(now - kImageLife);
 }
 
 void GatewayCore::step_commands(double now) {
@@ -409,7 +420,7 @@ void GatewayCore::step_commands(double now) {
 }
 
 void GatewayCore::step_parts(double now) {
-  parts_.set_watched(!camera_wishes(now).empty(), now);
+  parts_.set_watched(!camera_requests(now).empty(), now);
   for (const PartMonitor::Change& change : parts_.step(now)) {
     tell_part(nullptr, change);
     state_encoding_.reset();

@@ -12,12 +12,12 @@
 #include "phone-gateway/server/command_tracker.h"
 #include "phone-gateway/server/driving_lease.h"
 #include "phone-gateway/server/gateway_limits.h"
+#include "phone-gateway/server/image_cache.h"
 #include "phone-gateway/server/message_bytes.h"
 #include "phone-gateway/server/motion_command.h"
 #include "phone-gateway/server/part_monitor.h"
 #include "phone-gateway/server/phone_robot.h"
 #include "phone-gateway/server/phone_session.h"
-#include "phone-gateway/server/picture_shelf.h"
 #include "phone-gateway/server/robot_mirror.h"
 #include "phone-gateway/server/walk_stream.h"
 #include "remote.pb.h"
@@ -70,14 +70,14 @@ struct GatewayCounters {
   uint64_t num_skipped = 0;
 };
 
-/** A picture that somebody watches. */
-struct CameraWish {
-  PictureChoice picture;
+/** A image that somebody watches. */
+struct CameraRequest {
+  ImageSelection image;
   /** 1/s, the highest of those who watch. */
   double rate = 0;
 
-  bool operator==(const CameraWish& other) const {
-    return picture.shows_same(other.picture) && picture.quality == other.picture.quality &&
+  bool operator==(const CameraRequest& other) const {
+    return image.shows_same(other.image) && image.quality == other.image.quality &&
            rate == other.rate;
   }
 };
@@ -122,8 +122,8 @@ class GatewayCore {
   /** Next message for a connection that can take one; null if there is none. */
   [[nodiscard]] MessageBytes next_message(uint32_t client, double now);
 
-  /** True if that message would be a picture. */
-  bool is_picture_next(uint32_t client) const;
+  /** True if that message would be an image. */
+  bool is_image_next(uint32_t client) const;
 
   /** True once Connect has succeeded, until the client has no say any more. */
   bool has_connected(uint32_t client) const;
@@ -135,12 +135,12 @@ class GatewayCore {
 
   void set_robot(const RobotSnapshot& robot, double now);
   void set_motion(const MotionSnapshot& motion, double now);
-  void add_picture(StoredPicture picture, double now);
+  void add_image(StoredImage image, double now);
   void heard_camera_status(double now) { parts_.heard_camera_status(now); }
   void add_result(const CommandResult& result, double now);
 
-  /** Pictures that somebody watches now. */
-  std::vector<CameraWish> camera_wishes(double now) const;
+  /** Images that somebody watches now. */
+  std::vector<CameraRequest> camera_requests(double now) const;
 
   // ---- Time ----
 
@@ -196,8 +196,8 @@ class GatewayCore {
   void send_walk(double now);
 
   MessageBytes encode_state(double now);
-  MessageBytes encode_picture(StoredPicture& stored, double now);
-  void write_picture(const StoredPicture& stored, naoremote::Picture& picture, double now) const;
+  MessageBytes encode_image(StoredImage& stored, double now);
+  void write_image(const StoredImage& stored, naoremote::Image& image, double now) const;
   void push(PhoneSession& session, const naoremote::ServerMessage& message);
   void push(PhoneSession& session, MessageBytes message);
   void broadcast(const naoremote::ServerMessage& message);
@@ -233,7 +233,7 @@ class GatewayCore {
 
   RobotMirror mirror_;
   SharedEncoding state_encoding_;
-  PictureShelf pictures_;
+  ImageCache images_;
   PartMonitor parts_;
   DrivingLease lease_;
   WalkStream walk_;

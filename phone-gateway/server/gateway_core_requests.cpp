@@ -185,35 +185,35 @@ void GatewayCore::connect(PhoneSession& session, const naoremote::Connect& reque
   session.tells_missing_parts = true;
 }
 
-// ---- State and picture --------------------------------------------------------------------------
+// ---- State and image --------------------------------------------------------------------------
 
 void GatewayCore::get_state(PhoneSession& session, const naoremote::GetState& request,
                             Response& response, double now) {
-  auto choice = check(request.picture());
+  auto choice = check(request.image(), robot_);
   if (const auto* refusal = std::get_if<Refusal>(&choice)) {
     refuse(response, naoremote::INVALID_ARGUMENT, refusal->message);
     return;
   }
-  if (request.with_picture()) {
-    session.polled_picture = std::get<PictureChoice>(choice);
+  if (request.with_image()) {
+    session.polled_image = std::get<ImageSelection>(choice);
     session.last_poll = now;
   }
   if (!mirror_.has_state()) {
     refuse(response, naoremote::ROBOT_UNAVAILABLE, "Nothing has been heard of the robot yet.");
     return;
   }
-  naoremote::StateAndPicture& result = *response.mutable_state_and_picture();
+  naoremote::StateAndImage& result = *response.mutable_state_and_image();
   mirror_.write(*result.mutable_state(), parts_.is_available(PartMonitor::Part::kRobot), now);
-  if (!request.with_picture()) return;
-  if (const StoredPicture* picture = pictures_.find(session.polled_picture, session.last_picture)) {
-    session.last_picture = picture->number;
-    write_picture(*picture, *result.mutable_picture(), now);
+  if (!request.with_image()) return;
+  if (const StoredImage* image = images_.find(session.polled_image, session.last_image)) {
+    session.last_image = image->number;
+    write_image(*image, *result.mutable_image(), now);
   }
 }
 
 void GatewayCore::subscribe(PhoneSession& session, const naoremote::Subscribe& request,
                             Response& response) {
-  auto checked = check(request, limits_);
+  auto checked = check(request, robot_, limits_);
   if (const auto* refusal = std::get_if<Refusal>(&checked)) {
     refuse(response, naoremote::INVALID_ARGUMENT, refusal->message);
     return;
@@ -223,7 +223,7 @@ void GatewayCore::subscribe(PhoneSession& session, const naoremote::Subscribe& r
   // serve all at once, the last of whom would wait for the first.
   const double phase = std::fmod(session.id * kGoldenRatio, 1);
   session.state_pacer = Pacer(session.subscription.state_rate, phase);
-  session.picture_pacer = Pacer(session.subscription.picture_rate);
+  session.image_pacer = Pacer(session.subscription.image_rate);
 }
 
 // ---- Driving ------------------------------------------------------------------------------------

@@ -122,7 +122,7 @@ constexpr ClientFigure kClientFigures[] = {
      [](const PhoneSession& session) { return session.round_trip; }},
     {"messages_sent_total", "Messages sent to this client",
      [](const PhoneSession& session) { return static_cast<double>(session.num_sent); }},
-    {"frames_skipped_total", "States and pictures dropped because this client was slow",
+    {"frames_skipped_total", "States and images dropped because this client was slow",
      [](const PhoneSession& session) { return static_cast<double>(session.outbox.num_skipped()); }},
     {"messages_waiting", "Answers and notices in this client's queue",
      [](const PhoneSession& session) {
@@ -170,7 +170,7 @@ void GatewayDaemon::subscribe() {
   // Several sizes share the channel: the latest of one must not push out another.
   bus_.subscribe<naolcm::image_t>(channels_.head_camera_image, Bus::Queue::kAll,
                                   [this](const naolcm::image_t& message) {
-                                    core_.add_picture(read_image(message), monotonic_seconds());
+                                    core_.add_image(read_image(message), monotonic_seconds());
                                   });
   bus_.subscribe<naolcm::daemon_status_t>(kDaemonStatusChannel, Bus::Queue::kAll,
                                           [this](const naolcm::daemon_status_t& message) {
@@ -186,23 +186,23 @@ void GatewayDaemon::send(const NumberedCommand& command) {
 void GatewayDaemon::step(double now) {
   status_.tick(now);
   core_.step(now);
-  std::vector<CameraWish> wishes = core_.camera_wishes(now);
+  std::vector<CameraRequest> wishes = core_.camera_requests(now);
   if (wishes == last_wishes_) return;
-  // At once, so that a phone's first picture does not wait for the next second.
+  // At once, so that a phone's first image does not wait for the next second.
   last_wishes_ = std::move(wishes);
-  send_camera_wishes(last_wishes_);
+  send_camera_requests(last_wishes_);
 }
 
-void GatewayDaemon::send_camera_wishes(const std::vector<CameraWish>& wishes) {
-  for (const CameraWish& wish : wishes) {
+void GatewayDaemon::send_camera_requests(const std::vector<CameraRequest>& wishes) {
+  for (const CameraRequest& wish : wishes) {
     naolcm::camera_command_t message;
     message.utime = 0;
     message.wall_utime = wall_utime();
     message.source = source_;
-    message.camera = wish.picture.camera == naoremote::CAMERA_BOTTOM ? "bottom" : "top";
-    message.width = static_cast<int32_t>(wish.picture.width);
+    message.camera = wish.image.camera;
+    message.width = static_cast<int32_t>(wish.image.width);
     message.rate = std::max(1.0, wish.rate);
-    message.quality = static_cast<int32_t>(wish.picture.quality);
+    message.quality = static_cast<int32_t>(wish.image.quality);
     bus_.publish(channels_.head_camera_command, message);
   }
 }
@@ -214,7 +214,7 @@ void GatewayDaemon::publish_status(double now) {
                              : has_motion ? "waiting for the robot"
                                           : "waiting for " + channels_.motion_state);
   status_.publish(status_metrics());
-  send_camera_wishes(core_.camera_wishes(now));
+  send_camera_requests(core_.camera_requests(now));
 }
 
 void GatewayDaemon::shut_down(double now) {
@@ -237,7 +237,7 @@ std::vector<Metric> GatewayDaemon::metrics() const {
       {"requests_total", count(counters.num_requests), "Requests received"},
       {"requests_refused_total", count(counters.num_refused), "Requests answered with an error"},
       {"messages_sent_total", count(counters.num_sent), "Messages sent to clients"},
-      {"frames_skipped_total", count(counters.num_skipped), "States and pictures dropped"},
+      {"frames_skipped_total", count(counters.num_skipped), "States and images dropped"},
       {"messages_waiting", num_waiting, "Answers and notices in all queues"}};
 }
 

@@ -49,7 +49,7 @@ class GatewayDaemon {
  private:
   void subscribe();
   void send(const NumberedCommand& command);
-  void send_camera_wishes(const std::vector<CameraWish>& wishes);
+  void send_camera_requests(const std::vector<CameraRequest>& wishes);
   std::vector<Metric> metrics() const;
   std::vector<std::pair<std::string, double>> status_metrics() const;
 
@@ -60,7 +60,7 @@ class GatewayDaemon {
   StatusReporter status_;
   AuditLog audit_log_;
   GatewayCore core_;
-  std::vector<CameraWish> last_wishes_;
+  std::vector<CameraRequest> last_wishes_;
 };
 
 }  // namespace nao

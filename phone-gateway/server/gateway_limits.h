@@ -35,19 +35,19 @@ struct GatewayLimits {
   double answer_time = 1.5;
   /** From the driver's last command to the moment when somebody else may take control. */
   double lease_idle_time = 10;
-  /** How long a polling client counts as watching after its last GetState with picture. */
+  /** How long a polling client counts as watching after its last GetState with image. */
   double poll_watch_time = 2;
-  /** Longest silence of nao-motion, of the robot, of the camera's pictures while somebody watches,
+  /** Longest silence of nao-motion, of the robot, of the camera's images while somebody watches,
    * and of the camera's DAEMON_STATUS, which comes twice a second, before the part counts as gone:
    * phones are told within 2 s. */
   double motion_silence_time = 1.0;
   double robot_silence_time = 1.0;
-  double picture_silence_time = 1.5;
+  double image_silence_time = 1.5;
   double camera_status_silence_time = 1.8;
 
-  /** States and pictures a second that a client may subscribe to. */
+  /** States and images a second that a client may subscribe to. */
   double max_state_rate = 60;
-  double max_picture_rate = 30;
+  double max_image_rate = 30;
 };
 
 }  // namespace nao

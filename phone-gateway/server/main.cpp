@@ -128,8 +128,8 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   const std::filesystem::path folder = data_path() / "robots" / options.model;
   if (ask_for_prompt_turns(Turns::kServing)) spdlog::info("runs ahead of usual programs");
   Bus bus(common.lcm_url);
-  GatewayDaemon daemon(bus, common.robot, describe_robot(RobotModel::load(folder)), options.limits,
-                       options.token, options.audit_file);
+  GatewayDaemon daemon(bus, common.robot, describe_robot(common.robot, RobotModel::load(folder)),
+                       options.limits, options.token, options.audit_file);
   WebPages pages(data_path());
   Network network(options.network, make_access_rules(options), daemon.core(), pages);
 

@@ -10,22 +10,22 @@
 namespace nao {
 
 /** What waits to be sent to one client: answers and notices in order, and at most one state and one
- * picture, which are made only when the connection can take them, so that a slow client gets fewer
+ * image, which are made only when the connection can take them, so that a slow client gets fewer
  * of them but always the newest. */
 class Outbox {
  public:
-  enum class Next { kNothing, kMessage, kState, kPicture };
+  enum class Next { kNothing, kMessage, kState, kImage };
 
   void push(MessageBytes message) { messages_.push_back(std::move(message)); }
   void want_state() { num_skipped_ += std::exchange(wants_state_, true) ? 1 : 0; }
-  void want_picture() { num_skipped_ += std::exchange(wants_picture_, true) ? 1 : 0; }
+  void want_image() { num_skipped_ += std::exchange(wants_image_, true) ? 1 : 0; }
 
-  /** What the connection shall send next. A state goes before a picture, which is ten times as
+  /** What the connection shall send next. A state goes before an image, which is ten times as
    * long, but only once: a slow client gets both. */
   Next next() const {
     if (!messages_.empty()) return Next::kMessage;
-    if (wants_state_ && !is_picture_passed_over_) return Next::kState;
-    return wants_picture_ ? Next::kPicture : Next::kNothing;
+    if (wants_state_ && !is_image_passed_over_) return Next::kState;
+    return wants_image_ ? Next::kImage : Next::kNothing;
   }
 
   /** Takes out what next() told: the message itself, or the mark that one shall be made. */
@@ -36,22 +36,22 @@ class Outbox {
   }
   void take_state() {
     wants_state_ = false;
-    is_picture_passed_over_ = wants_picture_;
+    is_image_passed_over_ = wants_image_;
   }
-  void take_picture() {
-    wants_picture_ = false;
-    is_picture_passed_over_ = false;
+  void take_image() {
+    wants_image_ = false;
+    is_image_passed_over_ = false;
   }
 
   size_t num_messages() const { return messages_.size(); }
-  /** States and pictures that a newer one replaced before they could be sent. */
+  /** States and images that a newer one replaced before they could be sent. */
   uint64_t num_skipped() const { return num_skipped_; }
 
  private:
   std::deque<MessageBytes> messages_;
   bool wants_state_ = false;
-  bool wants_picture_ = false;
-  bool is_picture_passed_over_ = false;
+  bool wants_image_ = false;
+  bool is_image_passed_over_ = false;
   uint64_t num_skipped_ = 0;
 };
 

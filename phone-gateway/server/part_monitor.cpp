@@ -37,12 +37,12 @@ bool PartMonitor::calc_available(Part part, double now) const {
     case Part::kRobot:
       return has_robot;
     case Part::kCamera: {
-      // Pictures are due only from a robot that moves in time, and to somebody who watches.
-      const double pictures_due_since = std::max({watched_since_, robot_since_, last_picture_});
-      const bool owes_picture =
-          is_watched_ && has_robot && now - pictures_due_since > limits_.picture_silence_time;
-      const double last_sign = std::max(last_camera_status_, last_picture_);
-      return !owes_picture && now - last_sign <= limits_.camera_status_silence_time;
+      // Images are due only from a robot that moves in time, and to somebody who watches.
+      const double images_due_since = std::max({watched_since_, robot_since_, last_image_});
+      const bool owes_image =
+          is_watched_ && has_robot && now - images_due_since > limits_.image_silence_time;
+      const double last_sign = std::max(last_camera_status_, last_image_);
+      return !owes_image && now - last_sign <= limits_.camera_status_silence_time;
     }
   }
   return false;
@@ -68,8 +68,7 @@ std::string describe(const PartMonitor::Change& change) {
     case PartMonitor::Part::kRobot:
       return change.is_available ? "The robot is back." : "The robot does not answer.";
     case PartMonitor::Part::kCamera:
-      return change.is_available ? "The head camera is back."
-                                 : "The head camera sends no pictures.";
+      return change.is_available ? "The head camera is back." : "The head camera sends no images.";
   }
   return "";
 }

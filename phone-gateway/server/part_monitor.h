@@ -23,11 +23,11 @@ class PartMonitor {
   void heard_motion(bool has_robot, double now);
   /** A state of the robot came. */
   void heard_robot(double now) { last_robot_ = now; }
-  /** A picture came. */
-  void heard_picture(double now) { last_picture_ = now; }
+  /** A image came. */
+  void heard_image(double now) { last_image_ = now; }
   /** The camera's DAEMON_STATUS came. */
   void heard_camera_status(double now) { last_camera_status_ = now; }
-  /** Whether somebody watches, so that pictures ought to come. */
+  /** Whether somebody watches, so that images ought to come. */
   void set_watched(bool is_watched, double now);
 
   /** Brings the availabilities up to date. @return What has changed. */
@@ -47,7 +47,7 @@ class PartMonitor {
   double robot_since_ = kNever;
   double last_motion_ = kNever;
   double last_robot_ = kNever;
-  double last_picture_ = kNever;
+  double last_image_ = kNever;
   double last_camera_status_ = kNever;
 };
 

@@ -61,13 +61,13 @@ void PhoneConnection::violate(const std::string& why) {
 }
 
 void PhoneConnection::flush_in_turn() {
-  if (is_writing_ || !hub_.core.is_picture_next(id_)) {
+  if (is_writing_ || !hub_.core.is_image_next(id_)) {
     flush();
-  } else if (!std::exchange(is_picture_due_, true)) {
-    hub_.pictures.add([weak = weak_from_this()] {
+  } else if (!std::exchange(is_image_due_, true)) {
+    hub_.images.add([weak = weak_from_this()] {
       const auto self = weak.lock();
       if (!self) return;
-      self->is_picture_due_ = false;
+      self->is_image_due_ = false;
       self->flush();
     });
   }

@@ -49,7 +49,7 @@ class PhoneConnection : public std::enable_shared_from_this<PhoneConnection> {
   Hub& hub_;
 
  private:
-  /** Sends what is next: a picture when it is its turn, all else at once. */
+  /** Sends what is next: an image when it is its turn, all else at once. */
   void flush_in_turn();
   void flush();
   void limit(std::chrono::seconds time);
@@ -67,7 +67,7 @@ class PhoneConnection : public std::enable_shared_from_this<PhoneConnection> {
   WaitingRoom::Place place_;
   bool is_waiting_ = false;
   bool is_flush_due_ = false;
-  bool is_picture_due_ = false;
+  bool is_image_due_ = false;
   bool is_writing_ = false;
   bool is_shut_down_ = false;
   bool is_finished_ = false;

@@ -1,5 +1,7 @@
 #include "phone-gateway/server/phone_robot.h"
 
+#include "common/yaml_entry.h"
+
 namespace nao {
 namespace {
 
@@ -7,15 +9,20 @@ std::string motor_name(const RobotModel& model, int motor) {
   return motor < 0 ? "" : model.motor_joint(motor).name;
 }
 
+/** File name of the URDF that robot.yaml names. RobotModel has checked that it is in its folder. */
+std::string urdf_name(const RobotModel& model) {
+  return YamlEntry::load(model.folder() / "robot.yaml").at("urdf").text();
+}
+
 }  // namespace
 
-PhoneRobot describe_robot(const RobotModel& model) {
+PhoneRobot describe_robot(const std::string& name, const RobotModel& model) {
   PhoneRobot robot;
   robot.walk_limits = model.walk_limits();
   naoremote::RobotDescription& description = robot.description;
-  description.set_name(model.name());
-  const std::string folder = model.folder().filename().string();
-  description.set_urdf_path("/robots/" + folder + "/" + folder + ".urdf");
+  description.set_name(name);
+  description.set_model(model.folder().filename().string());
+  description.set_urdf_path("/robots/" + description.model() + "/" + urdf_name(model));
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     const Joint& joint = model.motor_joint(motor);
     naoremote::Joint* described = description.add_joints();
@@ -33,9 +40,11 @@ PhoneRobot describe_robot(const RobotModel& model) {
     described->set_pitch_joint(motor_name(model, group.pitch_motor));
     described->set_roll_joint(motor_name(model, group.roll_motor));
   }
-  description.set_max_walk_x(robot.walk_limits.forward);
-  description.set_max_walk_y(robot.walk_limits.sideways);
-  description.set_max_walk_theta(robot.walk_limits.turning);
+  for (const CameraModel& camera : model.cameras()) description.add_cameras(camera.name);
+  description.set_max_vx(robot.walk_limits.forward);
+  description.set_min_vx(-robot.walk_limits.backward);
+  description.set_max_vy(robot.walk_limits.sideways);
+  description.set_max_wz(robot.walk_limits.turning);
   return robot;
 }
 

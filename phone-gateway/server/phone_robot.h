@@ -11,7 +11,7 @@ struct PhoneRobot {
   WalkLimits walk_limits;
 };
 
-/** What the robot's files say, in the protocol's terms. */
-PhoneRobot describe_robot(const RobotModel& model);
+/** What the robot's files say, in the protocol's terms. @param name  Prefix of its channels. */
+PhoneRobot describe_robot(const std::string& name, const RobotModel& model);
 
 }  // namespace nao

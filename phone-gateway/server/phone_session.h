@@ -51,12 +51,12 @@ struct PhoneSession {
 
   Subscription subscription;
   Pacer state_pacer;
-  Pacer picture_pacer;
-  /** Wish of the last GetState with picture, and when it came. */
-  PictureChoice polled_picture;
+  Pacer image_pacer;
+  /** Wish of the last GetState with image, and when it came. */
+  ImageSelection polled_image;
   double last_poll = -1e9;
-  /** Number of the last picture that it got, by stream or by poll. */
-  uint64_t last_picture = 0;
+  /** Number of the last image that it got, by stream or by poll. */
+  uint64_t last_image = 0;
 
   // What follows the answer to the present request.
   bool tells_missing_parts = false;

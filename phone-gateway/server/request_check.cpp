@@ -100,12 +100,14 @@ std::optional<Refusal> add_group(const naoremote::JointGroup& group,
 
 std::variant<WalkVelocity, Refusal> check(const naoremote::WalkTurn& request,
                                           const PhoneRobot& robot) {
-  if (!is_within(request.x(), 1) || !is_within(request.y(), 1) || !is_within(request.theta(), 1)) {
-    return Refusal{"x, y and theta of a walk are shares of the greatest speed, -1 to 1."};
+  if (!std::isfinite(request.vx()) || !std::isfinite(request.vy()) ||
+      !std::isfinite(request.wz())) {
+    return Refusal{"A walk velocity is not finite."};
   }
   const WalkLimits& limits = robot.walk_limits;
-  return WalkVelocity{request.x() * (request.x() >= 0 ? limits.forward : limits.backward),
-                      request.y() * limits.sideways, request.theta() * limits.turning};
+  return WalkVelocity{std::clamp(request.vx(), -limits.backward, limits.forward),
+                      std::clamp(request.vy(), -limits.sideways, limits.sideways),
+                      std::clamp(request.wz(), -limits.turning, limits.turning)};
 }
 
 std::variant<MotionCommand, Refusal> check(const naoremote::MoveTo& request) {
@@ -174,31 +176,34 @@ std::variant<MotionCommand, Refusal> check(const naoremote::DoAction& request,
   return action;
 }
 
-std::variant<PictureChoice, Refusal> check(const naoremote::PictureWish& wish) {
-  PictureChoice choice;
-  choice.camera = wish.camera();
-  if (wish.camera() != naoremote::CAMERA_TOP && wish.camera() != naoremote::CAMERA_BOTTOM) {
-    return Refusal{"The robot has a top and a bottom camera only."};
+std::variant<ImageSelection, Refusal> check(const naoremote::ImageRequest& request,
+                                            const PhoneRobot& robot) {
+  const auto& cameras = robot.description.cameras();
+  ImageSelection selection;
+  selection.camera = request.camera();
+  if (selection.camera.empty() && !cameras.empty()) selection.camera = cameras[0];
+  if (!contains(cameras, selection.camera)) {
+    return Refusal{"The robot has no camera " + quoted(selection.camera) + "."};
   }
-  if (wish.width() != 0) choice.width = wish.width();
-  if (choice.width != 640 && choice.width != 320 && choice.width != 160) {
-    return Refusal{"Pictures are 640, 320 or 160 pixels wide."};
+  if (request.width() != 0) selection.width = request.width();
+  if (selection.width != 640 && selection.width != 320 && selection.width != 160) {
+    return Refusal{"Images are 640, 320 or 160 pixels wide."};
   }
-  choice.quality = wish.quality();
-  if (choice.quality > 95) return Refusal{"The quality of a picture is 1 to 95."};
-  return choice;
+  selection.quality = request.quality();
+  if (selection.quality > 95) return Refusal{"The quality of an image is 1 to 95."};
+  return selection;
 }
 
 std::variant<Subscription, Refusal> check(const naoremote::Subscribe& request,
-                                          const GatewayLimits& limits) {
+                                          const PhoneRobot& robot, const GatewayLimits& limits) {
   if (!is_within(request.state_rate(), 0, limits.max_state_rate) ||
-      !is_within(request.picture_rate(), 0, limits.max_picture_rate)) {
-    return Refusal{"At most 60 states and 30 pictures a second."};
+      !is_within(request.image_rate(), 0, limits.max_image_rate)) {
+    return Refusal{"At most 60 states and 30 images a second."};
   }
-  Subscription subscription{request.state_rate(), request.picture_rate(), {}};
-  auto picture = check(request.picture());
-  if (auto* refusal = std::get_if<Refusal>(&picture)) return std::move(*refusal);
-  subscription.picture = std::get<PictureChoice>(picture);
+  Subscription subscription{request.state_rate(), request.image_rate(), {}};
+  auto image = check(request.image(), robot);
+  if (auto* refusal = std::get_if<Refusal>(&image)) return std::move(*refusal);
+  subscription.image = std::get<ImageSelection>(image);
   return subscription;
 }
 

@@ -27,28 +27,30 @@ struct Refusal {
 [[nodiscard]] std::variant<MotionCommand, Refusal> check(const naoremote::DoAction& request,
                                                          const PhoneRobot& robot);
 
-/** Which picture a client wishes for, checked, with the defaults filled in. */
-struct PictureChoice {
-  naoremote::Camera camera = naoremote::CAMERA_TOP;
+/** Which image a client wishes for, checked, with the defaults filled in. */
+struct ImageSelection {
+  std::string camera;
   uint32_t width = 320;
   /** JPEG quality, 1 to 95; 0 leaves it to the camera. */
   uint32_t quality = 0;
 
-  bool shows_same(const PictureChoice& other) const {
+  bool shows_same(const ImageSelection& other) const {
     return camera == other.camera && width == other.width;
   }
 };
 
-[[nodiscard]] std::variant<PictureChoice, Refusal> check(const naoremote::PictureWish& wish);
+[[nodiscard]] std::variant<ImageSelection, Refusal> check(const naoremote::ImageRequest& request,
+                                                          const PhoneRobot& robot);
 
 /** A checked Subscribe. Rates in 1/s. */
 struct Subscription {
   double state_rate = 0;
-  double picture_rate = 0;
-  PictureChoice picture;
+  double image_rate = 0;
+  ImageSelection image;
 };
 
 [[nodiscard]] std::variant<Subscription, Refusal> check(const naoremote::Subscribe& request,
+                                                        const PhoneRobot& robot,
                                                         const GatewayLimits& limits);
 
 }  // namespace nao

@@ -21,16 +21,17 @@ void RobotMirror::write(naoremote::State& state, bool is_available, double now) 
   }
   for (const double x : robot_.torso_position) state.add_torso_position(static_cast<float>(x));
   if (!is_available) {
-    state.set_mode("no-robot");
+    state.set_mode(naoremote::MODE_NO_ROBOT);
     state.set_progress(-1);
-    for (int i = 0; i < 3; ++i) state.add_walk_velocity(0);
     return;
   }
-  state.set_mode(motion_.mode);
+  state.set_mode(static_cast<naoremote::Mode>(motion_.mode));
   state.set_posture(motion_.posture);
-  state.set_activity(motion_.activity);
+  if (motion_.activity) *state.mutable_activity() = *motion_.activity;
   state.set_progress(static_cast<float>(motion_.progress));
-  for (const double v : motion_.walk_velocity) state.add_walk_velocity(static_cast<float>(v));
+  state.set_vx(static_cast<float>(motion_.velocity.vx));
+  state.set_vy(static_cast<float>(motion_.velocity.vy));
+  state.set_wz(static_cast<float>(motion_.velocity.wz));
   state.set_stiffness(static_cast<float>(motion_.stiffness));
 }
 

@@ -2,9 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "messages/mode.h"
+#include "phone-gateway/server/motion_command.h"
 #include "remote.pb.h"
 
 namespace nao {
@@ -22,12 +25,14 @@ struct RobotSnapshot {
 
 /** What the gateway takes from motion_state_t; see there. */
 struct MotionSnapshot {
-  std::string mode = "no-robot";
+  Mode mode = Mode::kNoRobot;
   std::string posture;
-  std::string activity;
+  /** Motion being executed; nothing if none. */
+  std::optional<naoremote::Activity> activity;
   /** 0 to 1; negative where the end is open. */
   double progress = -1;
-  std::array<double, 3> walk_velocity{};
+  /** m/s, m/s, rad/s. */
+  WalkVelocity velocity;
   double stiffness = 0;
 };
 

@@ -42,7 +42,7 @@ class Churn(unittest.TestCase):
 
     def visit(self):
         with phone.Phone(port=self.gateway.tcp_port, timeout=DEADLINE) as client:
-            client.ask(subscribe=pb.Subscribe(state_rate=60, picture_rate=30))
+            client.ask(subscribe=pb.Subscribe(state_rate=60, image_rate=30))
             client.ask(ping=pb.Ping())
 
     def hold_flat(self, disturb, num_times):

@@ -30,7 +30,7 @@ class LinkLoss(WalkingTest):
         self.assert_stands_soon()
 
     def test_the_phone_program_is_killed(self):
-        command = [str(BIN_DIR / "nao-phone"), "--port", str(self.robot.gateway.tcp_port), "walk", "0.6",
+        command = [str(BIN_DIR / "nao-phone"), "--port", str(self.robot.gateway.tcp_port), "walk", "0.18",
                    "--duration", "60"]
         _, start = self.world()
         with subprocess.Popen(command) as process:

@@ -63,8 +63,8 @@ class PartLossTest(WalkingTest):
         super().setUp()
         # A test before may have ended the gateway.
         self.client = wait_until(self.connected_driver, "the gateway is there")
-        self.client.ask(subscribe=pb.Subscribe(state_rate=30, picture_rate=15))
-        self.client.wait_until(lambda: self.client.picture, DEADLINE)
+        self.client.ask(subscribe=pb.Subscribe(state_rate=30, image_rate=15))
+        self.client.wait_until(lambda: self.client.image, DEADLINE)
         self.client.notices.clear()
 
     def connected_driver(self):
@@ -82,13 +82,13 @@ class PartLossTest(WalkingTest):
     def wait_for(self, condition, what):
         self.assertTrue(self.client.wait_until(condition, DEADLINE), f"{what}: {self.client.notices}")
 
-    def wait_for_part(self, part, available):
-        self.wait_for(lambda: any(notice.kind == pb.Notice.PART_CHANGED and notice.part == part
-                                  and notice.available == available and notice.message
-                                  for notice in self.client.notices), f"{part} {available}")
+    def wait_for_component(self, component, is_available):
+        self.wait_for(lambda: any(notice.kind == pb.Notice.COMPONENT_CHANGED and notice.component == component
+                                  and notice.is_available == is_available and notice.message
+                                  for notice in self.client.notices), f"{component} {is_available}")
 
     def assert_refuses_to_move(self):
-        for request in ({"walk_turn": pb.WalkTurn(x=1)}, {"go_to_posture": pb.GoToPosture(posture="Crouch")}):
+        for request in ({"walk_turn": pb.WalkTurn(vx=0.1)}, {"go_to_posture": pb.GoToPosture(posture="Crouch")}):
             with self.assertRaises(phone.Refused) as refused:
                 self.client.ask(**request)
             self.assertEqual(refused.exception.code, pb.ROBOT_UNAVAILABLE)
@@ -130,11 +130,11 @@ class HungParts(PartLossTest):
         self.walk(self.client, 2)
         start, place = self.world()
         motion = self.stop("nao-motion")
-        self.wait_for_part("motion", False)
+        self.wait_for_component(pb.Notice.MOTION, False)
         self.assertLess(self.world()[0] - start, TIME_TO_TELL)
         self.assert_refuses_to_move()
         motion.send_signal(signal.SIGCONT)
-        self.wait_for_part("motion", True)
+        self.wait_for_component(pb.Notice.MOTION, True)
         # Neither the old walk nor what was refused is carried out now.
         self.assert_ends_standing(place)
         self.assertNotEqual(json.loads(self.robot.nao("state", "--json"))["motion_state"]["posture"], "Crouch")
@@ -144,30 +144,30 @@ class HungParts(PartLossTest):
         _, place = self.world()
         sim = self.stop("nao-sim")
         # Time stands still: how soon phones are told, scripts/bench measures.
-        self.wait_for_part("robot", False)
+        self.wait_for_component(pb.Notice.ROBOT, False)
         self.assert_refuses_to_move()
         sim.send_signal(signal.SIGCONT)
-        self.wait_for_part("robot", True)
+        self.wait_for_component(pb.Notice.ROBOT, True)
         self.assert_ends_standing(place)
 
     def test_the_camera_hangs_while_the_robot_walks(self):
         self.walk(self.client, 2)
         start, _ = self.world()
         camera = self.stop("nao-head-camera")
-        self.wait_for_part("camera", False)
+        self.wait_for_component(pb.Notice.CAMERA, False)
         self.assertLess(self.world()[0] - start, TIME_TO_TELL)
         self.assert_stands_soon()
         camera.send_signal(signal.SIGCONT)
-        self.wait_for_part("camera", True)
+        self.wait_for_component(pb.Notice.CAMERA, True)
 
     def test_the_camera_hangs_while_nobody_watches(self):
         self.client.ask(subscribe=pb.Subscribe(state_rate=30))
         start, _ = self.world()
         camera = self.stop("nao-head-camera")
-        self.wait_for_part("camera", False)
+        self.wait_for_component(pb.Notice.CAMERA, False)
         self.assertLess(self.world()[0] - start, TIME_TO_TELL)
         camera.send_signal(signal.SIGCONT)
-        self.wait_for_part("camera", True)
+        self.wait_for_component(pb.Notice.CAMERA, True)
 
 
 class KilledParts(PartLossTest):
@@ -198,9 +198,9 @@ class KilledParts(PartLossTest):
     def test_the_camera_is_killed_while_the_robot_walks(self):
         self.walk(self.client, 2)
         start, _ = self.world()
-        last = self.client.picture.utime
+        last = self.client.image.utime
         self.robot.kill("nao-head-camera")
-        self.wait_for(lambda: self.client.picture.utime > last + 1000000 * TIME_TO_TELL, "pictures are back")
+        self.wait_for(lambda: self.client.image.utime > last + 1000000 * TIME_TO_TELL, "images are back")
         self.assertLess(self.world()[0] - start, TIME_TO_RETURN)
         self.assert_stands_soon()
 

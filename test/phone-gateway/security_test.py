@@ -149,12 +149,12 @@ class Security(unittest.TestCase):
                 answer = record(thief)
                 self.assertEqual(answer.error, pb.CONTROL_TAKEN)
                 self.assertEqual(answer.control.driver_name, "Ana")
-                thief.sendall(frame(request_id=3, walk_turn=pb.WalkTurn(x=1)))
+                thief.sendall(frame(request_id=3, walk_turn=pb.WalkTurn(vx=0.1)))
                 self.assertEqual(self.response(thief, 3).error, pb.CONTROL_TAKEN)
         # Ana is gone, and what she might still send on a new connection does nothing until she asks anew.
         with socket.create_connection(("127.0.0.1", self.gateway.tcp_port), DEADLINE) as late:
             late.sendall(frame(request_id=1, connect=pb.Connect(protocol_version=1, client_name="Ana")))
-            late.sendall(frame(request_id=2, walk_turn=pb.WalkTurn(x=1)))
+            late.sendall(frame(request_id=2, walk_turn=pb.WalkTurn(vx=0.1)))
             self.assertEqual(self.response(late, 2).error, pb.NO_CONTROL)
         self.assert_good_client_is_served()
 

@@ -2,7 +2,7 @@
 """Usage: test/phone-gateway/soak.py [--minutes M] [--csv FILE]
 
 Simulator, motion, camera and gateway, and phones that come and go: each second one comes, by turns over raw TCP
-and WebSocket, watches 30 states and 15 pictures a second, and goes some seconds later: closing properly, by
+and WebSocket, watches 30 states and 15 images a second, and goes some seconds later: closing properly, by
 resetting the connection, or without ever having read. Prints the gateway's memory and its descriptors beside
 those of the phones, 60 times, and how they grew. Not part of the test run, for it takes as long as it says
 (default: 60 minutes); exit status 1 if memory or descriptors grow, or a phone is thrown out.
@@ -32,7 +32,7 @@ MAX_GROWTH = 2  # descriptors beside those of the phones; one may be on its way 
 HANDSHAKE = (b"GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
              b"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n")
 REQUESTS = [pb.Request(request_id=1, connect=pb.Connect(protocol_version=1, client_name="soak")),
-            pb.Request(request_id=2, subscribe=pb.Subscribe(state_rate=30, picture_rate=15)),
+            pb.Request(request_id=2, subscribe=pb.Subscribe(state_rate=30, image_rate=15)),
             pb.Request(request_id=3, take_control=pb.TakeControl()),
             pb.Request(request_id=4, stop=pb.Stop())]
 PING = pb.Request(ping=pb.Ping())

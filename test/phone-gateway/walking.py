@@ -40,17 +40,17 @@ class WalkingTest(unittest.TestCase):
         truth = json.loads(self.robot.nao("world", "show", "--json"))
         return truth["utime"] * 1e-6, truth["robots"][0]["position_torso_in_world"]
 
-    def walk(self, client, duration, speed=0.6):
-        """Walks as an app does, and makes sure that the robot really goes."""
+    def walk(self, client, duration, speed=0.18):
+        """Walks forward at `speed`, m/s, as the app does, until the robot has moved."""
         _, start = self.world()
         end = time.monotonic() + duration
         while time.monotonic() < end:
-            client.ask(walk_turn=pb.WalkTurn(x=speed))
+            client.ask(walk_turn=pb.WalkTurn(vx=speed))
             client.wait_until(lambda: False, WALK_PERIOD)
         wait_until(lambda: self.is_away_from(start, client, speed), "the robot walks")
 
     def is_away_from(self, start, client, speed):
-        client.ask(walk_turn=pb.WalkTurn(x=speed))
+        client.ask(walk_turn=pb.WalkTurn(vx=speed))
         _, here = self.world()
         return math.dist(start[:2], here[:2]) > 2 * STILL_DISTANCE
 

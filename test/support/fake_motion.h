@@ -21,7 +21,7 @@
 namespace nao {
 
 /** Stands in for nao-motion, the robot and its camera on the bus: reports a robot that obeys at
- * once, answers commands, and sends pictures of nothing. step() from the bus's thread; the rest
+ * once, answers commands, and sends images of nothing. step() from the bus's thread; the rest
  * from any. */
 class FakeMotion {
  public:
@@ -80,8 +80,8 @@ class FakeMotion {
     bus_.publish(channels_.motion_state, motion);
   }
 
-  /** Sends a picture of `size_bytes` meaningless bytes. */
-  void send_picture(int width, int size_bytes) {
+  /** Sends an image of `size_bytes` meaningless bytes. */
+  void send_image(int width, int size_bytes) {
     naolcm::image_t image{};
     image.utime = tick_ * 10000;
     image.camera = "top";

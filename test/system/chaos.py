@@ -44,9 +44,9 @@ class Driver(threading.Thread):
 
     def run(self):
         while not self.is_ending:
-            turn = random.choice(["0", "0.3", "-0.3"])
+            turn = random.choice(["0", "0.6", "-0.6"])
             phone = subprocess.run(
-                [str(BIN_DIR / "nao-phone"), "--port", str(self.stack.tcp_port), "walk", "0.4", "0", turn,
+                [str(BIN_DIR / "nao-phone"), "--port", str(self.stack.tcp_port), "walk", "0.12", "0", turn,
                  "--duration", "4"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL, check=False)
             self.num_drives += phone.returncode == 0

@@ -97,7 +97,7 @@ def main():
         stack.start_or_fail()
         phone = subprocess.Popen(
             [str(BIN_DIR / "nao-phone"), "--port", str(stack.tcp_port), "watch", "--rate", "30",
-             "--pictures", "15", "--duration", str(60 * minutes + 60)],
+             "--images", "15", "--duration", str(60 * minutes + 60)],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT)
         try:
             time.sleep(30)  # StandInit reached, first allocations made

@@ -18,7 +18,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from stack import BIN_DIR, Stack, run  # noqa: E402
 
 WALKS = {"ahead": (0.25, 0, 0), "aside": (0, 0.15, 0), "turning": (0, 0, 1.0)}  # m/s, m/s, rad/s
-LIMITS = (0.3, 0.2, 2.0)  # of which a phone says shares: walk_limits of robots/nao/robot.yaml
 SPEED_UP = 3  # s, until the gait has its speed
 
 
@@ -92,11 +91,10 @@ def main():
         stack.start_or_fail("--only", "sim,motion,phone-gateway")
         for name, velocity in WALKS.items():
             wished = expected(velocity, arguments.seeds, seconds)
-            shares = [value / limit for value, limit in zip(velocity, LIMITS)]
             phone = [BIN_DIR / "nao-phone", "--host", "127.0.0.1", "--port", stack.tcp_port, "--token", stack.token, "walk"]
             drivers = {
                 "nao": lambda velocity=velocity: stack.nao("walk", *velocity, "--for", seconds),
-                "phone": lambda shares=shares, phone=phone: run([*phone, *shares, "--duration", seconds]),
+                "phone": lambda velocity=velocity, phone=phone: run([*phone, *velocity, "--duration", seconds]),
             }
             for driver, drive in drivers.items():
                 stack.nao("world", "reset")

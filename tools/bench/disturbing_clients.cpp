@@ -29,7 +29,7 @@ std::unique_ptr<WireClient> connect_watcher(uint16_t tcp_port) {
   request.mutable_connect()->set_protocol_version(1);
   client->send(request);
   request.mutable_subscribe()->set_state_rate(60);
-  request.mutable_subscribe()->set_picture_rate(30);
+  request.mutable_subscribe()->set_image_rate(30);
   client->send(request);
   return client;
 }

@@ -10,7 +10,7 @@
 namespace nao {
 
 /** Three clients that a gateway must not let others suffer from, in a thread of their own: one
- * wants every state and picture and never reads, one reads 1 kB a second, one sends 10,000 requests
+ * wants every state and image and never reads, one reads 1 kB a second, one sends 10,000 requests
  * a second and reads all answers. */
 class DisturbingClients {
  public:

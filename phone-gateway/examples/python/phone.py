@@ -33,7 +33,7 @@ class Phone:
     def __init__(self, host="127.0.0.1", port=7668, token="", name="python", timeout=5.0):
         self.timeout = timeout
         self.state = None  # newest State
-        self.picture = None  # newest Picture
+        self.image = None  # newest Image
         self.notices = []  # every Notice, oldest first
         self._last_request_id = 0
         self._last_sent = 0.0
@@ -83,12 +83,12 @@ class Phone:
             self._handle(self._receive(min(left, PING_PERIOD)))
         return True
 
-    def wait_for_outcome(self, request_id, timeout):
+    def wait_for_result(self, request_id, timeout):
         """Waits for the end of a command. @return its Notice, None if it did not come in time."""
         def find():
             return next((notice for notice in self.notices
-                         if notice.kind == pb.Notice.COMMAND_OUTCOME and notice.request_id == request_id
-                         and notice.outcome != pb.Notice.ACCEPTED), None)
+                         if notice.kind == pb.Notice.COMMAND_RESULT and notice.request_id == request_id
+                         and notice.status != pb.Notice.ACCEPTED), None)
         self.wait_until(find, timeout)
         return find()
 
@@ -140,7 +140,7 @@ class Phone:
             self._own_pings.discard(message.response.request_id)
         elif kind == "state":
             self.state = message.state
-        elif kind == "picture":
-            self.picture = message.picture
+        elif kind == "image":
+            self.image = message.image
         elif kind == "notice":
             self.notices.append(message.notice)

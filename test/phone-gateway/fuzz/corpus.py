@@ -17,9 +17,9 @@ from remote_protocol import remote_pb2 as pb  # noqa: E402
 
 USE_CASES = {
     "connect": dict(connect=pb.Connect(protocol_version=1, token="k", client_name="Ana")),
-    "get_state": dict(get_state=pb.GetState(with_picture=True, picture=pb.PictureWish(width=320))),
-    "subscribe": dict(subscribe=pb.Subscribe(state_rate=30, picture_rate=15)),
-    "walk_turn": dict(walk_turn=pb.WalkTurn(x=0.5, y=-0.5, theta=1)),
+    "get_state": dict(get_state=pb.GetState(with_image=True, image=pb.ImageRequest(width=320))),
+    "subscribe": dict(subscribe=pb.Subscribe(state_rate=30, image_rate=15)),
+    "walk_turn": dict(walk_turn=pb.WalkTurn(vx=0.1, vy=-0.1, wz=1)),
     "move_to": dict(move_to=pb.MoveTo(x=1, y=1, theta=1)),
     "go_to_posture": dict(go_to_posture=pb.GoToPosture(posture="Crouch", speed=0.5)),
     "change_joints": dict(change_joints=pb.ChangeJoints(group="head", yaw=0.1, pitch=0.1)),

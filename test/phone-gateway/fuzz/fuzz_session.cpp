@@ -69,12 +69,13 @@ class Scene {
   }
   void pass() {
     now_ += 0.2;
-    core_.set_motion({"holding", "", "", -1, {}, 1}, now_);
+    core_.set_motion({nao::Mode::kHolding, "", {}, -1, {}, 1}, now_);
     core_.set_robot({static_cast<int64_t>(now_ * 1e6), {0, 0, 0, 0}, {1, 0, 0, 0}, {}}, now_);
-    nao::StoredPicture picture;
-    picture.width = 320;
-    picture.jpeg = "jpeg";
-    core_.add_picture(picture, now_);
+    nao::StoredImage image;
+    image.camera = "top";
+    image.width = 320;
+    image.jpeg = "jpeg";
+    core_.add_image(image, now_);
     core_.step(now_);
   }
   void collect(int who) {

@@ -82,7 +82,7 @@ TEST(Framing, AgreesWithTheWorkedExamplesOfTheDocument) {
   state.set_age_ms(1.5);
   for (const float angle : {0.5F, -0.25F}) state.add_joint_position(angle);
   for (const float x : {1.0F, 0.0F, 0.3125F}) state.add_torso_position(x);
-  state.set_mode("holding");
+  state.set_mode(naoremote::MODE_HOLDING);
   EXPECT_EQ(frame(message.SerializeAsString()), example_bytes(1));
 }
 

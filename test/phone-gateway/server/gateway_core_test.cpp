@@ -123,7 +123,7 @@ TEST_F(GatewayConnecting, TellsWhatIsMissing) {
   motion_speaks_ = false;
   pass(4);
   Phone phone = connect("Ana");
-  EXPECT_EQ(notices(phone, Notice::PART_CHANGED).size(), 3u);
+  EXPECT_EQ(notices(phone, Notice::COMPONENT_CHANGED).size(), 3u);
 }
 
 // ---- Requests -----------------------------------------------------------------------------------
@@ -281,7 +281,7 @@ using GatewayWalking = GatewayFixture;
 TEST_F(GatewayWalking, GoesOnUnderOneNumberWhileRepeated) {
   Phone ana = connect_driver("Ana");
   for (int i = 0; i < 10; ++i) {
-    EXPECT_EQ(walk(ana, 0.5).error(), naoremote::OK);
+    EXPECT_EQ(walk(ana, 0.1).error(), naoremote::OK);
     pass(0.2);
   }
   EXPECT_GE(num_sent<WalkVelocity>(), 20) << "repeated at 10 Hz";
@@ -294,7 +294,7 @@ TEST_F(GatewayWalking, GoesOnUnderOneNumberWhileRepeated) {
 
 TEST_F(GatewayWalking, EndsHalfASecondAfterTheLastCommand) {
   Phone ana = connect_driver("Ana");
-  walk(ana, 0.5);
+  walk(ana, 0.1);
   pass(0.48);
   EXPECT_GT(last_walk().vx, 0);
   pass(0.04);
@@ -308,7 +308,7 @@ TEST_F(GatewayWalking, EndsHalfASecondAfterTheLastCommand) {
 
 TEST_F(GatewayWalking, EndsAtOnceOnZero) {
   Phone ana = connect_driver("Ana");
-  walk(ana, 0.5);
+  walk(ana, 0.1);
   walk(ana, 0);
   EXPECT_EQ(last_walk().vx, 0);
   const int num_walks = num_sent<WalkVelocity>();
@@ -319,18 +319,18 @@ TEST_F(GatewayWalking, EndsAtOnceOnZero) {
 
 TEST_F(GatewayWalking, EndsAtOnceWhenTheDriverGoes) {
   Phone ana = connect_driver("Ana");
-  walk(ana, 0.5);
+  walk(ana, 0.1);
   core_->closed(ana.id, "test", now_);
   EXPECT_EQ(last_walk().vx, 0);
 }
 
 TEST_F(GatewayWalking, EndsAtOnceWhenControlIsLost) {
   Phone ana = connect_driver("Ana");
-  walk(ana, 0.5);
+  walk(ana, 0.1);
   release_control(ana);
   EXPECT_EQ(last_walk().vx, 0);
   take_control(ana);
-  walk(ana, 0.5);
+  walk(ana, 0.1);
   Phone console = open();
   operate(console, naoremote::Operate::TAKE);
   EXPECT_EQ(last_walk().vx, 0);
@@ -349,40 +349,40 @@ TEST_F(GatewayWalking, ToAPlaceEndsWhenTheDriverGoes) {
 TEST_F(GatewayWalking, StaysStoppedUntilTheDriverLetsGo) {
   Phone ana = connect_driver("Ana");
   Phone ben = connect("Ben");
-  walk(ana, 0.5);
+  walk(ana, 0.1);
   pass(0.1);
   EXPECT_EQ(stop(ben).error(), naoremote::OK) << "everybody may stop";
   const int num_walks = num_sent<WalkVelocity>();
   for (int i = 0; i < 10; ++i) {
-    EXPECT_EQ(walk(ana, 0.5).error(), naoremote::STOPPED);
+    EXPECT_EQ(walk(ana, 0.1).error(), naoremote::STOPPED);
     pass(0.1);
   }
   EXPECT_EQ(num_sent<WalkVelocity>(), num_walks);
   EXPECT_EQ(walk(ana, 0).error(), naoremote::OK);
-  EXPECT_EQ(walk(ana, 0.5).error(), naoremote::OK);
+  EXPECT_EQ(walk(ana, 0.1).error(), naoremote::OK);
   stop(ben);
-  EXPECT_EQ(walk(ana, 0.5).error(), naoremote::STOPPED);
+  EXPECT_EQ(walk(ana, 0.1).error(), naoremote::STOPPED);
   pass(0.52);
-  EXPECT_EQ(walk(ana, 0.5).error(), naoremote::OK) << "letting go is also silence";
+  EXPECT_EQ(walk(ana, 0.1).error(), naoremote::OK) << "letting go is also silence";
 }
 
 TEST_F(GatewayWalking, BeginsAnewAfterItWasRefused) {
   Phone ana = connect_driver("Ana");
-  walk(ana, 0.5);
+  walk(ana, 0.1);
   const int64_t first = sent_.back().command_id;
   answer_last(CommandStatus::kRefused, "The robot lies on its back.");
   const int num_walks = num_sent<WalkVelocity>();
   pass(0.4);
   EXPECT_EQ(num_sent<WalkVelocity>(), num_walks) << "a refused walk is not repeated";
-  walk(ana, 0.5);
+  walk(ana, 0.1);
   EXPECT_GT(sent_.back().command_id, first);
   answer_last(CommandStatus::kRefused, "The robot lies on its back.");
-  EXPECT_EQ(notices(ana, Notice::COMMAND_OUTCOME).size(), 1u) << "told once in two seconds";
+  EXPECT_EQ(notices(ana, Notice::COMMAND_RESULT).size(), 1u) << "told once in two seconds";
 }
 
 TEST_F(GatewayWalking, GivesWayToAPosture) {
   Phone ana = connect_driver("Ana");
-  walk(ana, 0.5);
+  walk(ana, 0.1);
   go_to(ana, "Crouch");
   answer_last(CommandStatus::kAccepted);
   sent_.clear();
@@ -392,7 +392,7 @@ TEST_F(GatewayWalking, GivesWayToAPosture) {
 
 TEST_F(GatewayWalking, GoesOnWhileTheHeadTurns) {
   Phone ana = connect_driver("Ana");
-  walk(ana, 0.5);
+  walk(ana, 0.1);
   turn_head(ana, 0.1);
   pass(0.3);
   EXPECT_GT(last_walk().vx, 0);
@@ -414,10 +414,10 @@ TEST_F(GatewayCommands, AreRepeatedUntilHeardAndTheirOutcomeTold) {
   EXPECT_EQ(num_sent<PostureGoal>(), num_heard);
   answer_last(CommandStatus::kDone);
   answer_last(CommandStatus::kDone);
-  const auto outcomes = notices(ana, Notice::COMMAND_OUTCOME);
+  const auto outcomes = notices(ana, Notice::COMMAND_RESULT);
   ASSERT_EQ(outcomes.size(), 2u);
-  EXPECT_EQ(outcomes[0].outcome(), Notice::ACCEPTED);
-  EXPECT_EQ(outcomes[1].outcome(), Notice::DONE);
+  EXPECT_EQ(outcomes[0].status(), Notice::ACCEPTED);
+  EXPECT_EQ(outcomes[1].status(), Notice::DONE);
   EXPECT_EQ(outcomes[1].request_id(), response.request_id());
   EXPECT_FALSE(outcomes[1].message().empty());
 }
@@ -426,9 +426,9 @@ TEST_F(GatewayCommands, ThatNobodyHearsFail) {
   Phone ana = connect_driver("Ana");
   go_to(ana, "Crouch");
   pass(1.6);
-  const auto outcomes = notices(ana, Notice::COMMAND_OUTCOME);
+  const auto outcomes = notices(ana, Notice::COMMAND_RESULT);
   ASSERT_EQ(outcomes.size(), 1u);
-  EXPECT_EQ(outcomes[0].outcome(), Notice::FAILED);
+  EXPECT_EQ(outcomes[0].status(), Notice::FAILED);
 }
 
 TEST_F(GatewayCommands, ThatAreUnheardDoNotOutliveANewerOne) {
@@ -460,12 +460,12 @@ TEST_F(GatewayCommands, FailWhenMotionGoesAway) {
   answer_last(CommandStatus::kAccepted);
   motion_speaks_ = false;
   pass(2);
-  const auto outcomes = notices(ana, Notice::COMMAND_OUTCOME);
+  const auto outcomes = notices(ana, Notice::COMMAND_RESULT);
   ASSERT_EQ(outcomes.size(), 2u);
-  EXPECT_EQ(outcomes[1].outcome(), Notice::FAILED);
-  const auto parts = notices(ana, Notice::PART_CHANGED);
+  EXPECT_EQ(outcomes[1].status(), Notice::FAILED);
+  const auto parts = notices(ana, Notice::COMPONENT_CHANGED);
   ASSERT_EQ(parts.size(), 2u) << "motion, and with it the robot";
-  EXPECT_FALSE(parts[0].available());
+  EXPECT_FALSE(parts[0].is_available());
 }
 
 TEST_F(GatewayCommands, HaveNumbersThatAreNeverReused) {
@@ -477,7 +477,7 @@ TEST_F(GatewayCommands, HaveNumbersThatAreNeverReused) {
   EXPECT_EQ(sent_.back().command_id, 1001);
 }
 
-// ---- States and pictures ------------------------------------------------------------------------
+// ---- States and images ------------------------------------------------------------------------
 
 using GatewayStreams = GatewayFixture;
 
@@ -521,22 +521,22 @@ TEST_F(GatewayStreams, AreEncodedOnceForAllPhonesAndTellTheirAge) {
   const auto age_ms = [](const MessageBytes& bytes) {
     naoremote::ServerMessage message;
     EXPECT_TRUE(message.ParseFromString(*bytes));
-    return message.has_state() ? message.state().age_ms() : message.picture().age_ms();
+    return message.has_state() ? message.state().age_ms() : message.image().age_ms();
   };
   pass(0.1);
-  put_picture(1);
+  put_image(1);
   collect(one);
   collect(two);
   pass(0.04);
-  put_picture(2);
-  // A state, then a picture.
+  put_image(2);
+  // A state, then an image.
   for (int i = 0; i < 2; ++i) {
     const MessageBytes bytes = core_->next_message(one.id, now_);
     ASSERT_TRUE(bytes);
     EXPECT_EQ(core_->next_message(two.id, now_ + 0.0005), bytes);
   }
   pass(0.02);
-  put_picture(3);
+  put_image(3);
   for (int i = 0; i < 2; ++i) {
     const double age = age_ms(core_->next_message(one.id, now_));
     EXPECT_NEAR(age_ms(core_->next_message(two.id, now_ + 0.3)), age + 300, 1) << "a late one";
@@ -554,42 +554,42 @@ TEST_F(GatewayStreams, SkipForASlowPhoneAndAreNeverOld) {
   EXPECT_NEAR(static_cast<double>(session.outbox.num_skipped()), 149, 3);
 }
 
-TEST_F(GatewayStreams, OfPicturesCarryTheNewestOfTheWishedSize) {
+TEST_F(GatewayStreams, OfImagesCarryTheNewestOfTheWishedSize) {
   Phone ana = connect("Ana");
   subscribe(ana, 0, 10);
-  put_picture(1, 640);
+  put_image(1, 640);
   pass(0.1);
-  EXPECT_TRUE(pictures(ana).empty()) << "another size";
-  put_picture(2);
+  EXPECT_TRUE(images(ana).empty()) << "another size";
+  put_image(2);
   pass(0.1);
-  put_picture(3);
-  ASSERT_EQ(pictures(ana).size(), 1u);
-  EXPECT_EQ(pictures(ana)[0].jpeg(), "jpeg 3");
+  put_image(3);
+  ASSERT_EQ(images(ana).size(), 1u);
+  EXPECT_EQ(images(ana)[0].jpeg(), "jpeg 3");
   pass(0.2);
-  EXPECT_EQ(pictures(ana).size(), 1u) << "the same one is not sent twice";
+  EXPECT_EQ(images(ana).size(), 1u) << "the same one is not sent twice";
 }
 
-TEST_F(GatewayStreams, OfPicturesTellTheTimeSinceWhatTheyShow) {
+TEST_F(GatewayStreams, OfImagesTellTheTimeSinceWhatTheyShow) {
   Phone ana = connect("Ana");
   subscribe(ana, 0, 10);
-  put_picture(static_cast<int64_t>((now_ - 0.05) * 1e6));
-  ASSERT_EQ(pictures(ana).size(), 1u);
-  EXPECT_NEAR(pictures(ana)[0].age_ms(), 50, 5);
+  put_image(static_cast<int64_t>((now_ - 0.05) * 1e6));
+  ASSERT_EQ(images(ana).size(), 1u);
+  EXPECT_NEAR(images(ana)[0].age_ms(), 50, 5);
 }
 
 TEST_F(GatewayStreams, AskTheCameraForTheMostThatSomebodyWants) {
-  EXPECT_TRUE(core_->camera_wishes(now_).empty());
+  EXPECT_TRUE(core_->camera_requests(now_).empty());
   Phone ana = connect("Ana");
   Phone ben = connect("Ben");
   subscribe(ana, 0, 10);
   subscribe(ben, 0, 20);
-  auto wishes = core_->camera_wishes(now_);
+  auto wishes = core_->camera_requests(now_);
   ASSERT_EQ(wishes.size(), 1u);
   EXPECT_EQ(wishes[0].rate, 20);
-  EXPECT_EQ(wishes[0].picture.width, 320u);
+  EXPECT_EQ(wishes[0].image.width, 320u);
   core_->closed(ben.id, "test", now_);
   subscribe(ana, 10, 0);
-  EXPECT_TRUE(core_->camera_wishes(now_).empty());
+  EXPECT_TRUE(core_->camera_requests(now_).empty());
 }
 
 TEST_F(GatewayStreams, GoOnOnceASecondWithTheLastStateWhileTheRobotIsGone) {
@@ -607,29 +607,29 @@ TEST_F(GatewayStreams, GoOnOnceASecondWithTheLastStateWhileTheRobotIsGone) {
   EXPECT_NEAR(num_states(ana), 4, 1);
   for (const auto& message : ana.received) {
     if (!message.has_state()) continue;
-    EXPECT_EQ(message.state().mode(), "no-robot");
+    EXPECT_EQ(message.state().mode(), naoremote::MODE_NO_ROBOT);
   }
 }
 
 naoremote::Request get_state() {
   naoremote::Request request;
-  request.mutable_get_state()->set_with_picture(true);
+  request.mutable_get_state()->set_with_image(true);
   return request;
 }
 
 TEST_F(GatewayStreams, CanBePolledInstead) {
   Phone ana = connect("Ana");
-  auto polled = ask(ana, get_state()).state_and_picture();
+  auto polled = ask(ana, get_state()).state_and_image();
   EXPECT_EQ(polled.state().joint_position_size(), 4);
-  EXPECT_EQ(polled.state().mode(), "holding");
-  EXPECT_FALSE(polled.has_picture());
-  EXPECT_EQ(core_->camera_wishes(now_).size(), 1u) << "who polls pictures watches";
-  put_picture(5);
-  polled = ask(ana, get_state()).state_and_picture();
-  EXPECT_EQ(polled.picture().jpeg(), "jpeg 5");
-  EXPECT_FALSE(ask(ana, get_state()).state_and_picture().has_picture()) << "it is not new";
+  EXPECT_EQ(polled.state().mode(), naoremote::MODE_HOLDING);
+  EXPECT_FALSE(polled.has_image());
+  EXPECT_EQ(core_->camera_requests(now_).size(), 1u) << "who polls images watches";
+  put_image(5);
+  polled = ask(ana, get_state()).state_and_image();
+  EXPECT_EQ(polled.image().jpeg(), "jpeg 5");
+  EXPECT_FALSE(ask(ana, get_state()).state_and_image().has_image()) << "it is not new";
   pass(2.1);
-  EXPECT_TRUE(core_->camera_wishes(now_).empty());
+  EXPECT_TRUE(core_->camera_requests(now_).empty());
 }
 
 TEST_F(GatewayStreams, HaveNothingBeforeTheRobotSpoke) {
@@ -672,7 +672,7 @@ TEST_F(GatewayEnds, AConnectionWhoseNoticesAreNotRead) {
 
 TEST_F(GatewayEnds, EverythingWhenItShutsDown) {
   Phone ana = connect_driver("Ana");
-  walk(ana, 0.5);
+  walk(ana, 0.1);
   core_->shut_down(now_);
   EXPECT_EQ(last_walk().vx, 0);
   EXPECT_TRUE(core_->is_closing(ana.id));

@@ -48,7 +48,7 @@ class GatewayFixture : public testing::Test {
       now_ += 0.02;
       if (motion_speaks_) {
         MotionSnapshot motion;
-        motion.mode = has_robot_ ? "holding" : "no-robot";
+        motion.mode = has_robot_ ? Mode::kHolding : Mode::kNoRobot;
         core_->set_motion(motion, now_);
       }
       if (motion_speaks_ && has_robot_) {
@@ -117,11 +117,11 @@ class GatewayFixture : public testing::Test {
     request.mutable_release_control();
     return ask(phone, request);
   }
-  naoremote::Response walk(Phone& phone, double x, double y = 0, double theta = 0) {
+  naoremote::Response walk(Phone& phone, double vx, double vy = 0, double wz = 0) {
     naoremote::Request request;
-    request.mutable_walk_turn()->set_x(x);
-    request.mutable_walk_turn()->set_y(y);
-    request.mutable_walk_turn()->set_theta(theta);
+    request.mutable_walk_turn()->set_vx(vx);
+    request.mutable_walk_turn()->set_vy(vy);
+    request.mutable_walk_turn()->set_wz(wz);
     return ask(phone, request);
   }
   naoremote::Response go_to(Phone& phone, const std::string& posture) {
@@ -145,10 +145,10 @@ class GatewayFixture : public testing::Test {
     request.mutable_ping()->set_client_utime(7);
     return ask(phone, request);
   }
-  naoremote::Response subscribe(Phone& phone, double state_rate, double picture_rate) {
+  naoremote::Response subscribe(Phone& phone, double state_rate, double image_rate) {
     naoremote::Request request;
     request.mutable_subscribe()->set_state_rate(state_rate);
-    request.mutable_subscribe()->set_picture_rate(picture_rate);
+    request.mutable_subscribe()->set_image_rate(image_rate);
     return ask(phone, request);
   }
   naoremote::Response operate(Phone& phone, naoremote::Operate::Operation operation,
@@ -159,13 +159,14 @@ class GatewayFixture : public testing::Test {
     return ask(phone, request);
   }
 
-  void put_picture(int64_t utime, uint32_t width = 320) {
-    StoredPicture picture;
-    picture.utime = utime;
-    picture.width = width;
-    picture.height = width * 3 / 4;
-    picture.jpeg = "jpeg " + std::to_string(utime);
-    core_->add_picture(picture, now_);
+  void put_image(int64_t utime, uint32_t width = 320) {
+    StoredImage image;
+    image.utime = utime;
+    image.camera = "top";
+    image.width = width;
+    image.height = width * 3 / 4;
+    image.jpeg = "jpeg " + std::to_string(utime);
+    core_->add_image(image, now_);
   }
 
   /** Answers the last command as nao-motion would. */
@@ -191,11 +192,11 @@ class GatewayFixture : public testing::Test {
                                           [](const auto& message) { return message.has_state(); }));
   }
 
-  std::vector<naoremote::Picture> pictures(Phone& phone) {
+  std::vector<naoremote::Image> images(Phone& phone) {
     collect(phone);
-    std::vector<naoremote::Picture> found;
+    std::vector<naoremote::Image> found;
     for (const auto& message : phone.received) {
-      if (message.has_picture()) found.push_back(message.picture());
+      if (message.has_image()) found.push_back(message.image());
     }
     return found;
   }

@@ -43,17 +43,17 @@ class GatewayFuzz : public GatewayFixture {
         request.mutable_connect()->set_client_name(random_() % 2 ? odd_name() : "");
         break;
       case 1:
-        request.mutable_get_state()->set_with_picture(random_() % 2);
-        request.mutable_get_state()->mutable_picture()->set_width(random_() % 2 ? 320 : random_());
+        request.mutable_get_state()->set_with_image(random_() % 2);
+        request.mutable_get_state()->mutable_image()->set_width(random_() % 2 ? 320 : random_());
         break;
       case 2:
         request.mutable_subscribe()->set_state_rate(odd_double());
-        request.mutable_subscribe()->set_picture_rate(odd_double());
+        request.mutable_subscribe()->set_image_rate(odd_double());
         break;
       case 3:
-        request.mutable_walk_turn()->set_x(odd_double());
-        request.mutable_walk_turn()->set_y(odd_double());
-        request.mutable_walk_turn()->set_theta(odd_double());
+        request.mutable_walk_turn()->set_vx(odd_double());
+        request.mutable_walk_turn()->set_vy(odd_double());
+        request.mutable_walk_turn()->set_wz(odd_double());
         break;
       case 4:
         request.mutable_move_to()->set_x(odd_double());

@@ -22,9 +22,9 @@ class LiveGateway {
  public:
   struct Options {
     GatewayLimits limits;
-    /** Pictures a second, and bytes of each. */
-    double picture_rate = 15;
-    int picture_bytes = 7000;
+    /** Images a second, and bytes of each. */
+    double image_rate = 15;
+    int image_bytes = 7000;
   };
 
   LiveGateway() : LiveGateway(Options()) {}
@@ -65,8 +65,7 @@ class LiveGateway {
       bool has_started = false;
       network.on_readable(bus.descriptor(), [&] { bus.handle(); });
       network.every(0.01, [&] { motion.step(); });
-      network.every(1 / options.picture_rate,
-                    [&] { motion.send_picture(320, options.picture_bytes); });
+      network.every(1 / options.image_rate, [&] { motion.send_image(320, options.image_bytes); });
       network.every(0.02, [&] {
         daemon.step(monotonic_seconds());
         num_sessions_ = static_cast<int>(daemon.core().sessions().size());

@@ -72,29 +72,29 @@ TEST_F(LiveGatewayTest, SendsTheRobotToAPostureAndTellsSo) {
   ASSERT_EQ(phone.take_control().error(), naoremote::OK);
   const auto response = phone.go_to_posture("Crouch");
   ASSERT_EQ(response.error(), naoremote::OK) << response.message();
-  const auto outcome = phone.wait_for_outcome(response.request_id(), kDeadline);
-  ASSERT_TRUE(outcome.has_value());
-  EXPECT_EQ(outcome->outcome(), Notice::DONE);
+  const auto result = phone.wait_for_result(response.request_id(), kDeadline);
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(result->status(), Notice::DONE);
   EXPECT_TRUE(phone.run_until(
-      [&] { return phone.get_state(false).state_and_picture().state().posture() == "Crouch"; },
+      [&] { return phone.get_state(false).state_and_image().state().posture() == "Crouch"; },
       kDeadline));
 }
 
-TEST_F(LiveGatewayTest, StreamsStatesAndPictures) {
+TEST_F(LiveGatewayTest, StreamsStatesAndImages) {
   int num_states = 0;
-  int num_pictures = 0;
+  int num_images = 0;
   PhoneClient::Handlers handlers;
   handlers.on_state = [&](const naoremote::State& state) {
     ++num_states;
     EXPECT_EQ(state.joint_position_size(), 4);
   };
-  handlers.on_picture = [&](const naoremote::Picture& picture) {
-    ++num_pictures;
-    EXPECT_EQ(picture.jpeg().size(), 7000u);
+  handlers.on_image = [&](const naoremote::Image& image) {
+    ++num_images;
+    EXPECT_EQ(image.jpeg().size(), 7000u);
   };
   PhoneClient phone(phone_options("Ana"), handlers);
   ASSERT_EQ(phone.subscribe(30, 15).error(), naoremote::OK);
-  EXPECT_TRUE(phone.run_until([&] { return num_states >= 20 && num_pictures >= 10; }, kDeadline));
+  EXPECT_TRUE(phone.run_until([&] { return num_states >= 20 && num_images >= 10; }, kDeadline));
 }
 
 TEST_F(LiveGatewayTest, TurnsAJointAndShowsIt) {
@@ -103,7 +103,7 @@ TEST_F(LiveGatewayTest, TurnsAJointAndShowsIt) {
   ASSERT_EQ(phone.change_joints("head", 0.25, 0, 0).error(), naoremote::OK);
   EXPECT_TRUE(phone.run_until(
       [&] {
-        const auto state = phone.get_state(false).state_and_picture().state();
+        const auto state = phone.get_state(false).state_and_image().state();
         return std::abs(state.joint_position(0) - 0.25f) < 1e-6f;
       },
       kDeadline));
@@ -113,9 +113,9 @@ TEST_F(LiveGatewayTest, EndsTheWalkOfADriverWhoseConnectionBreaks) {
   {
     PhoneClient phone(phone_options("Ana"));
     phone.take_control();
-    ASSERT_EQ(phone.walk_turn(1, 0, 0).error(), naoremote::OK);
+    ASSERT_EQ(phone.walk_turn(0.15, 0, 0).error(), naoremote::OK);
     ASSERT_TRUE(wait_until([&] { return !gateway_.motion().walks().empty(); }));
-    EXPECT_EQ(gateway_.motion().walks().back().vx, 0.2);
+    EXPECT_EQ(gateway_.motion().walks().back().vx, 0.15);
   }
   EXPECT_TRUE(wait_until([&] { return gateway_.motion().walks().back().vx == 0; }));
 }
@@ -124,7 +124,7 @@ TEST_F(LiveGatewayTest, SaysWhenMotionIsGoneAndBack) {
   std::vector<Notice> notices;
   PhoneClient::Handlers handlers;
   handlers.on_notice = [&](const Notice& notice) {
-    if (notice.kind() == Notice::PART_CHANGED && notice.part() == "motion") {
+    if (notice.kind() == Notice::COMPONENT_CHANGED && notice.component() == Notice::MOTION) {
       notices.push_back(notice);
     }
   };
@@ -132,11 +132,11 @@ TEST_F(LiveGatewayTest, SaysWhenMotionIsGoneAndBack) {
   phone.take_control();
   gateway_.motion().is_silent = true;
   ASSERT_TRUE(phone.run_until([&] { return !notices.empty(); }, kDeadline));
-  EXPECT_FALSE(notices.back().available());
+  EXPECT_FALSE(notices.back().is_available());
   EXPECT_EQ(phone.go_to_posture("Crouch").error(), naoremote::ROBOT_UNAVAILABLE);
   gateway_.motion().is_silent = false;
   ASSERT_TRUE(phone.run_until([&] { return notices.size() == 2; }, kDeadline));
-  EXPECT_TRUE(notices.back().available());
+  EXPECT_TRUE(notices.back().is_available());
   EXPECT_EQ(phone.go_to_posture("Crouch").error(), naoremote::OK);
 }
 
@@ -197,7 +197,7 @@ TEST_F(LiveGatewayTest, LetsNobodyWaitForAFloodOrAStalledReader) {
   flood.send(request.SerializeAsString());
   stalled.send(request.SerializeAsString());
   request.mutable_subscribe()->set_state_rate(60);
-  request.mutable_subscribe()->set_picture_rate(30);
+  request.mutable_subscribe()->set_image_rate(30);
   stalled.send(request.SerializeAsString());
   request.mutable_ping();
   std::string many;

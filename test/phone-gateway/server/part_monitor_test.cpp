@@ -16,7 +16,7 @@ class PartMonitorTest : public testing::Test {
       now_ += 0.02;
       if (motion_) monitor_.heard_motion(robot_, now_);
       if (motion_ && robot_) monitor_.heard_robot(now_);
-      if (pictures_) monitor_.heard_picture(now_);
+      if (images_) monitor_.heard_image(now_);
       if (camera_) monitor_.heard_camera_status(now_);
       for (const auto& change : monitor_.step(now_)) changes_.push_back(change);
     }
@@ -25,7 +25,7 @@ class PartMonitorTest : public testing::Test {
   bool motion_ = true;
   bool robot_ = true;
   bool camera_ = true;
-  bool pictures_ = false;
+  bool images_ = false;
   double now_ = 10;
   PartMonitor monitor_{GatewayLimits{}};
   std::vector<PartMonitor::Change> changes_;
@@ -57,12 +57,12 @@ TEST_F(PartMonitorTest, TellsARobotFromTheProgramThatMovesIt) {
   EXPECT_FALSE(monitor_.is_available(Part::kRobot));
 }
 
-TEST_F(PartMonitorTest, MissesWatchedPicturesWithinTwoSeconds) {
+TEST_F(PartMonitorTest, MissesWatchedImagesWithinTwoSeconds) {
   monitor_.set_watched(true, now_);
-  pictures_ = true;
+  images_ = true;
   pass(5);
   EXPECT_TRUE(monitor_.is_available(Part::kCamera));
-  pictures_ = false;
+  images_ = false;
   pass(2);
   EXPECT_FALSE(monitor_.is_available(Part::kCamera));
 }
@@ -76,7 +76,7 @@ TEST_F(PartMonitorTest, MissesACameraThatNobodyWatchesWithinTwoSeconds) {
   EXPECT_FALSE(monitor_.is_available(Part::kCamera));
 }
 
-TEST_F(PartMonitorTest, ExpectsNoPicturesOfNobodyOrNothing) {
+TEST_F(PartMonitorTest, ExpectsNoImagesOfNobodyOrNothing) {
   pass(20);
   EXPECT_TRUE(monitor_.is_available(Part::kCamera)) << "nobody watches";
   monitor_.set_watched(true, now_);

@@ -20,6 +20,7 @@ inline PhoneRobot make_test_robot() {
     joint->set_max_velocity(5);
   }
   for (const char* name : {"Stand", "Crouch"}) description.add_postures(name);
+  for (const char* name : {"top", "bottom"}) description.add_cameras(name);
   for (const char* name : {"wave", "kick-left"}) description.add_actions(name);
   naoremote::JointGroup* head = description.add_joint_groups();
   head->set_name("head");
