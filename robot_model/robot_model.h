@@ -157,6 +157,8 @@ class RobotModel {
   int num_motors() const { return static_cast<int>(motor_joints_.size()); }
   const Joint& motor_joint(int motor) const { return joints_[motor_joints_[motor]]; }
   const Motor& motor(int motor) const { return motors_[motor]; }
+  /** Names of the motors' joints, in motor order. */
+  const std::vector<std::string>& motor_names() const { return motor_names_; }
 
   /** Index, or -1 if there is none of that name. */
   int find_link(const std::string& name) const;
@@ -209,6 +211,7 @@ class RobotModel {
   std::vector<Link> links_;
   std::vector<Joint> joints_;
   std::vector<int> motor_joints_;
+  std::vector<std::string> motor_names_;
   std::vector<Motor> motors_;
   std::vector<Posture> postures_;
   std::vector<CoupledLimit> coupled_limits_;

@@ -335,6 +335,7 @@ void RobotModelReader::read_urdf(const std::filesystem::path& file_path) {
     model_.joints_.push_back(joint);
     if (joint.kind == Joint::Kind::kRevolute && source->mimic == nullptr) {
       model_.motor_joints_.push_back(index);
+      model_.motor_names_.push_back(joint.name);
     }
   }
   for (Joint& joint : model_.joints_) {
