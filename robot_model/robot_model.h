@@ -145,6 +145,8 @@ class RobotModel {
 
   const std::string& name() const { return name_; }
   const std::filesystem::path& folder() const { return folder_; }
+  /** Absolute path of the URDF file, which robot.yaml's `urdf` names; it lies in folder(). */
+  const std::filesystem::path& urdf_file() const { return urdf_file_; }
 
   /** All links, parents before children; the first is the root ("torso"). */
   const std::vector<Link>& links() const { return links_; }
@@ -208,6 +210,7 @@ class RobotModel {
 
   std::string name_;
   std::filesystem::path folder_;
+  std::filesystem::path urdf_file_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
   std::vector<int> motor_joints_;

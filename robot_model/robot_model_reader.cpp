@@ -74,7 +74,8 @@ RobotModel RobotModelReader::read(const std::filesystem::path& folder) {
   if (std::filesystem::path(urdf).filename() != urdf) {
     robot.at("urdf").fail("must be a file in this folder");
   }
-  reader.read_urdf(reader.model_.folder_ / urdf);
+  reader.model_.urdf_file_ = reader.model_.folder_ / urdf;
+  reader.read_urdf(reader.model_.urdf_file_);
   reader.read_motors(robot.at("motor_types"), robot.at("motors"));
   reader.read_coupled_limits(robot.at("coupled_limits"));
   reader.read_joint_groups(robot.at("joint_groups"));

@@ -51,6 +51,14 @@ TEST(RobotFiles, LoadAsTheyAre) {
   EXPECT_EQ(complaint_about(robot.path()), "");
 }
 
+TEST(RobotFiles, MayHaveAUrdfOfAnyName) {
+  const CopiedRobot robot;
+  fs::rename(robot.path() / "nao.urdf", robot.path() / "other.urdf");
+  std::string text = robot.read("robot.yaml");
+  robot.write("robot.yaml", text.replace(text.find("nao.urdf"), 8, "other.urdf"));
+  EXPECT_EQ(RobotModel::load(robot.path()).urdf_file(), robot.path() / "other.urdf");
+}
+
 TEST(RobotFiles, AreMissedByName) {
   for (const std::string& file : kFiles) {
     const CopiedRobot robot;
