@@ -9,7 +9,11 @@ namespace nao {
 std::string to_sentence(const Reason& reason) {
   const size_t index = find_reason_entry(reason.code);
   if (index == kReasons.size()) return reason.code;
-  const std::string_view sentence = kReasons[index].sentence;
+  return fill_in_arguments(kReasons[index].sentence, reason.arguments);
+}
+
+std::string fill_in_arguments(std::string_view sentence,
+                              const std::vector<std::string>& arguments) {
   std::string result;
   for (size_t i = 0; i < sentence.size(); ++i) {
     // A placeholder is "{" digit "}"; a missing argument stays visible as its placeholder.
@@ -17,11 +21,11 @@ std::string to_sentence(const Reason& reason) {
                                 std::isdigit(static_cast<unsigned char>(sentence[i + 1])) != 0 &&
                                 sentence[i + 2] == '}';
     const size_t argument = is_placeholder ? static_cast<size_t>(sentence[i + 1] - '0') : 0;
-    if (!is_placeholder || argument >= reason.arguments.size()) {
+    if (!is_placeholder || argument >= arguments.size()) {
       result += sentence[i];
       continue;
     }
-    result += reason.arguments[argument];
+    result += arguments[argument];
     i += 2;
   }
   return result;

@@ -43,6 +43,10 @@ struct Reason {
  * itself for one that the table does not have. */
 std::string to_sentence(const Reason& reason);
 
+/** A sentence of a table with its placeholders replaced: "{0}" by the first argument, and so on. A
+ * placeholder without an argument stays as it is. */
+std::string fill_in_arguments(std::string_view sentence, const std::vector<std::string>& arguments);
+
 /** A number as an argument: at most six significant digits, "nan" or "inf" if it is not finite. */
 std::string to_argument(double value);
 
