@@ -47,7 +47,7 @@ using nao::percentile;
 using nao::WireClient;
 
 constexpr double kDeadline = 60;
-/** A change of the head's yaw that is quick and hurts nobody, rad. */
+/** Change of the head yaw, rad. Chosen: executed within half a second, far from the limits. */
 constexpr double kYawChange = 0.4;
 /** The joint has moved when its encoder (steps of 0.0015 rad, no other noise) reads the next step
  * on the way to the goal. Before, the reading has stood still for this long, s. */
