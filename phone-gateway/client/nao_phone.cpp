@@ -1,4 +1,4 @@
-// nao-phone: a phone for the command line. Speaks the protocol over raw TCP; see README.md.
+// nao-phone: a client of nao-phone-gateway for the command line, over raw TCP. See README.md.
 #include <cctype>
 #include <cstdio>
 #include <fstream>
@@ -10,18 +10,21 @@
 #include "common/program.h"
 #include "phone-gateway/client/phone_client.h"
 
-namespace nao {
+namespace nao::phone {
 namespace {
 
 using naoremote::Notice;
 using naoremote::Response;
 
+/** s. Chosen: longer than any motion of the robot, getting up and a posture included. */
 constexpr double kResultTimeout = 60;
+/** s; see WalkTurn and GetState in PROTOCOL.md. */
 constexpr double kWalkPeriod = 0.1;
 constexpr double kPollPeriod = 0.1;
-constexpr int kImageTries = 50;
+/** Polls until an image must have arrived: 5 s. */
+constexpr int kMaxImagePolls = 50;
 
-/** Everything that the command line can say. */
+/** Values of the command line. */
 struct PhoneOptions {
   PhoneClient::Options client;
   std::string posture;
@@ -62,17 +65,17 @@ void print_state(const naoremote::State& state, const naoremote::RobotDescriptio
   }
 }
 
-/** @return Exit status: 0 if the gateway said yes. */
+/** Prints a refusal. @return Exit status: 0 if the request was accepted. */
 int report(const Response& response) {
   if (response.error() == naoremote::OK) return 0;
   std::cerr << naoremote::ErrorCode_Name(response.error()) << ": " << response.message() << "\n";
   return 1;
 }
 
-/** Takes control, asks for a motion, and waits for its end. */
-int command(PhoneClient& client, const std::function<Response(PhoneClient&)>& ask) {
+/** Takes control, sends a command, and waits for its result. */
+int command(PhoneClient& client, const std::function<Response(PhoneClient&)>& send) {
   if (const int status = report(client.take_control()); status != 0) return status;
-  const Response response = ask(client);
+  const Response response = send(client);
   if (const int status = report(response); status != 0) return status;
   const auto result = client.wait_for_result(response.request_id(), kResultTimeout);
   if (!result) {
@@ -103,9 +106,9 @@ int show_state(PhoneClient& client) {
 }
 
 int save_image(PhoneClient& client, const std::string& file) {
-  // The camera starts when somebody watches: the first image takes a moment.
+  // The camera starts to render with the first request.
   Response response = client.get_state(true);
-  for (int i = 0; i < kImageTries && response.error() == naoremote::OK &&
+  for (int i = 0; i < kMaxImagePolls && response.error() == naoremote::OK &&
                   !response.state_and_image().has_image();
        ++i) {
     client.run_for(kPollPeriod);
@@ -123,7 +126,7 @@ int save_image(PhoneClient& client, const std::string& file) {
   return 0;
 }
 
-/** Prints a line for each state and image, and every notice, until the time is over. */
+/** Prints a line for each state, image and notice, for the requested duration. */
 int watch(const PhoneOptions& options) {
   PhoneClient::Handlers handlers;
   handlers.on_state = [](const naoremote::State& state) {
@@ -160,14 +163,14 @@ int list_clients(const PhoneOptions& options) {
   return 0;
 }
 
-/** A walk is refused in a notice, after its commands were passed on. */
+/** Prints why a walk was refused: its commands are answered OK, the refusal is a notice. */
 void print_refusal(const Notice& notice) {
   const bool is_bad = notice.kind() == Notice::COMMAND_RESULT &&
                       (notice.status() == Notice::REFUSED || notice.status() == Notice::FAILED);
   if (is_bad) std::cerr << notice.message() << "\n";
 }
 
-/** A subcommand that drives: connects, then does `act`. */
+/** Adds a subcommand that connects and then calls `act`. */
 CommandLine* add_action(CommandLine& app, PhoneOptions& options, std::function<int()>& chosen,
                         const std::string& name, const std::string& description,
                         std::function<int(PhoneClient&)> act) {
@@ -196,7 +199,8 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
             c, [&o](PhoneClient& client) { return client.go_to_posture(o.posture, o.speed); });
       });
   posture->add_option("name", o.posture, "Posture, such as Crouch")->required();
-  posture->add_option("--speed", o.speed, "Fraction of the maximum speed; 0: as the gateway likes");
+  posture->add_option("--speed", o.speed,
+                      "Fraction of the maximum speed, above 0 up to 1; 0: the gateway's default");
 
   CommandLine* joints = add_action(app, o, chosen, "joints", "Turn joints", [&o](PhoneClient& c) {
     return command(c, [&o](PhoneClient& client) {
@@ -208,7 +212,8 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
   joints->add_option("--yaw", o.yaw, "Change about this axis, rad");
   joints->add_option("--pitch", o.pitch, "Change about this axis, rad (hands: opening)");
   joints->add_option("--roll", o.roll, "Change about this axis, rad");
-  joints->add_option("--speed", o.speed, "Fraction of the maximum speed; 0: as the gateway likes");
+  joints->add_option("--speed", o.speed,
+                     "Fraction of the maximum speed, above 0 up to 1; 0: the gateway's default");
 
   CommandLine* action = add_action(app, o, chosen, "action", "Do an action", [&o](PhoneClient& c) {
     return command(c, [&o](PhoneClient& client) { return client.do_action(o.action); });
@@ -217,47 +222,48 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
 
   CommandLine* walking = add_action(app, o, chosen, "walk", "Walk and turn",
                                     [&o](PhoneClient& client) { return walk(client, o); });
-  CommandLine* move = add_action(app, o, chosen, "move", "Walk to a place", [&o](PhoneClient& c) {
-    return command(c, [&o](PhoneClient& client) { return client.move_to(o.x, o.y, o.theta); });
-  });
+  CommandLine* move = add_action(
+      app, o, chosen, "move", "Walk to a goal relative to the present pose", [&o](PhoneClient& c) {
+        return command(c, [&o](PhoneClient& client) { return client.move_to(o.x, o.y, o.theta); });
+      });
   walking->add_option("vx", o.vx, "Velocity forward, m/s; negative: backward")->required();
   walking->add_option("vy", o.vy, "Velocity to the left, m/s");
   walking->add_option("wz", o.wz, "Turning rate to the left, rad/s");
   walking->add_option("--duration", o.duration, "How long, s")->show_default();
-  move->add_option("x", o.x, "Ahead, m")->required();
+  move->add_option("x", o.x, "Forward, m")->required();
   move->add_option("y", o.y, "To the left, m");
-  move->add_option("theta", o.theta, "Heading there relative to the present one, rad");
+  move->add_option("theta", o.theta, "Heading at the goal relative to the present one, rad");
 
   add_action(app, o, chosen, "stop", "End any motion",
              [](PhoneClient& client) { return report(client.stop()); });
 
-  CommandLine* watching = app.add_subcommand("watch", "Print states and notices as they come");
+  CommandLine* watching =
+      app.add_subcommand("watch", "Print states, images and notices as they are received");
   watching->add_option("--duration", o.duration, "How long, s")->show_default();
   watching->add_option("--rate", o.rate, "States a second, up to 60")->show_default();
   watching->add_option("--images", o.image_rate, "Images a second, up to 30")->show_default();
   watching->on_parsed([&] { chosen = [&o] { return watch(o); }; });
-  app.add_subcommand("list", "Show who is connected (on the gateway's host only)")->on_parsed([&] {
-    chosen = [&o] { return list_clients(o); };
-  });
+  app.add_subcommand("list", "List the connected clients (on the gateway's host only)")
+      ->on_parsed([&] { chosen = [&o] { return list_clients(o); }; });
 }
 
 }  // namespace
-}  // namespace nao
+}  // namespace nao::phone
 
 int main(int argc, char** argv) {
-  nao::CommandLine app("A phone for the command line: drives the robot through nao-phone-gateway",
+  nao::CommandLine app("A client for the command line: drives the robot through nao-phone-gateway",
                        "nao-phone");
   nao::CommonOptions common;
-  nao::PhoneOptions options;
+  nao::phone::PhoneOptions options;
   options.client.name = "nao-phone";
   options.client.software = std::string("nao-phone ") + nao::version();
   app.add_version_flag("--version", app.name() + " " + nao::version());
   app.add_option("--host", options.client.host, "The gateway's host")->show_default();
   app.add_option("--port", options.client.port, "Its TCP port")->show_default();
-  app.add_option("--token", options.client.token, "Its token; not needed on its own host");
-  app.add_option("--name", options.client.name, "What others shall call this phone")
-      ->show_default();
+  app.add_option("--token", options.client.token,
+                 "Pairing token; not needed on the gateway's own host");
+  app.add_option("--name", options.client.name, "Name that other clients see")->show_default();
   std::function<int()> chosen;
-  nao::add_subcommands(app, options, chosen);
+  nao::phone::add_subcommands(app, options, chosen);
   return nao::run_program_with_status(app, common, argc, argv, [&] { return chosen(); });
 }

@@ -12,13 +12,17 @@ using naoremote::Notice;
 using naoremote::Request;
 using naoremote::Response;
 
+/** s; see PROTOCOL.md. */
 constexpr double kPingPeriod = 1;
+/** Results and answers that are stored until they are taken. Chosen: more than a program has under
+ * way, to bound memory. */
 constexpr size_t kMaxResults = 64;
 constexpr size_t kMaxResponses = 256;
 
 naoremote::ServerMessage parse(const std::string& bytes) {
   naoremote::ServerMessage message;
-  if (!message.ParseFromString(bytes)) throw ConnectionError("the gateway speaks another language");
+  if (!message.ParseFromString(bytes))
+    throw ConnectionError("the gateway sent a message that is no ServerMessage");
   return message;
 }
 
