@@ -40,8 +40,8 @@ int main(int argc, char** argv) {
     options.robots = {common.robot};
     options.robots.insert(options.robots.end(), more_robots.begin(), more_robots.end());
     const bool is_in_real_time = !options.lock_step && options.pace > 0;
-    if (is_in_real_time && nao::ask_for_prompt_turns(nao::Turns::kControl))
-      spdlog::info("runs ahead of usual programs");
+    if (is_in_real_time && nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
+      spdlog::info("uses real-time scheduling (SCHED_RR)");
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);
     const nao::sim::SimDaemon daemon(bus, loop, options);

@@ -201,9 +201,9 @@ std::string SimDaemon::carry_out(const naolcm::world_command_t& message) {
     pacer_.set_pace(message.pace, now);
     // Who never waits must not keep others from the processor.
     if (message.pace > 0) {
-      ask_for_prompt_turns(Turns::kControl);
+      request_realtime_scheduling(RealtimePriority::kControl);
     } else {
-      take_usual_turns();
+      use_normal_scheduling();
     }
   } else if (command == "place-robot") {
     return place_robot(message, robot);

@@ -28,8 +28,8 @@ int main(int argc, char** argv) {
   app.add_flag("!--no-get-up", options.gets_up, "After a fall, lie until told to get up");
   return nao::run_program(app, common, argc, argv, [&] {
     const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
-    if (nao::ask_for_prompt_turns(nao::Turns::kControl))
-      spdlog::info("runs ahead of usual programs");
+    if (nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
+      spdlog::info("uses real-time scheduling (SCHED_RR)");
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);
     const nao::motion::MotionDaemon daemon(bus, loop, model, options, common.robot);

@@ -124,9 +124,9 @@ void MotionDaemon::publish_status() {
   const int64_t steps = num_steps_ - num_reported_steps_;
   num_reported_steps_ = num_steps_;
   if (static_cast<double>(steps) * kTick > kFastPace) {
-    take_usual_turns();
+    use_normal_scheduling();
   } else {
-    ask_for_prompt_turns(Turns::kControl);
+    request_realtime_scheduling(RealtimePriority::kControl);
   }
   if (core_.motion_state().mode == Mode::kNoRobot) {
     status_.set_state("waiting", "waiting for " + channels_.sensor_state);

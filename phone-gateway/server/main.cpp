@@ -126,7 +126,8 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   if (options.token.empty()) options.token = make_token();
   prepare_tls(options);
   const std::filesystem::path folder = data_path() / "robots" / options.model;
-  if (ask_for_prompt_turns(Turns::kServing)) spdlog::info("runs ahead of usual programs");
+  if (request_realtime_scheduling(RealtimePriority::kServing))
+    spdlog::info("uses real-time scheduling (SCHED_RR)");
   Bus bus(common.lcm_url);
   GatewayDaemon daemon(bus, common.robot, describe_robot(RobotModel::load(folder)), options.limits,
                        options.token, options.audit_file);

@@ -583,7 +583,7 @@ int main(int argc, char** argv) {
   if (const auto status = app.parse(argc, argv)) return *status;
   spdlog::set_level(spdlog::level::warn);
   // Phones are machines of their own: what they see must not wait for a turn on this one.
-  nao::ask_for_prompt_turns(nao::Turns::kControl);
+  nao::request_realtime_scheduling(nao::RealtimePriority::kControl);
   try {
     nao::report(run(num_rounds, time), json_file);
   } catch (const std::exception& error) {
