@@ -1,4 +1,4 @@
-#include "tools/nao/json_writer.h"
+#include "common/json_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -18,20 +18,26 @@ TEST(JsonWriter, NestsObjectsAndArrays) {
   json.end();
   json.add("c", true);
   json.end();
-  EXPECT_EQ(json.text(), R"({"a": 1, "b": ["x", {}], "c": true})");
+  EXPECT_EQ(json.text(), R"({"a":1,"b":["x",{}],"c":true})");
 }
 
 TEST(JsonWriter, EscapesQuotesAndControlCharacters) {
   JsonWriter json;
   json.add("", "say \"no\"\\\n");
-  EXPECT_EQ(json.text(), R"("say \"no\"\\\u000a")");
+  EXPECT_EQ(json.text(), R"("say \"no\"\\\n")");
 }
 
-TEST(JsonWriter, KeepsAllDigitsAndHasNoNan) {
+TEST(JsonWriter, ReplacesBytesThatAreNotUtf8) {
+  JsonWriter json;
+  json.add("", "a\xff");
+  EXPECT_EQ(json.text(), "\"a\xef\xbf\xbd\"");
+}
+
+TEST(JsonWriter, KeepsAllDigitsAndWritesNanAsNull) {
   JsonWriter json;
   const double values[] = {0.1, 1.0 / 3, std::nan(""), -INFINITY};
   json.add("", values, 4);
-  EXPECT_EQ(json.text(), "[0.1, 0.3333333333333333, null, null]");
+  EXPECT_EQ(json.text(), "[0.1,0.3333333333333333,null,null]");
 }
 
 }  // namespace
