@@ -35,7 +35,7 @@ def utime(event):
 
 
 def commands(events):
-    """Commands with the robot time of the newest sensors that were on the bus before them."""
+    """Commands with the robot time of the latest preceding sensor state."""
     now, frozen = None, []
     for event in events:
         if event.channel == SENSOR:
@@ -47,7 +47,7 @@ def commands(events):
 
 
 def sensors(events):
-    """From two seconds before the end of what is steady to the end of the fall."""
+    """From 2 s before the end of the steady phase to the end of the fall."""
     sensed = [event for event in events if event.channel == SENSOR]
     fall = next((event for event in events
                  if event.channel == "NAO_MOTION_STATE" and b"falling\0" in event.data), None)

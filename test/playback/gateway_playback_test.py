@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A log of states and pictures, played to nao-phone-gateway, reaches a phone as it was."""
+"""A phone receives a replayed log of states and images unchanged from nao-phone-gateway."""
 
 import json
 import os
@@ -60,7 +60,7 @@ class GatewayPlayback(unittest.TestCase):
         modes = {message["mode"] for message in logged("NAO_MOTION_STATE").values()}
         with self.phone() as phone:
             phone.ask(subscribe=pb.Subscribe(state_rate=30))
-            # Between two rounds of a slow player the gateway rightly says, for a moment, that no robot is there.
+            # Between two rounds of a slow player the gateway correctly reports for a short time that no robot is connected.
             self.assertTrue(phone.wait_until(
                 lambda: phone.state is not None and phone.state.utime in states and phone.state.mode in modes,
                 DEADLINE), f"{phone.state}{self.stack.logs()}")
@@ -79,7 +79,7 @@ class GatewayPlayback(unittest.TestCase):
             phone.ask(subscribe=pb.Subscribe(state_rate=1, picture_rate=10, picture=pb.PictureWish(width=320)))
             self.assertTrue(phone.wait_until(lambda: phone.picture is not None, DEADLINE), self.stack.logs())
             shown = phone.picture
-        # The picture is the end of the message.
+        # The image is the last field of the message.
         self.assertTrue(pictures[shown.utime].endswith(shown.jpeg))
         self.assertTrue(shown.jpeg.startswith(b"\xff\xd8"))
 

@@ -23,7 +23,7 @@ MAX_END = 2  # s
 
 
 class Run:
-    """One order, from the first start to the last end."""
+    """One order of starts and ends of the programs."""
 
     def __init__(self, stack):
         self.stack = stack
@@ -38,7 +38,7 @@ class Run:
         self.programs[name] = Program(words[0], self.stack.lcm_url, *options)
 
     def carry_out(self, order):
-        """@return what went wrong; empty if nothing did."""
+        """@return The failure; empty on success."""
         begin = time.monotonic()
         for name in order:
             self.start(name)

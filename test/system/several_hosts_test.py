@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Simulator and camera, motion, and gateway on three hosts, with a network between them that delays and loses."""
+"""Simulator and camera, motion, and gateway on three hosts, with a network that delays and drops datagrams."""
 
 import json
 import math
@@ -15,7 +15,7 @@ WORLD, MOTION, GATEWAY = "world", "motion", "gate"
 ONLY = {WORLD: "sim,head-camera", MOTION: "motion", GATEWAY: "phone-gateway"}
 DELAY = 0.02  # s, one way
 LOSS = float(os.environ.get("NAO_TEST_LOSS", "0.01"))
-# From the last walk command that comes through to a robot at rest: motion lets a command stand for 0.5 s; the steps
+# From the last received walk command to a robot at rest: a command is valid for 0.5 s; the steps
 # that end the walk take more at this delay (nao-trial walk --latency 6 --late 0.02: up to 1 s).
 STOP_TIME = 2.0
 
@@ -81,7 +81,7 @@ class SeveralHosts(unittest.TestCase):
         self.assertTrue(picture.read_bytes().startswith(b"\xff\xd8"))
 
     def place(self):
-        """Where the torso truly is, m, and on the world's clock, s."""
+        """(true position of the torso, m; simulated time, s)."""
         world = json.loads(self.part[WORLD].nao("world", "show", "--json").stdout)
         return world["robots"][0]["position_torso_in_world"], world["utime"] * 1e-6
 

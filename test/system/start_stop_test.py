@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/start, stop and status, as a person uses them."""
+"""scripts/start, stop and status, as users call them."""
 
 import json
 import os
@@ -106,7 +106,7 @@ class Start(unittest.TestCase):
         with Stack() as stack:
             stack.start_or_fail("--only", "sim,motion")
             killed = set()
-            # The waits between ten starts add up to a minute.
+            # The delays between ten restarts add up to a minute.
             deadline = time.monotonic() + 5 * DEADLINE
             status = stack.script("status")
             while "given up" not in status.stdout:

@@ -35,7 +35,7 @@ class Course:
 
     @staticmethod
     def record(stack, drive, seconds):
-        """What the world did while a command drove the robot."""
+        """World truths during one walk command."""
         log = stack.run_dir / "walk.lcmlog"
         log.unlink(missing_ok=True)
         recorder = subprocess.Popen(
@@ -50,12 +50,12 @@ class Course:
         return Course([json.loads(line).get("message", json.loads(line)) for line in lines])
 
     def speed(self, seconds):
-        """m/s and rad/s between the time when the gait had its speed and the end of the command."""
+        """Mean velocity, m/s and rad/s, from the time when the gait has reached its speed to the end of the command."""
         robots = [(truth["utime"] * 1e-6, truth["robots"][0]) for truth in self.truths]
         start = next(time for time, robot in robots if math.hypot(*robot["velocity_torso_in_world"][:2]) > 0.05)
         window = [(time, robot) for time, robot in robots if start + SPEED_UP <= time <= start + seconds - 0.5]
         way = turn = 0.0
-        # Straight from one second to the next: a robot that turns on the spot goes nowhere.
+        # Displacements of whole seconds: the sway within a step cancels, and turning in place gives no speed.
         marks = window[::100]
         for (_, before), (_, after) in zip(marks, marks[1:]):
             way += math.dist(before["position_torso_in_world"][:2], after["position_torso_in_world"][:2])

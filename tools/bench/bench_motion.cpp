@@ -1,5 +1,5 @@
-// Measures the motion core: processor time of one step while it stands and while it walks, and how
-// fast simulator and core run together on one core.
+// Measures the motion core: CPU time of one step while standing and while walking, and the
+// real-time factor of simulator and motion core on one CPU core.
 
 #include <cstdio>
 #include <ctime>
@@ -17,7 +17,7 @@
 namespace nao {
 namespace {
 
-/** Time of the processor that this thread has used, s. */
+/** CPU time of this thread, s. */
 double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -31,7 +31,7 @@ ClosedLoopOptions trial_options() {
   return options;
 }
 
-/** Median over ticks of a core's step, us, with the sensors of a trial that runs beside it. */
+/** Median CPU time of a motion core's step, us; the sensor states come from a trial. */
 double step_us(const Eigen::Vector3d& velocity, double seconds) {
   ClosedLoop trial(trial_options(), 1);
   std::vector<double> times;

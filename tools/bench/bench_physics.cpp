@@ -1,6 +1,6 @@
-// Measures the physics: time of a step, by stages, over contacts and robots; beside MuJoCo, where
-// that is installed, on the same robot in turns, and the error of both at 2 ms against their own
-// answers at a fortieth of that.
+// Measures the physics: CPU time of a step, in total, by stage, by number of contacts and of
+// robots. Baseline, if installed: MuJoCo with the same robot, interleaved. Also measures the error
+// of both at a time step of 2 ms relative to their own solution at 0.05 ms.
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ using sim::WorldOptions;
 
 constexpr double kTick = 0.01;
 
-/** Time of the processor that this thread has used, s. */
+/** CPU time of this thread, s. */
 double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -46,13 +46,13 @@ std::shared_ptr<const RobotModel> nao_model() {
   return model;
 }
 
-/** What the robot does, in both simulators. */
+/** Motion of the robot, in both simulators. */
 struct Scenario {
   std::string name;
   std::string posture = "StandInit";
   double height = 0;
   bool is_limp = false;
-  /** Targets of each tick; the last ones stay. Empty: as it stands. */
+  /** Joint targets of each tick; the last ones are held. Empty: the posture's angles. */
   std::vector<Eigen::VectorXd> targets;
 };
 
@@ -77,7 +77,7 @@ Scenario walking() {
   return scenario;
 }
 
-/** In the air, all joints swinging, the legs so far apart that they do not meet. */
+/** In free fall with oscillating joints; the legs are spread so that they do not collide. */
 Scenario falling() {
   Scenario scenario;
   scenario.name = "falling";
@@ -96,7 +96,7 @@ Scenario falling() {
   return scenario;
 }
 
-/** Our physics in a scenario. */
+/** The project's physics in a scenario. */
 class Ours {
  public:
   Ours(const Scenario& scenario, double step, const WorldOptions& base = {})
@@ -178,7 +178,7 @@ double joint_difference(const sim::TreeState& a, const sim::TreeState& b) {
   return std::sqrt(difference.squaredNorm() / static_cast<double>(difference.size() - 6));
 }
 
-/** Error of the joints of one physics over a time against another, rad. */
+/** RMS joint angle error of one simulation relative to another over a duration, rad. */
 template <class Physics, class Reference>
 double difference(Physics& physics, Reference& reference, int ticks) {
   double sum = 0;
@@ -193,7 +193,7 @@ double difference(Physics& physics, Reference& reference, int ticks) {
 constexpr double kStep = 0.002;
 constexpr double kFineStep = 0.00005;
 
-/** Error of the joints at 2 ms over a time, by the same physics at 0.05 ms, rad. */
+/** RMS joint angle error at a time step of 2 ms relative to the same physics at 0.05 ms, rad. */
 template <class Physics>
 double step_error(const Scenario& scenario, int ticks) {
   Physics coarse(scenario, kStep);
@@ -202,8 +202,8 @@ double step_error(const Scenario& scenario, int ticks) {
 }
 
 #ifdef NAO_HAS_MUJOCO
-/** Error at 2 ms against one reference for both: MuJoCo at 0.05 ms with our laws of contact and dry
- * friction, rad. */
+/** RMS joint angle error at a time step of 2 ms relative to a common reference solution, rad:
+ * MuJoCo at 0.05 ms with the project's contact and friction models. */
 template <class Physics>
 double common_error(const Scenario& scenario, int ticks) {
   Physics coarse(scenario, kStep);
@@ -212,7 +212,7 @@ double common_error(const Scenario& scenario, int ticks) {
 }
 #endif
 
-/** Processor time of a step, us, of several tasks in turns. */
+/** CPU time of a step of several interleaved tasks, us. */
 std::vector<double> times_in_turns(const std::vector<std::function<void()>>& ticks, int rounds,
                                    int ticks_per_round, int steps_per_tick) {
   std::vector<std::vector<double>> times(ticks.size());
@@ -229,7 +229,7 @@ std::vector<double> times_in_turns(const std::vector<std::function<void()>>& tic
 }
 
 void measure_scenario(const Scenario& scenario, int rounds, std::vector<Figure>& figures) {
-  // A recorded motion is played anew in each round; a state of rest is settled first.
+  // A recorded motion restarts in each round; a resting state first settles.
   const bool is_recorded = !scenario.targets.empty();
   const int ticks = is_recorded ? static_cast<int>(scenario.targets.size()) : 100;
   Ours ours(scenario, 0.002);
@@ -267,7 +267,7 @@ void measure_scenario(const Scenario& scenario, int rounds, std::vector<Figure>&
 #endif
   const std::vector<double> us = times_in_turns(tasks, rounds, ticks, 5);
   const std::string name = "physics." + scenario.name;
-  std::fprintf(stderr, "%s: %.1f contacts, %.1f sweeps a step", name.c_str(),
+  std::fprintf(stderr, "%s: %.1f contacts, %.1f solver iterations per step", name.c_str(),
                contacts / static_cast<double>(counted), sweeps / static_cast<double>(counted));
 #ifdef NAO_HAS_MUJOCO
   const sim::TreeState end_ours = ours.state();
@@ -299,7 +299,7 @@ void measure_stages(const Scenario& scenario, std::vector<Figure>& figures) {
   Ours ours(scenario, 0.002);
   StageTimes times;
   for (int i = 0; i < 300; ++i) ours.tick();
-  // Reading the clock costs as much as a stage: an empty step's worth of readings is taken off.
+  // Reading the clock takes about as long as a stage: the duration of the readings is subtracted.
   constexpr int kReadings = 100000;
   const double start = processor_seconds();
   for (int i = 0; i < kReadings; ++i) (void)processor_seconds();
@@ -393,8 +393,8 @@ void measure(int rounds, const std::string& json_file) {
     Figure figure{"physics." + scenario->name + ".error_mrad",
                   1e3 * step_error<Ours>(*scenario, ticks), "mrad", "", 0};
 #ifdef NAO_HAS_MUJOCO
-    figure.peer = "MuJoCo, same contact points";
-    figure.peer_value = 1e3 * step_error<Theirs>(*scenario, ticks);
+    figure.baseline = "MuJoCo, same contact points";
+    figure.baseline_value = 1e3 * step_error<Theirs>(*scenario, ticks);
 #endif
     figures.push_back(figure);
 #ifdef NAO_HAS_MUJOCO
@@ -411,12 +411,12 @@ void measure(int rounds, const std::string& json_file) {
 }  // namespace nao
 
 int main(int argc, char** argv) {
-  nao::CommandLine app("Measures the physics, beside MuJoCo where that is installed.",
+  nao::CommandLine app("Measures the physics. Baseline, if installed: MuJoCo.",
                        "nao-bench-physics");
   std::string json_file;
   int rounds = 40;
   app.add_option("--json", json_file, "File for the figures");
-  app.add_option("--rounds", rounds, "Turns of each simulator in each scenario")
+  app.add_option("--rounds", rounds, "Repetitions of each simulator in each scenario")
       ->range(3, 1000)
       ->show_default();
   if (const auto status = app.parse(argc, argv)) return *status;

@@ -46,7 +46,7 @@ double ChildProcess::cpu_seconds() const {
   std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
   std::string line;
   std::getline(file, line);
-  // The name, in brackets, may hold spaces; 11 fields stand between it and the user time.
+  // Source: proc(5). The name in parentheses may contain spaces; 11 fields separate it from utime.
   std::istringstream fields(line.substr(line.rfind(')') + 2));
   std::string skipped;
   for (int i = 0; i < 11; ++i) fields >> skipped;

@@ -7,8 +7,8 @@
 
 namespace nao {
 
-/** A program that a benchmark starts and ends. It takes usual turns until it asks for others,
- * however the benchmark itself runs. */
+/** A program that a benchmark or test starts and ends. It starts with normal scheduling, whatever
+ * the scheduling of the parent. */
 class ChildProcess {
  public:
   /** @param command  Path and arguments. Its output goes to a file in the temporary folder.
@@ -21,13 +21,13 @@ class ChildProcess {
 
   pid_t pid() const { return pid_; }
 
-  /** Processor time that it has used, all threads, s. */
+  /** CPU time of all its threads, s. */
   double cpu_seconds() const;
 
-  /** Memory that it holds, MiB. */
+  /** Resident memory, MiB. */
   double rss_mib() const;
 
-  /** What it has printed so far. */
+  /** Its output so far. */
   std::string output() const;
 
  private:
@@ -35,7 +35,7 @@ class ChildProcess {
   std::string output_file_;
 };
 
-/** The folder of the running program, where the others lie. */
+/** Folder of the running program and of the project's other programs. */
 std::string program_folder();
 
 }  // namespace nao

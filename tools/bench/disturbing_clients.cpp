@@ -22,7 +22,7 @@ naoremote::Request ping() {
   return request;
 }
 
-/** Greets, and wishes for all that there is. */
+/** Sends hello and requests every state and image stream. */
 std::unique_ptr<WireClient> connect_watcher(uint16_t tcp_port) {
   auto client = connect_tcp(tcp_port);
   naoremote::Request request;
@@ -52,7 +52,7 @@ void DisturbingClients::run() {
   for (int turn = 0; !is_ending_; ++turn) {
     std::this_thread::sleep_for(kTurn);
     if (turn % kTurnsPerSecond == 0) {
-      // A sign of life, or the gateway would close them after 5 s.
+      // Keep-alive: the gateway closes idle connections after 5 s.
       stalled_->send(ping());
       slow_->send(ping());
     }

@@ -51,7 +51,7 @@ Command random_command(ClosedLoop& trial) {
   return random_joint_change(trial);
 }
 
-/** Watches targets and results while commands rain. */
+/** Checks joint targets and results during a series of commands. */
 class Watch {
  public:
   Watch(ClosedLoop& trial, RunResult& result) : trial_(trial), result_(result) {
@@ -60,7 +60,7 @@ class Watch {
   }
   ~Watch() { trial_.on_tick({}); }
 
-  /** A new mind takes over; what the old one owed is forgotten. */
+  /** A new motion core starts; results that the old one still owed are no longer expected. */
   void expect_restart() {
     forgiven_.clear();
     for (const auto& [id, is_open] : open_) {
@@ -132,7 +132,7 @@ std::vector<RunResult> CommandsScenario::run(const ScenarioOptions& options, uin
       ++num_restarts;
     }
   }
-  // A walk has no end of its own.
+  // A walk ends only at another command.
   if (result.failure.empty()) watch.expect_result(trial.send({"", 0, StopCommand{}}));
   const bool all_ended =
       trial.run_until([&] { return !watch.has_open() || !result.failure.empty(); }, kTimeToEnd);
