@@ -29,10 +29,10 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/child_process.h"
 #include "common/command_line.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
-#include "tools/bench/child_process.h"
 #include "tools/bench/disturbing_clients.h"
 #include "tools/bench/figures.h"
 #include "tools/bench/wire_client.h"

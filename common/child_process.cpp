@@ -1,45 +1,77 @@
-#include "tools/bench/child_process.h"
+#include "common/child_process.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
+#include <thread>
 
+#include "common/error.h"
 #include "common/scheduling.h"
 
 namespace nao {
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command) {
-  std::string pattern = (std::filesystem::temp_directory_path() / "nao-bench-XXXXXX").string();
-  const int file = mkstemp(pattern.data());
-  if (file < 0) throw std::runtime_error("cannot write to the temporary folder");
-  output_file_ = pattern;
+ChildProcess::ChildProcess(const std::vector<std::string>& command, Output output) {
+  int file = -1;
+  if (output == Output::kFile) {
+    std::string pattern = (std::filesystem::temp_directory_path() / "nao-child-XXXXXX").string();
+    file = mkstemp(pattern.data());
+    if (file < 0) throw Error("cannot create " + pattern + " for a program's output");
+    output_file_ = pattern;
+  }
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   pid_ = fork();
   if (pid_ == 0) {
     use_normal_scheduling();
-    dup2(file, STDOUT_FILENO);
-    dup2(file, STDERR_FILENO);
+    // The parent's EventLoop may have blocked SIGTERM; the mask survives execv().
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+    if (file >= 0) {
+      dup2(file, STDOUT_FILENO);
+      dup2(file, STDERR_FILENO);
+    }
     execv(arguments[0], arguments.data());
     _exit(127);
   }
-  close(file);
-  if (pid_ < 0) throw std::runtime_error("cannot start " + command.at(0));
+  if (file >= 0) close(file);
+  if (pid_ < 0) throw Error("cannot start " + command.at(0));
 }
 
 ChildProcess::~ChildProcess() {
-  kill(pid_, SIGTERM);
-  waitpid(pid_, nullptr, 0);
+  if (pid_ > 0) {
+    using std::chrono::steady_clock;
+    const auto deadline = steady_clock::now() + std::chrono::seconds(5);
+    kill(pid_, SIGTERM);
+    while (waitpid(pid_, nullptr, WNOHANG) == 0) {
+      if (steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      } else {
+        kill(pid_, SIGKILL);
+      }
+    }
+  }
   std::error_code ignored;
-  std::filesystem::remove(output_file_, ignored);
+  if (!output_file_.empty()) std::filesystem::remove(output_file_, ignored);
+}
+
+int ChildProcess::end(int signal) {
+  kill(pid_, signal);
+  return wait();
+}
+
+int ChildProcess::wait() {
+  int status = 0;
+  waitpid(pid_, &status, 0);
+  pid_ = -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
 double ChildProcess::cpu_seconds() const {
