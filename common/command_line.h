@@ -75,7 +75,7 @@ class CommandLine {
   std::string name() const;
 
   /** Adds an option ("--seeds") or argument ("seeds") that fills a variable; one of a vector may be
-   * repeated, and takes several values unless told otherwise. */
+   * repeated, and takes several values unless limited by count(). */
   Option* add_option(const std::string& name, std::string& variable, const std::string& help);
   Option* add_option(const std::string& name, uint16_t& variable, const std::string& help);
   Option* add_option(const std::string& name, int32_t& variable, const std::string& help);

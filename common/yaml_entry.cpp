@@ -134,7 +134,7 @@ void YamlEntry::fail(const std::string& what) const {
   const std::string line = mark.is_null() ? "" : ":" + std::to_string(mark.line + 1);
   source_->thrower(source_->file + line + ": " + (where_.empty() ? "the file" : where_) + " " +
                    what);
-  // Not reached: every thrower throws.
+  // Unreachable: every thrower throws.
   std::abort();
 }
 

@@ -3,7 +3,7 @@
 
 Makes a small frozen log for the playback tests of a recording with scripts/record.
 
-  commands  what a phone told the robot, timed by the robot's clock instead of the wall's
+  commands  commands of a phone with robot time instead of wall time
   sensors   every second NAO_SENSOR_STATE of the two seconds around the moment when the robot falls
   truth     the last WORLD_TRUTH
   gateway   a second of states, ten of each kind, and two pictures

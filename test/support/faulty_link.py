@@ -12,7 +12,7 @@ class FaultyLink:
     """Relays connections from .port to a port of this host, both ways. Use it in a with statement.
 
     .delay    seconds that every byte takes, each way
-    .stalled  True: nothing gets through and nobody is told, as with a phone out of reach
+    .stalled  True: no data passes and neither end is notified, as with a phone out of range
     """
 
     def __init__(self, target_port):

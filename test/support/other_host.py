@@ -1,6 +1,6 @@
 """A second host, for tests of remote phones: a network namespace behind a virtual cable.
 
-Needs no privileges where the kernel lets users make namespaces; enter_private_network() tells.
+Needs no privileges where the kernel permits user namespaces; enter_private_network() returns whether it does.
 """
 
 import contextlib

@@ -103,7 +103,7 @@ class Stack:
                     program = (folder / "cmdline").read_bytes().split(b"\0")[0].decode()
                     found[Path(program).name] = int(folder.name)
             except OSError:
-                continue  # it ended meanwhile, or is somebody else's
+                continue  # it has ended, or belongs to another user
         return found
 
     def wait_ready(self, *programs):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Usage: test/system/chaos.py [--minutes M] [--seed N] [--patience FACTOR]
+"""Usage: test/system/chaos.py [--minutes M] [--seed N] [--time-scale FACTOR]
 
 Fault injection: crashes, hangs or exhausts the memory of programs of a whole stack at random times while a phone
 drives and a recorder records. Prints the recovery times, whether the robot moved without control, and the
@@ -25,7 +25,7 @@ from lcm_log import read_events  # noqa: E402
 from stack import BIN_DIR, DEADLINE, ROOT, Stack  # noqa: E402
 
 PROGRAMS = ["nao-sim", "nao-motion", "nao-head-camera", "nao-phone-gateway"]
-# Bound for a machine without other load; --patience scales it.
+# Bound for a machine without other load; --time-scale scales it.
 MAX_RECOVERY = 10  # s
 # From the loss of control (gateway or phone) to the end of the walk.
 MAX_RUNNING_ON = 1.5  # s
@@ -155,7 +155,7 @@ class Recording:
         return worst
 
 
-def report(chaos, recording, driver, patience):
+def report(chaos, recording, driver, time_scale):
     times = sorted(seconds for _, _, _, seconds in chaos.faults if seconds is not None)
     failures = sum(seconds is None for _, _, _, seconds in chaos.faults)
     sensors_missing, sensors = recording.missing("NAO_SENSOR_STATE", chaos.faults)
@@ -165,9 +165,9 @@ def report(chaos, recording, driver, patience):
         ("unaffected by exhausted memory", f"{chaos.num_unaffected}", True),
         ("not recovered", f"{failures}", failures == 0),
         ("recovery time, median", f"{times[len(times) // 2]:.1f} s" if times else "-", bool(times)),
-        ("recovery time, worst", f"{times[-1]:.1f} s" if times else "-", bool(times) and times[-1] <= patience * MAX_RECOVERY),
+        ("recovery time, worst", f"{times[-1]:.1f} s" if times else "-", bool(times) and times[-1] <= time_scale * MAX_RECOVERY),
         ("complete drives of 4 s", f"{driver.num_drives}", driver.num_drives > 0),
-        ("walked on after the last walk command", f"{walked_on:.2f} s", walked_on <= patience * MAX_RUNNING_ON),
+        ("walked on after the last walk command", f"{walked_on:.2f} s", walked_on <= time_scale * MAX_RUNNING_ON),
         ("sensor states missing between faults", f"{sensors_missing} of {sensors}", sensors_missing == 0),
     ]
     for name, value, is_good in rows:
@@ -179,7 +179,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--minutes", type=float, default=30)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--patience", type=float, default=1, help="factor of the bounds in time, on a machine with other load")
+    parser.add_argument("--time-scale", type=float, default=1, help="factor of the bounds in time, on a machine with other load")
     arguments = parser.parse_args()
     random.seed(arguments.seed)
     with Stack() as stack:
@@ -198,7 +198,7 @@ def main():
             driver.join(DEADLINE)
             recorder.terminate()
             recorder.wait(DEADLINE)
-        is_good = report(chaos, Recording(log), driver, arguments.patience)
+        is_good = report(chaos, Recording(log), driver, arguments.time_scale)
         if not is_good:
             print(stack.logs())
     return 0 if is_good else 1

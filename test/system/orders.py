@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Usage: test/system/orders.py [--orders N] [--seed S] [--patience FACTOR]
+"""Usage: test/system/orders.py [--orders N] [--seed S] [--time-scale FACTOR]
 
 Starts the five programs of a stack in every order (120 of them, or N drawn by chance), without supervisor; each
 time all must become ready and the robot obey. Then ends them by Ctrl-C in another order; each must end within
@@ -66,7 +66,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--orders", type=int)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--patience", type=float, default=1, help="of the bound in time, on a machine that has other work")
+    parser.add_argument("--time-scale", type=float, default=1, help="factor of the time bounds, on a machine with other load")
     arguments = parser.parse_args()
     random.seed(arguments.seed)
     orders = list(itertools.permutations(PROGRAMS))
@@ -86,7 +86,7 @@ def main():
                 print(f"{' '.join(order)}: {fault}", flush=True)
     print(f"{len(orders)} orders, {failures} failed; ready after {worst_ready:.1f} s at the worst, "
           f"ended by Ctrl-C within {worst_end:.2f} s")
-    return 1 if failures or worst_end > arguments.patience * MAX_END else 0
+    return 1 if failures or worst_end > arguments.time_scale * MAX_END else 0
 
 
 if __name__ == "__main__":

@@ -98,12 +98,12 @@ class ServiceManager(unittest.TestCase):
 
 class Killing(unittest.TestCase):
     def test_a_killed_program_comes_back_and_the_robot_obeys_again(self):
-        self.hurt_each_program(signal.SIGKILL)
+        self.fault_each_program(signal.SIGKILL)
 
     def test_a_hung_program_is_replaced_and_the_robot_obeys_again(self):
-        self.hurt_each_program(signal.SIGSTOP)
+        self.fault_each_program(signal.SIGSTOP)
 
-    def hurt_each_program(self, with_signal):
+    def fault_each_program(self, with_signal):
         with Stack() as stack:
             stack.start_or_fail()
             for name in PROGRAMS:

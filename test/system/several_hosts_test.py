@@ -75,10 +75,10 @@ class SeveralHosts(unittest.TestCase):
         # robots/nao/postures.yaml: heights of the torso.
         self.assert_obeys("Crouch", 0.229)
         self.assert_obeys("StandInit", 0.322)
-        picture = self.part[GATEWAY].run_dir / "picture.jpg"
-        result = self.part[GATEWAY].phone("picture", picture)
+        image = self.part[GATEWAY].run_dir / "picture.jpg"
+        result = self.part[GATEWAY].phone("picture", image)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        self.assertTrue(picture.read_bytes().startswith(b"\xff\xd8"))
+        self.assertTrue(image.read_bytes().startswith(b"\xff\xd8"))
 
     def place(self):
         """(true position of the torso, m; simulated time, s)."""

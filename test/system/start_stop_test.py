@@ -78,7 +78,7 @@ class Start(unittest.TestCase):
                 holder.bind(("127.0.0.1", 8080))
                 holder.listen()
             except OSError:
-                pass  # somebody else holds it: just as good
+                pass  # another program holds it: equivalent
             started = stack.start("--only", "sim,motion,phone-gateway", ports=False)
             self.assertEqual(started.returncode, 0, started.stderr + stack.logs())
             self.assertRegex(started.stdout, r"Port 8080 is in use by .*; taking 80[89]\d instead")

@@ -91,7 +91,7 @@ def main():
     with Stack() as stack:
         stack.start_or_fail("--only", "sim,motion,phone-gateway")
         for name, velocity in WALKS.items():
-            wished = expected(velocity, arguments.seeds, seconds)
+            expected_velocity = expected(velocity, arguments.seeds, seconds)
             shares = [value / limit for value, limit in zip(velocity, LIMITS)]
             phone = [BIN_DIR / "nao-phone", "--host", "127.0.0.1", "--port", stack.tcp_port, "--token", stack.token, "walk"]
             drivers = {
@@ -104,9 +104,9 @@ def main():
                 course = Course.record(stack, drive, seconds)
                 kind = 1 if velocity[2] else 0
                 true, unit = course.speed(seconds)[kind], ("m/s", "rad/s")[kind]
-                differs = true / wished[kind] - 1
+                differs = true / expected_velocity[kind] - 1
                 failures += abs(differs) > arguments.tolerance
-                print(f"{name:8} {driver:6} {wished[kind]:7.3f} {true:9.3f} {unit:5} {100 * differs:+8.1f} % "
+                print(f"{name:8} {driver:6} {expected_velocity[kind]:7.3f} {true:9.3f} {unit:5} {100 * differs:+8.1f} % "
                       f"{course.late_ticks():6}", flush=True)
     return 1 if failures else 0
 

@@ -2,7 +2,6 @@
 // real-time factor of simulator and motion core on one CPU core.
 
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <memory>
 #include <string>
@@ -12,17 +11,11 @@
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "robot_model/robot_model.h"
+#include "tools/bench/cpu_time.h"
 #include "tools/bench/figures.h"
 
 namespace nao {
 namespace {
-
-/** CPU time of this thread, s. */
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 ClosedLoopOptions trial_options() {
   ClosedLoopOptions options;

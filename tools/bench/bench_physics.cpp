@@ -6,19 +6,18 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "closed_loop/closed_loop.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "robot_model/robot_model.h"
 #include "sim/world.h"
+#include "tools/bench/cpu_time.h"
 #include "tools/bench/figures.h"
+#include "tools/bench/physics_scenarios.h"
 #ifdef NAO_HAS_MUJOCO
 #include "sim/mujoco_peer.h"
 #endif
@@ -31,78 +30,13 @@ using sim::RobotOptions;
 using sim::World;
 using sim::WorldOptions;
 
-constexpr double kTick = 0.01;
-
-/** CPU time of this thread, s. */
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-std::shared_ptr<const RobotModel> nao_model() {
-  static const auto model =
-      std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots/nao"));
-  return model;
-}
-
-/** Motion of the robot, in both simulators. */
-struct Scenario {
-  std::string name;
-  std::string posture = "StandInit";
-  double height = 0;
-  bool is_limp = false;
-  /** Joint targets of each tick; the last ones are held. Empty: the posture's angles. */
-  std::vector<Eigen::VectorXd> targets;
-};
-
-/** Ten seconds of the motion core's walk at 0.1 m/s, as targets. */
-Scenario walking() {
-  Scenario scenario;
-  scenario.name = "walking";
-  ClosedLoopOptions options;
-  options.model = nao_model();
-  options.is_ideal = true;
-  ClosedLoop trial(options, 1);
-  trial.on_tick([&] {
-    const std::vector<double>& targets = trial.targets();
-    scenario.targets.emplace_back(
-        Eigen::Map<const Eigen::VectorXd>(targets.data(), static_cast<long>(targets.size())));
-  });
-  trial.run(1);
-  trial.hold_walk({0.1, 0, 0});
-  trial.run(9);
-  std::fprintf(stderr, "physics: recorded a walk of %.2f m\n",
-               trial.torso_in_world().translation().x());
-  return scenario;
-}
-
-/** In free fall with oscillating joints; the legs are spread so that they do not collide. */
-Scenario falling() {
-  Scenario scenario;
-  scenario.name = "falling";
-  scenario.height = 10;
-  const Posture& start = *nao_model()->find_posture("StandInit");
-  for (int tick = 0; tick < 100; ++tick) {
-    Eigen::VectorXd targets(nao_model()->num_motors());
-    for (int i = 0; i < targets.size(); ++i) {
-      targets[i] =
-          start.position[static_cast<size_t>(i)] + 0.3 * std::sin(kTick * tick * (3 + 0.3 * i));
-    }
-    targets[nao_model()->find_motor("LHipRoll")] += 0.25;
-    targets[nao_model()->find_motor("RHipRoll")] -= 0.25;
-    scenario.targets.push_back(targets);
-  }
-  return scenario;
-}
-
 /** The project's physics in a scenario. */
-class Ours {
+class ProjectPhysics {
  public:
-  Ours(const Scenario& scenario, double step, const WorldOptions& base = {})
+  ProjectPhysics(const PhysicsScenario& scenario, double step, const WorldOptions& base = {})
       : scenario_(scenario), options_(base) {
     options_.step = step;
-    options_.steps_per_tick = static_cast<int>(std::lround(kTick / step));
+    options_.steps_per_tick = static_cast<int>(std::lround(kControlPeriod / step));
     world_ = std::make_unique<World>(SceneFile{}, options_);
     RobotOptions robot;
     robot.posture = scenario.posture;
@@ -131,7 +65,7 @@ class Ours {
   sim::TreeState state() const { return world_->robot(0).state(); }
 
  private:
-  const Scenario& scenario_;
+  const PhysicsScenario& scenario_;
   WorldOptions options_;
   std::unique_ptr<World> world_;
   MotorTargets targets_;
@@ -140,9 +74,9 @@ class Ours {
 
 #ifdef NAO_HAS_MUJOCO
 /** MuJoCo in the same scenario. */
-class Theirs {
+class MujocoPhysics {
  public:
-  Theirs(const Scenario& scenario, double step, sim::PeerOptions options = {})
+  MujocoPhysics(const PhysicsScenario& scenario, double step, sim::PeerOptions options = {})
       : scenario_(scenario),
         start_(scenario, step),
         steps_per_tick_(start_.options().steps_per_tick),
@@ -163,8 +97,8 @@ class Theirs {
   int num_contacts() { return peer_.data().ncon; }
 
  private:
-  const Scenario& scenario_;
-  Ours start_;
+  const PhysicsScenario& scenario_;
+  ProjectPhysics start_;
   int steps_per_tick_;
   sim::TreeState state_;
   sim::MujocoPeer peer_;
@@ -195,7 +129,7 @@ constexpr double kFineStep = 0.00005;
 
 /** RMS joint angle error at a time step of 2 ms relative to the same physics at 0.05 ms, rad. */
 template <class Physics>
-double step_error(const Scenario& scenario, int ticks) {
+double step_error(const PhysicsScenario& scenario, int ticks) {
   Physics coarse(scenario, kStep);
   Physics fine(scenario, kFineStep);
   return difference(coarse, fine, ticks);
@@ -205,9 +139,9 @@ double step_error(const Scenario& scenario, int ticks) {
 /** RMS joint angle error at a time step of 2 ms relative to a common reference solution, rad:
  * MuJoCo at 0.05 ms with the project's contact and friction models. */
 template <class Physics>
-double common_error(const Scenario& scenario, int ticks) {
+double common_error(const PhysicsScenario& scenario, int ticks) {
   Physics coarse(scenario, kStep);
-  Theirs reference(scenario, kFineStep, {sim::PeerFeet::kPoints, sim::PeerLaws::kOurs});
+  MujocoPhysics reference(scenario, kFineStep, {sim::PeerFeet::kPoints, sim::PeerLaws::kOurs});
   return difference(coarse, reference, ticks);
 }
 #endif
@@ -228,11 +162,11 @@ std::vector<double> times_in_turns(const std::vector<std::function<void()>>& tic
   return medians;
 }
 
-void measure_scenario(const Scenario& scenario, int rounds, std::vector<Figure>& figures) {
+void measure_scenario(const PhysicsScenario& scenario, int rounds, std::vector<Figure>& figures) {
   // A recorded motion restarts in each round; a resting state first settles.
   const bool is_recorded = !scenario.targets.empty();
   const int ticks = is_recorded ? static_cast<int>(scenario.targets.size()) : 100;
-  Ours ours(scenario, 0.002);
+  ProjectPhysics ours(scenario, 0.002);
   for (int i = 0; i < 300 && !is_recorded; ++i) ours.tick();
   std::vector<std::function<void()>> tasks;
   int tick_of_ours = 0;
@@ -247,8 +181,8 @@ void measure_scenario(const Scenario& scenario, int rounds, std::vector<Figure>&
     ++counted;
   });
 #ifdef NAO_HAS_MUJOCO
-  Theirs points(scenario, 0.002);
-  Theirs boxes(scenario, 0.002, {sim::PeerFeet::kBoxes});
+  MujocoPhysics points(scenario, 0.002);
+  MujocoPhysics boxes(scenario, 0.002, {sim::PeerFeet::kBoxes});
   for (int i = 0; i < 300 && !is_recorded; ++i) {
     points.tick();
     boxes.tick();
@@ -294,9 +228,9 @@ struct StageTimes {
   std::array<double, 5> sum{};
 };
 
-void measure_stages(const Scenario& scenario, std::vector<Figure>& figures) {
+void measure_stages(const PhysicsScenario& scenario, std::vector<Figure>& figures) {
   static constexpr const char* kNames[] = {"dynamics", "collision", "rows", "solve", "integrate"};
-  Ours ours(scenario, 0.002);
+  ProjectPhysics ours(scenario, 0.002);
   StageTimes times;
   for (int i = 0; i < 300; ++i) ours.tick();
   // Reading the clock takes about as long as a stage: the duration of the readings is subtracted.
@@ -323,14 +257,14 @@ void measure_stages(const Scenario& scenario, std::vector<Figure>& figures) {
   }
 }
 
-void measure_contacts(const Scenario& standing, std::vector<Figure>& figures) {
-  std::vector<std::unique_ptr<Ours>> all;
+void measure_contacts(const PhysicsScenario& standing, std::vector<Figure>& figures) {
+  std::vector<std::unique_ptr<ProjectPhysics>> all;
   std::vector<std::function<void()>> tasks;
   const std::vector<int> corners{3, 4, 6, 8, 12, 15};
   for (const int count : corners) {
     WorldOptions options;
     options.num_sole_points = count;
-    all.push_back(std::make_unique<Ours>(standing, 0.002, options));
+    all.push_back(std::make_unique<ProjectPhysics>(standing, 0.002, options));
     for (int i = 0; i < 300; ++i) all.back()->tick();
     tasks.emplace_back([&ours = *all.back()] { ours.tick(); });
   }
@@ -366,14 +300,14 @@ void measure_robots(std::vector<Figure>& figures) {
 
 void measure(int rounds, const std::string& json_file) {
   std::vector<Figure> figures;
-  Scenario standing;
+  PhysicsScenario standing;
   standing.name = "standing";
-  Scenario lying;
+  PhysicsScenario lying;
   lying.name = "lying";
   lying.posture = "LyingBack";
   lying.is_limp = true;
-  const Scenario walk = walking();
-  const Scenario fall = falling();
+  const PhysicsScenario walk = walking();
+  const PhysicsScenario fall = falling();
 
   measure_scenario(standing, rounds, figures);
   const auto standing_us = std::find_if(figures.begin(), figures.end(), [](const Figure& figure) {
@@ -388,20 +322,21 @@ void measure(int rounds, const std::string& json_file) {
   measure_contacts(standing, figures);
   measure_robots(figures);
 
-  for (const Scenario* scenario : std::vector<const Scenario*>{&fall, &standing, &walk, &lying}) {
+  for (const PhysicsScenario* scenario :
+       std::vector<const PhysicsScenario*>{&fall, &standing, &walk, &lying}) {
     const int ticks = scenario == &walk ? 250 : 100;
     Figure figure{"physics." + scenario->name + ".error_mrad",
-                  1e3 * step_error<Ours>(*scenario, ticks), "mrad", "", 0};
+                  1e3 * step_error<ProjectPhysics>(*scenario, ticks), "mrad", "", 0};
 #ifdef NAO_HAS_MUJOCO
     figure.baseline = "MuJoCo, same contact points";
-    figure.baseline_value = 1e3 * step_error<Theirs>(*scenario, ticks);
+    figure.baseline_value = 1e3 * step_error<MujocoPhysics>(*scenario, ticks);
 #endif
     figures.push_back(figure);
 #ifdef NAO_HAS_MUJOCO
     figures.push_back({"physics." + scenario->name + ".common_error_mrad",
-                       1e3 * common_error<Ours>(*scenario, ticks), "mrad",
+                       1e3 * common_error<ProjectPhysics>(*scenario, ticks), "mrad",
                        "MuJoCo, same contact points",
-                       1e3 * common_error<Theirs>(*scenario, ticks)});
+                       1e3 * common_error<MujocoPhysics>(*scenario, ticks)});
 #endif
   }
   report(figures, json_file);

@@ -215,11 +215,11 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   // Error of the executed velocity; the weight of 1 rad equals 0.15 m.
   const Vector3d scale(1, 1, 0.15);
   const Vector3d missed = (mean - options.velocity).cwiseProduct(scale);
-  const double wished = options.velocity.cwiseProduct(scale).norm();
+  const double commanded = options.velocity.cwiseProduct(scale).norm();
   const double distance = mean.head<2>().norm() * duration;
   result.metrics = {{"speed_mps", mean.head<2>().norm()},
                     {"turning_radps", mean.z()},
-                    {"tracking_error", wished > 0 ? missed.norm() / wished : missed.norm()},
+                    {"tracking_error", commanded > 0 ? missed.norm() / commanded : missed.norm()},
                     {"stopping_s", standstill.duration()},
                     {"stopping_mm", 1e3 * standstill.way(trial)}};
   const bool is_straight = options.velocity.z() == 0 && distance > 0;

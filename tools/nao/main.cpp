@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
       "  nao joint HeadYaw +20deg      turn the head to the left\n"
       "  nao action kick-left && echo scored\n"
       "  nao state --watch             the robot's state, refreshed continuously\n"
-      "Exit status: 0 done; 1 refused, failed or no answer (the reason is on stderr); 2 bad "\n
+      "Exit status: 0 done; 1 refused, failed or no answer (the reason is on stderr); 2 bad "
       "command line.\n"
       "Every subcommand answers --help.");
 

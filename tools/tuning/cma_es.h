@@ -20,7 +20,8 @@ class CmaEs {
    * @param population  Candidates in a generation, at least 4. */
   CmaEs(const Eigen::VectorXd& start, double sigma, int population, uint64_t seed);
 
-  /** Candidates of the next generation, (population) of (dimension). */
+  /** Candidates of the next generation, (population) of (dimension). With tell(), this is the
+   * ask-and-tell interface of Hansen's implementations. */
   const std::vector<Eigen::VectorXd>& ask();
   /** @param costs  Costs of the last candidates, in their order; smaller is better. */
   void tell(const std::vector<double>& costs);
