@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """Usage: test/system/orders.py [--orders N] [--seed S] [--time-scale FACTOR]
 
-Starts the five programs of a stack in every order (120 of them, or N drawn by chance), without supervisor; each
-time all must become ready and the robot obey. Then ends them by Ctrl-C in another order; each must end within
-2 s with exit status 0. Prints the longest times; exit status 1 if one failed. A few orders are part of the test run.
+Starts the five programs of a stack in every order (120 orders, or N random ones) without supervisor; all programs
+must become ready and the robot must execute a command. Then ends them with SIGINT in another order; each must end
+within 2 s with exit status 0. Prints the longest times; exit status 1 if an order failed. A few orders are part of
+the test run.
 """
 
 import argparse
