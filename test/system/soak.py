@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Usage: test/system/soak.py [--minutes M]
 
-Lets a whole stack run with a phone watching, the robot standing, and prints what changed meanwhile:
-falls, drift of the feet, error of real time, memory, lost messages. Not part of the test run, for it takes
-as long as it says (default: 10 minutes); exit status 1 if a figure is beyond its bound.
+Runs a whole stack with a watching phone and a standing robot, and prints the changes: falls, drift of the feet,
+error of real time, memory, lost messages. Not part of the test run because of its duration (default: 10 minutes);
+exit status 1 if a figure exceeds its bound.
 """
 
 import argparse
