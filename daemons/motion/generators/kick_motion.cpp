@@ -204,14 +204,14 @@ void KickMotion::follow(const MotionContext& context, const Wish& wish, JointTar
   const double share = smooth_step(time_ / kFade) * smooth_step((duration_ - time_) / kFade);
   std::vector<double> balance(position.size(), 0.0);
   const auto& ankle = legs_.motors(is_left_ ? Leg::kRight : Leg::kLeft);
-  balance[ankle[4]] = gait_->gyro_ankle_pitch * rate_.y();
-  balance[ankle[5]] = gait_->gyro_ankle_roll * rate_.x();
+  balance[ankle[4]] = gait_->orientation.gyro_ankle_pitch * rate_.y();
+  balance[ankle[5]] = gait_->orientation.gyro_ankle_roll * rate_.x();
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     for (const int motor : legs_.motors(leg)) {
       targets.position[motor] =
           position[motor] +
           share * (balance[motor] + feedforward_.calc_offset(motor, torque[motor], velocity[motor],
-                                                             gait_->damping_share));
+                                                             gait_->servo.velocity_scale));
     }
   }
 }

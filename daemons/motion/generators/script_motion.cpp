@@ -73,7 +73,7 @@ void ScriptMotion::balance(const MotionContext& context, JointTargets& targets) 
   if (!state.left_foot_carries || !state.right_foot_carries) return;
   const Pose2 left = Pose2::from(state.left_sole_in_odometry);
   const Pose2 right = Pose2::from(state.right_sole_in_odometry);
-  const Eigen::Vector2d ahead(gait_->zmp_forward, 0);
+  const Eigen::Vector2d ahead(gait_->stance.zmp_forward, 0);
   const Eigen::Vector2d middle = 0.5 * (left * ahead + right * ahead);
   const Eigen::Vector2d error = calc_capture_point(state) - middle;
   const double half_weight = 0.5 * model_->total_mass() * kGravity;
@@ -91,10 +91,10 @@ void ScriptMotion::balance(const MotionContext& context, JointTargets& targets) 
     // Toes pressed down move the weight ahead; a sole rolled to its left moves it to its left.
     targets.position[motors[4]] +=
         share * (feedforward_.calc_offset(motors[4], half_weight * steer.x(), 0, 0) +
-                 gait_->gyro_ankle_pitch * rate_.y());
+                 gait_->orientation.gyro_ankle_pitch * rate_.y());
     targets.position[motors[5]] +=
         share * (feedforward_.calc_offset(motors[5], -half_weight * steer.y(), 0, 0) +
-                 gait_->gyro_ankle_roll * rate_.x());
+                 gait_->orientation.gyro_ankle_roll * rate_.x());
   }
 }
 

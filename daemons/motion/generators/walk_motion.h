@@ -106,10 +106,13 @@ class MoveToMotion : public WalkingMotion {
  private:
   /** Goal seen from where the robot would stand if it stopped now. */
   Pose2 remaining(const MotionContext& context) const;
+  /** Body of a robot that stands on both feet, in odometry. */
+  Pose2 standing_body(const RobotState& state) const;
 
   MoveToCommand command_;
   /** Of the body between the feet. */
   Pose2 goal_in_odometry_;
+  double turn_center_;
   WalkLimits limits_;
   double way_ = 0;
   double time_ = 0;
