@@ -5,33 +5,34 @@
 #include <limits>
 #include <utility>
 
+#include "common/error.h"
+
 namespace nao {
 namespace {
 
-constexpr double kTick = 0.01;
-constexpr int kTicksPerWalkCommand = 20;
+/** Interval at which hold_walk() repeats its command, s: that of the phone app's joysticks. */
+constexpr double kWalkCommandPeriod = 0.2;
 
-/** Next number of the SplitMix64 generator (Steele, Lea, Flood, OOPSLA 2014). */
-uint64_t next_random(uint64_t& state) {
-  state += 0x9e3779b97f4a7c15u;
-  uint64_t z = state;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
+sim::WorldOptions world_options(const ClosedLoopOptions& options, uint64_t seed) {
+  sim::WorldOptions result;
+  result.seed = seed;
+  const int step_ms = static_cast<int>(std::lround(1e3 * result.step));
+  if (options.tick_ms < step_ms || options.tick_ms % step_ms != 0) {
+    throw ConfigError("control period " + std::to_string(options.tick_ms) +
+                      " ms is not a positive multiple of " + std::to_string(step_ms) + " ms");
+  }
+  result.steps_per_tick = options.tick_ms / step_ms;
+  return result;
 }
 
-sim::WorldOptions world_options(uint64_t seed) {
-  sim::WorldOptions options;
-  options.seed = seed;
-  return options;
-}
-
-motion::Sensors to_core(const sim::SensorReadings& readings, const sim::MotorTargets& held) {
+motion::Sensors to_core(const sim::SensorReadings& readings, const sim::MotorTargets& held,
+                        double period) {
   const auto list = [](const Eigen::VectorXd& values) {
     return std::vector<double>(values.data(), values.data() + values.size());
   };
   motion::Sensors sensors;
   sensors.tick = readings.tick;
+  sensors.period = period;
   sensors.utime = std::llround(readings.time * 1e6);
   sensors.position = list(readings.position);
   sensors.velocity = list(readings.velocity);
@@ -48,15 +49,15 @@ motion::Sensors to_core(const sim::SensorReadings& readings, const sim::MotorTar
 }  // namespace
 
 ClosedLoop::ClosedLoop(const ClosedLoopOptions& options, uint64_t seed)
-    : options_(options), world_(options.scene, world_options(seed)), random_state_(seed) {
+    : options_(options), world_(options.scene, world_options(options, seed)), random_(seed) {
   sim::RobotOptions robot;
   robot.posture = options.posture;
   if (options.is_ideal) {
     robot.ideal_sensors = true;
     robot.command_latency_ticks = 0;
   } else {
-    // The world's floor friction is 0.8: 0.5 to 1.0 on the feet.
-    robot.friction_scale = random(0.5, 1.0) / 0.8;
+    // Floor friction 0.5 to 1.0.
+    robot.friction_scale = random(0.5, 1.0) / world_.options().materials.floor_friction;
     robot.mass_scale = random(0.97, 1.03);
     robot.command_latency_ticks = random(0, 1) < 0.5 ? 1 : 2;
     if (options.command_latency_ticks > 0) {
@@ -69,10 +70,6 @@ ClosedLoop::ClosedLoop(const ClosedLoopOptions& options, uint64_t seed)
 
 void ClosedLoop::restart_core() {
   core_ = std::make_unique<motion::MotionCore>(*options_.model, options_.motion);
-}
-
-double ClosedLoop::random(double low, double high) {
-  return low + (high - low) * static_cast<double>(next_random(random_state_) >> 11) * 0x1p-53;
 }
 
 int64_t ClosedLoop::send(Command command) {
@@ -94,12 +91,17 @@ int64_t ClosedLoop::send_action(const std::string& action) {
 int64_t ClosedLoop::hold_walk(const Eigen::Vector3d& velocity) {
   if (!walk_) walk_ = Command{"trial", ++last_id_, {}};
   walk_->request = WalkCommand{velocity.x(), velocity.y(), velocity.z()};
-  ticks_since_walk_ = kTicksPerWalkCommand;
+  // The next tick sends it.
+  ticks_since_walk_ = ticks_per_walk_command();
   return walk_->id;
 }
 
-void ClosedLoop::release_walk(bool says_so) {
-  if (walk_ && says_so) {
+int ClosedLoop::ticks_per_walk_command() const {
+  return static_cast<int>(std::lround(kWalkCommandPeriod / period()));
+}
+
+void ClosedLoop::release_walk(bool sends_stop) {
+  if (walk_ && sends_stop) {
     walk_->request = WalkCommand{};
     commands_.push_back(*walk_);
   }
@@ -108,22 +110,24 @@ void ClosedLoop::release_walk(bool says_so) {
 
 void ClosedLoop::step() {
   world_.step_tick();
-  if (walk_ && ++ticks_since_walk_ > kTicksPerWalkCommand) {
+  if (walk_ && ++ticks_since_walk_ > ticks_per_walk_command()) {
     commands_.push_back(*walk_);
     ticks_since_walk_ = 1;
   }
-  if (options_.late_share > 0 && ticks_to_miss_ == 0 && random(0, 1) < options_.late_share) {
+  const double probability = options_.missed_tick_probability;
+  if (probability > 0 && ticks_to_miss_ == 0 && random(0, 1) < probability) {
     ticks_to_miss_ = 1 + static_cast<int>(random(0, 4));
   }
   if (ticks_to_miss_ > 0) {
     --ticks_to_miss_;
     ++missed_ticks_;
-  } else if (!is_dead_) {
+  } else if (!is_core_crashed_) {
     motion::Input input;
-    input.sensors = to_core(world_.sensors(0), world_.targets(0));
+    input.sensors = to_core(world_.sensors(0), world_.targets(0), period());
     input.commands = std::exchange(commands_, {});
     const double begin = clock_ != nullptr ? clock_() : 0;
-    const motion::Output output = core_->step(input, (1 + std::exchange(missed_ticks_, 0)) * kTick);
+    const double dt = (1 + std::exchange(missed_ticks_, 0)) * period();
+    const motion::Output output = core_->step(input, dt);
     if (clock_ != nullptr) step_times_->push_back(clock_() - begin);
     results_.insert(results_.end(), output.results.begin(), output.results.end());
     targets_ = output.joint_targets->position;
@@ -138,12 +142,12 @@ void ClosedLoop::step() {
 }
 
 void ClosedLoop::run(double duration) {
-  const int num_ticks = static_cast<int>(std::lround(duration / kTick));
+  const int num_ticks = static_cast<int>(std::lround(duration / period()));
   for (int i = 0; i < num_ticks; ++i) step();
 }
 
 bool ClosedLoop::run_until(const std::function<bool()>& condition, double timeout) {
-  const int num_ticks = static_cast<int>(std::lround(timeout / kTick));
+  const int num_ticks = static_cast<int>(std::lround(timeout / period()));
   for (int i = 0; i < num_ticks; ++i) {
     if (condition()) return true;
     step();
@@ -178,12 +182,11 @@ double ClosedLoop::deviation_from(const Posture& posture, std::string* joint) co
   const Eigen::VectorXd& position = world_.robot(0).motor_position();
   double largest = 0;
   for (int motor = 0; motor < model().num_motors(); ++motor) {
-    const std::string& name = model().motor_joint(motor).name;
-    if (name == "LHand" || name == "RHand") continue;
+    if (world_.robot(0).is_opening(motor)) continue;
     const double deviation = std::abs(position[motor] - posture.position[motor]);
     if (deviation <= largest) continue;
     largest = deviation;
-    if (joint != nullptr) *joint = name;
+    if (joint != nullptr) *joint = model().motor_names()[motor];
   }
   return largest;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/random.h"
 #include "daemons/motion/motion_core.h"
 #include "robot_model/robot_model.h"
 #include "robot_model/scene_file.h"
@@ -14,58 +15,68 @@
 
 namespace nao {
 
-/** What all trials share. */
+/** Options of a closed loop. */
 struct ClosedLoopOptions {
   std::shared_ptr<const RobotModel> model;
   SceneFile scene;
-  /** No randomisation, noise or latency. */
+  /** Without randomization, noise and latency. */
   bool is_ideal = false;
-  /** Chance in each tick that the mind misses it and up to three more, as under a busy operating
-   * system: the servos hold their targets, and the mind goes on with the newest sensors. */
-  double late_share = 0;
+  /** Probability in each tick that the motion core misses it and up to three more, as on a busy
+   * machine: the servos hold their targets, and the core goes on with the newest sensor readings.
+   */
+  double missed_tick_probability = 0;
   /** Ticks between a joint command and the motors' following it, as over a slow network; 0: 1 or 2
-   * by chance. */
+   * at random. */
   int command_latency_ticks = 0;
+  /** Control period, ms: a multiple of the physics step of 2 ms. */
+  int tick_ms = 10;
   /** Posture that the robot starts in. */
   std::string posture = "StandInit";
   motion::MotionOptions motion;
 };
 
-/** One simulated robot with the motion core as its mind, in lock-step, without a bus.
+/** One simulated robot and the motion core that controls it, in lock-step in one process, without a
+ * bus.
  *
- * The seed decides everything that is random: floor friction 0.5 to 1.0, mass +-3 %, command
- * latency 1 or 2 ticks, sensor noise and bias. The same seed on the same build gives the same bits.
- */
+ * The seed determines everything random: floor friction 0.5 to 1.0, mass +-3 %, command latency 1
+ * or 2 ticks, sensor noise and bias. The same seed on the same build gives the same bits.
+ *
+ * It has more than 25 methods: it is the interface of all trials, tuners and physics tests. */
 class ClosedLoop {
  public:
+  /** @throws ConfigError  if an option is outside its range. */
   ClosedLoop(const ClosedLoopOptions& options, uint64_t seed);
 
   const RobotModel& model() const { return *options_.model; }
   sim::World& world() { return world_; }
   const motion::MotionCore& core() const { return *core_; }
-  /** A new mind for the same body, as after a crash of nao-motion. */
+  /** Replaces the motion core by a new one, as when nao-motion is restarted. */
   void restart_core();
-  /** While true the mind is dead: the servos hold their last targets. */
-  void set_core_dead(bool is_dead) { is_dead_ = is_dead; }
-  /** Uniform in [low, high), from the trial's own seed. */
-  double random(double low, double high);
+  /** While true the motion core is not stepped, as after a crash of nao-motion: the servos hold
+   * their last targets. */
+  void set_core_crashed(bool is_crashed) { is_core_crashed_ = is_crashed; }
+  /** Uniform in [low, high), by the seed. */
+  double random(double low, double high) { return random_.uniform(low, high); }
+  /** Control period, s. */
+  double period() const { return world_.options().period(); }
 
   /** Queues a command for the next tick. @return Its number. */
   int64_t send(Command command);
   int64_t send_posture(const std::string& posture, double speed);
   int64_t send_action(const std::string& action);
-  /** Wishes to walk: sends the velocity now and five times a second, as a thumb on a joystick does,
-   * as one command until release_walk(). @param velocity  m/s ahead and to the left, rad/s. @return
-   * The command's number. */
+  /** Commands a velocity now and every 0.2 s, as an operator's joystick does, as one command until
+   * release_walk(). @param velocity  m/s ahead and to the left, rad/s. @return The command's
+   * number.
+   */
   int64_t hold_walk(const Eigen::Vector3d& velocity);
-  /** Says no more about walking. @param says_so  Sends a last command with no velocity. */
-  void release_walk(bool says_so = true);
+  /** Ends hold_walk(). @param sends_stop  Send a last command with velocity 0. */
+  void release_walk(bool sends_stop = true);
 
   /** One tick of world and core. */
   void step();
-  /** Steps for so many s. */
+  /** Steps for a duration, s. */
   void run(double duration);
-  /** Steps until the command has ended. @return Its end, or nothing after `timeout` s. */
+  /** Steps until the command has ended. @return Its final result, or nothing after `timeout` s. */
   std::optional<CommandResult> await_end(int64_t id, double timeout);
   /** Steps until the condition holds. @return false after `timeout` s. */
   bool run_until(const std::function<bool()>& condition, double timeout);
@@ -74,7 +85,7 @@ class ClosedLoop {
   const std::vector<CommandResult>& results() const { return results_; }
   /** Last targets of the core. */
   const std::vector<double>& targets() const { return targets_; }
-  /** What the core last made of its sensors. */
+  /** State as the core estimated it last. */
   const motion::RobotState& estimate() const { return estimate_; }
   /** Called after every tick. */
   void on_tick(std::function<void()> handler) { on_tick_ = std::move(handler); }
@@ -85,22 +96,25 @@ class ClosedLoop {
     step_times_ = &times;
   }
 
-  // What is true.
+  // The true state.
   /** s since the start. */
   double time() const { return world_.time(); }
   Eigen::Isometry3d torso_in_world() const;
   double torso_height() const { return torso_in_world().translation().z(); }
   /** Angle between the torso's z axis and up, rad. */
   double torso_tilt() const;
-  /** Greatest deviation of the true joint angles from a posture, rad, hands left out. */
+  /** Largest deviation of the true joint angles from a posture, rad, without the openings of hands.
+   * @param joint  Receives the name of that joint. */
   double deviation_from(const Posture& posture, std::string* joint = nullptr) const;
 
  private:
+  int ticks_per_walk_command() const;
+
   ClosedLoopOptions options_;
   sim::World world_;
   std::unique_ptr<motion::MotionCore> core_;
-  uint64_t random_state_;
-  bool is_dead_ = false;
+  Random random_;
+  bool is_core_crashed_ = false;
   std::vector<Command> commands_;
   std::optional<Command> walk_;
   int ticks_since_walk_ = 0;

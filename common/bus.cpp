@@ -26,14 +26,14 @@ void Bus::count_sent(const std::string& channel, bool sent) {
   if (sent) {
     ++counters_.num_out;
   } else {
-    drop(channel, "the system did not take it for sending");
+    drop(channel, "the operating system rejected the transmission");
   }
 }
 
 void Bus::drop(const std::string& channel, const std::string& why) {
   ++counters_.num_dropped;
   if (const auto num_suppressed = warnings_.allow(monotonic_seconds())) {
-    spdlog::warn("{}: message dropped: {} ({} such lines kept back)", channel, why,
+    spdlog::warn("{}: message dropped: {} ({} similar warnings suppressed)", channel, why,
                  *num_suppressed);
   }
 }
@@ -43,8 +43,9 @@ void Bus::subscribe_raw(const std::string& pattern,
   auto receiver = std::make_shared<RawReceiver>();
   receiver->call = std::move(handler);
   receiver->bus = this;
-  constexpr int kMostWaiting = 1000;
-  lcm_.subscribe(pattern, &RawReceiver::receive, receiver.get())->setQueueCapacity(kMostWaiting);
+  // Chosen: about 2 s of the traffic of one robot, 500 messages/s.
+  constexpr int kQueueCapacity = 1000;
+  lcm_.subscribe(pattern, &RawReceiver::receive, receiver.get())->setQueueCapacity(kQueueCapacity);
   raw_receivers_.push_back(std::move(receiver));
 }
 

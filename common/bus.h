@@ -15,24 +15,24 @@
 
 namespace nao {
 
-/** Messages received, sent, and dropped (undecodable, or refused by a handler) since the start. */
+/** Messages received, sent, and dropped (undecodable, or rejected by a handler) since the start. */
 struct BusCounters {
   int64_t num_in = 0;
   int64_t num_out = 0;
   int64_t num_dropped = 0;
 };
 
-/** The message bus: LCM, with handlers that cannot be hurt by a bad message.
+/** The message bus: LCM, with protection against malformed messages.
  *
  * A message that does not decode, or whose handler throws, is counted, reported at most once a
- * second, and dropped; nothing is thrown through LCM's C code. One thread only. */
+ * second, and dropped. No exception propagates through LCM's C code. Not thread-safe. */
 class Bus {
  public:
-  /** How many messages of one channel wait for a slow receiver. */
+  /** Queue of one subscription: kLatest keeps the newest message only, kAll every message. */
   enum class Queue { kLatest, kAll };
 
   /** @param url  LCM URL: "udpm://239.255.76.67:7667?ttl=0"; "memq://" for tests in one process.
-   * @throws BusError  if the bus cannot be opened; says which route is missing. */
+   * @throws BusError  if the bus cannot be opened; the text names the missing route. */
   explicit Bus(const std::string& url);
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
@@ -53,8 +53,8 @@ class Bus {
                       handler = std::move(handler)](const lcm::ReceiveBuffer& buffer) {
       Message message;
       if (message.decode(buffer.data, 0, static_cast<int>(buffer.data_size)) < 0) {
-        drop(channel, std::string("no ") + Message::getTypeName() +
-                          ", or one from another version of the project");
+        drop(channel, std::string("it is not a ") + Message::getTypeName() +
+                          " of this version of the project");
         return;
       }
       try {
@@ -70,14 +70,14 @@ class Bus {
   }
 
   /** Calls `handler(channel, data, num_bytes)` for every message on the channels that match a
-   * regular expression, undecoded: for loggers and viewers. At most 1000 messages wait. */
+   * regular expression, undecoded: for loggers and viewers. The queue holds 1000 messages. */
   void subscribe_raw(const std::string& pattern,
                      std::function<void(const std::string&, const uint8_t*, int)> handler);
 
-  /** Descriptor that is readable while a message waits; for EventLoop::on_readable(). */
+  /** Descriptor that is readable while a message is queued; for EventLoop::on_readable(). */
   int descriptor() { return lcm_.getFileno(); }
 
-  /** Handles every message that waits, without waiting for more. */
+  /** Handles every queued message without blocking. */
   void handle();
 
   /** Waits up to `timeout` seconds for a message and handles it. @return false if none came. */

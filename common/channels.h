@@ -10,7 +10,8 @@ inline constexpr const char* kWorldCommandChannel = "WORLD_COMMAND";
 inline constexpr const char* kMatchStateChannel = "MATCH_STATE";
 inline constexpr const char* kDaemonStatusChannel = "DAEMON_STATUS";
 
-/** Channels of one robot: every name begins with the robot's own, so that several share a bus. */
+/** Channels of one robot. Every name begins with the robot's name, so that several robots can share
+ * a bus. */
 struct RobotChannels {
   /** @param robot  Name of the robot, "NAO" by default: 1 to 20 of A-Z, 0-9 and '_'. */
   explicit RobotChannels(const std::string& robot = "NAO")

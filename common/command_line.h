@@ -16,7 +16,7 @@ class Option;
 
 namespace nao {
 
-/** What a callback throws when what was typed makes no sense: "theta", "'x' is no angle". */
+/** Thrown by a callback for an invalid argument: "theta", "'x' is no angle". */
 struct UsageError : std::runtime_error {
   UsageError(std::string option_name, const std::string& what)
       : std::runtime_error(what), option(std::move(option_name)) {}
@@ -24,10 +24,10 @@ struct UsageError : std::runtime_error {
   std::string option;
 };
 
-/** Command line of a program, or of one of its subcommands: what may be typed, and its help text.
+/** Command line of a program or of one of its subcommands: options, arguments and help text.
  *
- * Variables that options fill must outlive parsing. Behind it stands CLI11, whose headers only
- * command_line.cpp reads: they cost several seconds in each file. */
+ * Variables that options fill must outlive parsing. The implementation is CLI11. Only
+ * command_line.cpp includes its headers, which take several seconds to compile. */
 class CommandLine {
  public:
   /** An option, argument or flag that was added; lives as long as its command line. */
@@ -75,7 +75,7 @@ class CommandLine {
   std::string name() const;
 
   /** Adds an option ("--seeds") or argument ("seeds") that fills a variable; one of a vector may be
-   * repeated, and takes several values unless told otherwise. */
+   * repeated, and takes several values unless limited by count(). */
   Option* add_option(const std::string& name, std::string& variable, const std::string& help);
   Option* add_option(const std::string& name, uint16_t& variable, const std::string& help);
   Option* add_option(const std::string& name, int32_t& variable, const std::string& help);

@@ -14,8 +14,9 @@ std::filesystem::path data_path() {
           : std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "share" /
                 "nao-remote";
   if (!std::filesystem::is_directory(path)) {
-    throw ConfigError("no data folder " + path.string() +
-                      ": build or install the project whole, or set NAO_REMOTE_DATA");
+    throw ConfigError(
+        "data folder " + path.string() +
+        " does not exist: build or install the whole project, or set NAO_REMOTE_DATA");
   }
   return path;
 }

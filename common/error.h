@@ -4,22 +4,22 @@
 
 namespace nao {
 
-/** Something failed while starting up. The text says what, where, and what to try. */
+/** Failure during start-up. The text states what failed, where, and what to do. */
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/** A command line option or a configuration file is wrong. */
+/** A command-line option or a configuration file is invalid. */
 struct ConfigError : Error {
   using Error::Error;
 };
 
-/** A robot file (URDF, mesh, posture, ...) is missing or wrong. */
+/** A robot file (URDF, mesh, posture, ...) is missing or invalid. */
 struct ModelError : Error {
   using Error::Error;
 };
 
-/** The message bus cannot be used. */
+/** The message bus is unavailable. */
 struct BusError : Error {
   using Error::Error;
 };

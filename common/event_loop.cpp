@@ -33,7 +33,7 @@ EventLoop::EventLoop() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   signal_descriptor_ = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
   if (signal_descriptor_ < 0) {
-    throw Error(std::string("cannot listen for signals: ") + std::strerror(errno));
+    throw Error(std::string("cannot create a signal descriptor: ") + std::strerror(errno));
   }
 }
 
@@ -52,7 +52,7 @@ void EventLoop::every(double period, std::function<void()> handler) {
   const int descriptor = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
   const itimerspec timing{to_timespec(period), to_timespec(period)};
   if (descriptor < 0 || timerfd_settime(descriptor, 0, &timing, nullptr) != 0) {
-    throw Error(std::string("cannot start a timer: ") + std::strerror(errno));
+    throw Error(std::string("cannot create a timer: ") + std::strerror(errno));
   }
   sources_.push_back({descriptor, true, std::move(handler)});
 }

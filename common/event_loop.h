@@ -9,29 +9,34 @@ namespace nao {
 
 /** One thread's main loop: waits for readable file descriptors, timers, SIGINT and SIGTERM.
  *
- * From its construction on, SIGINT and SIGTERM no longer kill the process: they end run().
- * Construct it before any thread is started (the bus starts one), so that every thread leaves them
- * alone. */
+ * From its construction on, SIGINT and SIGTERM no longer terminate the process: they end run().
+ * Construct it before any thread is started (the bus starts one), so that every thread inherits the
+ * blocked signals.
+ *
+ * Built on poll(2), signalfd(2) and timerfd_create(2). The gateway uses
+ * Boost.Asio instead, because it serves many TCP connections; the other programs need only the bus
+ * and timers and do not link it. */
 class EventLoop {
  public:
-  /** @throws Error  if the system refuses a signal descriptor. */
+  /** @throws Error  if the signal descriptor cannot be created. */
   EventLoop();
   ~EventLoop();
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
 
-  /** Calls `handler` whenever `descriptor` has something to read. The caller keeps it open. */
+  /** Calls `handler` whenever `descriptor` is readable. The caller owns the descriptor and keeps it
+   * open. */
   void on_readable(int descriptor, std::function<void()> handler);
 
-  /** Calls `handler` every `period` seconds of the monotonic clock, first after one period. A late
-   * loop calls it once, not once for every missed period. */
+  /** Calls `handler` every `period` s of the monotonic clock, first after one period. Missed
+   * periods are merged into one call. */
   void every(double period, std::function<void()> handler);
 
   /** Runs until a signal or stop().
-   * @return Why it ended: "SIGINT", "SIGTERM" or the reason given to stop(). */
+   * @return Reason of the end: "SIGINT", "SIGTERM" or the reason given to stop(). */
   std::string run();
 
-  /** Ends run() after the handler that is running. */
+  /** Ends run() after the current handler returns. */
   void stop(const std::string& reason);
 
  private:

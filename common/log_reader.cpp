@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kSync = 0xEDA1DA01;
 constexpr int kHeaderSize = 28;
-// Longest name that LCM sends (LCM_MAX_CHANNEL_NAME_LENGTH).
+// Maximum length of a channel name, characters (LCM_MAX_CHANNEL_NAME_LENGTH).
 constexpr uint32_t kMaxChannelSize = 63;
 
 uint64_t big_endian(const uint8_t* bytes, int size) {
@@ -81,7 +81,7 @@ std::vector<uint8_t> LogReader::data(int64_t offset, uint32_t size) {
 }
 
 void LogReader::seek(int64_t offset) {
-  // Reading on where one stands keeps what is buffered.
+  // A seek would discard stdio's buffer; it is skipped while reading sequentially.
   if (std::ftell(file_.get()) != offset) std::fseek(file_.get(), offset, SEEK_SET);
 }
 

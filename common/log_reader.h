@@ -19,19 +19,19 @@ struct LogEvent {
   std::vector<uint8_t> data;
 };
 
-/** Where a recorded message stands in its log. */
+/** Position of a recorded message in its log. */
 struct LogEntry {
   int64_t number = 0;
   /** When it was received, microseconds since 1970. */
   int64_t wall_utime = 0;
   std::string channel;
-  /** Of the message, from the file's beginning, and its length, bytes. */
+  /** Offset of the message from the file's beginning and its length, bytes. */
   int64_t offset = 0;
   uint32_t size = 0;
 };
 
-/** Reads a log of lcm-logger from its beginning to its end, and goes on behind damaged places,
- * where LCM's own reader ends. Keeps nothing of it in memory.
+/** Reads a log of lcm-logger sequentially. After damaged bytes it resumes at the next event, where
+ * LCM's own reader ends. It does not buffer the log in memory.
  *
  * Format: LCM's documentation, "Log file format": events of a 28-byte big-endian header (sync word
  * 0xEDA1DA01, number, time in us, lengths of channel and data), channel name, data. */
@@ -40,16 +40,16 @@ class LogReader {
   /** @throws Error  if the file cannot be opened. */
   explicit LogReader(const std::filesystem::path& file);
 
-  /** @return nullopt at the end. An event that is cut off there is left out. */
+  /** @return nullopt at the end. A truncated last event is skipped. */
   std::optional<LogEvent> next();
 
-  /** As next(), without reading the message itself. */
+  /** As next(), without reading the message's content. */
   std::optional<LogEntry> next_entry();
 
   /** The message of an entry, by its offset and size; empty if the file has shrunk since. */
   std::vector<uint8_t> data(int64_t offset, uint32_t size);
 
-  /** Bytes so far that belong to no whole event. */
+  /** Number of bytes so far that belong to no complete event. */
   int64_t num_bytes_skipped() const { return num_bytes_skipped_; }
 
  private:
@@ -61,12 +61,12 @@ class LogReader {
   };
   std::unique_ptr<std::FILE, Closer> file_;
   int64_t size_ = 0;
-  /** Where the next event should begin. */
+  /** Offset at which the next event is expected. */
   int64_t offset_ = 0;
   int64_t num_bytes_skipped_ = 0;
 };
 
-/** An event as it stands in a log. */
+/** Encodes an event in the format of a log. */
 std::vector<uint8_t> encode_log_event(const LogEvent& event);
 
 }  // namespace nao

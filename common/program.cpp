@@ -24,20 +24,20 @@ std::string fault_of_robot_name(const std::string& name) {
   const bool is_valid =
       !name.empty() && name.size() <= 20 &&
       name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
-  return is_valid ? "" : "a robot's name is 1 to 20 of A-Z, 0-9 and _";
+  return is_valid ? "" : "a robot's name consists of 1 to 20 characters of A-Z, 0-9 and _";
 }
 
 }  // namespace
 
 void add_common_options(CommandLine& app, CommonOptions& options) {
   app.add_version_flag("--version", app.name() + " " + version());
-  app.add_option("--lcm-url", options.lcm_url, "Bus to meet the other programs on")
+  app.add_option("--lcm-url", options.lcm_url, "URL of the message bus")
       ->from_environment("LCM_DEFAULT_URL")
       ->show_default();
-  app.add_option("--log-level", options.log_level, "Least severe log line to print")
+  app.add_option("--log-level", options.log_level, "Minimum severity of printed log lines")
       ->one_of({"trace", "debug", "info", "warning", "error"})
       ->show_default();
-  app.add_option("--robot", options.robot, "Name of the robot, which its channels begin with")
+  app.add_option("--robot", options.robot, "Name of the robot: prefix of its channels")
       ->check(fault_of_robot_name, "NAME")
       ->show_default();
 }

@@ -7,13 +7,13 @@ namespace nao {
 
 class CommandLine;
 
-/** Options that every program on the bus takes. */
+/** Options of every program on the bus. */
 struct CommonOptions {
-  /** Bus to meet the other programs on. Default: LCM_DEFAULT_URL, or this machine only. */
+  /** URL of the message bus. Default: LCM_DEFAULT_URL, otherwise a bus limited to this host. */
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
-  /** Least severe log line to print: trace, debug, info, warning, error. */
+  /** Minimum severity of printed log lines: trace, debug, info, warning, error. */
   std::string log_level = "info";
-  /** Name of the robot, which its channels begin with. */
+  /** Name of the robot: prefix of its channels. */
   std::string robot = "NAO";
 };
 
@@ -27,12 +27,12 @@ void add_common_options(CommandLine& app, CommonOptions& options);
  *
  * @param app     Options, all added; its name is the program's.
  * @param common  The options that add_common_options() bound to `app`; read after parsing.
- * @param body    The program itself; what it throws becomes one line on stderr.
+ * @param body    The program itself; an exception is printed as one line on stderr.
  * @return Exit status: 0 the body returned (or --help), 1 it threw, 2 the command line is wrong. */
 int run_program(CommandLine& app, const CommonOptions& common, int argc, char** argv,
                 const std::function<void()>& body);
 
-/** As above for programs whose body decides the exit status itself (command-line clients). */
+/** As run_program(), for programs whose body returns the exit status (command-line clients). */
 int run_program_with_status(CommandLine& app, const CommonOptions& common, int argc, char** argv,
                             const std::function<int()>& body);
 

@@ -5,7 +5,7 @@
 namespace nao {
 namespace {
 
-bool take_turns_at(int priority) {
+bool set_round_robin(int priority) {
   sched_param param{};
   param.sched_priority = priority;
   return sched_setscheduler(0, SCHED_RR, &param) == 0;
@@ -13,12 +13,14 @@ bool take_turns_at(int priority) {
 
 }  // namespace
 
-bool ask_for_prompt_turns(Turns turns) {
+bool request_realtime_scheduling(RealtimePriority priority) {
   const int lowest = sched_get_priority_min(SCHED_RR);
-  return (turns == Turns::kControl && take_turns_at(lowest + 1)) || take_turns_at(lowest);
+  // RLIMIT_RTPRIO may allow the lower of the two priorities only.
+  return (priority == RealtimePriority::kControl && set_round_robin(lowest + 1)) ||
+         set_round_robin(lowest);
 }
 
-void take_usual_turns() {
+void use_normal_scheduling() {
   const sched_param none{};
   sched_setscheduler(0, SCHED_OTHER, &none);
 }

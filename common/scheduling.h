@@ -2,24 +2,27 @@
 
 namespace nao {
 
-/** Who goes first among programs that run ahead of usual ones. */
-enum class Turns {
-  /** Answers others, strangers among them: the gateway. */
+/** Priority class of a program with real-time scheduling. */
+enum class RealtimePriority {
+  /** SCHED_RR priority 1: programs that serve remote clients (the gateway). */
   kServing,
-  /** Keeps the robot's time and its balance: nobody who is served may hold it up. */
+  /** SCHED_RR priority 2: simulator and motion daemon. They preempt kServing, so that no client
+   * request delays a control tick. */
   kControl
 };
 
-/** Asks the system to run this thread, and those that it starts from now on, ahead of all usual
- * ones as soon as what they wait for has come (SCHED_RR, sched(7), at priority 1 for kServing and 2
- * for kControl). For programs that work briefly and often; call it before the bus is opened, which
- * starts a thread. Otherwise a wake-up may wait for the next tick of the kernel, 4 ms at 250 Hz.
+/** Requests real-time scheduling (SCHED_RR, sched(7)) for the calling thread and the threads that
+ * it starts from now on.
  *
- * @return Whether it was granted: to root, or with RLIMIT_RTPRIO (limits.conf(5)) of 1 or more.
- *   kControl needs 2 to go ahead of kServing; with 1 they take turns. */
-bool ask_for_prompt_turns(Turns turns);
+ * For programs with short and frequent work: they then preempt all normal processes when they wake
+ * up. With normal scheduling a wake-up may be delayed until the next kernel tick, 4 ms at 250 Hz.
+ * Call it before the bus is opened, because that starts a thread.
+ *
+ * @return true if granted: to root, or with RLIMIT_RTPRIO (limits.conf(5)) of at least 1. If the
+ *   limit is 1, kControl is reduced to priority 1. */
+bool request_realtime_scheduling(RealtimePriority priority);
 
-/** Gives that back, for this thread: for work that does not wait. */
-void take_usual_turns();
+/** Returns the calling thread to normal scheduling (SCHED_OTHER): for long computations. */
+void use_normal_scheduling();
 
 }  // namespace nao

@@ -8,21 +8,21 @@
 
 namespace nao {
 
-/** Publishes a program's daemon_status_t, and tells systemd that it lives: call tick() at every
- * turn of the main loop's own rhythm and publish() once a second. */
+/** Publishes a program's daemon_status_t and notifies systemd. Call tick() in every period of the
+ * main loop and publish() once a second. */
 class StatusReporter {
  public:
   /** @param program  Name as in daemon_status_t, "nao-sim". The bus must outlive this. */
   StatusReporter(Bus& bus, std::string program);
 
-  /** One turn of the main loop took place at `now`, s of the monotonic clock. */
+  /** Records one period of the main loop at `now`, s of the monotonic clock. */
   void tick(double now);
 
-  /** What the program is doing: "starting", "ready", "waiting" or "stopping", and why in words. */
+  /** State of the program: "starting", "ready", "waiting" or "stopping", with an explanation. */
   void set_state(const std::string& state, const std::string& detail = "");
 
-  /** Sends the status of the time since the last call.
-   * @param metrics  The program's own figures, names with units. */
+  /** Sends the status; loop periods are those since the last call.
+   * @param metrics  Additional metrics of the program; their names include units. */
   void publish(const std::vector<std::pair<std::string, double>>& metrics = {});
 
  private:

@@ -4,10 +4,11 @@
 
 namespace nao {
 
-/** Wall clock, microseconds since 1970. For logs and status only: robot time comes in messages. */
+/** Wall clock, microseconds since 1970. For logs and status only; robot time is the messages'
+ * utime. */
 int64_t wall_utime();
 
-/** Clock that never jumps, seconds since some start. For time-outs and pacing. */
+/** Monotonic clock, s since an arbitrary origin. For timeouts and periods. */
 double monotonic_seconds();
 
 }  // namespace nao

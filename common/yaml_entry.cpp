@@ -16,7 +16,7 @@ YamlEntry YamlEntry::load(const std::filesystem::path& file, Thrower thrower) {
   try {
     return YamlEntry(YAML::LoadFile(file.string()), source, "");
   } catch (const YAML::Exception& error) {
-    nothing.fail(std::string("is no YAML: ") + error.what());
+    nothing.fail(std::string("is not YAML: ") + error.what());
   }
 }
 
@@ -26,7 +26,7 @@ YamlEntry YamlEntry::parse(const std::string& text, const std::string& name, Thr
     return YamlEntry(YAML::Load(text), source, "");
   } catch (const YAML::Exception& error) {
     YamlEntry(YAML::Node(YAML::NodeType::Undefined), source, "")
-        .fail(std::string("is no YAML: ") + error.what());
+        .fail(std::string("is not YAML: ") + error.what());
   }
 }
 
@@ -55,18 +55,18 @@ void YamlEntry::allow_only(std::initializer_list<const char*> keys) const {
 
 std::vector<std::pair<std::string, YamlEntry>> YamlEntry::entries() const {
   if (!node_.IsMap()) {
-    fail("must be keys with values");
+    fail("must be a map of keys and values");
   }
   std::vector<std::pair<std::string, YamlEntry>> entries;
   std::set<std::string> names;
   for (const auto& pair : node_) {
     if (!pair.first.IsScalar()) {
-      fail("has a key that is no word");
+      fail("has a key that is not a word");
     }
     const std::string& name = pair.first.Scalar();
     const YamlEntry entry(pair.second, source_, where_.empty() ? name : where_ + "." + name);
     if (!names.insert(name).second) {
-      entry.fail("stands there twice");
+      entry.fail("appears twice");
     }
     entries.emplace_back(name, entry);
   }
@@ -86,7 +86,7 @@ std::vector<YamlEntry> YamlEntry::items() const {
 
 std::string YamlEntry::text() const {
   if (!node_.IsScalar() || node_.Scalar().empty()) {
-    fail("must be a text");
+    fail("must be a non-empty string");
   }
   return node_.Scalar();
 }
@@ -105,7 +105,7 @@ double YamlEntry::number() const {
 double YamlEntry::positive() const {
   const double value = number();
   if (value <= 0) {
-    fail("must be above 0");
+    fail("must be greater than 0");
   }
   return value;
 }
@@ -134,7 +134,7 @@ void YamlEntry::fail(const std::string& what) const {
   const std::string line = mark.is_null() ? "" : ":" + std::to_string(mark.line + 1);
   source_->thrower(source_->file + line + ": " + (where_.empty() ? "the file" : where_) + " " +
                    what);
-  // Not reached: every thrower throws.
+  // Unreachable: every thrower throws.
   std::abort();
 }
 

@@ -13,32 +13,31 @@
 
 namespace nao {
 
-/** One value of a YAML file that knows where it stands, so that every complaint names the file, the
- * line and the key. Every function throws the error type given to load() if the file says something
- * else than is asked for. */
+/** One value of a YAML file with its position, so that every error names the file, the line and the
+ * key. Every function throws the error type given to load() if the value has another type. */
 class YamlEntry {
  public:
   /** Reads a whole file.
-   * @tparam ErrorType  What every complaint about the file is thrown as.
+   * @tparam ErrorType  Type of all exceptions about the file.
    * @throws ErrorType  if it is missing or not YAML. */
   template <class ErrorType = ModelError>
   static YamlEntry load(const std::filesystem::path& file) {
     return load(file, [](const std::string& text) { throw ErrorType(text); });
   }
 
-  /** The same from a text, which complaints call `name`. */
+  /** Parses a text; errors name it `name`. */
   template <class ErrorType = ModelError>
   static YamlEntry parse(const std::string& text, const std::string& name) {
     return parse(text, name, [](const std::string& fault) { throw ErrorType(fault); });
   }
 
-  /** Value of a key, which must be there. */
+  /** Value of a key, which must exist. */
   YamlEntry at(const std::string& key) const;
   bool has(const std::string& key) const;
-  /** Refuses keys that nobody reads (misspelt ones, most likely). */
+  /** Rejects all other keys, which are probably misspelled. */
   void allow_only(std::initializer_list<const char*> keys) const;
 
-  /** Keys and values, in the file's order; a key that stands there twice is refused. */
+  /** Keys and values, in the file's order; a key that appears twice is refused. */
   std::vector<std::pair<std::string, YamlEntry>> entries() const;
   std::vector<YamlEntry> items() const;
   std::string text() const;
@@ -51,7 +50,7 @@ class YamlEntry {
   /** A list of exactly `count` finite numbers. */
   std::vector<double> numbers(size_t count) const;
 
-  /** Complains about this value: "robot.yaml:12: motors.HeadYaw " and then `what`. */
+  /** Throws an error about this value: "robot.yaml:12: motors.HeadYaw " and then `what`. */
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

@@ -80,8 +80,8 @@ Eigen::Matrix3Xd Kinematics::calc_angular_jacobian(int link) const {
 }
 
 Eigen::Matrix3Xd Kinematics::calc_center_of_mass_jacobian() const {
-  // Everything beyond a joint turns with it as one body: sum its mass and first moment from the
-  // leaves to the root.
+  // All links beyond a joint turn with it as one body (composite rigid body): sum their masses and
+  // first moments from the leaves to the root.
   const std::vector<Link>& links = model_->links();
   std::vector<double> mass(links.size());
   std::vector<Eigen::Vector3d> moment(links.size());

@@ -7,15 +7,23 @@
 
 namespace nao {
 
-/** Where every part of the robot is for given joint angles: link poses, centre of mass, Jacobians.
+/** Forward kinematics for given joint angles: link poses, center of mass, Jacobians.
  *
- * All results are seen from the torso T (the root link), in metres and radians. Call update()
- * first; the other functions then cost little. The model must outlive this. Exact to rounding. */
+ * All results are expressed in the torso frame T (the root link), in metres and radians. update()
+ * composes the link poses from the root to the leaves,
+ *     X_TC = X_TP X_PJ R(axis, q)        for each joint J from parent link P to child link C,
+ * and the other functions read them. A Jacobian has one column per motor: for a revolute joint with
+ * axis a and origin o in T, the geometric Jacobian's column is a x (p - o) for the linear and a for
+ * the angular velocity; joints that mimic a motor add to its column.
+ *
+ * The model must outlive this. Exact to rounding.
+ *
+ * Source: R. Featherstone, "Rigid Body Dynamics Algorithms", Springer 2008. */
 class Kinematics {
  public:
   explicit Kinematics(const RobotModel& model);
 
-  /** Takes over joint angles. @param position  rad (hands: opening), (num_motors), motor order. */
+  /** Computes all link poses. @param position  rad (hands: opening), (num_motors), motor order. */
   void update(const std::vector<double>& position);
 
   const RobotModel& model() const { return *model_; }
@@ -25,28 +33,31 @@ class Kinematics {
   const Eigen::Isometry3d& left_sole() const { return link_poses_[model_->left_sole()]; }
   const Eigen::Isometry3d& right_sole() const { return link_poses_[model_->right_sole()]; }
 
-  /** Whole-body centre of mass in T, m. */
+  /** Whole-body center of mass in T, m. */
   const Eigen::Vector3d& center_of_mass() const { return center_of_mass_; }
   /** kg. */
   double mass() const { return mass_; }
 
-  /** Derivative of a point fixed to a link by the motors' angles.
+  /** Jacobian of a point that is fixed to a link: its velocity per motor velocity.
    * @param point  In T, m. @return m/rad, (3 x num_motors), expressed in T. */
   Eigen::Matrix3Xd calc_point_jacobian(int link, const Eigen::Vector3d& point) const;
 
-  /** Angular velocity of a link per motor velocity. @return (3 x num_motors), expressed in T. */
+  /** Angular Jacobian of a link: its angular velocity per motor velocity.
+   * @return (3 x num_motors), expressed in T. */
   Eigen::Matrix3Xd calc_angular_jacobian(int link) const;
 
-  /** Derivative of the centre of mass by the motors' angles.
+  /** Jacobian of the center of mass: its velocity per motor velocity.
    * @return m/rad, (3 x num_motors), expressed in T. */
   Eigen::Matrix3Xd calc_center_of_mass_jacobian() const;
 
  private:
+  /** A joint as update() needs it. */
   struct JointEntry {
     int parent_link;
     int child_link;
     Eigen::Isometry3d pose_in_parent;
     Eigen::Vector3d axis;
+    /** The joint frame is parallel to the parent's: one matrix product less. */
     bool is_pure_translation;
     /** Motor that moves it, -1 if it is fixed; angle = multiplier * motor angle + offset. */
     int motor;

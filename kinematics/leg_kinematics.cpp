@@ -9,7 +9,10 @@
 namespace nao {
 namespace {
 
-constexpr double kTolerance = 1e-6;  // axes of the URDF have nine digits
+// Tolerance of axes (unit vectors) and positions, m: the URDF has nine digits.
+constexpr double kTolerance = 1e-6;
+// Slack of a cosine at the ends of the leg's reach: rounding only.
+constexpr double kRounding = 1e-12;
 
 Eigen::Matrix3d rotation_x(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
@@ -23,11 +26,11 @@ Eigen::Matrix3d rotation_z(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-/** Knee angle of two links whose ends are `distance` apart; stretched or bent double beyond reach.
- */
+/** Knee angle of two links whose ends are `distance` apart, by the law of cosines; stretched or
+ * fully bent beyond reach. */
 double knee_angle(double thigh, double tibia, double distance, bool& is_reachable) {
   const double cosine = (distance * distance - thigh * thigh - tibia * tibia) / (2 * thigh * tibia);
-  is_reachable = cosine <= 1 + 1e-12 && cosine >= -1 - 1e-12;
+  is_reachable = cosine <= 1 + kRounding && cosine >= -1 - kRounding;
   return std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
@@ -102,17 +105,17 @@ LegSolution LegKinematics::solve(Leg leg, const Eigen::Isometry3d& sole_in_torso
       sole_in_torso.translation() - R_TF * c.sole_offset - c.hip;  // in T
   const double knee = knee_angle(c.thigh, c.tibia, p_hip_ankle.norm(), solution.is_reachable);
 
-  // The hip seen from the ankle, in the foot's axes: AnkleRoll turns it into the leg's plane.
+  // The hip seen from the ankle, in the foot's axes: AnkleRoll turns it into the plane of the leg.
   const Eigen::Vector3d q = R_TF.transpose() * -p_hip_ankle;
-  // Of its two answers the one below 90 degrees, also when a folded leg's hip is below the ankle.
+  // Of the two solutions the one with |roll| below 90 degrees, also if the hip of a folded leg is
+  // below the ankle.
   const double up = std::copysign(std::hypot(q.y(), q.z()), q.z());
   const double ankle_roll = std::atan2(q.y() / up, q.z() / up);
   const double ankle_pitch =
       std::atan2(-c.thigh * std::sin(knee), c.tibia + c.thigh * std::cos(knee)) -
       std::atan2(q.x(), up);
 
-  // What rotation is left belongs to the hip: Rz(sign yaw) Rx(roll - tilt) Ry(pitch) in tilted
-  // axes.
+  // The remaining rotation is the hip's: Rz(sign yaw) Rx(roll - tilt) Ry(pitch) in tilted axes.
   const Eigen::Matrix3d N =
       rotation_x(-c.tilt) * R_TF * rotation_x(-ankle_roll) * rotation_y(-(ankle_pitch + knee));
   const double hip_yaw_pitch = c.sign * std::atan2(-N(0, 1), N(1, 1));
@@ -133,13 +136,14 @@ LegSolution LegKinematics::solve_with_hip_yaw_pitch(Leg leg, const Eigen::Isomet
       R_TP.transpose() * (sole_in_torso.translation() - R_TF * c.sole_offset - c.hip);
   const double knee = knee_angle(c.thigh, c.tibia, p.norm(), solution.is_reachable);
 
-  // HipRoll turns the ankle into the leg's plane, where thigh and tibia are two links.
+  // HipRoll turns the ankle into the plane of the leg, in which thigh and tibia are two links.
   const double down = std::copysign(std::hypot(p.y(), p.z()), -p.z());
   const double hip_roll = std::atan2(p.y() / down, -p.z() / down);
   const double hip_pitch = std::atan2(-p.x(), down) -
                            std::atan2(c.tibia * std::sin(knee), c.thigh + c.tibia * std::cos(knee));
 
-  // The ankle turns the sole's normal to where it shall be: n = Ry(pitch) Rx(roll) z.
+  // The ankle's angles follow from the sole's normal in the tibia frame: n = Ry(pitch) Rx(roll)
+  // e_z.
   const Eigen::Matrix3d R_T_tibia = R_TP * rotation_x(hip_roll) * rotation_y(hip_pitch + knee);
   const Eigen::Vector3d n = R_T_tibia.transpose() * R_TF.col(2);
   const double ankle_roll = std::asin(std::clamp(-n.y(), -1.0, 1.0));
@@ -150,9 +154,10 @@ LegSolution LegKinematics::solve_with_hip_yaw_pitch(Leg leg, const Eigen::Isomet
 
 LegsSolution LegKinematics::solve_both(const Eigen::Isometry3d& left_sole_in_torso,
                                        const Eigen::Isometry3d& right_sole_in_torso,
-                                       double left_share) const {
-  const double hip_yaw_pitch = left_share * solve(Leg::kLeft, left_sole_in_torso).angles[0] +
-                               (1 - left_share) * solve(Leg::kRight, right_sole_in_torso).angles[0];
+                                       double left_weight) const {
+  const double hip_yaw_pitch =
+      left_weight * solve(Leg::kLeft, left_sole_in_torso).angles[0] +
+      (1 - left_weight) * solve(Leg::kRight, right_sole_in_torso).angles[0];
   const LegSolution left = solve_with_hip_yaw_pitch(Leg::kLeft, left_sole_in_torso, hip_yaw_pitch);
   const LegSolution right =
       solve_with_hip_yaw_pitch(Leg::kRight, right_sole_in_torso, hip_yaw_pitch);

@@ -13,15 +13,15 @@ enum class Leg { kLeft = 0, kRight = 1 };
 /** Angles of one leg, rad: HipYawPitch, HipRoll, HipPitch, KneePitch, AnklePitch, AnkleRoll. */
 using LegAngles = std::array<double, 6>;
 
-/** Answer of the inverse kinematics for one leg. */
+/** Result of the inverse kinematics for one leg. */
 struct LegSolution {
   LegAngles angles{};
   /** False if the foot is farther from the hip than the leg is long (the leg is then stretched
-   * towards it), or nearer than a fully bent knee. Joint limits are not looked at. */
+   * towards it), or nearer than with a fully bent knee. Joint limits are not considered. */
   bool is_reachable = true;
 };
 
-/** Answer for both legs, which share HipYawPitch. */
+/** Result for both legs, which have one common HipYawPitch. */
 struct LegsSolution {
   /** Right HipYawPitch equals the left one. */
   LegAngles left{};
@@ -32,44 +32,61 @@ struct LegsSolution {
 /** Analytic inverse kinematics of NAO's legs: three hip axes that meet in a point, a knee, two
  * ankle axes that meet in a point.
  *
- * Poses are those of the soles' frames (RobotModel::left_sole(), right_sole()) in the torso frame.
- * Formulas: the hip point seen from the foot gives knee and ankle (two links in a plane that
- * AnkleRoll turns); the rotation that is left over is HipYawPitch, HipRoll, HipPitch by Euler
- * angles about axes turned by the yaw-pitch motor's tilt. */
+ * Poses are those of the soles' frames F (RobotModel::left_sole(), right_sole()) in the torso frame
+ * T. With the thigh length a, the tibia length b, the tilt t (45 degrees on a NAO) and the sign s
+ * of the yaw-pitch axis, and the angles yp, hr, hp, k, ap, ar in the order of LegAngles, the leg's
+ * rotation is R_TF = Rx(t) Rz(s yp) Rx(-t) Rx(hr) Ry(hp) Ry(k) Ry(ap) Rx(ar).
+ *
+ * 1. The distance d from hip to ankle gives the knee by the law of cosines:
+ *        cos k = (d^2 - a^2 - b^2) / (2 a b).
+ * 2. The hip seen from the ankle in F, q = R_TF^T (p_hip - p_ankle), gives the ankle: AnkleRoll
+ * turns q into the plane of thigh and tibia, AnklePitch is the angle between q and the tibia in
+ * that plane: ar = atan2(q_y, q_z), ap = atan2(-a sin k, b + a cos k) - atan2(q_x, sqrt(q_y^2 +
+ * q_z^2)).
+ * 3. The remaining rotation gives the hip as Euler angles z, x, y:
+ *        Rx(-t) R_TF Rx(-ar) Ry(-(ap + k)) = Rz(s yp) Rx(hr - t) Ry(hp).
+ *
+ * For a given HipYawPitch five angles remain: the position of the ankle gives HipRoll, HipPitch and
+ * the knee in the same way from the hip's side, and the sole's normal gives the ankle.
+ *
+ * Source: the structure is that of C. Graf, A. Haertl, T. Roefer, T. Laue, "A robust closed-loop
+ * gait for the Standard Platform League humanoid", 4th Workshop on Humanoid Soccer Robots, 2009. */
 class LegKinematics {
  public:
   /** @throws ModelError  if the legs are not built like that. */
   explicit LegKinematics(const RobotModel& model);
 
-  /** All six angles of one leg for a sole's pose: exact wherever the leg reaches. */
+  /** All six angles of one leg for a sole's pose; exact wherever the leg reaches. */
   LegSolution solve(Leg leg, const Eigen::Isometry3d& sole_in_torso) const;
 
   /** The five other angles for a given HipYawPitch: the ankle's position and the sole's normal are
-   * exact, the foot's heading is what HipYawPitch leaves it. */
+   * exact, the foot's heading follows from HipYawPitch. */
   LegSolution solve_with_hip_yaw_pitch(Leg leg, const Eigen::Isometry3d& sole_in_torso,
                                        double hip_yaw_pitch) const;
 
-  /** Both legs: HipYawPitch as the left foot wants it times `left_share` plus as the right one
-   * wants it times the rest, then the others by solve_with_hip_yaw_pitch().
-   * @param left_share  0..1; 1 while only the left foot stands, 0.5 with both. */
+  /** Both legs: HipYawPitch is the weighted mean of what solve() gives for the two feet, the other
+   * angles are those of solve_with_hip_yaw_pitch().
+   * @param left_weight  Of the left foot, 0..1: 1 while it is the only support foot, 0.5 in double
+   *   support. */
   LegsSolution solve_both(const Eigen::Isometry3d& left_sole_in_torso,
                           const Eigen::Isometry3d& right_sole_in_torso,
-                          double left_share = 0.5) const;
+                          double left_weight = 0.5) const;
 
-  /** Writes a leg's angles into a list of all motors, (num_motors). Writing the right leg leaves
-   * the shared HipYawPitch as it is. */
+  /** Writes a leg's angles into a list of all motors, (num_motors). The right leg does not write
+   * the common HipYawPitch. */
   void write(Leg leg, const LegAngles& angles, std::vector<double>& position) const;
   /** Reads a leg's angles from a list of all motors. */
   LegAngles read(Leg leg, const std::vector<double>& position) const;
 
-  /** Motors of a leg in the order of LegAngles; the first is the shared one for both. */
+  /** Motors of a leg in the order of LegAngles; both legs have the first one in common. */
   const std::array<int, 6>& motors(Leg leg) const { return chain(leg).motors; }
-  /** Where the hip axes meet, m, torso frame. */
+  /** Intersection of the hip axes, m, torso frame. */
   const Eigen::Vector3d& hip(Leg leg) const { return chain(leg).hip; }
-  /** Length of the leg stretched, hip to ankle, m. */
+  /** Length of the stretched leg, hip to ankle, m. */
   double reach() const { return left_.thigh + left_.tibia; }
 
  private:
+  /** Dimensions of one leg. */
   struct Chain {
     std::array<int, 6> motors;
     Eigen::Vector3d hip;

@@ -5,21 +5,21 @@
 
 namespace nao {
 
-/** An angle's equal in (-pi, pi], rad. */
+/** The equal angle in [-pi, pi], rad. */
 inline double wrapped(double angle) {
   return std::remainder(angle, 2 * M_PI);
 }
 
-/** Where something stands on the ground and where it looks: m, rad. */
+/** A pose on the ground, as a transform between two frames: position, m, and heading, rad. */
 struct Pose2 {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double heading = 0;
 
-  /** Re-expresses a direction given in this frame in the one that this pose is given in. */
+  /** Re-expresses a direction given in the inner frame in the outer one. */
   Eigen::Vector2d rotate(const Eigen::Vector2d& direction) const {
     return Eigen::Rotation2Dd(heading) * direction;
   }
-  /** A point of this frame, seen from the frame that this pose is given in. */
+  /** A point of the inner frame, expressed in the outer one. */
   Eigen::Vector2d operator*(const Eigen::Vector2d& point) const { return position + rotate(point); }
   Pose2 operator*(const Pose2& inner) const {
     return {*this * inner.position, heading + inner.heading};
@@ -28,7 +28,7 @@ struct Pose2 {
     return {Eigen::Rotation2Dd(-heading) * Eigen::Vector2d(-position), -heading};
   }
 
-  /** Ground projection of a pose in space: its origin and where its x axis points. */
+  /** Ground projection of a pose in space: its origin and the direction of its x axis. */
   static Pose2 from(const Eigen::Isometry3d& pose) {
     const Eigen::Matrix3d R = pose.linear();
     return {pose.translation().head<2>(), std::atan2(R(1, 0), R(0, 0))};

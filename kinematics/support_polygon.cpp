@@ -22,7 +22,7 @@ double distance_to_segment(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
 }  // namespace
 
 std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
-  // Andrew's monotone chain.
+  // Andrew's monotone chain: the lower hull from left to right, then the upper one back.
   const auto is_left_of = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   };

@@ -53,8 +53,8 @@ def read_struct(path):
     with open(path, encoding="utf-8") as file:
         text = file.read()
     head, name, body = re.search(r"package\s+\w+;(.*)struct\s+(\w+)\s*\{(.*)\}", text, re.S).groups()
-    fields, constants, comments = [], [], []
-    # A comment stands above the field that it explains.
+    fields, constants, comments, shared = [], [], [], []
+    # A comment stands above the fields that it explains: all up to an empty line or the next comment.
     for token in re.findall(COMMENT + r"|[^;/]+;", body, re.S):
         if token.startswith("/"):
             comments.append(token)
@@ -67,7 +67,9 @@ def read_struct(path):
         match = re.match(r"\s*([\w.]+)\s+(\w+)\s*((?:\[\w+\]\s*)*);$", token)
         if match is None:
             raise SystemExit(f"{path}: cannot read the field: {token.strip()}")
-        fields.append((match[1], match[2], re.findall(r"\[(\w+)\]", match[3]), plain_text(comments)))
+        if comments or re.match(r"\s*\n\s*\n", token):
+            shared = comments
+        fields.append((match[1], match[2], re.findall(r"\[(\w+)\]", match[3]), plain_text(shared)))
         comments = []
     return name, plain_text(re.findall(COMMENT, head, re.S)), fields, constants
 

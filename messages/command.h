@@ -5,50 +5,61 @@
 #include <variant>
 #include <vector>
 
+#include "messages/reason.h"
+
 namespace nao {
 
-/** m/s ahead, m/s to the left, rad/s to the left. All zero ends the walk. */
+/** Commanded velocity: m/s forward, m/s to the left, rad/s counter-clockwise. All zero ends the
+ * walk. */
 struct WalkCommand {
   double vx = 0;
   double vy = 0;
   double wz = 0;
 };
 
-/** Goal on the ground relative to where the robot stands: m, m, rad. */
+/** Goal on the ground relative to the robot's present pose: m forward, m to the left, rad. */
 struct MoveToCommand {
   double x = 0;
   double y = 0;
   double theta = 0;
 };
 
-/** Speed is a fraction of the maximum, (0, 1]. */
+/** Goes to a posture. */
 struct PostureCommand {
   std::string posture;
+  /** Fraction of the maximum, (0, 1]. */
   double speed = 0;
 };
 
-/** Turn joints by, or to, angles in rad (hands: opening). */
+/** Turns single joints. */
 struct JointChangeCommand {
   std::vector<std::string> joint_names;
+  /** Changes or target angles, rad (hands: opening). */
   std::vector<double> joint_position;
+  /** The positions are changes. */
   bool is_relative = false;
+  /** Fraction of the maximum, (0, 1]. */
   double speed = 0;
+  /** Executes the change even if the robot would tip over. */
   bool allow_tipping = false;
   /** Fraction of the peak torque, 0..1; NaN keeps the present one. Empty: all NaN. */
   std::vector<double> joint_stiffness{};
 };
 
-/** NaN in a number: as the action says. */
+/** Executes an action by its name. NaN in a number: the action's own value. */
 struct ActionCommand {
   std::string action;
+  /** Ball on the ground, m forward and to the left of the midpoint between the soles. */
   double ball_x = 0;
   double ball_y = 0;
+  /** Of a kick, (0, 1]. */
   double strength = 0;
 };
 
+/** Ends any motion. */
 struct StopCommand {};
 
-/** A command; see the messages of the same names for every field. */
+/** A command; the messages of the same names document every field. */
 struct Command {
   /** Sender, and its number for this command. */
   std::string source;
@@ -68,19 +79,20 @@ inline CommandKind kind_of(const Command& command) {
   return static_cast<CommandKind>(command.request.index());
 }
 
-/** Name for logs and people: "joint-change"; "unknown" for a value outside the enumeration. */
+/** Name for logs and users: "joint-change"; "unknown" for a value outside the enumeration. */
 const char* to_string(CommandKind kind);
 
-/** What a command asks for, in words for a person: "Crouch", "kick-left", "HeadYaw, HeadPitch". */
+/** Content of a command in short, as in motion_state_t::command_name: "Crouch", "kick-left",
+ * "HeadYaw, HeadPitch". */
 std::string describe(const Command& command);
 
-/** A received text quoted for a sentence: at most 40 characters, unprintable ones as '?'. */
+/** A received text in quotation marks: at most 40 characters, unprintable ones as '?'. */
 std::string quoted(const std::string& text);
 
 /** The values are those of command_result_t::STATUS_*. */
 enum class ResultStatus { kAccepted, kRefused, kDone, kInterrupted, kFailed };
 
-/** Name for logs and people: "interrupted"; "unknown" for a value outside the enumeration. */
+/** Name for logs and users: "interrupted"; "unknown" for a value outside the enumeration. */
 const char* to_string(ResultStatus status);
 
 /** Result of a command. */
@@ -89,11 +101,10 @@ struct CommandResult {
   int64_t id = 0;
   CommandKind kind = CommandKind::kStop;
   ResultStatus status = ResultStatus::kAccepted;
-  /** Why, as a code that programs translate, and the values in the translated sentence. */
-  std::string reason_code{};
-  std::vector<std::string> reason_arguments{};
-  /** Why, as an English sentence. */
-  std::string reason{};
+  /** Why the command was refused, interrupted or failed; of one that is done a remark. */
+  Reason reason{};
+  /** The reason as the English sentence of a received message; empty where the result is made. */
+  std::string sentence{};
 };
 
 }  // namespace nao

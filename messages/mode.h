@@ -2,7 +2,7 @@
 
 namespace nao {
 
-/** What the robot is doing; the values are those of motion_state_t::MODE_*. */
+/** Mode of nao-motion; the values are those of motion_state_t::MODE_*. */
 enum class Mode {
   kRelaxed,
   kHolding,
@@ -17,7 +17,7 @@ enum class Mode {
 
 inline constexpr int kNumModes = 9;
 
-/** Name for logs and people: "getting-up"; "unknown" for a value outside the enumeration. */
+/** Name for logs and users: "getting-up"; "unknown" for a value outside the enumeration. */
 const char* to_string(Mode mode);
 
 }  // namespace nao

@@ -1,38 +1,36 @@
 #include "rendering/decode_state.h"
 
 #include <cmath>
+#include <naolcm/world_truth_t.hpp>
 
 #include "common/error.h"
+#include "messages/named_joints.h"
 
 namespace nao {
 namespace {
 
-/** How far from 1 a quaternion's norm may be. */
+/** Allowed deviation of a quaternion's norm from 1. Chosen: far above rounding errors, small enough
+ * that a damaged message is rejected. */
 constexpr double kNormTolerance = 1e-3;
 
 }  // namespace
 
 std::vector<double> decode_positions(const RobotModel& model, const std::vector<std::string>& names,
                                      const std::vector<double>& position) {
-  if (names.size() != position.size()) {
-    throw Error(std::to_string(names.size()) + " joint names, but " +
-                std::to_string(position.size()) + " positions");
-  }
   std::vector<double> decoded(model.num_motors(), 0.0);
-  for (size_t i = 0; i < names.size(); ++i) {
-    const int motor = model.find_motor(names[i]);
-    if (motor < 0) throw Error("unknown joint \"" + names[i] + "\"");
-    if (!std::isfinite(position[i])) throw Error("position of " + names[i] + " is no number");
-    decoded[motor] = position[i];
-  }
+  const auto fault = read_named_joints(model.motor_names(), names,
+                                       {{"position", position, decoded}}, JointCoverage::kSubset);
+  if (fault) throw Error(to_sentence(*fault));
   return decoded;
 }
 
 Eigen::Isometry3d decode_pose(const double (&position)[3], const double (&quaternion)[4]) {
   const Eigen::Quaterniond rotation(quaternion[0], quaternion[1], quaternion[2], quaternion[3]);
   const Eigen::Vector3d translation(position[0], position[1], position[2]);
-  if (!translation.allFinite()) throw Error("a position is no number");
-  if (!(std::abs(rotation.norm() - 1) < kNormTolerance)) throw Error("a quaternion is no rotation");
+  if (!translation.allFinite()) throw Error("a position is not finite");
+  if (!(std::abs(rotation.norm() - 1) < kNormTolerance)) {
+    throw Error("a quaternion has the norm " + std::to_string(rotation.norm()) + " instead of 1");
+  };
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = rotation.normalized().toRotationMatrix();
   pose.translation() = translation;

@@ -30,7 +30,7 @@ Function find(const char* name) {
   return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
-/** Displays of graphics cards; software devices are left to the surfaceless platform. */
+/** Displays of graphics cards, without software renderers, which the surfaceless platform has. */
 std::vector<EGLDisplay> device_displays() {
   const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   const auto query_devices = find<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
@@ -80,7 +80,7 @@ std::vector<EglContext::Candidate> EglContext::candidates(Platform platform) {
 }
 
 std::string EglContext::open(void* display) {
-  if (display == EGL_NO_DISPLAY) return "not offered by this EGL";
+  if (display == EGL_NO_DISPLAY) return "not supported by this EGL";
   if (eglInitialize(display, nullptr, nullptr) == EGL_FALSE) return failure("eglInitialize");
   const auto give_up = [display](const std::string& why) {
     eglTerminate(display);
@@ -88,15 +88,15 @@ std::string EglContext::open(void* display) {
   };
   const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
   if (!has_extension(extensions, "EGL_KHR_surfaceless_context")) {
-    return give_up("cannot draw without a surface");
+    return give_up("does not support contexts without a surface");
   }
   if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) return give_up(failure("eglBindAPI"));
-  // Drawing goes to buffers of our own, so no configuration is needed where that is allowed.
+  // All drawing goes to framebuffer objects, so no configuration is needed if EGL allows that.
   EGLConfig config = nullptr;
   if (!has_extension(extensions, "EGL_KHR_no_config_context")) {
-    constexpr std::array<EGLint, 3> kWanted{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    constexpr std::array<EGLint, 3> kAttributes{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLint num_configs = 0;
-    if (eglChooseConfig(display, kWanted.data(), &config, 1, &num_configs) == EGL_FALSE ||
+    if (eglChooseConfig(display, kAttributes.data(), &config, 1, &num_configs) == EGL_FALSE ||
         num_configs == 0) {
       return give_up(failure("eglChooseConfig"));
     }
@@ -132,7 +132,7 @@ EglContext::EglContext(Platform platform) {
     tried += "; " + candidate.name + ": " + why;
   }
   throw Error("no OpenGL without a screen" + (tried.empty() ? ": no such device" : tried) +
-              ". Debian's packages libegl-mesa0 and libgl1-mesa-dri bring a driver that needs no "
+              ". Install Debian's packages libegl-mesa0 and libgl1-mesa-dri: their driver needs no "
               "graphics card");
 }
 
@@ -148,7 +148,7 @@ EglContext::Platform egl_platform(const std::string& name) {
   if (name == "surfaceless") return EglContext::Platform::kSurfaceless;
   if (name == "default") return EglContext::Platform::kDefault;
   throw ConfigError("unknown EGL platform \"" + name +
-                    "\"; it is auto, device, surfaceless or default");
+                    "\"; use auto, device, surfaceless or default");
 }
 
 }  // namespace nao

@@ -4,11 +4,14 @@
 #include <cstddef>
 
 #include "common/error.h"
+#include "rendering/gl.h"
 
 namespace nao::gl {
 namespace {
 
-constexpr int kGreatestSize = 8192;
+/** Largest side of a framebuffer, pixels. Chosen: above the size of every window and camera here; a
+ * driver with a lower limit rejects the framebuffer itself. */
+constexpr int kMaxSize = 8192;
 
 unsigned compile(const std::string& name, unsigned kind, const std::string& source) {
   const unsigned shader = glCreateShader(kind);
@@ -29,7 +32,7 @@ unsigned compile(const std::string& name, unsigned kind, const std::string& sour
 void require_complete(const char* what) {
   const unsigned status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
-    throw Error(std::string("the graphics driver refuses the ") + what + " (status " +
+    throw Error(std::string("the graphics driver rejects the ") + what + " (status " +
                 std::to_string(status) + ")");
   }
 }
@@ -148,6 +151,14 @@ StreamBuffer::~StreamBuffer() {
   glDeleteVertexArrays(1, &vertex_array_);
 }
 
+void StreamBuffer::draw_lines(const std::vector<Vertex>& vertices) const {
+  draw(GL_LINES, vertices);
+}
+
+void StreamBuffer::draw_triangles(const std::vector<Vertex>& vertices) const {
+  draw(GL_TRIANGLES, vertices);
+}
+
 void StreamBuffer::draw(unsigned mode, const std::vector<Vertex>& vertices) const {
   if (vertices.empty()) return;
   glBindVertexArray(vertex_array_);
@@ -171,10 +182,9 @@ void EmptyVertexArray::draw_triangles(int num_vertices) const {
 }
 
 Framebuffer::Framebuffer(int width, int height) : width_(width), height_(height) {
-  if (width < 1 || height < 1 || width > kGreatestSize || height > kGreatestSize) {
-    throw Error("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                " cannot be drawn: each side must be 1 to " + std::to_string(kGreatestSize) +
-                " pixels");
+  if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize) {
+    throw Error("the image size " + std::to_string(width) + "x" + std::to_string(height) +
+                " is out of range: each side must be 1 to " + std::to_string(kMaxSize) + " pixels");
   }
   glGenFramebuffers(1, &id_);
   glBindFramebuffer(GL_FRAMEBUFFER, id_);
@@ -186,7 +196,7 @@ Framebuffer::Framebuffer(int width, int height) : width_(width), height_(height)
   glBindRenderbuffer(GL_RENDERBUFFER, depth_);
   glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
-  require_complete("picture buffer");
+  require_complete("framebuffer");
 }
 
 Framebuffer::~Framebuffer() {
@@ -196,10 +206,7 @@ Framebuffer::~Framebuffer() {
 }
 
 void Framebuffer::read(std::vector<uint8_t>& pixels) const {
-  pixels.resize(static_cast<size_t>(4) * width_ * height_);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadPixels(0, 0, width_, height_, GL_BGRA, GL_UNSIGNED_BYTE, pixels.data());
+  read_pixels(id_, width_, height_, pixels);
 }
 
 ShadowMap::ShadowMap(int size) : size_(size) {
@@ -211,6 +218,7 @@ ShadowMap::ShadowMap(int size) : size_(size) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  // Outside of the map the depth is the greatest one, so nothing there is in shadow.
   constexpr std::array<float, 4> kFar{1, 1, 1, 1};
   glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, kFar.data());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -226,6 +234,13 @@ ShadowMap::ShadowMap(int size) : size_(size) {
 ShadowMap::~ShadowMap() {
   glDeleteFramebuffers(1, &framebuffer_);
   glDeleteTextures(1, &texture_);
+}
+
+void read_pixels(unsigned framebuffer, int width, int height, std::vector<uint8_t>& pixels) {
+  pixels.resize(static_cast<size_t>(4) * width * height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, width, height, GL_BGRA, GL_UNSIGNED_BYTE, pixels.data());
 }
 
 }  // namespace nao::gl

@@ -1,27 +1,20 @@
 #pragma once
 
-#ifndef GL_GLEXT_PROTOTYPES
-#define GL_GLEXT_PROTOTYPES
-#endif
-#include <GL/gl.h>
-#include <GL/glext.h>
-
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "rendering/mesh.h"
 
-/** Owners of OpenGL objects. Each must be made, used and destroyed while the same context is
+/** Owners of OpenGL objects. Each must be created, used and destroyed while the same context is
  * current. */
 namespace nao::gl {
 
-/** Vertex and fragment shader, linked. */
+/** A linked vertex and fragment shader. */
 class ShaderProgram {
  public:
-  /** @param name  For messages. @throws Error  with the compiler's own words. */
+  /** @param name  For error messages. @throws Error  with the text of the shader compiler. */
   ShaderProgram(const std::string& name, const std::string& vertex_source,
                 const std::string& fragment_source);
   ~ShaderProgram();
@@ -30,7 +23,7 @@ class ShaderProgram {
 
   void use() const;
 
-  /** Setters for the program in use. A name that the shader does not use is ignored. */
+  /** Sets a uniform of the program in use. A name that the shader does not use is ignored. */
   void set(const char* name, int value) const;
   void set(const char* name, float value) const;
   void set(const char* name, const Eigen::Vector2f& value) const;
@@ -44,7 +37,7 @@ class ShaderProgram {
   unsigned id_ = 0;
 };
 
-/** A mesh in the graphics card's memory: attributes 0 position, 1 normal, 2 encoded colour. */
+/** A mesh in the graphics card's memory: attributes 0 position, 1 normal, 2 encoded color. */
 class MeshBuffer {
  public:
   explicit MeshBuffer(const Mesh& mesh);
@@ -62,7 +55,7 @@ class MeshBuffer {
   int num_indices_ = 0;
 };
 
-/** Vertices that change with every picture: attributes 0 position, 1 colour. */
+/** Vertices that change with every image: attributes 0 position, 1 four numbers (color). */
 class StreamBuffer {
  public:
   struct Vertex {
@@ -75,15 +68,17 @@ class StreamBuffer {
   StreamBuffer(const StreamBuffer&) = delete;
   StreamBuffer& operator=(const StreamBuffer&) = delete;
 
-  /** @param mode  GL_LINES, GL_TRIANGLES, ... */
-  void draw(unsigned mode, const std::vector<Vertex>& vertices) const;
+  void draw_lines(const std::vector<Vertex>& vertices) const;
+  void draw_triangles(const std::vector<Vertex>& vertices) const;
 
  private:
+  void draw(unsigned mode, const std::vector<Vertex>& vertices) const;
+
   unsigned vertex_array_ = 0;
   unsigned vertices_ = 0;
 };
 
-/** Draws without any vertex data: the vertex shader makes the corners from gl_VertexID. */
+/** Draws without vertex data: the vertex shader computes the corners from gl_VertexID. */
 class EmptyVertexArray {
  public:
   EmptyVertexArray();
@@ -97,10 +92,11 @@ class EmptyVertexArray {
   unsigned id_ = 0;
 };
 
-/** Picture to draw into: 8-bit colour and 24-bit depth. */
+/** Offscreen render target: 8 bits for each color, 24 bits of depth. */
 class Framebuffer {
  public:
-  /** @param width, height  1 to 8192 pixels. @throws Error  if the driver refuses the size. */
+  /** @param width, height  1 to 8192 pixels. @throws Error  if the size is outside that range or
+   * the driver rejects it. */
   Framebuffer(int width, int height);
   ~Framebuffer();
   Framebuffer(const Framebuffer&) = delete;
@@ -110,8 +106,8 @@ class Framebuffer {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /** Waits for the drawing and copies it: rows from the lowest up, 4 bytes a pixel (blue, green,
-   * red, 255). @param pixels  Resized to 4 * width * height. */
+  /** Waits until drawing is complete and copies the image: rows from the bottom up, 4 bytes a pixel
+   * (blue, green, red, 255). @param pixels  Resized to 4 * width * height. */
   void read(std::vector<uint8_t>& pixels) const;
 
  private:
@@ -122,9 +118,11 @@ class Framebuffer {
   unsigned depth_ = 0;
 };
 
-/** Square depth picture that shaders read as a shadow map: 1 where lit, outside included. */
+/** Square depth texture that shaders sample with depth comparison: 1 where lit, also outside of the
+ * texture. */
 class ShadowMap {
  public:
+  /** @param size  Side, texels. @throws Error  if the driver rejects it. */
   explicit ShadowMap(int size);
   ~ShadowMap();
   ShadowMap(const ShadowMap&) = delete;
@@ -139,5 +137,8 @@ class ShadowMap {
   unsigned framebuffer_ = 0;
   unsigned texture_ = 0;
 };
+
+/** Copies an image from any framebuffer, 0 for the window's; pixels as Framebuffer::read(). */
+void read_pixels(unsigned framebuffer, int width, int height, std::vector<uint8_t>& pixels);
 
 }  // namespace nao::gl

@@ -7,11 +7,13 @@
 namespace nao {
 namespace {
 
+/** Linear light. */
 const Color kWhite(0.95f, 0.95f, 0.95f, 1);
 const Color kGrey(0.40f, 0.41f, 0.43f, 1);
+/** Radius of the bars that carry the net, m. The rules do not give it. */
 constexpr float kBarRadius = 0.012f;
 
-/** Edges of one goal, m; `sign` is that of the x that it stands at. */
+/** Dimensions of one goal, m; `sign` is the sign of its x coordinate. */
 struct GoalFrame {
   GoalFrame(const FieldDimensions& field, const GoalDimensions& goals, float sign)
       : front(sign * static_cast<float>(field.length / 2 + goals.post_offset)),
@@ -31,11 +33,11 @@ struct GoalFrame {
 Mesh make_bar(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float radius,
               const Color& color, int num_sides) {
   const Eigen::Vector3f along = to - from;
-  const auto turn = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), along);
+  const auto rotation = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), along);
   Mesh bar = make_cylinder(radius, along.norm(), color, num_sides);
   for (Vertex& vertex : bar.vertices) {
-    vertex.position = (from + to) / 2 + turn * vertex.position;
-    vertex.normal = turn * vertex.normal;
+    vertex.position = (from + to) / 2 + rotation * vertex.position;
+    vertex.normal = rotation * vertex.normal;
   }
   return bar;
 }

@@ -57,8 +57,9 @@ Mesh simplified(const Mesh& mesh, float cell) {
       num_merged.push_back(1);
     } else {
       Vertex& merged = coarse.vertices[place->second];
-      const auto share = 1 / static_cast<float>(++num_merged[place->second]);
-      merged.position += share * (vertex.position - merged.position);
+      // Running mean of the positions.
+      const auto weight = 1 / static_cast<float>(++num_merged[place->second]);
+      merged.position += weight * (vertex.position - merged.position);
     }
     renumbered.push_back(place->second);
   }

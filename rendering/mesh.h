@@ -7,45 +7,47 @@
 
 namespace nao {
 
-/** Colour as light: linear red, green, blue and opacity, each 0 to 1 (not gamma-encoded). */
+/** Linear red, green, blue and opacity, each 0 to 1 (not gamma-encoded). */
 using Color = Eigen::Vector4f;
 
-/** One corner of a triangle mesh, laid out as the graphics card reads it. */
+/** One vertex of a triangle mesh, in the memory layout that the graphics card reads. */
 struct Vertex {
-  /** m, in the mesh's frame. */
+  /** m, in the frame of the mesh. */
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
-  /** Unit vector pointing out of the solid. */
+  /** Unit vector, outwards. */
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
-  /** Square roots of linear red, green, blue; eight bits then keep dark colours apart. */
+  /** Square roots of linear red, green, blue, and opacity; square roots resolve dark colors better
+   * in eight bits. */
   std::array<uint8_t, 4> encoded_color{255, 255, 255, 255};
 };
 
-/** Triangles of one or more closed solids. Seen from outside, corners run counter-clockwise. */
+/** Triangles of one or more closed solids; the corners run counter-clockwise, seen from outside. */
 struct Mesh {
   std::vector<Vertex> vertices;
-  /** Three for each triangle. */
+  /** Indices into `vertices`, three for each triangle. */
   std::vector<uint32_t> indices;
 };
 
-/** Ball that holds a mesh, for telling quickly whether a camera can see it. */
+/** Sphere that encloses a mesh, for culling. */
 struct BoundingSphere {
-  /** m, in the mesh's frame. */
+  /** m, in the frame of the mesh. */
   Eigen::Vector3f center = Eigen::Vector3f::Zero();
   /** m. */
   float radius = 0;
 };
 
-/** Colour as Vertex stores it; values outside 0 to 1 are clipped. */
+/** Color as Vertex stores it; values outside 0 to 1 are clipped. */
 std::array<uint8_t, 4> encode_color(const Color& color);
 
-/** A sphere around all vertices: centre of their box, not the smallest one. */
+/** Sphere around all vertices about the center of their box; not the smallest possible one. */
 BoundingSphere bounding_sphere(const Mesh& mesh);
 
-/** Appends `part`, moved by `offset` (m), to `mesh`. */
+/** Appends `part`, translated by `offset` (m), to `mesh`. */
 void append(Mesh& mesh, const Mesh& part, const Eigen::Vector3f& offset = Eigen::Vector3f::Zero());
 
-/** A coarser mesh of nearly the same outline, for shadows: corners within one cell of a grid become
- * one, triangles that shrink to a line are left out. @param cell  Side of the grid's cells, m. */
+/** Simplifies a mesh by vertex clustering (Rossignac and Borrel, 1993), for shadows: all vertices
+ * in one cell of a grid become their mean, and triangles that degenerate are removed.
+ * @param cell  Side of the grid's cells, m. */
 Mesh simplified(const Mesh& mesh, float cell);
 
 }  // namespace nao

@@ -30,7 +30,8 @@ void append(Mesh& mesh, const aiMesh& part, const Color& color, const std::strin
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D& position = part.mVertices[i];
     const aiVector3D& normal = part.mNormals[i];
-    if (!is_finite(position)) throw ModelError("mesh " + file + " has a vertex that is no number");
+    if (!is_finite(position))
+      throw ModelError("mesh " + file + " has a vertex with a non-finite coordinate");
     Vertex vertex;
     vertex.position = {position.x, position.y, position.z};
     if (is_finite(normal)) vertex.normal = {normal.x, normal.y, normal.z};
@@ -49,7 +50,7 @@ void append(Mesh& mesh, const aiMesh& part, const Color& color, const std::strin
 }  // namespace
 
 Mesh load_mesh(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) throw ModelError("mesh " + file.string() + " is missing");
+  if (!std::filesystem::exists(file)) throw ModelError("mesh " + file.string() + " does not exist");
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(
       file.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals |
@@ -61,7 +62,7 @@ Mesh load_mesh(const std::filesystem::path& file) {
   Mesh mesh;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     const aiMesh& part = *scene->mMeshes[i];
-    if (!part.HasNormals()) continue;  // points and lines
+    if (!part.HasNormals()) continue;  // only points and lines have none
     append(mesh, part, base_color(*scene->mMaterials[part.mMaterialIndex]), file.string());
   }
   if (mesh.indices.empty()) throw ModelError("mesh " + file.string() + " has no triangles");

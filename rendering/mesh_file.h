@@ -6,9 +6,9 @@
 
 namespace nao {
 
-/** Reads a mesh file (binary glTF, or any that assimp knows), in metres, axes as in the file.
+/** Reads a mesh file (binary glTF, or any other format that assimp reads); m, axes as in the file.
  *
- * Materials become vertex colours by their base colour; textures are ignored; missing normals are
+ * The base colors of the materials become vertex colors; textures are ignored; missing normals are
  * computed; node transforms are applied.
  * @throws ModelError  if the file is missing, unreadable, or has no triangles or a non-finite
  *   vertex. */

@@ -24,7 +24,7 @@ PinholeCamera PinholeCamera::resized(int new_width) const {
   camera.height = static_cast<int>(std::lround(height * scale));
   camera.fx = fx * scale;
   camera.fy = fy * scale;
-  // Pixel centres lie half a pixel inside the picture's corner, whatever the size of a pixel.
+  // The center of the first pixel lies half a pixel inside of the corner of the image.
   camera.cx = (cx + 0.5) * scale - 0.5;
   camera.cy = (cy + 0.5) * scale - 0.5;
   return camera;
@@ -61,6 +61,8 @@ Eigen::Matrix4f view_matrix(const Eigen::Isometry3d& pose_camera_in_world) {
 }
 
 Frustum::Frustum(const Eigen::Matrix4f& clip_from_world) {
+  // A point is inside if -w <= x, y, z <= w in clip coordinates: six planes, each the sum or
+  // difference of two rows of the matrix (Gribb and Hartmann, 2001).
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
       const float sign = side == 0 ? 1 : -1;

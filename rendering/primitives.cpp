@@ -9,16 +9,17 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/** One point of the outline that a solid of revolution turns about z. */
+/** One point of the profile of a solid of revolution about z. */
 struct OutlinePoint {
   float radius;
   float z;
-  /** Outward normal in the outline's plane. */
+  /** Outward normal in the plane of the profile. */
   float normal_radius;
   float normal_z;
 };
 
-/** Solid of revolution. The outline runs upwards outside; points may repeat to make an edge. */
+/** Solid of revolution about z. The outline runs upwards; a point that is listed twice, with two
+ * normals, gives a sharp edge. */
 Mesh revolve(const std::vector<OutlinePoint>& outline, const Color& color, int num_sides) {
   Mesh mesh;
   const auto encoded_color = encode_color(color);
@@ -40,7 +41,7 @@ Mesh revolve(const std::vector<OutlinePoint>& outline, const Color& color, int n
   for (uint32_t i = 0; i + 1 < outline.size(); ++i) {
     for (uint32_t side = 0; side + 1 < row; ++side) {
       const uint32_t a = i * row + side;
-      // At a pole one of the two triangles has no area.
+      // At a pole, where the radius is 0, one of the two triangles has no area.
       if (outline[i].radius > 0) mesh.indices.insert(mesh.indices.end(), {a, a + 1, a + row});
       if (outline[i + 1].radius > 0) {
         mesh.indices.insert(mesh.indices.end(), {a + 1, a + row + 1, a + row});
@@ -50,7 +51,7 @@ Mesh revolve(const std::vector<OutlinePoint>& outline, const Color& color, int n
   return mesh;
 }
 
-/** Points of a circular arc about (0, z) from one latitude to another, rad. */
+/** Appends a circular arc about (0, z) from one latitude to another, rad. */
 void append_arc(std::vector<OutlinePoint>& outline, float radius, float z, float from, float to,
                 int num_steps) {
   for (int i = 0; i <= num_steps; ++i) {
@@ -112,6 +113,7 @@ Mesh make_capsule(float radius, float length, const Color& color, int num_sides)
 }
 
 Mesh make_arrow(float radius, const Color& color, int num_sides) {
+  // Proportions, chosen for looks: the tip takes a quarter of the length.
   constexpr float kShaft = 0.75f;
   const float head = 2.5f * radius;
   return revolve({{0, 0, 0, -1},

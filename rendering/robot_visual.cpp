@@ -3,10 +3,12 @@
 #include "common/error.h"
 #include "rendering/mesh_file.h"
 #include "rendering/primitives.h"
+#include "rendering/scene_renderer.h"
 
 namespace nao {
 namespace {
 
+/** Light grey plastic. */
 const Color kPrimitiveColor(0.62f, 0.62f, 0.64f, 1);
 
 Mesh make_mesh(const Shape& shape) {
@@ -24,7 +26,7 @@ Mesh make_mesh(const Shape& shape) {
     case Shape::Kind::kMesh:
       return load_mesh(shape.mesh);
   }
-  throw ModelError("shape " + shape.name + " is of no known kind");
+  throw ModelError("shape " + shape.name + " has an unknown kind");
 }
 
 }  // namespace

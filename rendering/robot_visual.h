@@ -4,30 +4,30 @@
 #include <vector>
 
 #include "rendering/scene.h"
-#include "rendering/scene_renderer.h"
 #include "robot_model/robot_model.h"
 
 namespace nao {
 
-/** What a robot looks like: its meshes, kept by a renderer, and how they hang together.
+class SceneRenderer;
+
+/** Appearance of a robot: the meshes of its links, stored by a renderer.
  *
- * A mesh that cannot be read is replaced by the link's collision shapes, so that the rest goes on;
- * problems() says which. */
+ * A link whose mesh cannot be read is drawn by its collision shapes; problems() reports it. */
 class RobotVisual {
  public:
   /** @param model, renderer  Must outlive this. */
   RobotVisual(const RobotModel& model, SceneRenderer& renderer);
 
-  /** What could not be read, one sentence each. */
+  /** Files that could not be read, one sentence each. */
   const std::vector<std::string>& problems() const { return problems_; }
 
   const RobotModel& model() const { return model_; }
 
   /** Adds the robot to a scene.
-   * @param link_poses_in_world  Of every link, as model().link_poses() orders them.
-   * @param tint  Multiplies its colours; below 1, the last one makes it translucent.
-   * @param hidden_link  Index of a link to leave out, -1 for none: a camera does not see the head
-   *   that it sits in. */
+   * @param link_poses_in_world  Of all links, in the order of model().links().
+   * @param tint  Factor on its colors; an opacity below 1 makes it translucent.
+   * @param hidden_link  Index of a link that is not drawn, -1 for none: the head that contains the
+   *   camera is not visible to it. */
   void append(Scene& scene, const std::vector<Eigen::Isometry3d>& link_poses_in_world,
               const Color& tint = Color::Ones(), int hidden_link = -1) const;
 
@@ -50,8 +50,8 @@ std::vector<Eigen::Isometry3d> link_poses_in_world(const RobotModel& model,
                                                    const Eigen::Isometry3d& pose_torso_in_world,
                                                    const std::vector<double>& position);
 
-/** The link with a body that carries a massless frame, such as a camera's: the frame's nearest
- * ancestor over fixed joints that has visuals; `link` itself if none has. */
+/** The body that a massless frame, such as a camera's, is fixed to: its nearest ancestor over fixed
+ * joints that has visuals; `link` itself if none has. */
 int carrying_link(const RobotModel& model, int link);
 
 }  // namespace nao

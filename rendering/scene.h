@@ -9,21 +9,21 @@
 
 namespace nao {
 
-/** Number that SceneRenderer::add_mesh() gave a mesh. */
+/** Number that SceneRenderer::add_mesh() returned for a mesh. */
 using MeshId = int;
 
-/** One mesh standing somewhere. */
+/** A mesh at a place in the world. */
 struct MeshInstance {
   MeshId mesh = -1;
   Eigen::Isometry3f pose_in_world = Eigen::Isometry3f::Identity();
-  /** Stretches the mesh along its own axes before it is posed. */
+  /** Scale along the axes of the mesh, applied before the pose. */
   Eigen::Vector3f scale = Eigen::Vector3f::Ones();
-  /** Multiplies the mesh's own colour. Below 1, the last one makes it translucent. */
+  /** Factor on the color of the mesh; an opacity below 1 makes it translucent. */
   Color tint = Color::Ones();
   bool casts_shadow = true;
 };
 
-/** A straight line for people, drawn one pixel wide. */
+/** A line of a marking, one pixel wide, unlit. */
 struct SceneLine {
   /** m, in the world. */
   Eigen::Vector3f from;
@@ -31,7 +31,7 @@ struct SceneLine {
   Color color;
 };
 
-/** A flat piece of a marking for people, such as a footprint; seen from both sides, unlit. */
+/** A triangle of a marking, such as a footstep; visible from both sides, unlit. */
 struct SceneTriangle {
   /** m, in the world. */
   std::array<Eigen::Vector3f, 3> corners;
@@ -45,11 +45,11 @@ struct SceneBall {
   float radius = 0.05f;
 };
 
-/** What one picture shows besides the ground, goals and sky, which the renderer keeps. */
+/** Content of one image besides the ground, the goals and the sky, which the renderer stores. */
 struct Scene {
   std::vector<MeshInstance> instances;
   std::optional<SceneBall> ball;
-  /** Hidden behind solids. */
+  /** Markings; hidden by the bodies in front of them. */
   std::vector<SceneLine> lines;
   std::vector<SceneTriangle> triangles;
 

@@ -2,8 +2,7 @@
 
 #include <string>
 
-/** The shaders' sources. Colours inside are linear light; the last step encodes them for the
- * screen. */
+/** GLSL sources. Colors inside are linear light; the last step encodes them for the screen. */
 namespace nao::shaders {
 
 struct Source {
@@ -17,20 +16,20 @@ Source solid(bool with_shadow);
 /** The soccer ball: as solid(), with the pattern of a truncated icosahedron. */
 Source ball(bool with_shadow);
 
-/** Ground plane, as carpet with lines or as plain floor. */
+/** The plane z = 0, as a carpet with the lines of a soccer field, or as a tiled floor. */
 Source field(bool with_shadow);
 Source floor(bool with_shadow);
 
-/** Background behind everything. */
+/** Background of all pixels that nothing else covers. */
 Source sky();
 
-/** Depth alone, for the shadow map and for translucent bodies. */
+/** Depth only, for the shadow map and for translucent bodies. */
 Source depth();
 
-/** Goal nets: quads whose strings cover a share of each pixel. */
+/** Goal nets: quads whose strings cover a fraction of each pixel. */
 Source net();
 
-/** Unlit coloured lines and triangles. */
+/** Unlit colored lines and triangles. */
 Source plain();
 
 }  // namespace nao::shaders

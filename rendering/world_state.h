@@ -8,7 +8,7 @@
 
 namespace nao {
 
-/** One robot as a picture needs it. */
+/** State of one robot, as far as it is visible. */
 struct RobotPose {
   std::string name;
   Eigen::Isometry3d pose_torso_in_world = Eigen::Isometry3d::Identity();
@@ -16,14 +16,14 @@ struct RobotPose {
   std::vector<double> position;
 };
 
-/** The world at one instant as a picture needs it. */
+/** State of the world at one time, as far as it is visible. */
 struct WorldState {
   /** Robot time, microseconds. */
   int64_t utime = 0;
   /** Name of the scene file. */
   std::string scene;
   std::vector<RobotPose> robots;
-  /** Ball's centre, if there is a ball. */
+  /** Pose of the ball about its center, if there is a ball. */
   std::optional<Eigen::Isometry3d> pose_ball_in_world;
 
   /** @return nullptr if there is no robot of that name. */
@@ -35,9 +35,9 @@ struct WorldState {
   }
 };
 
-/** The world on its way from one state to another, or on before or beyond: positions along a line,
- * orientations along the shortest turn. A robot that only one of them knows is as `to` has it.
- * @param share  0 gives `from`, 1 gives `to`. */
-WorldState interpolated(const WorldState& from, const WorldState& to, double share);
+/** Interpolates between two states, or extrapolates: positions linearly, orientations along the
+ * shortest rotation. A robot that is in one of them only is as in `to`.
+ * @param fraction  0 gives `from`, 1 gives `to`; values outside 0 to 1 extrapolate. */
+WorldState interpolated(const WorldState& from, const WorldState& to, double fraction);
 
 }  // namespace nao

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/** Corner of the inner box that lies farthest in a direction. */
+/** Support mapping: the corner of the inner box that is farthest in a direction. */
 Vector3d support(const RoundedBox& box, const Vector3d& direction) {
   const Vector3d local = box.rotation.transpose() * direction;
   const Vector3d corner(std::copysign(box.half.x(), local.x()),
@@ -18,7 +18,8 @@ Vector3d support(const RoundedBox& box, const Vector3d& direction) {
   return box.center + box.rotation * corner;
 }
 
-/** A corner of the difference a - b, with the points it was made of and its share. */
+/** A vertex of the Minkowski difference a - b, the points whose difference it is, and its weight
+ * (barycentric coordinate) in the simplex's point nearest to 0. */
 struct Vertex {
   Vector3d difference;
   Vector3d on_a;
@@ -26,7 +27,7 @@ struct Vertex {
   double weight = 0;
 };
 
-/** Up to four corners of the difference whose hull is searched for the point nearest to 0. */
+/** Up to four vertices of the Minkowski difference, the corners of a simplex. */
 struct Simplex {
   std::array<Vertex, 4> vertices;
   int size = 0;
@@ -38,7 +39,8 @@ struct Simplex {
   }
 };
 
-/** Nearest point of a segment to 0; returns its square distance, writes the corners' shares. */
+/** Point of a segment nearest to 0. @param weight  The corners' weights, output. @return Squared
+ * distance. */
 double nearest_on_segment(const Vector3d& a, const Vector3d& b, double* weight) {
   const Vector3d ab = b - a;
   const double length = ab.squaredNorm();
@@ -48,13 +50,15 @@ double nearest_on_segment(const Vector3d& a, const Vector3d& b, double* weight) 
   return (a + t * ab).squaredNorm();
 }
 
-/** As above for a triangle. */
+/** The same for a triangle: inside (Ericson, Real-Time Collision Detection, 5.1.5), or on the
+ * nearest of its edges. */
 double nearest_on_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                            double* weight) {
   const Vector3d normal = (b - a).cross(c - a);
   const double area = normal.squaredNorm();
+  // Not a degenerate triangle (the squared area of one with sides of 30 nm).
   if (area > 1e-30) {
-    // Shares of the corners at the foot of the perpendicular from 0.
+    // Barycentric coordinates of 0's projection onto the plane.
     const double u = b.cross(c).dot(normal) / area;
     const double v = c.cross(a).dot(normal) / area;
     const double w = 1 - u - v;
@@ -80,7 +84,8 @@ double nearest_on_triangle(const Vector3d& a, const Vector3d& b, const Vector3d&
   return best;
 }
 
-/** As above for a tetrahedron. @return false if 0 lies inside. */
+/** The same for a tetrahedron, on the nearest of the faces that separate 0 from the fourth corner.
+ * @return false if 0 is inside. */
 bool nearest_on_tetrahedron(const Simplex& simplex, double* weight) {
   static constexpr int kFaces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
   double best = -1;
@@ -96,18 +101,18 @@ bool nearest_on_tetrahedron(const Simplex& simplex, double* weight) {
     const bool is_flat = std::abs(side_of_opposite) < 1e-15;
     if (!is_flat && side_of_zero * side_of_opposite >= 0) continue;
     is_inside = false;
-    double shares[3];
-    const double distance = nearest_on_triangle(a, b, c, shares);
+    double face_weight[3];
+    const double distance = nearest_on_triangle(a, b, c, face_weight);
     if (best >= 0 && distance >= best) continue;
     best = distance;
-    for (int i = 0; i < 3; ++i) weight[face[i]] = shares[i];
+    for (int i = 0; i < 3; ++i) weight[face[i]] = face_weight[i];
     weight[face[3]] = 0;
   }
   return !is_inside;
 }
 
-/** Reduces the simplex to the corners that carry its point nearest to 0. @return false if the
- * simplex contains 0. */
+/** Reduces the simplex to the smallest face that contains its point nearest to 0. @return false if
+ * the simplex contains 0. */
 bool reduce(Simplex& simplex) {
   double weight[4] = {1, 0, 0, 0};
   auto& v = simplex.vertices;
@@ -138,7 +143,8 @@ Proximity from_core_points(const RoundedBox& a, const RoundedBox& b, const Vecto
   return result;
 }
 
-/** For inner boxes that overlap: the axis along which they do so least. */
+/** For inner boxes that overlap: the separating axis with the least overlap, among the boxes' axes
+ * and their cross products. */
 Proximity least_overlap(const RoundedBox& a, const RoundedBox& b) {
   const Vector3d offset = a.center - b.center;
   double least = -1;
@@ -171,8 +177,8 @@ bool is_line(const RoundedBox& box) {
   return box.half.x() == 0 && box.half.y() == 0;
 }
 
-/** Two spheres or capsules: the segments' nearest points (Ericson, Real-Time Collision Detection,
- * 5.1.9). @return false if the segments meet. */
+/** Two spheres or capsules: the closest points of their segments (Ericson, Real-Time Collision
+ * Detection, 5.1.9). @return false if the segments intersect. */
 bool closest_of_lines(const RoundedBox& a, const RoundedBox& b, Proximity& result) {
   const Vector3d u = a.rotation.col(2) * a.half.z();
   const Vector3d v = b.rotation.col(2) * b.half.z();
@@ -206,7 +212,9 @@ Proximity closest_points(const RoundedBox& a, const RoundedBox& b) {
   if (is_line(a) && is_line(b)) {
     return closest_of_lines(a, b, result) ? result : least_overlap(a, b);
   }
+  // A safeguard: on boxes the algorithm ends after a few iterations.
   constexpr int kMaxIterations = 32;
+  // Relative, of the squared distance.
   constexpr double kTolerance = 1e-10;
   Simplex simplex;
   Vector3d nearest = a.center - b.center;
@@ -217,12 +225,14 @@ Proximity closest_points(const RoundedBox& a, const RoundedBox& b) {
     vertex.on_b = support(b, nearest);
     vertex.difference = vertex.on_a - vertex.on_b;
     const double square = nearest.squaredNorm();
+    // No vertex is nearer to 0 along this direction: the distance is found.
     if (simplex.size > 0 && square - nearest.dot(vertex.difference) <= kTolerance * square) break;
     if (simplex.size == 4) break;
     simplex.vertices[simplex.size++] = vertex;
     if (!reduce(simplex)) return least_overlap(a, b);
     const Vector3d next = simplex.nearest();
     if (next.squaredNorm() < 1e-18) return least_overlap(a, b);
+    // Rounding: no more progress.
     if (iteration > 0 && next.squaredNorm() >= square) break;
     nearest = next;
   }

@@ -5,9 +5,9 @@
 
 namespace nao {
 
-/** A link's collision shape as a rounded box in the link's frame.
+/** Converts a link's collision shape to a rounded box in the link's frame.
  *
- * @param edge_radius  What a box's edges are rounded to, m; at most a quarter of its least edge.
+ * @param edge_radius  Radius of a box's edges, m; reduced to a quarter of the box's shortest edge.
  * @throws ModelError  unless the shape is a box, a sphere or a capsule. */
 RoundedBox rounded_box_in_link(const Link& link, const Shape& shape, double edge_radius);
 

@@ -15,7 +15,7 @@ int find_named(const Items& items, const std::string& name) {
   return found == items.end() ? -1 : static_cast<int>(found - items.begin());
 }
 
-/** Linear between the points, constant beyond the first and last one. */
+/** Piecewise linear interpolation, constant beyond the first and last point. @param x  Rising. */
 double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
   const size_t next = std::upper_bound(x.begin(), x.end(), at) - x.begin();
   if (next == 0) {
@@ -66,8 +66,8 @@ double RobotModel::total_mass() const {
 
 std::vector<double> RobotModel::joint_positions(const std::vector<double>& position) const {
   if (position.size() != motor_joints_.size()) {
-    throw std::invalid_argument("positions of " + std::to_string(position.size()) +
-                                " motors instead of " + std::to_string(motor_joints_.size()));
+    throw std::invalid_argument(std::to_string(position.size()) + " motor positions instead of " +
+                                std::to_string(motor_joints_.size()));
   }
   std::vector<double> angles(joints_.size(), 0.0);
   for (size_t motor = 0; motor < motor_joints_.size(); ++motor) {
@@ -93,7 +93,7 @@ std::vector<Eigen::Isometry3d> RobotModel::link_poses(const std::vector<double>&
   return poses;
 }
 
-double RobotModel::clip_to_limits(int motor, double wished,
+double RobotModel::clip_to_limits(int motor, double angle,
                                   const std::vector<double>& position) const {
   double lower = motor_joint(motor).lower;
   double upper = motor_joint(motor).upper;
@@ -104,7 +104,7 @@ double RobotModel::clip_to_limits(int motor, double wished,
       upper = std::min(upper, interpolate(limit.other_position, limit.upper, other));
     }
   }
-  return std::clamp(wished, lower, upper);
+  return std::clamp(angle, lower, upper);
 }
 
 }  // namespace nao

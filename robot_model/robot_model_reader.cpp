@@ -9,10 +9,10 @@
 namespace nao {
 namespace {
 
-/** Remembers a name. */
-void claim(std::set<std::string>& names, const YamlEntry& entry) {
+/** Adds a name. @throws ModelError  if it is known already. */
+void add_unique(std::set<std::string>& names, const YamlEntry& entry) {
   if (!names.insert(entry.text()).second) {
-    entry.fail("\"" + entry.text() + "\" stands there twice");
+    entry.fail("\"" + entry.text() + "\" appears twice");
   }
 }
 
@@ -30,7 +30,7 @@ Motor read_motor_type(const YamlEntry& entry) {
   return motor;
 }
 
-/** @throws ModelError  unless the points go around a convex area counter-clockwise. */
+/** @throws ModelError  unless the points are the corners of a convex polygon, counter-clockwise. */
 std::vector<Eigen::Vector2d> read_outline(const YamlEntry& list) {
   std::vector<Eigen::Vector2d> outline;
   for (const YamlEntry& item : list.items()) {
@@ -38,10 +38,11 @@ std::vector<Eigen::Vector2d> read_outline(const YamlEntry& list) {
     outline.emplace_back(point[0], point[1]);
   }
   if (outline.size() < 3) {
-    list.fail("needs three points at least");
+    list.fail("has fewer than three points");
   }
   const size_t count = outline.size();
-  double turned = 0;
+  // All exterior angles of a convex polygon have one sign; their sum is a full turn.
+  double sum = 0;
   for (size_t i = 0; i < count; ++i) {
     const Eigen::Vector2d before = outline[(i + 1) % count] - outline[i];
     const Eigen::Vector2d after = outline[(i + 2) % count] - outline[(i + 1) % count];
@@ -50,9 +51,9 @@ std::vector<Eigen::Vector2d> read_outline(const YamlEntry& list) {
     if (turn <= 0) {
       list.fail("is not convex and counter-clockwise at point " + std::to_string((i + 1) % count));
     }
-    turned += turn;
+    sum += turn;
   }
-  if (turned > 2 * std::numbers::pi + 1e-6) {
+  if (sum > 2 * std::numbers::pi + 1e-6) {
     list.fail("goes around more than once");
   }
   return outline;
@@ -74,7 +75,8 @@ RobotModel RobotModelReader::read(const std::filesystem::path& folder) {
   if (std::filesystem::path(urdf).filename() != urdf) {
     robot.at("urdf").fail("must be a file in this folder");
   }
-  reader.read_urdf(reader.model_.folder_ / urdf);
+  reader.model_.urdf_file_ = reader.model_.folder_ / urdf;
+  reader.read_urdf(reader.model_.urdf_file_);
   reader.read_motors(robot.at("motor_types"), robot.at("motors"));
   reader.read_coupled_limits(robot.at("coupled_limits"));
   reader.read_joint_groups(robot.at("joint_groups"));
@@ -82,6 +84,7 @@ RobotModel RobotModelReader::read(const std::filesystem::path& folder) {
   reader.read_inertial_unit(robot.at("inertial_unit"));
   reader.read_foot_sensors(robot.at("foot_sensors"));
   reader.read_soles(robot.at("soles"));
+  reader.assign_foot_sensors(robot.at("foot_sensors"));
   reader.read_contact_clusters(robot.at("contact_clusters"));
   reader.read_walk_limits(robot.at("walk_limits"));
   reader.read_actions(robot.at("actions"));
@@ -95,7 +98,7 @@ RobotModel RobotModelReader::read(const std::filesystem::path& folder) {
 int RobotModelReader::motor_named(const YamlEntry& entry) const {
   const int motor = model_.find_motor(entry.text());
   if (motor < 0) {
-    entry.fail("\"" + entry.text() + "\" is no joint with a motor in the URDF");
+    entry.fail("\"" + entry.text() + "\" is not a joint with a motor in the URDF");
   }
   return motor;
 }
@@ -103,7 +106,7 @@ int RobotModelReader::motor_named(const YamlEntry& entry) const {
 int RobotModelReader::link_named(const YamlEntry& entry) const {
   const int link = model_.find_link(entry.text());
   if (link < 0) {
-    entry.fail("\"" + entry.text() + "\" is no link in the URDF");
+    entry.fail("\"" + entry.text() + "\" is not a link in the URDF");
   }
   return link;
 }
@@ -118,11 +121,11 @@ void RobotModelReader::read_motors(const YamlEntry& types, const YamlEntry& moto
   for (const auto& [joint, type] : motors.entries()) {
     const int motor = model_.find_motor(joint);
     if (motor < 0) {
-      type.fail("is no joint with a motor in the URDF");
+      type.fail("is not a joint with a motor in the URDF");
     }
     const auto found = motor_types.find(type.text());
     if (found == motor_types.end()) {
-      type.fail("names an unknown motor type \"" + type.text() + "\"");
+      type.fail("is the unknown motor type \"" + type.text() + "\"");
     }
     model_.motors_[motor] = found->second;
     model_.motors_[motor].peak_torque = model_.motor_joint(motor).max_torque;
@@ -142,7 +145,7 @@ void RobotModelReader::read_coupled_limits(const YamlEntry& list) {
   std::set<std::string> names;
   for (const YamlEntry& item : list.items()) {
     item.allow_only({"joint", "depends_on", "rows"});
-    claim(names, item.at("joint"));
+    add_unique(names, item.at("joint"));
     CoupledLimit limit;
     limit.motor = motor_named(item.at("joint"));
     limit.other_motor = motor_named(item.at("depends_on"));
@@ -152,7 +155,7 @@ void RobotModelReader::read_coupled_limits(const YamlEntry& list) {
     for (const YamlEntry& row : item.at("rows").items()) {
       const std::vector<double> values = row.numbers(3);
       if (!limit.other_position.empty() && values[0] <= limit.other_position.back()) {
-        row.fail("must have a greater first number than the row above");
+        row.fail("must have a larger first number than the row above");
       }
       if (values[1] >= values[2]) {
         row.fail("has its limits reversed");
@@ -176,7 +179,7 @@ void RobotModelReader::read_joint_groups(const YamlEntry& list) {
   std::set<std::string> names;
   for (const YamlEntry& item : list.items()) {
     item.allow_only({"name", "yaw", "pitch", "roll"});
-    claim(names, item.at("name"));
+    add_unique(names, item.at("name"));
     JointGroup group;
     group.name = item.at("name").text();
     const auto motor_of = [this, &item](const char* axis) {
@@ -196,7 +199,7 @@ void RobotModelReader::read_cameras(const YamlEntry& list) {
   std::set<std::string> names;
   for (const YamlEntry& item : list.items()) {
     item.allow_only({"name", "link", "horizontal_fov", "vertical_fov"});
-    claim(names, item.at("name"));
+    add_unique(names, item.at("name"));
     CameraModel camera;
     camera.name = item.at("name").text();
     camera.link = link_named(item.at("link"));
@@ -222,7 +225,7 @@ void RobotModelReader::read_inertial_unit(const YamlEntry& entry) {
 void RobotModelReader::read_foot_sensors(const YamlEntry& list) {
   std::set<std::string> names;
   for (const YamlEntry& item : list.items()) {
-    claim(names, item);
+    add_unique(names, item);
     model_.foot_sensors_.push_back(link_named(item));
   }
 }
@@ -235,8 +238,30 @@ void RobotModelReader::read_soles(const YamlEntry& entry) {
     link = link_named(sole.at("link"));
     outline = read_outline(sole.at("outline"));
   };
-  read_sole(entry.at("left"), model_.left_sole_, model_.left_sole_outline_);
-  read_sole(entry.at("right"), model_.right_sole_, model_.right_sole_outline_);
+  read_sole(entry.at("left"), model_.feet_[0].sole, model_.feet_[0].outline);
+  read_sole(entry.at("right"), model_.feet_[1].sole, model_.feet_[1].outline);
+}
+
+void RobotModelReader::assign_foot_sensors(const YamlEntry& list) {
+  // The first link of the rigid body that a link belongs to.
+  const auto body_of = [this](int link) {
+    int joint = model_.links_[link].parent_joint;
+    while (joint >= 0 && model_.joints_[joint].kind == Joint::Kind::kFixed) {
+      link = model_.joints_[joint].parent_link;
+      joint = model_.links_[link].parent_joint;
+    }
+    return link;
+  };
+  for (size_t i = 0; i < model_.foot_sensors_.size(); ++i) {
+    const int body = body_of(model_.foot_sensors_[i]);
+    const auto foot =
+        std::find_if(model_.feet_.begin(), model_.feet_.end(),
+                     [&](const Foot& candidate) { return body_of(candidate.sole) == body; });
+    if (foot == model_.feet_.end()) {
+      list.items()[i].fail("is not fixed to the link of a sole");
+    }
+    foot->sensors.push_back(static_cast<int>(i));
+  }
 }
 
 void RobotModelReader::read_contact_clusters(const YamlEntry& list) {
@@ -247,15 +272,16 @@ void RobotModelReader::read_contact_clusters(const YamlEntry& list) {
     for (const YamlEntry& item : cluster.items()) {
       int& of_link = cluster_of[link_named(item)];
       if (of_link != kNone) {
-        item.fail("\"" + item.text() + "\" stands there twice");
+        item.fail("\"" + item.text() + "\" appears twice");
       }
       of_link = num_clusters;
     }
     ++num_clusters;
   }
-  std::set<std::pair<int, int>> neighbours;
+  // Clusters that a joint connects.
+  std::set<std::pair<int, int>> neighbors;
   for (const Joint& joint : model_.joints_) {
-    neighbours.insert(std::minmax(cluster_of[joint.parent_link], cluster_of[joint.child_link]));
+    neighbors.insert(std::minmax(cluster_of[joint.parent_link], cluster_of[joint.child_link]));
   }
   const int num_links = static_cast<int>(model_.links_.size());
   for (int a = 0; a < num_links; ++a) {
@@ -264,7 +290,7 @@ void RobotModelReader::read_contact_clusters(const YamlEntry& list) {
         continue;
       }
       if (cluster_of[a] == cluster_of[b] ||
-          neighbours.count(std::minmax(cluster_of[a], cluster_of[b])) > 0) {
+          neighbors.count(std::minmax(cluster_of[a], cluster_of[b])) > 0) {
         model_.allowed_contacts_.emplace_back(a, b);
       }
     }
@@ -282,7 +308,7 @@ void RobotModelReader::read_walk_limits(const YamlEntry& entry) {
 void RobotModelReader::read_actions(const YamlEntry& list) {
   std::set<std::string> names;
   for (const YamlEntry& item : list.items()) {
-    claim(names, item);
+    add_unique(names, item);
     model_.actions_.push_back(item.text());
   }
 }
@@ -291,7 +317,7 @@ void RobotModelReader::read_postures(const YamlEntry& list) {
   std::set<std::string> names;
   for (const YamlEntry& item : list.items()) {
     item.allow_only({"name", "family", "source", "joints"});
-    claim(names, item.at("name"));
+    add_unique(names, item.at("name"));
     Posture posture;
     posture.name = item.at("name").text();
     posture.family = item.at("family").text();
@@ -306,7 +332,7 @@ void RobotModelReader::read_postures(const YamlEntry& list) {
     for (const auto& [joint, angle] : joints.entries()) {
       const int motor = model_.find_motor(joint);
       if (motor < 0) {
-        angle.fail("is no joint with a motor in the URDF");
+        angle.fail("is not a joint with a motor in the URDF");
       }
       posture.position[motor] = angle.number();
     }

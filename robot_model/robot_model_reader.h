@@ -8,7 +8,7 @@
 
 namespace nao {
 
-/** Fills a RobotModel from its files. Every function throws ModelError naming the file, the element
+/** Fills a RobotModel from its files. Every function throws ModelError with the file, the element
  * and what is wrong with it. */
 class RobotModelReader {
  public:
@@ -20,7 +20,7 @@ class RobotModelReader {
   /** Links and joints. */
   void read_urdf(const std::filesystem::path& file);
 
-  /** What robot.yaml says. */
+  // Entries of robot.yaml.
   void read_motors(const YamlEntry& types, const YamlEntry& motors);
   void read_coupled_limits(const YamlEntry& list);
   void read_joint_groups(const YamlEntry& list);
@@ -32,8 +32,11 @@ class RobotModelReader {
   void read_walk_limits(const YamlEntry& entry);
   void read_actions(const YamlEntry& list);
 
-  /** What postures.yaml says. */
+  // Entries of postures.yaml.
   void read_postures(const YamlEntry& list);
+
+  /** Assigns the foot sensors to the feet that carry them. After read_soles(). */
+  void assign_foot_sensors(const YamlEntry& list);
 
   int motor_named(const YamlEntry& entry) const;
   int link_named(const YamlEntry& entry) const;

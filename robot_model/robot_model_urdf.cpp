@@ -17,7 +17,7 @@
 namespace nao {
 namespace {
 
-/** Keeps what urdfdom would print, so that it can become an error's text. */
+/** Collects what urdfdom would print, for the text of an error. */
 class UrdfdomMessages : public console_bridge::OutputHandler {
  public:
   UrdfdomMessages() : previous_(console_bridge::getOutputHandler()) {
@@ -40,9 +40,9 @@ class UrdfdomMessages : public console_bridge::OutputHandler {
   std::string errors_;
 };
 
-/** How the elements hang together, in the file's order, which urdfdom forgets: a tree whose joints
- * are listed from the root outwards, no name twice. urdfdom itself would keep the last of two
- * parents and never free a cycle. */
+/** The kinematic tree in the file's order, which urdfdom does not keep: joints are listed from the
+ * root outwards, and no name appears twice. urdfdom itself accepts two parents of a link, and leaks
+ * the memory of a cycle. */
 struct UrdfTree {
   struct Edge {
     std::string joint;
@@ -53,16 +53,16 @@ struct UrdfTree {
   std::vector<Edge> edges;
 };
 
-/** One URDF file: turns urdfdom's structures into ours and complains by element. */
+/** One URDF file: converts urdfdom's structures, and reports errors with the element's name. */
 class UrdfFile {
  public:
   explicit UrdfFile(const std::filesystem::path& file) : file_(file), folder_(file.parent_path()) {}
 
   UrdfTree tree() const;
-  /** @return urdfdom's model; it has no element that it did not understand. */
+  /** @return urdfdom's model. @throws ModelError  if urdfdom reported any error. */
   urdf::ModelInterfaceSharedPtr parse() const;
   Link convert(const urdf::Link& link) const;
-  /** All but the indices of links and joints. */
+  /** Everything but the indices of links and joints. */
   Joint convert(const urdf::Joint& joint) const;
 
   [[noreturn]] void fail(const std::string& element, const std::string& what) const {
@@ -113,7 +113,7 @@ urdf::ModelInterfaceSharedPtr UrdfFile::parse() const {
     fail("robot", error.what());
   }
   require(model != nullptr && messages.errors().empty(), "robot",
-          messages.errors().empty() ? "no URDF" : messages.errors());
+          messages.errors().empty() ? "is not a URDF" : messages.errors());
   return model;
 }
 
@@ -134,7 +134,7 @@ UrdfTree UrdfFile::tree() const {
   for (const TiXmlElement* link = robot->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
     const std::string name = attribute(link, "name", "link");
-    require(links.insert(name).second, "link " + name, "stands there twice");
+    require(links.insert(name).second, "link " + name, "appears twice");
   }
 
   UrdfTree tree;
@@ -144,13 +144,13 @@ UrdfTree UrdfFile::tree() const {
        joint = joint->NextSiblingElement("joint")) {
     const std::string name = attribute(joint, "name", "joint");
     const std::string element = "joint " + name;
-    require(joints.insert(name).second, element, "stands there twice");
+    require(joints.insert(name).second, element, "appears twice");
     const std::string parent = attribute(joint->FirstChildElement("parent"), "link", element);
     const std::string child = attribute(joint->FirstChildElement("child"), "link", element);
-    require(links.count(parent) > 0, element, "its parent \"" + parent + "\" is no link");
-    require(links.count(child) > 0, element, "its child \"" + child + "\" is no link");
+    require(links.count(parent) > 0, element, "its parent \"" + parent + "\" is not a link");
+    require(links.count(child) > 0, element, "its child \"" + child + "\" is not a link");
     const auto [known, is_new] = joint_of_child.try_emplace(child, name);
-    require(is_new, element, "its child \"" + child + "\" is moved by " + known->second + " too");
+    require(is_new, element, "its child \"" + child + "\" is also the child of " + known->second);
     tree.edges.push_back({name, parent, child});
   }
 
@@ -164,10 +164,11 @@ UrdfTree UrdfFile::tree() const {
   require(!tree.root.empty(), "robot", "has no root link");
   std::set<std::string> reached = {tree.root};
   for (const UrdfTree::Edge& edge : tree.edges) {
-    require(reached.count(edge.parent) > 0, "joint " + edge.joint,
-            "its parent \"" + edge.parent +
-                "\" is not the root and no earlier joint's child: list the joints from the root "
-                "outwards, without a cycle");
+    require(
+        reached.count(edge.parent) > 0, "joint " + edge.joint,
+        "its parent \"" + edge.parent +
+            "\" is neither the root nor an earlier joint's child: list the joints from the root "
+            "outwards, without a cycle");
     reached.insert(edge.child);
   }
   return tree;
@@ -183,7 +184,7 @@ Eigen::Isometry3d UrdfFile::convert(const urdf::Pose& pose, const std::string& e
   Eigen::Isometry3d converted = Eigen::Isometry3d::Identity();
   converted.translation() = convert(pose.position, element);
   Eigen::Quaterniond rotation(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
-  require(rotation.coeffs().allFinite() && rotation.norm() > 0.5, element, "rpy is no rotation");
+  require(rotation.coeffs().allFinite() && rotation.norm() > 0.5, element, "rpy is not a rotation");
   converted.linear() = rotation.normalized().toRotationMatrix();
   return converted;
 }
@@ -242,7 +243,8 @@ Shape UrdfFile::convert(const urdf::Geometry* geometry, const urdf::Pose& origin
 void UrdfFile::convert_inertial(const urdf::Inertial& inertial, const std::string& element,
                                 Link& link) const {
   link.mass = finite(inertial.mass, element, "the mass");
-  require(link.mass > 0, element, "the mass must be above 0; leave <inertial> away for a frame");
+  require(link.mass > 0, element,
+          "the mass must be above 0; omit <inertial> for a link without mass");
   const Eigen::Isometry3d pose = convert(inertial.origin, element);
   link.center_of_mass = pose.translation();
   Eigen::Matrix3d inertia;
@@ -252,9 +254,10 @@ void UrdfFile::convert_inertial(const urdf::Inertial& inertial, const std::strin
   require(inertia.allFinite(), element, "the inertia is not finite");
   const Eigen::Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
-  require(moments(0) > 0 && moments(2) <= (moments(0) + moments(1)) * (1 + 1e-9), element,
-          "no body has this inertia: its principal moments must be above 0, none greater than the "
-          "sum of the others");
+  require(
+      moments(0) > 0 && moments(2) <= (moments(0) + moments(1)) * (1 + 1e-9), element,
+      "the inertia is not physical: the principal moments must be above 0, and none larger than "
+      "the sum of the others");
   link.inertia = pose.linear() * inertia * pose.linear().transpose();
 }
 
@@ -287,7 +290,7 @@ Joint UrdfFile::convert(const urdf::Joint& source) const {
   require(source.type == urdf::Joint::REVOLUTE, element, "must be revolute or fixed");
   joint.kind = Joint::Kind::kRevolute;
   joint.axis = convert(source.axis, element);
-  require(joint.axis.norm() > 1e-6, element, "the axis has no direction");
+  require(joint.axis.norm() > 1e-6, element, "the axis must not be 0");
   joint.axis.normalize();
   require(source.limits != nullptr, element, "has no limits");
   joint.lower = finite(source.limits->lower, element, "the lower limit");
@@ -335,6 +338,7 @@ void RobotModelReader::read_urdf(const std::filesystem::path& file_path) {
     model_.joints_.push_back(joint);
     if (joint.kind == Joint::Kind::kRevolute && source->mimic == nullptr) {
       model_.motor_joints_.push_back(index);
+      model_.motor_names_.push_back(joint.name);
     }
   }
   for (Joint& joint : model_.joints_) {
@@ -345,7 +349,7 @@ void RobotModelReader::read_urdf(const std::filesystem::path& file_path) {
     const int motor = model_.find_motor(source->mimic->joint_name);
     if (motor < 0) {
       file.fail("joint " + joint.name,
-                "mimics \"" + source->mimic->joint_name + "\", which is no joint with a motor");
+                "mimics \"" + source->mimic->joint_name + "\", which is not a joint with a motor");
     }
     joint.mimic_joint = model_.motor_joints_[motor];
   }

@@ -9,13 +9,13 @@
 namespace nao {
 namespace {
 
-/** No field, goal or ball is greater; m. */
-constexpr double kGreatest = 1000;
+/** Upper limit of all lengths, m, and masses, kg: chosen far beyond any field. */
+constexpr double kMaxSize = 1000;
 
 /** A length, m, or a mass, kg. */
 double read_size(const YamlEntry& entry) {
   const double size = entry.positive();
-  if (size > kGreatest) entry.fail("must be 1000 at most");
+  if (size > kMaxSize) entry.fail("must be at most 1000");
   return size;
 }
 
@@ -46,7 +46,9 @@ GoalDimensions read_goals(const YamlEntry& entry) {
   goals.post_diameter = read_size(entry.at("post_diameter"));
   goals.post_distance = read_size(entry.at("post_distance"));
   goals.post_offset = entry.at("post_offset").number();
-  if (std::abs(goals.post_offset) > kGreatest) entry.at("post_offset").fail("is too great");
+  if (std::abs(goals.post_offset) > kMaxSize) {
+    entry.at("post_offset").fail("must be within -1000 and 1000");
+  }
   goals.crossbar_height = read_size(entry.at("crossbar_height"));
   goals.depth = read_size(entry.at("depth"));
   return goals;
@@ -59,8 +61,8 @@ BallDescription read_ball(const YamlEntry& entry) {
   ball.mass = read_size(entry.at("mass"));
   const std::vector<double> position = entry.at("position").numbers(2);
   ball.position = {position[0], position[1]};
-  if (ball.position.cwiseAbs().maxCoeff() > kGreatest) {
-    entry.at("position").fail("is too far away");
+  if (ball.position.cwiseAbs().maxCoeff() > kMaxSize) {
+    entry.at("position").fail("must be within -1000 and 1000");
   }
   return ball;
 }
@@ -75,7 +77,7 @@ SceneFile SceneFile::load(const std::filesystem::path& file) {
   if (entry.has("field")) scene.field = read_field(entry.at("field"));
   if (entry.has("goals")) scene.goals = read_goals(entry.at("goals"));
   if (entry.has("ball")) scene.ball = read_ball(entry.at("ball"));
-  if (scene.goals && !scene.field) entry.at("goals").fail("need a field to stand on");
+  if (scene.goals && !scene.field) entry.at("goals").fail("need a field");
   return scene;
 }
 

@@ -5,7 +5,7 @@ set -euo pipefail
 
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 PROGRAM=$(basename "$0")
-# How a person calls the scripts: an installed copy has one command for all, "nao-remote start".
+# Prefix of the scripts' names for users: an installed copy has one command for all, "nao-remote start".
 CALL=${NAO_REMOTE_CALL:-scripts/}
 
 say() { printf '%s\n' "$*"; }
@@ -34,7 +34,7 @@ value() {
     printf '%s' "$2"
 }
 
-# Runs a command as root: directly, or by sudo where that works without a terminal question first.
+# Runs a command as root: directly, or with sudo.
 as_root() {
     if [ "$(id -u)" -eq 0 ]; then
         "$@"
@@ -45,7 +45,7 @@ as_root() {
     fi
 }
 
-# How many compilers fit: one per core, and 1.5 GB of memory for each.
+# Number of parallel compilers: one per core, but 1.5 GB of memory for each.
 build_jobs() {
     local cores memory_jobs
     cores=$(nproc)
@@ -54,7 +54,7 @@ build_jobs() {
     printf '%s' "$((memory_jobs < cores ? memory_jobs : cores))"
 }
 
-# build_preset PRESET [TARGET...]: configures if need be and builds; ninja's progress is the output.
+# build_preset PRESET [TARGET...]: configures if necessary and builds; prints ninja's progress.
 build_preset() {
     local preset=$1 targets=() target
     shift
@@ -62,8 +62,8 @@ build_preset() {
     local build_dir=$ROOT/build/$preset stamp=$ROOT/build/$preset/.configured
     (
         cd "$ROOT"
-        # Not every time, for it costs more than the start of all programs; ninja does it by itself
-        # for files that it knows, so only new folders need this.
+        # Configuring takes longer than starting all programs. Ninja repeats it for files that it knows;
+        # only new folders need it here.
         if [ ! -f "$stamp" ] || [ ! -f "$build_dir/build.ninja" ] ||
             [ -n "$(find . -path ./build -prune -o -name node_modules -prune -o \
                 \( -name CMakeLists.txt -o -name '*.cmake' -o -name CMakePresets.json \) \

@@ -1,26 +1,26 @@
-# The running stack, as start, stop, status, record, replay and spy see it: source it after lib.sh.
+# Access to the running stack for start, stop, status, record, replay and spy: source it after lib.sh.
 # shellcheck shell=bash
 
-# Everything that belongs to one running stack lies in its run directory: supervisor's configuration,
-# socket and process id, the settings that it was started with, and the logs.
+# The run directory contains all files of one running stack: supervisor's configuration,
+# socket and process id, its settings, and the logs.
 RUN_DIR=${NAO_REMOTE_RUN_DIR:-$ROOT/run}
 
-# Every program that a stack may have.
+# All programs of a stack.
 # shellcheck disable=SC2034
 PROGRAMS=(nao-sim nao-motion nao-head-camera nao-phone-gateway)
 
-# set_run_dir DIR: an absolute path, for it is compared and stored.
+# set_run_dir DIR: stores it as an absolute path.
 set_run_dir() { RUN_DIR=$(realpath --canonicalize-missing "$1"); }
 
-# setting KEY [DEFAULT]: what the running stack, or the last one, was started with.
+# setting KEY [DEFAULT]: a setting of the running stack, or of the last one.
 setting() {
     local line
     line=$(grep -m 1 "^$1=" "$RUN_DIR/settings" 2>/dev/null) || line="$1=${2-}"
     printf '%s' "${line#*=}"
 }
 
-# Process id of the stack's supervisor; exit status 1 if it does not run. A stale file names a process
-# that is gone, or one that has nothing to do with this stack.
+# Process id of the stack's supervisor; exit status 1 if it does not run. A stale file may name a process
+# that has ended or that is unrelated to this stack.
 supervisor_pid() {
     local pid
     pid=$(cat "$RUN_DIR/supervisord.pid" 2>/dev/null) || return 1
@@ -28,14 +28,14 @@ supervisor_pid() {
     printf '%s' "$pid"
 }
 
-# Process ids of everything that this stack started, found by the mark in their environment, so that
-# orphans of a killed supervisor are found too.
+# Process ids of all programs of this stack, identified by an environment variable; this includes orphans of
+# a killed supervisor.
 stack_pids() {
     grep -lsxzF "NAO_REMOTE_STACK=$RUN_DIR" /proc/[0-9]*/environ 2>/dev/null |
         sed 's|/proc/\([0-9]*\)/.*|\1|' || true
 }
 
-# wait_for_no_pids SECONDS: until no process of the stack is left; exit status 1 if one still is.
+# wait_for_no_pids SECONDS: waits until no process of the stack is left; exit status 1 on timeout.
 wait_for_no_pids() {
     local deadline=$((SECONDS + $1))
     while [ -n "$(stack_pids)" ]; do
@@ -51,8 +51,8 @@ signal_stack() {
     if [ ${#pids[@]} -gt 0 ]; then kill -s "$1" "${pids[@]}" 2>/dev/null || true; fi
 }
 
-# Ends every process of the stack: asks the supervisor, which asks its programs; then whoever is left;
-# at last nobody is asked.
+# Ends every process of the stack: SIGTERM to the supervisor, which ends its programs; SIGTERM to the
+# remaining processes; then SIGKILL.
 stop_stack() {
     local pid
     if pid=$(supervisor_pid); then
@@ -65,7 +65,7 @@ stop_stack() {
     rm -f "$RUN_DIR/supervisord.pid" "$RUN_DIR/supervisor.sock"
 }
 
-# Bus of the running stack, or of the last one, or the default.
+# Bus URL of the running stack, of the last one, or the default.
 bus_url() { setting lcm_url "${LCM_DEFAULT_URL:-udpm://239.255.76.67:7667?ttl=0}"; }
 
 # tool NAME: path of one of the project's command-line programs.

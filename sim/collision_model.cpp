@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/** Radius that a box's edges are rounded to, m: about that of the robot's shells. It is also how
- * deep a box may be pressed before its inner box is touched. */
+/** Radius of a box's rounded edges, m: about that of the NAO's shells (chosen). Two boxes may
+ * overlap by twice as much before their inner boxes meet, see RoundedBox. */
 constexpr double kEdgeRadius = 0.008;
 
 CollisionModel::Part part_of(const Shape& shape, const Link& link,
@@ -32,7 +32,7 @@ double twice_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eige
   return std::abs(u.x() * v.y() - u.y() * v.x());
 }
 
-/** Corners of a part's inner box: 1, 2 or 8 of them. */
+/** Distinct corners of a part's inner box in its body's frame: 1 (sphere), 2 (capsule) or 8. */
 std::vector<Vector3d> corners_of(const CollisionModel::Part& part) {
   std::set<std::vector<double>> distinct;
   std::vector<Vector3d> corners;
@@ -85,24 +85,33 @@ CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int nu
       }
       double sole_height = 0;
       if (sole >= 0) {
-        // The outline stands for the shape's lower side.
+        // The outline's corners replace the shape's own lower corners on the floor.
         has_sole[sole] = true;
         const Eigen::Isometry3d& pose = tree.pose_in_body(sole_links[sole]);
         sole_height = pose.translation().z();
         for (const Eigen::Vector2d& corner : outlines[sole]) {
           const Vector3d in_body = pose * Vector3d(corner.x(), corner.y(), 0);
           points.push_back({in_body, 0, sole});
-          const double reach = (in_body - part.center_in_body).norm();
-          part.bounding_radius = std::max(part.bounding_radius, reach);
+          const double to_corner = (in_body - part.center_in_body).norm();
+          part.bounding_radius = std::max(part.bounding_radius, to_corner);
         }
       }
       for (const Vector3d& corner : corners_of(part)) {
+        // Corners within 1 mm of the sole's plane, or below it, are the lower ones.
         if (sole >= 0 && corner.z() - part.radius < sole_height + 1e-3) continue;
         points.push_back({corner, part.radius, -1});
       }
       part.end_point = static_cast<int>(points.size());
       parts.push_back(part);
     }
+  }
+
+  for (const Part& part : parts) {
+    double distance = part.center_in_body.norm() + part.bounding_radius;
+    for (int body = part.body; body > 0; body = tree.bodies()[body].parent) {
+      distance += tree.bodies()[body].origin_in_parent.norm();
+    }
+    reach = std::max(reach, distance);
   }
 
   const auto& allowed = model.allowed_contacts();

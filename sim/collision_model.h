@@ -9,7 +9,7 @@
 
 namespace nao::sim {
 
-/** A robot's collision primitives, made ready for contact. */
+/** A robot's collision primitives in the form that contact detection needs. */
 struct CollisionModel {
   /** A primitive fixed to a body: a rounded box, see RoundedBox. */
   struct Part {
@@ -19,32 +19,37 @@ struct CollisionModel {
     Eigen::Matrix3d rotation_in_body = Eigen::Matrix3d::Identity();
     Eigen::Vector3d half = Eigen::Vector3d::Zero();
     double radius = 0;
-    /** Of a sphere about the centre that holds the whole part, m. */
+    /** Radius of the sphere about the center that contains the whole part, m. */
     double bounding_radius = 0;
-    /** Its points in `points` that can touch the floor: first, and one past the last. */
+    /** Its points in `points`, which collide with the floor: first, and one past the last. */
     int first_point = 0;
     int end_point = 0;
   };
-  /** A small ball fixed to a body that stands for a corner, an end or an edge on the floor. */
+  /** A sphere fixed to a body, by which a corner or an end of a part collides with the floor. */
   struct Point {
     Eigen::Vector3d center_in_body = Eigen::Vector3d::Zero();
     double radius = 0;
-    /** 0 left, 1 right sole, -1 elsewhere. */
+    /** Sole that it is a corner of: 0 left, 1 right, -1 none. */
     int sole = -1;
   };
 
   std::vector<Part> parts;
   std::vector<Point> points;
-  /** Parts (the smaller index first) of one robot that must not pass through each other. */
+  /** Pairs of parts (the smaller index first) that collide with each other: on different bodies,
+   * and not allowed to touch by robot.yaml's contact_clusters. */
   std::vector<std::pair<int, int>> self_pairs;
+  /** Upper bound of the distance from the root's origin to any point of the robot, m, at all joint
+   * angles. */
+  double reach = 0;
 
   /** @param num_sole_points  Corners that each sole keeps of its outline, 3 or more.
-   * @throws ModelError  for a collision shape that is no box, sphere or capsule. */
+   * @throws ModelError  for a collision shape that is not a box, sphere or capsule. */
   CollisionModel(const RobotModel& model, const Tree& tree, int num_sole_points);
 };
 
-/** Leaves out corners of a convex outline, always the one that costs the least area, until `count`
- * are left. */
+/** Removes corners from a convex outline until `count` are left, each time the one whose removal
+ * loses the least area (Visvalingam and Whyatt, Line Generalisation by Repeated Elimination of
+ * Points, 1993). */
 std::vector<Eigen::Vector2d> simplify_outline(std::vector<Eigen::Vector2d> outline, int count);
 
 }  // namespace nao::sim

@@ -28,7 +28,8 @@ int ConstraintSolver::add_entries(int count) {
 int ConstraintSolver::add_block(const ContactBlock& added) {
   if (blocks_.size() == blocks_.capacity()) return -1;
   ContactBlock block = added;
-  // The 3 x 3 block of J M^-1 J^T.
+  // The block's part of J M^-1 J^T = y^T y; normal and tangents are solved one after the other, so
+  // that their coupling does not enter here.
   double nn = 0, xx = 0, xy = 0, yy = 0;
   for (int i = 0; i < block.num_entries; ++i) {
     const double* row = entries_[block.first_entry + i].row;
@@ -44,7 +45,7 @@ int ConstraintSolver::add_block(const ContactBlock& added) {
   block.tangent_inverse[0] = yy / determinant;
   block.tangent_inverse[1] = -xy / determinant;
   block.tangent_inverse[2] = xx / determinant;
-  // One over the greater eigenvalue.
+  // One over the larger eigenvalue.
   const double mean = (xx + yy) / 2;
   block.tangent_step = 1 / (mean + std::sqrt(std::max(0.0, mean * mean - determinant)));
   blocks_.push_back(block);
@@ -90,23 +91,25 @@ void ConstraintSolver::warm_start(Eigen::VectorXd& z) const {
 double ConstraintSolver::solve_block(ContactBlock& block, double normal_impulse, double* z) const {
   const RowEntry* entries = &entries_[block.first_entry];
   const int* dofs = &dofs_[block.first_entry];
+  // Velocities of the rows, J u = y . z.
   double v[4] = {0, 0, 0, 0};
   for (int i = 0; i < block.num_entries; ++i) {
     const double value = z[dofs[i]];
     for (int lane = 0; lane < 4; ++lane) v[lane] += entries[i].row[lane] * value;
   }
   double change[4] = {0, 0, 0, 0};
+  // Radius of the friction cone.
   double bound = block.friction * normal_impulse;
   if (block.is_rolling) {
     const double limit = block.spinning * normal_impulse;
-    const double wished = block.impulse[0] - (v[0] + block.bias[0]) * block.normal_inverse;
-    change[0] = std::clamp(wished, -limit, limit) - block.impulse[0];
+    const double unbounded = block.impulse[0] - (v[0] + block.bias[0]) * block.normal_inverse;
+    change[0] = std::clamp(unbounded, -limit, limit) - block.impulse[0];
   } else {
     const double residual = v[0] + block.normal_softness * block.impulse[0] + block.bias[0];
-    const double wished = std::max(0.0, block.impulse[0] - residual * block.normal_inverse);
-    change[0] = wished - block.impulse[0];
-    bound = block.friction * wished;
-    // The tangents feel the new normal impulse.
+    const double normal = std::max(0.0, block.impulse[0] - residual * block.normal_inverse);
+    change[0] = normal - block.impulse[0];
+    bound = block.friction * normal;
+    // The change of the normal impulse changes the tangential velocities.
     double coupling[2] = {0, 0};
     for (int i = 0; i < block.num_entries; ++i) {
       const double scaled = entries[i].row[0] * change[0];
@@ -116,13 +119,15 @@ double ConstraintSolver::solve_block(ContactBlock& block, double normal_impulse,
     v[1] += coupling[0];
     v[2] += coupling[1];
   }
+  // Tangential impulse that would stop the sliding: Newton step with the 2 x 2 block.
   const double rx = v[1] + block.tangent_softness * block.impulse[1] + block.bias[1];
   const double ry = v[2] + block.tangent_softness * block.impulse[2] + block.bias[2];
   double x = block.impulse[1] - (block.tangent_inverse[0] * rx + block.tangent_inverse[1] * ry);
   double y = block.impulse[2] - (block.tangent_inverse[1] * rx + block.tangent_inverse[2] * ry);
   if (x * x + y * y > bound * bound) {
-    // It slides. The step above is oblique where inertia is not the same in all directions, and
-    // friction would not point against the motion: a step along the residual does.
+    // It slides. Where the inertia is not the same in all directions, the Newton step is not
+    // parallel to the residual, and its projection would not oppose the sliding. A gradient step is
+    // parallel (projected gradient method, with the step length 1 / the largest eigenvalue).
     const double step = block.tangent_step;
     x = block.impulse[1] - step * rx;
     y = block.impulse[2] - step * ry;
@@ -140,7 +145,7 @@ double ConstraintSolver::solve_block(ContactBlock& block, double normal_impulse,
     z[dofs[i]] += row[0] * change[0] + row[1] * change[1] + row[2] * change[2];
   }
   for (int k = 0; k < 3; ++k) block.impulse[k] += change[k];
-  // In terms of velocity: how far the rows were from where they should be.
+  // The change of impulse in terms of velocity: by how much the rows were off.
   const double tangent = (std::abs(change[1]) + std::abs(change[2])) /
                          std::max(block.tangent_inverse[0], block.tangent_inverse[2]);
   return std::max(std::abs(change[0]) / block.normal_inverse, tangent);
@@ -152,10 +157,10 @@ double ConstraintSolver::solve_row(JointRow& row, double* z) const {
   double velocity = 0;
   for (int i = 0; i < row.num_entries; ++i) velocity += entries[i].row[0] * z[dofs[i]];
   const double residual = row.measure * velocity + row.softness * row.impulse + row.bias;
-  const double wished = std::clamp(row.impulse - residual * row.inverse, row.lower, row.upper);
-  const double change = wished - row.impulse;
+  const double impulse = std::clamp(row.impulse - residual * row.inverse, row.lower, row.upper);
+  const double change = impulse - row.impulse;
   if (change == 0) return 0;
-  row.impulse = wished;
+  row.impulse = impulse;
   const double applied = row.apply * change;
   for (int i = 0; i < row.num_entries; ++i) z[dofs[i]] += entries[i].row[0] * applied;
   return std::abs(change) / row.inverse;
@@ -163,7 +168,7 @@ double ConstraintSolver::solve_row(JointRow& row, double* z) const {
 
 int ConstraintSolver::solve(Eigen::VectorXd& z, const Options& options) {
   if (blocks_.empty() && rows_.empty()) return 0;
-  for (int sweep = 1; sweep <= options.max_sweeps; ++sweep) {
+  for (int iteration = 1; iteration <= options.max_iterations; ++iteration) {
     double worst = 0;
     for (JointRow& row : rows_) worst = std::max(worst, solve_row(row, z.data()));
     double normal_impulse = 0;
@@ -171,9 +176,9 @@ int ConstraintSolver::solve(Eigen::VectorXd& z, const Options& options) {
       worst = std::max(worst, solve_block(block, normal_impulse, z.data()));
       normal_impulse = block.impulse[0];
     }
-    if (worst < options.tolerance) return sweep;
+    if (worst < options.tolerance) return iteration;
   }
-  return options.max_sweeps;
+  return options.max_iterations;
 }
 
 }  // namespace nao::sim

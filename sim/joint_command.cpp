@@ -1,27 +1,31 @@
 #include "sim/joint_command.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace nao::sim {
 
-std::optional<std::string> merge_joint_command(const RobotModel& model,
-                                               const std::vector<std::string>& names,
-                                               const std::vector<double>& position,
-                                               const std::vector<double>& stiffness,
+std::optional<std::string> merge_joint_command(const RobotModel& model, const JointCommand& command,
                                                MotorTargets& targets) {
-  if (names.size() != position.size() || names.size() != stiffness.size()) {
-    return "lists of joints, positions and stiffness have unequal lengths";
+  const size_t count = command.names.size();
+  if (count != command.position.size() || count != command.stiffness.size()) {
+    return fmt::format("lists of unequal length: {} joints, {} positions, {} stiffnesses", count,
+                       command.position.size(), command.stiffness.size());
   }
   MotorTargets merged = targets;
-  for (size_t i = 0; i < names.size(); ++i) {
-    const int motor = model.find_motor(names[i]);
-    if (motor < 0) return "joint \"" + names[i] + "\" is unknown or has no motor";
-    if (!std::isfinite(position[i])) return "position of " + names[i] + " is no finite number";
-    if (!(stiffness[i] >= 0 && stiffness[i] <= 1)) {
-      return "stiffness of " + names[i] + " is outside 0..1";
+  for (size_t i = 0; i < count; ++i) {
+    const std::string& name = command.names[i];
+    const int motor = model.find_motor(name);
+    if (motor < 0) return "joint \"" + name + "\" is unknown or has no motor";
+    if (!std::isfinite(command.position[i])) {
+      return fmt::format("position {} of {} is not finite", command.position[i], name);
     }
-    merged.position[motor] = position[i];
-    merged.stiffness[motor] = stiffness[i];
+    if (!(command.stiffness[i] >= 0 && command.stiffness[i] <= 1)) {
+      return fmt::format("stiffness {} of {} is outside [0, 1]", command.stiffness[i], name);
+    }
+    merged.position[motor] = command.position[i];
+    merged.stiffness[motor] = command.stiffness[i];
   }
   targets = merged;
   return std::nullopt;

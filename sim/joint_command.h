@@ -1,24 +1,32 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "robot_model/robot_model.h"
-#include "sim/sim_robot.h"
+#include "sim/motor_targets.h"
 
 namespace nao::sim {
 
-/** Targets for some joints by name, merged into targets for all; the joints not named keep theirs.
+/** Joint targets by name, as joint_command_t carries them. */
+struct JointCommand {
+  /** Control tick whose sensor state it answers. */
+  int64_t tick = 0;
+  std::vector<std::string> names;
+  /** rad (hands: opening), one for each name; and fractions of the peak torque, 0 to 1. */
+  std::vector<double> position;
+  std::vector<double> stiffness;
+};
+
+/** Merges targets for some joints into targets for all; joints that are not named keep theirs.
  *
- * @param position   rad (hands: opening), one for each name. @param stiffness  0 to 1, likewise.
- * @param targets    Changed only if the command is good as a whole.
- * @return Nothing, or why the command is refused: an unknown joint, a number that is not finite or
- * a stiffness outside 0..1, lists of unequal length. */
+ * @param targets  Changed only if the whole command is valid.
+ * @return Nothing, or why the command is rejected: an unknown joint, a number that is not finite, a
+ * stiffness outside [0, 1], or lists of unequal length. */
 [[nodiscard]] std::optional<std::string> merge_joint_command(const RobotModel& model,
-                                                             const std::vector<std::string>& names,
-                                                             const std::vector<double>& position,
-                                                             const std::vector<double>& stiffness,
+                                                             const JointCommand& command,
                                                              MotorTargets& targets);
 
 }  // namespace nao::sim

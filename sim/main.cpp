@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> more_robots;
   app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
       ->show_default();
-  app.add_option("--scene", options.scene, "What stands around the robot: soccer or empty")
+  app.add_option("--scene", options.scene, "Surroundings of the robot: soccer or empty")
       ->show_default();
   app.add_option("--posture", options.posture, "Posture that the robot starts in")->show_default();
   app.add_option("--also-robot", more_robots, "Name of a further robot; may be repeated");
@@ -28,32 +28,38 @@ int main(int argc, char** argv) {
       ->range(0.0, 1000.0)
       ->show_default();
   app.add_flag("--lock-step", options.lock_step,
-               "Compute a tick only when the joint command for the one before has come");
+               "Compute a tick only after the joint command for the one before was received");
   app.add_flag("--ideal-sensors", options.ideal_sensors,
                "Sensors without quantization, noise, bias, range or drift");
   app.add_option("--seed", options.seed, "Seed of all noise")->show_default();
+  app.add_option("--tick-ms", options.tick_ms,
+                 "Control period, ms: a multiple of the physics step of 2 ms")
+      ->range(2, 100)
+      ->show_default();
   app.add_option("--command-latency-ticks", options.command_latency_ticks,
-                 "Ticks of 10 ms between a joint command and the motors' following it")
+                 "Control ticks between a joint command and the motors' following it")
       ->range(0, 10)
       ->show_default();
   return nao::run_program(app, common, argc, argv, [&] {
     options.robots = {common.robot};
     options.robots.insert(options.robots.end(), more_robots.begin(), more_robots.end());
     const bool is_in_real_time = !options.lock_step && options.pace > 0;
-    if (is_in_real_time && nao::ask_for_prompt_turns(nao::Turns::kControl))
-      spdlog::info("runs ahead of usual programs");
+    if (is_in_real_time && nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
+      spdlog::info("uses real-time scheduling (SCHED_RR)");
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);
     const nao::sim::SimDaemon daemon(bus, loop, options);
     spdlog::info(
-        "version {}, bus {}, channels {}_* and WORLD_*, model {}, scene {}, {}", nao::version(),
-        common.lcm_url, common.robot, options.model, options.scene,
+        "version {}, bus {}, channels {}_* and WORLD_*, model {}, scene {}, control period {} ms, "
+        "{}",
+        nao::version(), common.lcm_url, common.robot, options.model, options.scene, options.tick_ms,
         options.lock_step ? std::string("lock-step") : "pace " + std::to_string(options.pace));
     const std::string reason = loop.run();
     spdlog::info(
         "stopped by {} at tick {}; {} late ticks, {} late commands; {} messages in, {} "
         "out, {} dropped",
-        reason, daemon.world().tick(), daemon.num_late_ticks(), daemon.num_late_commands(),
-        bus.counters().num_in, bus.counters().num_out, bus.counters().num_dropped);
+        reason, daemon.core().world().tick(), daemon.core().scheduler().num_late_ticks(),
+        daemon.core().scheduler().num_late_commands(), bus.counters().num_in,
+        bus.counters().num_out, bus.counters().num_dropped);
   });
 }

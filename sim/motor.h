@@ -6,106 +6,120 @@
 
 namespace nao::sim {
 
-/** Mechanical stops of a joint, N m/rad and N m s/rad: 5 N m bend them by a third of a degree.
- * Assumed. */
+/** Mechanical stops of a joint: spring, N m/rad, and damper, N m s/rad. Assumed: 5 N m, the peak of
+ * the NAO's leg motors, bend a stop by a third of a degree. */
 inline constexpr double kStopStiffness = 1000;
 inline constexpr double kStopDamping = 5;
 
-/** A motor with gear and position servo, at the joint.
+/** A motor with gear and position servo, all quantities at the joint, and the plan of one step.
  *
- * The servo asks for u = gain * (target - angle) - damping * speed, which the motor driver clips
- * to +-limit; back-EMF takes off limit / no_load_velocity * speed, so that the torque follows the
- * motor's line and is 0 at no-load speed; a current limit keeps a braking torque within the limit
- * too. `limit` is stiffness times the peak torque, and falls to the continuous torque as the motor
- * warms up. */
+ * **Law.** The servo demands u = kp (target - angle) - kd * speed, and the motor driver clips it to
+ * +-limit. Back-EMF reduces the torque by limit / no_load_velocity * speed: the torque-speed line
+ * of a DC motor at a fixed voltage, from `limit` at standstill to 0 at no-load speed. A current
+ * limit keeps the torque of a braking motor within +-limit as well. `limit` is stiffness times the
+ * peak torque; the peak falls to the continuous torque as the winding heats up. Viscous friction
+ * and the rotor's reflected inertia (armature) add to the joint; dry friction is a constraint.
+ *
+ * **Time step.** Damping terms are implicit, so that no servo gain is unstable, see Plan. The
+ * clipping is left to the solver, as bounds (JointRow). */
 struct Drive {
   Motor motor;
-  /** Dof of the joint, or -1 for an opening, which moves no body. */
+  /** Degree of freedom of the joint, or -1 for an opening (of a hand), which moves no body. */
   int dof = -1;
-  /** Range of the joint, rad. */
+  /** Range of the joint, rad, and its largest speed, rad/s. */
   double lower = 0;
   double upper = 0;
   double max_velocity = 0;
 
-  /** Angle of an opening (others: in TreeState). */
+  /** Angle of an opening (of others: in TreeState). */
   double opening = 0;
-  /** Mean square of the torque over the winding's time constant, in units of the continuous
-   * torque's square: 1 is as hot as the motor may get. */
+  /** Mean of the squared torque over the winding's time constant, in units of the squared
+   * continuous torque: at 1 the motor gives its continuous torque only. */
   double heat = 0;
 
-  // Plan of the present step: u = demand - slope * (speed at the end of the step), and back-EMF
-  // takes off emf + line * (that speed).
-  double limit = 0;
-  double demand = 0;
-  double slope = 0;
-  double emf = 0;
-  double line = 0;
-  /** What viscous friction takes off, like back-EMF. */
-  double drag = 0;
-  double viscosity = 0;
+  /** Torques in a step as functions of the joint's speed v' at its end, N m, and N m s/rad:
+   * servo u = demand - slope * v', back-EMF = emf + line * v', viscous friction = drag +
+   * viscosity * v'. */
+  struct Plan {
+    double limit = 0;
+    double demand = 0;
+    double slope = 0;
+    double emf = 0;
+    double line = 0;
+    double drag = 0;
+    double viscosity = 0;
+  };
+  Plan plan;
 
-  // Rows in the solver, -1 if absent, and their last impulses.
-  int stop_row = -1;
-  int friction_row = -1;
-  int upper_row = -1;
-  int lower_row = -1;
-  /** Whether those rows are the bound of a braking motor. */
-  bool is_upper_braking = false;
-  bool is_lower_braking = false;
-  double stop_impulse = 0;
-  double friction_impulse = 0;
-  double upper_impulse = 0;
-  double lower_impulse = 0;
+  /** A row in the solver. */
+  struct Row {
+    /** In this step; -1 if absent. */
+    int index = -1;
+    /** Of the last step, N m s: the start value. */
+    double impulse = 0;
+    /** Of a torque bound: it includes back-EMF, since the motor brakes. */
+    bool is_braking = false;
+  };
+  Row stop;
+  Row friction;
+  Row upper_bound;
+  Row lower_bound;
 
-  /** Time constant of the winding's temperature, s: assumed, some tens of seconds are usual for
-   * motors of 20 mm. */
+  /** Time constant of the winding's temperature, s. Assumed: tens of seconds are usual for motors
+   * of 20 mm. */
   static constexpr double kHeatTime = 30;
+  /** Heat at which the peak torque begins to fall, and the range over which it falls to the
+   * continuous torque. Assumed. */
+  static constexpr double kWarmHeat = 0.8;
+  static constexpr double kDeratingRange = 0.2;
+  /** Largest (angular frequency * h)^2 of servo spring and rotor for which the spring is taken
+   * explicitly: explicit integration is stable up to 4; at 0.3 a step is less than a tenth of a
+   * period. Chosen. */
+  static constexpr double kMaxExplicitSpring = 0.3;
 
-  /** Square of a servo's frequency times the step that counts as slow: an eighth of a turn at most;
-   * explicit integration is stable up to 4. */
-  static constexpr double kSlowSpring = 0.3;
-
-  /** Greatest torque that a motor of this heat may give, N m. */
+  /** Largest torque at this heat, N m. */
   double torque_available() const {
     const double continuous = std::min(motor.continuous_torque, motor.peak_torque);
-    const double tired = std::clamp((heat - 0.8) / 0.2, 0.0, 1.0);
-    return motor.peak_torque + tired * (continuous - motor.peak_torque);
+    const double derating = std::clamp((heat - kWarmHeat) / kDeratingRange, 0.0, 1.0);
+    return motor.peak_torque + derating * (continuous - motor.peak_torque);
   }
 
-  /** Whether the rotor alone is heavy enough for the servo's spring to be taken at the angle at the
-   * start of a step of h seconds: it then gives no damping that is not the servo's (leapfrog). A
-   * stiffer one is taken at the step's end, which is always stable. */
-  bool has_slow_spring(double h) const {
+  /** Whether the servo's spring acts from the angle at the start of a step of h seconds (leapfrog).
+   * That adds no damping of its own, but needs a rotor that is heavy for the spring. Otherwise the
+   * spring acts from the angle at the step's end, which is stable at any stiffness. */
+  bool has_explicit_spring(double h) const {
     return motor.damping_gain > 0 &&
-           h * h * motor.stiffness_gain <= kSlowSpring * motor.reflected_inertia;
+           h * h * motor.stiffness_gain <= kMaxExplicitSpring * motor.reflected_inertia;
   }
 
-  /** Share of the speed at the step's end, 0.5 to 1, in the speed that damping acts on; the rest is
-   * the speed at its start. Half and half is of second order; a damper that would more than stop
-   * the rotor within the step takes so much more of the end that it just stops it.
-   * @param damping  All dampers on the joint, N m s/rad. */
-  double end_share(double h, double damping) const {
+  /** Weight of the speed at the step's end in the speed that damping acts on, 0.5 to 1; the rest is
+   * the speed at its start. 0.5 is of second order in h (trapezoidal rule). A damper that would
+   * more than stop the rotor within the step has the weight that just stops it.
+   * @param damping  Of all dampers on the joint, N m s/rad. */
+  double end_weight(double h, double damping) const {
     const double decay = h * damping;
     return decay > 2 * motor.reflected_inertia ? 1 - motor.reflected_inertia / decay : 0.5;
   }
 
-  /** Plans a step of h seconds. @param stiffness  0 to 1. @param error  Target less angle, rad.
+  /** Plans a step of h seconds. @param stiffness  0 to 1. @param error  Target minus angle, rad.
    * @param speed  At the step's start, rad/s. */
-  void plan(double h, double stiffness, double error, double speed) {
+  void plan_step(double h, double stiffness, double error, double speed) {
     const bool is_on = stiffness > 0;
     const double damping = is_on ? motor.damping_gain : 0;
-    limit = stiffness * torque_available();
-    const double full_line = limit / motor.no_load_velocity;
-    const double end = end_share(h, damping + full_line + motor.viscous_friction);
+    plan.limit = stiffness * torque_available();
+    const double full_line = plan.limit / motor.no_load_velocity;
+    const double end = end_weight(h, damping + full_line + motor.viscous_friction);
     const double past = (1 - end) * speed;
-    demand = (is_on ? motor.stiffness_gain * error : 0) - damping * past;
-    slope = end * damping + (is_on && !has_slow_spring(h) ? h * motor.stiffness_gain : 0);
-    line = end * full_line;
-    emf = full_line * past;
-    viscosity = end * motor.viscous_friction;
-    drag = motor.viscous_friction * past;
+    plan.demand = (is_on ? motor.stiffness_gain * error : 0) - damping * past;
+    plan.slope = end * damping + (is_on && !has_explicit_spring(h) ? h * motor.stiffness_gain : 0);
+    plan.line = end * full_line;
+    plan.emf = full_line * past;
+    plan.viscosity = end * motor.viscous_friction;
+    plan.drag = motor.viscous_friction * past;
   }
 
+  /** Heats or cools the winding: a first-order lag of the squared torque.
+   * @param torque  Mean over `period` seconds, N m. */
   void warm_up(double torque, double period) {
     const double load = torque / motor.continuous_torque;
     heat += (load * load - heat) * period / kHeatTime;

@@ -4,15 +4,17 @@
 
 namespace nao::sim {
 
-/** Says when the next control tick is due by the wall clock, so that simulated time keeps up with
- * it. Late ticks are made up for, but never in a burst, and a long stop (a suspended machine) is
- * left out. Times are seconds of a clock that never jumps; all calls take the present one. */
+/** Schedules control ticks so that simulated time keeps pace with the wall clock.
+ *
+ * Late ticks are caught up with at twice the pace at most; a delay of more than kMaxBacklog (a
+ * suspended machine) is skipped. Times are seconds of a monotonic clock; all calls take the present
+ * one. */
 class Pacer {
  public:
   /** @param period  Simulated time of a tick, s. */
   explicit Pacer(double period) : period_(period) {}
 
-  /** @param pace  Simulated seconds per wall second, 0 as fast as possible. */
+  /** @param pace  Simulated seconds per wall second, 0 for as fast as possible. */
   void set_pace(double pace, double now) {
     pace_ = pace;
     restart(now);
@@ -28,19 +30,19 @@ class Pacer {
   /** When to run the next tick; not after `now` means at once. */
   double next(double now) const { return pace_ > 0 ? std::max(due_, earliest_) : now; }
 
-  /** How late a tick that begins now is, s; 0 if as fast as possible. */
-  double lateness(double now) const { return pace_ > 0 ? std::max(0.0, now - due_) : 0.0; }
+  /** Delay of a tick that begins now behind its due time, s; 0 if as fast as possible. */
+  double delay(double now) const { return pace_ > 0 ? std::max(0.0, now - due_) : 0.0; }
 
   /** A tick began at `now`. */
   void tick(double now) {
     due_ += wall_period();
-    // Backlog is made up for at twice the pace at most.
     earliest_ = now + wall_period() / 2;
-    if (now - due_ > kLongestBacklog) restart(now);
+    if (now - due_ > kMaxBacklog) restart(now);
   }
 
-  /** Greatest delay that is made up for, s. */
-  static constexpr double kLongestBacklog = 0.5;
+  /** Largest delay that is caught up with, s. Chosen: half a second at twice the pace is hardly
+   * seen, and a walk command is valid for as long. */
+  static constexpr double kMaxBacklog = 0.5;
 
  private:
   double wall_period() const { return pace_ > 0 ? period_ / pace_ : 0; }

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/constants.h"
+#include "common/random.h"
 #include "robot_model/robot_model.h"
-#include "sim/random.h"
+#include "sim/foot_load.h"
 
 namespace nao::sim {
 
-/** What a robot's sensors say at the end of a control tick, in motor and sensor order. */
+/** What a robot's sensors read at the end of a control tick, in motor and sensor order. */
 struct SensorReadings {
   int64_t tick = 0;
   /** Since the robot was switched on, s. */
@@ -30,7 +32,7 @@ struct SensorReadings {
   Eigen::VectorXd foot_force;
 };
 
-/** What is true at the end of a control tick, and over it; as SensorReadings otherwise. */
+/** The true values at the end of a control tick, and over it; as SensorReadings otherwise. */
 struct TrueMotion {
   Eigen::VectorXd position;
   Eigen::VectorXd torque;
@@ -38,48 +40,56 @@ struct TrueMotion {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   struct FootLoad {
-    /** Force of the floor along the sole's normal, N, and its moment: force times the place where
-     * it acts in the sole's frame, N m. */
+    /** Force of the floor along the sole's normal, N, and its moment: force times its point of
+     * attack in the sole's frame, N m. */
     double force = 0;
     Eigen::Vector2d moment = Eigen::Vector2d::Zero();
   };
+  /** Left, right. */
   std::array<FootLoad, 2> feet;
 };
 
-/** How good the sensors are. */
+/** Errors of the sensors. */
 struct SensorOptions {
-  /** Quantize, disturb and limit; otherwise the truth. */
+  /** No quantization, noise, bias, range or drift: readings are the true values. */
   bool is_ideal = false;
-  /** Steps of the joints' encoders in a turn: 12 bit. */
+  /** Steps of the joints' encoders in a turn: the NAO's 12 bit. */
   double encoder_steps = 4096;
-  /** Standard deviation of each reading, and of the constant bias drawn at switch-on. Values of
-   * MEMS units of the robot's time, assumed. */
+  /** Standard deviations of the white noise of each reading and of the constant bias drawn at
+   * switch-on, m/s^2 and rad/s. Assumed, as usual for MEMS units of the robot's time. */
   double accelerometer_noise = 0.05;
   double accelerometer_bias = 0.05;
   double gyroscope_noise = 0.005;
   double gyroscope_bias = 0.002;
-  /** Range, m/s^2 and rad/s: the vendor's 2 g and 500 degrees/s. */
-  double accelerometer_range = 2 * 9.81;
+  /** Ranges, m/s^2 and rad/s: the vendor's 2 g and 500 degrees/s. */
+  double accelerometer_range = 2 * kGravity;
   double gyroscope_range = 500 * M_PI / 180;
-  /** Rate at which the estimate's roll and pitch follow the accelerometer, 1/s. */
+  /** Rate at which the estimated roll and pitch follow the accelerometer, 1/s. Assumed. */
   double tilt_gain = 0.1;
-  /** Share of a reading, N, and least step, N; assumed. Range: the vendor's 25 N a sensor. */
+  /** Foot force sensors: standard deviation as a fraction of the reading, and resolution, N; both
+   * assumed. Range, N: the vendor's 25 N a sensor. */
   double foot_force_noise = 0.02;
   double foot_force_step = 0.05;
   double foot_force_range = 25;
 };
 
-/** The robot's sensors: from what is true to what it can measure. */
+/** The robot's sensors: readings from true values.
+ *
+ * reading = clip(quantize(true value + bias + white noise)), as far as each sensor has them:
+ * encoders quantize, the inertial unit has bias, noise and range, the foot sensors noise
+ * proportional to the force, resolution and range. The estimated orientation is a complementary
+ * filter of the unit's own readings (R. Mahony, T. Hamel, J.-M. Pflimlin, Nonlinear Complementary
+ * Filters on the Special Orthogonal Group, IEEE TAC 53(5), 2008); its heading drifts. */
 class Sensors {
  public:
   Sensors(const RobotModel& model, const SensorOptions& options, uint64_t seed);
 
-  /** Switches on: tick 0, fresh biases, an orientation estimate that is true but for the bias.
-   * @param truth  At rest. */
+  /** Switches on: tick 0, new biases, and a true orientation estimate. @param truth  At rest. */
   void reset(const TrueMotion& truth);
   /** Measures at the end of a control tick. @param period  Its length, s. */
   void update(const TrueMotion& truth, double period);
-  /** Forgets differences over the last tick, after the robot was put somewhere else by hand. */
+  /** Measures after the robot was placed somewhere else: joint speeds are 0, and the orientation
+   * estimate is true. */
   void jump(const TrueMotion& truth);
 
   const SensorReadings& readings() const { return readings_; }
@@ -95,18 +105,13 @@ class Sensors {
   SensorReadings readings_;
   Eigen::Vector3d accelerometer_bias_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gyroscope_bias_ = Eigen::Vector3d::Zero();
-  /** Sensors of the left and right foot: their places on the sole, m, and indices. */
-  struct FootSensor {
-    Eigen::Vector2d place;
-    int index;
+  struct FootSensors {
+    /** Indices of the readings. */
+    std::vector<int> sensors;
+    FootLoad load;
   };
-  std::array<std::vector<FootSensor>, 2> feet_;
+  /** Left, right. */
+  std::vector<FootSensors> feet_;
 };
-
-/** Shares in which four sensors, at the corners of a quadrilateral, carry a load at a point. The
- * shares sum to 1 and their centre is the point, or the nearest the quadrilateral has.
- * @param corners  Front left, front right, rear left, rear right; m. */
-std::array<double, 4> corner_shares(const std::array<Eigen::Vector2d, 4>& corners,
-                                    const Eigen::Vector2d& point);
 
 }  // namespace nao::sim

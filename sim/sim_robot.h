@@ -7,144 +7,113 @@
 #include "robot_model/robot_model.h"
 #include "sim/collision_model.h"
 #include "sim/constraint_solver.h"
-#include "sim/motor.h"
+#include "sim/joint_drives.h"
+#include "sim/motor_targets.h"
+#include "sim/sensor_accumulator.h"
 #include "sim/sensors.h"
 #include "sim/tree.h"
-#include "sim/tree_dynamics.h"
+#include "sim/tree_integrator.h"
 #include "sim/world_options.h"
 
 namespace nao::sim {
 
-/** Where the motors shall go, in motor order. */
-struct MotorTargets {
-  /** rad (hands: opening). */
-  Eigen::VectorXd position;
-  /** Share of the torque that each motor may use, 0 to 1. */
-  Eigen::VectorXd stiffness;
-};
-
-/** Memory of one possible contact between steps. */
-struct ContactSlot {
-  /** N s, in W: last step's solution. */
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
-  /** Tangential spring of a sticking contact, m, in W. */
-  Eigen::Vector3d stretch = Eigen::Vector3d::Zero();
-  int64_t last_step = -2;
-};
-
-/** One simulated robot: bodies, motors, sensors. World steps it. */
+/** One simulated robot: the order in which its bodies (TreeIntegrator), motors (JointDrives) and
+ * sensors take part in a tick and in a step.
+ *
+ * Users of a World see it const; World and Stepper call the rest. It has more than 25 methods since
+ * the phases of a step, which the contacts of all robots couple, are separate calls. */
 class SimRobot {
  public:
+  /** At rest with servos on, where the options say.
+   * @throws ModelError, ConfigError  if the physics does not support the model, or the posture is
+   * unknown. */
   SimRobot(std::shared_ptr<const RobotModel> model, const RobotOptions& options,
            const WorldOptions& world);
-  ~SimRobot();
   SimRobot(const SimRobot&) = delete;
   SimRobot& operator=(const SimRobot&) = delete;
 
   const RobotModel& model() const { return *model_; }
   const RobotOptions& options() const { return options_; }
   const Tree& tree() const { return tree_; }
-  const TreeState& state() const { return state_; }
-  const TreeDynamics& dynamics() const { return dynamics_; }
+  const TreeState& state() const { return integrator_.state(); }
+  const TreeDynamics& dynamics() const { return integrator_.dynamics(); }
   const Sensors& sensors() const { return sensors_; }
   const CollisionModel& collisions() const { return collisions_; }
+  /** As set last. */
+  const MotorTargets& targets() const { return targets_.newest(); }
 
   /** Pose of a link in W; fingers turn with the opening. */
   Eigen::Isometry3d link_pose(int link) const;
-  /** True angles (hands: openings), speeds and motor torques, motor order. */
+  /** True angles (hands: openings), rad, and speeds, rad/s, at the end of the last tick; torques of
+   * the last step, N m. In motor order. */
   const Eigen::VectorXd& motor_position() const { return motor_position_; }
   const Eigen::VectorXd& motor_velocity() const { return motor_velocity_; }
-  const Eigen::VectorXd& motor_torque() const { return motor_torque_; }
-
- private:
-  friend class World;
-
-  /** Puts the robot somewhere at rest, targets at where the motors are. */
-  void place(const std::vector<double>& position, const Eigen::Vector3d& ground_position,
-             const Eigen::Quaterniond& orientation);
-  /** Torso orientation in which a posture rests: soles level when it stands or crouches, on back or
-   * belly when it lies. */
-  Eigen::Quaterniond resting_orientation(const Posture* posture) const;
-  Eigen::Quaterniond sitting_orientation(const Posture& posture) const;
-  double lowest_point() const;
-  void switch_on();
-  /** Places the robot as its options say; keeps its clock and sensors running. */
-  void return_to_start();
-  /** Impulse at a body's centre of mass in the next step, N s, in W. */
-  void add_impulse(int body, const Eigen::Vector3d& impulse);
-  void add_foot_load(int sole, const Eigen::Vector3d& point, const Eigen::Vector3d& impulse);
+  const Eigen::VectorXd& motor_torque() const { return drives_.torque(); }
+  /** Whether a motor moves no body of the physics, only an opening (of a hand). */
+  bool is_opening(int motor) const { return drives_.is_opening(motor); }
+  /** Kinetic (with rotors) and potential energy, and what the joint stops store, J. */
   double energy() const;
+  /** See TreeIntegrator::is_within_bounds(). */
+  bool is_within_bounds() const { return integrator_.is_within_bounds(); }
 
-  // A control tick.
+  /** Index of its first degree of freedom in the solver's vector. */
+  int first_dof() const { return first_dof_; }
+  void set_first_dof(int dof) { first_dof_ = dof; }
+
+  /** Sets the targets that the next tick sends on their way. */
+  void set_targets(const MotorTargets& targets) { targets_.set(targets); }
+  /** See World::place_robot(). */
+  void place(const Posture* posture, const Eigen::Vector3d& ground_position,
+             const Eigen::Quaterniond* orientation);
+  /** Places the robot as its options say; its clock and its sensors' noise go on. */
+  void return_to_start();
+  /** Tick 0: servos on, motors cold, sensors with new biases. */
+  void switch_on();
+  /** Impulse at a link's center of mass in the next step, N s, in W. */
+  void push(int link, const Eigen::Vector3d& impulse);
+
+  // A control tick: begin, steps, end.
   void begin_tick();
   void end_tick(double period);
 
-  // A step of h seconds, in this order; `z` is the robot's part of the solver's vector.
-  void begin_step(double h, Eigen::Ref<Eigen::VectorXd> z);
-  void add_joint_rows(double h, ConstraintSolver& solver, int first_dof);
-  /** Adds bounds for motors that exceed their torque with the solver's present answer. @return
-   * Whether there were any. */
-  bool add_missed_bounds(double h, const Eigen::VectorXd& z, ConstraintSolver& solver,
-                         int first_dof);
-  /** Takes over the velocities of the solver's present answer, as add_missed_bounds() found them.
-   */
-  void take_velocities();
-  /** Right after take_velocities(). */
+  // A step of h seconds, in this order.
+
+  /** Writes the scaled velocity that the robot would have without constraints, (num_dofs). */
+  void begin_step(double h, Eigen::Ref<Eigen::VectorXd> scaled_velocity);
+  /** Adds the constraint rows of joints and motors. */
+  void add_joint_rows(double h, ConstraintSolver& solver);
+  /** Adds bounds for motors that exceed their torque with the solver's present solution.
+   * @param scaled_velocity  Of all bodies. @return Whether there were any. */
+  bool add_missed_bounds(double h, const Eigen::VectorXd& scaled_velocity,
+                         ConstraintSolver& solver);
+  /** Takes over the velocities of the solution that add_missed_bounds() was given last. */
+  void take_velocities() { integrator_.take_velocity(); }
+  /** A contact force acts on the robot in this step. */
+  void mark_in_contact() { is_in_contact_ = true; }
+  /** The floor's impulse on a sole, N s, at a point; both in W. @param foot  0 left, 1 right. */
+  void add_foot_load(int foot, const Eigen::Vector3d& point, const Eigen::Vector3d& impulse);
+  /** Reads the solution and moves on. */
   void end_step(double h, const ConstraintSolver& solver);
 
-  int add_dof_entries(int dof, ConstraintSolver& solver, int first_dof);
-  void add_motor_bound(int motor, bool is_upper, bool is_braking, double h,
-                       ConstraintSolver& solver, int first_dof);
-  void update_motor_arrays();
-  /** Means over the tick so far. */
-  const TrueMotion& update_truth();
-  bool is_sane() const;
+ private:
+  void place_joints(const std::vector<double>& position, const Eigen::Vector3d& ground_position,
+                    const Eigen::Quaterniond& orientation);
+  void update_motor_state();
+  const TrueMotion& true_motion();
 
   std::shared_ptr<const RobotModel> model_;
   RobotOptions options_;
   Tree tree_;
-  TreeState state_;
-  TreeDynamics dynamics_;
   CollisionModel collisions_;
+  TreeIntegrator integrator_;
+  JointDrives drives_;
+  DelayedTargets targets_;
+  SensorAccumulator accumulator_;
   Sensors sensors_;
-
-  std::vector<Drive> drives_;
-  /** Motor of each dof, -1 for the root's. */
-  std::vector<int> motor_of_dof_;
-  MotorTargets targets_;
-  std::vector<MotorTargets> delayed_targets_;
-  /** Targets' positions in the last step. */
-  Eigen::VectorXd last_aim_;
-  int64_t num_ticks_ = 0;
-  /** What the last step's new configuration changed of the root's velocity. */
-  SpatialVector root_change_;
-  /** Whether anything presses on it in this step. World tells. */
-  bool is_touched_ = false;
-
-  Eigen::Vector3d gravity_;
-  std::vector<ContactSlot> floor_slots_;
-  std::vector<ContactSlot> self_slots_;
-  Eigen::VectorXd external_impulse_;
-
-  // Workspace of a step, (num_dofs).
-  Eigen::VectorXd bias_;
-  Eigen::VectorXd diagonal_;
-  Eigen::VectorXd work_;
-  Eigen::VectorXd momentum_;
-  std::vector<int> entry_of_dof_;
-  std::vector<int> position_;
-
-  // Sums over the steps of a tick.
+  int first_dof_ = 0;
+  bool is_in_contact_ = false;
   Eigen::VectorXd motor_position_;
   Eigen::VectorXd motor_velocity_;
-  Eigen::VectorXd motor_torque_;
-  Eigen::VectorXd torque_sum_;
-  Eigen::Vector3d specific_force_sum_;
-  Eigen::Vector3d angular_velocity_sum_;
-  Eigen::Vector3d accelerometer_velocity_;
-  std::array<TrueMotion::FootLoad, 2> foot_impulse_;
-  double tick_time_ = 0;
-  TrueMotion truth_;
 };
 
 }  // namespace nao::sim

@@ -16,7 +16,7 @@ SimTK::Transform to_simbody(const Eigen::Isometry3d& pose) {
           to_simbody(Eigen::Vector3d(pose.translation()))};
 }
 
-/** Mass properties about a body's origin, as Simbody wants them. */
+/** Mass properties about a body's origin, as Simbody defines them. */
 SimTK::MassProperties mass_of(const Link& link, const Eigen::Isometry3d& pose_in_body,
                               double scale) {
   const Eigen::Vector3d com = pose_in_body * link.center_of_mass;
@@ -33,7 +33,7 @@ SimTK::MassProperties sum(const SimTK::MassProperties& a, const SimTK::MassPrope
           a.calcInertia() + b.calcInertia()};
 }
 
-/** Whether a joint belongs to a body's fixed part, seen from its parent link. */
+/** Whether a joint's child link is part of its parent link's body. */
 bool is_fixed(const Joint& joint) {
   return joint.kind == Joint::Kind::kFixed;
 }
@@ -52,8 +52,9 @@ SimbodyModel::SimbodyModel(const RobotModel& model, double mass_scale)
     if (joint.mimic_joint < 0) continue;
     const Joint& leader = robot_.joints()[joint.mimic_joint];
     if (leader.parent_link != joint.parent_link) {
-      throw ModelError("joint " + joint.name + " follows " + leader.name +
-                       ", which hangs on another link; the physics can only couple joints of one");
+      throw ModelError("joint " + joint.name + " mimics " + leader.name +
+                       ", which has another parent link; only joints of one parent link can be "
+                       "coupled");
     }
     const int leader_body = link_body_[leader.child_link];
     // 0 = ratio * q_leader + offset - q_follower
@@ -101,7 +102,7 @@ void SimbodyModel::add_body(int link, int parent, int joint_index, double mass_s
     mass = mass.getMass() == 0 ? part_mass : sum(mass, part_mass);
   }
   if (mass.getMass() <= 0) {
-    throw ModelError("link " + robot_.links()[link].name + " moves on its own but has no mass");
+    throw ModelError("link " + robot_.links()[link].name + " is moved by a joint but has no mass");
   }
 
   const SimTK::Body::Rigid rigid(mass);
@@ -120,7 +121,7 @@ void SimbodyModel::add_body(int link, int parent, int joint_index, double mass_s
   }
   bodies_.push_back(body);
 
-  // Depth first, so that each limb's coordinates stand in a row.
+  // Depth first, so that each limb's coordinates are consecutive.
   for (size_t i = 0; i < robot_.joints().size(); ++i) {
     const Joint& joint = robot_.joints()[i];
     if (is_fixed(joint) || subtree_mass(joint.child_link) == 0) continue;

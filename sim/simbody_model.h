@@ -14,16 +14,15 @@
 
 namespace nao::sim {
 
-/** The robot as a Simbody multibody system: the one place where links and joints become bodies.
+/** The robot as a Simbody multibody system, in which links and joints become bodies.
  *
- * Links that a fixed joint holds are part of the body that carries them, with their mass. A motor
- * whose link (with all that hangs on it) has no mass, such as a hand's fingers, moves no body: it
- * is an *opening*. A mimic joint is a pin of its own, coupled to the pin it follows by a
- * constraint. The Tree that the physics steps is compiled from this system; tests ask it for the
- * answers that the physics must reproduce.
+ * Links behind fixed joints are part of the body that carries them, with their mass. A motor whose
+ * link and its descendants have no mass, such as a hand's fingers, moves no body: it is an
+ * *opening*. A mimic joint is a pin of its own, coupled by a constraint to the pin that it follows.
+ * The Tree of the physics is made from this system, and tests compare the physics with it.
  *
- * The only header of the project that includes Simbody, whose own headers are no C++20: sources
- * that include it are compiled as C++17. */
+ * The only header of the project that includes Simbody, whose own headers are not valid C++20:
+ * sources that include it are compiled as C++17. */
 class SimbodyModel {
  public:
   struct Body {
@@ -36,15 +35,16 @@ class SimbodyModel {
     SimTK::MobilizedBodyIndex mobilized;
   };
 
-  /** @param mass_scale  Factor on every mass and inertia, above 0.
-   * @throws ModelError  if a mimic joint and the joint it follows hang on different links, or a
+  /** @param model  Must outlive this. @param mass_scale  Factor on every mass and inertia, above 0.
+   * @throws ModelError  if a mimic joint and the joint it follows have different parent links, or a
    * body has no mass. */
   explicit SimbodyModel(const RobotModel& model, double mass_scale = 1);
   SimbodyModel(const SimbodyModel&) = delete;
   SimbodyModel& operator=(const SimbodyModel&) = delete;
 
   const RobotModel& robot() const { return robot_; }
-  /** Parents before children, each limb's bodies in a row; the first is the root. */
+  /** Depth first: parents before children, each limb's bodies one after the other; the first is the
+   * root. */
   const std::vector<Body>& bodies() const { return bodies_; }
   /** Body that carries a link, and the link's frame in it (openings at 0). */
   int body_of_link(int link) const { return link_body_[link]; }
@@ -58,7 +58,7 @@ class SimbodyModel {
   /** State as realized to Stage::Model, root at the world's origin, all else 0. */
   const SimTK::State& default_state() const { return system_.getDefaultState(); }
 
-  /** Writes a tree's position and velocity into a Simbody state. Mimic joints are filled in. */
+  /** Writes a tree's position and velocity into a Simbody state, mimic joints included. */
   void set_state(const Tree& tree, const TreeState& from, SimTK::State& state) const;
 
  private:

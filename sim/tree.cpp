@@ -19,7 +19,8 @@ Eigen::Matrix3d to_eigen(const SimTK::Mat33& m) {
   return result;
 }
 
-/** Numbers within rounding of 0 or +-1 are meant to be those: keeps mirror images exact. */
+/** Replaces numbers within rounding of 0 or +-1 by these, so that a robot's left and right side
+ * stay exact mirror images. */
 double cleaned(double x) {
   for (const double exact : {0.0, 1.0, -1.0}) {
     if (std::abs(x - exact) < 1e-14) return exact;
@@ -59,8 +60,8 @@ Tree::Tree(const SimbodyModel& model) {
     if (body.parent < 0) {
       body.chain = {0, 1, 2, 3, 4, 5};
     } else {
-      // A pin turns about the z axis of its frame M on the body, which coincides with F on the
-      // parent at angle 0.
+      // A pin rotates about the z axis of its frame M on the body, which coincides with frame F on
+      // the parent at angle 0.
       const SimTK::Transform& parent_F = mobilized.getInboardFrame(state);
       const SimTK::Transform& body_M = mobilized.getOutboardFrame(state);
       const SimTK::Transform parent_B = parent_F * ~body_M;

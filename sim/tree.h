@@ -9,13 +9,14 @@ namespace nao::sim {
 
 class SimbodyModel;
 
-/** One rigid body of a Tree. Its frame B sits at the joint that moves it. */
+/** One rigid body of a Tree. The origin of its frame B is on the axis of the joint that moves it.
+ */
 struct TreeBody {
   /** Body index; -1 for the root, which moves freely. */
   int parent = -1;
   /** Index into RobotModel::joints() of the joint that moves it; -1 for the root. */
   int joint = -1;
-  /** Velocity coordinate (dof) that turns it; 0 for the root, which has the first six. */
+  /** Degree of freedom that rotates it; 0 for the root, which has the first six. */
   int dof = 0;
   /** Angle of its joint = ratio * coordinate + offset; 1 and 0 unless the joint is a mimic. */
   double ratio = 1;
@@ -27,24 +28,25 @@ struct TreeBody {
   Eigen::Matrix3d rotation_in_parent = Eigen::Matrix3d::Identity();
   /** Whether rotation_in_parent is the identity. */
   bool is_parallel = true;
-  /** kg; centre of mass in B, m; rotational inertia about it in B's axes, kg m^2. */
+  /** kg; center of mass in B, m; rotational inertia about it in B's axes, kg m^2. */
   double mass = 0;
   Eigen::Vector3d center_of_mass = Eigen::Vector3d::Zero();
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  /** Dofs that move the body, rising, the root's six first. */
+  /** Degrees of freedom that move the body, rising, the root's six first. */
   std::vector<int> chain;
 };
 
-/** A robot's bodies and joints as constants, in the form that a physics step wants.
+/** A robot's bodies and joints as constants, as plain arrays for a physics step.
  *
- * **Coordinates.** Velocity coordinates ("dofs") 0..2 are the root's angular velocity and 3..5 the
- * velocity of its origin, both in the world, W; then one for each joint that turns on its own, in
- * the order of the bodies. Two joints that one motor turns (a mimic and the one it follows) share
- * a dof, so that they cannot part. The dofs form a tree themselves (`dof_ancestors`), which is what
- * makes the mass matrix sparse: entry (i, j) is 0 unless one is the other's ancestor. */
+ * **Generalized velocity.** Degrees of freedom (dofs) 0..2 are the root's angular velocity and 3..5
+ * the velocity of its origin, both in the world, W; then one for each joint that is no mimic, in
+ * the order of the bodies. A mimic joint shares the dof of the joint that it follows. The dofs form
+ * a tree (`dof_ancestors`): entry (i, j) of the mass matrix is 0 unless one of the two is an
+ * ancestor of the other (branch-induced sparsity; Featherstone, Rigid Body Dynamics Algorithms,
+ * 2008, 6.4). */
 class Tree {
  public:
-  /** Builds the robot's Simbody system and reads frames, axes and mass properties out of it.
+  /** Builds the robot's Simbody system and reads frames, axes and mass properties from it.
    * @param mass_scale  Factor on every mass and inertia, above 0.
    * @throws ModelError  as SimbodyModel does. */
   explicit Tree(const RobotModel& robot, double mass_scale = 1);
@@ -53,9 +55,9 @@ class Tree {
   const std::vector<TreeBody>& bodies() const { return bodies_; }
   int num_bodies() const { return static_cast<int>(bodies_.size()); }
   int num_dofs() const { return static_cast<int>(dof_ancestors_.size()); }
-  /** Dofs above `dof` on the way to the root, rising. */
+  /** Dofs that move the joint of `dof`, rising. */
   const std::vector<int>& dof_ancestors(int dof) const { return dof_ancestors_[dof]; }
-  /** First body that a dof turns (the one whose joint is no mimic). */
+  /** The body whose joint has the dof as its own (not a mimic's). */
   int body_of_dof(int dof) const { return dof_body_[dof]; }
   double total_mass() const { return total_mass_; }
   /** Body that carries a link, and the link's frame in it (openings at 0). */
@@ -71,7 +73,7 @@ class Tree {
   std::vector<Eigen::Isometry3d> link_pose_;
 };
 
-/** Where a tree is and how it moves. */
+/** Position and velocity of a tree. */
 struct TreeState {
   /** Root's origin in W, m, and rotation that re-expresses in W a vector given in the root. */
   Eigen::Vector3d position = Eigen::Vector3d::Zero();

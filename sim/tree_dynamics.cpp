@@ -8,7 +8,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/** Rotation by an angle about a unit axis (Rodrigues). */
+/** Rotation by an angle about a unit axis (Rodrigues' formula). */
 Matrix3d rotation_about(const Vector3d& a, double angle) {
   const double s = std::sin(angle);
   const double c = std::cos(angle);
@@ -20,7 +20,7 @@ Matrix3d rotation_about(const Vector3d& a, double angle) {
   return r;
 }
 
-/** Momentum of a body that moves so. */
+/** Momentum of a body with a velocity. */
 SpatialVector multiply(const SpatialInertia& i, const SpatialVector& v) {
   return {i.inertia * v.angular + i.moment.cross(v.linear),
           i.mass * v.linear - i.moment.cross(v.angular)};
@@ -30,9 +30,10 @@ double dot(const SpatialVector& motion, const SpatialVector& force) {
   return motion.angular.dot(force.angular) + motion.linear.dot(force.linear);
 }
 
-/** Motion of a rigid body that has a momentum, both about O. */
+/** Velocity of a rigid body that has a momentum, both about O: the inverse of multiply(). */
 SpatialVector motion_of(const SpatialInertia& body, const SpatialVector& momentum) {
   const Vector3d center = body.moment / body.mass;
+  // Inertia about the center of mass, by the parallel axis theorem.
   Matrix3d central = body.inertia;
   central.diagonal().array() -= body.mass * center.squaredNorm();
   central += body.moment * center.transpose();
@@ -79,7 +80,7 @@ void TreeDynamics::update_kinematics(const TreeState& state) {
         now.rotation.noalias() = fixed * turn;
       }
       now.position = parent.position + parent.rotation * body.origin_in_parent;
-      // The axis does not move in B when the joint turns.
+      // The joint's axis is the same in B at all angles.
       const Vector3d axis = body.ratio * (now.rotation * body.axis);
       now.motion.angular = axis;
       now.motion.linear = (now.position - origin_).cross(axis);
@@ -87,6 +88,7 @@ void TreeDynamics::update_kinematics(const TreeState& state) {
       now.velocity.angular = parent.velocity.angular + rate * axis;
       now.velocity.linear = parent.velocity.linear + rate * now.motion.linear;
     }
+    // Inertia about O in W's axes: rotated, and moved by the parallel axis theorem.
     now.com_from_O = now.rotation * body.center_of_mass + (now.position - origin_);
     const Vector3d& c = now.com_from_O;
     now.inertia.mass = body.mass;
@@ -111,6 +113,8 @@ void TreeDynamics::update_velocities(const TreeState& state) {
 }
 
 void TreeDynamics::update_mass_matrix() {
+  // Composite rigid bodies: M(i, j) = S_j . (I_i S_i), where I_i is the inertia of everything that
+  // joint i carries, and j is an ancestor of i.
   for (BodyState& now : bodies_) now.composite = now.inertia;
   for (int dof = 6; dof < num_dofs_; ++dof) {
     double* row = &mass_[dof * stride_];
@@ -120,7 +124,7 @@ void TreeDynamics::update_mass_matrix() {
     const TreeBody& body = tree_.bodies()[index];
     const BodyState& now = bodies_[index];
     bodies_[body.parent].composite += now.composite;
-    // Force that turns everything beyond this joint at unit acceleration.
+    // Force for a unit acceleration of this joint.
     const SpatialVector force = multiply(now.composite, now.motion);
     double* row = &mass_[body.dof * stride_];
     row[body.dof] += dot(now.motion, force);
@@ -133,13 +137,14 @@ void TreeDynamics::update_mass_matrix() {
     }
   }
   if (is_root_fixed_) {
-    // The root's rows: of the unit matrix, so that it takes part in nothing.
+    // The root's rows are those of the unit matrix: it is decoupled from all joints.
     for (int dof = 0; dof < num_dofs_; ++dof) {
       double* row = &mass_[dof * stride_];
       for (int k = 0; k < std::min(dof + 1, 6); ++k) row[k] = k == dof ? 1 : 0;
     }
     return;
   }
+  // The root's block: [I, h x; -h x, m 1] of the whole tree, h its first moment.
   const SpatialInertia& whole = bodies_[0].composite;
   const Vector3d& h = whole.moment;
   const double linear_angular[3][3] = {{0, h.z(), -h.y()}, {-h.z(), 0, h.x()}, {h.y(), -h.x(), 0}};
@@ -153,6 +158,9 @@ void TreeDynamics::update_mass_matrix() {
 }
 
 void TreeDynamics::calc_bias(const Vector3d& gravity, Eigen::VectorXd& bias) {
+  // Recursive Newton-Euler with generalized accelerations of 0. Outwards: velocity-product
+  // accelerations, and the forces that they need. Gravity is an upward acceleration of the root. A
+  // root whose velocity is constant has the spatial acceleration -omega x v (Featherstone 2.11).
   bias.setZero();
   for (int index = 0; index < tree_.num_bodies(); ++index) {
     const TreeBody& body = tree_.bodies()[index];
@@ -175,6 +183,7 @@ void TreeDynamics::calc_bias(const Vector3d& gravity, Eigen::VectorXd& bias) {
     now.force.angular += v.angular.cross(momentum.angular) + v.linear.cross(momentum.linear);
     now.force.linear += v.angular.cross(momentum.linear);
   }
+  // Inwards: forces through the joints.
   for (int index = tree_.num_bodies() - 1; index > 0; --index) {
     const TreeBody& body = tree_.bodies()[index];
     const BodyState& now = bodies_[index];
@@ -206,6 +215,8 @@ void TreeDynamics::multiply_by_mass(const Eigen::VectorXd& x, Eigen::VectorXd& r
 }
 
 void TreeDynamics::factorize(const Eigen::VectorXd& diagonal) {
+  // From the last dof to the first, each row changes those of its ancestors only, so that entries
+  // outside the tree's pattern stay 0.
   factor_ = mass_;
   for (int i = 0; i < num_dofs_; ++i) factor_[i * stride_ + i] += diagonal[i];
   for (int k = num_dofs_ - 1; k >= 0; --k) {
@@ -232,6 +243,7 @@ void TreeDynamics::factorize(const Eigen::VectorXd& diagonal) {
 }
 
 void TreeDynamics::solve_upper(Eigen::VectorXd& x) const {
+  // Backward substitution with the upper triangular L^T.
   for (int i = num_dofs_ - 1; i >= 0; --i) {
     const double* row = &factor_[i * stride_];
     const double value = x[i] / row[i];
@@ -255,6 +267,8 @@ void TreeDynamics::solve_lower(Eigen::VectorXd& x) const {
 
 void TreeDynamics::add_jacobian(int body_index, const Vector3d& point, const Matrix3d& directions,
                                 double sign, const int* position, RowEntry* entries) const {
+  // Column k of J^T is the spatial force of a unit force along direction k at the point; its entry
+  // for a dof is the power of the dof's motion.
   const Vector3d arm = point - origin_;
   Matrix3d moments;
   for (int k = 0; k < 3; ++k) moments.col(k) = arm.cross(directions.col(k));
@@ -325,12 +339,12 @@ SpatialVector TreeDynamics::rigid_motion(const SpatialVector& momentum) const {
   return motion_of(bodies_[0].composite, momentum);
 }
 
-SpatialVector TreeDynamics::set_momentum(const SpatialVector& wished, Eigen::VectorXd& velocity) {
+SpatialVector TreeDynamics::set_momentum(const SpatialVector& target, Eigen::VectorXd& velocity) {
   const SpatialVector present = momentum();
   SpatialInertia whole;
   for (const BodyState& now : bodies_) whole += now.inertia;
   SpatialVector change =
-      motion_of(whole, {wished.angular - present.angular, wished.linear - present.linear});
+      motion_of(whole, {target.angular - present.angular, target.linear - present.linear});
   for (BodyState& now : bodies_) {
     now.velocity.angular += change.angular;
     now.velocity.linear += change.linear;

@@ -11,7 +11,7 @@ namespace nao::sim {
 /** Mass, first moment and rotational inertia of a body about some origin, W's axes. */
 struct SpatialInertia {
   double mass = 0;
-  /** mass times centre of mass, kg m. */
+  /** Mass times center of mass, kg m. */
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   /** About the origin, kg m^2. */
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
@@ -31,25 +31,29 @@ struct SpatialVector {
 };
 
 /** Poses, mass matrix and bias forces of a tree in one state, and linear systems with its mass
- * matrix. Everything is allocated in the constructor.
+ * matrix. All memory is taken in the constructor.
  *
- * Spatial vectors are expressed in W's axes about the root's origin as it is now ("O"), so that no
- * quantity needs to be moved from body to body. Sources: R. Featherstone, Rigid Body Dynamics
- * Algorithms (2008): recursive Newton-Euler table 5.1, composite rigid bodies table 6.2, sparse
- * factorization L^T L table 6.3 and section 6.5. */
+ * Spatial vectors are expressed in W's axes about the root's present origin O, so that no quantity
+ * has to be transformed from body to body. Source: R. Featherstone, Rigid Body Dynamics Algorithms
+ * (2008): recursive Newton-Euler, table 5.1; composite rigid bodies, table 6.2; sparse
+ * factorization L^T L without fill-in, table 6.3 and section 6.5.
+ *
+ * It has more than 25 methods since they share poses and inertias that update_kinematics()
+ * computes: the kinematics, the linear algebra of the mass matrix, and the momentum of the whole
+ * tree. */
 class TreeDynamics {
  public:
-  /** @param is_root_fixed  Whether the root is held fast: its accelerations are 0. */
+  /** @param is_root_fixed  Whether the root is held fixed: its accelerations are 0. */
   explicit TreeDynamics(const Tree& tree, bool is_root_fixed = false);
 
-  /** Computes poses, axes and body velocities of a state. Call before everything else. */
+  /** Computes poses, joint axes and body velocities of a state. Call before all other methods. */
   void update_kinematics(const TreeState& state);
-  /** Computes body velocities anew, in the poses of the last update_kinematics(). */
+  /** Computes body velocities of a state with the poses of the last update_kinematics(). */
   void update_velocities(const TreeState& state);
-  /** Computes the mass matrix M, without motors. After update_kinematics(). */
+  /** Computes the mass matrix M, without the rotors. After update_kinematics(). */
   void update_mass_matrix();
-  /** Forces that keep all accelerations 0 (Coriolis, centrifugal and gravity), N m and N,
-   * (num_dofs). After update_kinematics(). @param gravity  m/s^2, in W. */
+  /** Bias forces: those for which all accelerations are 0 (Coriolis, centrifugal and gravity), N m
+   * and N, (num_dofs). After update_kinematics(). @param gravity  m/s^2, in W. */
   void calc_bias(const Eigen::Vector3d& gravity, Eigen::VectorXd& bias);
 
   /** result = M x, (num_dofs); M as in update_mass_matrix(). */
@@ -67,7 +71,8 @@ class TreeDynamics {
    *   maps dofs to. */
   void add_jacobian(int body, const Eigen::Vector3d& point, const Eigen::Matrix3d& directions,
                     double sign, const int* position, RowEntry* entries) const;
-  /** entries := L^-T entries. @param dofs  Rising, with every dof's ancestors among them. */
+  /** entries := L^-T entries. @param dofs  Of the entries; rising, with all their ancestors.
+   * @param position  Index in `dofs` of each dof. */
   void solve_upper(const int* dofs, int count, const int* position, RowEntry* entries) const;
   double mass_matrix(int row, int column) const;
 
@@ -75,7 +80,7 @@ class TreeDynamics {
   const Eigen::Matrix3d& rotation(int body) const { return bodies_[body].rotation; }
   const Eigen::Vector3d& position(int body) const { return bodies_[body].position; }
   Eigen::Isometry3d pose(int body) const;
-  /** Centre of mass in W, m. */
+  /** Center of mass of a body in W, m. */
   Eigen::Vector3d body_center_of_mass(int body) const { return origin_ + bodies_[body].com_from_O; }
   /** Velocity of the point fixed to a body that is at `point` now; both in W. */
   Eigen::Vector3d velocity_at(int body, const Eigen::Vector3d& point) const {
@@ -92,13 +97,12 @@ class TreeDynamics {
   /** Motion of the tree as one rigid body, joints held, that has a momentum about O. After
    * update_mass_matrix(). */
   SpatialVector rigid_motion(const SpatialVector& momentum) const;
-  /** Gives the root, and all that hangs on it, the additional motion that brings the whole tree's
-   * momentum about O to a value; joints keep their speeds. Writes the root's new velocity. @return
-   * The additional motion. */
-  SpatialVector set_momentum(const SpatialVector& momentum, Eigen::VectorXd& velocity);
+  /** Changes the root's velocity so that the whole tree has a momentum about O; joint rates stay.
+   * @param velocity  Generalized velocity; its first six are changed. @return The change. */
+  SpatialVector set_momentum(const SpatialVector& target, Eigen::VectorXd& velocity);
 
-  /** Of the whole tree: centre of mass, m; linear momentum, N s; angular momentum about the centre
-   * of mass, N m s; kinetic energy, J, without motors' rotors. All in W. */
+  /** Of the whole tree: center of mass, m; linear momentum, N s; angular momentum about the center
+   * of mass, N m s; kinetic energy, J, without the rotors. All in W. */
   Eigen::Vector3d center_of_mass() const { return origin_ + center_of_mass_from_origin(); }
   Eigen::Vector3d center_of_mass_from_origin() const;
   Eigen::Vector3d linear_momentum() const;
@@ -107,14 +111,19 @@ class TreeDynamics {
 
  private:
   struct BodyState {
+    /** Body frame B in W. */
     Eigen::Matrix3d rotation;
     Eigen::Vector3d position;
+    /** Center of mass, from O. */
     Eigen::Vector3d com_from_O;
+    /** Motion of the body per unit of its joint's dof (Featherstone's S), and the dof's rate. */
     SpatialVector motion;
     double rate = 0;
     SpatialVector velocity;
+    /** Of the body, and of the body with all its descendants. */
     SpatialInertia inertia;
     SpatialInertia composite;
+    /** Of the recursive Newton-Euler algorithm, with generalized accelerations of 0. */
     SpatialVector acceleration;
     SpatialVector force;
   };
@@ -122,10 +131,11 @@ class TreeDynamics {
   const Tree& tree_;
   bool is_root_fixed_;
   int num_dofs_;
+  /** Length of a row in memory: num_dofs_ rounded up to a multiple of four. */
   int stride_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<BodyState> bodies_;
-  /** Lower triangles, row by row; entries outside the tree's pattern stay 0. */
+  /** Lower triangles, row by row with stride_; entries outside the tree's pattern stay 0. */
   std::vector<double> mass_;
   std::vector<double> factor_;
   /** Ancestors of each dof beyond the root's six, rising. */

@@ -1,67 +1,74 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 
-#include <Eigen/Core>
+#include "common/constants.h"
 
 namespace nao::sim {
 
-/** What surfaces are like. Coulomb friction is dimensionless. */
+/** Properties of surfaces. Coefficients of Coulomb friction are dimensionless. */
 struct Materials {
   /** Robot on floor. Assumed for plastic soles on carpet; published walks were tuned on 0.5-1. */
   double floor_friction = 0.8;
   /** Robot on itself, on other robots and on goal posts: smooth plastic, assumed. */
   double robot_friction = 0.4;
-  /** Ball on floor; B-Human's simulation of the SPL ball. */
+  /** Ball on everything; B-Human's simulation of the SPL ball. */
   double ball_friction = 0.3;
   /** Rolling resistance: deceleration of a rolling ball, m/s^2; SPL carpet, B-Human. */
   double ball_rolling_deceleration = 0.3;
-  /** Of the ball on floor, robots and posts: speed after over speed before. Soft foam on carpet,
-   * assumed. */
+  /** Restitution of the ball on floor, robots and posts: speed after over speed before an impact.
+   * Assumed for soft foam on carpet. */
   double ball_restitution = 0.5;
-  /** Spring and damper of one contact point, N/m and N s/m, and the same along the surface. Stiff
-   * enough that walking speed does not change with more, soft enough to converge (measured). */
+  /** Spring, N/m, and damper, N s/m, of one contact point along the normal, and along the surface
+   * while it sticks. Measured: at 3e3 N/m a walk loses 35 to 55 % of its speed, from 2e4 to 1e5 it
+   * does not change; stiffer springs need more iterations of the solver. */
   double contact_stiffness = 2e4;
   double contact_damping = 150;
   double tangent_stiffness = 2e4;
   double tangent_damping = 150;
 };
 
-/** How a world steps. */
+/** Time step, solver and surroundings of a world. */
 struct WorldOptions {
-  /** Physics step, s, and steps per control tick. */
+  /** Length of a physics step, s, and steps per control tick. */
   double step = 0.002;
   int steps_per_tick = 5;
   /** m/s^2, in W. Tilted, it makes an incline of the floor. */
-  Eigen::Vector3d gravity{0, 0, -9.81};
-  /** Of all noise. */
+  Eigen::Vector3d gravity{0, 0, -kGravity};
+  /** Seed of all noise. */
   uint64_t seed = 1;
   Materials materials;
-  /** Contact solver: most sweeps, and the change of velocity, m/s or rad/s, that ends them. */
-  int max_sweeps = 50;
+  /** Constraint solver: largest number of iterations, and the change of velocity, m/s or rad/s,
+   * below which it has converged. */
+  int max_iterations = 50;
   double tolerance = 1e-5;
-  /** Corners of each sole that touch the floor. */
+  /** Corners of each sole's outline that collide with the floor. */
   int num_sole_points = 8;
+
+  /** Control period, s. */
+  double period() const { return step * steps_per_tick; }
 };
 
 /** How a robot is built and where it starts. */
 struct RobotOptions {
+  /** Part of the seed of the robot's noise. */
   std::string name = "NAO";
-  /** Posture that it stands in and holds until commands come. */
+  /** Posture that it starts in, and that its servos hold until targets are set. */
   std::string posture = "StandInit";
-  /** On the ground, m, and direction it looks, rad. */
+  /** Of the torso over the ground, m, and heading, rad. */
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double heading = 0;
-  /** Factor on all masses; on the motors' torques; on the friction of its soles. For trials that
-   * want every robot a little different. */
+  /** Factors on all masses, on the motors' torques, and on the friction of the robot on the floor:
+   * differences between robots, for trials. */
   double mass_scale = 1;
   double torque_scale = 1;
   double friction_scale = 1;
   /** Control ticks between setting a target and the motors' following it, 0 to 10. A real NAO: 1.
    */
   int command_latency_ticks = 1;
-  /** Hold the torso fast where it starts, as on a work-stand. */
+  /** Holds the torso fixed where it starts. */
   bool is_on_stand = false;
   /** Height of the robot's lowest point at the start, m. */
   double height = 0;

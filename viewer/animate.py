@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Joins PNG pictures of one size into one that moves (APNG), which browsers show.
+"""Joins PNG images of one size into an animated one (APNG), which browsers show.
 
-Usage: viewer/animate.py OUTPUT DELAY_MS PICTURE...
+Usage: viewer/animate.py OUTPUT DELAY_MS IMAGE...
 """
 
 import pathlib
@@ -13,9 +13,10 @@ SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 def read_chunks(file):
+    """Yields (type, content) of the chunks of a PNG file."""
     data = file.read_bytes()
     if not data.startswith(SIGNATURE):
-        sys.exit(f"{file} is no PNG")
+        sys.exit(f"{file} is not a PNG file")
     at = len(SIGNATURE)
     while at < len(data):
         length, kind = struct.unpack(">I4s", data[at:at + 8])
@@ -24,22 +25,26 @@ def read_chunks(file):
 
 
 def chunk(kind, data):
+    """An encoded chunk: length, type, content, CRC."""
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-def animate(pictures, delay_ms):
-    """Source of the format: "APNG specification", W3C PNG third edition, 2025, section 11.3.6."""
+def animate(images, delay_ms):
+    """The bytes of an APNG file that repeats the images for ever, each shown for `delay_ms`.
+
+    Source of the format: W3C, "PNG specification (third edition)", 2025, section 11.3.6.
+    """
     header = None
     palette = []
     body = []
     sequence = 0
-    for index, picture in enumerate(pictures):
-        chunks = list(read_chunks(picture))
+    for index, image in enumerate(images):
+        chunks = list(read_chunks(image))
         if header is None:
             header = chunks[0][1]
             palette = [chunk(kind, data) for kind, data in chunks if kind in (b"PLTE", b"tRNS")]
         elif chunks[0][1] != header:
-            sys.exit(f"{picture} differs in size or kind from {pictures[0]}")
+            sys.exit(f"{image} differs from {images[0]} in size or color type")
         width, height = struct.unpack(">II", header[:8])
         body.append(chunk(b"fcTL", struct.pack(">IIIIIHHBB", sequence, width, height, 0, 0, delay_ms,
                                                1000, 0, 0)))
@@ -50,15 +55,15 @@ def animate(pictures, delay_ms):
         else:
             body.append(chunk(b"fdAT", struct.pack(">I", sequence) + pixels))
             sequence += 1
-    control = chunk(b"acTL", struct.pack(">II", len(pictures), 0))
+    control = chunk(b"acTL", struct.pack(">II", len(images), 0))
     return SIGNATURE + b"".join([chunk(b"IHDR", header), control, *palette, *body, chunk(b"IEND", b"")])
 
 
 def main():
     if len(sys.argv) < 4 or not sys.argv[2].isdigit():
         sys.exit(__doc__.strip())
-    pictures = [pathlib.Path(name) for name in sys.argv[3:]]
-    pathlib.Path(sys.argv[1]).write_bytes(animate(pictures, int(sys.argv[2])))
+    images = [pathlib.Path(name) for name in sys.argv[3:]]
+    pathlib.Path(sys.argv[1]).write_bytes(animate(images, int(sys.argv[2])))
 
 
 if __name__ == "__main__":

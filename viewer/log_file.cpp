@@ -5,7 +5,7 @@
 
 #include "common/error.h"
 
-namespace nao {
+namespace nao::viewer {
 
 LogFile::LogFile(const std::filesystem::path& file) : reader_(file) {
   std::map<std::string, uint32_t> known;
@@ -15,41 +15,44 @@ LogFile::LogFile(const std::filesystem::path& file) : reader_(file) {
     const auto [place, is_new] =
         known.try_emplace(entry->channel, static_cast<uint32_t>(channels_.size()));
     if (is_new) channels_.push_back(entry->channel);
-    // Never backwards, even where the clock was set while recording.
+    // Times never decrease, even if the wall clock was set back while recording.
     const double time = std::max(1e-6 * static_cast<double>(entry->wall_utime - first_utime),
                                  index_.empty() ? 0.0 : index_.back().time);
     index_.push_back({time, entry->offset, entry->size, place->second});
   }
-  if (index_.empty()) throw Error(file.string() + " is no log of lcm-logger, or it is empty");
+  if (index_.empty()) {
+    throw Error(file.string() + " contains no message: it is empty or not a log of lcm-logger");
+  }
 }
 
 double LogFile::duration() const {
   return index_.back().time;
 }
 
-void LogFile::read_place(const Place& place, const Visitor& visit) {
-  visit(channels_[place.channel], reader_.data(place.offset, place.size), place.time);
+void LogFile::visit_entry(const Entry& entry, const Visitor& visit) {
+  visit(channels_[entry.channel], reader_.data(entry.offset, entry.size), entry.time);
 }
 
-size_t LogFile::after(double time) const {
+size_t LogFile::first_after(double time) const {
   const auto found = std::upper_bound(index_.begin(), index_.end(), time,
-                                      [](double t, const Place& place) { return t < place.time; });
+                                      [](double t, const Entry& entry) { return t < entry.time; });
   return static_cast<size_t>(found - index_.begin());
 }
 
 void LogFile::read(double from, double to, const Visitor& visit) {
-  for (size_t i = after(from); i < after(to); ++i) read_place(index_[i], visit);
+  for (size_t i = first_after(from); i < first_after(to); ++i) visit_entry(index_[i], visit);
 }
 
 void LogFile::read_latest(double time, const Visitor& visit) {
+  // Searches backwards until every channel is found.
   std::vector<bool> is_found(channels_.size(), false);
-  std::vector<const Place*> found;
-  for (size_t i = after(time); i-- > 0 && found.size() < channels_.size();) {
+  std::vector<const Entry*> found;
+  for (size_t i = first_after(time); i-- > 0 && found.size() < channels_.size();) {
     if (is_found[index_[i].channel]) continue;
     is_found[index_[i].channel] = true;
     found.push_back(&index_[i]);
   }
-  for (auto place = found.rbegin(); place != found.rend(); ++place) read_place(**place, visit);
+  for (auto entry = found.rbegin(); entry != found.rend(); ++entry) visit_entry(**entry, visit);
 }
 
-}  // namespace nao
+}  // namespace nao::viewer

@@ -5,14 +5,14 @@
 
 #include "viewer/log_file.h"
 
-namespace nao {
+namespace nao::viewer {
 
-/** Place in a log: plays on by itself, or jumps where a person drags it. */
+/** Plays a log: advances with the wall clock, or jumps to any time. */
 class LogPlayer {
  public:
   explicit LogPlayer(LogFile log) : log_(std::move(log)) {}
 
-  /** Plays `seconds` of wall time on, and calls back for what was recorded in that time. */
+  /** Advances by `seconds` of wall time and visits the messages of that time. Pauses at the end. */
   void advance(double seconds, const LogFile::Visitor& visit) {
     if (is_paused || seconds <= 0) return;
     const double from = time_;
@@ -21,14 +21,15 @@ class LogPlayer {
     if (time_ >= log_.duration()) is_paused = true;
   }
 
-  /** Jumps, and calls back for the newest message of every channel and for the `window` seconds
-   * before. */
+  /** Jumps to a time and visits the newest message of each channel, and all messages of the
+   * `window` seconds before. */
   void seek(double time, double window, const LogFile::Visitor& visit) {
     time_ = std::clamp(time, 0.0, log_.duration());
     log_.read_latest(time_ - window, visit);
     log_.read(time_ - window, time_, visit);
   }
 
+  /** s since the first message of the log. */
   double time() const { return time_; }
   double duration() const { return log_.duration(); }
 
@@ -38,8 +39,8 @@ class LogPlayer {
 
  private:
   LogFile log_;
-  /** Before the first message, so that it is played too. */
+  /** Starts before the first message, at 0, so that advance() visits it. */
   double time_ = -1e-9;
 };
 
-}  // namespace nao
+}  // namespace nao::viewer

@@ -1,11 +1,13 @@
 #include "viewer/message_store.h"
 
-namespace nao {
+namespace nao::viewer {
 namespace {
 
-constexpr size_t kMostResults = 100;
-constexpr size_t kMostPrograms = 50;
-constexpr size_t kMostChannels = 200;
+/** Limits of what is stored. Chosen: far above normal use; they bound the memory if a program on
+ * the bus misbehaves. */
+constexpr size_t kMaxResults = 100;
+constexpr size_t kMaxPrograms = 50;
+constexpr size_t kMaxChannels = 200;
 
 template <class Message>
 bool decode(const uint8_t* data, int num_bytes, double time,
@@ -21,35 +23,39 @@ bool decode(const uint8_t* data, int num_bytes, double time,
 
 bool MessageStore::receive(const std::string& channel, const uint8_t* data, int num_bytes,
                            double time) {
-  if (raw_.size() < kMostChannels || raw_.count(channel) > 0) {
+  if (raw_.size() < kMaxChannels || raw_.count(channel) > 0) {
     raw_[channel].assign(data, data + num_bytes);
   }
   if (channel == channels_.robot_state) return decode(data, num_bytes, time, robot_state_);
   if (channel == channels_.motion_state) return decode(data, num_bytes, time, motion_state_);
   if (channel == kWorldTruthChannel) return decode(data, num_bytes, time, truth_);
   if (channel == channels_.head_camera_image) return decode(data, num_bytes, time, image_);
-  if (channel == channels_.command_result) {
-    std::optional<Received<naolcm::command_result_t>> result;
-    if (!decode(data, num_bytes, time, result)) return false;
-    // A walk is asked for again and again, and each time answered the same.
-    const auto is_repeated = [&](const Received<naolcm::command_result_t>& known) {
-      return known.message.source == result->message.source &&
-             known.message.command_id == result->message.command_id &&
-             known.message.status == result->message.status;
-    };
-    std::erase_if(results_, is_repeated);
-    results_.push_back(*result);
-    if (results_.size() > kMostResults) results_.pop_front();
-    return true;
-  }
-  if (channel == kDaemonStatusChannel) {
-    std::optional<Received<naolcm::daemon_status_t>> status;
-    if (!decode(data, num_bytes, time, status)) return false;
-    const std::string key =
-        status->message.program + " " + std::to_string(status->message.process_id);
-    if (programs_.size() < kMostPrograms || programs_.count(key) > 0) programs_[key] = *status;
-    return true;
-  }
+  if (channel == channels_.command_result) return receive_result(data, num_bytes, time);
+  if (channel == kDaemonStatusChannel) return receive_status(data, num_bytes, time);
+  return true;
+}
+
+bool MessageStore::receive_result(const uint8_t* data, int num_bytes, double time) {
+  std::optional<Received<naolcm::command_result_t>> result;
+  if (!decode(data, num_bytes, time, result)) return false;
+  // Results are repeated, and each message of a walk gets the same result: only the last is kept.
+  const auto is_repeated = [&](const Received<naolcm::command_result_t>& known) {
+    return known.message.source == result->message.source &&
+           known.message.command_id == result->message.command_id &&
+           known.message.status == result->message.status;
+  };
+  std::erase_if(results_, is_repeated);
+  results_.push_back(*result);
+  if (results_.size() > kMaxResults) results_.pop_front();
+  return true;
+}
+
+bool MessageStore::receive_status(const uint8_t* data, int num_bytes, double time) {
+  std::optional<Received<naolcm::daemon_status_t>> status;
+  if (!decode(data, num_bytes, time, status)) return false;
+  const std::string key =
+      status->message.program + " " + std::to_string(status->message.process_id);
+  if (programs_.size() < kMaxPrograms || programs_.count(key) > 0) programs_[key] = *status;
   return true;
 }
 
@@ -63,4 +69,4 @@ void MessageStore::clear() {
   raw_.clear();
 }
 
-}  // namespace nao
+}  // namespace nao::viewer

@@ -15,25 +15,26 @@
 
 #include "common/channels.h"
 
-namespace nao {
+namespace nao::viewer {
 
-/** A message and when it came, s of the viewer's time line. */
+/** A message and the time of its reception, s: monotonic, or since the start of the log. */
 template <class Message>
 struct Received {
   Message message;
   double time = 0;
 };
 
-/** What the viewer knows: the newest message of each kind, whether from the bus or from a log. */
+/** The newest messages of each type, from the bus or from a log. Its header includes the message
+ * types: include it in .cpp files only. */
 class MessageStore {
  public:
   /** @param robot  Name of the robot shown, the prefix of its channels. */
   explicit MessageStore(const std::string& robot) : channels_(robot) {}
 
-  /** Takes one message. @return false if it does not decode as its channel's type. */
+  /** Stores one message. @return false if it does not decode as the type of its channel. */
   bool receive(const std::string& channel, const uint8_t* data, int num_bytes, double time);
 
-  /** Forgets everything. */
+  /** Removes all messages. */
   void clear();
 
   const RobotChannels& channels() const { return channels_; }
@@ -44,16 +45,19 @@ class MessageStore {
   }
   const std::optional<Received<naolcm::world_truth_t>>& truth() const { return truth_; }
   const std::optional<Received<naolcm::image_t>>& image() const { return image_; }
-  /** Newest last, 100 at most. */
+  /** The last 100 results without repetitions, newest last. */
   const std::deque<Received<naolcm::command_result_t>>& results() const { return results_; }
   /** By program and process. */
   const std::map<std::string, Received<naolcm::daemon_status_t>>& programs() const {
     return programs_;
   }
-  /** Newest raw message of every channel, for looking at its fields. */
+  /** The newest encoded message of each channel. */
   const std::map<std::string, std::vector<uint8_t>>& raw() const { return raw_; }
 
  private:
+  bool receive_result(const uint8_t* data, int num_bytes, double time);
+  bool receive_status(const uint8_t* data, int num_bytes, double time);
+
   RobotChannels channels_;
   std::optional<Received<naolcm::robot_state_t>> robot_state_;
   std::optional<Received<naolcm::motion_state_t>> motion_state_;
@@ -64,4 +68,4 @@ class MessageStore {
   std::map<std::string, std::vector<uint8_t>> raw_;
 };
 
-}  // namespace nao
+}  // namespace nao::viewer

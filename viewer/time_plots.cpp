@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "message_reflection/number_fields.h"
 
-namespace nao {
+namespace nao::viewer {
 
 void TimePlots::add(const std::string& channel, const std::string& field) {
   const bool is_known = std::any_of(series_.begin(), series_.end(), [&](const PlotSeries& series) {
@@ -19,14 +20,14 @@ void TimePlots::remove(size_t index) {
   if (index < series_.size()) series_.erase(series_.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
-bool TimePlots::wants(const std::string& channel) const {
+bool TimePlots::has_curve_of(const std::string& channel) const {
   return std::any_of(series_.begin(), series_.end(),
                      [&](const PlotSeries& series) { return series.channel == channel; });
 }
 
 void TimePlots::receive(const std::string& channel, const uint8_t* data, int num_bytes,
                         double time) {
-  if (!wants(channel)) return;
+  if (!has_curve_of(channel)) return;
   const std::span message(data, static_cast<size_t>(num_bytes));
   visit_numbers(message, [&](const NumberField& field) {
     if (!std::isfinite(field.value)) return;
@@ -43,4 +44,4 @@ void TimePlots::clear() {
   for (PlotSeries& series : series_) series.points.clear();
 }
 
-}  // namespace nao
+}  // namespace nao::viewer

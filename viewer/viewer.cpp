@@ -5,19 +5,38 @@
 
 #include <cmath>
 #include <naolcm/camera_command_t.hpp>
+#include <stdexcept>
 
 #include "backends/imgui_impl_opengl3.h"
+#include "common/bus.h"
 #include "common/wall_clock.h"
-#include "rendering/gl_objects.h"
+#include "viewer/panels/panels.h"
 
-namespace nao {
+namespace nao::viewer {
 namespace {
 
-/** Impulse for each metre that a push is dragged, N s/m, and the greatest. */
-constexpr double kPushPerMetre = 5;
-constexpr double kGreatestPush = 10;
-const Color kPushColor(0.95f, 0.75f, 0.05f, 1);
 constexpr double kDegree = M_PI / 180;
+/** Interval of walk messages, s: each is valid for 0.5 s. */
+constexpr double kWalkPeriod = 0.1;
+/** Interval of image requests, s: each is valid for 2 s. */
+constexpr double kImageRequestPeriod = 1;
+/** Requested images: the width of the panel in pixels, and a rate that shows motion and leaves time
+ * for the simulator. */
+constexpr int kImageWidth = 320;
+constexpr double kImageRate = 15;
+
+OrbitCamera initial_camera(const ViewerOptions& options) {
+  OrbitCamera camera;
+  if (options.view.size() >= 3) {
+    camera.azimuth = options.view[0] * kDegree;
+    camera.elevation = options.view[1] * kDegree;
+    camera.distance = options.view[2];
+  }
+  if (options.view.size() == 6) {
+    camera.target = Eigen::Map<const Eigen::Vector3d>(&options.view[3]);
+  }
+  return camera;
+}
 
 }  // namespace
 
@@ -27,20 +46,12 @@ Viewer::Viewer(const RobotModel& model, Bus* bus, const ViewerOptions& options)
       renderer_(RendererOptions{.shadow_size = options.shadow_size}),
       world_(model, renderer_, options.robot, options.waiting_posture),
       store_(options.robot),
-      bus_(bus) {
+      bus_(bus),
+      mouse_(initial_camera(options)) {
   panels_.follow = options.follow;
-  if (options.without_marks) {
-    panels_.choice = {true, false, false, false, false, false, false, false};
-  }
-  panels_.choice.see_through = options.see_through;
-  if (options.view.size() >= 3) {
-    camera_.azimuth = options.view[0] * kDegree;
-    camera_.elevation = options.view[1] * kDegree;
-    camera_.distance = options.view[2];
-  }
-  if (options.view.size() == 6) {
-    camera_.target = Eigen::Map<const Eigen::Vector3d>(&options.view[3]);
-  }
+  if (options.without_marks) panels_.choice = ViewChoice::without_markings();
+  panels_.choice.translucent = options.see_through;
+  if (!model.cameras().empty()) panels_.camera = model.cameras().front().name;
   for (const std::string& plot : options.plots) {
     const size_t colon = plot.find(':');
     plots_.add(plot.substr(0, colon), plot.substr(colon + 1));
@@ -65,7 +76,8 @@ Viewer::~Viewer() {
 
 void Viewer::receive(const std::string& channel, const uint8_t* data, int num_bytes, double time) {
   if (!store_.receive(channel, data, num_bytes, time)) {
-    throw std::runtime_error("not of its channel's type, or from another version of the project");
+    throw std::runtime_error(
+        "the message is not of its channel's type, or from another version of the project");
   }
   plots_.receive(channel, data, num_bytes, time);
   if (!commands_) return;
@@ -79,128 +91,56 @@ void Viewer::receive(const std::string& channel, const uint8_t* data, int num_by
 void Viewer::seek(double time) {
   store_.clear();
   plots_.clear();
-  last_picture_ = -1;
-  player_->seek(time, plots_.window(), receiver());
+  image_time_ = -1;
+  player_->seek(time, plots_.window(), log_visitor());
 }
 
-LogFile::Visitor Viewer::receiver() {
-  // What does not decode was not the project's: a log may hold other channels.
+LogFile::Visitor Viewer::log_visitor() {
+  // A log may contain channels of other projects, so messages that do not decode are no error.
   return [this](const std::string& channel, const std::vector<uint8_t>& data, double time) {
     store_.receive(channel, data.data(), static_cast<int>(data.size()), time);
     plots_.receive(channel, data.data(), static_cast<int>(data.size()), time);
   };
 }
 
-void Viewer::play(double now) {
+void Viewer::advance_log(double now) {
   if (!player_) return;
-  if (panels_.wished_log_time >= 0) {
-    seek(panels_.wished_log_time);
-    panels_.wished_log_time = -1;
-  }
-  player_->advance(now - last_draw_, receiver());
+  if (panels_.requested_log_time) seek(*panels_.requested_log_time);
+  panels_.requested_log_time.reset();
+  player_->advance(now - last_draw_, log_visitor());
 }
 
-void Viewer::update_picture() {
-  if (!store_.image() || store_.image()->time == last_picture_) return;
-  const naolcm::image_t& image = store_.image()->message;
-  last_picture_ = store_.image()->time;
-  picture_.load_jpeg(image.data);
+void Viewer::update_image() {
+  if (!store_.image() || store_.image()->time == image_time_) return;
+  image_time_ = store_.image()->time;
+  image_.load_jpeg(store_.image()->message.data);
 }
 
-void Viewer::send(double now) {
+void Viewer::send_commands(double now) {
   if (!commands_) return;
   commands_->repeat(now);
-  constexpr double kWalkPeriod = 0.1;
   if (!panels_.is_walking) {
     commands_->end_walk();
   } else if (now - last_walk_ >= kWalkPeriod) {
     commands_->walk(panels_.vx, panels_.vy, panels_.wz);
     last_walk_ = now;
   }
-  constexpr double kCameraPeriod = 1;
-  if (panels_.watches_camera && now - last_camera_command_ >= kCameraPeriod) {
+  if (panels_.is_camera_open && now - last_image_request_ >= kImageRequestPeriod) {
     naolcm::camera_command_t command{};
-    command.utime = 0;
     command.wall_utime = wall_utime();
     command.source = "viewer." + std::to_string(getpid());
     command.camera = panels_.camera;
-    command.width = 320;
-    command.rate = 15;
+    command.width = kImageWidth;
+    command.rate = kImageRate;
     bus_->publish(store_.channels().head_camera_command, command);
-    last_camera_command_ = now;
+    last_image_request_ = now;
   }
-}
-
-const WorldView::Handle* Viewer::handle_at(const Eigen::Vector3d& ray_in_camera,
-                                           bool is_ball) const {
-  const Eigen::Isometry3d pose = camera_.pose();
-  const Eigen::Vector3d ray = (pose.linear() * ray_in_camera).normalized();
-  const WorldView::Handle* nearest = nullptr;
-  double nearest_depth = 0;
-  for (const WorldView::Handle& handle : world_.handles()) {
-    if ((handle.link == "ball") != is_ball) continue;
-    const Eigen::Vector3d way = handle.center - pose.translation();
-    const double depth = way.dot(ray);
-    if (depth <= 0 || (way - depth * ray).norm() > 1.3 * handle.radius) continue;
-    if (nearest == nullptr || depth < nearest_depth) {
-      nearest = &handle;
-      nearest_depth = depth;
-    }
-  }
-  return nearest;
-}
-
-void Viewer::drag_ball(const Eigen::Vector3d& ray, double now) {
-  Eigen::Vector3d point;
-  if (!meets_plane(camera_.pose(), ray, held_.radius, point) || point.norm() > 20) return;
-  constexpr double kPeriod = 0.1;
-  if (now - last_ball_ < kPeriod || (point - drag_point_).norm() < 1e-3) return;
-  drag_point_ = point;
-  last_ball_ = now;
-  commands_->place_ball(point.x(), point.y());
-}
-
-void Viewer::drag_push(const Eigen::Vector3d& ray) {
-  Eigen::Vector3d point;
-  if (!meets_plane(camera_.pose(), ray, held_.center.z(), point)) return;
-  Eigen::Vector3d way = point - held_.center;
-  if (kPushPerMetre * way.norm() > kGreatestPush) way *= kGreatestPush / kPushPerMetre / way.norm();
-  drag_point_ = held_.center + way;
 }
 
 PinholeCamera Viewer::pinhole(int width, int height) const {
-  PinholeCamera pinhole = camera_.pinhole(width, height);
+  PinholeCamera pinhole = mouse_.camera().pinhole(width, height);
   if (!options_.without_panels) pinhole.cy -= 0.5 * kPlotsHeight;
   return pinhole;
-}
-
-void Viewer::steer(int width, int height, double now) {
-  const ImGuiIO& io = ImGui::GetIO();
-  const Eigen::Vector3d ray =
-      pinhole(width, height).ray({io.MousePos.x - 0.5, io.MousePos.y - 0.5});
-  if (!io.WantCaptureMouse) {
-    camera_.zoom(io.MouseWheel);
-    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-      const WorldView::Handle* handle = commands_ ? handle_at(ray, !io.KeyCtrl) : nullptr;
-      drag_ = handle == nullptr ? Drag::kView : io.KeyCtrl ? Drag::kPush : Drag::kBall;
-      if (handle != nullptr) {
-        held_ = *handle;
-        drag_point_ = held_.center;
-      }
-    }
-    if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle)) {
-      camera_.pan(io.MouseDelta.x, io.MouseDelta.y, height);
-      if (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) panels_.follow = false;
-    }
-  }
-  if (drag_ == Drag::kView) camera_.rotate(io.MouseDelta.x, io.MouseDelta.y);
-  if (drag_ == Drag::kBall) drag_ball(ray, now);
-  if (drag_ == Drag::kPush) drag_push(ray);
-  if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
-  if (drag_ == Drag::kPush) {
-    commands_->push(held_.robot, held_.link, kPushPerMetre * (drag_point_ - held_.center));
-  }
-  drag_ = Drag::kNone;
 }
 
 void Viewer::draw_panels(double now) {
@@ -209,37 +149,39 @@ void Viewer::draw_panels(double now) {
   draw_world_panel(store_, commands, panels_, time);
   draw_motion_panel(store_, model_, commands, panels_, time);
   draw_view_panel(panels_, world_.problems());
-  draw_camera_panel(store_, picture_, panels_);
+  draw_camera_panel(store_, model_, image_, panels_);
   draw_programs_panel(store_, panels_, time);
   draw_plots_panel(store_, plots_, panels_, time);
   if (player_) draw_log_panel(*player_, panels_);
 }
 
 void Viewer::draw(unsigned framebuffer, int width, int height, double now) {
+  // The state of the world, from the log or the bus.
   if (num_frames_ == 0) last_draw_ = now;
-  play(now);
+  advance_log(now);
   last_draw_ = now;
-  update_picture();
-  if (panels_.wants_alignment) world_.align();
-  panels_.wants_alignment = false;
+  update_image();
+  if (panels_.is_alignment_requested) world_.align();
+  panels_.is_alignment_requested = false;
   world_.update(store_, panels_.choice);
   if (panels_.follow && world_.has_robot()) {
-    camera_.target.head<2>() = world_.pose_torso_in_world().translation().head<2>();
+    mouse_.camera().target.head<2>() = world_.pose_torso_in_world().translation().head<2>();
   }
 
+  // Mouse and panels, which change the camera, send commands and cover parts of the view.
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
-  steer(width, height, now);
-  if (drag_ == Drag::kPush) world_.add_arrow(held_.center, drag_point_, kPushColor);
+  CommandSender* commands = commands_ ? &*commands_ : nullptr;
+  if (mouse_.update(world_, pinhole(width, height), commands, now)) panels_.follow = false;
   panels_.covered.clear();
   if (!options_.without_panels) draw_panels(now);
   ImGui::Render();
-  send(now);
+  send_commands(now);
 
-  renderer_.render(world_.scene(), pinhole(width, height), camera_.pose(), framebuffer,
+  renderer_.render(world_.scene(), pinhole(width, height), mouse_.camera().pose(), framebuffer,
                    panels_.covered);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   ++num_frames_;
 }
 
-}  // namespace nao
+}  // namespace nao::viewer

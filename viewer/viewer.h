@@ -1,59 +1,52 @@
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <optional>
 #include <string>
 
-#include "common/bus.h"
 #include "rendering/scene_renderer.h"
-#include "robot_model/robot_model.h"
 #include "viewer/command_sender.h"
+#include "viewer/image_texture.h"
 #include "viewer/log_player.h"
 #include "viewer/message_store.h"
-#include "viewer/orbit_camera.h"
-#include "viewer/panels.h"
-#include "viewer/picture_texture.h"
+#include "viewer/mouse_control.h"
+#include "viewer/panels/panel_state.h"
 #include "viewer/time_plots.h"
 #include "viewer/viewer_options.h"
 #include "viewer/world_view.h"
 
-namespace nao {
+namespace nao::viewer {
 
-/** The viewer in whichever context is current: takes messages, draws frames. An ImGui context
- * exists as long as it does. */
+/** The viewer in the current OpenGL context: receives messages and draws frames. An ImGui context
+ * must exist during its lifetime. */
 class Viewer {
  public:
-  /** @param model  Must outlive this. @param bus  nullptr if a log is played; must outlive this. */
+  /** @param model  Must outlive this. @param bus  Must outlive this; nullptr: a log is played. */
   Viewer(const RobotModel& model, Bus* bus, const ViewerOptions& options);
   ~Viewer();
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  /** Draws one frame. ImGui's input (size, mouse, time) must have been set.
-   * @param framebuffer  OpenGL's number of where to draw. @param now  s of the monotonic clock. */
+  /** Draws one frame. ImGui's input (size, mouse, time) must be set.
+   * @param framebuffer  OpenGL's number of the target. @param now  s, monotonic. */
   void draw(unsigned framebuffer, int width, int height, double now);
 
   int64_t num_frames() const { return num_frames_; }
 
  private:
   void receive(const std::string& channel, const uint8_t* data, int num_bytes, double time);
-  /** Takes in what a log holds. */
-  LogFile::Visitor receiver();
-  void play(double now);
+  /** Stores and plots the messages of a log. */
+  LogFile::Visitor log_visitor();
+  void advance_log(double now);
   void seek(double time);
-  void update_picture();
-  void send(double now);
-  void steer(int width, int height, double now);
-  void drag_ball(const Eigen::Vector3d& ray, double now);
-  void drag_push(const Eigen::Vector3d& ray);
+  void update_image();
+  /** Sends the commands that are repeated: walk, image request, and those without a result. */
+  void send_commands(double now);
   void draw_panels(double now);
-  /** Looks at the part of the window that the panels leave free. */
+  /** Intrinsics of the view, whose center is in the part of the window above the plots. */
   PinholeCamera pinhole(int width, int height) const;
-  const WorldView::Handle* handle_at(const Eigen::Vector3d& ray_in_camera, bool is_ball) const;
-  /** Time line of the messages: the log's, or the monotonic clock. */
+  /** Time line of the messages: that of the log, or the monotonic clock. */
   double message_time(double now) const { return player_ ? player_->time() : now; }
-
-  enum class Drag { kNone, kView, kBall, kPush };
 
   const RobotModel& model_;
   ViewerOptions options_;
@@ -61,21 +54,19 @@ class Viewer {
   WorldView world_;
   MessageStore store_;
   TimePlots plots_;
-  std::optional<CommandSender> commands_;
+  /** nullptr if a log is played; commands_ is then empty and player_ is not. */
   Bus* bus_;
+  std::optional<CommandSender> commands_;
   std::optional<LogPlayer> player_;
-  PictureTexture picture_;
+  ImageTexture image_;
   PanelState panels_;
-  OrbitCamera camera_;
-  Drag drag_ = Drag::kNone;
-  WorldView::Handle held_;
-  Eigen::Vector3d drag_point_ = Eigen::Vector3d::Zero();
+  MouseControl mouse_;
+  // Times of the last frame, walk message and image request, s, and of the image that is shown.
   double last_draw_ = 0;
-  double last_picture_ = -1;
-  double last_camera_command_ = 0;
   double last_walk_ = 0;
-  double last_ball_ = 0;
+  double last_image_request_ = 0;
+  double image_time_ = -1;
   int64_t num_frames_ = 0;
 };
 
-}  // namespace nao
+}  // namespace nao::viewer

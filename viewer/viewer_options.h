@@ -3,46 +3,47 @@
 #include <string>
 #include <vector>
 
-namespace nao {
+namespace nao::viewer {
 
-/** Every tunable of nao-viewer. */
+/** Options of nao-viewer. */
 struct ViewerOptions {
   /** Name of the robot shown, the prefix of its channels. */
   std::string robot = "NAO";
-  /** Log to play instead of listening to the bus; empty for the bus. */
+  /** Log to play; empty: listen to the bus. */
   std::string log_file;
-  /** Where to start in the log, s, and whether to stand still there. */
+  /** Start in the log, s, and whether it is paused there. */
   double log_start = 0;
   bool is_paused = false;
-  /** Picture to write after num_frames frames, then end; empty for none. */
+  /** PNG file to write after num_frames frames, after which the program ends; empty: none. */
   std::string screenshot;
   int num_frames = 30;
   /** Draw without a window or screen; needs a screenshot. */
   bool is_offscreen = false;
-  /** Leave the panels out. */
+  /** Draw the 3D view only. */
   bool without_panels = false;
-  /** How many times finer each side of a screenshot without panels is drawn, then averaged. */
+  /** Resolution factor of each side of a screenshot without panels before it is downsampled. */
   int supersample = 1;
-  /** pixels. */
+  /** Size of the window, pixels. */
   int width = 1280;
   int height = 800;
-  /** Texels; a window has time for a finer shadow map than the camera. */
+  /** Side of the shadow map, texels; finer than the head camera's, since the viewer draws larger
+   * images. */
   int shadow_size = 1024;
-  /** Camera: azimuth and elevation (degrees), distance (m), and what it looks at, x, y, z (m). */
+  /** Camera: azimuth and elevation (degrees), distance (m), optionally the target x, y, z (m). */
   std::vector<double> view;
   /** Curves at the start: CHANNEL:FIELD. */
   std::vector<std::string> plots;
-  /** Posture shown while nothing is received. */
+  /** Posture shown before a state is received. */
   std::string waiting_posture = "StandInit";
-  /** Keep the robot in the middle. */
+  /** The view follows the robot. */
   bool follow = true;
-  /** Leave out forces, centre of mass and all other marks. */
+  /** Draw no markings: forces, center of mass, footsteps and so on. */
   bool without_marks = false;
   /** Draw the estimated robot translucent. */
   bool see_through = false;
 
-  /** @throws ConfigError  naming what is out of range or does not fit together. */
+  /** @throws ConfigError  if a value is out of range or options do not fit together. */
   void validate() const;
 };
 
-}  // namespace nao
+}  // namespace nao::viewer

@@ -2,11 +2,12 @@
 
 #include <cstring>
 
-namespace nao {
+namespace nao::camera {
 namespace {
 
-/** Two of a pixel's four bytes, with room above each for a sum. */
+/** Selects the bytes 0 and 2 of a pixel; the zeros above each leave room for the sum of four. */
 constexpr uint32_t kEveryOther = 0x00ff00ff;
+/** 2 in both sums: rounds the division by 4 to the nearest. */
 constexpr uint32_t kRounding = 0x00020002;
 
 uint32_t load(const uint8_t* pixel) {
@@ -15,6 +16,7 @@ uint32_t load(const uint8_t* pixel) {
   return value;
 }
 
+/** Rounded mean of each byte of four pixels, two bytes at once. */
 uint32_t mean(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   const uint32_t even =
       (a & kEveryOther) + (b & kEveryOther) + (c & kEveryOther) + (d & kEveryOther) + kRounding;
@@ -42,4 +44,4 @@ void halve(const std::vector<uint8_t>& pixels, int width, int height, std::vecto
   }
 }
 
-}  // namespace nao
+}  // namespace nao::camera

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <vector>
 
-namespace nao {
+namespace nao::camera {
 
-/** Halves both sides of a picture: each pixel becomes the rounded mean of four.
- * @param pixels  4 bytes a pixel, rows after one another. @param width, height  Even, pixels.
+/** Halves both sides of an image: each pixel becomes the rounded mean of four.
+ * @param pixels  4 bytes a pixel, row by row. @param width, height  Even, pixels.
  * @param half  Resized to hold the result. */
 void halve(const std::vector<uint8_t>& pixels, int width, int height, std::vector<uint8_t>& half);
 
-}  // namespace nao
+}  // namespace nao::camera

@@ -2,36 +2,45 @@
 
 #include <string>
 
-namespace nao {
+#include "daemons/head-camera/distortion.h"
 
-/** Every tunable of nao-head-camera. */
+namespace nao {
+class RobotModel;
+}
+
+namespace nao::camera {
+
+/** Options of nao-head-camera. */
 struct HeadCameraOptions {
-  /** Own robot, as WORLD_TRUTH names it: whose camera this is. */
+  /** Robot that carries the camera, by its name in WORLD_TRUTH. */
   std::string robot = "NAO";
-  /** Render whether or not somebody watches, the camera, width and rate below. */
+  /** Send images although none are requested, of the camera, width and rate below. */
   bool always = false;
-  std::string camera = "top";
+  /** Camera name; empty: the first camera of the robot's description. */
+  std::string camera;
   /** Pixels: 640, 320 or 160. */
   int width = 640;
-  /** Pictures a second, 1 to 30. */
+  /** Images a second, 1 to 30. */
   double rate = 30;
-  /** JPEG quality where nobody wishes for one, 1 to 95. */
+  /** JPEG quality of requests that give none, 1 to 95. */
   int quality = 80;
-  /** Side of the shadow map, texels; 0 for no shadows. */
+  /** Side of the shadow map, texels; 0: no shadows. */
   int shadow_size = 320;
-  /** What a real camera adds to the picture; 0 for none of it. Radial distortion of the lens
-   * (lens.h). */
-  double k1 = 0;
-  double k2 = 0;
-  /** Standard deviation of each colour, of 255 levels. */
+  /** Imperfections of a real camera; 0: none. Lens distortion. */
+  Distortion distortion;
+  /** Standard deviation of the noise of each color, of 255 levels. */
   double noise = 0;
-  /** How long the shutter is open before the state's time, s: what moves is blurred. */
+  /** Exposure time, s; it ends at the time of the state that is drawn. */
   double exposure = 0;
-  /** Way to the graphics driver: auto, device, surfaceless or default. */
+  /** EGL platform: auto, device, surfaceless or default. */
   std::string egl_platform = "auto";
 
-  /** @throws ConfigError  naming the value that is out of range. */
-  void validate() const;
+  /** @throws ConfigError  naming the value that is out of range, or the camera that `model` lacks.
+   */
+  void validate(const RobotModel& model) const;
+
+  /** Name of the camera: `camera`, or the first one of the model. */
+  std::string camera_name(const RobotModel& model) const;
 };
 
-}  // namespace nao
+}  // namespace nao::camera

@@ -7,11 +7,12 @@
 
 #include "common/error.h"
 
-namespace nao {
+namespace nao::camera {
 namespace {
 
-/** The quality falls by this factor until the file is small enough. */
-constexpr double kNextQuality = 0.75;
+/** Factor on the quality for the next try. Chosen: few tries, with little more loss of quality than
+ * needed. */
+constexpr double kQualityFactor = 0.75;
 
 }  // namespace
 
@@ -25,10 +26,10 @@ JpegEncoder::~JpegEncoder() {
 }
 
 std::vector<uint8_t> JpegEncoder::encode(const std::vector<uint8_t>& bgrx, int width, int height,
-                                         int quality, int most_bytes) {
+                                         int quality, int max_bytes) {
   if (width < 1 || height < 1 || bgrx.size() != static_cast<size_t>(4) * width * height) {
-    throw Error("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                " cannot have " + std::to_string(bgrx.size()) + " bytes");
+    throw Error("an image of " + std::to_string(width) + "x" + std::to_string(height) +
+                " pixels cannot have " + std::to_string(bgrx.size()) + " bytes");
   }
   while (true) {
     unsigned long num_bytes = buffer_bytes_;
@@ -37,15 +38,15 @@ std::vector<uint8_t> JpegEncoder::encode(const std::vector<uint8_t>& bgrx, int w
       throw Error(std::string("libturbojpeg: ") + tjGetErrorStr2(handle_));
     }
     buffer_bytes_ = std::max(buffer_bytes_, num_bytes);
-    if (num_bytes <= static_cast<unsigned long>(most_bytes)) {
+    if (num_bytes <= static_cast<unsigned long>(max_bytes)) {
       return {buffer_, buffer_ + num_bytes};
     }
     if (quality == 1) {
-      throw Error("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                  " does not fit into " + std::to_string(most_bytes) + " bytes");
+      throw Error("an image of " + std::to_string(width) + "x" + std::to_string(height) +
+                  " pixels does not fit into " + std::to_string(max_bytes) + " bytes");
     }
-    quality = std::max(1, static_cast<int>(quality * kNextQuality));
+    quality = std::max(1, static_cast<int>(quality * kQualityFactor));
   }
 }
 
-}  // namespace nao
+}  // namespace nao::camera

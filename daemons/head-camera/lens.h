@@ -3,40 +3,38 @@
 #include <cstdint>
 #include <vector>
 
+#include "daemons/head-camera/distortion.h"
 #include "rendering/pinhole_camera.h"
 
-namespace nao {
+namespace nao::camera {
 
-/** Bends an ideal picture as a lens does: radial distortion by the model of Brown, "Close-range
- * camera calibration" (1971). A point that a pinhole camera shows at the distance r from the
- * principal point, in focal lengths, appears at r (1 + k1 r^2 + k2 r^4); k1 below 0 is a barrel,
- * above 0 a cushion. */
+/** Applies lens distortion to images of a pinhole camera, by a table of source pixels. */
 class Lens {
  public:
-  /** @param camera  What the bent picture has in its middle: its size, focal lengths, principal
-   * point.
-   * @throws ConfigError  if the picture would fold over itself. */
-  Lens(const PinholeCamera& camera, double k1, double k2);
+  /** @param camera  Intrinsics of the distorted image, as calibration gives them.
+   * @throws ConfigError  if the image would fold over itself. */
+  Lens(const PinholeCamera& camera, const Distortion& distortion);
 
-  /** The ideal camera to draw with: of the same size, and wide enough for the bent picture's
-   * corners. */
+  /** Pinhole camera to render with: of the same size, and with a field of view wide enough for
+   * every pixel of the distorted image. */
   const PinholeCamera& source() const { return source_; }
 
-  /** @param ideal  Drawn with source(): rows from the bottom up, 4 bytes a pixel.
-   * @param bent  Likewise; resized. Must not be `ideal`. */
-  void bend(const std::vector<uint8_t>& ideal, std::vector<uint8_t>& bent) const;
+  /** Distorts an image by bilinear interpolation.
+   * @param ideal  Rendered with source(): rows from the bottom up, 4 bytes a pixel.
+   * @param distorted  Likewise; resized. Must not be `ideal`. */
+  void distort(const std::vector<uint8_t>& ideal, std::vector<uint8_t>& distorted) const;
 
  private:
-  /** Where a pixel comes from: the lower left one of four, and the share of those right and above,
-   * 1/256. */
-  struct Origin {
+  /** Source of a pixel: the lower left one of four neighbors, and the weights of the right and of
+   * the upper ones, 1/256. */
+  struct Source {
     int32_t pixel;
     uint16_t right;
     uint16_t above;
   };
 
   PinholeCamera source_;
-  std::vector<Origin> origins_;
+  std::vector<Source> table_;
 };
 
-}  // namespace nao
+}  // namespace nao::camera

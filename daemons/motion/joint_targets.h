@@ -4,13 +4,13 @@
 
 namespace nao::motion {
 
-/** Where the joints shall go, each list (num_motors) in motor order. */
+/** Joint targets, each list (num_motors) in motor order. */
 struct JointTargets {
   /** rad (hands: opening). */
   std::vector<double> position;
-  /** How fast the targets move, rad/s; what a following motion takes over from. */
+  /** Rate of change of the position targets, rad/s; a following motion continues from it. */
   std::vector<double> velocity;
-  /** Share of the motor's torque that the servo may use, 0 limp to 1. */
+  /** Fraction of the peak torque that the servo may use, 0 (limp) to 1. */
   std::vector<double> stiffness;
 };
 

@@ -14,8 +14,9 @@
 #include "robot_model/robot_model.h"
 
 int main(int argc, char** argv) {
-  nao::CommandLine app("Decides where the robot's joints go: postures, joint changes, balance.",
-                       "nao-motion");
+  nao::CommandLine app(
+      "Computes the robot's joint targets: walks, postures, joint changes, actions, falls.",
+      "nao-motion");
   nao::CommonOptions common;
   nao::add_common_options(app, common);
   std::string model_name = "nao";
@@ -23,13 +24,17 @@ int main(int argc, char** argv) {
   app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
       ->show_default();
   app.add_option("--default-speed", options.default_speed,
-                 "Speed of motions that nobody gave one for, fraction of the maximum")
+                 "Speed of the robot's own motions, fraction of the maximum")
       ->show_default();
-  app.add_flag("!--no-get-up", options.gets_up, "After a fall, lie until told to get up");
+  app.add_flag("!--no-get-up", options.gets_up, "After a fall, lie until a command");
   return nao::run_program(app, common, argc, argv, [&] {
     const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
-    if (nao::ask_for_prompt_turns(nao::Turns::kControl))
-      spdlog::info("runs ahead of usual programs");
+    if (nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
+      spdlog::info("real-time scheduling granted");
+    if (model.foot_sensors().empty()) {
+      spdlog::warn("{} has no foot force sensors: it cannot detect contact with the ground",
+                   model.name());
+    }
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);
     const nao::motion::MotionDaemon daemon(bus, loop, model, options, common.robot);

@@ -1,25 +1,85 @@
 #include "daemons/motion/message_conversion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "common/error.h"
+#include "messages/named_joints.h"
+#include "messages/reason.h"
 
 namespace nao::motion {
 namespace {
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+// Deviation of a quaternion's norm from 1 up to which it is a rotation: the inertial unit may send
+// single-precision or rounded numbers.
 constexpr double kOrientationTolerance = 0.01;
 // Control periods that a robot may have, s.
-constexpr double kShortestPeriod = 0.001;
-constexpr double kLongestPeriod = 0.1;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMinPeriod = 0.001;
+constexpr double kMaxPeriod = 0.1;
 
-void require_finite(double value, const char* what, const std::string& name) {
-  if (!std::isfinite(value)) throw Error(std::string(what) + " " + name + " is not a number");
+void require_finite(const double* values, int count, const char* quantity) {
+  for (int i = 0; i < count; ++i) {
+    if (!std::isfinite(values[i])) {
+      throw Error(std::string(quantity) + " " + std::to_string(i) + " is not a finite number");
+    }
+  }
 }
 
-void require_finite(const double* values, int count, const char* what) {
-  for (int i = 0; i < count; ++i) require_finite(values[i], what, "reading");
+/** Index of the foot force sensor on a link of that name; the number of sensors if there is none.
+ */
+size_t find_foot_sensor(const RobotModel& model, const std::string& name) {
+  const std::vector<int>& links = model.foot_sensors();
+  return std::find_if(links.begin(), links.end(),
+                      [&](int link) { return model.links()[link].name == name; }) -
+         links.begin();
+}
+
+void read_joints(const RobotModel& model, const naolcm::sensor_state_t& message, Sensors& sensors) {
+  const auto fault = read_named_joints(
+      model.motor_names(), message.joint_names,
+      {{"position", message.joint_position, sensors.position},
+       {"velocity", message.joint_velocity, sensors.velocity},
+       {"torque", message.joint_torque, sensors.torque},
+       {"target position", message.joint_target_position, sensors.target_position},
+       {"stiffness", message.joint_stiffness, sensors.stiffness, 0, 1}});
+  if (fault) throw Error(to_sentence(*fault));
+}
+
+void read_inertial_unit(const naolcm::sensor_state_t& message, Sensors& sensors) {
+  require_finite(message.accelerometer_torso, 3, "accelerometer");
+  require_finite(message.gyroscope_torso, 3, "gyroscope");
+  require_finite(message.orientation_torso_in_world, 4, "orientation");
+  sensors.accelerometer_torso = Eigen::Vector3d(message.accelerometer_torso);
+  sensors.gyroscope_torso = Eigen::Vector3d(message.gyroscope_torso);
+  const double* q = message.orientation_torso_in_world;
+  sensors.orientation_torso_in_world = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  const double norm = sensors.orientation_torso_in_world.norm();
+  if (std::abs(norm - 1) > kOrientationTolerance) {
+    throw Error("the orientation's norm is " + to_argument(norm) + "; it must be 1");
+  }
+}
+
+void read_foot_sensors(const RobotModel& model, const naolcm::sensor_state_t& message,
+                       Sensors& sensors) {
+  const size_t num_sensors = model.foot_sensors().size();
+  sensors.foot_force.assign(num_sensors, 0);
+  std::vector<bool> is_listed(num_sensors, false);
+  for (int i = 0; i < message.num_foot_sensors; ++i) {
+    const std::string& name = message.foot_sensor_names[i];
+    const size_t index = find_foot_sensor(model, name);
+    if (index == num_sensors) throw Error("the robot has no foot sensor " + quoted(name));
+    if (is_listed[index]) throw Error("foot sensor " + name + " is listed twice");
+    is_listed[index] = true;
+    require_finite(&message.foot_force[i], 1, "force of a foot sensor");
+    sensors.foot_force[index] = std::max(0.0, message.foot_force[i]);
+  }
+  for (size_t index = 0; index < num_sensors; ++index) {
+    if (!is_listed[index]) {
+      throw Error("foot sensor " + model.links()[model.foot_sensors()[index]].name + " is missing");
+    }
+  }
 }
 
 template <class Message>
@@ -36,76 +96,14 @@ Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& messag
   Sensors sensors;
   sensors.utime = message.utime;
   sensors.tick = message.tick;
-  if (!(message.period >= kShortestPeriod && message.period <= kLongestPeriod)) {
-    throw Error("period is outside 0.001 to 0.1 s");
+  if (!(message.period >= kMinPeriod && message.period <= kMaxPeriod)) {
+    throw Error("period " + to_argument(message.period) + " s is outside [" +
+                to_argument(kMinPeriod) + ", " + to_argument(kMaxPeriod) + "]");
   }
   sensors.period = message.period;
-
-  const size_t num_motors = model.num_motors();
-  sensors.position.assign(num_motors, 0);
-  sensors.velocity.assign(num_motors, 0);
-  sensors.torque.assign(num_motors, 0);
-  sensors.target_position.assign(num_motors, 0);
-  sensors.stiffness.assign(num_motors, 0);
-  std::vector<bool> is_known(num_motors, false);
-  for (int i = 0; i < message.num_joints; ++i) {
-    const std::string& name = message.joint_names[i];
-    const int motor = model.find_motor(name);
-    if (motor < 0) throw Error("the robot has no joint " + quoted(name));
-    if (is_known[motor]) throw Error("joint " + name + " is listed twice");
-    is_known[motor] = true;
-    sensors.position[motor] = message.joint_position[i];
-    sensors.velocity[motor] = message.joint_velocity[i];
-    sensors.torque[motor] = message.joint_torque[i];
-    sensors.target_position[motor] = message.joint_target_position[i];
-    sensors.stiffness[motor] = message.joint_stiffness[i];
-    require_finite(message.joint_position[i], "position of", name);
-    require_finite(message.joint_velocity[i], "velocity of", name);
-    require_finite(message.joint_torque[i], "torque of", name);
-    require_finite(message.joint_target_position[i], "target of", name);
-    if (!(message.joint_stiffness[i] >= 0 && message.joint_stiffness[i] <= 1)) {
-      throw Error("stiffness of " + name + " is outside 0..1");
-    }
-  }
-  for (size_t motor = 0; motor < num_motors; ++motor) {
-    if (!is_known[motor]) {
-      throw Error("joint " + model.motor_joint(static_cast<int>(motor)).name + " is missing");
-    }
-  }
-
-  require_finite(message.accelerometer_torso, 3, "accelerometer");
-  require_finite(message.gyroscope_torso, 3, "gyroscope");
-  require_finite(message.orientation_torso_in_world, 4, "orientation");
-  sensors.accelerometer_torso = Eigen::Vector3d(message.accelerometer_torso);
-  sensors.gyroscope_torso = Eigen::Vector3d(message.gyroscope_torso);
-  const double* q = message.orientation_torso_in_world;
-  sensors.orientation_torso_in_world = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
-  if (std::abs(sensors.orientation_torso_in_world.norm() - 1) > kOrientationTolerance) {
-    throw Error("orientation is no unit quaternion");
-  }
-
-  sensors.foot_force.assign(model.foot_sensors().size(), 0);
-  std::vector<bool> is_listed(model.foot_sensors().size(), false);
-  for (int i = 0; i < message.num_foot_sensors; ++i) {
-    const std::string& name = message.foot_sensor_names[i];
-    size_t index = 0;
-    while (index < model.foot_sensors().size() &&
-           model.links()[model.foot_sensors()[index]].name != name) {
-      ++index;
-    }
-    if (index == model.foot_sensors().size()) {
-      throw Error("the robot has no foot sensor " + quoted(name));
-    }
-    if (is_listed[index]) throw Error("foot sensor " + name + " is listed twice");
-    is_listed[index] = true;
-    require_finite(message.foot_force[i], "force on", name);
-    sensors.foot_force[index] = std::max(0.0, message.foot_force[i]);
-  }
-  for (size_t index = 0; index < is_listed.size(); ++index) {
-    if (!is_listed[index]) {
-      throw Error("foot sensor " + model.links()[model.foot_sensors()[index]].name + " is missing");
-    }
-  }
+  read_joints(model, message, sensors);
+  read_inertial_unit(message, sensors);
+  read_foot_sensors(model, message, sensors);
   return sensors;
 }
 
@@ -129,12 +127,9 @@ Command to_command(const naolcm::posture_command_t& message) {
 
 Command to_command(const naolcm::joint_change_command_t& message) {
   Command command = command_from(message);
-  command.request = JointChangeCommand{message.joint_names,
-                                       message.joint_position,
-                                       message.is_relative != 0,
-                                       message.speed,
-                                       message.allow_tipping != 0,
-                                       message.joint_stiffness};
+  command.request =
+      JointChangeCommand{message.joint_names, message.joint_position,     message.is_relative != 0,
+                         message.speed,       message.allow_tipping != 0, message.joint_stiffness};
   return command;
 }
 
@@ -213,8 +208,10 @@ naolcm::motion_state_t to_message(const MotionState& state) {
   message.vy = state.walk_velocity.y();
   message.wz = state.walk_velocity.z();
   message.stiffness = state.stiffness;
-  message.num_last_refusal_arguments = 0;
-  message.last_refusal = state.last_refusal;
+  message.last_refusal_code = state.last_refusal.code;
+  message.num_last_refusal_arguments = static_cast<int>(state.last_refusal.arguments.size());
+  message.last_refusal_arguments = state.last_refusal.arguments;
+  message.last_refusal = to_sentence(state.last_refusal);
   message.num_footsteps = static_cast<int>(state.footsteps.size());
   for (const Footstep& footstep : state.footsteps) {
     naolcm::footstep_t part;
@@ -234,10 +231,10 @@ naolcm::command_result_t to_message(const CommandResult& result, int64_t utime) 
   message.command_id = result.id;
   message.command_kind = static_cast<int8_t>(result.kind);
   message.status = static_cast<int8_t>(result.status);
-  message.reason_code = result.reason_code;
-  message.num_reason_arguments = static_cast<int>(result.reason_arguments.size());
-  message.reason_arguments = result.reason_arguments;
-  message.reason = result.reason;
+  message.reason_code = result.reason.code;
+  message.num_reason_arguments = static_cast<int>(result.reason.arguments.size());
+  message.reason_arguments = result.reason.arguments;
+  message.reason = to_sentence(result.reason);
   return message;
 }
 

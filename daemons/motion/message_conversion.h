@@ -14,19 +14,20 @@
 #include <string>
 #include <vector>
 
-#include "messages/command.h"
 #include "daemons/motion/joint_targets.h"
 #include "daemons/motion/motion_state.h"
 #include "daemons/motion/robot_state.h"
 #include "daemons/motion/sensors.h"
+#include "messages/command.h"
 #include "robot_model/robot_model.h"
 
 namespace nao::motion {
 
-/** Between the messages of the bus and the core's types. */
+// Conversions between the messages of the bus and the core's types. A wrong number in a command is
+// no error here: the core refuses the command with a reason.
 
-/** @throws Error  saying which joint or sensor is missing, unknown or listed twice, or which number
- * is none: such a message must not reach the core. */
+/** @throws Error  naming the joint or sensor that is missing, unknown or listed twice, or the
+ * quantity that is not finite or out of its range. Such a message must not reach the core. */
 Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& message);
 
 Command to_command(const naolcm::walk_command_t& message);
@@ -36,7 +37,7 @@ Command to_command(const naolcm::joint_change_command_t& message);
 Command to_command(const naolcm::action_command_t& message);
 Command to_command(const naolcm::stop_command_t& message);
 
-/** @param names  Of all motors, in motor order. */
+/** @param names  Of all motors' joints, in motor order. */
 naolcm::joint_command_t to_message(const JointTargets& targets, const RobotState& state,
                                    const std::vector<std::string>& names);
 naolcm::robot_state_t to_message(const RobotState& state, const std::vector<std::string>& names);

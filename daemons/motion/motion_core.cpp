@@ -1,630 +1,173 @@
 #include "daemons/motion/motion_core.h"
 
 #include <algorithm>
-#include <cmath>
+#include <memory>
+#include <string>
 #include <utility>
 
-#include "common/error.h"
-#include "daemons/motion/commands/acceptance.h"
-#include "daemons/motion/commands/command_check.h"
 #include "daemons/motion/generators/fall_motion.h"
-#include "daemons/motion/generators/joint_change_motion.h"
-#include "daemons/motion/generators/journey_motion.h"
-#include "daemons/motion/generators/kick_motion.h"
-#include "daemons/motion/generators/posture_motion.h"
-#include "daemons/motion/generators/rest_motion.h"
-#include "daemons/motion/generators/script_motion.h"
-#include "daemons/motion/generators/sequence_motion.h"
-#include "daemons/motion/generators/walk_motion.h"
-#include "daemons/motion/standing_rates.h"
 #include "daemons/motion/transitions/body_state.h"
 
 namespace nao::motion {
 namespace {
 
-constexpr const char* kFirstPosture = "StandInit";
-constexpr const char* kGaitFile = "gait.yaml";
-constexpr const char* kKickFile = "actions/kick.yaml";
-constexpr const char* kScriptFile = "actions/keeper.yaml";
-// A kick asked for while the robot walks is struck in passing, unless it is to be stronger than
-// this.
-constexpr double kWalkKickStrength = 0.5;
-constexpr const char* kRestPosture = "Crouch";
-
 // Time after taking over in which the estimate settles before the first motion is chosen, s.
+// Chosen: three time constants of the estimated velocities (StateEstimator).
 constexpr double kTakeOverTime = 0.1;
-// A joint that turned this much farther in one tick than its motor can was not turned by it:
-// somebody has placed the robot anew, rad.
-constexpr double kPlacedAngle = 0.5;
-// Measured angles may be this far off a posture that the robot is said to be in, rad (5 degrees:
-// the servos' lag and the encoders' steps).
-constexpr double kInPostureTolerance = 0.09;
-// Torso height below which a robot does not stand, m; a crouch has 0.229.
-constexpr double kLeastStandingHeight = 0.15;
 
-bool has_changed(const MotionState& a, const MotionState& b) {
-  return a.mode != b.mode || a.posture != b.posture || a.command_kind != b.command_kind ||
-         a.command_source != b.command_source || a.command_id != b.command_id ||
-         a.command_name != b.command_name || a.needs_help != b.needs_help || a.last_refusal != b.last_refusal;
+MotionOptions validated(const MotionOptions& options) {
+  options.validate();
+  return options;
 }
 
 }  // namespace
 
 MotionCore::MotionCore(const RobotModel& model, const MotionOptions& options)
     : model_(&model),
-      options_(options),
-      limiter_(model),
-      graph_(options.transitions
-                 ? *options.transitions
-                 : TransitionGraph::load(model, model.folder() / "transitions.yaml")),
+      options_(validated(options)),
+      presence_(model, options.sensor_timeout),
       estimator_(model, options.foot_contact_force),
-      tipping_guard_(model),
-      collision_guard_(model),
-      fall_monitor_(options.lying_tilt) {
-  options_.validate();
-  if (model.find_posture(kFirstPosture) == nullptr) {
-    throw ModelError(model.name() + " has no posture " + kFirstPosture);
-  }
-  // A robot without a gait is a robot that does not walk.
-  gait_ = options.gait;
-  const std::filesystem::path file = model.folder() / kGaitFile;
-  if (!gait_ && std::filesystem::exists(file)) gait_ = Gait::load(file);
-  const std::filesystem::path kick = model.folder() / kKickFile;
-  if (std::filesystem::exists(kick)) kick_ = Kick::load(kick);
-  const std::filesystem::path scripts = model.folder() / kScriptFile;
-  if (std::filesystem::exists(scripts)) scripts_ = ActionScript::load(model, scripts);
-}
+      guard_(model),
+      factory_(model, options_, guard_),
+      arbiter_(model, factory_, guard_),
+      falls_(options_),
+      limiter_(model),
+      reporter_(options.motion_state_period) {}
 
 Output MotionCore::step(const Input& input, double dt) {
-  output_ = Output();
   if (input.sensors) {
     take_sensors(*input.sensors, dt);
   } else {
-    silence_ += dt;
-    if (has_robot_ && silence_ >= options_.sensor_timeout) lose_robot();
+    wait_for_sensors(dt);
   }
-  for (const Command& command : input.commands) receive(command);
+  receive(input.commands);
+  Output output;
   if (input.sensors) {
     move(dt);
-    output_.joint_targets = targets_;
-    output_.robot_state = estimator_.state();
+    output.joint_targets = targets_;
+    output.robot_state = estimator_.state();
   }
-  report(dt);
-  return std::move(output_);
+  output.motion_state =
+      reporter_.update({context(dt), targets_, arbiter_, mode(), falls_.needs_help()}, dt);
+  output.results = arbiter_.take_results();
+  return output;
 }
 
 void MotionCore::take_sensors(const Sensors& sensors, double dt) {
-  bool is_another_robot = !has_robot_ || sensors.tick < sensors_.tick;
-  if (!is_another_robot) {
-    for (int motor = 0; motor < model_->num_motors(); ++motor) {
-      const double farthest = model_->motor_joint(motor).max_velocity * dt + kPlacedAngle;
-      is_another_robot = is_another_robot ||
-                         std::abs(sensors.position[motor] - sensors_.position[motor]) > farthest;
-    }
+  switch (presence_.take(sensors, dt)) {
+    case RobotPresence::Change::kAppeared:
+      take_over(false);
+      break;
+    case RobotPresence::Change::kPlaced:
+      arbiter_.abort_all({"no-robot"});
+      take_over(true);
+      break;
+    default:
+      break;
   }
-  sensors_ = sensors;
-  silence_ = 0;
-  if (is_another_robot) take_over(sensors, has_robot_);
   estimator_.update(sensors, dt);
 }
 
-void MotionCore::lose_robot() {
-  has_robot_ = false;
-  end_running(ResultStatus::kFailed, refusal_in(Mode::kNoRobot));
-  end_overlay(ResultStatus::kFailed, refusal_in(Mode::kNoRobot));
-  overlaid_.clear();
-  if (waiting_) {
-    if (waiting_->command) {
-      answer(*waiting_->command, ResultStatus::kFailed, refusal_in(Mode::kNoRobot));
-    }
-    waiting_.reset();
-  }
+void MotionCore::wait_for_sensors(double dt) {
+  if (presence_.wait(dt) == RobotPresence::Change::kLost) arbiter_.abort_all({"no-robot"});
 }
 
-void MotionCore::take_over(const Sensors& sensors, bool is_placed) {
-  if (has_robot_) lose_robot();
-  has_robot_ = true;
+void MotionCore::take_over(bool is_placed) {
+  const Sensors& sensors = presence_.sensors();
   time_with_robot_ = 0;
   has_first_motion_ = false;
-  needs_help_ = false;
+  falls_.reset();
   estimator_.reset();
-  // What the servos of a robot that was put elsewhere hold may still be from before.
+  // The servos of a robot that was placed elsewhere may still hold targets from before.
   targets_.position = is_placed ? sensors.position : sensors.target_position;
   if (is_placed) clip_to_limits(*model_, targets_.position);
   targets_.velocity.assign(model_->num_motors(), 0.0);
   targets_.stiffness = sensors.stiffness;
 }
 
-void MotionCore::choose_first_motion() {
-  has_first_motion_ = true;
-  was_lying_ = is_lying();
-  if (running_ || waiting_ || is_limp()) return;
-  const std::string state = find_body_state(*model_, estimator_.state(), options_.lying_tilt);
-  for (const Posture& posture : model_->postures()) {
-    if (deviation_from(posture, sensors_.position).angle >= kInPostureTolerance) continue;
-    if (state_of(posture) != state) continue;
-    assign({std::make_unique<JourneyMotion>(graph_, posture, options_.default_speed), std::nullopt,
-            posture.name});
-    return;
+void MotionCore::receive(const std::vector<Command>& commands) {
+  for (const Command& command : commands) {
+    arbiter_.receive(command, context(0), targets_, mode());
   }
-  if (was_lying_) {
-    has_fallen_ = true;
-    return;
-  }
-  assign({std::make_unique<JourneyMotion>(graph_, *model_->find_posture(kFirstPosture),
-                                          options_.default_speed),
-          std::nullopt, kFirstPosture});
-}
-
-void MotionCore::receive(const Command& command) {
-  if (const auto fault = find_sender_fault(command)) {
-    answer(command, ResultStatus::kRefused, *fault, false);
-    return;
-  }
-  if (const CommandResult* known = ledger_.find(command.source, command.id)) {
-    const bool is_running = running_ && running_->command &&
-                            running_->command->source == command.source &&
-                            running_->command->id == command.id;
-    const bool is_waiting = waiting_ && waiting_->command &&
-                            waiting_->command->source == command.source &&
-                            waiting_->command->id == command.id;
-    if (!find_fault(*model_, command)) {
-      if (is_running) running_->generator->adopt(command);
-      if (is_waiting) waiting_->generator->adopt(command);
-    }
-    output_.results.push_back(*known);
-    return;
-  }
-  if (const auto fault = find_fault(*model_, command)) {
-    answer(command, ResultStatus::kRefused, *fault);
-    return;
-  }
-  const Mode mode = current_mode();
-  if (acceptance_of(kind_of(command), mode) == Acceptance::kRefuse) {
-    answer(command, ResultStatus::kRefused, refusal_in(mode));
-    return;
-  }
-  if (adopt_walk(command) || adopt_kick(command) || overlay_walk(command)) return;
-  Plan planned = plan(command);
-  if (const auto* refusal = std::get_if<std::string>(&planned)) {
-    answer(command, ResultStatus::kRefused, *refusal);
-    return;
-  }
-  answer(command, ResultStatus::kAccepted, "");
-  assign(
-      {std::move(std::get<std::unique_ptr<MotionGenerator>>(planned)), command, describe(command)});
-}
-
-bool MotionCore::adopt_walk(const Command& command) {
-  const auto* walk = std::get_if<WalkCommand>(&command.request);
-  if (walk == nullptr || waiting_) return false;
-  const bool is_walking =
-      running_ && running_->command && kind_of(*running_->command) == CommandKind::kWalk;
-  if (!is_walking) {
-    if (walk->vx != 0 || walk->vy != 0 || walk->wz != 0) return false;
-    answer(command, ResultStatus::kAccepted, "");
-    answer(command, ResultStatus::kDone, "The robot does not walk.");
-    return true;
-  }
-  if (!running_->generator->adopt(command)) return false;
-  answer(*running_->command, ResultStatus::kInterrupted, "Replaced by a newer walk.");
-  answer(command, ResultStatus::kAccepted, "");
-  running_->command = command;
-  running_->detail = describe(command);
-  return true;
-}
-
-bool MotionCore::is_walking() const {
-  return running_ && running_->generator->mode() == Mode::kWalking;
-}
-
-bool MotionCore::overlay_walk(const Command& command) {
-  const auto* change = std::get_if<JointChangeCommand>(&command.request);
-  if (change == nullptr || waiting_ || !is_walking()) return false;
-  std::vector<int> motors;
-  for (const std::string& name : change->joint_names) {
-    motors.push_back(model_->find_motor(name));
-    if (carries_body(context(0), motors.back())) return false;
-  }
-  // The joints that walk are not its concern.
-  JointTargets start = targets_;
-  for (int motor = 0; motor < model_->num_motors(); ++motor) {
-    const bool turns = std::find(motors.begin(), motors.end(), motor) != motors.end();
-    if (!turns) start.velocity[motor] = 0;
-  }
-  const std::string danger = find_self_collision(*change, start);
-  if (!danger.empty()) {
-    answer(command, ResultStatus::kRefused, danger);
-    return true;
-  }
-  answer(command, ResultStatus::kAccepted, "");
-  end_overlay(ResultStatus::kInterrupted,
-              "Replaced by a newer command: " + describe(command) + ".");
-  overlay_ = Overlay{std::make_unique<JointChangeMotion>(*change), command, std::move(motors)};
-  overlay_->generator->start(context(0), start);
-  return true;
-}
-
-MotionCore::Plan MotionCore::plan(const Command& command) {
-  return std::visit([this](const auto& request) { return plan_request(request); }, command.request);
-}
-
-bool MotionCore::adopt_kick(const Command& command) {
-  const auto* action = std::get_if<ActionCommand>(&command.request);
-  if (action == nullptr || waiting_ || !running_) return false;
-  const bool is_kick = action->action == "kick-left" || action->action == "kick-right";
-  // No strength said is NaN, which is not above.
-  if (!is_kick || action->strength > kWalkKickStrength) return false;
-  if (!running_->generator->adopt(command)) return false;
-  if (walk_kick_) answer(*walk_kick_, ResultStatus::kInterrupted, "A newer kick came first.");
-  answer(command, ResultStatus::kAccepted, "");
-  walk_kick_ = command;
-  return true;
-}
-
-void MotionCore::watch_kick() {
-  if (!walk_kick_) return;
-  const auto strike = running_ ? running_->generator->strike() : MotionGenerator::Strike::kNone;
-  if (strike == MotionGenerator::Strike::kPending) return;
-  if (strike == MotionGenerator::Strike::kStruck) {
-    answer(*walk_kick_, ResultStatus::kDone, "");
-  } else {
-    const bool is_missed = strike == MotionGenerator::Strike::kMissed;
-    answer(
-        *walk_kick_, ResultStatus::kFailed,
-        is_missed ? "The ball could not be reached in time." : "The walk ended before the kick.");
-  }
-  walk_kick_.reset();
-}
-
-std::optional<std::string> MotionCore::refuse_walk() const {
-  if (!gait_) return model_->name() + " has no gait.";
-  if (is_lying()) return "The robot lies on the ground; let it get up first.";
-  return find_walk_obstacle(LegKinematics(*model_), estimator_.state(), targets_.stiffness);
-}
-
-std::unique_ptr<MotionGenerator> MotionCore::plan_stand() const {
-  return std::make_unique<JourneyMotion>(graph_, *model_->find_posture(kFirstPosture),
-                                         options_.default_speed);
-}
-
-std::optional<std::string> MotionCore::refuse_walk_after_standing_up() const {
-  if (!gait_ || !sits()) return refuse_walk();
-  return find_soft_leg(LegKinematics(*model_), targets_.stiffness);
-}
-
-MotionCore::Plan MotionCore::plan_request(const WalkCommand& walk) {
-  if (const auto refusal = refuse_walk_after_standing_up()) return *refusal;
-  return std::make_unique<WalkMotion>(*model_, *gait_, plan_stand(), walk);
-}
-
-MotionCore::Plan MotionCore::plan_request(const MoveToCommand& move_to) {
-  if (const auto refusal = refuse_walk_after_standing_up()) return *refusal;
-  return std::make_unique<MoveToMotion>(*model_, *gait_, plan_stand(), move_to);
-}
-
-MotionCore::Plan MotionCore::plan_request(const PostureCommand& posture) {
-  const Posture& goal = *model_->find_posture(posture.posture);
-  const std::string state = find_body_state(*model_, estimator_.state(), options_.lying_tilt);
-  const bool is_there = state == state_of(goal);
-  if (!is_there && !state.empty() && graph_.find_way(state, state_of(goal)).empty()) {
-    return "There is no safe way from here to " + goal.name + " yet.";
-  }
-  return std::make_unique<JourneyMotion>(graph_, goal, posture.speed);
-}
-
-MotionCore::Plan MotionCore::plan_request(const JointChangeCommand& change) {
-  std::string danger = find_danger(change);
-  if (!danger.empty()) return danger;
-  return std::make_unique<JointChangeMotion>(change);
-}
-
-MotionCore::Plan MotionCore::plan_request(const ActionCommand& action) {
-  const Posture& stand = *model_->find_posture(kFirstPosture);
-  const double speed = options_.default_speed;
-  if (action.action == "get-up" || action.action == "wake-up") {
-    return std::make_unique<JourneyMotion>(graph_, stand, speed);
-  }
-  if (action.action == "rest") {
-    return std::make_unique<RestMotion>(graph_, *model_->find_posture(kRestPosture), speed);
-  }
-  if (action.action == "kick-left" || action.action == "kick-right") {
-    return plan_kick(action.action == "kick-left", action);
-  }
-  for (const ActionScript& script : scripts_) {
-    if (script.sequence.name == action.action) return plan_script(script);
-  }
-  const KeyframeSequence* sequence = graph_.find(action.action);
-  if (sequence == nullptr) return "The action " + action.action + " is not built yet.";
-  const std::string state = find_body_state(*model_, estimator_.state(), options_.lying_tilt);
-  if (sequence->from != state) return "The robot can " + action.action + " only while it stands.";
-  return std::make_unique<SequenceMotion>(*sequence);
-}
-
-MotionCore::Plan MotionCore::plan_kick(bool is_left, const ActionCommand& action) {
-  if (!kick_) return model_->name() + " has no kick.";
-  if (const auto refusal = refuse_walk()) return *refusal;
-  const Eigen::Vector2d ball(action.ball_x, action.ball_y);
-  if (const auto refusal = KickMotion::find_obstacle(*kick_, is_left, ball)) return *refusal;
-  return std::make_unique<KickMotion>(*model_, *kick_, *gait_, plan_stand(), is_left, ball,
-                                      action.strength);
-}
-
-MotionCore::Plan MotionCore::plan_script(const ActionScript& script) {
-  if (const auto refusal = refuse_walk()) return *refusal;
-  return std::make_unique<ScriptMotion>(*model_, script, *gait_, plan_stand(), plan_stand());
-}
-
-MotionCore::Plan MotionCore::plan_request(const StopCommand& /*stop*/) {
-  return std::make_unique<StopMotion>();
-}
-
-std::string MotionCore::find_danger(const JointChangeCommand& change) {
-  std::string danger = find_self_collision(change, targets_);
-  const bool stands =
-      find_body_state(*model_, estimator_.state(), options_.lying_tilt) == "on-feet";
-  if (!danger.empty() || change.allow_tipping || !stands) return danger;
-  return find_tipping(change);
-}
-
-std::string MotionCore::how_far(double angle) {
-  const long degrees = std::lround(std::trunc(angle * 180 / M_PI));
-  if (degrees == 0) return "it cannot turn that way from here.";
-  return "it may turn by " + std::to_string(degrees) + " degrees at most.";
-}
-
-std::string MotionCore::find_self_collision(const JointChangeCommand& change,
-                                            const JointTargets& start) {
-  JointChangeMotion motion(change);
-  motion.start(context(0), start);
-  const std::vector<std::vector<double>> way = motion.calc_way(*model_);
-  SelfCollision collision;
-  const size_t last = collision_guard_.find_last_free(way, collision);
-  if (last + 1 == way.size()) return "";
-  return model_->motor_joint(collision.motor).name + " would bring " + collision.link_a + " into " +
-         collision.link_b + "; " +
-         how_far(way[last][collision.motor] - way.front()[collision.motor]);
-}
-
-std::string MotionCore::find_tipping(const JointChangeCommand& change) {
-  const std::vector<double> goal = JointChangeMotion::calc_goal(*model_, change, targets_.position);
-  Rest tipping;
-  const Eigen::Vector3d up = estimator_.state().torso_in_odometry.linear().row(2);
-  const double safe_share = tipping_guard_.find_safe_share(targets_.position, goal, up, tipping);
-  if (safe_share >= 1) return "";
-  // Of the joints named, the one that turns the body over its feet most: legs before all others.
-  const Eigen::Matrix3Xd left = estimator_.kinematics().calc_angular_jacobian(model_->left_sole());
-  const Eigen::Matrix3Xd right =
-      estimator_.kinematics().calc_angular_jacobian(model_->right_sole());
-  int culprit = -1;
-  double largest = -1;
-  for (const std::string& name : change.joint_names) {
-    const int motor = model_->find_motor(name);
-    const bool is_leg = !left.col(motor).isZero(0) || !right.col(motor).isZero(0);
-    const double weight = std::abs(goal[motor] - targets_.position[motor]) * (is_leg ? 1.0 : 1e-3);
-    if (weight <= largest) continue;
-    largest = weight;
-    culprit = motor;
-  }
-  const Eigen::Vector3d& direction = tipping.tipping_direction;
-  const char* where = std::abs(direction.x()) >= std::abs(direction.y())
-                          ? (direction.x() > 0 ? "forwards" : "backwards")
-                          : (direction.y() > 0 ? "to the left" : "to the right");
-  return model_->motor_joint(culprit).name + " would tip the robot over " + where + "; " +
-         how_far(safe_share * (goal[culprit] - targets_.position[culprit]));
-}
-
-void MotionCore::assign(Assignment assignment) {
-  if (waiting_ && waiting_->command) {
-    answer(*waiting_->command, ResultStatus::kInterrupted, "A newer command came first.");
-  }
-  waiting_ = std::move(assignment);
-}
-
-void MotionCore::start_waiting() {
-  if (!waiting_) return;
-  if (running_ && !running_->generator->can_be_replaced()) {
-    running_->generator->finish();
-    waiting_->has_waited = true;
-    return;
-  }
-  end_running(ResultStatus::kInterrupted,
-              waiting_->command ? "Replaced by a newer command: " + waiting_->detail + "."
-                                : "Replaced by " + waiting_->detail + ".");
-  end_overlay(ResultStatus::kInterrupted, "Replaced by " + waiting_->detail + ".");
-  const std::string danger = find_new_danger(*waiting_);
-  if (!danger.empty()) {
-    answer(*waiting_->command, ResultStatus::kFailed, danger);
-    waiting_.reset();
-    return;
-  }
-  running_ = std::exchange(waiting_, std::nullopt);
-  running_->generator->start(context(0), targets_);
-}
-
-std::string MotionCore::find_new_danger(const Assignment& assignment) {
-  if (!assignment.has_waited || !assignment.command) return "";
-  const auto* change = std::get_if<JointChangeCommand>(&assignment.command->request);
-  return change == nullptr ? "" : find_danger(*change);
-}
-
-void MotionCore::step_overlay(double dt, const JointTargets& last) {
-  if (overlay_) {
-    JointTargets turned = last;
-    const MotionGenerator::Phase phase = overlay_->generator->step(context(dt), turned);
-    for (int motor : overlay_->motors) overlaid_[motor] = turned.position[motor];
-    if (phase == MotionGenerator::Phase::kDone) {
-      end_overlay(ResultStatus::kDone, overlay_->generator->remark());
-    }
-  }
-  if (!overlay_ && !is_walking()) overlaid_.clear();
-  for (const auto& [motor, angle] : overlaid_) targets_.position[motor] = angle;
-}
-
-void MotionCore::end_overlay(ResultStatus status, const std::string& reason) {
-  if (!overlay_) return;
-  answer(overlay_->command, status, reason);
-  overlay_.reset();
-}
-
-void MotionCore::end_running(ResultStatus status, const std::string& reason) {
-  if (!running_) return;
-  if (running_->command) answer(*running_->command, status, reason);
-  running_.reset();
 }
 
 void MotionCore::move(double dt) {
-  time_with_robot_ += dt;
-  if (!has_first_motion_ && time_with_robot_ >= kTakeOverTime) choose_first_motion();
   const JointTargets last = targets_;
-  watch_for_falls(dt);
-  start_waiting();
-  if (running_) {
-    const MotionGenerator::Phase phase = running_->generator->step(context(dt), targets_);
-    if (phase != MotionGenerator::Phase::kRunning) {
-      const std::string remark = running_->generator->remark();
-      if (phase == MotionGenerator::Phase::kDone && running_->generator->mode() != Mode::kFalling) {
-        has_fallen_ = false;
-        was_lying_ = is_lying();
-      }
-      needs_help_ = phase == MotionGenerator::Phase::kFailed && has_fallen_ && is_lying();
-      end_running(
-          phase == MotionGenerator::Phase::kDone ? ResultStatus::kDone : ResultStatus::kFailed,
-          remark);
+  choose_first_motion(dt);
+  handle_falls(dt);
+  run_motions(dt);
+  limit_targets(last, dt);
+}
+
+void MotionCore::choose_first_motion(double dt) {
+  time_with_robot_ += dt;
+  if (has_first_motion_ || time_with_robot_ < kTakeOverTime) return;
+  has_first_motion_ = true;
+  const RobotState& state = estimator_.state();
+  falls_.begin(state);
+  if (!arbiter_.is_idle() || is_relaxed()) return;
+  const Posture* posture =
+      find_present_posture(*model_, presence_.sensors().position, state, options_.lying_tilt);
+  if (posture == nullptr) {
+    if (is_lying(state, options_.lying_tilt)) {
+      falls_.note_fallen();
+      return;
     }
+    posture = &factory_.stand();
   }
-  watch_kick();
-  step_overlay(dt, last);
+  arbiter_.assign({factory_.make_posture_path(*posture), std::nullopt, posture->name});
+}
+
+void MotionCore::handle_falls(double dt) {
+  if (!has_first_motion_) return;
+  const Assignment* running = arbiter_.running();
+  FallSupervisor::Activity activity;
+  activity.is_busy = !arbiter_.is_idle();
+  activity.must_stay_upright = running == nullptr || running->generator->must_stay_upright();
+  activity.is_walking = arbiter_.is_walking();
+  switch (falls_.update(estimator_.state(), activity, dt)) {
+    case FallSupervisor::Action::kProtect:
+      arbiter_.abort_all({"robot-fell"});
+      arbiter_.start({std::make_unique<FallMotion>(), std::nullopt, "fall"}, context(0), targets_);
+      break;
+    case FallSupervisor::Action::kGetUp:
+      arbiter_.assign({factory_.make_stand_path(), std::nullopt, "get-up"});
+      break;
+    case FallSupervisor::Action::kNone:
+      break;
+  }
+}
+
+void MotionCore::run_motions(double dt) {
+  arbiter_.start_waiting(context(0), targets_);
+  if (const auto ended = arbiter_.step(context(dt), targets_)) {
+    falls_.note_end(ended->phase == MotionGenerator::Phase::kDone, ended->mode == Mode::kFalling,
+                    estimator_.state());
+  }
+}
+
+void MotionCore::limit_targets(const JointTargets& last, double dt) {
   limiter_.limit(last.position, dt, targets_.position);
   for (size_t i = 0; i < last.position.size(); ++i) {
     targets_.velocity[i] = dt > 0 ? (targets_.position[i] - last.position[i]) / dt : 0.0;
   }
 }
 
-bool MotionCore::means_to_stand() const {
-  if (!has_first_motion_ || has_fallen_) return false;
-  if (running_ && !running_->generator->means_to_stand()) return false;
-  return !was_lying_;
-}
-
-void MotionCore::watch_for_falls(double dt) {
-  if (!has_first_motion_) return;
-  const RobotState& state = estimator_.state();
-  if (means_to_stand()) {
-    const bool is_on_feet = state.torso_in_odometry.translation().z() > kLeastStandingHeight;
-    const bool steps = running_ && running_->generator->mode() == Mode::kWalking;
-    if (is_on_feet && fall_monitor_.update(state, steps, dt)) {
-      fall_monitor_.reset();
-      has_fallen_ = true;
-      time_fallen_ = 0;
-      end_running(ResultStatus::kFailed, "The robot fell.");
-      end_overlay(ResultStatus::kFailed, "The robot fell.");
-      overlaid_.clear();
-      if (waiting_ && waiting_->command) {
-        answer(*waiting_->command, ResultStatus::kFailed, "The robot fell.");
-      }
-      waiting_.reset();
-      running_ = Assignment{std::make_unique<FallMotion>(), std::nullopt, "fall"};
-      running_->generator->start(context(0), targets_);
-      return;
-    }
-  }
-  if (running_ || waiting_) {
-    time_fallen_ = 0;
-    return;
-  }
-  // Nothing runs: whoever lies now and did not before was knocked over.
-  const bool lies = is_lying();
-  if (lies && !was_lying_) has_fallen_ = true;
-  was_lying_ = lies;
-  needs_help_ = needs_help_ && lies;
-  if (!has_fallen_) return;
-  time_fallen_ += dt;
-  if (!options_.gets_up || needs_help_ || time_fallen_ < options_.get_up_delay) return;
-  time_fallen_ = 0;
-  assign({std::make_unique<JourneyMotion>(graph_, *model_->find_posture(kFirstPosture),
-                                          options_.default_speed),
-          std::nullopt, "get-up"});
-}
-
-void MotionCore::answer(const Command& command, ResultStatus status, const std::string& reason,
-                        bool is_remembered) {
-  const CommandResult result{
-      command.source, command.id, kind_of(command), status, {}, {}, reason};
-  if (is_remembered) ledger_.note(result);
-  if (status == ResultStatus::kRefused) last_refusal_ = reason;
-  output_.results.push_back(result);
-}
-
 MotionContext MotionCore::context(double dt) const {
-  return {*model_, options_, sensors_, estimator_.state(), estimator_.kinematics(), dt};
+  return {*model_, options_, presence_.sensors(), estimator_.state(), estimator_.kinematics(), dt};
 }
 
-bool MotionCore::is_lying() const {
-  const Eigen::Vector3d up = estimator_.state().torso_in_odometry.linear().row(2);
-  return up.z() < std::cos(options_.lying_tilt);
+Mode MotionCore::mode() const {
+  if (!presence_.has_robot()) return Mode::kNoRobot;
+  if (arbiter_.running() != nullptr) return arbiter_.running()->generator->mode();
+  if (falls_.has_fallen()) return Mode::kFallen;
+  if (arbiter_.has_overlay()) return Mode::kMoving;
+  return is_relaxed() ? Mode::kRelaxed : Mode::kHolding;
 }
 
-Mode MotionCore::current_mode() const {
-  if (!has_robot_) return Mode::kNoRobot;
-  if (running_) return running_->generator->mode();
-  if (has_fallen_) return Mode::kFallen;
-  if (overlay_) return Mode::kMoving;
-  return is_limp() ? Mode::kRelaxed : Mode::kHolding;
-}
-
-bool MotionCore::sits() const {
-  const Posture* posture =
-      model_->find_posture(find_body_state(*model_, estimator_.state(), options_.lying_tilt));
-  return posture != nullptr && posture->family == "sitting";
-}
-
-bool MotionCore::is_limp() const {
-  const auto& stiffness = targets_.stiffness;
-  return std::all_of(stiffness.begin(), stiffness.end(), [](double share) { return share == 0; });
-}
-
-void MotionCore::report(double dt) {
-  MotionState state;
-  state.utime = sensors_.utime;
-  state.mode = current_mode();
-  state.last_refusal = last_refusal_;
-  if (has_robot_) {
-    state.balance_margin = estimator_.state().balance_margin;
-    double sum = 0;
-    for (double share : targets_.stiffness) sum += share;
-    state.stiffness = sum / model_->num_motors();
-    if (!running_) {
-      for (const Posture& posture : model_->postures()) {
-        if (deviation_from(posture, sensors_.position).angle >= kInPostureTolerance) continue;
-        if (state_of(posture) !=
-            find_body_state(*model_, estimator_.state(), options_.lying_tilt)) {
-          continue;
-        }
-        state.posture = posture.name;
-        break;
-      }
-    }
-  }
-  if (running_) {
-    if (running_->command) {
-      state.command_kind = kind_of(*running_->command);
-      state.command_source = running_->command->source;
-      state.command_id = running_->command->id;
-    }
-    state.command_name = running_->detail;
-    state.command_progress = running_->generator->progress();
-    running_->generator->describe(state);
-  }
-  state.needs_help = needs_help_ && !running_;
-  since_motion_state_ += dt;
-  // A hair less than the period, so that rounding does not make it one tick longer.
-  const bool is_due = since_motion_state_ >= options_.motion_state_period - 1e-6;
-  if (is_due || has_changed(state, state_)) {
-    since_motion_state_ = 0;
-    output_.motion_state = state;
-  }
-  state_ = std::move(state);
+bool MotionCore::is_relaxed() const {
+  return std::all_of(targets_.stiffness.begin(), targets_.stiffness.end(),
+                     [](double stiffness) { return stiffness == 0; });
 }
 
 }  // namespace nao::motion

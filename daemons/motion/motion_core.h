@@ -1,199 +1,106 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <memory>
 #include <optional>
-#include <string>
-#include <variant>
 #include <vector>
 
-#include "daemons/motion/actions/action_script.h"
-#include "daemons/motion/actions/kick.h"
-#include "messages/command.h"
-#include "daemons/motion/commands/command_ledger.h"
+#include "daemons/motion/commands/command_arbiter.h"
 #include "daemons/motion/estimator/state_estimator.h"
-#include "daemons/motion/falls/fall_monitor.h"
-#include "daemons/motion/generators/motion_generator.h"
+#include "daemons/motion/falls/fall_supervisor.h"
+#include "daemons/motion/guards/joint_change_guard.h"
 #include "daemons/motion/guards/joint_limits.h"
-#include "daemons/motion/guards/self_collision_guard.h"
-#include "daemons/motion/guards/tipping_guard.h"
 #include "daemons/motion/joint_targets.h"
+#include "daemons/motion/motion_factory.h"
 #include "daemons/motion/motion_options.h"
 #include "daemons/motion/motion_state.h"
+#include "daemons/motion/robot_presence.h"
 #include "daemons/motion/robot_state.h"
 #include "daemons/motion/sensors.h"
-#include "daemons/motion/transitions/transition_graph.h"
-#include "daemons/motion/walk/gait.h"
+#include "daemons/motion/state_reporter.h"
+#include "messages/command.h"
 #include "robot_model/robot_model.h"
 
 namespace nao::motion {
 
-/** What reaches the core in one step. */
+/** Input of one control step. */
 struct Input {
-  /** Nothing while the robot is silent. */
+  /** Nothing while no sensor data arrive. */
   std::optional<Sensors> sensors;
-  /** In the order in which they came. */
+  /** In the order in which they arrived. */
   std::vector<Command> commands;
 };
 
-/** What the core answers with. */
+/** Output of one control step. */
 struct Output {
-  /** Present exactly if there were sensors: the answer to this tick, and what was estimated. */
+  /** Present exactly if there were sensor data: the answer to them, and the estimate. */
   std::optional<JointTargets> joint_targets;
   std::optional<RobotState> robot_state;
   /** Present when it is due: at each change, and ten times a second. */
   std::optional<MotionState> motion_state;
-  /** In the order in which they came about. */
+  /** In the order in which they were made. */
   std::vector<CommandResult> results;
 };
 
-/** Everything that decides where the joints go: takes over a robot wherever its joints are, keeps
- * it standing, carries out commands one after the other, and says what became of them.
+/** Computes joint targets from sensors and commands: takes over a robot, keeps it on its feet,
+ * executes commands one after the other, and answers them.
  *
- * No clock, thread, file, socket or log: the same inputs give the same outputs, bit for bit.
+ * No clock, thread, file, socket or log: the same inputs give the same outputs, bit for bit. The
+ * control period is what the caller passes as `dt`, and may change from step to step.
  *
- * Before the first command it takes the robot over without a jump (targets go on from what the
- * servos hold) and brings a standing robot to StandInit, unless it is in a known posture already. A
- * robot that has fallen, or lies in no known posture when it is taken over, gets up by itself. A
- * limp one stays limp until a command wakes it. */
+ * Before the first command it takes the robot over without a jump: the targets continue from what
+ * the servos hold. A standing robot then goes to StandInit, unless it is in a known posture
+ * already. A robot that has fallen, or lies in no known posture when it is taken over, gets up by
+ * itself. A relaxed robot stays relaxed until a command wakes it up. */
 class MotionCore {
  public:
   /** @param model  Must outlive this.
-   * @throws ConfigError  if the options make no sense; ModelError  if the robot has no StandInit.
-   */
+   * @throws ConfigError  if an option is out of its range; ModelError  if a file of the robot is
+   * wrong or it has no posture StandInit. */
   MotionCore(const RobotModel& model, const MotionOptions& options);
 
+  // The parts refer to each other.
+  MotionCore(const MotionCore&) = delete;
+  MotionCore& operator=(const MotionCore&) = delete;
+
   /** One control step.
-   * @param dt  Robot time since the last step, s, above 0; while the robot is silent any clock's.
-   */
+   * @param dt  Robot time since the last step, s, above 0; while no sensor data arrive, time of any
+   *   clock. */
   Output step(const Input& input, double dt);
 
-  const MotionState& motion_state() const { return state_; }
+  const MotionState& motion_state() const { return reporter_.state(); }
   const RobotModel& model() const { return *model_; }
 
  private:
-  /** A motion and the command that asked for it; nobody's for what the core does by itself. */
-  struct Assignment {
-    std::unique_ptr<MotionGenerator> generator;
-    std::optional<Command> command;
-    std::string detail;
-    /** Its turn did not come at once: what was safe when it came may not be so now. */
-    bool has_waited = false;
-  };
-
-  /** Joints of head and arms that turn, or have turned, while the robot walks on. */
-  struct Overlay {
-    std::unique_ptr<MotionGenerator> generator;
-    Command command;
-    std::vector<int> motors;
-  };
-
-  /** A motion that carries out a command, or why there is none. */
-  using Plan = std::variant<std::unique_ptr<MotionGenerator>, std::string>;
-
   void take_sensors(const Sensors& sensors, double dt);
-  void lose_robot();
-  /** @param is_placed  Somebody has put the robot that it had elsewhere. */
-  void take_over(const Sensors& sensors, bool is_placed);
-  void choose_first_motion();
-
-  void receive(const Command& command);
-  /** A walk's new velocity goes to the walk that runs already; one that asks for no velocity starts
-   * none. @return false if the command needs a motion of its own. */
-  bool adopt_walk(const Command& command);
-  /** A kick out of the walk goes to the walk that runs; a strong one must stand.
-   * @return false if the command needs a motion of its own. */
-  bool adopt_kick(const Command& command);
-  void watch_kick();
-  /** A change of head and arms turns them while the legs walk on.
-   * @return false if the command needs a motion of its own. */
-  bool overlay_walk(const Command& command);
-  bool is_walking() const;
-  std::optional<std::string> refuse_walk() const;
-  /** The same for a walk that goes to its stand first, which it may do from a seat. */
-  std::optional<std::string> refuse_walk_after_standing_up() const;
-  Plan plan_kick(bool is_left, const ActionCommand& action);
-  Plan plan_script(const ActionScript& script);
-  /** The way to the stand that walks begin in. */
-  std::unique_ptr<MotionGenerator> plan_stand() const;
-  Plan plan(const Command& command);
-  Plan plan_request(const WalkCommand& walk);
-  Plan plan_request(const MoveToCommand& move_to);
-  Plan plan_request(const PostureCommand& posture);
-  Plan plan_request(const JointChangeCommand& change);
-  Plan plan_request(const ActionCommand& action);
-  Plan plan_request(const StopCommand& stop);
-  /** Why a joint change would end badly, as a sentence; empty if it would not. */
-  std::string find_danger(const JointChangeCommand& change);
-  /** @param start  What the change would go on from. */
-  std::string find_self_collision(const JointChangeCommand& change, const JointTargets& start);
-  std::string find_tipping(const JointChangeCommand& change);
-  /** "it may turn by 12 degrees at most." @param angle  rad. */
-  static std::string how_far(double angle);
-  void assign(Assignment assignment);
-
+  void wait_for_sensors(double dt);
+  /** @param is_placed  It is the robot of before, placed elsewhere. */
+  void take_over(bool is_placed);
+  void receive(const std::vector<Command>& commands);
   void move(double dt);
-  void watch_for_falls(double dt);
-  bool means_to_stand() const;
-  void start_waiting();
-  /** What speaks against beginning `assignment` now, though nothing did when it came; empty if
-   * nothing does. */
-  std::string find_new_danger(const Assignment& assignment);
-  void end_running(ResultStatus status, const std::string& reason);
-  /** Writes the overlaid joints over what the walk wants of them. @param last  Targets of the last
-   * tick. */
-  void step_overlay(double dt, const JointTargets& last);
-  void end_overlay(ResultStatus status, const std::string& reason);
-  void answer(const Command& command, ResultStatus status, const std::string& reason,
-              bool is_remembered = true);
+  void choose_first_motion(double dt);
+  void handle_falls(double dt);
+  void run_motions(double dt);
+  void limit_targets(const JointTargets& last, double dt);
 
   MotionContext context(double dt) const;
-  Mode current_mode() const;
-  bool is_lying() const;
-  bool is_limp() const;
-  bool sits() const;
-  void report(double dt);
+  Mode mode() const;
+  /** True if no motor has stiffness. */
+  bool is_relaxed() const;
 
   const RobotModel* model_;
   MotionOptions options_;
-  std::optional<Gait> gait_;
-  std::optional<Kick> kick_;
-  std::vector<ActionScript> scripts_;
-  TargetLimiter limiter_;
-  TransitionGraph graph_;
+  RobotPresence presence_;
   StateEstimator estimator_;
-  TippingGuard tipping_guard_;
-  SelfCollisionGuard collision_guard_;
-  FallMonitor fall_monitor_;
-  CommandLedger ledger_;
-
-  bool has_robot_ = false;
-  double silence_ = 0;
-  /** s since the robot was taken over; the first motion is chosen a moment later. */
+  JointChangeGuard guard_;
+  MotionFactory factory_;
+  CommandArbiter arbiter_;
+  FallSupervisor falls_;
+  TargetLimiter limiter_;
+  StateReporter reporter_;
+  /** As sent in the last step. */
+  JointTargets targets_;
+  /** s since the robot was taken over; the first motion is chosen when the estimate has settled. */
   double time_with_robot_ = 0;
   bool has_first_motion_ = false;
-  Sensors sensors_;
-
-  JointTargets targets_;
-  /** Lies where it did not mean to; s since it lies still. */
-  bool has_fallen_ = false;
-  double time_fallen_ = 0;
-  bool was_lying_ = false;
-  /** Could not get up, and tries no more by itself until somebody helps or commands. */
-  bool needs_help_ = false;
-  std::optional<Assignment> running_;
-  std::optional<Assignment> waiting_;
-  /** A kick that the running walk strikes in passing. */
-  std::optional<Command> walk_kick_;
-  std::optional<Overlay> overlay_;
-  /** Motors that changes during this walk have turned, and where they stay until it ends, rad. */
-  std::map<int, double> overlaid_;
-
-  MotionState state_;
-  std::string last_refusal_;
-  double since_motion_state_ = 0;
-  Output output_;
 };
 
 }  // namespace nao::motion

@@ -13,15 +13,20 @@
 namespace nao::motion {
 namespace {
 
-constexpr double kTick = 0.01;  // s, the period of sensor states
-constexpr double kSilencePeriod =
-    0.05;  // s of silence after which commands are answered all the same
-// A gap of robot time longer than this is a pause or another robot, not a slow tick, s.
-constexpr double kLongestStep = 0.1;
-// Robot time in a second of wall time from which on ticks do not come in real time.
-constexpr double kFastPace = 2;
-// Commands that may wait for one step. A sender cannot hurt more than this; the rest is dropped and
-// sent again by those who mean it.
+// Silence of the sensors after which commands are answered without them, and the period of these
+// steps, s of wall time. Chosen: a tenth of the time after which there is no robot.
+constexpr double kSilencePeriod = 0.05;
+// Control periods between two sensor states above which the time between them is a pause or another
+// robot, and no lost ticks.
+constexpr double kMaxStepPeriods = 10;
+// Slack of a comparison of times that are multiples of a microsecond, s.
+constexpr double kRounding = 5e-7;
+// Period of the status messages, s.
+constexpr double kStatusPeriod = 1.0;
+// Ratio of robot time to wall time above which a simulator runs as fast as it can.
+constexpr double kFastRatio = 2;
+// Commands for one step; more are dropped, and repeated by their senders. Chosen: more than all
+// clients of the gateway send in a step.
 constexpr size_t kMaxWaitingCommands = 256;
 
 }  // namespace
@@ -33,9 +38,6 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
       channels_(robot),
       status_(bus, "nao-motion"),
       core_(model, options) {
-  for (int motor = 0; motor < model.num_motors(); ++motor) {
-    joint_names_.push_back(model.motor_joint(motor).name);
-  }
   subscribe_to_command<naolcm::walk_command_t>(channels_.walk_command);
   subscribe_to_command<naolcm::move_to_command_t>(channels_.move_to_command);
   subscribe_to_command<naolcm::posture_command_t>(channels_.posture_command);
@@ -46,41 +48,45 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
       channels_.sensor_state, Bus::Queue::kLatest,
       [this](const naolcm::sensor_state_t& message) { take_sensor_state(message); });
   loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
-  loop.every(kSilencePeriod, [this] { watch_for_silence(); });
-  loop.every(1.0, [this] { publish_status(); });
+  loop.every(kSilencePeriod, [this] { check_for_silence(); });
+  loop.every(kStatusPeriod, [this] { publish_status(); });
   last_step_time_ = monotonic_seconds();
 }
 
 template <class Message>
 void MotionDaemon::subscribe_to_command(const std::string& channel) {
   bus_.subscribe<Message>(channel, Bus::Queue::kAll, [this](const Message& message) {
-    if (commands_.size() >= kMaxWaitingCommands) throw Error("too many commands at once");
+    if (commands_.size() >= kMaxWaitingCommands) {
+      throw Error("more than " + std::to_string(kMaxWaitingCommands) + " commands in one step");
+    }
     commands_.push_back(to_command(message));
   });
 }
 
 void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
-  // In lock-step the simulator repeats a state that nobody answered. A second step on it would make
-  // the run depend on when messages arrive.
+  // In lock-step the simulator repeats a state whose answer it has not received. A second step on
+  // it would make the run depend on when messages arrive.
   if (last_answer_ && message.tick == last_tick_ && message.utime == last_utime_) {
     last_step_time_ = monotonic_seconds();
     bus_.publish(channels_.joint_command, *last_answer_);
     return;
   }
   Sensors sensors = to_sensors(model_, message);
+  const double period = sensors.period;
   const double elapsed = static_cast<double>(sensors.utime - last_utime_) * 1e-6;
-  const bool is_successor = last_tick_ >= 0 && elapsed > 0 && elapsed <= kLongestStep;
+  const bool is_successor =
+      last_tick_ >= 0 && elapsed > 0 && elapsed <= kMaxStepPeriods * period + kRounding;
   if (is_successor) num_missed_ticks_ += std::max<int64_t>(0, sensors.tick - last_tick_ - 1);
   last_utime_ = sensors.utime;
   last_tick_ = sensors.tick;
-  step(std::move(sensors), is_successor ? elapsed : kTick);
+  step(std::move(sensors), is_successor ? elapsed : period);
 }
 
-void MotionDaemon::watch_for_silence() {
+void MotionDaemon::check_for_silence() {
   const double now = monotonic_seconds();
-  const double silence = now - std::max(last_step_time_, last_silent_check_);
   if (now - last_step_time_ < kSilencePeriod) return;
-  last_silent_check_ = now;
+  const double silence = now - std::max(last_step_time_, last_silent_step_time_);
+  last_silent_step_time_ = now;
   step(std::nullopt, silence);
 }
 
@@ -91,27 +97,33 @@ void MotionDaemon::step(std::optional<Sensors> sensors, double dt) {
   input.sensors = std::move(sensors);
   input.commands = std::exchange(commands_, {});
   const Output output = core_.step(input, dt);
-  // The joint command first: the simulator may be waiting for it.
-  if (output.joint_targets && output.robot_state) {
-    last_answer_ = to_message(*output.joint_targets, *output.robot_state, joint_names_);
-    bus_.publish(channels_.joint_command, *last_answer_);
-    bus_.publish(channels_.robot_state, to_message(*output.robot_state, joint_names_));
-  }
-  if (output.motion_state) bus_.publish(channels_.motion_state, to_message(*output.motion_state));
+  publish(output);
   for (const CommandResult& result : reminder_.due(dt)) publish(result);
   for (const CommandResult& result : output.results) {
     spdlog::info("{} {} of {}: {}{}{}", to_string(result.kind), result.id, quoted(result.source),
-                 to_string(result.status), result.reason.empty() ? "" : ": ", result.reason);
+                 to_string(result.status), result.reason.empty() ? "" : ": ",
+                 to_sentence(result.reason));
     publish(result);
     reminder_.note(result);
   }
+  if (!has_sensors) return;
   const double end = monotonic_seconds();
-  if (has_sensors) {
-    ++num_steps_;
-    last_step_time_ = end;
-    status_.tick(end);
-    worst_step_seconds_ = std::max(worst_step_seconds_, end - start);
+  ++num_steps_;
+  robot_time_ += dt;
+  last_step_time_ = end;
+  status_.tick(end);
+  worst_step_seconds_ = std::max(worst_step_seconds_, end - start);
+}
+
+void MotionDaemon::publish(const Output& output) {
+  // The joint command first: in lock-step the simulator waits for it.
+  if (output.joint_targets && output.robot_state) {
+    const std::vector<std::string>& names = model_.motor_names();
+    last_answer_ = to_message(*output.joint_targets, *output.robot_state, names);
+    bus_.publish(channels_.joint_command, *last_answer_);
+    bus_.publish(channels_.robot_state, to_message(*output.robot_state, names));
   }
+  if (output.motion_state) bus_.publish(channels_.motion_state, to_message(*output.motion_state));
 }
 
 void MotionDaemon::publish(const CommandResult& result) {
@@ -119,14 +131,12 @@ void MotionDaemon::publish(const CommandResult& result) {
 }
 
 void MotionDaemon::publish_status() {
-  // With a simulator as fast as possible this never waits, and must not keep others from the
-  // processor.
-  const int64_t steps = num_steps_ - num_reported_steps_;
-  num_reported_steps_ = num_steps_;
-  if (static_cast<double>(steps) * kTick > kFastPace) {
-    take_usual_turns();
+  // With a simulator that runs as fast as it can this program never waits, and must not keep others
+  // from the processor.
+  if (std::exchange(robot_time_, 0) > kFastRatio * kStatusPeriod) {
+    use_normal_scheduling();
   } else {
-    ask_for_prompt_turns(Turns::kControl);
+    request_realtime_scheduling(RealtimePriority::kControl);
   }
   if (core_.motion_state().mode == Mode::kNoRobot) {
     status_.set_state("waiting", "waiting for " + channels_.sensor_state);

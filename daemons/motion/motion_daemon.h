@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <naolcm/joint_command_t.hpp>
 #include <naolcm/sensor_state_t.hpp>
 #include <optional>
@@ -16,24 +17,25 @@
 
 namespace nao::motion {
 
-/** The motion core on the bus: one step for every NAO_SENSOR_STATE, answered with the same tick. A
- * repeated state gets the same answer again, without another step. */
+/** The motion core on the bus: one control step for every NAO_SENSOR_STATE, answered with its tick.
+ * A repeated state gets the same answer again without another step. */
 class MotionDaemon {
  public:
-  /** Subscribes. @param bus, loop, model  Must outlive this. @param robot  Prefix of its channels.
-   */
+  /** Subscribes to the channels.
+   * @param bus, loop, model  Must outlive this. @param robot  Prefix of its channels. */
   MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model, const MotionOptions& options,
                const std::string& robot);
 
-  /** Control steps taken since the start. */
+  /** Control steps since the start. */
   int64_t num_steps() const { return num_steps_; }
 
  private:
   template <class Message>
   void subscribe_to_command(const std::string& channel);
   void take_sensor_state(const naolcm::sensor_state_t& message);
-  void watch_for_silence();
+  void check_for_silence();
   void step(std::optional<Sensors> sensors, double dt);
+  void publish(const Output& output);
   void publish(const CommandResult& result);
   void publish_status();
 
@@ -43,18 +45,21 @@ class MotionDaemon {
   StatusReporter status_;
   MotionCore core_;
   ResultReminder reminder_;
-  std::vector<std::string> joint_names_;
+  /** Commands for the next step. */
   std::vector<Command> commands_;
   int64_t num_steps_ = 0;
-  int64_t num_reported_steps_ = 0;
   int64_t num_missed_ticks_ = 0;
+  /** Of the last sensor state. */
   int64_t last_utime_ = 0;
   int64_t last_tick_ = -1;
-  /** Answer to the state of `last_tick_`. */
+  /** Answer to the last sensor state. */
   std::optional<naolcm::joint_command_t> last_answer_;
+  /** Wall time of the last step with sensor data, and of the last one without, s. */
   double last_step_time_ = 0;
-  double last_silent_check_ = 0;
+  double last_silent_step_time_ = 0;
+  // Since the last status: the longest computation of a step, s of wall time, and s of robot time.
   double worst_step_seconds_ = 0;
+  double robot_time_ = 0;
 };
 
 }  // namespace nao::motion

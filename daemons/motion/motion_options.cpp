@@ -1,5 +1,6 @@
 #include "daemons/motion/motion_options.h"
 
+#include <sstream>
 #include <string>
 
 #include "common/error.h"
@@ -7,22 +8,32 @@
 namespace nao::motion {
 namespace {
 
-void require(bool holds, const char* what) {
-  if (!holds) throw ConfigError(std::string("motion options: ") + what);
+void require_positive(double value, const char* name, const char* unit) {
+  if (value > 0) return;
+  std::ostringstream text;
+  text << "motion option " << name << " is " << value << " " << unit << "; it must be above 0";
+  throw ConfigError(text.str());
+}
+
+void require_fraction(double value, const char* name) {
+  if (value > 0 && value <= 1) return;
+  std::ostringstream text;
+  text << "motion option " << name << " is " << value << ", outside (0, 1]";
+  throw ConfigError(text.str());
 }
 
 }  // namespace
 
 void MotionOptions::validate() const {
-  require(sensor_timeout > 0, "sensor_timeout must be above 0 s");
-  require(max_acceleration > 0, "max_acceleration must be above 0 rad/s^2");
-  require(free_acceleration > 0, "free_acceleration must be above 0 rad/s^2");
-  require(default_speed > 0 && default_speed <= 1, "default_speed must be above 0 up to 1");
-  require(posture_leg_speed > 0 && posture_leg_speed <= 1,
-          "posture_leg_speed must be above 0 up to 1");
-  require(posture_tolerance > 0, "posture_tolerance must be above 0 rad");
-  require(foot_contact_force > 0, "foot_contact_force must be above 0 N");
-  require(motion_state_period > 0, "motion_state_period must be above 0 s");
+  require_positive(sensor_timeout, "sensor_timeout", "s");
+  require_positive(max_acceleration, "max_acceleration", "rad/s^2");
+  require_positive(free_acceleration, "free_acceleration", "rad/s^2");
+  require_fraction(default_speed, "default_speed");
+  require_fraction(posture_leg_speed, "posture_leg_speed");
+  require_positive(posture_tolerance, "posture_tolerance", "rad");
+  require_positive(lying_tilt, "lying_tilt", "rad");
+  require_positive(foot_contact_force, "foot_contact_force", "N");
+  require_positive(motion_state_period, "motion_state_period", "s");
 }
 
 }  // namespace nao::motion

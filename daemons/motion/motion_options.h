@@ -7,38 +7,39 @@
 
 namespace nao::motion {
 
-/** Everything about the motion core that may be tuned. */
+/** Options of the motion core. */
 struct MotionOptions {
-  /** Silence of the sensors after which there is no robot, s. */
+  /** Time without sensor data after which there is no robot, s. */
   double sensor_timeout = 0.5;
-  /** Largest acceleration of a joint target, rad/s^2: reaches a leg joint's greatest speed in 0.2
-   * s.
-   */
+  /** Greatest acceleration of a joint target, rad/s^2. Chosen: a leg joint reaches its maximum
+   * speed of about 6 rad/s in 0.2 s. */
   double max_acceleration = 30;
-  /** The same for changes of joints that bear no weight (head and arms), which may begin with it at
-   * once: the head's motor turns the head by 500 rad/s^2 with its continuous torque. */
+  /** The same for joints that do not carry the body (head and arms), which may start with it at
+   * once. The head's motor accelerates the head by 500 rad/s^2 with its continuous torque. */
   double free_acceleration = 200;
-  /** Speed of motions that nobody gave a speed for, such as the first stand, fraction. */
+  /** Speed of the robot's own motions, such as the first stand, fraction of the maximum. */
   double default_speed = 0.3;
-  /** Greatest speed of leg joints in a change of posture, fraction of the motors' own. */
+  /** Greatest speed of leg joints between postures, fraction of the motors' maximum. */
   double posture_leg_speed = 0.35;
-  /** A posture counts as reached if every joint is this near, rad. */
+  /** Greatest deviation of every joint in a posture that was reached, rad (5 degrees): the servos'
+   * tracking error under load. */
   double posture_tolerance = 0.09;
-  /** Torso tilted more than this lies, rad. */
+  /** Tilt of the torso above which the robot lies, rad. */
   double lying_tilt = 1.0;
-  /** Least force on a foot that carries weight, N. */
+  /** Least force on a foot in contact, N: above the force sensors' noise, 6 % of NAO's weight. */
   double foot_contact_force = 3.0;
   /** Period of motion states while nothing changes, s. */
   double motion_state_period = 0.1;
-  /** Gets up by itself after a fall, this long after it lies still, s. */
+  /** Gets up by itself after a fall. */
   bool gets_up = true;
+  /** Time for which it lies still before it gets up, s. */
   double get_up_delay = 0.02;
-  /** How to walk; nothing: as the robot's gait.yaml says, if it has one. */
+  /** Gait; nothing: as in the robot's gait.yaml, if it has one. */
   std::optional<Gait> gait;
-  /** Ways between states of the body; nothing: as the robot's transitions.yaml says. */
+  /** Transitions between states of the body; nothing: as in the robot's transitions.yaml. */
   std::optional<TransitionGraph> transitions;
 
-  /** @throws ConfigError  naming the option that makes no sense. */
+  /** @throws ConfigError  naming the option that is out of its range. */
   void validate() const;
 };
 

@@ -9,6 +9,7 @@
 
 #include "messages/command.h"
 #include "messages/mode.h"
+#include "messages/reason.h"
 
 namespace nao::motion {
 
@@ -19,7 +20,7 @@ struct Footstep {
   double heading_in_odometry = 0;
 };
 
-/** What the motion core is doing; see motion_state_t for every field. */
+/** State of the motion core; motion_state_t documents every field of the same name. */
 struct MotionState {
   int64_t utime = 0;
   Mode mode = Mode::kNoRobot;
@@ -30,13 +31,16 @@ struct MotionState {
   std::string command_source;
   int64_t command_id = 0;
   double command_progress = std::numeric_limits<double>::quiet_NaN();
-  /** Tries to get up so far in the motion that runs; a roll and what follows it are one. */
+  /** Attempts to get up in the running motion; a roll and the get-up motion after it count as one.
+   */
   int num_tries = 0;
   bool needs_help = false;
   double balance_margin = std::numeric_limits<double>::quiet_NaN();
+  /** m/s forward, m/s to the left, rad/s. */
   Eigen::Vector3d walk_velocity = Eigen::Vector3d::Zero();
   double stiffness = 0;
-  std::string last_refusal;
+  /** Of the last refused command; none if there was none. */
+  Reason last_refusal;
   std::vector<Footstep> footsteps;
 };
 

@@ -7,9 +7,10 @@
 
 namespace nao::motion {
 
-/** The estimate of the robot's state, made from its sensors alone; see robot_state_t. O is the
- * odometry frame: on the ground, z up, where the torso was above when the estimator started. */
+/** Estimate of the robot's state from its sensors alone; see robot_state_t. O is the odometry
+ * frame: on the ground, z up, with its origin below the torso when the estimator started. */
 struct RobotState {
+  /** Robot time, microseconds, and control tick of the sensor data. */
   int64_t utime = 0;
   int64_t tick = 0;
   /** rad, rad/s; (num_motors), motor order. */
@@ -18,18 +19,21 @@ struct RobotState {
 
   /** Torso frame in O. The translation's z is the torso's height over the ground, m. */
   Eigen::Isometry3d torso_in_odometry = Eigen::Isometry3d::Identity();
-  /** m/s, in the torso's heading frame (x ahead, z up). */
+  /** m/s, in the torso's heading frame (x forward, z up). */
   Eigen::Vector3d velocity_torso_in_heading = Eigen::Vector3d::Zero();
   /** rad/s, torso frame. */
   Eigen::Vector3d angular_velocity_torso = Eigen::Vector3d::Zero();
 
-  /** Whole-body centre of mass in O, m, and its velocity, m/s. */
+  /** Whole-body center of mass in O, m, and its velocity, m/s. */
   Eigen::Vector3d center_of_mass_in_odometry = Eigen::Vector3d::Zero();
   Eigen::Vector3d center_of_mass_velocity_in_odometry = Eigen::Vector3d::Zero();
   /** In O, m; NaN while no foot carries weight. */
   Eigen::Vector2d center_of_pressure_in_odometry =
       Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-  /** N. */
+  /** False if a foot has no force sensor: contact is then unknown, and no foot counts as carrying
+   * weight. */
+  bool has_foot_force_sensors = true;
+  /** Sum of each foot's force sensors, N. */
   double left_foot_force = 0;
   double right_foot_force = 0;
   /** Which feet carry weight. */
@@ -39,12 +43,12 @@ struct RobotState {
   Eigen::Isometry3d left_sole_in_odometry = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d right_sole_in_odometry = Eigen::Isometry3d::Identity();
 
-  /** How long nothing has moved, s. */
+  /** s for which torso and joints have not moved. */
   double rest_time = 0;
 
   /** Convex, counter-clockwise from above, m, in O; empty while no foot carries weight. */
   std::vector<Eigen::Vector2d> support_polygon_in_odometry;
-  /** Distance of the centre of mass's ground projection to the polygon's edge, m; negative outside,
+  /** Distance of the center of mass's ground projection to the polygon's edge, m; negative outside,
    * NaN while no foot carries weight. */
   double balance_margin = std::numeric_limits<double>::quiet_NaN();
 };

@@ -19,9 +19,10 @@
 namespace nao {
 namespace {
 
+/** s; the gateway disconnects a client after as long a silence. */
 constexpr double kSendTimeout = 5;
 
-/** Waits until a descriptor is ready. @return false if it was not in time. */
+/** Waits until a descriptor is ready. @return false after the timeout, s. */
 bool wait_for(int descriptor, short events, double timeout) {
   pollfd polled{descriptor, events, 0};
   const int timeout_ms = static_cast<int>(std::max(0.0, timeout) * 1e3);
@@ -87,7 +88,7 @@ void MessageSocket::send_raw(std::string_view bytes) {
       bytes.remove_prefix(static_cast<size_t>(size));
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       if (!wait_for(descriptor_, POLLOUT, kSendTimeout)) {
-        throw ConnectionError("the gateway takes nothing any more");
+        throw ConnectionError("the gateway does not read");
       }
     } else if (errno != EINTR) {
       throw ConnectionError(std::string("the connection is lost: ") + std::strerror(errno));
@@ -99,7 +100,7 @@ std::optional<std::string> MessageSocket::receive(double timeout) {
   const double deadline = monotonic_seconds() + timeout;
   while (true) {
     if (std::optional<std::string> message = reader_.next()) return message;
-    if (reader_.is_oversized()) throw ConnectionError("what answers there is no gateway");
+    if (reader_.is_oversized()) throw ConnectionError("the program on this port is not a gateway");
     if (!wait_for(descriptor_, POLLIN, deadline - monotonic_seconds())) return std::nullopt;
     std::array<char, 65536> bytes;
     const ssize_t size = recv(descriptor_, bytes.data(), bytes.size(), 0);

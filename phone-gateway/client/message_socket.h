@@ -15,32 +15,32 @@ struct ConnectionError : Error {
   using Error::Error;
 };
 
-/** A TCP connection that carries whole messages, each after its length. One thread only. */
+/** A TCP connection for whole messages, each after its length. Not thread-safe. */
 class MessageSocket {
  public:
-  /** Connects. @param host  Name or IP address. @param timeout  s.
-   * @throws ConnectionError  saying what is wrong with host or port. */
+  /** @param host     Name or IP address.
+   * @param timeout  For connecting, s.
+   * @throws ConnectionError  naming the host or port that cannot be reached. */
   MessageSocket(const std::string& host, uint16_t port, double timeout);
   ~MessageSocket();
   MessageSocket(const MessageSocket&) = delete;
   MessageSocket& operator=(const MessageSocket&) = delete;
 
-  /** Sends a message whole. @throws ConnectionError  if the other end is gone, or has taken nothing
-   * for 5 s. */
+  /** Sends a message. @throws ConnectionError  if the connection is lost, or the gateway has not
+   * read for 5 s. */
   void send(std::string_view message);
 
-  /** Sends bytes as they are, without a length: for tests of what must not be sent. */
+  /** Sends bytes without a length, for tests with invalid input. */
   void send_raw(std::string_view bytes);
 
-  /** Waits up to `timeout` seconds for a message. @return nothing if none came in time.
-   * @throws ConnectionError  if the other end closed. */
+  /** Waits up to `timeout` s for a message. @return Nothing if none was received in time.
+   * @throws ConnectionError  if the gateway closed the connection. */
   [[nodiscard]] std::optional<std::string> receive(double timeout);
 
   int descriptor() const { return descriptor_; }
 
  private:
-  /** The gateway's greatest message is a picture, below 64 kB; anything much longer is no gateway.
-   */
+  /** Above every message of the gateway, which are below 100 kB. */
   static constexpr size_t kMaxMessageBytes = 1 << 20;
 
   int descriptor_ = -1;

@@ -1,4 +1,5 @@
-// nao-phone: a phone for the command line. Speaks the protocol over raw TCP; see README.md.
+// nao-phone: a client of nao-phone-gateway for the command line, over raw TCP. See README.md.
+#include <cctype>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -9,18 +10,21 @@
 #include "common/program.h"
 #include "phone-gateway/client/phone_client.h"
 
-namespace nao {
+namespace nao::phone {
 namespace {
 
 using naoremote::Notice;
 using naoremote::Response;
 
-constexpr double kOutcomeTimeout = 60;
+/** s. Chosen: longer than any motion of the robot, getting up and a posture included. */
+constexpr double kResultTimeout = 60;
+/** s; see WalkTurn and GetState in PROTOCOL.md. */
 constexpr double kWalkPeriod = 0.1;
 constexpr double kPollPeriod = 0.1;
-constexpr int kPictureTries = 50;
+/** Polls until an image must have arrived: 5 s. */
+constexpr int kMaxImagePolls = 50;
 
-/** Everything that the command line can say. */
+/** Values of the command line. */
 struct PhoneOptions {
   PhoneClient::Options client;
   std::string posture;
@@ -30,18 +34,30 @@ struct PhoneOptions {
   double x = 0;
   double y = 0;
   double theta = 0;
+  double vx = 0;
+  double vy = 0;
+  double wz = 0;
   double yaw = 0;
   double pitch = 0;
   double roll = 0;
   double speed = 0;
   double duration = 5;
   double rate = 10;
-  double picture_rate = 0;
+  double image_rate = 0;
 };
+
+/** "holding" for MODE_HOLDING, as nao-motion calls it. */
+std::string mode_name(naoremote::Mode mode) {
+  std::string name = naoremote::Mode_Name(mode);
+  name.erase(0, std::string("MODE_").size());
+  for (char& c : name) c = c == '_' ? '-' : static_cast<char>(std::tolower(c));
+  return name;
+}
 
 void print_state(const naoremote::State& state, const naoremote::RobotDescription& robot) {
   std::printf("time %.2f s, age %.0f ms, mode %s, posture %s, torso height %.3f m\n",
-              static_cast<double>(state.utime()) * 1e-6, state.age_ms(), state.mode().c_str(),
+              static_cast<double>(state.utime()) * 1e-6, state.age_ms(),
+              mode_name(state.mode()).c_str(),
               state.posture().empty() ? "-" : state.posture().c_str(), state.torso_position(2));
   for (int i = 0; i < state.joint_position_size(); ++i) {
     std::printf("%-16s %8.4f\n", robot.joints(i).name().c_str(),
@@ -49,33 +65,33 @@ void print_state(const naoremote::State& state, const naoremote::RobotDescriptio
   }
 }
 
-/** @return Exit status: 0 if the gateway said yes. */
+/** Prints a refusal. @return Exit status: 0 if the request was accepted. */
 int report(const Response& response) {
   if (response.error() == naoremote::OK) return 0;
   std::cerr << naoremote::ErrorCode_Name(response.error()) << ": " << response.message() << "\n";
   return 1;
 }
 
-/** Takes control, asks for a motion, and waits for its end. */
-int command(PhoneClient& client, const std::function<Response(PhoneClient&)>& ask) {
+/** Takes control, sends a command, and waits for its result. */
+int command(PhoneClient& client, const std::function<Response(PhoneClient&)>& send) {
   if (const int status = report(client.take_control()); status != 0) return status;
-  const Response response = ask(client);
+  const Response response = send(client);
   if (const int status = report(response); status != 0) return status;
-  const auto outcome = client.wait_for_outcome(response.request_id(), kOutcomeTimeout);
-  if (!outcome) {
-    std::cerr << "nothing was heard of its end within 60 s\n";
+  const auto result = client.wait_for_result(response.request_id(), kResultTimeout);
+  if (!result) {
+    std::cerr << "no result within 60 s\n";
     return 1;
   }
-  std::cout << Notice::Outcome_Name(outcome->outcome())
-            << (outcome->message().empty() ? "" : ": " + outcome->message()) << "\n";
-  return outcome->outcome() == Notice::DONE ? 0 : 1;
+  std::cout << Notice::Status_Name(result->status())
+            << (result->message().empty() ? "" : ": " + result->message()) << "\n";
+  return result->status() == Notice::DONE ? 0 : 1;
 }
 
 int walk(PhoneClient& client, const PhoneOptions& options) {
   if (const int status = report(client.take_control()); status != 0) return status;
   const int num_commands = static_cast<int>(options.duration / kWalkPeriod);
   for (int i = 0; i < num_commands; ++i) {
-    const Response response = client.walk_turn(options.x, options.y, options.theta);
+    const Response response = client.walk_turn(options.vx, options.vy, options.wz);
     if (const int status = report(response); status != 0) return status;
     client.run_for(kWalkPeriod);
   }
@@ -85,51 +101,51 @@ int walk(PhoneClient& client, const PhoneOptions& options) {
 int show_state(PhoneClient& client) {
   const Response response = client.get_state(false);
   if (const int status = report(response); status != 0) return status;
-  print_state(response.state_and_picture().state(), client.robot());
+  print_state(response.state_and_image().state(), client.robot());
   return 0;
 }
 
-int save_picture(PhoneClient& client, const std::string& file) {
-  // The camera starts when somebody watches: the first picture takes a moment.
+int save_image(PhoneClient& client, const std::string& file) {
+  // The camera starts to render with the first request.
   Response response = client.get_state(true);
-  for (int i = 0; i < kPictureTries && response.error() == naoremote::OK &&
-                  !response.state_and_picture().has_picture();
+  for (int i = 0; i < kMaxImagePolls && response.error() == naoremote::OK &&
+                  !response.state_and_image().has_image();
        ++i) {
     client.run_for(kPollPeriod);
     response = client.get_state(true);
   }
   if (const int status = report(response); status != 0) return status;
-  if (!response.state_and_picture().has_picture()) {
-    std::cerr << "the head camera sends no picture\n";
+  if (!response.state_and_image().has_image()) {
+    std::cerr << "the head camera sends no image\n";
     return 1;
   }
-  const naoremote::Picture& picture = response.state_and_picture().picture();
-  std::ofstream(file, std::ios::binary) << picture.jpeg();
-  std::cout << file << ": " << picture.width() << "x" << picture.height() << ", age "
-            << picture.age_ms() << " ms\n";
+  const naoremote::Image& image = response.state_and_image().image();
+  std::ofstream(file, std::ios::binary) << image.jpeg();
+  std::cout << file << ": " << image.width() << "x" << image.height() << ", age " << image.age_ms()
+            << " ms\n";
   return 0;
 }
 
-/** Prints a line for each state and picture, and every notice, until the time is over. */
+/** Prints a line for each state, image and notice, for the requested duration. */
 int watch(const PhoneOptions& options) {
   PhoneClient::Handlers handlers;
   handlers.on_state = [](const naoremote::State& state) {
     std::printf(
         "%.3f s  %-10s %-10s height %.3f m  walk %+.2f %+.2f m/s %+.2f rad/s  age %.0f ms\n",
-        static_cast<double>(state.utime()) * 1e-6, state.mode().c_str(), state.posture().c_str(),
-        static_cast<double>(state.torso_position(2)), static_cast<double>(state.walk_velocity(0)),
-        static_cast<double>(state.walk_velocity(1)), static_cast<double>(state.walk_velocity(2)),
-        state.age_ms());
+        static_cast<double>(state.utime()) * 1e-6, mode_name(state.mode()).c_str(),
+        state.posture().c_str(), static_cast<double>(state.torso_position(2)),
+        static_cast<double>(state.vx()), static_cast<double>(state.vy()),
+        static_cast<double>(state.wz()), state.age_ms());
   };
   handlers.on_notice = [](const Notice& notice) {
     std::printf("%s %s\n", Notice::Kind_Name(notice.kind()).c_str(), notice.message().c_str());
   };
-  handlers.on_picture = [](const naoremote::Picture& picture) {
-    std::printf("picture %ux%u, %zu bytes, age %.0f ms\n", picture.width(), picture.height(),
-                picture.jpeg().size(), picture.age_ms());
+  handlers.on_image = [](const naoremote::Image& image) {
+    std::printf("image %ux%u, %zu bytes, age %.0f ms\n", image.width(), image.height(),
+                image.jpeg().size(), image.age_ms());
   };
   PhoneClient client(options.client, handlers);
-  if (const int status = report(client.subscribe(options.rate, options.picture_rate)); status != 0)
+  if (const int status = report(client.subscribe(options.rate, options.image_rate)); status != 0)
     return status;
   client.run_for(options.duration);
   return 0;
@@ -147,14 +163,14 @@ int list_clients(const PhoneOptions& options) {
   return 0;
 }
 
-/** A walk is refused in a notice, after its commands were passed on. */
+/** Prints why a walk was refused: its commands are answered OK, the refusal is a notice. */
 void print_refusal(const Notice& notice) {
-  const bool is_bad = notice.kind() == Notice::COMMAND_OUTCOME &&
-                      (notice.outcome() == Notice::REFUSED || notice.outcome() == Notice::FAILED);
+  const bool is_bad = notice.kind() == Notice::COMMAND_RESULT &&
+                      (notice.status() == Notice::REFUSED || notice.status() == Notice::FAILED);
   if (is_bad) std::cerr << notice.message() << "\n";
 }
 
-/** A subcommand that drives: connects, then does `act`. */
+/** Adds a subcommand that connects and then calls `act`. */
 CommandLine* add_action(CommandLine& app, PhoneOptions& options, std::function<int()>& chosen,
                         const std::string& name, const std::string& description,
                         std::function<int(PhoneClient&)> act) {
@@ -173,10 +189,9 @@ CommandLine* add_action(CommandLine& app, PhoneOptions& options, std::function<i
 void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& chosen) {
   app.require_subcommand();
   add_action(app, o, chosen, "state", "Show the robot's state", show_state);
-  CommandLine* picture =
-      add_action(app, o, chosen, "picture", "Save a picture of the head camera",
-                 [&o](PhoneClient& client) { return save_picture(client, o.file); });
-  picture->add_option("file", o.file, "JPEG file to write")->required();
+  CommandLine* image = add_action(app, o, chosen, "image", "Save an image of the head camera",
+                                  [&o](PhoneClient& client) { return save_image(client, o.file); });
+  image->add_option("file", o.file, "JPEG file to write")->required();
 
   CommandLine* posture =
       add_action(app, o, chosen, "posture", "Go to a posture", [&o](PhoneClient& c) {
@@ -184,7 +199,8 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
             c, [&o](PhoneClient& client) { return client.go_to_posture(o.posture, o.speed); });
       });
   posture->add_option("name", o.posture, "Posture, such as Crouch")->required();
-  posture->add_option("--speed", o.speed, "Fraction of the maximum speed; 0: as the gateway likes");
+  posture->add_option("--speed", o.speed,
+                      "Fraction of the maximum speed, above 0 up to 1; 0: the gateway's default");
 
   CommandLine* joints = add_action(app, o, chosen, "joints", "Turn joints", [&o](PhoneClient& c) {
     return command(c, [&o](PhoneClient& client) {
@@ -196,7 +212,8 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
   joints->add_option("--yaw", o.yaw, "Change about this axis, rad");
   joints->add_option("--pitch", o.pitch, "Change about this axis, rad (hands: opening)");
   joints->add_option("--roll", o.roll, "Change about this axis, rad");
-  joints->add_option("--speed", o.speed, "Fraction of the maximum speed; 0: as the gateway likes");
+  joints->add_option("--speed", o.speed,
+                     "Fraction of the maximum speed, above 0 up to 1; 0: the gateway's default");
 
   CommandLine* action = add_action(app, o, chosen, "action", "Do an action", [&o](PhoneClient& c) {
     return command(c, [&o](PhoneClient& client) { return client.do_action(o.action); });
@@ -205,47 +222,48 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
 
   CommandLine* walking = add_action(app, o, chosen, "walk", "Walk and turn",
                                     [&o](PhoneClient& client) { return walk(client, o); });
-  CommandLine* move = add_action(app, o, chosen, "move", "Walk to a place", [&o](PhoneClient& c) {
-    return command(c, [&o](PhoneClient& client) { return client.move_to(o.x, o.y, o.theta); });
-  });
-  walking->add_option("x", o.x, "Ahead, share of the greatest speed, -1 to 1")->required();
-  walking->add_option("y", o.y, "To the left, share of the greatest speed, -1 to 1");
-  walking->add_option("theta", o.theta, "Turning to the left, share of the greatest rate, -1 to 1");
+  CommandLine* move = add_action(
+      app, o, chosen, "move", "Walk to a goal relative to the present pose", [&o](PhoneClient& c) {
+        return command(c, [&o](PhoneClient& client) { return client.move_to(o.x, o.y, o.theta); });
+      });
+  walking->add_option("vx", o.vx, "Velocity forward, m/s; negative: backward")->required();
+  walking->add_option("vy", o.vy, "Velocity to the left, m/s");
+  walking->add_option("wz", o.wz, "Turning rate to the left, rad/s");
   walking->add_option("--duration", o.duration, "How long, s")->show_default();
-  move->add_option("x", o.x, "Ahead, m")->required();
+  move->add_option("x", o.x, "Forward, m")->required();
   move->add_option("y", o.y, "To the left, m");
-  move->add_option("theta", o.theta, "Heading there relative to the present one, rad");
+  move->add_option("theta", o.theta, "Heading at the goal relative to the present one, rad");
 
   add_action(app, o, chosen, "stop", "End any motion",
              [](PhoneClient& client) { return report(client.stop()); });
 
-  CommandLine* watching = app.add_subcommand("watch", "Print states and notices as they come");
+  CommandLine* watching =
+      app.add_subcommand("watch", "Print states, images and notices as they are received");
   watching->add_option("--duration", o.duration, "How long, s")->show_default();
   watching->add_option("--rate", o.rate, "States a second, up to 60")->show_default();
-  watching->add_option("--pictures", o.picture_rate, "Pictures a second, up to 30")->show_default();
+  watching->add_option("--images", o.image_rate, "Images a second, up to 30")->show_default();
   watching->on_parsed([&] { chosen = [&o] { return watch(o); }; });
-  app.add_subcommand("list", "Show who is connected (on the gateway's host only)")->on_parsed([&] {
-    chosen = [&o] { return list_clients(o); };
-  });
+  app.add_subcommand("list", "List the connected clients (on the gateway's host only)")
+      ->on_parsed([&] { chosen = [&o] { return list_clients(o); }; });
 }
 
 }  // namespace
-}  // namespace nao
+}  // namespace nao::phone
 
 int main(int argc, char** argv) {
-  nao::CommandLine app("A phone for the command line: drives the robot through nao-phone-gateway",
+  nao::CommandLine app("A client for the command line: drives the robot through nao-phone-gateway",
                        "nao-phone");
   nao::CommonOptions common;
-  nao::PhoneOptions options;
+  nao::phone::PhoneOptions options;
   options.client.name = "nao-phone";
   options.client.software = std::string("nao-phone ") + nao::version();
   app.add_version_flag("--version", app.name() + " " + nao::version());
   app.add_option("--host", options.client.host, "The gateway's host")->show_default();
   app.add_option("--port", options.client.port, "Its TCP port")->show_default();
-  app.add_option("--token", options.client.token, "Its token; not needed on its own host");
-  app.add_option("--name", options.client.name, "What others shall call this phone")
-      ->show_default();
+  app.add_option("--token", options.client.token,
+                 "Pairing token; not needed on the gateway's own host");
+  app.add_option("--name", options.client.name, "Name that other clients see")->show_default();
   std::function<int()> chosen;
-  nao::add_subcommands(app, options, chosen);
+  nao::phone::add_subcommands(app, options, chosen);
   return nao::run_program_with_status(app, common, argc, argv, [&] { return chosen(); });
 }

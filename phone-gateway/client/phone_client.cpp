@@ -12,13 +12,17 @@ using naoremote::Notice;
 using naoremote::Request;
 using naoremote::Response;
 
+/** s; see PROTOCOL.md. */
 constexpr double kPingPeriod = 1;
-constexpr size_t kMaxOutcomes = 64;
+/** Results and answers that are stored until they are taken. Chosen: more than a program has under
+ * way, to bound memory. */
+constexpr size_t kMaxResults = 64;
 constexpr size_t kMaxResponses = 256;
 
 naoremote::ServerMessage parse(const std::string& bytes) {
   naoremote::ServerMessage message;
-  if (!message.ParseFromString(bytes)) throw ConnectionError("the gateway speaks another language");
+  if (!message.ParseFromString(bytes))
+    throw ConnectionError("the gateway sent a message that is no ServerMessage");
   return message;
 }
 
@@ -75,13 +79,13 @@ void PhoneClient::handle_one(double timeout) {
     if (responses_.size() > kMaxResponses) responses_.erase(responses_.begin());
   } else if (message.has_state()) {
     if (handlers_.on_state) handlers_.on_state(message.state());
-  } else if (message.has_picture()) {
-    if (handlers_.on_picture) handlers_.on_picture(message.picture());
+  } else if (message.has_image()) {
+    if (handlers_.on_image) handlers_.on_image(message.image());
   } else if (message.has_notice()) {
     const Notice& notice = message.notice();
-    if (notice.kind() == Notice::COMMAND_OUTCOME && notice.outcome() != Notice::ACCEPTED) {
-      outcomes_.push_back(notice);
-      if (outcomes_.size() > kMaxOutcomes) outcomes_.erase(outcomes_.begin());
+    if (notice.kind() == Notice::COMMAND_RESULT && notice.status() != Notice::ACCEPTED) {
+      results_.push_back(notice);
+      if (results_.size() > kMaxResults) results_.erase(results_.begin());
     }
     if (handlers_.on_notice) handlers_.on_notice(notice);
   }
@@ -101,18 +105,18 @@ void PhoneClient::run_for(double time) {
   run_until([] { return false; }, time);
 }
 
-std::optional<Notice> PhoneClient::wait_for_outcome(uint32_t request_id, double timeout) {
+std::optional<Notice> PhoneClient::wait_for_result(uint32_t request_id, double timeout) {
   const auto is_wanted = [&](const Notice& notice) { return notice.request_id() == request_id; };
-  std::optional<Notice> outcome;
+  std::optional<Notice> result;
   run_until(
       [&] {
-        const auto found = std::find_if(outcomes_.begin(), outcomes_.end(), is_wanted);
-        if (found == outcomes_.end()) return false;
-        outcome = *found;
+        const auto found = std::find_if(results_.begin(), results_.end(), is_wanted);
+        if (found == results_.end()) return false;
+        result = *found;
         return true;
       },
       timeout);
-  return outcome;
+  return result;
 }
 
 Response PhoneClient::take_control() {
@@ -127,24 +131,24 @@ Response PhoneClient::release_control() {
   return this->request(request);
 }
 
-Response PhoneClient::get_state(bool with_picture) {
+Response PhoneClient::get_state(bool with_image) {
   Request request;
-  request.mutable_get_state()->set_with_picture(with_picture);
+  request.mutable_get_state()->set_with_image(with_image);
   return this->request(request);
 }
 
-Response PhoneClient::subscribe(double state_rate, double picture_rate) {
+Response PhoneClient::subscribe(double state_rate, double image_rate) {
   Request request;
   request.mutable_subscribe()->set_state_rate(state_rate);
-  request.mutable_subscribe()->set_picture_rate(picture_rate);
+  request.mutable_subscribe()->set_image_rate(image_rate);
   return this->request(request);
 }
 
-Response PhoneClient::walk_turn(double x, double y, double theta) {
+Response PhoneClient::walk_turn(double vx, double vy, double wz) {
   Request request;
-  request.mutable_walk_turn()->set_x(x);
-  request.mutable_walk_turn()->set_y(y);
-  request.mutable_walk_turn()->set_theta(theta);
+  request.mutable_walk_turn()->set_vx(vx);
+  request.mutable_walk_turn()->set_vy(vy);
+  request.mutable_walk_turn()->set_wz(wz);
   return this->request(request);
 }
 

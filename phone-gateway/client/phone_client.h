@@ -12,17 +12,17 @@
 
 namespace nao {
 
-/** The gateway refused a Connect; the text is its sentence. */
+/** The gateway refused a Connect; the text is its reason. */
 struct RefusedError : Error {
   RefusedError(naoremote::ErrorCode error_code, const std::string& message)
       : Error(message), code(error_code) {}
   naoremote::ErrorCode code;
 };
 
-/** A phone in C++: one connection to nao-phone-gateway over raw TCP.
+/** A client of nao-phone-gateway: one connection over raw TCP.
  *
- * Blocking, without a thread: messages are handled, and signs of life sent, inside the calls that
- * wait; call one of them at least every 4 s. One thread only. */
+ * Blocking, without a thread of its own: messages are handled, and pings sent, inside the calls
+ * that wait; call one of them at least every 4 s. Not thread-safe. */
 class PhoneClient {
  public:
   struct Options {
@@ -30,57 +30,58 @@ class PhoneClient {
     uint16_t port = 7668;
     /** From the gateway's URL; may be empty on its own host. */
     std::string token;
-    /** What others shall call it; empty: the gateway makes a name. */
+    /** Name that other clients see; empty: the gateway chooses one. */
     std::string name;
     std::string software = "nao_phone_client";
     /** For connecting and for each answer, s. */
     double timeout = 5;
   };
 
-  /** What the gateway sends unasked; empty ones are ignored. Called inside the calls that wait. */
+  /** Handlers of states, images and notices, called inside the calls that wait. May be empty. */
   struct Handlers {
     std::function<void(const naoremote::State&)> on_state;
-    std::function<void(const naoremote::Picture&)> on_picture;
+    std::function<void(const naoremote::Image&)> on_image;
     std::function<void(const naoremote::Notice&)> on_notice;
   };
 
-  /** Connects and introduces itself.
-   * @throws ConnectionError  if there is no gateway. @throws RefusedError  if it says no. */
+  /** Connects.
+   * @throws ConnectionError  if there is no gateway.
+   * @throws RefusedError     if it refuses the client. */
   explicit PhoneClient(const Options& options, Handlers handlers = {});
 
-  /** What the gateway said about itself and the robot. */
+  /** The gateway's answer to Connect, with the robot's description. */
   const naoremote::Connected& connected() const { return connected_; }
   const naoremote::RobotDescription& robot() const { return connected_.robot(); }
 
   /** Sends a request and waits for its answer.
    * @param request  Its request_id is set here.
-   * @throws ConnectionError  if the connection closes, or no answer comes in time. */
+   * @throws ConnectionError  if the connection closes, or the answer does not arrive in time. */
   naoremote::Response request(naoremote::Request request);
 
-  /** Sends a request without waiting; its answer is kept until take_response().
+  /** Sends a request without waiting; its answer is stored for take_response().
    * @return Its request_id. */
   uint32_t send(naoremote::Request request);
 
-  /** @return The answer to a request sent with send(), once it has come. */
+  /** @return The answer to a request sent with send(); nothing until it has arrived. */
   [[nodiscard]] std::optional<naoremote::Response> take_response(uint32_t request_id);
 
-  /** Handles messages for `time` seconds, and sends a Ping where nothing else was sent for 1 s.
+  /** Handles messages for `time` s, and sends a Ping after 1 s without another request.
    * @throws ConnectionError  if the connection closes. */
   void run_for(double time);
 
-  /** Waits until `is_done()`, handling messages. @return false if it was not in time. */
+  /** Handles messages until `is_done()`. @return false after the timeout, s. */
   bool run_until(const std::function<bool()>& is_done, double timeout);
 
-  /** Waits for the end of a command: DONE, REFUSED, INTERRUPTED or FAILED.
-   * @return nothing if none came in time. */
-  std::optional<naoremote::Notice> wait_for_outcome(uint32_t request_id, double timeout);
+  /** Waits for the final result of a command: DONE, REFUSED, INTERRUPTED or FAILED.
+   * @return Nothing after the timeout, s. */
+  std::optional<naoremote::Notice> wait_for_result(uint32_t request_id, double timeout);
 
-  // The use cases, each waiting for its answer.
+  // The use cases; each function waits for the answer. Units as in remote.proto.
   naoremote::Response take_control();
   naoremote::Response release_control();
-  naoremote::Response get_state(bool with_picture);
-  naoremote::Response subscribe(double state_rate, double picture_rate);
-  naoremote::Response walk_turn(double x, double y, double theta);
+  naoremote::Response get_state(bool with_image);
+  naoremote::Response subscribe(double state_rate, double image_rate);
+  naoremote::Response walk_turn(double vx, double vy, double wz);
   naoremote::Response move_to(double x, double y, double theta);
   naoremote::Response go_to_posture(const std::string& posture, double speed = 0);
   naoremote::Response change_joints(const std::string& group, double yaw, double pitch, double roll,
@@ -90,7 +91,7 @@ class PhoneClient {
   naoremote::Response ping();
 
  private:
-  /** Handles one message if one comes in time. */
+  /** Handles one message, if one arrives within `timeout` s. */
   void handle_one(double timeout);
 
   Options options_;
@@ -100,13 +101,13 @@ class PhoneClient {
   uint32_t last_request_id_ = 0;
   double last_sent_ = 0;
   std::map<uint32_t, naoremote::Response> responses_;
-  /** The latest outcomes told in notices, oldest first. */
-  std::vector<naoremote::Notice> outcomes_;
-  /** Pings that the client sent by itself, whose answers nobody waits for. */
+  /** Latest final results of commands, oldest first. */
+  std::vector<naoremote::Notice> results_;
+  /** Id of the last Ping that the client sent by itself; its answer is dropped. */
   uint32_t own_ping_ = 0;
 };
 
-/** The operator's console: one operation, without introducing itself. Works on the gateway's own
+/** Executes one operation of the operator's console, without Connect. Works on the gateway's own
  * host only. @throws ConnectionError  if there is no gateway. */
 naoremote::Response operate(const std::string& host, uint16_t port,
                             naoremote::Operate::Operation operation, uint32_t client_id = 0);

@@ -31,7 +31,7 @@ std::string frame(std::string_view message) {
 
 void FrameReader::add(std::string_view bytes) {
   if (is_oversized_) return;
-  // Only what is unread is kept, so that the buffer does not grow with the connection.
+  // Consumed bytes are dropped here, once for many messages.
   buffer_.erase(0, start_);
   start_ = 0;
   buffer_.append(bytes);

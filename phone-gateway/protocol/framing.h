@@ -8,7 +8,7 @@
 
 namespace nao {
 
-/** Greatest Request that the gateway takes, bytes, on every transport. */
+/** Largest Request that the gateway accepts on any transport, bytes; see PROTOCOL.md. */
 inline constexpr size_t kMaxRequestBytes = 65536;
 
 /** Version of the protocol in remote.proto, sent in Connect. */
@@ -16,30 +16,29 @@ inline constexpr unsigned kProtocolVersion = 1;
 
 inline constexpr size_t kFrameLengthBytes = 4;
 
-/** What goes before a message of `size` bytes over raw TCP: that size, most significant byte first.
- */
+/** Header of a message of `size` bytes over raw TCP: that size, most significant byte first. */
 std::array<char, kFrameLengthBytes> frame_length(size_t size);
 
-/** A message as it travels over raw TCP: its length in 4 bytes, most significant first, then
- * itself. */
+/** A message as it is sent over raw TCP: its length in 4 bytes, most significant first, then the
+ * message. */
 std::string frame(std::string_view message);
 
-/** Cuts the bytes of a raw TCP connection into messages again. */
+/** Splits the bytes of a raw TCP connection into messages. */
 class FrameReader {
  public:
-  /** @param max_message_bytes  A longer message makes the connection unusable. */
+  /** @param max_message_bytes  After a longer message nothing can be read any more. */
   explicit FrameReader(size_t max_message_bytes) : max_message_bytes_(max_message_bytes) {}
 
-  /** Takes the bytes that came, in order, however they were cut. */
+  /** Appends received bytes, in pieces of any size. */
   void add(std::string_view bytes);
 
-  /** @return The next whole message, or nothing if it has not arrived whole or is too long. */
+  /** @return The next message; nothing if it is incomplete or too long. */
   [[nodiscard]] std::optional<std::string> next();
 
-  /** True once a length over the limit has come: nothing after it can be read. */
+  /** True once a length above the limit has been received. */
   bool is_oversized() const { return is_oversized_; }
 
-  /** Bytes that wait for the rest of their message. */
+  /** Received bytes of an incomplete message. */
   size_t num_waiting_bytes() const { return buffer_.size() - start_; }
 
  private:

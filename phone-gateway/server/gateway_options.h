@@ -1,37 +1,37 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "phone-gateway/server/gateway_limits.h"
-#include "phone-gateway/server/network.h"
+#include "phone-gateway/server/core/gateway_limits.h"
+#include "phone-gateway/server/network/network.h"
 
-namespace nao {
+namespace nao::gateway {
 
-/** What nao-phone-gateway can be told on its command line. */
+/** Options of nao-phone-gateway. */
 struct GatewayOptions {
   NetworkOptions network;
   /** Folder of robots/ that describes the robot. */
   std::string model = "nao";
-  /** What phones must say to connect; empty: a new one at each start. */
+  /** Pairing token; empty: a new one at each start. */
   std::string token;
-  /** Names of this host that browsers may use, beside its own name, localhost and IP addresses. */
+  /** Names of this host that browsers may use, in addition to its own name, localhost and IP
+   * addresses. */
   std::vector<std::string> host_names;
   /** Other sites whose pages may connect: "http://localhost:5173". */
   std::vector<std::string> origins;
-  /** File for the audit log beside the log; empty: none. */
+  /** File of the audit log, in addition to the program's log; empty: none. */
   std::string audit_file;
-  /** Serve https beside http, on the same port. */
+  /** Serve https in addition to http, on the same port. */
   bool uses_tls = false;
-  /** Folder of the gateway's own certificate; empty: state_folder(). Ignored if a certificate is
-   * named in `network`. */
+  /** Folder of the gateway's own certificate; empty: state_folder(). Ignored if `network` has a
+   * certificate. */
   std::string tls_folder;
   /** Print the address for phones as a QR code. */
   bool prints_qr = false;
-  /** File to write it to, PNG; empty: none. */
+  /** File for the QR code, PNG; empty: none. */
   std::string qr_file;
   GatewayLimits limits;
 };
 
-}  // namespace nao
+}  // namespace nao::gateway

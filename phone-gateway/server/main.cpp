@@ -12,23 +12,27 @@
 #include "common/program.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
-#include "phone-gateway/server/certificate.h"
-#include "phone-gateway/server/gateway_daemon.h"
+#include "phone-gateway/server/bus/gateway_daemon.h"
+#include "phone-gateway/server/bus/robot_description.h"
+#include "phone-gateway/server/core/secret.h"
 #include "phone-gateway/server/gateway_options.h"
-#include "phone-gateway/server/network.h"
-#include "phone-gateway/server/own_addresses.h"
-#include "phone-gateway/server/qr_code.h"
-#include "phone-gateway/server/secret.h"
-#include "phone-gateway/server/web_pages.h"
+#include "phone-gateway/server/http/web_pages.h"
+#include "phone-gateway/server/network/network.h"
+#include "phone-gateway/server/pairing/certificate.h"
+#include "phone-gateway/server/pairing/own_addresses.h"
+#include "phone-gateway/server/pairing/qr_code.h"
 
-namespace nao {
+namespace nao::gateway {
 namespace {
 
+/** Period of repetitions and timeouts, s; a fifth of the shortest one, 0.1 s. */
 constexpr double kStepPeriod = 0.02;
+/** Period of DAEMON_STATUS, s. */
 constexpr double kStatusPeriod = 1.0;
-/** What is said last needs a moment to get out. */
+/** Time for sending the last messages, s. Chosen: one tenth of the 2 s in which a program must
+ * stop. */
 constexpr double kDrainTime = 0.2;
-/** Pixels per module of the code in a file. */
+/** Pixels per module of the QR code in a file. Chosen: about 300 pixels in all. */
 constexpr int kQrScale = 8;
 
 void add_gateway_options(CommandLine& app, GatewayOptions& options) {
@@ -41,26 +45,28 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
   app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
       ->show_default();
   app.add_option("--token", options.token,
-                 "What phones must say to connect; default: a new one at each start");
+                 "Pairing token that clients must send; default: a new one at each start");
   app.add_option("--host-name", options.host_names,
                  "Another name of this host that browsers may use (repeatable)");
   app.add_option(
       "--allow-origin", options.origins,
       "Another site whose pages may connect, such as http://localhost:5173 (repeatable)");
-  app.add_flag("--tls", options.uses_tls,
-               "Serve https beside http, on the same port: phones give tilt to secure pages only");
+  app.add_flag(
+      "--tls", options.uses_tls,
+      "Serve https in addition to http, on the same port: phones give tilt sensors to secure "
+      "pages only");
   app.add_option("--tls-dir", options.tls_folder,
                  "Folder of the gateway's own certificate; default: ~/.local/state/nao-remote");
   app.add_option("--key", network.key_file, "Key of --certificate, PEM")->existing_file();
   app.add_option("--certificate", network.certificate_file,
-                 "Certificate chain to use in place of an own one, PEM")
+                 "Certificate chain, PEM, instead of the gateway's own certificate")
       ->needs("--tls")
       ->needs("--key")
       ->existing_file();
   app.add_option("--audit-log", options.audit_file,
-                 "File to append who connected, drove and was refused to, as JSON lines");
+                 "File to which connections, drivers and refusals are appended as JSON lines");
   app.add_flag("--print-qr", options.prints_qr, "Print the address for phones as a QR code");
-  app.add_option("--qr-png", options.qr_file, "Write it to this file");
+  app.add_option("--qr-png", options.qr_file, "Write the QR code to this file, PNG");
 }
 
 AccessRules make_access_rules(const GatewayOptions& options) {
@@ -71,7 +77,7 @@ AccessRules make_access_rules(const GatewayOptions& options) {
   return AccessRules(names, options.origins);
 }
 
-/** Makes sure that there is a certificate, if https is wanted. */
+/** Ensures that there is a certificate if https is requested. */
 void prepare_tls(GatewayOptions& options) {
   if (!options.uses_tls) return;
   NetworkOptions& network = options.network;
@@ -92,7 +98,7 @@ void prepare_tls(GatewayOptions& options) {
                certificate_fingerprint(network.certificate_file));
 }
 
-/** What a person types into the phone's browser, or scans. */
+/** The addresses to open in a phone's browser. */
 std::vector<std::string> phone_urls(const GatewayOptions& options, uint16_t port) {
   std::vector<std::string> addresses = {options.network.bind};
   if (options.network.bind == "0.0.0.0" || options.network.bind == "::") {
@@ -109,7 +115,7 @@ std::vector<std::string> phone_urls(const GatewayOptions& options, uint16_t port
   return urls;
 }
 
-/** Shows the first address as a code to be scanned, where that is wanted. */
+/** Prints and writes the QR code of an address, as the options request. */
 void show_qr_code(const GatewayOptions& options, const std::string& url) {
   if (options.prints_qr) {
     std::cout << draw_on_terminal(make_qr_code(url)) << url << std::endl;
@@ -121,14 +127,15 @@ void show_qr_code(const GatewayOptions& options, const std::string& url) {
 }
 
 void run_gateway(const CommonOptions& common, GatewayOptions options) {
-  // The library prints a line for every message that it cannot parse: anybody could fill the log.
+  // The library prints a line for every message that it cannot parse: any host could fill the log.
   google::protobuf::SetLogHandler(nullptr);
   if (options.token.empty()) options.token = make_token();
   prepare_tls(options);
   const std::filesystem::path folder = data_path() / "robots" / options.model;
-  if (ask_for_prompt_turns(Turns::kServing)) spdlog::info("runs ahead of usual programs");
+  if (request_realtime_scheduling(RealtimePriority::kServing))
+    spdlog::info("uses real-time scheduling (SCHED_RR)");
   Bus bus(common.lcm_url);
-  GatewayDaemon daemon(bus, common.robot, describe_robot(RobotModel::load(folder)), options.limits,
+  GatewayDaemon daemon(bus, describe_robot(common.robot, RobotModel::load(folder)), options.limits,
                        options.token, options.audit_file);
   WebPages pages(data_path());
   Network network(options.network, make_access_rules(options), daemon.core(), pages);
@@ -161,16 +168,16 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
 }
 
 }  // namespace
-}  // namespace nao
+}  // namespace nao::gateway
 
 int main(int argc, char** argv) {
   nao::CommandLine app(
       "Lets phones drive the robot: the app over HTTP, the protocol over WebSocket and TCP",
       "nao-phone-gateway");
   nao::CommonOptions common;
-  nao::GatewayOptions options;
+  nao::gateway::GatewayOptions options;
   nao::add_common_options(app, common);
-  nao::add_gateway_options(app, options);
+  nao::gateway::add_gateway_options(app, options);
   return nao::run_program(app, common, argc, argv,
-                          [&] { nao::run_gateway(common, std::move(options)); });
+                          [&] { nao::gateway::run_gateway(common, std::move(options)); });
 }

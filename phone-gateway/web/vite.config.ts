@@ -1,12 +1,12 @@
 import {defineConfig} from "vitest/config";
-import {iconPictures} from "./icon_pictures";
+import {iconImages} from "./icon_images";
 
 // `npm run dev` serves the app from here and takes everything else from a running gateway.
 const gateway = process.env["NAO_GATEWAY"] ?? "http://127.0.0.1:8080";
 
 export default defineConfig({
   base: "./",
-  plugins: [iconPictures()],
+  plugins: [iconImages()],
   build: {
     target: "es2022",
     emptyOutDir: true,

@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""Writes the NAO's meshes: one binary glTF (.glb) per link, metres, link frame, z up.
+"""Writes the NAO's meshes: one binary glTF (.glb) for each link, in meters, in the link frame, z up.
 
-The forms are this project's own; their outer sizes follow the real shells to some millimetres
-(573 mm high, 268 mm over the upper arms). Links that meet at a joint overlap in a ball or cylinder
-about the joint's axis, so that no posture shows a gap. Left links are shaped here, right ones are
-their mirror images.
+The shapes are this project's own, since the manufacturer's meshes may not be redistributed. All lengths
+in this file are in meters. They were chosen so that the outer dimensions agree with the real shells to some
+millimeters (573 mm high, 268 mm over the upper arms).
+
+Adjacent links overlap in a ball or a cylinder about the axis of their joint, so that no posture shows a gap.
+Only the left links are modeled; the right ones are their mirror images.
 """
 
 import argparse
@@ -15,16 +17,16 @@ from mesh import Mesh
 from solids import Tube, ball, limb, patch, puck, revolve, skin
 
 
-def panel(shell, centre, look, up, size, exponent=2.6, taper=0.0, segments=24, material="accent"):
-    """A raised coloured plate."""
-    return patch(shell, centre, look, up, size, [
+def panel(shell, center, view, up, size, exponent=2.6, taper=0.0, segments=24, material="accent"):
+    """A raised colored plate on a shell, as patch() places it; `exponent` as in Tube."""
+    return patch(shell, center, view, up, size, [
         (0.5, 0.0014, material), (0.92, 0.0014, material), (1.0, -0.0010, material)],
         segments, exponent, taper)
 
 
 def torso():
     mesh = Mesh()
-    #  along   centre      x+      x-      y+      y-     squareness
+    #  along   center x, y +x      -x      +y      -y      exponent
     shell = Tube("z", [
         (-0.0860, 0.012, 0, 0.0210, 0.0220, 0.0140, 0.0140, 2.4),
         (-0.0620, 0.004, 0, 0.0390, 0.0440, 0.0390, 0.0390, 2.8),
@@ -73,7 +75,7 @@ def head():
     ], start_dome=0.0048, end_dome=0.0096)
     mesh.add(shell.solid("white", segments=20))
     for side in (-1, 1):
-        # An eye looks 17 degrees outwards, as the face does there.
+        # The eyes are rotated outwards by 17 degrees (atan 0.3), as the surface of the face is there.
         mesh.add(patch(shell, (0.1, 0.0425 * side, 0.0480), (-1, -0.3 * side, 0), (0, 0, 1),
                        (0.0150, 0.0150),
                        [(0.58, 0.0010, "dark"), (0.84, 0.0015, "light"), (1.0, 0.0004, "grey")],
@@ -148,13 +150,14 @@ def wrist():
     mesh.add(hand.solid("white", segments=18, spans={"start": "grey"}))
     for y in (-0.01157, 0.01157):
         mesh.add(puck((0.06907, y, -0.00304), (0, 1, 0), 0.0092, 0.0082, 0.002, "grey", 12))
-    thumb = [(0.046, 0, -0.0250), (0.0600, 0, -0.0330), (0.0730, 0, -0.0365)]
-    mesh.add(limb(thumb, [0.0088, 0.0080, 0.0070], "grey", 10))
+    # The opposing finger.
+    points = [(0.046, 0, -0.0250), (0.0600, 0, -0.0330), (0.0730, 0, -0.0365)]
+    mesh.add(limb(points, [0.0088, 0.0080, 0.0070], "grey", 10))
     return mesh
 
 
 def fingers():
-    """In the frame of the knuckles' axis; at angle 0 they are closed, 1 rad lifts them straight."""
+    """In the frame of the fingers' joint: closed at angle 0, straight at 1 rad."""
     mesh = Mesh()
     for y in (-0.01157, 0.01157):
         points = [(0.0, y, 0.0)]
@@ -223,7 +226,7 @@ def ankle():
     return mesh
 
 
-# Outline of the left sole, counter-clockwise from above: robot.yaml's, which a test holds it against.
+# Outline of the left sole, counter-clockwise from above: the same as in robot.yaml, which a test compares.
 SOLE = [(-0.05072, -0.02138), (-0.04262, -0.0306), (-0.03297, -0.03435), (0.0577, -0.03877),
         (0.07395, -0.03729), (0.08765, -0.03148), (0.09687, -0.0188), (0.09942, -0.01015),
         (0.09899, 0.00869), (0.094, 0.02418), (0.08454, 0.0361), (0.06568, 0.04615),
@@ -251,7 +254,7 @@ def foot():
     return mesh
 
 
-CENTRE = {"torso": torso, "Neck": neck, "Head": head}
+CENTER = {"torso": torso, "Neck": neck, "Head": head}
 LEFT = {"Shoulder": shoulder, "Bicep": bicep, "Elbow": elbow, "ForeArm": forearm, "Wrist": wrist,
         "Fingers": fingers, "Pelvis": pelvis, "Hip": hip, "Thigh": thigh, "Tibia": tibia,
         "Ankle": ankle, "Foot": foot}
@@ -262,7 +265,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path, help="where the .glb files go")
     folder = parser.parse_args().folder
     folder.mkdir(parents=True, exist_ok=True)
-    for name, make in CENTRE.items():
+    for name, make in CENTER.items():
         make().write(folder / f"{name}.glb")
     for name, make in LEFT.items():
         mesh = make()

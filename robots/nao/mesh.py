@@ -1,10 +1,10 @@
-"""Triangles of one link, their normals, and the binary glTF file that holds them."""
+"""Triangles of one link with their normals, and the binary glTF file that contains them."""
 
 import json
 import math
 import struct
 
-# Linear RGB. A viewer may give each robot its own "accent", by the material's name.
+# Linear RGB, chosen. A viewer may give each robot its own "accent" color, by the name of the material.
 MATERIALS = {
     "white": (0.90, 0.90, 0.89),
     "accent": (0.95, 0.24, 0.02),
@@ -13,8 +13,8 @@ MATERIALS = {
     "light": (0.45, 0.80, 1.00),
 }
 
-# Positions are rounded to 1/16 mm or so and normals to 1/256: nothing that one sees, but the files
-# compress to two thirds.
+# Positions are rounded to 1/16384 m (0.06 mm) and normals to 1/256: not visible, and the compressed files
+# become a third smaller.
 POSITION_STEP = 1 / 16384
 NORMAL_STEP = 1 / 256
 
@@ -41,15 +41,16 @@ def rounded(vector, step):
 
 
 class Mesh:
-    """A list of corners (material, three positions, three normals); metres, the link's frame."""
+    """A list of triangles (material, three positions, three normals); meters, in the frame of the link."""
 
     def __init__(self):
         self.triangles = []
 
     def add(self, solid, crease_deg=50):
-        """Takes over one solid: a list of (material, a, b, c), counter-clockwise from outside.
+        """Adds one solid: a list of triangles (material, a, b, c), counter-clockwise from outside.
 
-        Where its faces meet at less than `crease_deg` it looks smooth, elsewhere it has an edge.
+        The normals are smoothed between faces that differ by at most `crease_deg`; larger angles give a
+        sharp edge. A vertex normal is the mean of the face normals, weighted by area.
         """
         faces = []
         around = {}
@@ -73,7 +74,8 @@ class Mesh:
             self.triangles.append((material, corners, normals))
 
     def mirrored(self):
-        """The other side's mesh: y changes sign, and the corners' order with it."""
+        """Mirror image at the plane y = 0; the order of the corners is reversed, so that they stay
+        counter-clockwise."""
         mirror = Mesh()
         for material, corners, normals in self.triangles:
             flip = [[(x, -y, z) for x, y, z in reversed(vectors)] for vectors in (corners, normals)]
@@ -81,7 +83,7 @@ class Mesh:
         return mirror
 
     def write(self, path):
-        """Binary glTF 2.0: one mesh with one primitive and one flat material for each colour."""
+        """Writes binary glTF 2.0: one mesh with one primitive for each material."""
         file = _GlbFile()
         for material in MATERIALS:
             numbers = {}
@@ -97,6 +99,9 @@ class Mesh:
 
 
 class _GlbFile:
+    """Content of a .glb file. Source of the format: Khronos, "glTF 2.0 specification"."""
+
+    # OpenGL's numbers of component types and buffer targets.
     FLOAT, UNSIGNED_SHORT = 5126, 5123
     VERTICES, INDICES = 34962, 34963
 

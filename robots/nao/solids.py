@@ -1,5 +1,8 @@
-"""Solids to build links from. Each is a list of (material, a, b, c): triangles, counter-clockwise
-from outside. Lengths in metres."""
+"""Parts of which the links are built. Each is a list of triangles (material, a, b, c) with the corners
+counter-clockwise, seen from outside.
+
+All lengths are in meters, in the frame of the link, all angles in radians. The dimensions that callers pass
+were chosen to resemble the robot; see generate_meshes.py for their sources."""
 
 import math
 
@@ -7,10 +10,11 @@ from mesh import cross, dot, normalized, subtract
 
 
 def skin(rings, materials, start=None, end=None):
-    """Joins closed rings of equally many points, which run counter-clockwise about the way ahead.
+    """Triangles between consecutive rings, which have the same number of points.
 
-    `materials` names one for each gap between rings. `start` and `end` are points that close the
-    first and last ring, or None to leave it open.
+    The points of a ring run counter-clockwise about the direction from the first ring to the last.
+    `materials` has one entry for each gap between rings. `start` and `end` are points that close the
+    first and the last ring; None leaves it open.
     """
     count = len(rings[0])
     solid = []
@@ -28,20 +32,20 @@ def skin(rings, materials, start=None, end=None):
     return solid
 
 
-def revolve(centre, axis, profile, materials, segments=20):
-    """Turns a profile of (radius, along) about an axis through `centre`.
+def revolve(center, axis, profile, materials, segments=20):
+    """Solid of revolution of a profile of points (radius, along) about an axis through `center`.
 
-    `along` rises; a radius of 0 at either end closes the solid there. `materials` as in skin(),
-    a single name for all.
+    `along`, the position on the axis, increases; a radius of 0 at either end closes the solid there.
+    `materials` as in skin(), or one name for all gaps. `segments` is the number of corners of a circle.
     """
     axis = normalized(axis)
     across = normalized(cross(axis, (0, 0, 1) if abs(axis[2]) < 0.9 else (1, 0, 0)))
     third = cross(axis, across)
 
-    def point(radius, along, turn):
-        c, s = radius * math.cos(turn), radius * math.sin(turn)
+    def point(radius, along, angle):
+        c, s = radius * math.cos(angle), radius * math.sin(angle)
         return tuple(o + along * a + c * u + s * v
-                     for o, a, u, v in zip(centre, axis, across, third))
+                     for o, a, u, v in zip(center, axis, across, third))
 
     if isinstance(materials, str):
         materials = [materials] * (len(profile) - 1)
@@ -59,48 +63,53 @@ def revolve(centre, axis, profile, materials, segments=20):
     return solid
 
 
-def puck(centre, axis, radius, half_width, chamfer, material, segments=20):
-    """A cylinder with chamfered rims."""
+def puck(center, axis, radius, half_width, chamfer, material, segments=20):
+    """A cylinder with chamfered edges; `half_width` is half its length along the axis."""
     profile = [(0, -half_width), (radius - chamfer, -half_width), (radius, chamfer - half_width),
                (radius, half_width - chamfer), (radius - chamfer, half_width), (0, half_width)]
-    return revolve(centre, axis, profile, material, segments)
+    return revolve(center, axis, profile, material, segments)
 
 
-def ball(centre, radius, material, segments=16, rings=8):
+def ball(center, radius, material, segments=16, rings=8):
+    """A sphere of `rings` bands of latitude."""
     profile = [(radius * math.sin(math.pi * i / rings), -radius * math.cos(math.pi * i / rings))
                for i in range(rings + 1)]
     profile[0] = (0, -radius)
     profile[-1] = (0, radius)
-    return revolve(centre, (0, 0, 1), profile, material, segments)
+    return revolve(center, (0, 0, 1), profile, material, segments)
 
 
 def limb(points, radii, material, segments=8):
-    """A round bar through points with a dome at either end, for fingers."""
-    ways = [normalized(subtract(b, a)) for a, b in zip(points, points[1:])]
+    """A round bar through points, with a radius at each point and a dome at either end, for fingers."""
+    directions = [normalized(subtract(b, a)) for a, b in zip(points, points[1:])]
     rings = []
-    stations = [(points[0], ways[0], radii[0], -0.75), (points[0], ways[0], radii[0], 0)]
+    stations = [(points[0], directions[0], radii[0], -0.75), (points[0], directions[0], radii[0], 0)]
     for i in range(1, len(points) - 1):
-        way = normalized(tuple(a + b for a, b in zip(ways[i - 1], ways[i])))
-        stations.append((points[i], way, radii[i], 0))
-    stations += [(points[-1], ways[-1], radii[-1], 0), (points[-1], ways[-1], radii[-1], 0.75)]
-    for centre, way, radius, along in stations:
-        across = normalized(cross(way, (0, 1, 0)))
-        third = cross(way, across)
+        direction = normalized(tuple(a + b for a, b in zip(directions[i - 1], directions[i])))
+        stations.append((points[i], direction, radii[i], 0))
+    stations += [(points[-1], directions[-1], radii[-1], 0), (points[-1], directions[-1], radii[-1], 0.75)]
+    for center, direction, radius, along in stations:
+        across = normalized(cross(direction, (0, 1, 0)))
+        third = cross(direction, across)
         inner = radius * math.sqrt(1 - along * along)
-        rings.append([tuple(o + along * radius * w + inner * (math.cos(turn) * u + math.sin(turn) * v)
-                            for o, w, u, v in zip(centre, way, across, third))
-                      for turn in (2 * math.pi * i / segments for i in range(segments))])
-    tip = [tuple(o + s * r * w for o, w in zip(p, way))
-           for p, way, r, s in ((points[0], ways[0], radii[0], -1), (points[-1], ways[-1], radii[-1], 1))]
-    return skin(rings, [material] * (len(rings) - 1), *tip)
+        rings.append([tuple(o + along * radius * w + inner * (math.cos(angle) * u + math.sin(angle) * v)
+                            for o, w, u, v in zip(center, direction, across, third))
+                      for angle in (2 * math.pi * i / segments for i in range(segments))])
+    ends = ((points[0], directions[0], radii[0], -1), (points[-1], directions[-1], radii[-1], 1))
+    tips = [tuple(o + side * radius * w for o, w in zip(point, direction))
+            for point, direction, radius, side in ends]
+    return skin(rings, [material] * (len(rings) - 1), *tips)
 
 
 class Tube:
-    """A smooth shell around an axis of the frame: superellipses, interpolated, with domed ends.
+    """A smooth shell around an axis of the frame: interpolated cross sections with domed ends.
 
-    A station is (along, centre_u, centre_v, plus_u, minus_u, plus_v, minus_v, exponent): where it
-    stands on the axis, its centre across, how far it reaches from there, and how square it is (2 is
-    an ellipse). Across the z axis u is x and v is y; across x they are y and z; across y, z and x.
+    A cross section is a superellipse (Lame curve) |u/a|^n + |v/b|^n = 1 with its own semi-axes in each
+    quadrant. A station is (along, center_u, center_v, plus_u, minus_u, plus_v, minus_v, exponent): position
+    on the axis, center of the cross section, semi-axes in the directions +u, -u, +v, -v, and n; n = 2 is an
+    ellipse, larger values are squarer. For the axis z, u is x and v is y; for x, u is y and v is z; for y, u
+    is z and v is x. `start_dome` and `end_dome` are the lengths of the domes beyond the first and the last
+    station.
     """
 
     def __init__(self, axis, stations, start_dome=0.0, end_dome=0.0):
@@ -112,7 +121,8 @@ class Tube:
 
     @staticmethod
     def _slopes(values):
-        """Slopes of the cubic between equally spaced values that adds no bump (Fritsch-Carlson)."""
+        """Slopes of the monotone cubic interpolation of equally spaced values: harmonic means of
+        neighboring differences (Fritsch and Butland, 1984), 0 at extrema."""
         steps = [b - a for a, b in zip(values, values[1:])]
         slopes = [steps[0]]
         for before, after in zip(steps, steps[1:]):
@@ -120,7 +130,7 @@ class Tube:
         return slopes + [steps[-1]]
 
     def station(self, at):
-        """Interpolated station; `at` counts them from 0."""
+        """Station at a fractional index, by cubic Hermite interpolation."""
         i = min(int(at), len(self.stations) - 2)
         s = at - i
         h00, h10 = (1 + 2 * s) * (1 - s) ** 2, s * (1 - s) ** 2
@@ -130,23 +140,25 @@ class Tube:
                                         self.slopes[i], self.slopes[i + 1])]
 
     @staticmethod
-    def _radius(station, turn):
+    def _radius(station, angle):
+        """Distance of the cross section's outline from its center in a direction."""
         _, _, _, plus_u, minus_u, plus_v, minus_v, exponent = station
-        c, s = math.cos(turn), math.sin(turn)
+        c, s = math.cos(angle), math.sin(angle)
         u = abs(c) / (plus_u if c > 0 else minus_u)
         v = abs(s) / (plus_v if s > 0 else minus_v)
         return (u ** exponent + v ** exponent) ** (-1 / exponent)
 
     def _ring(self, station, segments, scale=1.0, shift=0.0):
-        along, centre_u, centre_v = station[:3]
+        """Points of a cross section, scaled about its center and shifted along the axis."""
+        along, center_u, center_v = station[:3]
         ring = []
         plus_u, minus_u, plus_v, minus_v, exponent = station[3:]
         for i in range(segments):
-            # Denser where the section turns, in the corners.
+            # This parametrization has more points in the corners, where the curvature is high.
             c, s = (math.cos(2 * math.pi * i / segments), math.sin(2 * math.pi * i / segments))
             u = math.copysign(abs(c) ** (2 / exponent), c) * (plus_u if c > 0 else minus_u)
             v = math.copysign(abs(s) ** (2 / exponent), s) * (plus_v if s > 0 else minus_v)
-            ring.append(self._point(along + shift, centre_u + scale * u, centre_v + scale * v))
+            ring.append(self._point(along + shift, center_u + scale * u, center_v + scale * v))
         return ring
 
     def _point(self, along, u, v):
@@ -157,10 +169,10 @@ class Tube:
         return tuple(point)
 
     def solid(self, material, segments=20, steps=1, dome_steps=2, spans=None):
-        """Triangles: `steps` rings for each gap between stations, `dome_steps` for each dome.
+        """Triangles of the shell: `steps` rings for each gap between stations, `dome_steps` for each dome.
 
-        `spans` gives single gaps between stations another material: {gap: material}, where
-        "start" and "end" are the ends.
+        `spans` gives some gaps between stations another material: {index of the gap: material}; "start" and
+        "end" are the domes.
         """
         spans = spans or {}
         first, last = self.stations[0], self.stations[-1]
@@ -188,6 +200,7 @@ class Tube:
         return solid
 
     def contains(self, point):
+        """Whether a point is inside of the shell, domes included."""
         along = point[self.axis]
         u, v = point[(self.axis + 1) % 3], point[(self.axis + 2) % 3]
         first, last = self.stations[0], self.stations[-1]
@@ -200,6 +213,7 @@ class Tube:
             scale = math.sqrt(1 - (beyond / dome) ** 2)
             station = first if along < first[0] else last
         else:
+            # Bisection for the station at this position on the axis.
             low, high = 0.0, float(len(self.stations) - 1)
             for _ in range(30):
                 middle = (low + high) / 2
@@ -209,29 +223,30 @@ class Tube:
         return math.hypot(u, v) <= scale * self._radius(station, math.atan2(v, u))
 
 
-def patch(shell, centre, look, up, size, rings, segments=20, exponent=2.0, taper=0.0):
-    """Something flat laid on a shell: an eye, a button, a coloured panel.
+def patch(shell, center, view, up, size, rings, segments=20, exponent=2.0, taper=0.0):
+    """A raised piece of surface on a shell: an eye, a button, a colored panel.
 
-    Its outline is a superellipse of half width and half height `size` about `centre`, which lies
-    outside, seen along `look` with `up` upwards, and is projected onto the shell along `look`. `taper` widens its upper
-    end by that fraction and narrows the lower one. `rings` go from the middle to the rim: (fraction
-    of the outline, height over the shell, material from the ring before to this one).
+    Its outline is a superellipse with the half width and half height `size` about `center`, a point outside
+    of the shell. It is projected onto the shell along the direction `view`; `up` is its upper side. `taper`
+    widens the upper end by this fraction and narrows the lower one. `rings` go from the middle to the rim:
+    (fraction of the outline, height above the shell, material between the previous ring and this one).
     """
-    look, up = normalized(look), normalized(up)
-    # To the right of one who looks along `look`.
-    right = cross(look, up)
+    view, up = normalized(view), normalized(up)
+    # To the right, seen along `view`.
+    right = cross(view, up)
 
     def on_shell(across, upwards, height):
+        # Follows the ray along `view` in steps of 1 cm to the inside, then bisects.
         def at(depth):
             return [c + across * r + upwards * u + depth * l
-                    for c, r, u, l in zip(centre, right, up, look)]
+                    for c, r, u, l in zip(center, right, up, view)]
 
         step = 0.01
         outside = 0.0
         while not shell.contains(at(outside + step)):
             outside += step
             if outside > 0.5:
-                raise ValueError(f"the patch at {centre} hangs over the shell's edge")
+                raise ValueError(f"the patch at {center} extends beyond the edge of the shell")
         inside = outside + step
         for _ in range(20):
             middle = (outside + inside) / 2
@@ -242,8 +257,8 @@ def patch(shell, centre, look, up, size, rings, segments=20, exponent=2.0, taper
     def ring_at(fraction, height):
         ring = []
         for i in range(segments):
-            turn = 2 * math.pi * (i + 0.5) / segments
-            c, s = math.cos(turn), math.sin(turn)
+            angle = 2 * math.pi * (i + 0.5) / segments
+            c, s = math.cos(angle), math.sin(angle)
             radius = fraction * (abs(c) ** exponent + abs(s) ** exponent) ** (-1 / exponent)
             upwards = radius * s
             ring.append(on_shell(radius * c * size[0] * (1 + taper * upwards),

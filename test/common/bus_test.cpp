@@ -11,7 +11,7 @@
 namespace nao {
 namespace {
 
-TEST(Bus, DeliversAMessageWhole) {
+TEST(Bus, DeliversACompleteMessage) {
   Bus bus("memq://");
   naolcm::posture_command_t received;
   bus.subscribe<naolcm::posture_command_t>(

@@ -9,7 +9,7 @@
 namespace nao {
 namespace {
 
-TEST(EventLoop, EndsOnSigtermAndSaysSo) {
+TEST(EventLoop, EndsOnSigtermWithItsName) {
   EventLoop loop;
   loop.every(0.001, [] { kill(getpid(), SIGTERM); });
   EXPECT_EQ(loop.run(), "SIGTERM");

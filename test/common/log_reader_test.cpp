@@ -17,7 +17,7 @@ class LogReaderTest : public testing::Test {
  protected:
   ~LogReaderTest() override { std::filesystem::remove(path_); }
 
-  /** Every event that is found in these bytes. */
+  /** All events read from these bytes. */
   std::vector<LogEvent> read(const Bytes& bytes) {
     std::ofstream(path_, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
@@ -47,7 +47,7 @@ class LogReaderTest : public testing::Test {
   int64_t num_bytes_skipped_ = 0;
 };
 
-TEST_F(LogReaderTest, ReadsWhatTheDocumentedFormatSays) {
+TEST_F(LogReaderTest, ReadsTheDocumentedFormat) {
   const Bytes bytes{0xED, 0xA1, 0xDA, 0x01, 0, 0, 0, 0, 0, 0, 0, 7, 0,   0,   0, 0,
                     0,    0,    1,    0,    0, 0, 0, 2, 0, 0, 0, 1, 'A', 'B', 9};
   const auto events = read(bytes);
@@ -59,7 +59,7 @@ TEST_F(LogReaderTest, ReadsWhatTheDocumentedFormatSays) {
   EXPECT_EQ(encode_log_event(events[0]), bytes);
 }
 
-TEST_F(LogReaderTest, GoesOnBehindADamagedPlace) {
+TEST_F(LogReaderTest, ContinuesAfterDamagedBytes) {
   Bytes bytes = log_of(5);
   const size_t event_size = bytes.size() / 5;
   bytes[2 * event_size] ^= 0xFF;
@@ -69,7 +69,7 @@ TEST_F(LogReaderTest, GoesOnBehindADamagedPlace) {
   EXPECT_EQ(num_bytes_skipped_, static_cast<int64_t>(event_size));
 }
 
-TEST_F(LogReaderTest, LeavesOutAnEventThatIsCutOff) {
+TEST_F(LogReaderTest, SkipsATruncatedEvent) {
   Bytes bytes = log_of(3);
   const size_t event_size = bytes.size() / 3;
   bytes.resize(bytes.size() - 1);
@@ -88,7 +88,7 @@ TEST_F(LogReaderTest, SurvivesGarbage) {
   }
 }
 
-TEST_F(LogReaderTest, NamesTheFileThatIsNotThere) {
+TEST_F(LogReaderTest, NamesTheMissingFile) {
   try {
     const LogReader reader("/no/such.lcmlog");
     FAIL();

@@ -5,7 +5,7 @@
 namespace nao {
 namespace {
 
-TEST(RateLimiter, LetsOneEventThroughPerPeriodAndCountsTheRest) {
+TEST(RateLimiter, PassesOneEventPerPeriodAndCountsTheRest) {
   RateLimiter limiter(1.0);
   EXPECT_EQ(limiter.allow(10.0), 0);
   EXPECT_FALSE(limiter.allow(10.2));

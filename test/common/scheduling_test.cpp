@@ -9,40 +9,41 @@
 namespace nao {
 namespace {
 
-/** What a thread has made of itself must not outlive the test. */
+/** Runs `body` in a thread of its own: the scheduling of the test thread stays unchanged. */
 void run_in_thread(const std::function<void()>& body) {
   std::thread(body).join();
 }
 
-/** Of this thread. */
+/** SCHED_RR priority of the calling thread. */
 int own_priority() {
   sched_param param{};
   sched_getparam(0, &param);
   return param.sched_priority;
 }
 
-TEST(Scheduling, PutsAThreadAndThoseThatItStartsAheadWhereThatIsAllowed) {
-  // Not SCHED_OTHER where whoever runs the tests lets them run in the background.
-  const int usual = sched_getscheduler(0);
-  run_in_thread([usual] {
-    if (!ask_for_prompt_turns(Turns::kServing)) {
-      EXPECT_EQ(sched_getscheduler(0), usual);
-      GTEST_SKIP() << "takes root or RLIMIT_RTPRIO";
+TEST(Scheduling, AppliesToTheThreadAndThoseThatItStarts) {
+  // May be SCHED_BATCH or SCHED_IDLE: then the tests were started with such a policy.
+  const int initial = sched_getscheduler(0);
+  run_in_thread([initial] {
+    if (!request_realtime_scheduling(RealtimePriority::kServing)) {
+      EXPECT_EQ(sched_getscheduler(0), initial);
+      GTEST_SKIP() << "requires root or RLIMIT_RTPRIO";
     }
     EXPECT_EQ(sched_getscheduler(0), SCHED_RR);
     run_in_thread([] { EXPECT_EQ(sched_getscheduler(0), SCHED_RR); });
-    take_usual_turns();
+    use_normal_scheduling();
     EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER);
   });
-  EXPECT_EQ(sched_getscheduler(0), usual);
+  EXPECT_EQ(sched_getscheduler(0), initial);
 }
 
-TEST(Scheduling, LetsControlGoAheadOfServing) {
+TEST(Scheduling, GivesControlAHigherPriorityThanServing) {
   run_in_thread([] {
-    if (!ask_for_prompt_turns(Turns::kServing)) GTEST_SKIP() << "takes root or RLIMIT_RTPRIO";
+    if (!request_realtime_scheduling(RealtimePriority::kServing))
+      GTEST_SKIP() << "requires root or RLIMIT_RTPRIO";
     const int serving = own_priority();
-    ASSERT_TRUE(ask_for_prompt_turns(Turns::kControl));
-    if (own_priority() == serving) GTEST_SKIP() << "takes root or RLIMIT_RTPRIO of 2";
+    ASSERT_TRUE(request_realtime_scheduling(RealtimePriority::kControl));
+    if (own_priority() == serving) GTEST_SKIP() << "requires root or RLIMIT_RTPRIO of 2";
     EXPECT_GT(own_priority(), serving);
   });
 }

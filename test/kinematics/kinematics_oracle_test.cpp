@@ -1,4 +1,4 @@
-// The motion core's kinematics against Simbody's, built from the same URDF by other code.
+// Kinematics against Simbody's, which other code builds from the same URDF.
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,10 @@
 #include "sim/simbody_model.h"
 #include "test/daemons/motion/nao_model.h"
 
-namespace nao::motion {
+namespace nao {
 namespace {
+
+using motion::nao_model;
 
 constexpr double kTolerance = 1e-9;  // m, m/rad and of a rotation's entries
 
@@ -143,4 +145,4 @@ TEST_F(KinematicsOracleTest, LegAnglesPutTheSolesWhereSimbodyHasThem) {
 }
 
 }  // namespace
-}  // namespace nao::motion
+}  // namespace nao

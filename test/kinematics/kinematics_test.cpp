@@ -8,8 +8,10 @@
 #include "kinematics/leg_kinematics.h"
 #include "test/daemons/motion/nao_model.h"
 
-namespace nao::motion {
+namespace nao {
 namespace {
+
+using motion::nao_model;
 
 std::vector<double> random_position(std::mt19937& random) {
   std::vector<double> position;
@@ -98,7 +100,7 @@ TEST(LegKinematics, InvertsForwardKinematics) {
           legs.solve_with_hip_yaw_pitch(leg, sole, position[legs.motors(leg)[0]]);
       ASSERT_TRUE(free.is_reachable && fixed.is_reachable);
       const LegAngles wanted = legs.read(leg, position);
-      // Near a stretched knee the angle is the square root of a tiny length: looser there.
+      // Near a stretched knee the angle is the square root of a small length: a looser tolerance.
       const double tolerance = wanted[3] < 0.02 ? 1e-6 : 1e-9;
       for (size_t i = 0; i < wanted.size(); ++i) {
         EXPECT_NEAR(free.angles[i], wanted[i], tolerance) << "angle " << i;
@@ -108,7 +110,7 @@ TEST(LegKinematics, InvertsForwardKinematics) {
   }
 }
 
-TEST(LegKinematics, SharedHipYawPitchLeavesOnlyHeadingErrors) {
+TEST(LegKinematics, TheCommonHipYawPitchLeavesOnlyHeadingErrors) {
   Kinematics kinematics(nao_model());
   const LegKinematics legs(nao_model());
   kinematics.update(nao_model().find_posture("StandInit")->position);
@@ -130,7 +132,7 @@ TEST(LegKinematics, SharedHipYawPitchLeavesOnlyHeadingErrors) {
   EXPECT_LT((kinematics.right_sole() * ankle - right * ankle).norm(), 1e-9);
 }
 
-TEST(LegKinematics, SaysWhenAFootIsOutOfReach) {
+TEST(LegKinematics, ReportsAFootOutOfReach) {
   Kinematics kinematics(nao_model());
   const LegKinematics legs(nao_model());
   kinematics.update(nao_model().find_posture("StandZero")->position);
@@ -140,4 +142,4 @@ TEST(LegKinematics, SaysWhenAFootIsOutOfReach) {
 }
 
 }  // namespace
-}  // namespace nao::motion
+}  // namespace nao

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace nao::motion {
+namespace nao {
 namespace {
 
 TEST(SupportPolygon, HullIsCounterClockwiseAndLeavesInnerPointsOut) {
@@ -28,4 +28,4 @@ TEST(SupportPolygon, MarginIsTheDistanceToTheEdge) {
 }
 
 }  // namespace
-}  // namespace nao::motion
+}  // namespace nao

@@ -26,7 +26,7 @@ class Operator(unittest.TestCase):
         self.addCleanup(client.__exit__)
         return client
 
-    def test_lists_who_is_connected_and_who_drives(self):
+    def test_lists_clients_and_the_driver(self):
         ana = self.phone("Ana")
         self.phone("Ben")
         ana.ask(take_control=pb.TakeControl())
@@ -37,7 +37,7 @@ class Operator(unittest.TestCase):
         self.assertIn("Ana", self.driver("list").stdout)
         ana.ask(release_control=pb.ReleaseControl())
 
-    def test_takes_and_gives_back_control(self):
+    def test_takes_and_releases_control(self):
         ana = self.phone("Ana")
         ana.ask(take_control=pb.TakeControl())
         self.assertEqual(self.driver("take").returncode, 0)
@@ -57,7 +57,7 @@ class Operator(unittest.TestCase):
         self.assertEqual(refused.returncode, 1)
         self.assertIn("refused", refused.stderr)
 
-    def test_says_where_the_gateway_is_missing(self):
+    def test_reports_a_missing_gateway(self):
         result = subprocess.run([str(BIN_DIR / "nao"), "driver", "--port", "1", "list"], capture_output=True,
                                 text=True, timeout=DEADLINE, check=False)
         self.assertEqual(result.returncode, 1)

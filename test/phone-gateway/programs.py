@@ -1,4 +1,4 @@
-"""Programs started by a test, on a bus and on ports of the test's own.
+"""Programs started by a test, on a bus and on ports of its own.
 
 NAO_BIN_DIR (set by CTest) is the folder of the programs.
 """
@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BIN_DIR = Path(os.environ.get("NAO_BIN_DIR", ROOT / "build/dev/bin"))
 sys.path.insert(0, str(ROOT / "phone-gateway/examples/python"))
 
-# Nothing here measures speed: the machine may be busy.
+# s. Long, since the machine may be busy; nothing here measures time.
 DEADLINE = 60
 
 
@@ -26,18 +26,18 @@ def private_lcm_url():
 
 
 def wait_until(condition, what, timeout=DEADLINE):
-    """Asks until the answer is true, and returns it."""
+    """Calls condition() until its result is true. @return the result."""
     deadline = time.monotonic() + timeout
     while time.monotonic() < deadline:
         answer = condition()
         if answer:
             return answer
         time.sleep(0.05)
-    raise AssertionError(f"waited {timeout} s in vain: {what}")
+    raise AssertionError(f"not within {timeout} s: {what}")
 
 
 class Program:
-    """A running program. What it logs is kept in .log, a list of lines."""
+    """A running program. Its log is in .log, a list of lines."""
 
     def __init__(self, name, *options):
         self.name = name
@@ -63,7 +63,7 @@ class Program:
         return wait_until(find, f"{self.name} logs {pattern}")
 
     def kill(self):
-        """Ends it the hard way."""
+        """Kills it with SIGKILL."""
         if self.process.poll() is None:
             self.process.kill()
         self.process.wait()
@@ -71,7 +71,7 @@ class Program:
         self.process.stderr.close()
 
     def end(self):
-        """Asks it to end. @return its exit status."""
+        """Terminates it with SIGTERM. @return its exit status."""
         if self.process.poll() is None:
             self.process.terminate()
         status = self.process.wait(DEADLINE)
@@ -81,7 +81,7 @@ class Program:
 
 
 class Gateway(Program):
-    """A gateway on free ports of 127.0.0.1. Without lcm_url it has a bus to itself."""
+    """A gateway on free ports of 127.0.0.1. Without lcm_url it has a bus of its own."""
 
     def __init__(self, *options, lcm_url="memq://", bind="127.0.0.1", http_port=0, tcp_port=0):
         super().__init__("nao-phone-gateway", "--bind", bind, "--http-port", http_port, "--tcp-port", tcp_port,
@@ -92,7 +92,7 @@ class Gateway(Program):
 
 
 class Robot:
-    """Simulator, motion, camera and gateway. Use it in a with statement: nothing is left behind."""
+    """Simulator, motion, camera and gateway. Use it in a with statement, which kills them at its end."""
 
     def __init__(self, scene="soccer", bind="127.0.0.1"):
         self.scene = scene
@@ -125,7 +125,7 @@ class Robot:
         return self.programs["nao-phone-gateway"]
 
     def nao(self, *arguments):
-        """What the command-line client on the bus says."""
+        """Runs the command-line client of the bus. @return its output."""
         result = subprocess.run([str(BIN_DIR / "nao"), "--lcm-url", self.lcm_url, *[str(a) for a in arguments]],
                                 stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=2 * DEADLINE, check=False)
         if result.returncode != 0:
@@ -133,17 +133,17 @@ class Robot:
         return result.stdout
 
     def nao_phone(self, *arguments):
-        """The command-line phone: its exit status, and what it says."""
+        """Runs nao-phone. @return its exit status and output."""
         return subprocess.run([str(BIN_DIR / "nao-phone"), "--port", str(self.gateway.tcp_port),
                                *[str(a) for a in arguments]],
                               stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=2 * DEADLINE, check=False)
 
     def stand(self):
-        """Stands the robot up, whatever the test before has killed and the gateway has yet to hear of."""
+        """Stands the robot up; retries while programs that the test before has killed are unavailable."""
         wait_until(lambda: self.nao_phone("posture", "StandInit").returncode == 0, "the robot stands")
 
     def truth(self):
-        """world_truth_t as a dictionary, of the robot only."""
+        """@return the robot's part of world_truth_t as a dictionary."""
         return json.loads(self.nao("world", "show", "--json"))["robots"][0]
 
     def torso_height(self):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Attacks on the gateway: each is refused, stands in the audit log once however often it is tried, and a good client
-notices nothing of it."""
+"""Attacks on the gateway: each is refused and written to the audit log once, however often it is repeated, and a well-
+behaved client is not affected."""
 
 import json
 import socket
@@ -24,7 +24,7 @@ WEBSOCKET = ("Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: dG
 
 
 class GoodClient:
-    """Pings ten times a second from a thread of its own, and wants every answer."""
+    """Pings ten times a second from a thread of its own, and requires every answer."""
 
     def __init__(self, gateway):
         self._phone = phone.Phone(port=gateway.tcp_port, timeout=DEADLINE, name="good")
@@ -74,7 +74,7 @@ class Security(unittest.TestCase):
         return [line for line in map(json.loads, self.audit_file.read_text().splitlines())
                 if line["event"] == "refused" and detail in line["detail"]]
 
-    def assert_refused_and_written_down_once(self, detail):
+    def assert_refused_and_audited_once(self, detail):
         found = wait_until(lambda: self.refusals(detail), f"{detail} in the audit log")
         self.assertEqual(len(found), 1, found)
         self.assertEqual(found[0]["address"], "127.0.0.1")
@@ -87,24 +87,24 @@ class Security(unittest.TestCase):
             return int(connection.recv(4096).split()[1])
 
     def test_wrong_tokens(self):
-        # All that is kept of them: five are judged, then the address waits.
+        # Five are compared, then the address is refused for 10 s.
         for i in range(NUM_TRIES):
             with self.assertRaises(phone.Refused) as refused:
                 phone.Phone(port=self.gateway.tcp_port, token=f"guess {i}", timeout=DEADLINE)
             self.assertEqual(refused.exception.code, pb.WRONG_TOKEN)
         self.assertIn("wait", str(refused.exception))
-        self.assert_refused_and_written_down_once("WRONG_TOKEN")
+        self.assert_refused_and_audited_once("token-wrong")
         self.assertNotIn("guess", self.audit_file.read_text())
-        # The right one is not heard either while the address has to wait, or guessing would go on.
+        # In that time the right token is refused, too: otherwise guessing could go on.
         with self.assertRaises(phone.Refused):
             phone.Phone(port=self.gateway.tcp_port, token="test-token", timeout=DEADLINE)
 
-    def test_ever_new_versions_do_not_fill_the_log(self):
+    def test_different_versions_do_not_fill_the_log(self):
         for version in range(2, 2 + NUM_TRIES):
             with socket.create_connection(("127.0.0.1", self.gateway.tcp_port), DEADLINE) as connection:
                 connection.sendall(frame(connect=pb.Connect(protocol_version=version)))
                 self.assertTrue(connection.recv(4096))
-        self.assert_refused_and_written_down_once("WRONG_VERSION")
+        self.assert_refused_and_audited_once("protocol-version-unsupported")
 
     def test_pages_of_other_sites(self):
         host = f"localhost:{self.gateway.http_port}"
@@ -113,18 +113,18 @@ class Security(unittest.TestCase):
             head = f"GET /ws HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\n{WEBSOCKET}"
             self.assertEqual(self.http(head), 403, origin)
         self.assertEqual(self.http(f"GET /ws HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n{WEBSOCKET}"), 101)
-        self.assert_refused_and_written_down_once("Origin")
+        self.assert_refused_and_audited_once("Origin")
 
-    def test_names_that_were_rebound_to_this_host(self):
+    def test_dns_rebinding(self):
         for host in ("evil.example", "evil.example:8080", "localhost.evil.example", "127.0.0.1.evil.example", "",
                      "[evil.example]", "localhost:8080@evil.example"):
             for target in ("/", "/ws", "/metrics"):
-                # With the Origin that fits it, as the browser of a deceived visitor sends it.
+                # With the matching Origin, as a browser sends it.
                 head = f"GET {target} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n{WEBSOCKET}"
                 self.assertEqual(self.http(head), 421, host)
-        self.assert_refused_and_written_down_once("Host")
+        self.assert_refused_and_audited_once("Host")
 
-    def test_paths_that_lead_outside(self):
+    def test_paths_outside_the_served_folders(self):
         for target in ("/../etc/passwd", "/robots/../../../etc/passwd", "/%2e%2e/etc/passwd", "/robots/%2e%2e%2f%2e%2e/x",
                        "/..%5c..%5cx", "/.git/config", "/robots/nao/\\..\\x", "//../etc/passwd", "etc/passwd",
                        "//etc/passwd", "///etc/passwd", "/%2fetc/passwd", "/robots//etc/passwd",
@@ -132,7 +132,7 @@ class Security(unittest.TestCase):
             self.assertEqual(self.http(f"GET {target} HTTP/1.1\r\nHost: localhost\r\n"), 400, target)
         for target in ("/etc/passwd", "/robots/etc/passwd", "/robots/nao"):
             self.assertEqual(self.http(f"GET {target} HTTP/1.1\r\nHost: localhost\r\n"), 404, target)
-        self.assert_refused_and_written_down_once("no path")
+        self.assert_refused_and_audited_once("no path")
 
     def test_a_lease_that_is_replayed(self):
         def record(connection):
@@ -143,18 +143,17 @@ class Security(unittest.TestCase):
 
         with socket.create_connection(("127.0.0.1", self.gateway.tcp_port), DEADLINE) as ana:
             self.assertTrue(record(ana).control.is_mine)
-            # Somebody who heard all that Ana said, and says it again: not its name, its number or its requests
-            # carry control, the connection does.
+            # Control belongs to the connection: a client that repeats all of Ana's messages does not get it.
             with socket.create_connection(("127.0.0.1", self.gateway.tcp_port), DEADLINE) as thief:
                 answer = record(thief)
                 self.assertEqual(answer.error, pb.CONTROL_TAKEN)
                 self.assertEqual(answer.control.driver_name, "Ana")
-                thief.sendall(frame(request_id=3, walk_turn=pb.WalkTurn(x=1)))
+                thief.sendall(frame(request_id=3, walk_turn=pb.WalkTurn(vx=0.1)))
                 self.assertEqual(self.response(thief, 3).error, pb.CONTROL_TAKEN)
-        # Ana is gone, and what she might still send on a new connection does nothing until she asks anew.
+        # After Ana has disconnected, a new connection has no control until it asks for it.
         with socket.create_connection(("127.0.0.1", self.gateway.tcp_port), DEADLINE) as late:
             late.sendall(frame(request_id=1, connect=pb.Connect(protocol_version=1, client_name="Ana")))
-            late.sendall(frame(request_id=2, walk_turn=pb.WalkTurn(x=1)))
+            late.sendall(frame(request_id=2, walk_turn=pb.WalkTurn(vx=0.1)))
             self.assertEqual(self.response(late, 2).error, pb.NO_CONTROL)
         self.assert_good_client_is_served()
 
@@ -167,27 +166,27 @@ class Security(unittest.TestCase):
                 return message.response
 
     def test_a_thousand_half_open_connections(self):
-        crowd = []
+        half_open = []
         for i in range(NUM_HALF_OPEN):
             port = self.gateway.tcp_port if i % 2 else self.gateway.http_port
-            crowd.append(self.enterContext(socket.create_connection(("127.0.0.1", port), DEADLINE)))
+            half_open.append(self.enterContext(socket.create_connection(("127.0.0.1", port), DEADLINE)))
             if i % 2:
-                crowd[-1].sendall(b"\0\0\0\x20half")
+                half_open[-1].sendall(b"\0\0\0\x20half")
             if i % 100 == 50:
-                # Newcomers get in all the time.
-                with phone.Phone(port=self.gateway.tcp_port, timeout=DEADLINE) as newcomer:
-                    newcomer.ask(ping=pb.Ping())
+                # New clients can connect all the time.
+                with phone.Phone(port=self.gateway.tcp_port, timeout=DEADLINE) as client:
+                    client.ask(ping=pb.Ping())
         num_descriptors = len(list(Path(f"/proc/{self.gateway.process.pid}/fd").iterdir()))
         self.assertLess(num_descriptors, 200)
-        self.assert_refused_and_written_down_once("Too many connections")
-        # After their 5 s the last ones are closed, too.
-        wait_until(lambda: len(list(Path(f"/proc/{self.gateway.process.pid}/fd").iterdir())) < 30, "the crowd is gone")
-        self.assertEqual(len(self.refusals("No Connect")), 1)
+        self.assert_refused_and_audited_once("Too many connections")
+        # The last ones are closed after their 5 s.
+        wait_until(lambda: len(list(Path(f"/proc/{self.gateway.process.pid}/fd").iterdir())) < 30, "the half-open connections are closed")
+        self.assertEqual(len(self.refusals("connect-timeout")), 1)
         self.assertEqual(len(self.refusals("No request")), 1)
         self.assert_good_client_is_served()
 
     def trickle(self, port, octets, wrap=lambda connection: connection):
-        """Sends bytes one by one. @return how long the gateway listened, s."""
+        """Sends bytes one by one. @return time until the gateway closed the connection, s."""
         start = time.monotonic()
         with wrap(socket.create_connection(("127.0.0.1", port), DEADLINE)) as connection:
             connection.settimeout(DEADLINE)
@@ -197,24 +196,24 @@ class Security(unittest.TestCase):
                     time.sleep(0.1)
             except OSError:
                 return time.monotonic() - start
-        self.fail("the gateway listened to the end")
+        self.fail("the gateway has not closed the connection")
 
     def test_slow_handshakes(self):
         head = b"GET /ws HTTP/1.1\r\nHost: localhost\r\nX-Slow: " + 600 * b"y"
         hello = frame(connect=pb.Connect(protocol_version=1, client_software=120 * "slow "))
         for port, octets in ((self.gateway.http_port, head), (self.gateway.tcp_port, hello)):
             self.assertLess(self.trickle(port, octets), 30)
-        self.assert_refused_and_written_down_once("No request within 5 s")
-        self.assert_refused_and_written_down_once("No Connect within 5 s")
+        self.assert_refused_and_audited_once("No request within 5 s")
+        self.assert_refused_and_audited_once("connect-timeout")
 
     def test_requests_without_end(self):
         for _ in range(NUM_TRIES):
             self.assertEqual(self.http("GET / HTTP/1.1\r\nHost: localhost\r\nX: " + 10000 * "x" + "\r\n"), 431)
-        self.assert_refused_and_written_down_once("HTTP")
+        self.assert_refused_and_audited_once("HTTP")
 
 
 class SecureSecurity(Security):
-    """The same with https on the same port, where the first bytes decide; and a handshake that never ends."""
+    """The same with https on the same port, where the first bytes decide, and a TLS handshake that does not end."""
 
     gateway_options = ("--tls",)
 

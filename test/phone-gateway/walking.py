@@ -1,4 +1,4 @@
-"""What tests of a walk that must end share: a robot that walks, and a judge of where it is."""
+"""Shared by tests of walks that must end: a robot that walks, and its true position."""
 
 import json
 import math
@@ -11,16 +11,16 @@ import phone  # of phone-gateway/examples/python
 from remote_protocol import remote_pb2 as pb
 
 WALK_PERIOD = 0.1
-# From the last command to the walk's end: 0.5 s until it is stale in the gateway (or in motion, if the gateway is
-# gone), and the steps that bring the robot to a stand: 1.1 to 1.4 s in all were measured.
+# s. From the last command to the end of the walk: 0.5 s until it is stale in the gateway (or in nao-motion, if the gateway
+# has failed), and the last steps. Measured: 1.1 to 1.4 s in all.
 TIME_TO_STAND = 2.0
-# A robot that walks gets this far in STILL_TIME several times over; one that stands sways less.
+# s and m. A walking robot moves several times as far in STILL_TIME; the sway of a standing one is smaller.
 STILL_TIME = 2.0
 STILL_DISTANCE = 0.02
 
 
 class WalkingTest(unittest.TestCase):
-    """Has a robot with all programs; judges by where the simulator says that it is, in simulated time."""
+    """Has a robot with all programs; measures its true position, in simulated time."""
 
     bind = "127.0.0.1"
 
@@ -36,21 +36,21 @@ class WalkingTest(unittest.TestCase):
         self.robot.stand()
 
     def world(self):
-        """@return simulated time, s, and the torso's place on the floor, m."""
+        """@return simulated time, s, and the true position of the torso, m."""
         truth = json.loads(self.robot.nao("world", "show", "--json"))
         return truth["utime"] * 1e-6, truth["robots"][0]["position_torso_in_world"]
 
-    def walk(self, client, duration, speed=0.6):
-        """Walks as an app does, and makes sure that the robot really goes."""
+    def walk(self, client, duration, speed=0.18):
+        """Walks forward at `speed`, m/s, as the app does, until the robot has moved."""
         _, start = self.world()
         end = time.monotonic() + duration
         while time.monotonic() < end:
-            client.ask(walk_turn=pb.WalkTurn(x=speed))
+            client.ask(walk_turn=pb.WalkTurn(vx=speed))
             client.wait_until(lambda: False, WALK_PERIOD)
         wait_until(lambda: self.is_away_from(start, client, speed), "the robot walks")
 
     def is_away_from(self, start, client, speed):
-        client.ask(walk_turn=pb.WalkTurn(x=speed))
+        client.ask(walk_turn=pb.WalkTurn(vx=speed))
         _, here = self.world()
         return math.dist(start[:2], here[:2]) > 2 * STILL_DISTANCE
 
@@ -61,7 +61,7 @@ class WalkingTest(unittest.TestCase):
         _, before = self.world()
         wait_until(lambda: self.world()[0] > start + TIME_TO_STAND + STILL_TIME, "simulated time passes")
         _, after = self.world()
-        self.assertLess(math.dist(before[:2], after[:2]), STILL_DISTANCE, "it walks on")
+        self.assertLess(math.dist(before[:2], after[:2]), STILL_DISTANCE, "it still walks")
         self.assertGreater(after[2], 0.25, "it has fallen")
 
     def driver(self, port=None):

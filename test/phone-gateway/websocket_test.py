@@ -1,10 +1,9 @@
 #!/usr/bin/python3
-"""The gateway's WebSocket and HTTP, seen from an independent client (python3-websockets) and from raw
-sockets that break the rules of RFC 6455."""
+"""The gateway's WebSocket and HTTP, tested with an independent client (python3-websockets) and with frames that violate
+RFC 6455."""
 
 import asyncio
 import json
-import os
 import re
 import socket
 import ssl
@@ -18,6 +17,8 @@ from pathlib import Path
 
 import websockets
 from programs import DEADLINE, Gateway
+from websockets import frames
+from websockets.streams import StreamReader
 
 from remote_protocol import remote_pb2 as pb
 
@@ -35,19 +36,25 @@ HELLO = request(1, connect=pb.Connect(protocol_version=1, client_name="test"))
 PING_REQUEST = request(2, ping=pb.Ping(client_utime=5))
 
 
+class UncheckedFrame(frames.Frame):
+    """A frame that may violate RFC 6455."""
+
+    def check(self):
+        pass
+
+
 class RawWebSocket:
-    """A WebSocket client that sends whatever a test wants."""
+    """A WebSocket client that sends any frame, valid or not."""
 
     def __init__(self, port, handshake=HANDSHAKE):
         self.socket = socket.create_connection(("127.0.0.1", port), DEADLINE)
         self.socket.sendall(handshake.encode())
-        self.bytes = b""
-        while b"\r\n\r\n" not in self.bytes:
-            received = self.socket.recv(4096)
-            if not received:
-                break
-            self.bytes += received
-        self.head, _, self.bytes = self.bytes.partition(b"\r\n\r\n")
+        received = b""
+        while b"\r\n\r\n" not in received and (part := self.socket.recv(4096)):
+            received += part
+        self.head, _, rest = received.partition(b"\r\n\r\n")
+        self.reader = StreamReader()
+        self.reader.feed_data(rest)
 
     def __enter__(self):
         return self
@@ -55,47 +62,29 @@ class RawWebSocket:
     def __exit__(self, *_):
         self.socket.close()
 
-    def send_frame(self, opcode, payload, is_final=True, is_masked=True, reserved=0):
-        first = (0x80 if is_final else 0) | reserved << 4 | opcode
-        mask_bit = 0x80 if is_masked else 0
-        if len(payload) < 126:
-            head = struct.pack(">BB", first, mask_bit | len(payload))
-        elif len(payload) < 65536:
-            head = struct.pack(">BBH", first, mask_bit | 126, len(payload))
-        else:
-            head = struct.pack(">BBQ", first, mask_bit | 127, len(payload))
-        if is_masked:
-            key = os.urandom(4)
-            payload = bytes(byte ^ key[i % 4] for i, byte in enumerate(payload))
-            head += key
-        self.socket.sendall(head + payload)
+    def send_frame(self, opcode, payload, is_final=True, is_masked=True, has_reserved_bit=False):
+        frame = UncheckedFrame(opcode, payload, fin=is_final, rsv1=has_reserved_bit)
+        self.socket.sendall(frame.serialize(mask=is_masked))
 
-    def _take(self, size):
-        while len(self.bytes) < size:
+    def receive_frame(self):
+        """@return the next frame. @raise EOFError at the end of the connection."""
+        parser = frames.Frame.parse(self.reader.read_exact, mask=False)
+        while True:
+            try:
+                next(parser)
+            except StopIteration as parsed:
+                return parsed.value
             received = self.socket.recv(65536)
             if not received:
                 raise EOFError
-            self.bytes += received
-        taken, self.bytes = self.bytes[:size], self.bytes[size:]
-        return taken
-
-    def receive_frame(self):
-        """@return (opcode, payload); raises EOFError at the end."""
-        first, length = self._take(2)
-        if length & 0x80:
-            raise AssertionError("a server must not mask")
-        if length == 126:
-            length, = struct.unpack(">H", self._take(2))
-        elif length == 127:
-            length, = struct.unpack(">Q", self._take(8))
-        return first & 0x0f, self._take(length)
+            self.reader.feed_data(received)
 
     def next(self, opcode):
-        """The payload of the next frame of a kind."""
+        """@return the payload of the next frame of a kind."""
         while True:
-            received, payload = self.receive_frame()
-            if received == opcode:
-                return payload
+            frame = self.receive_frame()
+            if frame.opcode == opcode:
+                return frame.data
 
     def response(self, request_id):
         while True:
@@ -104,7 +93,7 @@ class RawWebSocket:
                 return message.response
 
     def close_code(self):
-        """The code that the gateway closes with; None if it closes without one."""
+        """@return the code with which the gateway closes; None if it closes without a code."""
         try:
             payload = self.next(CLOSE)
         except (EOFError, ConnectionResetError):
@@ -125,14 +114,14 @@ class WebSocket(unittest.TestCase):
         self.assertIn(b" 101 ", connection.head.split(b"\r\n")[0])
         return connection
 
-    def greeted(self):
+    def connected(self):
         connection = self.raw()
         connection.send_frame(BINARY, HELLO)
         self.assertEqual(connection.response(1).error, pb.OK)
         return connection
 
     def tearDown(self):
-        # Whatever happened, good clients are served.
+        # After every test a well-behaved client can connect.
         connection = RawWebSocket(self.gateway.http_port)
         with connection:
             connection.send_frame(BINARY, HELLO)
@@ -175,7 +164,7 @@ class WebSocket(unittest.TestCase):
             return await asyncio.gather(*[one(i) for i in range(16)])
         self.assertEqual(len(set(asyncio.run(all_of_them()))), 16)
 
-    def test_a_page_from_elsewhere_is_refused(self):
+    def test_a_page_of_another_site_is_refused(self):
         async def talk(origin):
             async with websockets.connect(self.url, origin=origin):
                 pass
@@ -189,7 +178,7 @@ class WebSocket(unittest.TestCase):
     # ---- Frames ----
 
     def test_a_message_in_fragments_is_one_message(self):
-        connection = self.greeted()
+        connection = self.connected()
         pieces = [PING_REQUEST[i:i + 1] for i in range(len(PING_REQUEST))]
         connection.send_frame(BINARY, pieces[0], is_final=False)
         for piece in pieces[1:-1]:
@@ -200,39 +189,39 @@ class WebSocket(unittest.TestCase):
         self.assertEqual(connection.response(2).pong.client_utime, 5)
 
     def test_a_ping_is_answered_with_its_payload(self):
-        connection = self.greeted()
+        connection = self.connected()
         for payload in (b"", b"x" * 125):
             connection.send_frame(PING, payload)
             self.assertEqual(connection.next(PONG), payload)
-        connection.send_frame(PONG, b"nobody asked")
+        connection.send_frame(PONG, b"unsolicited")
         connection.send_frame(BINARY, PING_REQUEST)
         self.assertEqual(connection.response(2).error, pb.OK)
 
-    def test_the_longest_message_is_taken_and_one_byte_more_is_not(self):
-        connection = self.greeted()
+    def test_the_longest_message_is_accepted_and_one_byte_more_is_refused(self):
+        connection = self.connected()
         connection.send_frame(BINARY, b"\xff" * 65536)
         self.assertEqual(connection.response(0).error, pb.INVALID_REQUEST)
         connection.send_frame(BINARY, b"\xff" * 65537)
         self.assertEqual(connection.close_code(), 1009)
 
     def test_a_message_that_grows_too_long_in_fragments_is_refused(self):
-        connection = self.greeted()
+        connection = self.connected()
         connection.send_frame(BINARY, b"\xff" * 40000, is_final=False)
         connection.send_frame(CONTINUATION, b"\xff" * 40000)
         self.assertEqual(connection.close_code(), 1009)
 
-    def test_a_length_of_exabytes_is_refused_before_it_comes(self):
-        connection = self.greeted()
+    def test_a_length_of_exabytes_is_refused_at_once(self):
+        connection = self.connected()
         connection.socket.sendall(struct.pack(">BBQ", 0x82, 0xff, 1 << 62) + b"\0\0\0\0")
         self.assertIn(connection.close_code(), (1002, 1009))
 
-    def test_text_is_no_message(self):
-        connection = self.greeted()
+    def test_a_text_message_is_refused(self):
+        connection = self.connected()
         connection.send_frame(TEXT, b"hello")
         self.assertEqual(connection.close_code(), 1003)
 
     def test_text_that_is_not_utf8_is_refused(self):
-        connection = self.greeted()
+        connection = self.connected()
         connection.send_frame(TEXT, b"\xc3\x28")
         self.assertIn(connection.close_code(), (1003, 1007))
 
@@ -241,7 +230,7 @@ class WebSocket(unittest.TestCase):
             connection.send_frame(BINARY, PING_REQUEST, is_masked=False)
 
         def reserved_bit(connection):
-            connection.send_frame(BINARY, PING_REQUEST, reserved=4)
+            connection.send_frame(BINARY, PING_REQUEST, has_reserved_bit=True)
 
         def reserved_opcode(connection):
             connection.send_frame(3, b"")
@@ -275,13 +264,13 @@ class WebSocket(unittest.TestCase):
                         continuation_of_nothing, message_within_a_message, close_of_one_byte,
                         close_with_a_code_that_is_none, close_with_a_reason_that_is_not_utf8):
             with self.subTest(violate.__name__):
-                connection = self.greeted()
+                connection = self.connected()
                 violate(connection)
                 self.assertIn(connection.close_code(), (1002, 1007))
 
     def test_a_close_is_answered_with_its_code(self):
         for code in (1000, 1001, 3000, 4999):
-            connection = self.greeted()
+            connection = self.connected()
             connection.send_frame(CLOSE, struct.pack(">H", code) + b"bye")
             self.assertEqual(connection.close_code(), code)
 
@@ -296,7 +285,7 @@ class WebSocket(unittest.TestCase):
             with self.subTest(bad), RawWebSocket(self.gateway.http_port, bad) as connection:
                 self.assertIn(connection.head.split(b" ")[1][:1], b"4", connection.head)
 
-    def test_a_slow_handshake_is_not_waited_for(self):
+    def test_a_slow_handshake_times_out(self):
         with socket.create_connection(("127.0.0.1", self.gateway.http_port)) as connection:
             connection.settimeout(DEADLINE)
             start = time.monotonic()
@@ -308,7 +297,7 @@ class WebSocket(unittest.TestCase):
                 pass
             self.assertLess(time.monotonic() - start, 30)
 
-    def test_a_client_that_never_says_connect_is_told_and_closed(self):
+    def test_a_client_without_connect_is_notified_and_closed(self):
         connection = self.raw()
         notice = pb.ServerMessage.FromString(connection.next(BINARY)).notice
         self.assertEqual(notice.kind, pb.Notice.CLOSING)
@@ -318,24 +307,24 @@ class WebSocket(unittest.TestCase):
 
     def test_metrics_are_served_to_the_own_host(self):
         url = f"http://127.0.0.1:{self.gateway.http_port}/metrics"
-        connection = self.greeted()
+        connection = self.connected()
         connection.send_frame(BINARY, PING_REQUEST)
         connection.response(2)
         with urllib.request.urlopen(url, timeout=DEADLINE) as response:
             lines = response.read().decode().splitlines()
-        # As Prometheus wants them: each figure once, its samples together, after its TYPE.
-        figures = [line.split()[2] for line in lines if line.startswith("# TYPE ")]
-        self.assertEqual(len(figures), len(set(figures)))
+        # Text exposition format of Prometheus: each metric once, its samples together, after its TYPE.
+        metrics = [line.split()[2] for line in lines if line.startswith("# TYPE ")]
+        self.assertEqual(len(metrics), len(set(metrics)))
         samples = {}
-        figure = None
+        metric = None
         for line in lines:
             if line.startswith("# TYPE "):
-                figure = line.split()[2]
+                metric = line.split()[2]
             elif not line.startswith("#"):
                 match = re.fullmatch(r'([a-z_]+)(\{[a-z]+="[^"]*"(?:,[a-z]+="[^"]*")*\})? ([0-9.e+-]+)', line)
                 self.assertTrue(match, line)
-                self.assertEqual(match.group(1), figure)
-                samples.setdefault(figure, []).append(float(match.group(3)))
+                self.assertEqual(match.group(1), metric)
+                samples.setdefault(metric, []).append(float(match.group(3)))
         self.assertEqual(samples["nao_gateway_clients"], [len(samples["nao_gateway_client_requests_total"])])
         self.assertIn(2, samples["nao_gateway_client_requests_total"])
         self.assertGreater(samples["nao_gateway_accepted_total"][0], 1)
@@ -348,23 +337,23 @@ class WebSocket(unittest.TestCase):
 
 
 class Secure(unittest.TestCase):
-    """https and http on one port, with a certificate that the gateway made itself."""
+    """https and http on one port, with the gateway's own certificate."""
 
     @classmethod
     def setUpClass(cls):
         cls.folder = cls.enterClassContext(tempfile.TemporaryDirectory())
         cls.gateway = Gateway("--tls", "--tls-dir", cls.folder)
         cls.addClassCleanup(cls.gateway.kill)
-        # Trusts this certificate only, and checks that it is for this address.
+        # Trusts this certificate only, and checks its address.
         cls.context = ssl.create_default_context(cafile=f"{cls.folder}/gateway-certificate.pem")
 
-    def test_pages_come_over_https_and_http(self):
+    def test_pages_are_served_over_https_and_http(self):
         for scheme, context in (("https", self.context), ("http", None)):
             url = f"{scheme}://127.0.0.1:{self.gateway.http_port}/robots/nao/nao.urdf"
             with urllib.request.urlopen(url, timeout=DEADLINE, context=context) as response:
                 self.assertIn(b"<robot", response.read())
 
-    def test_the_protocol_is_spoken_over_a_secure_websocket(self):
+    def test_a_secure_websocket_is_served(self):
         async def talk():
             address = f"127.0.0.1:{self.gateway.http_port}"
             async with websockets.connect(f"wss://{address}/ws", ssl=self.context, origin=f"https://{address}") as connection:
@@ -385,7 +374,7 @@ class Secure(unittest.TestCase):
             with self.assertRaises(ssl.SSLError):
                 context.wrap_socket(plain)
 
-    def test_the_certificate_is_kept(self):
+    def test_the_certificate_is_reused(self):
         before = (Path(self.folder) / "gateway-certificate.pem").read_bytes()
         again = Gateway("--tls", "--tls-dir", self.folder)
         again.kill()
@@ -393,7 +382,7 @@ class Secure(unittest.TestCase):
 
 
 class Pairing(unittest.TestCase):
-    def test_the_address_is_shown_as_a_code(self):
+    def test_the_address_is_drawn_as_a_qr_code(self):
         with tempfile.TemporaryDirectory() as folder:
             gateway = Gateway("--qr-png", f"{folder}/code.png")
             self.addCleanup(gateway.kill)
@@ -403,7 +392,7 @@ class Pairing(unittest.TestCase):
             self.assertEqual(served[:8], b"\x89PNG\r\n\x1a\n")
             self.assertEqual((Path(folder) / "code.png").read_bytes(), served)
 
-    def test_the_audit_log_is_kept_in_a_file(self):
+    def test_the_audit_log_is_written_to_a_file(self):
         with tempfile.TemporaryDirectory() as folder:
             gateway = Gateway("--audit-log", f"{folder}/audit.jsonl")
             self.addCleanup(gateway.kill)
@@ -416,7 +405,7 @@ class Pairing(unittest.TestCase):
 
 
 class Ending(unittest.TestCase):
-    def test_a_terminated_gateway_says_goodbye_within_two_seconds(self):
+    def test_a_terminated_gateway_notifies_its_clients(self):
         gateway = Gateway()
         self.addCleanup(gateway.kill)
         with RawWebSocket(gateway.http_port) as connection:

@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 COPY = ROOT / "build/broken"
 TARGETS = ["playback_test", "picture_playback_test", "nao-head-camera", "nao-phone-gateway", "nao-phone", "nao"]
 
-# Daemon, file, what stands there, what is made of it.
+# Daemon, file, original text, replacement.
 FLIPS = [
     ("nao-sim", "sim/sensors.cpp",
      "readings_.gyroscope = truth.angular_velocity", "readings_.gyroscope = -truth.angular_velocity"),
@@ -37,7 +37,7 @@ def run(*command):
 
 
 def copy_tree():
-    """Every file of the project; one that stayed the same keeps its time, so that little is built again."""
+    """Copies every file of the project; unchanged files keep their time stamps, so that little is rebuilt."""
     listed = subprocess.run(["git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard"],
                             check=True, capture_output=True, text=True).stdout
     for name in listed.splitlines():
@@ -49,7 +49,7 @@ def copy_tree():
 
 
 def failed_tests():
-    """Builds the copy and plays the logs. @return the names of the tests that fail."""
+    """Builds the copy and replays the logs. @return The names of the failing tests."""
     build = run("cmake", "--build", "--preset", "dev", "--target", *TARGETS)
     if build.returncode != 0:
         sys.exit(f"broken_builds.py: it does not build:\n{build.stdout[-4000:]}{build.stderr}")

@@ -3,10 +3,10 @@
 
 Makes a small frozen log for the playback tests of a recording with scripts/record.
 
-  commands  what a phone told the robot, timed by the robot's clock instead of the wall's
+  commands  commands of a phone with robot time instead of wall time
   sensors   every second NAO_SENSOR_STATE of the two seconds around the moment when the robot falls
   truth     the last WORLD_TRUTH
-  gateway   a second of states, ten of each kind, and two pictures
+  gateway   a second of states, ten of each kind, and two images
 """
 
 import re
@@ -35,7 +35,7 @@ def utime(event):
 
 
 def commands(events):
-    """Commands with the robot time of the newest sensors that were on the bus before them."""
+    """Commands with the robot time of the latest preceding sensor state."""
     now, frozen = None, []
     for event in events:
         if event.channel == SENSOR:
@@ -47,7 +47,7 @@ def commands(events):
 
 
 def sensors(events):
-    """From two seconds before the end of what is steady to the end of the fall."""
+    """From 2 s before the end of the steady phase to the end of the fall."""
     sensed = [event for event in events if event.channel == SENSOR]
     fall = next((event for event in events
                  if event.channel == "NAO_MOTION_STATE" and b"falling\0" in event.data), None)

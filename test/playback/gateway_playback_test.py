@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A log of states and pictures, played to nao-phone-gateway, reaches a phone as it was."""
+"""A log of states and images, played to nao-phone-gateway, reaches a phone as it was."""
 
 import json
 import os
@@ -60,7 +60,7 @@ class GatewayPlayback(unittest.TestCase):
         modes = {message["mode"] for message in logged("NAO_MOTION_STATE").values()}
         with self.phone() as phone:
             phone.ask(subscribe=pb.Subscribe(state_rate=30))
-            # Between two rounds of a slow player the gateway rightly says, for a moment, that no robot is there.
+            # Between two rounds of a slow player the gateway correctly reports for a short time that no robot is connected.
             self.assertTrue(phone.wait_until(
                 lambda: phone.state is not None and phone.state.utime in states and phone.state.mode in modes,
                 DEADLINE), f"{phone.state}{self.stack.logs()}")
@@ -72,15 +72,15 @@ class GatewayPlayback(unittest.TestCase):
         self.assert_close(shown.torso_orientation, said["orientation_torso_in_odometry"])
         self.assert_close(shown.torso_position, said["position_torso_in_odometry"])
 
-    def test_the_picture_reaches_the_phone_byte_by_byte(self):
-        pictures = {read_utime(event.data): event.data for event in read_log(LOG)
+    def test_the_image_reaches_the_phone_byte_by_byte(self):
+        images = {read_utime(event.data): event.data for event in read_log(LOG)
                     if event.channel == "NAO_HEAD_CAMERA_IMAGE"}
         with self.phone() as phone:
-            phone.ask(subscribe=pb.Subscribe(state_rate=1, picture_rate=10, picture=pb.PictureWish(width=320)))
-            self.assertTrue(phone.wait_until(lambda: phone.picture is not None, DEADLINE), self.stack.logs())
-            shown = phone.picture
-        # The picture is the end of the message.
-        self.assertTrue(pictures[shown.utime].endswith(shown.jpeg))
+            phone.ask(subscribe=pb.Subscribe(state_rate=1, image_rate=10, image=pb.ImageRequest(width=320)))
+            self.assertTrue(phone.wait_until(lambda: phone.image is not None, DEADLINE), self.stack.logs())
+            shown = phone.image
+        # The image is the end of the message.
+        self.assertTrue(images[shown.utime].endswith(shown.jpeg))
         self.assertTrue(shown.jpeg.startswith(b"\xff\xd8"))
 
 

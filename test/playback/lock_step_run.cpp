@@ -36,10 +36,9 @@ class CourseWriter {
   /** @param end  Robot time, microseconds, from which on nothing counts: the loop does not end at
    * once. */
   CourseWriter(Bus& bus, const RobotChannels& channels, int64_t end) : end_(end) {
-    bus.subscribe<naolcm::motion_state_t>(channels.motion_state, Bus::Queue::kAll,
-                                          [this](const auto& message) {
-                                            mode_ = to_string(static_cast<Mode>(message.mode));
-                                          });
+    bus.subscribe<naolcm::motion_state_t>(
+        channels.motion_state, Bus::Queue::kAll,
+        [this](const auto& message) { mode_ = to_string(static_cast<Mode>(message.mode)); });
     bus.subscribe<naolcm::command_result_t>(
         channels.command_result, Bus::Queue::kAll,
         [this](const naolcm::command_result_t& message) { note(message); });
@@ -63,8 +62,9 @@ class CourseWriter {
     }
     const auto key = std::make_pair(message.source, message.command_id);
     if (!known_results_.insert(key).second) return;
-    course_.results.push_back(std::string(to_string(static_cast<CommandKind>(message.command_kind))) +
-                              " " + to_string(static_cast<ResultStatus>(message.status)));
+    course_.results.push_back(
+        std::string(to_string(static_cast<CommandKind>(message.command_kind))) + " " +
+        to_string(static_cast<ResultStatus>(message.status)));
   }
 
   void note(const naolcm::world_truth_t& message) {

@@ -1,4 +1,5 @@
-// Points whose place in the world is known must land on the pixels that the pinhole formula names.
+// Points with known positions in the world must appear at the pixels that the pinhole formula
+// gives.
 
 #include <gtest/gtest.h>
 
@@ -13,15 +14,15 @@
 namespace nao {
 namespace {
 
-/** How far a measured place may be from the computed one, pixels at 640x480. */
+/** Allowed distance of a measured position from the computed one, pixels at 640x480. */
 constexpr double kTolerance = 1.0;
-/** Colour difference from which a pixel counts as changed. */
+/** Color difference from which a pixel counts as changed. */
 constexpr int kChanged = 6;
-/** As much as white posts differ from green carpet, but not nets and their grey bars. */
+/** Color difference between white posts and green carpet; nets and grey bars differ less. */
 constexpr int kPost = 50;
 
-/** Mean place of the pixels in which two pictures differ. */
-std::optional<Eigen::Vector2d> center_of_change(const Picture& a, const Picture& b) {
+/** Mean position of the pixels in which two images differ. */
+std::optional<Eigen::Vector2d> center_of_change(const Image& a, const Image& b) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   int count = 0;
   for (int v = 0; v < a.height; ++v) {
@@ -35,7 +36,7 @@ std::optional<Eigen::Vector2d> center_of_change(const Picture& a, const Picture&
   return sum / count;
 }
 
-/** One camera of the robot, standing at the field's centre with its head turned. */
+/** One camera of the robot, which stands near the center of the field with its head turned. */
 struct View {
   std::string camera;
   double head_yaw;
@@ -67,7 +68,7 @@ class KnownPixels : public testing::TestWithParam<View> {
     return camera_.project(pose_.inverse() * point_in_world);
   }
 
-  Picture draw(const Scene& scene) { return offscreen_.draw(scene, camera_, pose_); }
+  Image draw(const Scene& scene) { return offscreen_.draw(scene, camera_, pose_); }
 
   /** Point of the ground that a pixel shows. */
   Eigen::Vector3d on_ground(double u, double v) const {
@@ -82,17 +83,17 @@ class KnownPixels : public testing::TestWithParam<View> {
   Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
 };
 
-TEST_P(KnownPixels, BallCentre) {
+TEST_P(KnownPixels, BallCenter) {
   // On the plain floor: a white ball on a white line has no outline.
   offscreen_.renderer.set_surroundings(SceneFile::find("empty"));
-  const Picture without = draw({});
-  // Straight ahead, and towards each corner of the picture, where the ground is seen.
+  const Image without = draw({});
+  // Straight ahead, and towards each corner of the image that shows the ground.
   int num_seen = 0;
   for (const auto& [u, v] : {std::pair{320, 300}, {80, 380}, {560, 400}, {120, 60}, {500, 50}}) {
     Eigen::Vector3d ground = on_ground(u, v);
     const double distance = (ground - pose_.translation()).norm();
     if (!(distance < 8) || (pose_.inverse() * ground).x() < 0) continue;
-    // Small, so that its outline's middle is its centre's image: the shift is about
+    // Small, so that the middle of its outline is the image of its center: the difference is about
     // f tan(angle) (radius / distance)^2, below 0.1 pixel.
     const double radius = 0.012 * distance;
     ground.z() = radius;
@@ -109,8 +110,8 @@ TEST_P(KnownPixels, BallCentre) {
   EXPECT_GE(num_seen, 2);
 }
 
-/** Whether a point of the ground is white, m. Written down anew from the rules: segments between
- * the middles of lines 5 cm wide, and a circle. */
+/** Whether a point of the ground (m) is white. Independent of the renderer, from the rules:
+ * segments between the middles of lines 5 cm wide, and a circle. */
 bool is_on_line(const Eigen::Vector2d& point) {
   const Eigen::Vector2d q = point.cwiseAbs();
   const auto is_near = [&](double x0, double y0, double x1, double y1) {
@@ -121,12 +122,12 @@ bool is_on_line(const Eigen::Vector2d& point) {
          is_near(3.9, 1.1, 4.5, 1.1) || std::abs(q.norm() - 0.75) < 0.025;
 }
 
-/** A piece of a picture, one value a pixel. */
+/** Part of an image, one value a pixel. */
 using Window = Eigen::ArrayXXd;
 constexpr int kWindowWidth = 41;
 constexpr int kWindowHeight = 21;
 
-/** How alike two windows are: 1 if they differ by brightness and contrast alone. */
+/** Normalized correlation: 1 if two windows differ in brightness and contrast only. */
 double correlation(const Window& a, const Window& b) {
   const Window x = a - a.mean();
   const Window y = b - b.mean();
@@ -137,10 +138,10 @@ TEST_P(KnownPixels, CrossingsOfLines) {
   SceneFile without_goals = scene_file_;
   without_goals.goals.reset();
   offscreen_.renderer.set_surroundings(without_goals);
-  const Picture picture = draw({});
+  const Image image = draw({});
 
-  // What the pinhole formula says: share of the pixel, moved by an offset, that is line.
-  const auto expected_share = [&](const Eigen::Vector2d& pixel) {
+  // The fraction of a pixel that is line, by the pinhole formula.
+  const auto expected_fraction = [&](const Eigen::Vector2d& pixel) {
     constexpr int kSamples = 6;
     int count = 0;
     for (int i = 0; i < kSamples * kSamples; ++i) {
@@ -172,8 +173,8 @@ TEST_P(KnownPixels, CrossingsOfLines) {
       Window seen(kWindowHeight, kWindowWidth);
       for (int v = 0; v < kWindowHeight; ++v) {
         for (int u = 0; u < kWindowWidth; ++u) {
-          // Red tells white lines from green carpet best; screen values are square roots of light.
-          seen(v, u) = std::pow(picture.at(left + u, top + v)[0], 2);
+          // Red distinguishes white lines from green carpet best; screen values are square roots.
+          seen(v, u) = std::pow(image.at(left + u, top + v)[0], 2);
         }
       }
       double best = -1;
@@ -183,12 +184,12 @@ TEST_P(KnownPixels, CrossingsOfLines) {
           Window formula(kWindowHeight, kWindowWidth);
           for (int v = 0; v < kWindowHeight; ++v) {
             for (int u = 0; u < kWindowWidth; ++u) {
-              formula(v, u) = expected_share({left + u - du, top + v - dv});
+              formula(v, u) = expected_fraction({left + u - du, top + v - dv});
             }
           }
-          const double alike = correlation(seen, formula);
-          if (alike > best) {
-            best = alike;
+          const double value = correlation(seen, formula);
+          if (value > best) {
+            best = value;
             best_shift = {du, dv};
           }
         }
@@ -204,19 +205,19 @@ TEST_P(KnownPixels, CrossingsOfLines) {
 }
 
 TEST_P(KnownPixels, FeetOfTheGoalPosts) {
-  // Nothing but green behind the posts: no white lines, no grey hall.
+  // Only green behind the posts: no white lines, no grey hall.
   SceneFile green = scene_file_;
   green.field->line_width = 1e-4;
   green.field->border_strip_width = 30;
   offscreen_.renderer.set_surroundings(green);
-  const Picture with = draw({});
+  const Image with = draw({});
   green.goals.reset();
   offscreen_.renderer.set_surroundings(green);
-  const Picture without = draw({});
+  const Image without = draw({});
   int num_posts = 0;
   for (const double sign : {-1.0, 1.0}) {
     for (const double side : {-1.0, 1.0}) {
-      // A little over the ground, so that the whole width of the post is there.
+      // A little above the ground, so that the whole width of the post is visible.
       const Eigen::Vector3d foot(sign * 4.525, side * 0.8, 0.03);
       const Eigen::Vector3d in_camera = pose_.inverse() * foot;
       if (in_camera.x() < 0.1) continue;

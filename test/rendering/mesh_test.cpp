@@ -19,7 +19,7 @@
 namespace nao {
 namespace {
 
-/** Volume enclosed by the triangles, m^3; negative if they are seen from inside. */
+/** Volume enclosed by the triangles, m^3; negative if they face inwards. */
 double volume(const Mesh& mesh) {
   double sum = 0;
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -31,8 +31,8 @@ double volume(const Mesh& mesh) {
   return sum;
 }
 
-/** Share of the triangles' area whose corners' normals point the way that the triangle faces. */
-double outward_share(const Mesh& mesh) {
+/** Fraction of the area of the triangles whose vertex normals point to the side that they face. */
+double outward_fraction(const Mesh& mesh) {
   double outward = 0;
   double all = 0;
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -57,16 +57,16 @@ TEST(Primitives, EncloseTheirVolumeAndFaceOutwards) {
        {make_box({1, 2, 3}, white), make_cylinder(1, 2, white), make_sphere(1, white),
         make_capsule(1, 2, white), make_arrow(0.02f, white)}) {
     EXPECT_GT(volume(mesh), 0);
-    EXPECT_GT(outward_share(mesh), 0.999);
+    EXPECT_GT(outward_fraction(mesh), 0.999);
   }
 }
 
-TEST(Goals, StandWhereTheRulesPutThem) {
+TEST(Goals, HaveTheDimensionsOfTheRules) {
   SceneFile scene = SceneFile::find("soccer");
   Mesh goals;
   for (const int end : {-1, 1}) {
     const Mesh goal = make_goal(*scene.field, *scene.goals, end);
-    EXPECT_GT(outward_share(goal), 0.999);
+    EXPECT_GT(outward_fraction(goal), 0.999);
     append(goals, goal);
   }
   float low = 1;
@@ -83,14 +83,14 @@ TEST(Goals, StandWhereTheRulesPutThem) {
   EXPECT_NEAR(wide, 0.85, 1e-6);  // half the distance of the posts, and their radius
 }
 
-TEST(MeshFile, EveryMeshOfTheRobotIsAClosedSolidSeenFromOutside) {
+TEST(MeshFile, EveryMeshOfTheRobotIsASolidInMetersThatFacesOutwards) {
   int num_meshes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(data_path() / "robots/nao/meshes")) {
     if (entry.path().extension() != ".glb") continue;
     const Mesh mesh = load_mesh(entry.path());
     ++num_meshes;
     EXPECT_GT(volume(mesh), 0) << entry.path();
-    EXPECT_GT(outward_share(mesh), 0.95) << entry.path();
+    EXPECT_GT(outward_fraction(mesh), 0.95) << entry.path();
     EXPECT_LT(bounding_sphere(mesh).radius, 0.2) << entry.path() << ": not in metres?";
   }
   EXPECT_GE(num_meshes, 20);
@@ -105,7 +105,7 @@ TEST(MeshFile, NamesAFileThatIsMissing) {
   }
 }
 
-TEST(MeshFile, RefusesAFileThatIsNoMesh) {
+TEST(MeshFile, RejectsAFileThatIsNotAMesh) {
   const auto file =
       std::filesystem::temp_directory_path() / ("mesh_test." + std::to_string(getpid()) + ".glb");
   for (const std::string& text : {std::string(), std::string("no mesh at all"),
@@ -126,7 +126,7 @@ TEST(Mesh, SimplifiedKeepsItsShapeWithFewerTriangles) {
   EXPECT_NEAR(volume(same), 1e-3, 1e-6);
 }
 
-TEST(Mesh, EncodesColoursAsSquareRoots) {
+TEST(Mesh, EncodesColorsAsSquareRoots) {
   const auto encoded = encode_color({0.25f, 1, -3, 0.5f});
   EXPECT_EQ(encoded[0], 128);
   EXPECT_EQ(encoded[1], 255);

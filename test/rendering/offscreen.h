@@ -5,21 +5,21 @@
 
 #include "rendering/egl_context.h"
 #include "rendering/gl_objects.h"
-#include "rendering/picture.h"
+#include "rendering/image.h"
 #include "rendering/scene_renderer.h"
 
 namespace nao {
 
-/** A context without a screen and a renderer in it. */
+/** A context without a screen, and a renderer in it. */
 struct Offscreen {
   explicit Offscreen(const RendererOptions& options = {}) : renderer(options) {}
 
-  Picture draw(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& pose) {
+  Image draw(const Scene& scene, const PinholeCamera& camera, const Eigen::Isometry3d& pose) {
     const gl::Framebuffer framebuffer(camera.width, camera.height);
     statistics = renderer.render(scene, camera, pose, framebuffer.id());
     std::vector<uint8_t> pixels;
     framebuffer.read(pixels);
-    return picture_from_bgrx(camera.width, camera.height, pixels);
+    return image_from_bgrx(camera.width, camera.height, pixels);
   }
 
   EglContext context;
@@ -27,7 +27,7 @@ struct Offscreen {
   RenderStatistics statistics;
 };
 
-/** A camera at `eye` that looks at `target`, its picture upright. */
+/** Pose of a camera at `eye` that looks at `target`, with an upright image. */
 inline Eigen::Isometry3d look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   const Eigen::Vector3d x = (target - eye).normalized();
@@ -37,19 +37,19 @@ inline Eigen::Isometry3d look_at(const Eigen::Vector3d& eye, const Eigen::Vector
   return pose;
 }
 
-/** Mean of the three colours, 0 to 255. */
-inline double brightness(const Picture& picture, int u, int v) {
-  const uint8_t* pixel = picture.at(u, v);
+/** Mean of the three colors, 0 to 255. */
+inline double brightness(const Image& image, int u, int v) {
+  const uint8_t* pixel = image.at(u, v);
   return (pixel[0] + pixel[1] + pixel[2]) / 3.0;
 }
 
-/** Largest difference of the three colours. */
-inline int difference(const Picture& a, const Picture& b, int u, int v) {
-  int greatest = 0;
+/** Largest difference of the three colors. */
+inline int difference(const Image& a, const Image& b, int u, int v) {
+  int largest = 0;
   for (int channel = 0; channel < 3; ++channel) {
-    greatest = std::max(greatest, std::abs(a.at(u, v)[channel] - b.at(u, v)[channel]));
+    largest = std::max(largest, std::abs(a.at(u, v)[channel] - b.at(u, v)[channel]));
   }
-  return greatest;
+  return largest;
 }
 
 }  // namespace nao

@@ -8,8 +8,8 @@
 namespace nao {
 namespace {
 
-/** An odd camera: principal point off the middle, pixels not square. */
-PinholeCamera odd_camera() {
+/** An asymmetric camera: principal point off center, pixels not square. */
+PinholeCamera asymmetric_camera() {
   return {640, 480, 540, 520, 300.25, 250.75};
 }
 
@@ -25,7 +25,7 @@ TEST(PinholeCamera, SeesItsFieldOfViewFromEdgeToEdge) {
   const auto camera = PinholeCamera::from_fov(640, 480, fov, 47.6 * M_PI / 180);
   EXPECT_NEAR(camera.fx, 544.34, 0.01);  // camera.csv of the V5
   EXPECT_NEAR(camera.fy, 544.15, 0.01);
-  // The left edge of the picture is half a pixel left of the first pixel's centre.
+  // The left edge of the image is half a pixel left of the center of the first pixel.
   const Eigen::Vector2d edge = camera.project({1, std::tan(fov / 2), 0});
   EXPECT_NEAR(edge.x(), -0.5, 1e-9);
   EXPECT_NEAR(edge.y(), 239.5, 1e-9);
@@ -38,13 +38,13 @@ TEST(PinholeCamera, ProjectsRightAndDown) {
 }
 
 TEST(PinholeCamera, RayLeadsBackToItsPixel) {
-  const PinholeCamera camera = odd_camera();
+  const PinholeCamera camera = asymmetric_camera();
   const Eigen::Vector2d pixel(17.5, 401);
   EXPECT_LT((camera.project(3.2 * camera.ray(pixel)) - pixel).norm(), 1e-9);
 }
 
-TEST(PinholeCamera, ResizedSeesTheSamePlacesInTheSameParts) {
-  const PinholeCamera camera = odd_camera();
+TEST(PinholeCamera, ResizedHasTheSameFieldOfView) {
+  const PinholeCamera camera = asymmetric_camera();
   const PinholeCamera half = camera.resized(320);
   EXPECT_EQ(half.height, 240);
   const Eigen::Vector3d point(2, 0.4, -0.3);
@@ -54,7 +54,7 @@ TEST(PinholeCamera, ResizedSeesTheSamePlacesInTheSameParts) {
 }
 
 TEST(PinholeCamera, MatricesAgreeWithTheFormula) {
-  const PinholeCamera camera = odd_camera();
+  const PinholeCamera camera = asymmetric_camera();
   const Eigen::Isometry3d pose = some_pose();
   const Eigen::Matrix4f clip_from_world = projection_matrix(camera, 0.01, 100) * view_matrix(pose);
   std::mt19937 random(3);
@@ -78,8 +78,8 @@ TEST(PinholeCamera, MatricesAgreeWithTheFormula) {
   }
 }
 
-TEST(Frustum, SeesExactlyWhatIsInThePicture) {
-  const PinholeCamera camera = odd_camera();
+TEST(Frustum, ContainsExactlyThePointsInTheImage) {
+  const PinholeCamera camera = asymmetric_camera();
   const Eigen::Isometry3d pose = some_pose();
   const Frustum frustum(projection_matrix(camera, 0.01, 100) * view_matrix(pose));
   std::mt19937 random(5);
@@ -98,8 +98,8 @@ TEST(Frustum, SeesExactlyWhatIsInThePicture) {
   EXPECT_GT(num_seen, 50);
 }
 
-TEST(Frustum, SeesASphereThatReachesIn) {
-  const Frustum frustum(projection_matrix(odd_camera(), 0.01, 100) *
+TEST(Frustum, MayContainPartOfASphere) {
+  const Frustum frustum(projection_matrix(asymmetric_camera(), 0.01, 100) *
                         view_matrix(Eigen::Isometry3d::Identity()));
   EXPECT_FALSE(frustum.may_see({-0.3f, 0, 0}, 0.25f));
   EXPECT_TRUE(frustum.may_see({-0.3f, 0, 0}, 0.35f));

@@ -8,6 +8,7 @@
 
 #include "common/data_path.h"
 #include "common/error.h"
+#include "rendering/gl.h"
 #include "rendering/primitives.h"
 #include "rendering/robot_visual.h"
 #include "test/rendering/offscreen.h"
@@ -17,7 +18,7 @@ namespace {
 
 const PinholeCamera kCamera = PinholeCamera::from_fov(320, 240, 1.06, 0.83);
 
-/** Scene of simple solids on the field; does not change with the robot's meshes. */
+/** Simple solids on the field, independent of the meshes of the robot. */
 Scene solids(SceneRenderer& renderer) {
   Scene scene;
   const auto add = [&](const Mesh& mesh, const Eigen::Vector3f& at, float turn, const Color& tint) {
@@ -43,31 +44,32 @@ Eigen::Isometry3d outside() {
   return look_at({1.3, 0.9, 0.7}, {0, -0.1, 0.2});
 }
 
-TEST(SceneRenderer, DrawsTheSamePictureEveryTime) {
+TEST(SceneRenderer, IsDeterministic) {
   Offscreen first;
   first.renderer.set_surroundings(SceneFile::find("soccer"));
   const Scene scene = solids(first.renderer);
-  const Picture picture = first.draw(scene, kCamera, outside());
-  first.draw({}, kCamera, look_at({0, 0, 1}, {-1, 0, 0}));  // something else between
-  EXPECT_EQ(first.draw(scene, kCamera, outside()).rgb, picture.rgb);
+  const Image image = first.draw(scene, kCamera, outside());
+  first.draw({}, kCamera, look_at({0, 0, 1}, {-1, 0, 0}));  // another image in between
+  EXPECT_EQ(first.draw(scene, kCamera, outside()).rgb, image.rgb);
 }
 
-/** The picture must not change by mistake. Other drivers round otherwise, so a little is allowed: a
- * mean difference of 1.5 of 255, and 1 pixel in 100 that differs by more than 40 (edges).
- * After a wished change, NAO_WRITE_PICTURES=test/viewer/pictures writes the new one; look at it. */
-TEST(SceneRenderer, DrawsThePictureThatIsKept) {
+/** Guards against unintended changes. Drivers round differently, so small differences are allowed:
+ * a mean of 1.5 of 255, and more than 40 in 1 % of the values (edges). After an intended change run
+ * the test with NAO_WRITE_IMAGES=test/rendering/expected, which writes the new image, and look at
+ * it. */
+TEST(SceneRenderer, DrawsTheExpectedImage) {
   Offscreen offscreen;
   offscreen.renderer.set_surroundings(SceneFile::find("soccer"));
-  const Picture drawn = offscreen.draw(solids(offscreen.renderer), kCamera, outside());
-  if (const char* folder = std::getenv("NAO_WRITE_PICTURES")) {
+  const Image drawn = offscreen.draw(solids(offscreen.renderer), kCamera, outside());
+  if (const char* folder = std::getenv("NAO_WRITE_IMAGES")) {
     write_png(std::filesystem::path(folder) / "solids.png", drawn);
   }
-  const Picture kept = read_png(std::filesystem::path(NAO_PICTURES) / "solids.png");
-  ASSERT_EQ(drawn.rgb.size(), kept.rgb.size());
+  const Image expected = read_png(std::filesystem::path(NAO_EXPECTED_IMAGES) / "solids.png");
+  ASSERT_EQ(drawn.rgb.size(), expected.rgb.size());
   double sum = 0;
   int num_far = 0;
   for (size_t i = 0; i < drawn.rgb.size(); ++i) {
-    const int difference = std::abs(drawn.rgb[i] - kept.rgb[i]);
+    const int difference = std::abs(drawn.rgb[i] - expected.rgb[i]);
     sum += difference;
     num_far += difference > 40 ? 1 : 0;
   }
@@ -75,14 +77,14 @@ TEST(SceneRenderer, DrawsThePictureThatIsKept) {
   EXPECT_LT(num_far, static_cast<int>(drawn.rgb.size() / 100));
 }
 
-TEST(SceneRenderer, LeavesOutWhatTheCameraCannotSee) {
+TEST(SceneRenderer, CullsWhatIsOutOfView) {
   Offscreen offscreen(RendererOptions{.shadow_size = 0});
   Scene scene;
   MeshInstance instance;
   instance.mesh = offscreen.renderer.add_mesh(make_sphere(0.1f, Color::Ones()));
   scene.instances.assign(10, instance);
   const Eigen::Isometry3d away = look_at({1, 0, 0.5}, {2, 0, 0.5});
-  const Picture empty = offscreen.draw({}, kCamera, away);
+  const Image empty = offscreen.draw({}, kCamera, away);
   const int num_draws = offscreen.statistics.num_draws;
   EXPECT_EQ(offscreen.draw(scene, kCamera, away).rgb, empty.rgb);
   EXPECT_EQ(offscreen.statistics.num_draws, num_draws);
@@ -90,7 +92,7 @@ TEST(SceneRenderer, LeavesOutWhatTheCameraCannotSee) {
   EXPECT_EQ(offscreen.statistics.num_draws, num_draws + 10);
 }
 
-TEST(SceneRenderer, ShowsSolidsFromOutsideOnly) {
+TEST(SceneRenderer, CullsBackFaces) {
   Offscreen offscreen(RendererOptions{.shadow_size = 0});
   Scene scene;
   MeshInstance instance;
@@ -101,7 +103,7 @@ TEST(SceneRenderer, ShowsSolidsFromOutsideOnly) {
   EXPECT_EQ(offscreen.draw(scene, kCamera, inside).rgb, offscreen.draw({}, kCamera, inside).rgb);
 }
 
-TEST(SceneRenderer, ThrowsShadowsAwayFromTheLamp) {
+TEST(SceneRenderer, CastsShadowsAwayFromTheLight) {
   Offscreen offscreen;
   offscreen.renderer.set_surroundings(SceneFile::find("empty"));
   Scene scene;
@@ -112,9 +114,9 @@ TEST(SceneRenderer, ThrowsShadowsAwayFromTheLamp) {
   Scene unshadowed = scene;
   unshadowed.instances[0].casts_shadow = false;
   const Eigen::Isometry3d above = look_at({0, 0.01, 4}, {0, 0, 0});
-  const Picture with = offscreen.draw(scene, kCamera, above);
-  const Picture without = offscreen.draw(unshadowed, kCamera, above);
-  // From a box over the origin the shadow runs away from the lamp: (-0.18, -0.42) / 0.85 of height.
+  const Image with = offscreen.draw(scene, kCamera, above);
+  const Image without = offscreen.draw(unshadowed, kCamera, above);
+  // The shadow of a box above the origin is displaced by (-0.18, -0.42) / 0.85 of its height.
   const Eigen::Vector3d shadow(-0.6 * 0.18 / 0.85, -0.6 * 0.42 / 0.85, 0);
   const Eigen::Vector2d pixel = kCamera.project(above.inverse() * shadow);
   const int u = static_cast<int>(std::lround(pixel.x()));
@@ -126,7 +128,7 @@ TEST(SceneRenderer, ThrowsShadowsAwayFromTheLamp) {
             0);
 }
 
-TEST(SceneRenderer, LetsOneSeeThroughTranslucentBodies) {
+TEST(SceneRenderer, BlendsTranslucentBodiesWithTheBackground) {
   Offscreen offscreen(RendererOptions{.shadow_size = 0});
   Scene scene;
   MeshInstance instance;
@@ -134,21 +136,21 @@ TEST(SceneRenderer, LetsOneSeeThroughTranslucentBodies) {
   instance.pose_in_world.translation().z() = 0.5f;
   scene.instances.push_back(instance);
   const Eigen::Isometry3d pose = look_at({2, 0, 0.6}, {0, 0, 0.5});
-  const Picture behind = offscreen.draw({}, kCamera, pose);
-  const Picture opaque = offscreen.draw(scene, kCamera, pose);
+  const Image behind = offscreen.draw({}, kCamera, pose);
+  const Image opaque = offscreen.draw(scene, kCamera, pose);
   scene.instances[0].tint.w() = 0.5f;
-  const Picture through = offscreen.draw(scene, kCamera, pose);
+  const Image through = offscreen.draw(scene, kCamera, pose);
   for (int channel = 0; channel < 3; ++channel) {
     const int mean = (behind.at(160, 120)[channel] + opaque.at(160, 120)[channel]) / 2;
     EXPECT_NEAR(through.at(160, 120)[channel], mean, 2);
   }
 }
 
-TEST(SceneRenderer, LeavesCoveredPartsAsTheyAre) {
+TEST(SceneRenderer, DoesNotDrawCoveredParts) {
   Offscreen offscreen;
   offscreen.renderer.set_surroundings(SceneFile::find("soccer"));
   const Scene scene = solids(offscreen.renderer);
-  const Picture whole = offscreen.draw(scene, kCamera, outside());
+  const Image whole = offscreen.draw(scene, kCamera, outside());
   const gl::Framebuffer framebuffer(kCamera.width, kCamera.height);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
   glClearColor(1, 0, 1, 1);
@@ -157,27 +159,27 @@ TEST(SceneRenderer, LeavesCoveredPartsAsTheyAre) {
   offscreen.renderer.render(scene, kCamera, outside(), framebuffer.id(), {box});
   std::vector<uint8_t> pixels;
   framebuffer.read(pixels);
-  const Picture picture = picture_from_bgrx(kCamera.width, kCamera.height, pixels);
+  const Image image = image_from_bgrx(kCamera.width, kCamera.height, pixels);
   for (int v = 0; v < kCamera.height; ++v) {
     for (int u = 0; u < kCamera.width; ++u) {
       const int row = kCamera.height - 1 - v;
       const bool is_covered = u >= box.left && u < box.right && row >= box.bottom && row < box.top;
-      const uint8_t* expected = whole.at(u, v);
-      const uint8_t* pixel = picture.at(u, v);
-      ASSERT_EQ(pixel[0], is_covered ? 255 : expected[0]) << u << ", " << v;
-      ASSERT_EQ(pixel[1], is_covered ? 0 : expected[1]) << u << ", " << v;
+      const uint8_t* drawn = whole.at(u, v);
+      const uint8_t* pixel = image.at(u, v);
+      ASSERT_EQ(pixel[0], is_covered ? 255 : drawn[0]) << u << ", " << v;
+      ASSERT_EQ(pixel[1], is_covered ? 0 : drawn[1]) << u << ", " << v;
     }
   }
 }
 
-TEST(SceneRenderer, RefusesABrokenSize) {
+TEST(SceneRenderer, RejectsAnInvalidImageSize) {
   Offscreen offscreen;
   EXPECT_THROW(gl::Framebuffer(0, 480), Error);
   EXPECT_THROW(gl::Framebuffer(640, -1), Error);
   EXPECT_THROW(gl::Framebuffer(1 << 20, 480), Error);
 }
 
-TEST(RobotVisual, StandsInForAMeshThatCannotBeRead) {
+TEST(RobotVisual, DrawsCollisionShapesForAMeshThatCannotBeRead) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("robot_visual_test." + std::to_string(getpid()));
   std::filesystem::copy(data_path() / "robots" / "nao", folder,
@@ -198,9 +200,9 @@ TEST(RobotVisual, StandsInForAMeshThatCannotBeRead) {
   visual.append(scene,
                 link_poses_in_world(model, torso, model.find_posture("StandInit")->position));
   const Eigen::Isometry3d pose = look_at({1, 0, 0.4}, {0, 0, 0.36});
-  const Picture with = offscreen.draw(scene, kCamera, pose);
-  const Picture without = offscreen.draw({}, kCamera, pose);
-  EXPECT_GT(difference(with, without, 160, 120), 20) << "no chest in the middle of the picture";
+  const Image with = offscreen.draw(scene, kCamera, pose);
+  const Image without = offscreen.draw({}, kCamera, pose);
+  EXPECT_GT(difference(with, without, 160, 120), 20) << "no chest in the middle of the image";
 }
 
 TEST(RobotVisual, HidesTheLinkThatCarriesTheCamera) {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/random.h"
+#include "common/random.h"
 
-namespace nao::sim {
+namespace nao {
 namespace {
 
 using Eigen::Vector3d;
@@ -29,7 +29,7 @@ RoundedBox random_box(Random& random, double apart, int num_extents) {
   return result;
 }
 
-/** Nearest distance of two inner boxes by alternating projections: slow, and simple to trust. */
+/** Distance of two inner boxes by alternating projections: slow and simple. */
 double slow_distance(const RoundedBox& a, const RoundedBox& b) {
   Vector3d point = a.center;
   double distance = 0;
@@ -44,7 +44,7 @@ double slow_distance(const RoundedBox& a, const RoundedBox& b) {
   return distance;
 }
 
-TEST(ClosestPoints, MeetsSpheresOnTheLineOfTheirCentres) {
+TEST(ClosestPoints, ConnectsSpheresAlongTheLineOfTheirCenters) {
   const Proximity found =
       closest_points(box({0, 0, 1}, {0, 0, 0}, 0.3), box({0, 0, 0}, {0, 0, 0}, 0.5));
   EXPECT_NEAR(found.distance, 0.2, 1e-12);
@@ -70,7 +70,7 @@ TEST(ClosestPoints, AgreesWithAlternatingProjections) {
   EXPECT_GT(num_compared, 200);
 }
 
-TEST(ClosestPoints, PartsInnerBoxesThatOverlapAlongTheShortestWay) {
+TEST(ClosestPoints, SeparatesOverlappingInnerBoxesAlongTheLeastOverlap) {
   const Proximity found = closest_points(box({0.01, 0, 0.18}, {0.1, 0.1, 0.1}, 0.01),
                                          box({0, 0, 0}, {0.2, 0.2, 0.1}, 0));
   EXPECT_NEAR(found.distance, -0.02 - 0.01, 1e-9);
@@ -78,4 +78,4 @@ TEST(ClosestPoints, PartsInnerBoxesThatOverlapAlongTheShortestWay) {
 }
 
 }  // namespace
-}  // namespace nao::sim
+}  // namespace nao

@@ -1,4 +1,4 @@
-/** docs/joints.md says what the robot's files say. */
+/** docs/joints.md agrees with the robot's files. */
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-/** What RobotModel::load() does with files that are wrong. */
+/** RobotModel::load() with invalid files. */
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kFiles = {"nao.urdf", "robot.yaml", "postures.yaml"};
 
-/** A copy of the NAO's files that may be damaged. */
+/** A copy of the NAO's files that a test may change. */
 class CopiedRobot {
  public:
   CopiedRobot() {
@@ -36,8 +36,8 @@ class CopiedRobot {
   TemporaryFolder folder_;
 };
 
-/** @return The complaint, or "" if the folder loads. */
-std::string complaint_about(const fs::path& folder) {
+/** @return The error's text; empty if the folder loads. */
+std::string error_of(const fs::path& folder) {
   try {
     RobotModel::load(folder);
     return "";
@@ -48,20 +48,27 @@ std::string complaint_about(const fs::path& folder) {
 
 TEST(RobotFiles, LoadAsTheyAre) {
   const CopiedRobot robot;
-  EXPECT_EQ(complaint_about(robot.path()), "");
+  EXPECT_EQ(error_of(robot.path()), "");
 }
 
-TEST(RobotFiles, AreMissedByName) {
+TEST(RobotFiles, MayHaveAUrdfOfAnyName) {
+  const CopiedRobot robot;
+  fs::rename(robot.path() / "nao.urdf", robot.path() / "other.urdf");
+  std::string text = robot.read("robot.yaml");
+  robot.write("robot.yaml", text.replace(text.find("nao.urdf"), 8, "other.urdf"));
+  EXPECT_EQ(RobotModel::load(robot.path()).urdf_file(), robot.path() / "other.urdf");
+}
+
+TEST(RobotFiles, AreNamedWhenTheyAreMissing) {
   for (const std::string& file : kFiles) {
     const CopiedRobot robot;
     fs::remove(robot.path() / file);
-    EXPECT_EQ(complaint_about(robot.path()),
-              (robot.path() / file).string() + ": the file is missing");
+    EXPECT_EQ(error_of(robot.path()), (robot.path() / file).string() + ": the file is missing");
   }
-  EXPECT_THAT(complaint_about("/nowhere"), testing::HasSubstr("/nowhere/robot.yaml"));
+  EXPECT_THAT(error_of("/nowhere"), testing::HasSubstr("/nowhere/robot.yaml"));
 }
 
-/** One fault, and what the complaint about it must contain besides the file's name. */
+/** One fault, and parts of the error's text besides the file's name. */
 struct Fault {
   std::string claim;
   std::string file;
@@ -69,7 +76,7 @@ struct Fault {
   std::string after;
   std::string from;
   std::string to;
-  std::vector<std::string> complaint;
+  std::vector<std::string> error;
 };
 
 // NOLINTNEXTLINE(readability-identifier-naming): found by googletest by this name
@@ -79,7 +86,7 @@ void PrintTo(const Fault& fault, std::ostream* stream) {
 
 class FaultyRobotFile : public testing::TestWithParam<Fault> {};
 
-TEST_P(FaultyRobotFile, IsRefusedByFileElementAndReason) {
+TEST_P(FaultyRobotFile, IsRejectedWithFileElementAndReason) {
   const Fault& fault = GetParam();
   const CopiedRobot robot;
   std::string text = robot.read(fault.file);
@@ -89,10 +96,10 @@ TEST_P(FaultyRobotFile, IsRefusedByFileElementAndReason) {
   ASSERT_NE(at, std::string::npos);
   robot.write(fault.file, text.replace(at, fault.from.size(), fault.to));
 
-  const std::string complaint = complaint_about(robot.path());
-  EXPECT_THAT(complaint, testing::HasSubstr(fault.file));
-  for (const std::string& part : fault.complaint) {
-    EXPECT_THAT(complaint, testing::HasSubstr(part));
+  const std::string error = error_of(robot.path());
+  EXPECT_THAT(error, testing::HasSubstr(fault.file));
+  for (const std::string& part : fault.error) {
+    EXPECT_THAT(error, testing::HasSubstr(part));
   }
 }
 
@@ -207,7 +214,7 @@ INSTANTIATE_TEST_SUITE_P(
               kRoot,
               "mimic joint=\"LHipYawPitch\"",
               "mimic joint=\"RHipYawPitch\"",
-              {"joint RHipYawPitch", "no joint with a motor"}},
+              {"joint RHipYawPitch", "not a joint with a motor"}},
         Fault{"WithAMeshThatIsMissing",
               "nao.urdf",
               kThigh,
@@ -284,7 +291,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "motors:",
                           "HeadYaw:",
                           "HeadYoww:",
-                          {"motors.HeadYoww", "no joint"}},
+                          {"motors.HeadYoww", "not a joint"}},
                     Fault{"WithoutAMotor",
                           "robot.yaml",
                           "motors:",
@@ -296,7 +303,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "motors:",
                           "RHipRoll:",
                           "RHipYawPitch:",
-                          {"motors.RHipYawPitch", "no joint with a motor"}},
+                          {"motors.RHipYawPitch", "not a joint with a motor"}},
                     Fault{"WithANumberThatIsNone",
                           "robot.yaml",
                           "",
@@ -314,7 +321,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "",
                           "continuous_torque: 1.547",
                           "continuous_torque: -1.547",
-                          {"continuous_torque", "above 0"}},
+                          {"continuous_torque", "greater than 0"}},
                     Fault{"WithCoupledLimitsReversed",
                           "robot.yaml",
                           "joint: HeadPitch",
@@ -326,7 +333,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "joint: HeadPitch",
                           "[-1.526988",
                           "[-2.526988",
-                          {"coupled_limits[0].rows[1]", "greater"}},
+                          {"coupled_limits[0].rows[1]", "larger"}},
                     Fault{"WithAGroupOfAnUnknownJoint",
                           "robot.yaml",
                           "joint_groups:",
@@ -339,6 +346,12 @@ INSTANTIATE_TEST_SUITE_P(
                           "link: CameraTop",
                           "link: CameraTip",
                           {"cameras[0].link", "CameraTip"}},
+                    Fault{"WithAFootSensorOnNoFoot",
+                          "robot.yaml",
+                          "foot_sensors:",
+                          "[LFsrFL",
+                          "[CameraTop",
+                          {"foot_sensors[0]", "sole"}},
                     Fault{"WithASoleThatIsNotConvex",
                           "robot.yaml",
                           "soles:",
@@ -362,7 +375,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "",
                           "HeadYaw:",
                           "HeadYoww:",
-                          {"postures[0].joints.HeadYoww", "no joint"}},
+                          {"postures[0].joints.HeadYoww", "not a joint"}},
                     Fault{"WithAPostureThatLacksAJoint",
                           "postures.yaml",
                           "",
@@ -401,7 +414,7 @@ INSTANTIATE_TEST_SUITE_P(
                           {"HeadPitch", "finite"}}),
     [](const auto& info) { return info.param.claim; });
 
-/** Damages a text in one to four places: bytes changed, cut out, repeated, or words put in. */
+/** Damages a text in one to four places: changed bytes, removed, repeated or inserted parts. */
 std::string damaged(std::string text, std::mt19937& random) {
   static const std::vector<std::string> kWords = {
       "nan",       "-1",   "1e999", "0",       "\"",    "<",     ">",      "/>",          "</link>",
@@ -429,7 +442,7 @@ std::string damaged(std::string text, std::mt19937& random) {
         text.insert(at, kWords[below(kWords.size())]);
         break;
       default:
-        // Now and then the end is missing.
+        // Sometimes the end is missing.
         if (below(20) == 0) {
           text.resize(at);
         }
@@ -448,19 +461,19 @@ TEST(RobotFiles, NeverCrashTheReaderHoweverDamaged) {
     const std::string& file = kFiles[i % kFiles.size()];
     const std::string whole = robot.read(file);
     robot.write(file, damaged(whole, random));
-    num_refused += complaint_about(robot.path()).empty() ? 0 : 1;
+    num_refused += error_of(robot.path()).empty() ? 0 : 1;
     robot.write(file, whole);
   }
   // Changed digits and comments load; most damage is found.
   EXPECT_GT(num_refused, kVariants / 2);
-  EXPECT_EQ(complaint_about(robot.path()), "");
+  EXPECT_EQ(error_of(robot.path()), "");
 }
 
 TEST(RobotFiles, NeverCrashTheReaderWhenNestedDeeply) {
   const CopiedRobot robot;
   const std::string whole = robot.read("robot.yaml");
   robot.write("robot.yaml", whole + "extra: " + std::string(100000, '['));
-  EXPECT_NE(complaint_about(robot.path()), "");
+  EXPECT_NE(error_of(robot.path()), "");
 }
 
 }  // namespace

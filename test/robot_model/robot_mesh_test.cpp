@@ -67,7 +67,8 @@ const std::map<std::string, std::vector<Triangle>>& meshes() {
   return all;
 }
 
-/** The robot's outer box in a posture, torso's frame. Only what `counts` says of a link's name. */
+/** Bounding box of the robot in a posture, in the torso's frame. @param counts  Whether a link of a
+ * name counts. */
 template <class Counts>
 Eigen::AlignedBox3d box_of(const std::vector<double>& position, const Counts& counts) {
   const auto poses = nao_robot().link_poses(position);
@@ -88,7 +89,7 @@ std::vector<double> zero_posture() {
   return std::vector<double>(nao_robot().num_motors(), 0.0);
 }
 
-TEST(RobotMesh, DressesEveryLinkThatWeighsSomethingAndTheFingers) {
+TEST(RobotMesh, CoversEveryLinkWithMassAndTheFingers) {
   EXPECT_EQ(meshes().size(), 27u);
   for (const Link& link : nao_robot().links()) {
     EXPECT_EQ(link.visuals.size(), link.mass > 0 || link.name.ends_with("Fingers") ? 1u : 0u)
@@ -96,7 +97,7 @@ TEST(RobotMesh, DressesEveryLinkThatWeighsSomethingAndTheFingers) {
   }
 }
 
-TEST(RobotMesh, IsLightEnoughForAPhoneAndASoftwareRenderer) {
+TEST(RobotMesh, IsSmallEnoughForAPhoneAndASoftwareRenderer) {
   size_t num_triangles = 0;
   uintmax_t num_bytes = 0;
   for (const Link& link : nao_robot().links()) {
@@ -124,7 +125,7 @@ TEST(RobotMesh, Is268MillimetresWideOverItsUpperArms) {
   EXPECT_NEAR(box.sizes().y(), 0.268, 4e-3);
 }
 
-TEST(RobotMesh, StandsOnTheSolesThatTheModelHas) {
+TEST(RobotMesh, EndsAtTheModelsSoles) {
   const Eigen::Vector3d sole =
       nao_robot()
           .joints()[nao_robot().links()[nao_robot().left_sole()].parent_joint]
@@ -137,12 +138,12 @@ TEST(RobotMesh, StandsOnTheSolesThatTheModelHas) {
             std::min(nearest, (corner - sole - Eigen::Vector3d(point.x(), point.y(), 0)).norm());
       }
     }
-    // Its rim is bevelled by a millimetre or two.
+    // The sole's rim is bevelled by one to two millimeters.
     EXPECT_LT(nearest, 2.5e-3) << point.transpose();
   }
 }
 
-TEST(RobotMesh, ShowsItsCamerasWhereTheyAre) {
+TEST(RobotMesh, HasItsCamerasAtTheirFrames) {
   for (const CameraModel& camera : nao_robot().cameras()) {
     const Link& frame = nao_robot().links()[camera.link];
     const Joint& mount = nao_robot().joints()[frame.parent_joint];
@@ -190,8 +191,8 @@ TEST(RobotMesh, HasNormalsThatAgreeWithItsFaces) {
   }
 }
 
-/** Six times the volume on the left of the faces: positive when they look outwards. */
-TEST(RobotMesh, LooksOutwards) {
+/** Six times the enclosed volume: positive if the faces are oriented outwards. */
+TEST(RobotMesh, IsOrientedOutwards) {
   for (const auto& [name, triangles] : meshes()) {
     double volume = 0;
     for (const Triangle& triangle : triangles) {

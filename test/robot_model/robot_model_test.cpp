@@ -13,7 +13,7 @@
 namespace nao {
 namespace {
 
-/** Vendor figures are given in tenths of a millimetre. */
+/** Tolerance of lengths that the vendor publishes in tenths of a millimeter, m. */
 constexpr double kExact = 1e-9;
 
 const RobotModel& nao_robot() {
@@ -33,7 +33,7 @@ Eigen::Isometry3d pose_of(const std::string& link, const std::vector<double>& po
   return nao_robot().link_poses(position)[nao_robot().find_link(link)];
 }
 
-/** "LFoot" for "RFoot"; what is neither left nor right is its own counterpart. */
+/** Name of the mirrored link or joint: "LFoot" for "RFoot"; the same name if it has no side. */
 std::string counterpart(std::string name) {
   if (name.size() > 1 && std::isupper(name[1]) != 0) {
     if (name[0] == 'L' || name[0] == 'R') {
@@ -46,7 +46,7 @@ std::string counterpart(std::string name) {
       return name.replace(at, std::string(from).size(), to);
     }
   }
-  // Foot sensors: the left foot's outer one is the right foot's outer one.
+  // Foot sensors: outer ones mirror outer ones.
   if (name.find("Fsr") != std::string::npos) {
     name.replace(5, 1, name[5] == 'L' ? "R" : "L");
   }
@@ -96,7 +96,7 @@ TEST(RobotModel, StandsAThirdOfAMetreOverItsSoles) {
   EXPECT_NEAR(pose_of("RSole", zero_posture()).translation().z(), -0.33309, kExact);
 }
 
-TEST(RobotModel, CarriesItsCamerasAtTheirPublishedHeights) {
+TEST(RobotModel, HasItsCamerasAtTheirPublishedHeights) {
   const double sole = pose_of("LSole", zero_posture()).translation().z();
   EXPECT_NEAR(pose_of("CameraTop", zero_posture()).translation().z() - sole, 0.5232, 1e-4);
   EXPECT_NEAR(pose_of("CameraBottom", zero_posture()).translation().z() - sole, 0.4773, 1e-4);
@@ -150,8 +150,8 @@ TEST(RobotModel, IsAMirrorImageInItsJoints) {
       continue;
     }
     const Joint& other = robot.joints()[robot.find_joint(counterpart(joint.name))];
-    // A rotation's axis is a pseudovector: the mirror turns y's part over, not x's and z's, and a
-    // joint whose mirrored axis points the other way turns the other way too.
+    // A rotation axis is a pseudovector: mirroring at the xz plane keeps y and negates x and z. A
+    // joint whose axis is the negative of the mirrored one has a mirrored range.
     const Eigen::Vector3d mirror_axis(-other.axis.x(), other.axis.y(), -other.axis.z());
     const double sign = joint.axis.dot(mirror_axis);
     EXPECT_NEAR(std::abs(sign), 1, 1e-12) << joint.name;
@@ -167,7 +167,7 @@ TEST(RobotModel, IsAMirrorImageInItsFrames) {
   const RobotModel& robot = nao_robot();
   const auto poses = robot.link_poses(zero_posture());
   for (const Link& link : robot.links()) {
-    // The inertial unit and the chest button are not in the middle of the real robot either.
+    // The real robot's inertial unit and chest button are not on its plane of symmetry.
     if (link.name == "Accelerometer" || link.name == "Gyrometer" || link.name == "ChestButton" ||
         link.name.find("HandTouch") != std::string::npos) {
       continue;
@@ -178,7 +178,7 @@ TEST(RobotModel, IsAMirrorImageInItsFrames) {
   }
 }
 
-TEST(RobotModel, HasMirroredSolesThatHoldTheFootSensors) {
+TEST(RobotModel, HasMirroredSolesWithTheFootSensorsInside) {
   const RobotModel& robot = nao_robot();
   const auto& left = robot.left_sole_outline();
   const auto& right = robot.right_sole_outline();
@@ -204,6 +204,11 @@ TEST(RobotModel, HasMirroredSolesThatHoldTheFootSensors) {
   }
 }
 
+TEST(RobotModel, AssignsTheForceSensorsToTheirFeet) {
+  EXPECT_THAT(nao_robot().feet()[0].sensors, testing::ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(nao_robot().feet()[1].sensors, testing::ElementsAre(4, 5, 6, 7));
+}
+
 TEST(RobotModel, MovesBothHipsWithOneMotor) {
   const RobotModel& robot = nao_robot();
   std::vector<double> position = zero_posture();
@@ -218,7 +223,7 @@ TEST(RobotModel, MovesBothHipsWithOneMotor) {
   EXPECT_GT(std::atan2(sole.linear()(1, 0), sole.linear()(0, 0)), 0.1);
 }
 
-TEST(RobotModel, TurnsEachJointTheWayNaoqiDoes) {
+TEST(RobotModel, HasNaoqisSignOfEachJoint) {
   const RobotModel& robot = nao_robot();
   const auto moved = [&robot](const char* joint, double angle, const char* link) {
     std::vector<double> position = zero_posture();
@@ -244,7 +249,7 @@ TEST(RobotModel, LiftsTheFingersWhenAHandOpens) {
   EXPECT_GT((change * Eigen::Vector3d::UnitX()).z(), 0.5);
 }
 
-TEST(RobotModel, KnowsTheEightPostures) {
+TEST(RobotModel, HasTheEightPostures) {
   std::vector<std::pair<std::string, std::string>> postures;
   for (const Posture& each : nao_robot().postures()) {
     postures.emplace_back(each.name, each.family);
@@ -274,7 +279,7 @@ TEST(RobotModel, KeepsEveryPostureInsideItsOwnAndCoupledLimits) {
   }
 }
 
-TEST(RobotModel, HasPosturesThatMirrorThemselves) {
+TEST(RobotModel, HasSymmetricPostures) {
   const RobotModel& robot = nao_robot();
   for (const Posture& each : robot.postures()) {
     const auto poses = robot.link_poses(each.position);
@@ -325,7 +330,7 @@ TEST(RobotModel, ClipsToTheCoupledLimits) {
   EXPECT_NEAR(robot.clip_to_limits(pitch, 1, position), 0.330041, kExact) << "beyond the last row";
 }
 
-TEST(RobotModel, AlwaysLeavesACoupledJointARange) {
+TEST(RobotModel, LeavesEachCoupledJointARange) {
   const RobotModel& robot = nao_robot();
   for (const CoupledLimit& limit : robot.coupled_limits()) {
     const Joint& other = robot.motor_joint(limit.other_motor);
@@ -339,7 +344,7 @@ TEST(RobotModel, AlwaysLeavesACoupledJointARange) {
   }
 }
 
-TEST(RobotModel, GroupsEveryMotorForAPerson) {
+TEST(RobotModel, HasEveryMotorInAJointGroup) {
   const RobotModel& robot = nao_robot();
   std::vector<bool> is_grouped(robot.num_motors(), false);
   for (const JointGroup& group : robot.joint_groups()) {
@@ -352,7 +357,7 @@ TEST(RobotModel, GroupsEveryMotorForAPerson) {
   EXPECT_THAT(is_grouped, testing::Each(true));
 }
 
-TEST(RobotModel, HasMotorsThatTheirGearsAllow) {
+TEST(RobotModel, HasMotorDataConsistentWithTheGearRatios) {
   const RobotModel& robot = nao_robot();
   for (int i = 0; i < robot.num_motors(); ++i) {
     const Motor& motor = robot.motor(i);
@@ -365,7 +370,7 @@ TEST(RobotModel, HasMotorsThatTheirGearsAllow) {
   }
 }
 
-TEST(RobotModel, AllowsContactOfNeighboursOnly) {
+TEST(RobotModel, AllowsContactOfNeighborsOnly) {
   const RobotModel& robot = nao_robot();
   const auto is_allowed = [&robot](const char* a, const char* b) {
     const std::pair<int, int> pair = std::minmax({robot.find_link(a), robot.find_link(b)});
@@ -381,13 +386,13 @@ TEST(RobotModel, AllowsContactOfNeighboursOnly) {
   EXPECT_FALSE(is_allowed("LTibia", "RTibia"));
 }
 
-/** Pairs of links that overlap in a posture and must not, by how much, m. */
+/** Self-collisions in a posture: pairs of links, and their overlap, m. */
 std::map<std::string, double> overlaps_in(const std::string& name) {
   const RobotModel& robot = nao_robot();
   const auto poses = robot.link_poses(posture(name));
   const auto& allowed = robot.allowed_contacts();
   const auto place = [&](int link, const Shape& shape) {
-    // The real shells are rounded by 4 mm at least.
+    // The real shells have radii of 4 mm or more.
     RoundedBox box = rounded_box_in_link(robot.links()[link], shape, 0.004);
     box.center = poses[link] * box.center;
     box.rotation = poses[link].linear() * box.rotation;
@@ -414,7 +419,7 @@ std::map<std::string, double> overlaps_in(const std::string& name) {
   return overlaps;
 }
 
-TEST(RobotModel, HasPosturesThatDoNotPassThroughItself) {
+TEST(RobotModel, HasPosturesWithoutSelfCollision) {
   for (const char* name :
        {"StandZero", "StandInit", "Stand", "Crouch", "SitRelax", "LyingBack", "LyingBelly"}) {
     EXPECT_THAT(overlaps_in(name), testing::IsEmpty()) << name;
@@ -422,14 +427,14 @@ TEST(RobotModel, HasPosturesThatDoNotPassThroughItself) {
 }
 
 TEST(RobotModel, RestsItsHandsOnItsLegsWhenItSits) {
-  // Where real shells give way or are hollow, the primitives overlap by less than a centimetre.
+  // Where the real shells are soft or hollow, the primitives overlap by less than a centimeter.
   for (const auto& [pair, overlap] : overlaps_in("Sit")) {
     EXPECT_THAT(pair, testing::AnyOf(testing::HasSubstr("Wrist"), testing::HasSubstr("ForeArm")));
     EXPECT_LT(overlap, 0.010) << pair;
   }
 }
 
-TEST(RobotModel, RefusesPositionsOfAnotherRobot) {
+TEST(RobotModel, RejectsANumberOfPositionsThatIsNotItsOwn) {
   EXPECT_THROW(nao_robot().link_poses({0, 0}), std::invalid_argument);
 }
 

@@ -58,9 +58,9 @@ TEST(SceneFile, ReadsAnEmptyScene) {
 
 TEST(SceneFile, RefusesWhatItDoesNotUnderstand) {
   const std::string ball = "name: x\nball: {radius: 0.05, mass: 0.045, position: [0, 0]";
-  expect_refused("", "must be keys");
-  expect_refused("- 1\n", "must be keys");
-  expect_refused("name: [", "no YAML");
+  expect_refused("", "must be a map");
+  expect_refused("- 1\n", "must be a map");
+  expect_refused("name: [", "not YAML");
   expect_refused("ball: {}\n", "lacks \"name\"");
   expect_refused("name: x\nbal: {}\n", "bal is unknown");
   expect_refused(ball + ", colour: red}", "ball.colour is unknown");

@@ -1,11 +1,11 @@
-// A program of its own, since it counts every allocation of the process.
+// A program of its own, since it counts all allocations of the process.
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cstdlib>
 
-#include "sim/random.h"
+#include "common/random.h"
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"
 
@@ -13,7 +13,7 @@ namespace {
 std::atomic<long> num_allocations{0};
 }
 
-// glibc's own, below the name that everybody calls.
+// glibc's malloc, which the definition below replaces.
 // NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" void* __libc_malloc(size_t size);
 extern "C" void* malloc(size_t size) {

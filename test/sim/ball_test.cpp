@@ -32,7 +32,7 @@ TEST(Ball, SlidesThenRollsAtFiveSeventhsOfItsSpeed) {
               world.ball().velocity.x(), 1e-3);
 }
 
-TEST(Ball, RollsOutAsOnCarpet) {
+TEST(Ball, RollsOutWithAConstantDeceleration) {
   World world(ball_on_a_floor());
   const double deceleration = world.options().materials.ball_rolling_deceleration;
   world.place_ball({0, 0, 0}, {2, 0, 0});
@@ -44,7 +44,7 @@ TEST(Ball, RollsOutAsOnCarpet) {
   EXPECT_LT(world.ball().velocity.norm(), 1e-6);
 }
 
-TEST(Ball, BouncesToTheSquareOfItsRestitution) {
+TEST(Ball, ReboundsToTheSquareOfItsRestitution) {
   World world(ball_on_a_floor());
   const double restitution = world.options().materials.ball_restitution;
   world.place_ball({0, 0, 1}, {0, 0, 0});
@@ -56,11 +56,11 @@ TEST(Ball, BouncesToTheSquareOfItsRestitution) {
     const double height = world.ball().position.z() - world.scene().ball->radius;
     if (has_bounced) top = std::max(top, height);
   }
-  // The floor is met somewhere within a step: 4.4 m/s * 2 ms of the metre are uncertain.
+  // The impact is somewhere within a step: 4.4 m/s * 2 ms of the height are uncertain.
   EXPECT_NEAR(top, restitution * restitution, 0.01);
 }
 
-TEST(Ball, LiesStillForAnHour) {
+TEST(Ball, StaysAtRestForAnHour) {
   World world(ball_on_a_floor());
   for (int i = 0; i < 1800000; ++i) world.step();
   EXPECT_LT((world.ball().position - Vector3d(0, 0, world.scene().ball->radius)).norm(), 1e-3);
@@ -84,7 +84,7 @@ TEST(Ball, IsKickedByASwingingLeg) {
   World world(scene);
   RobotOptions options;
   options.is_on_stand = true;
-  // Feet just over the floor; the swing ends with the toes at 0.13 m, beyond the ball's surface.
+  // Feet just above the floor; the swing ends with the toes at 0.13 m, beyond the ball's surface.
   options.height = 0.02;
   const int robot = world.add_robot(nao_model(), options);
   world.place_ball({0.16, 0.05, 0}, {0, 0, 0});

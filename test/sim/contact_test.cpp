@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 
 constexpr double kFriction = 0.8;
 
-/** A floor that is tilted by an angle, towards a direction. */
+/** A floor that is tilted by an angle about a horizontal axis. @param direction  Of the descent,
+ * rad. */
 WorldOptions incline(double angle, double direction) {
   WorldOptions options;
   options.materials.floor_friction = kFriction;
@@ -30,7 +31,7 @@ struct Slide {
   double acceleration;
 };
 
-/** What a block does on an incline in 2 s, after half a second to settle. */
+/** Distance and acceleration of a block on an incline in 2 s, after half a second to settle. */
 Slide slide(double angle, double direction) {
   World world{SceneFile{}, incline(angle, direction)};
   RobotOptions options;
@@ -62,8 +63,8 @@ TEST_P(Incline, LetsABlockSlideAboveIt) {
 INSTANTIATE_TEST_SUITE_P(Directions, Incline, testing::Values(0.0, M_PI / 4, 1.0));
 
 TEST(Contact, NeverAddsEnergy) {
-  // In the last case a hand's edge slides over a shin: the direction of the shortest line between
-  // them, along which the contact's spring acts, turns within a step.
+  // In the last case a hand's edge slides over a shin: the contact's normal changes its direction
+  // within a step.
   const std::pair<const char*, double> cases[] = {
       {"StandInit", 1e-6}, {"LyingBack", 1e-6}, {"Sit", 1e-3}};
   for (const auto& [posture, tolerance] : cases) {
@@ -106,13 +107,13 @@ double lowest_point(const World& world, int robot) {
   return lowest;
 }
 
-TEST(Contact, FloorStopsWhatAPushThrowsAtItWithinTheStep) {
+TEST(Contact, FloorStopsAPushedBodyWithinTheStep) {
   World world{SceneFile{}};
   RobotOptions options;
   options.posture = "Start";
   options.height = 0.01;
   const int block = world.add_robot(make_block(), options);
-  // 15 m/s down: 20 mm into the floor with the first step, were the floor noticed after it.
+  // 15 m/s down: 20 mm into the floor in the first step if the contact were detected after it.
   world.push(block, 0, {0, 0, -15});
   for (int i = 0; i < 50; ++i) {
     world.step();
@@ -120,7 +121,7 @@ TEST(Contact, FloorStopsWhatAPushThrowsAtItWithinTheStep) {
   }
 }
 
-TEST(Contact, RobotFallsOnTheFloorAndNotThroughIt) {
+TEST(Contact, RobotDoesNotFallThroughTheFloor) {
   for (int direction = 0; direction < 8; ++direction) {
     World world{SceneFile{}};
     const int robot = world.add_robot(nao_model());
@@ -182,7 +183,7 @@ TEST(Contact, TwoRobotsPushEachOtherWithOppositeForces) {
   second.heading = M_PI;
   world.add_robot(nao_model(), first);
   world.add_robot(nao_model(), second);
-  // Their hands meet; friction in the wrists lets go slowly.
+  // Their hands touch; friction in the wrists lets the forces settle slowly.
   for (int i = 0; i < 2000; ++i) world.step_tick();
   double between = 0;
   double floor = 0;

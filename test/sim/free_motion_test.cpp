@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "sim/random.h"
+#include "common/random.h"
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"
 #include "test/sim/test_robots.h"
@@ -15,16 +15,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-void let_go(World& world, int robot) {
+void switch_off_servos(World& world, int robot) {
   MotorTargets targets = world.targets(robot);
   targets.stiffness.setZero();
   world.set_targets(robot, targets);
-  // Past the command latency.
+  // Longer than the command latency.
   world.step_tick();
   world.step_tick();
 }
 
-TEST(FreeMotion, FallsByGravityButForTheErrorOfSemiImplicitEuler) {
+TEST(FreeMotion, FallsByGravityExceptForTheErrorOfSemiImplicitEuler) {
   World world{SceneFile{}};
   RobotOptions options;
   options.height = 10;
@@ -32,12 +32,12 @@ TEST(FreeMotion, FallsByGravityButForTheErrorOfSemiImplicitEuler) {
   const double start = world.robot(robot).dynamics().center_of_mass().z();
   for (int i = 0; i < 500; ++i) world.step();
   const double fallen = start - world.robot(robot).dynamics().center_of_mass().z();
-  // The velocity used in a step is the one at its end: h t g / 2 too far. Servos at work cannot
-  // change that.
+  // The velocity used in a step is the one at its end: h t g / 2 too far. Working servos have no
+  // influence.
   EXPECT_NEAR(fallen, 9.81 / 2 + 9.81 * 0.002 / 2, 1e-10);
 }
 
-TEST(FreeMotion, MovesAsWithFineStepsWithAllServosAtWork) {
+TEST(FreeMotion, AgreesWithFineStepsWhileAllServosMove) {
   const auto fall = [](double step) {
     WorldOptions options;
     options.step = step;
@@ -68,7 +68,7 @@ TEST(FreeMotion, MovesAsWithFineStepsWithAllServosAtWork) {
   EXPECT_LT(a.orientation.angularDistance(b.orientation), 1e-4);
 }
 
-TEST(FreeMotion, TurnsInAFallAsWithoutGravity) {
+TEST(FreeMotion, RotatesInAFallAsWithoutGravity) {
   const auto orientation_after = [](double gravity) {
     WorldOptions options;
     options.gravity = {0, 0, -gravity};
@@ -95,7 +95,7 @@ TEST(FreeMotion, PendulumSwingsAtItsPeriodAndKeepsItsEnergy) {
   const int robot = world.add_robot(make_pendulum(ideal_motor()), options);
   const Posture lifted{"Lifted", {0.1}, "standing"};
   world.place_robot(robot, &lifted, {0, 0, 1});
-  let_go(world, robot);
+  switch_off_servos(world, robot);
   const double energy = world.energy();
   double first = -1;
   double last = 0;
@@ -118,7 +118,7 @@ TEST(FreeMotion, PendulumSwingsAtItsPeriodAndKeepsItsEnergy) {
   EXPECT_NEAR((last - first) / periods / expected, 1, 1e-5);
 }
 
-TEST(FreeMotion, KeepsMomentumWhateverTheMotorsDo) {
+TEST(FreeMotion, KeepsMomentumWhileMotorsMove) {
   WorldOptions options;
   options.gravity.setZero();
   World world{SceneFile{}, options};
@@ -154,7 +154,7 @@ TEST(FreeMotion, KeepsMomentumWhateverTheMotorsDo) {
   EXPECT_LT((dynamics.angular_momentum() - angular).norm(), 1e-2 * angular.norm());
 }
 
-/** Two rods on one axis that turns without friction, end or motor. */
+/** Two bodies on an axis without friction, stops or motor. */
 std::shared_ptr<const RobotModel> make_free_pair() {
   return make_robot(R"(<robot name="pair"><link name="torso">
     <inertial><origin xyz="0.1 0 0.2"/><mass value="1"/>
@@ -176,7 +176,7 @@ TEST(FreeMotion, KeepsTheEnergyOfALimpTumblingBody) {
   how.posture = "Start";
   how.height = 10;
   const int robot = world.add_robot(make_free_pair(), how);
-  let_go(world, robot);
+  switch_off_servos(world, robot);
   world.push(robot, world.robot(robot).model().find_link("rod"), {1, 0.2, 0.1});
   world.step_tick();
   const double energy = world.energy();
@@ -185,11 +185,11 @@ TEST(FreeMotion, KeepsTheEnergyOfALimpTumblingBody) {
     world.step_tick();
     worst = std::max(worst, std::abs(world.energy() / energy - 1));
   }
-  // Coriolis forces do no work: without their share on the joint the energy grew eightfold.
+  // Coriolis forces do no work: without their effect on the joint the energy grew eightfold.
   EXPECT_LT(worst, 0.02);
 }
 
-TEST(FreeMotion, PushChangesMomentumByItsImpulse) {
+TEST(FreeMotion, PushChangesTheMomentumByItsImpulse) {
   WorldOptions options;
   options.gravity.setZero();
   World world{SceneFile{}, options};

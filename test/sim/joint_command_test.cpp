@@ -19,8 +19,8 @@ MotorTargets zero_targets() {
 
 TEST(JointCommand, SetsTheNamedJointsAndKeepsTheOthers) {
   MotorTargets targets = zero_targets();
-  ASSERT_FALSE(merge_joint_command(*nao_model(), {"LKneePitch", "HeadYaw"}, {0.5, -0.2}, {0.8, 0.0},
-                                   targets));
+  ASSERT_FALSE(merge_joint_command(
+      *nao_model(), {0, {"LKneePitch", "HeadYaw"}, {0.5, -0.2}, {0.8, 0.0}}, targets));
   const int knee = nao_model()->find_motor("LKneePitch");
   EXPECT_EQ(targets.position[knee], 0.5);
   EXPECT_EQ(targets.stiffness[knee], 0.8);
@@ -28,7 +28,7 @@ TEST(JointCommand, SetsTheNamedJointsAndKeepsTheOthers) {
   EXPECT_EQ(targets.position.cwiseAbs().sum(), 0.7);
 }
 
-TEST(JointCommand, RefusesABadMessageWhole) {
+TEST(JointCommand, RejectsAnInvalidMessageAsAWhole) {
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();
   struct {
@@ -49,8 +49,8 @@ TEST(JointCommand, RefusesABadMessageWhole) {
   };
   for (const auto& message : bad) {
     MotorTargets targets = zero_targets();
-    const auto reason = merge_joint_command(*nao_model(), message.names, message.position,
-                                            message.stiffness, targets);
+    const auto reason = merge_joint_command(
+        *nao_model(), {0, message.names, message.position, message.stiffness}, targets);
     ASSERT_TRUE(reason) << message.complaint;
     EXPECT_NE(reason->find(message.complaint), std::string::npos) << *reason;
     EXPECT_EQ(targets.position.cwiseAbs().sum(), 0) << *reason;

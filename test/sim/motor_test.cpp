@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/random.h"
+#include "common/random.h"
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"
 #include "test/sim/test_robots.h"
@@ -46,12 +46,12 @@ class OnStand : public testing::Test {
 TEST_F(OnStand, ServoReachesItsTarget) {
   command("HeadYaw", 1.0);
   run(2);
-  // Dry friction may hold it short: torque over gain.
+  // Dry friction may stop it before: friction torque over gain.
   const Motor& motor = nao_model()->motor(nao_model()->find_motor("HeadYaw"));
   EXPECT_NEAR(angle("HeadYaw"), 1.0, motor.dry_friction / motor.stiffness_gain + 1e-4);
 }
 
-TEST_F(OnStand, StopHoldsAgainstTheMotor) {
+TEST_F(OnStand, JointStopWithstandsTheMotor) {
   const Joint& joint = nao_model()->motor_joint(nao_model()->find_motor("LShoulderPitch"));
   command("LShoulderPitch", joint.upper + 3);
   double farthest = 0;
@@ -74,7 +74,7 @@ TEST_F(OnStand, RightHipYawPitchFollowsTheLeftExactly) {
   EXPECT_NEAR(yaw_of("LPelvis"), yaw_of("RPelvis"), 1e-12);
 }
 
-TEST_F(OnStand, HandOpensLikeAFirstOrderLag) {
+TEST_F(OnStand, HandOpensAsAFirstOrderLag) {
   command("LHand", 0);
   run(2);
   EXPECT_NEAR(angle("LHand"), 0, 1e-3);
@@ -99,7 +99,7 @@ TEST_F(OnStand, LimpJointHangsDown) {
   EXPECT_LT(height("LWrist"), height("LShoulder") - 0.1);
 }
 
-TEST(Motors, StayWithinTheirLineInWildMotion) {
+TEST(Motors, StayWithinTheirTorqueSpeedLineInRandomMotion) {
   WorldOptions steps;
   steps.steps_per_tick = 1;
   World world{SceneFile{}, steps};
@@ -139,8 +139,8 @@ TEST(Motors, StayWithinTheirLineInWildMotion) {
   EXPECT_LT(worst, 0.01);
 }
 
-TEST(Motors, AreFasterThanNoLoadSpeedOnlyWhenDriven) {
-  // A pendulum on a stand, motor at full tilt: cannot pass its no-load speed.
+TEST(Motors, DoNotExceedTheirNoLoadSpeedByThemselves) {
+  // A pendulum on a stand with the motor at its full torque.
   World world{SceneFile{}};
   RobotOptions options;
   options.posture = "Start";
@@ -162,7 +162,7 @@ TEST(Motors, AreFasterThanNoLoadSpeedOnlyWhenDriven) {
   EXPECT_GT(fastest, 1);
 }
 
-TEST(Motors, TireFromPeakToContinuousTorque) {
+TEST(Motors, FallFromPeakToContinuousTorqueWhenTheyAreHot) {
   Drive drive;
   drive.motor.peak_torque = 5;
   drive.motor.continuous_torque = 3;

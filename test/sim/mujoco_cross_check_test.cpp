@@ -1,12 +1,12 @@
-// The same robot in MuJoCo: built only where that is installed.
+// Comparison with the same robot in MuJoCo: built only where that is installed.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "sim/mujoco_peer.h"
-#include "sim/random.h"
+#include "common/random.h"
+#include "sim/mujoco_baseline.h"
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"
 
@@ -44,27 +44,27 @@ class MujocoCrossCheck : public testing::Test {
   Random random_{6};
 };
 
-TEST_F(MujocoCrossCheck, SameMassCentreMassMatrixAndGravityTorques) {
+TEST_F(MujocoCrossCheck, HasTheSameCenterOfMassMassMatrixAndGravityTorques) {
   const SimRobot& robot = world_.robot(0);
   const Tree& tree = robot.tree();
-  MujocoPeer peer(robot, world_.options());
-  const mjModel& model = peer.model();
+  MujocoBaseline baseline(robot, world_.options());
+  const mjModel& model = baseline.model();
   EXPECT_NEAR(mj_getTotalmass(&model), tree.total_mass(), 1e-9);
   TreeDynamics dynamics(tree);
   Eigen::VectorXd bias = Eigen::VectorXd::Zero(tree.num_dofs());
   for (int trial = 0; trial < 50; ++trial) {
     const TreeState state = random_state();
-    peer.set_state(tree, state);
+    baseline.set_state(tree, state);
     dynamics.update_kinematics(state);
     dynamics.update_mass_matrix();
     dynamics.calc_bias({0, 0, -9.81}, bias);
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(dynamics.center_of_mass()[k], peer.data().subtree_com[3 + k], 1e-9);
+      EXPECT_NEAR(dynamics.center_of_mass()[k], baseline.data().subtree_com[3 + k], 1e-9);
     }
     std::vector<mjtNum> full(static_cast<size_t>(model.nv * model.nv));
-    mj_fullM(&model, full.data(), peer.data().qM);
-    // Dof i of ours as dofs of MuJoCo: two for the shared hip motor; angles of the root are about
-    // its own axes there, so only joints are compared one by one.
+    mj_fullM(&model, full.data(), baseline.data().qM);
+    // MuJoCo's dofs of our dof: two for the coupled hip joints. Only joints are compared one by
+    // one: MuJoCo's angular velocity of the root is about the root's own axes.
     const auto dofs_of = [&](int dof) {
       std::vector<int> dofs;
       for (int body = 1; body < tree.num_bodies(); ++body) {
@@ -76,7 +76,7 @@ TEST_F(MujocoCrossCheck, SameMassCentreMassMatrixAndGravityTorques) {
     };
     for (int i = 6; i < tree.num_dofs(); ++i) {
       double gravity = 0;
-      for (const int row : dofs_of(i)) gravity += peer.data().qfrc_bias[row];
+      for (const int row : dofs_of(i)) gravity += baseline.data().qfrc_bias[row];
       EXPECT_NEAR(bias[i], gravity, 1e-9);
       const int motor_body = tree.body_of_dof(i);
       for (int j = 6; j <= i; ++j) {
@@ -85,7 +85,7 @@ TEST_F(MujocoCrossCheck, SameMassCentreMassMatrixAndGravityTorques) {
           for (const int column : dofs_of(j)) entry += full[row * model.nv + column];
         }
         if (i == j) {
-          // Ours is without the rotors.
+          // Our mass matrix does not contain the rotors.
           for (int motor = 0; motor < nao_model()->num_motors(); ++motor) {
             if (nao_model()->motors()[motor] == tree.bodies()[motor_body].joint) {
               entry -= nao_model()->motor(motor).reflected_inertia;
@@ -98,30 +98,30 @@ TEST_F(MujocoCrossCheck, SameMassCentreMassMatrixAndGravityTorques) {
   }
 }
 
-TEST_F(MujocoCrossCheck, FallsAlikeForASecondWithAllServosAtWork) {
+TEST_F(MujocoCrossCheck, FallsAlikeForASecondWhileAllServosMove) {
   WorldOptions options;
   options.step = 0.0001;
   options.steps_per_tick = 100;
   World world{SceneFile{}, options};
   world.add_robot(nao_model(), in_the_air());
   const SimRobot& robot = world.robot(0);
-  MujocoPeer peer(robot, options, {PeerFeet::kPoints, PeerLaws::kOurs});
+  MujocoBaseline baseline(robot, options, {BaselineFeet::kPoints, BaselineLaws::kMatched});
   MotorTargets targets = world.targets(0);
   for (int tick = 0; tick < 100; ++tick) {
     const Posture& start = *nao_model()->find_posture("StandInit");
     for (int i = 0; i < nao_model()->num_motors(); ++i) {
       targets.position[i] = start.position[i] + 0.3 * std::sin(0.01 * tick * (3 + 0.3 * i));
     }
-    // Apart: edges are rounded here, sharp there.
+    // The legs must not touch: edges are rounded here, and sharp in MuJoCo.
     targets.position[nao_model()->find_motor("LHipRoll")] += 0.25;
     targets.position[nao_model()->find_motor("RHipRoll")] -= 0.25;
     world.set_targets(0, targets);
-    peer.set_targets(targets.position);
+    baseline.set_targets(targets.position);
     world.step_tick();
-    for (int i = 0; i < options.steps_per_tick; ++i) peer.step();
+    for (int i = 0; i < options.steps_per_tick; ++i) baseline.step();
   }
-  const TreeState theirs = peer.state(robot.tree());
-  // Half a step's way lies between the two: speeds belong to the middle of a step here.
+  const TreeState theirs = baseline.state(robot.tree());
+  // The motion of half a step is between the two: our velocities belong to the middle of a step.
   EXPECT_NEAR(robot.state().position.z(), theirs.position.z(), 6e-4);
   EXPECT_LT(robot.state().orientation.angularDistance(theirs.orientation), 5e-4);
   EXPECT_LT((robot.state().coordinate - theirs.coordinate).cwiseAbs().maxCoeff(), 5e-4);
@@ -133,10 +133,10 @@ TEST_F(MujocoCrossCheck, CrouchesUnderItsWeightAlike) {
   options.posture = "Crouch";
   world.add_robot(nao_model(), options);
   const SimRobot& robot = world.robot(0);
-  MujocoPeer peer(robot, world.options());
+  MujocoBaseline baseline(robot, world.options());
   for (int i = 0; i < 500; ++i) world.step_tick();
-  for (int i = 0; i < 2500; ++i) peer.step();
-  const TreeState theirs = peer.state(robot.tree());
+  for (int i = 0; i < 2500; ++i) baseline.step();
+  const TreeState theirs = baseline.state(robot.tree());
   EXPECT_NEAR(robot.state().position.z(), theirs.position.z(), 1e-3);
   EXPECT_LT((robot.state().coordinate - theirs.coordinate).cwiseAbs().maxCoeff(), 1e-2);
 }

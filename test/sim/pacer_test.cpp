@@ -18,13 +18,13 @@ int count_ticks(Pacer& pacer, double duration, Delay delay) {
   }
 }
 
-TEST(Pacer, KeepsUpWithTheWallClockThoughEveryTickIsLate) {
+TEST(Pacer, KeepsPaceWithTheWallClockIfEveryTickIsLate) {
   Pacer pacer(0.01);
   pacer.set_pace(1, 0);
   EXPECT_NEAR(count_ticks(pacer, 100, [](int) { return 0.004; }), 10000, 100);
 }
 
-TEST(Pacer, MakesUpForADelayWithoutABurst) {
+TEST(Pacer, CatchesUpWithADelayWithoutABurst) {
   Pacer pacer(0.01);
   pacer.set_pace(1, 0);
   EXPECT_NEAR(count_ticks(pacer, 10, [](int tick) { return tick == 100 ? 0.2 : 0.0; }), 1000, 2);
@@ -34,13 +34,13 @@ TEST(Pacer, MakesUpForADelayWithoutABurst) {
   EXPECT_GE(pacer.next(0.2), 0.205);
 }
 
-TEST(Pacer, LeavesOutALongStop) {
+TEST(Pacer, SkipsALongStop) {
   Pacer pacer(0.01);
   pacer.set_pace(1, 0);
   EXPECT_NEAR(count_ticks(pacer, 20, [](int tick) { return tick == 100 ? 10.0 : 0.0; }), 1000, 5);
 }
 
-TEST(Pacer, FollowsThePaceAskedFor) {
+TEST(Pacer, FollowsTheRequestedPace) {
   Pacer pacer(0.01);
   pacer.set_pace(0.5, 0);
   EXPECT_NEAR(count_ticks(pacer, 10, [](int) { return 0.0; }), 500, 2);

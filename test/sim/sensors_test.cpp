@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"
@@ -11,7 +10,6 @@
 namespace nao::sim {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 World& settled(World& world, double seconds) {
@@ -25,27 +23,6 @@ RobotOptions ideal() {
   return options;
 }
 
-TEST(FootSensors, ShareALoadSoThatItsCentreStaysWhereItIs) {
-  // The left foot's sensors are no exact rectangle.
-  const std::array<Vector2d, 4> corners{Vector2d(0.07025, 0.0299), Vector2d(0.07025, -0.0231),
-                                        Vector2d(-0.03025, 0.0299), Vector2d(-0.02965, -0.0191)};
-  for (double x = -0.025; x < 0.07; x += 0.01) {
-    for (double y = -0.018; y < 0.029; y += 0.005) {
-      const auto shares = corner_shares(corners, {x, y});
-      EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), 0.0), 1, 1e-12);
-      Vector2d centre = Vector2d::Zero();
-      for (int i = 0; i < 4; ++i) {
-        EXPECT_GE(shares[i], 0);
-        centre += shares[i] * corners[i];
-      }
-      EXPECT_LT((centre - Vector2d(x, y)).norm(), 1e-9);
-    }
-  }
-  // Beyond the toes: the front sensors carry all.
-  const auto ahead = corner_shares(corners, {0.095, 0});
-  EXPECT_NEAR(ahead[0] + ahead[1], 1, 1e-12);
-}
-
 TEST(FootSensors, CarryTheRobotsWeight) {
   World world{SceneFile{}};
   const int robot = world.add_robot(nao_model(), ideal());
@@ -55,7 +32,7 @@ TEST(FootSensors, CarryTheRobotsWeight) {
   EXPECT_GE(world.sensors(robot).foot_force.minCoeff(), 0);
 }
 
-TEST(InertialUnit, FeelsGravityAtRestAndNothingInFreeFall) {
+TEST(InertialUnit, MeasuresGravityAtRestAndNothingInFreeFall) {
   World world{SceneFile{}};
   const int standing = world.add_robot(nao_model(), ideal());
   settled(world, 3);
@@ -72,7 +49,7 @@ TEST(InertialUnit, FeelsGravityAtRestAndNothingInFreeFall) {
   EXPECT_LT(falling.sensors(robot).accelerometer.norm(), 0.05);
 }
 
-TEST(InertialUnit, GyroscopeIntegratesToTheTurn) {
+TEST(InertialUnit, GyroscopeIntegratesToTheRotation) {
   World world{SceneFile{}};
   RobotOptions options = ideal();
   options.height = 3;
@@ -90,7 +67,7 @@ TEST(InertialUnit, GyroscopeIntegratesToTheTurn) {
   EXPECT_LT(integrated.angularDistance(truth), 0.01);
 }
 
-TEST(Sensors, AreAsCoarseNoisyAndBiasedAsSpecified) {
+TEST(Sensors, HaveTheSpecifiedResolutionNoiseAndBias) {
   World world{SceneFile{}};
   const int robot = world.add_robot(nao_model());
   settled(world, 2);
@@ -119,7 +96,7 @@ TEST(Sensors, AreAsCoarseNoisyAndBiasedAsSpecified) {
   }
 }
 
-TEST(Sensors, EstimateRollAndPitchWellButLetTheHeadingDrift) {
+TEST(Sensors, EstimateRollAndPitchWhileTheHeadingDrifts) {
   World world{SceneFile{}};
   const int robot = world.add_robot(nao_model());
   settled(world, 300);

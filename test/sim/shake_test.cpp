@@ -1,5 +1,5 @@
-// The robot is shaken as nobody would: random targets and stiffness, pushes, placements, balls. The
-// environment variable NAO_SHAKE_STEPS asks for more steps than the usual ones, 1e7 for example.
+// Random targets and stiffness, pushes, placements and balls. The environment variable
+// NAO_SHAKE_STEPS sets the number of steps, 1e7 for example.
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "sim/random.h"
+#include "common/random.h"
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"
 
@@ -16,12 +16,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/** How deep parts were in the floor. */
+/** How deep parts of the robot were in the floor. */
 struct Depth {
   /** Of the deepest point, m. */
   double greatest = 0;
-  /** Height of the lowest middle of a part, m: below zero it has gone through. */
-  double lowest_middle = 1;
+  /** Height of the lowest center of a part, m: below 0 it has gone through. */
+  double lowest_center = 1;
 
   void add(const SimRobot& robot) {
     for (const CollisionModel::Part& part : robot.collisions().parts) {
@@ -33,16 +33,16 @@ struct Depth {
         greatest = std::max(greatest, point.radius - in_world.z());
         height_sum += in_world.z();
       }
-      // The points of a box, a capsule or a ball lie around its middle.
+      // The center of a box, a capsule or a sphere is the mean of its points.
       const int num_points = part.end_point - part.first_point;
-      if (num_points > 0) lowest_middle = std::min(lowest_middle, height_sum / num_points);
+      if (num_points > 0) lowest_center = std::min(lowest_center, height_sum / num_points);
     }
   }
 };
 
 TEST(Shake, LeavesNoBadStateAndNothingFallsThroughTheFloor) {
-  const char* wish = std::getenv("NAO_SHAKE_STEPS");
-  const long num_ticks = (wish != nullptr ? std::atol(wish) : 100000) / 5;
+  const char* num_steps = std::getenv("NAO_SHAKE_STEPS");
+  const long num_ticks = (num_steps != nullptr ? std::atol(num_steps) : 100000) / 5;
   const RobotModel& model = *nao_model();
   World world(SceneFile::find("soccer"));
   world.add_robot(nao_model());
@@ -51,7 +51,7 @@ TEST(Shake, LeavesNoBadStateAndNothingFallsThroughTheFloor) {
     return Vector3d(random.normal(), random.normal(), random.normal());
   };
   MotorTargets targets = world.targets(0);
-  // In every step, for what goes through the floor may be thrown back within a tick.
+  // In every step: what goes through the floor may return within a tick.
   struct Probe {
     const World& world;
     Depth depth;
@@ -63,7 +63,7 @@ TEST(Shake, LeavesNoBadStateAndNothingFallsThroughTheFloor) {
       },
       &probe);
   double fastest = 0;
-  double greatest_energy = 0;
+  double largest_energy = 0;
   for (long tick = 0; tick < num_ticks; ++tick) {
     if (random.uniform() < 0.1) {
       for (int i = 0; i < model.num_motors(); ++i) {
@@ -97,17 +97,17 @@ TEST(Shake, LeavesNoBadStateAndNothingFallsThroughTheFloor) {
     const SimRobot& robot = world.robot(0);
     ASSERT_TRUE(robot.state().velocity.allFinite() && robot.state().position.allFinite());
     fastest = std::max(fastest, robot.state().velocity.cwiseAbs().maxCoeff());
-    greatest_energy = std::max(greatest_energy, world.energy());
+    largest_energy = std::max(largest_energy, world.energy());
   }
-  EXPECT_GT(probe.depth.lowest_middle, 0);
+  EXPECT_GT(probe.depth.lowest_center, 0);
   EXPECT_LT(probe.depth.greatest, 0.025);
   EXPECT_LT(fastest, 250);
-  EXPECT_LT(greatest_energy, 200);
+  EXPECT_LT(largest_energy, 200);
   std::printf(
-      "%ld steps: deepest point %.1f mm, lowest middle of a part %.1f mm above the floor, fastest "
-      "coordinate %.0f /s, greatest energy %.0f J\n",
-      5 * num_ticks, 1e3 * probe.depth.greatest, 1e3 * probe.depth.lowest_middle, fastest,
-      greatest_energy);
+      "%ld steps: deepest point %.1f mm, lowest center of a part %.1f mm above the floor, fastest "
+      "coordinate %.0f /s, largest energy %.0f J\n",
+      5 * num_ticks, 1e3 * probe.depth.greatest, 1e3 * probe.depth.lowest_center, fastest,
+      largest_energy);
 }
 
 }  // namespace

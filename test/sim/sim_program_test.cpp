@@ -1,4 +1,4 @@
-// nao-sim as a process, met on the bus.
+// nao-sim as a process, tested over the bus.
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/random.h"
 #include "common/wall_clock.h"
-#include "sim/joint_command.h"
-#include "sim/random.h"
+#include "sim/message_conversion.h"
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"
 #include "test/support/child_program.h"
@@ -23,8 +23,8 @@
 namespace nao::sim {
 namespace {
 
-/** Generous: the machine may be busy with other things. */
-constexpr double kPatience = 60;
+/** Time-out of everything that is waited for, s: far longer than it takes on a busy machine. */
+constexpr double kTimeout = 60;
 
 naolcm::joint_command_t command(int64_t tick, const std::vector<std::string>& names,
                                 const std::vector<double>& position,
@@ -36,6 +36,11 @@ naolcm::joint_command_t command(int64_t tick, const std::vector<std::string>& na
   message.joint_names = names;
   message.joint_position = position;
   message.joint_stiffness = stiffness;
+  const double nan = std::nan("");
+  message.joint_velocity.assign(names.size(), nan);
+  message.joint_torque.assign(names.size(), 0);
+  message.joint_kp.assign(names.size(), nan);
+  message.joint_kd.assign(names.size(), nan);
   return message;
 }
 
@@ -62,7 +67,7 @@ class SimProgram : public testing::Test {
 
   /** Handles messages until a condition holds. */
   bool wait_for(const std::function<bool()>& condition) {
-    const double end = monotonic_seconds() + kPatience;
+    const double end = monotonic_seconds() + kTimeout;
     while (!condition()) {
       if (monotonic_seconds() > end) return false;
       bus_.handle_for(0.1);
@@ -70,7 +75,8 @@ class SimProgram : public testing::Test {
     return true;
   }
 
-  /** Sends a world command until it is answered. @return What was wrong with it. */
+  /** Repeats a world command until it is answered. @return Why it was rejected; empty if it was
+   * executed. */
   std::string ask(naolcm::world_command_t message) {
     message.source = "test";
     message.command_id = ++last_id_;
@@ -95,7 +101,7 @@ class SimProgram : public testing::Test {
   int64_t last_id_ = 0;
 };
 
-TEST_F(SimProgram, IsReadyAndStandsInTimeWithTheWallClock) {
+TEST_F(SimProgram, IsReadyAndKeepsPaceWithTheWallClock) {
   start({});
   ASSERT_TRUE(wait_for([&] { return status_ && status_->state == "ready" && sensors_ && truth_; }));
   EXPECT_EQ(sensors_->num_joints, nao_model()->num_motors());
@@ -111,7 +117,7 @@ TEST_F(SimProgram, IsReadyAndStandsInTimeWithTheWallClock) {
   EXPECT_EQ(program_->end(), 0);
 }
 
-TEST_F(SimProgram, RefusesBadJointCommandsAndNothingMoves) {
+TEST_F(SimProgram, RejectsInvalidJointCommandsAndNothingMoves) {
   start({"--scene", "empty", "--ideal-sensors"});
   ASSERT_TRUE(wait_for([&] { return truth_ && truth_->tick > 200; }));
   const double nan = std::nan("");
@@ -130,7 +136,7 @@ TEST_F(SimProgram, RefusesBadJointCommandsAndNothingMoves) {
   EXPECT_TRUE(wait_for([&] { return truth_->robots[0].joint_position[0] > 0.9; }));
 }
 
-TEST_F(SimProgram, ObeysWorldCommands) {
+TEST_F(SimProgram, ExecutesWorldCommands) {
   start({"--ideal-sensors"});
   ASSERT_TRUE(wait_for([&] { return truth_.has_value(); }));
   EXPECT_EQ(ask("pause"), "");
@@ -169,6 +175,7 @@ TEST_F(SimProgram, ObeysWorldCommands) {
   ASSERT_TRUE(wait_for([&] { return truth_->velocity_ball_in_world[0] > 1; }));
 
   EXPECT_NE(ask("fly"), "");
+  EXPECT_NE(ask("drag"), "");
   message = {};
   message.command = "push";
   message.link = "Tail";
@@ -196,7 +203,7 @@ TEST_F(SimProgram, ObeysWorldCommands) {
   EXPECT_TRUE(wait_for([&] { return truth_->tick > 1000; }));
 }
 
-TEST_F(SimProgram, ReportsABadStateAndPublishesNone) {
+TEST_F(SimProgram, ReportsABadStateAndDoesNotPublishIt) {
   start({"--scene", "empty"});
   ASSERT_TRUE(wait_for([&] { return status_ && status_->state == "ready" && truth_; }));
   const auto bad_states = [&] {
@@ -215,7 +222,7 @@ TEST_F(SimProgram, ReportsABadStateAndPublishesNone) {
           fastest = std::max(fastest, std::abs(speed));
         }
       });
-  // No robot outlives this: its forearm alone would leave at some 500 m/s.
+  // The forearm alone would leave at some 500 m/s.
   naolcm::world_command_t message{};
   message.command = "push";
   message.link = "LWrist";
@@ -229,7 +236,7 @@ TEST_F(SimProgram, ReportsABadStateAndPublishesNone) {
   EXPECT_EQ(bad_states(), 1);
 }
 
-/** What a driver of the determinism test says at a tick: on one tick in six, all joints anew. */
+/** Answer to a tick in the determinism test: new targets of all joints in one tick of six. */
 naolcm::joint_command_t answer_to(int64_t tick) {
   if (tick % 6 != 0) return command(tick, {}, {}, {});
   Random random(static_cast<uint64_t>(tick));
@@ -245,7 +252,7 @@ naolcm::joint_command_t answer_to(int64_t tick) {
   return command(tick, names, position, stiffness);
 }
 
-/** Numbers of a sensor state, noise and all, as text that shows every bit. */
+/** Numbers of a sensor state as bytes. */
 std::string bits_of(const std::vector<double>& position, const double* gyroscope,
                     const double* orientation) {
   std::string result(reinterpret_cast<const char*>(position.data()),
@@ -261,7 +268,7 @@ TEST_F(SimProgram, LockStepGivesTheSameBitsInTwoProcessesAndWithoutABus) {
   std::vector<std::string> runs[2];
   for (std::vector<std::string>& states : runs) {
     on_sensors_ = [&](const naolcm::sensor_state_t& message) {
-      // A state is repeated when an answer is late: the answer is, too.
+      // A state is repeated when an answer is late, and so is the answer.
       if (message.tick == static_cast<int64_t>(states.size())) {
         states.push_back(bits_of(message.joint_position, message.gyroscope_torso,
                                  message.orientation_torso_in_world));
@@ -269,7 +276,7 @@ TEST_F(SimProgram, LockStepGivesTheSameBitsInTwoProcessesAndWithoutABus) {
       bus_.publish(RobotChannels().joint_command, answer_to(message.tick));
     };
     start({"--lock-step", "--seed", "42"});
-    const double end = monotonic_seconds() + 5 * kPatience;
+    const double end = monotonic_seconds() + 5 * kTimeout;
     while (states.size() <= kDeterminismTicks && monotonic_seconds() < end) bus_.handle_for(0.1);
     ASSERT_GT(states.size(), static_cast<size_t>(kDeterminismTicks));
     states.resize(kDeterminismTicks);
@@ -294,14 +301,25 @@ TEST_F(SimProgram, LockStepGivesTheSameBitsInTwoProcessesAndWithoutABus) {
     ASSERT_TRUE(bits_of(position, sensed.gyroscope.data(), orientation) == runs[0][tick])
         << "tick " << tick;
     const naolcm::joint_command_t answer = answer_to(tick);
-    ASSERT_FALSE(merge_joint_command(*nao_model(), answer.joint_names, answer.joint_position,
-                                     answer.joint_stiffness, targets));
+    ASSERT_FALSE(merge_joint_command(*nao_model(), to_core(answer), targets));
     world.set_targets(0, targets);
     world.step_tick();
   }
 }
 
-TEST_F(SimProgram, SaysWhatIsWrongWithItsCommandLine) {
+TEST_F(SimProgram, RunsAtAnotherControlPeriod) {
+  start({"--lock-step", "--tick-ms", "12"});
+  on_sensors_ = [&](const naolcm::sensor_state_t& message) {
+    bus_.publish(RobotChannels().joint_command, command(message.tick, {}, {}, {}));
+  };
+  ASSERT_TRUE(wait_for([&] { return sensors_ && sensors_->tick >= 100; }));
+  EXPECT_EQ(sensors_->period, 0.012);
+  EXPECT_EQ(sensors_->utime, sensors_->tick * 12000);
+  EXPECT_EQ(truth_->robots.at(0).model, "nao");
+}
+
+TEST_F(SimProgram, ReportsAnInvalidCommandLine) {
+  EXPECT_NE(ChildProgram("nao-sim", {"--lcm-url", private_bus_url(), "--tick-ms", "11"}).wait(), 0);
   EXPECT_EQ(ChildProgram("nao-sim", {"--pace", "-1"}).wait(), 2);
   EXPECT_EQ(ChildProgram("nao-sim", {"--lcm-url", private_bus_url(), "--scene", "moon"}).wait(), 1);
   EXPECT_EQ(

@@ -16,7 +16,7 @@ double floor_force(const World& world) {
 
 class Standing : public testing::TestWithParam<const char*> {};
 
-TEST_P(Standing, CarriesItsWeightAndStaysWhereItIs) {
+TEST_P(Standing, CarriesTheWeightAndStaysInPlace) {
   World world{SceneFile{}};
   RobotOptions options;
   options.posture = GetParam();

@@ -1,4 +1,4 @@
-// The physics' own tree, against Simbody's answers for the same robot.
+// The dynamics of the physics, compared with Simbody's for the same robot.
 
 #include "sim/tree_dynamics.h"
 
@@ -7,15 +7,14 @@
 #include <algorithm>
 #include <random>
 
+#include "common/constants.h"
 #include "sim/simbody_model.h"
 #include "test/sim/sim_fixture.h"
 
 namespace nao::sim {
 namespace {
 
-constexpr double kGravity = 9.81;
-
-/** A robot in a random state, in both descriptions. */
+/** A robot in a random state, in both representations. */
 class TreeDynamicsTest : public testing::Test {
  protected:
   TreeDynamicsTest()
@@ -91,7 +90,7 @@ TEST_F(TreeDynamicsTest, AcceleratesAsSimbodysOrderNAlgorithmDoes) {
   Eigen::VectorXd bias = Eigen::VectorXd::Zero(tree_.num_dofs());
   for (int trial = 0; trial < 200; ++trial) {
     randomize();
-    // Torques on the joints, up to what the motors give.
+    // Torques on the joints, up to the peak torque of the motors.
     Eigen::VectorXd torque = Eigen::VectorXd::Zero(tree_.num_dofs());
     for (int i = 6; i < tree_.num_dofs(); ++i) {
       torque[i] = std::uniform_real_distribution<double>(-5, 5)(random_);

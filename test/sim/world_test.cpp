@@ -5,15 +5,16 @@
 #include <cstring>
 
 #include "common/error.h"
-#include "sim/random.h"
+#include "common/random.h"
 #include "test/sim/sim_fixture.h"
+#include "test/sim/test_robots.h"
 
 namespace nao::sim {
 namespace {
 
 using Eigen::Vector3d;
 
-/** Everything that a world's state is made of, as bytes. */
+/** The whole state of a world, as bytes. */
 std::string bytes_of(const World& world) {
   std::string result;
   const auto append = [&result](const double* data, long count) {
@@ -33,7 +34,7 @@ std::string bytes_of(const World& world) {
   return result;
 }
 
-/** A minute of random commands, pushes and kicks. */
+/** Random targets, pushes and kicks. @return The states of all ticks, as bytes. */
 std::string shaken(World& world, double seconds) {
   Random random(9);
   std::string all;
@@ -65,7 +66,7 @@ TEST(World, SameSeedAndCommandsGiveTheSameBits) {
   EXPECT_EQ(first.num_bad_states(), 0);
 }
 
-TEST(World, ResetBringsBackTheStartButForNoise) {
+TEST(World, ResetRestoresTheStartExceptForNoise) {
   WorldOptions options;
   World world(SceneFile::find("soccer"), options);
   RobotOptions how;
@@ -78,7 +79,7 @@ TEST(World, ResetBringsBackTheStartButForNoise) {
   EXPECT_TRUE(first == shaken(world, 5));
 }
 
-TEST(World, AnotherSeedGivesOtherNoise) {
+TEST(World, AnotherSeedGivesDifferentNoise) {
   WorldOptions options;
   options.seed = 2;
   World first{SceneFile{}};
@@ -120,14 +121,14 @@ TEST(World, PlacesTheRobotOnItsLowestPoint) {
     world.place_robot(0, &posture, {1, -2, 0});
     EXPECT_EQ(world.robot(0).state().position.x(), 1) << posture.name;
     for (int i = 0; i < 300; ++i) world.step_tick();
-    // It stays about where it was put, and does not sink or jump.
+    // It stays about where it was placed, and does not sink or jump.
     EXPECT_NEAR(world.robot(0).state().position.x(), 1, 0.05) << posture.name;
     EXPECT_NEAR(world.robot(0).state().position.y(), -2, 0.05) << posture.name;
     EXPECT_LT(world.robot(0).state().velocity.norm(), 1e-3) << posture.name;
   }
 }
 
-TEST(World, PutsBackARobotThatIsSomewhereImpossible) {
+TEST(World, PutsBackARobotThatLeftAllBounds) {
   World world{SceneFile{}};
   world.add_robot(nao_model());
   world.push(0, 0, {1e6, 0, 0});
@@ -144,7 +145,22 @@ TEST(World, PutsBackARobotThatIsSomewhereImpossible) {
   EXPECT_NEAR(world.robot(0).state().position.z(), 0.32, 0.01);
 }
 
-TEST(World, RefusesOptionsThatMakeNoSense) {
+TEST(World, CountsContactsBeyondItsMemory) {
+  World world{SceneFile{}};
+  RobotOptions options;
+  options.posture = "Start";
+  // 196 spheres on the floor; memory is taken for 64 contacts, and 96 for each robot.
+  world.add_robot(make_bed_of_spheres(14), options);
+  world.step();
+  const int64_t dropped = world.num_dropped_contacts();
+  EXPECT_GT(dropped, 0);
+  world.step();
+  EXPECT_GT(world.num_dropped_contacts(), dropped);
+  world.reset();
+  EXPECT_EQ(world.num_dropped_contacts(), 0);
+}
+
+TEST(World, RejectsOptionsOutsideTheirRange) {
   WorldOptions options;
   options.step = 0;
   EXPECT_THROW(World(SceneFile{}, options), ConfigError);

@@ -20,9 +20,9 @@
 
 namespace nao {
 
-/** Stands in for nao-motion, the robot and its camera on the bus: reports a robot that obeys at
- * once, answers commands, and sends pictures of nothing. step() from the bus's thread; the rest
- * from any. */
+/** A fake of nao-motion, the robot and its camera on the bus: executes every command at once,
+ * answers it, and sends images without content. step() and send_image() in the bus's thread, the
+ * rest in any. */
 class FakeMotion {
  public:
   FakeMotion(Bus& bus, std::vector<std::string> joint_names)
@@ -56,7 +56,7 @@ class FakeMotion {
                                            });
   }
 
-  /** One tick of 10 ms: a state of the robot, every tenth time one of motion. */
+  /** One tick of 10 ms: sends a robot_state_t, and every tenth time a motion_state_t. */
   void step() {
     ++tick_;
     if (is_silent) return;
@@ -80,8 +80,8 @@ class FakeMotion {
     bus_.publish(channels_.motion_state, motion);
   }
 
-  /** Sends a picture of `size_bytes` meaningless bytes. */
-  void send_picture(int width, int size_bytes) {
+  /** Sends an image of `size_bytes` bytes that are no JPEG. */
+  void send_image(int width, int size_bytes) {
     naolcm::image_t image{};
     image.utime = tick_ * 10000;
     image.camera = "top";
@@ -97,17 +97,17 @@ class FakeMotion {
     const std::lock_guard lock(mutex_);
     return walks_;
   }
-  /** Kinds of the commands that were carried out, in order. */
+  /** Kinds of the executed commands, in order. */
   std::vector<std::string> commands() {
     const std::lock_guard lock(mutex_);
     return commands_;
   }
 
-  /** True: nothing is said any more, as if it had been killed. */
+  /** True: sends and answers nothing, as after a crash. */
   std::atomic<bool> is_silent = false;
 
  private:
-  /** @return false if this command has been carried out before, or nobody is there to hear it. */
+  /** @return false if this command has been executed before, or is_silent. */
   bool accept(const std::string& command, const std::string& source, int64_t command_id) {
     if (is_silent) return false;
     const std::lock_guard lock(mutex_);

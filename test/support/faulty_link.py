@@ -1,4 +1,4 @@
-"""A TCP link that fails the ways a phone's does: it delays, stalls without closing, and breaks."""
+"""A TCP link with the faults of a phone's link: latency, stalls without closing, resets."""
 
 import collections
 import select
@@ -12,7 +12,7 @@ class FaultyLink:
     """Relays connections from .port to a port of this host, both ways. Use it in a with statement.
 
     .delay    seconds that every byte takes, each way
-    .stalled  True: nothing gets through and nobody is told, as with a phone out of reach
+    .stalled  True: no data passes and neither end is notified, as with a phone out of range
     """
 
     def __init__(self, target_port):
@@ -40,7 +40,7 @@ class FaultyLink:
         pairs, self._pairs = self._pairs, []
         for pair in pairs:
             for connection in pair.ends:
-                # Lingering for 0 s makes close() send a reset.
+                # SO_LINGER with 0 s makes close() send a reset.
                 connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
                 connection.close()
 
@@ -59,7 +59,7 @@ class FaultyLink:
 
 
 class _Pair:
-    """Two ends of one connection, and what is on its way between them."""
+    """The two ends of one connection, and the data in transit between them."""
 
     def __init__(self, near, target_port):
         far = socket.create_connection(("127.0.0.1", target_port))

@@ -1,4 +1,4 @@
-"""Several hosts on one machine: network namespaces, joined by a network that delays and loses.
+"""Several hosts on one machine: network namespaces, connected by a network that delays and drops datagrams.
 
     net ── veth ── host "a"
      │
@@ -26,7 +26,7 @@ def ip(*words):
 
 
 class Hosts:
-    """Use it in a with statement: nothing of it is left behind."""
+    """Use it in a with statement: its end removes all namespaces and processes."""
 
     @staticmethod
     def missing():
@@ -45,7 +45,7 @@ class Hosts:
         return ""
 
     def __init__(self, names, port, delay, loss):
-        """@param delay  One way, s. @param loss  Share of datagrams that never arrive."""
+        """@param delay  One way, s. @param loss  Fraction of dropped datagrams."""
         self.prefix = f"nao{os.getpid()}"
         self.names = names
         self.port = port
@@ -84,15 +84,15 @@ class Hosts:
         return f"{self.prefix}{name}"
 
     def on(self, name):
-        """Words that, in front of a command, let it run on a host."""
+        """Prefix of a command that runs it on a host."""
         return ["ip", "netns", "exec", self.space(name)]
 
     def cut(self, name):
-        """Pulls a host's cable."""
+        """Disconnects a host from the network."""
         ip("-n", self.space("net"), "link", "set", name, "down")
 
     def mend(self, name):
-        """Puts it in again."""
+        """Reconnects a host."""
         ip("-n", self.space("net"), "link", "set", name, "up")
 
 
@@ -108,7 +108,7 @@ class Link:
         index = socket.if_nametoindex(device)
         group = struct.pack("4s4si", socket.inet_aton(GROUP), socket.inet_aton("0.0.0.0"), index)
         self.receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
-        # One for every host that it sends for: receivers put fragments together by their sender.
+        # One socket per sending host: receivers reassemble fragments by sender address.
         self.senders = {}
 
     @staticmethod

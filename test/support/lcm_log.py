@@ -6,12 +6,12 @@ from collections import namedtuple
 SYNC = 0xEDA1DA01
 HEADER = struct.Struct(">IqqII")
 
-# time: when it was received, microseconds since 1970; data: the encoded message.
+# time: time of reception, microseconds since 1970; data: the encoded message.
 Event = namedtuple("Event", "number time channel data")
 
 
 def read_log(path):
-    """Every whole event of a log, in order. One that was cut off at the end is left out."""
+    """Every whole event of a log, in order. A truncated last event is skipped."""
     return list(read_events(path))
 
 

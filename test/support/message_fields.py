@@ -1,4 +1,4 @@
-"""Reads the few fields of encoded messages that tests need many thousand times: LCM's wire format, big-endian.
+"""Fast access to a few fields of encoded messages: LCM's wire format, big-endian.
 
 The messages of any type, slower: nao log json.
 """
@@ -30,6 +30,6 @@ def read_mode(message):
 
 
 def read_walk(message):
-    """Velocity that a walk_command_t asks for: m/s ahead, m/s to the left, rad/s."""
+    """Commanded velocity of a walk_command_t: m/s ahead, m/s to the left, rad/s."""
     size = _INT32.unpack_from(message, 24)[0]
     return struct.unpack_from(">3d", message, 28 + size + 8)

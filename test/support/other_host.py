@@ -1,6 +1,6 @@
-"""A second host, for tests of what only another host's phones see: a network namespace behind a cable of its own.
+"""A second host, for tests of remote phones: a network namespace behind a virtual cable.
 
-Needs no privileges where the kernel lets users make namespaces; enter_private_network() tells.
+Needs no privileges where the kernel permits user namespaces; enter_private_network() returns whether it does.
 """
 
 import contextlib
@@ -15,14 +15,14 @@ PRIVATE = "NAO_TEST_PRIVATE_NETWORK"
 
 
 def enter_private_network():
-    """Starts the calling program anew in a network of its own: call it first. The multicast bus works there.
+    """Restarts the calling program in a private network namespace: call it first. The multicast bus works there.
 
-    @return False if this machine does not allow it."""
+    @return False if the system does not permit it."""
     if PRIVATE in os.environ:
         ip("link", "set", "lo", "up", "multicast", "on")
         ip("route", "add", "224.0.0.0/4", "dev", "lo")
         return True
-    # Root may without a user of its own, also in a chroot, where the kernel gives none.
+    # Root needs no user namespace; in a chroot the kernel permits none.
     for unshare in (["unshare", "--net"], ["unshare", "--user", "--map-root-user", "--net"]):
         probe = [*unshare, "ip", "link", "add", "type", "veth"]
         if subprocess.run(probe, capture_output=True, check=False).returncode == 0:
@@ -64,7 +64,7 @@ class OtherHost:
 
     @contextlib.contextmanager
     def inside(self):
-        """What is opened or started within is the other host's, and stays so."""
+        """Context: sockets and processes created within belong to the other host."""
         here = os.open("/proc/self/ns/net", os.O_RDONLY)
         there = os.open(self._namespace, os.O_RDONLY)
         try:
@@ -83,7 +83,7 @@ class OtherHost:
 
     @staticmethod
     def cut_cable():
-        """Nothing gets through, and neither end is told."""
+        """Drops all packets without a notification to either end."""
         ip("link", "set", "cable", "down")
 
     @staticmethod

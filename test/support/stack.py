@@ -16,12 +16,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BIN_DIR = Path(os.environ.get("NAO_BIN_DIR", ROOT / "build/dev/bin"))
 
-# The machine may be busy with other tests: nothing here measures speed.
+# Timeout, s, for a machine with other load; it measures nothing.
 DEADLINE = 120
 
 
 def private_lcm_url(offset=0):
-    """A bus that no other test, and no stack of the developer's, uses."""
+    """URL of a bus that no other test or stack uses."""
     return f"udpm://239.255.76.67:{20000 + (os.getpid() + offset * 3331) % 10000}?ttl=0"
 
 
@@ -33,14 +33,14 @@ def free_port():
 
 
 def run(command, **options):
-    """Runs a command to its end and keeps what it says: .returncode, .stdout, .stderr."""
+    """Runs a command to its end. @return .returncode, .stdout, .stderr."""
     return subprocess.run(
         [str(word) for word in command], stdin=subprocess.DEVNULL, capture_output=True, text=True,
         timeout=DEADLINE, check=False, **options)
 
 
 class Stack:
-    """One stack. Use it in a with statement: nothing of it is left behind."""
+    """One stack. Use it in a with statement: its end stops all programs and removes all files."""
 
     def __init__(self, offset=0):
         self.run_dir = Path(tempfile.mkdtemp(prefix="nao-"))
@@ -57,7 +57,7 @@ class Stack:
         shutil.rmtree(self.run_dir, ignore_errors=True)
 
     def start(self, *options, ports=True):
-        """Calls scripts/start. Its result is for the test to judge."""
+        """Calls scripts/start and returns its result unchecked."""
         command = [ROOT / "scripts/start", "--bin", BIN_DIR, "--run-dir", self.run_dir, "--lcm-url", self.lcm_url,
                    "--bind", "127.0.0.1", "--token", self.token]
         if ports:
@@ -65,7 +65,7 @@ class Stack:
         return run([*command, *options])
 
     def start_or_fail(self, *options):
-        """Starts, and shows everything there is to see if it did not work."""
+        """Starts the stack; a failure includes all logs."""
         result = self.start(*options)
         if result.returncode != 0:
             raise AssertionError(f"scripts/start: {result.returncode}\n{result.stdout}{result.stderr}{self.logs()}")
@@ -83,18 +83,18 @@ class Stack:
         return run([BIN_DIR / "nao", "--lcm-url", self.lcm_url, *arguments])
 
     def state(self):
-        """What nao-motion says: a dictionary with robot_state and motion_state."""
+        """State of nao-motion: a dictionary with robot_state and motion_state."""
         return json.loads(self.nao("state", "--json").stdout)
 
     def truth(self):
-        """What nao-sim knows: world_truth_t as a dictionary."""
+        """True state of the world: world_truth_t as a dictionary."""
         return json.loads(self.nao("world", "show", "--json").stdout)
 
     def torso_height(self):
         return self.truth()["robots"][0]["position_torso_in_world"][2]
 
     def pids(self):
-        """Program name to process id, of every process that carries this stack's mark."""
+        """Program name to process id, of every process with this stack's environment variable."""
         mark = f"NAO_REMOTE_STACK={self.run_dir}".encode()
         found = {}
         for folder in Path("/proc").glob("[0-9]*"):
@@ -103,7 +103,7 @@ class Stack:
                     program = (folder / "cmdline").read_bytes().split(b"\0")[0].decode()
                     found[Path(program).name] = int(folder.name)
             except OSError:
-                continue  # it ended meanwhile, or is somebody else's
+                continue  # it has ended, or belongs to another user
         return found
 
     def wait_ready(self, *programs):
@@ -118,7 +118,7 @@ class Stack:
 
 
 class Program:
-    """One program by itself, without supervisor."""
+    """One program without supervisor."""
 
     def __init__(self, name, lcm_url, *options, environment=None):
         self.process = subprocess.Popen(
@@ -127,7 +127,7 @@ class Program:
             env={**os.environ, **(environment or {})})
 
     def end(self, with_signal=signal.SIGTERM):
-        """Asks it to end. @return its exit status, how long it took in seconds, and what it said."""
+        """Sends SIGTERM. @return (exit status, duration in s, output)."""
         start = time.monotonic()
         self.process.send_signal(with_signal)
         _, said = self.process.communicate(timeout=DEADLINE)

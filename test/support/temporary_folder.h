@@ -9,7 +9,7 @@
 
 namespace nao {
 
-/** An empty folder that goes away with this object. */
+/** An empty folder; the destructor removes it. */
 class TemporaryFolder {
  public:
   TemporaryFolder() {

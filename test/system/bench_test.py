@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/bench with programs that measure nothing: what it prints, refuses and writes down."""
+"""scripts/bench with fake benchmark programs: its output, errors and document."""
 
 import datetime
 import json
@@ -23,14 +23,14 @@ class Bench(unittest.TestCase):
             (self.root / name).mkdir()
         shutil.copy(ROOT / "scripts/bench", self.root / "scripts")
         self.page.write_text(PAGE)
-        self.put("bus", 35, peer="UDP", peer_value=12, ratio=35 / 12)
+        self.put("bus", 35, baseline="UDP", baseline_value=12, ratio=35 / 12)
         self.put("camera", 8.6)
 
-    def put(self, part, value, **peer):
-        """A program that claims to have measured `value`."""
-        figure = {"name": f"{part}.time", "value": value, "unit": "ms", "peer": None, "peer_value": None, "ratio": None}
+    def put(self, part, value, **baseline):
+        """A fake benchmark that reports `value`."""
+        figure = {"name": f"{part}.time", "value": value, "unit": "ms", "baseline": None, "baseline_value": None, "ratio": None}
         program = self.root / "bin" / f"nao-bench-{part}"
-        program.write_text(f"#!/bin/sh\ncat > \"$2\" <<'END'\n{json.dumps([{**figure, **peer}])}\nEND\n")
+        program.write_text(f"#!/bin/sh\ncat > \"$2\" <<'END'\n{json.dumps([{**figure, **baseline}])}\nEND\n")
         program.chmod(0o755)
 
     def bench(self, *arguments):
@@ -62,7 +62,7 @@ class Bench(unittest.TestCase):
         self.assertIn("status 3", result.stderr)
 
     def test_a_figure_that_could_not_be_measured_hides_no_other(self):
-        self.put("camera", None, peer="floor", peer_value=0, ratio=None)
+        self.put("camera", None, baseline="floor", baseline_value=0, ratio=None)
         result = self.bench("--only", "bus", "--only", "camera")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("UDP: 12, ratio 2.92", result.stdout)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The robot obeys the command-line client, and refuses nonsense in words."""
+"""The robot executes commands of the command-line client and rejects invalid ones with a reason."""
 
 import time
 import unittest

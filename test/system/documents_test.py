@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the documents tell a person to type works, and what they point to is there."""
+"""Commands in the documents work, and their links have targets."""
 
 import os
 import re

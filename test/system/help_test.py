@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the documents say of command lines is what the programs' own help texts say."""
+"""Command lines in the documents agree with the help texts of the programs."""
 
 import functools
 import os
@@ -9,7 +9,7 @@ import unittest
 
 from stack import BIN_DIR, ROOT, run
 
-# Words between which one command line ends and the next begins.
+# Shell words that separate two command lines.
 SEPARATORS = {";", "&&", "||", "|", "&", "(", ")", ">", "<"}
 
 
@@ -20,8 +20,8 @@ def tracked(*patterns):
 
 @functools.cache
 def commands():
-    """Everything that a person may call: name as documents say it -> file."""
-    # nao-bare-sender is the peer that nao-bench-gateway starts: nobody calls it.
+    """All commands for users: name as in the documents -> file."""
+    # nao-bare-sender is the baseline that nao-bench-gateway starts; users do not call it.
     found = {file.name: file for file in BIN_DIR.glob("nao*") if "_" not in file.name and file.name != "nao-bare-sender"}
     for file in tracked("scripts/*", ".ci/*", "test/*.py", "test/playback/record", "tools/*.py", "phone-gateway/*.py"):
         if os.access(file, os.X_OK):
@@ -55,7 +55,7 @@ def words_of(line):
 
 
 def command_lines(text):
-    """The lines of code of a document: blocks, indented or fenced, and what stands in `marks`."""
+    """Lines of code of a document: indented and fenced blocks, and `inline code`."""
     fenced = re.findall(r"^```\w*\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     outside = re.sub(r"^```\w*\n.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
     lines = [line for block in fenced for line in block.splitlines() if not re.search("[│─]", line)]  # no diagrams
@@ -79,7 +79,7 @@ def calls(line):
 
 
 def complaint(name, words):
-    """What the help texts of a command say against a call of it; None if nothing."""
+    """Contradiction between a call and the help texts of its command; None if there is none."""
     path = [commands()[name]]
     text = help_text(*path)
     for word in words:
@@ -87,7 +87,7 @@ def complaint(name, words):
             if word.split("=")[0].rstrip(",:") not in options(text) | {"--help", "--version"}:
                 return f"{' '.join([name, *map(str, path[1:])])} has no option {word}"
             continue
-        # Alternatives: list|take. Capitals stand for what a person puts there.
+        # Alternatives: list|take. Capitals are placeholders.
         known = subcommands(help_text(*path))
         if known and word.isupper():
             text += "".join(help_text(*path, name) for name in known)
@@ -114,7 +114,7 @@ class HelpTexts(unittest.TestCase):
     def test_every_option_that_is_named_alone_belongs_to_some_command(self):
         known = options("".join(help_text(file) for file in commands().values()))
         for document in tracked("*.md"):
-            for option in re.findall(r"`(--[a-z][a-z-]*)", document.read_text()):
+            for option in re.findall(r"`(--[a-z][a-z0-9-]*)", document.read_text()):
                 with self.subTest(document=str(document.relative_to(ROOT)), option=option):
                     self.assertIn(option, known)
 

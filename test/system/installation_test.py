@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""An installed copy needs nothing of the tree it was built in."""
+"""An installed copy does not depend on the build tree."""
 
 import os
 import shutil
@@ -20,7 +20,7 @@ class Installation(unittest.TestCase):
         installed = Path(folder.name) / "installed"
         result = run(["cmake", "--install", BIN_DIR.parent, "--prefix", installed])
         self.assertEqual(result.returncode, 0, result.stderr)
-        # Moved: no program may remember where it was put.
+        # Moved: no program may depend on its installation path.
         self.prefix = Path(folder.name) / "moved"
         installed.rename(self.prefix)
 

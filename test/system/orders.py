@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Usage: test/system/orders.py [--orders N] [--seed S] [--patience FACTOR]
+"""Usage: test/system/orders.py [--orders N] [--seed S] [--time-scale FACTOR]
 
-Starts the five programs of a stack in every order (120 of them, or N drawn by chance), without supervisor; each
-time all must become ready and the robot obey. Then ends them by Ctrl-C in another order; each must end within
-2 s with exit status 0. Prints the longest times; exit status 1 if one failed. A few orders are part of the test run.
+Starts the five programs of a stack in every order (120 orders, or N random ones) without supervisor; all programs
+must become ready and the robot must execute a command. Then ends them with SIGINT in another order; each must end
+within 2 s with exit status 0. Prints the longest times; exit status 1 if an order failed. A few orders are part of
+the test run.
 """
 
 import argparse
@@ -23,7 +24,7 @@ MAX_END = 2  # s
 
 
 class Run:
-    """One order, from the first start to the last end."""
+    """One order of starts and ends of the programs."""
 
     def __init__(self, stack):
         self.stack = stack
@@ -38,7 +39,7 @@ class Run:
         self.programs[name] = Program(words[0], self.stack.lcm_url, *options)
 
     def carry_out(self, order):
-        """@return what went wrong; empty if nothing did."""
+        """@return The failure; empty on success."""
         begin = time.monotonic()
         for name in order:
             self.start(name)
@@ -66,7 +67,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--orders", type=int)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--patience", type=float, default=1, help="of the bound in time, on a machine that has other work")
+    parser.add_argument("--time-scale", type=float, default=1, help="factor of the time bounds, on a machine with other load")
     arguments = parser.parse_args()
     random.seed(arguments.seed)
     orders = list(itertools.permutations(PROGRAMS))
@@ -86,7 +87,7 @@ def main():
                 print(f"{' '.join(order)}: {fault}", flush=True)
     print(f"{len(orders)} orders, {failures} failed; ready after {worst_ready:.1f} s at the worst, "
           f"ended by Ctrl-C within {worst_end:.2f} s")
-    return 1 if failures or worst_end > arguments.patience * MAX_END else 0
+    return 1 if failures or worst_end > arguments.time_scale * MAX_END else 0
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Each program ends when asked, and comes back when killed."""
+"""Each program ends on SIGTERM and is restarted after a crash."""
 
 import os
 import signal
@@ -31,13 +31,13 @@ class Ending(unittest.TestCase):
                 with self.subTest(program=name, signal=asked), Stack() as stack:
                     program = Program(name, stack.lcm_url, *options_of(name))
                     self.addCleanup(program.kill)
-                    # Alone on the bus it may wait for others; what counts is that it speaks.
+                    # Alone on the bus it may wait for other programs; it must publish its status.
                     deadline = time.monotonic() + DEADLINE
                     while name not in stack.nao("status").stdout and time.monotonic() < deadline:
                         self.assertIsNone(program.process.poll())
                     status, seconds, said = program.end(asked)
                     self.assertEqual(status, 0, said)
-                    # Two seconds are promised; a busy machine may take some more.
+                    # Specified: 2 s. The rest allows for a loaded machine.
                     self.assertLess(seconds, 10)
 
     def test_each_program_has_a_version_and_explains_its_options(self):
@@ -86,7 +86,7 @@ class ServiceManager(unittest.TestCase):
                     said.append(manager.recv(4096).decode().split("\n"))
                     self.assertIn("WATCHDOG=1", said[-1])
                 os.kill(program.process.pid, signal.SIGSTOP)
-                # What it had said before may still be on its way.
+                # Earlier messages may still be in transit.
                 manager.settimeout(3)
                 with self.assertRaises(TimeoutError):
                     for _ in range(3):
@@ -98,12 +98,12 @@ class ServiceManager(unittest.TestCase):
 
 class Killing(unittest.TestCase):
     def test_a_killed_program_comes_back_and_the_robot_obeys_again(self):
-        self.hurt_each_program(signal.SIGKILL)
+        self.fault_each_program(signal.SIGKILL)
 
     def test_a_hung_program_is_replaced_and_the_robot_obeys_again(self):
-        self.hurt_each_program(signal.SIGSTOP)
+        self.fault_each_program(signal.SIGSTOP)
 
-    def hurt_each_program(self, with_signal):
+    def fault_each_program(self, with_signal):
         with Stack() as stack:
             stack.start_or_fail()
             for name in PROGRAMS:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A recorded run, played again, says on the bus what the run said."""
+"""A replayed recording publishes the messages of the recorded run."""
 
 import json
 import signal
@@ -33,9 +33,9 @@ class RecordReplay(unittest.TestCase):
 
             refused = stack.script("replay", log)
             self.assertEqual(refused.returncode, 1)
-            self.assertIn("talk against the log", refused.stderr)
+            self.assertIn("publishes the same channels as the log", refused.stderr)
 
-            # Again on another bus, where nobody else talks.
+            # Replay on another bus without other traffic.
             copy = stack.run_dir / "copy.lcmlog"
             second_recorder = subprocess.Popen(["lcm-logger", "--quiet", f"--lcm-url={silent.lcm_url}", copy])
             self.addCleanup(second_recorder.kill)
@@ -45,7 +45,7 @@ class RecordReplay(unittest.TestCase):
             self.wait_for_silence(copy)
             second_recorder.terminate()
             second_recorder.wait(DEADLINE)
-            # The bus may lose some while the machine is busy, but it makes none up and changes no order.
+            # Under load the bus may lose messages, but it neither invents nor reorders them.
             heard = messages(copy, "NAO_ROBOT_STATE")
             rest = iter(states)
             self.assertTrue(all(state in rest for state in heard))
@@ -74,7 +74,7 @@ class RecordReplay(unittest.TestCase):
             self.assertEqual(channels["NAO_SENSOR_STATE"]["missing_ticks"], 0)
             self.assertTrue(all(row["undecodable"] == 0 for row in channels.values()))
 
-            # A part of it, and under another name.
+            # A part of the log, with a renamed channel.
             part = stack.run_dir / "part.lcmlog"
             cut = stack.nao("log", "cut", log, part, "--from", "1", "--to", "2", "--rename",
                             "NAO_SENSOR_STATE=OLD_SENSOR_STATE")
@@ -88,7 +88,7 @@ class RecordReplay(unittest.TestCase):
             self.assertIn("joint_position[HeadYaw]", table.stdout.splitlines()[0])
             missing = stack.nao("log", "csv", part, "NAO_SENSOR_STATE")
             self.assertEqual(missing.returncode, 1)
-            self.assertIn("holds nothing on NAO_SENSOR_STATE", missing.stderr)
+            self.assertIn("contains no message on NAO_SENSOR_STATE", missing.stderr)
 
     def wait_for_file(self, path):
         deadline = time.monotonic() + DEADLINE
@@ -97,14 +97,14 @@ class RecordReplay(unittest.TestCase):
             time.sleep(0.05)
 
     def wait_for_silence(self, path):
-        """Until a recorder writes no more into its file."""
+        """Waits until a recorder has stopped writing."""
         size = -1
         while path.stat().st_size != size:
             size = path.stat().st_size
             time.sleep(1)
 
     def wait_for_listener(self, lcm_url):
-        """Until a process has joined the bus's port."""
+        """Waits until a process has opened the bus's port."""
         port = f"{int(lcm_url.split(':')[2].split('?')[0]):04X}"
         deadline = time.monotonic() + DEADLINE
         while f":{port} " not in Path("/proc/net/udp").read_text():

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Simulator and camera, motion, and gateway on three hosts, with a network between them that delays and loses."""
+"""Simulator and camera, motion, and gateway on three hosts, with a network that delays and drops datagrams."""
 
 import json
 import math
@@ -15,7 +15,7 @@ WORLD, MOTION, GATEWAY = "world", "motion", "gate"
 ONLY = {WORLD: "sim,head-camera", MOTION: "motion", GATEWAY: "phone-gateway"}
 DELAY = 0.02  # s, one way
 LOSS = float(os.environ.get("NAO_TEST_LOSS", "0.01"))
-# From the last walk command that comes through to a robot at rest: motion lets a command stand for 0.5 s; the steps
+# From the last received walk command to a robot at rest: a command is valid for 0.5 s; the steps
 # that end the walk take more at this delay (nao-trial walk --latency 6 --late 0.02: up to 1 s).
 STOP_TIME = 2.0
 
@@ -75,13 +75,13 @@ class SeveralHosts(unittest.TestCase):
         # robots/nao/postures.yaml: heights of the torso.
         self.assert_obeys("Crouch", 0.229)
         self.assert_obeys("StandInit", 0.322)
-        picture = self.part[GATEWAY].run_dir / "picture.jpg"
-        result = self.part[GATEWAY].phone("picture", picture)
+        image = self.part[GATEWAY].run_dir / "image.jpg"
+        result = self.part[GATEWAY].phone("image", image)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        self.assertTrue(picture.read_bytes().startswith(b"\xff\xd8"))
+        self.assertTrue(image.read_bytes().startswith(b"\xff\xd8"))
 
     def place(self):
-        """Where the torso truly is, m, and on the world's clock, s."""
+        """(true position of the torso, m; simulated time, s)."""
         world = json.loads(self.part[WORLD].nao("world", "show", "--json").stdout)
         return world["robots"][0]["position_torso_in_world"], world["utime"] * 1e-6
 
@@ -90,7 +90,7 @@ class SeveralHosts(unittest.TestCase):
 
     def test_a_phone_walks_the_robot(self):
         before, start = self.place()
-        result = self.part[GATEWAY].phone("walk", "-0.33", "--duration", "8")  # 0.1 m/s
+        result = self.part[GATEWAY].phone("walk", "-0.1", "--duration", "8")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         after, end = self.place()
         self.assert_upright(after)
@@ -100,7 +100,7 @@ class SeveralHosts(unittest.TestCase):
 
     def test_a_gateway_that_is_cut_off_while_a_phone_walks_leaves_a_robot_that_stands(self):
         start = self.place()[0]
-        walk = subprocess.Popen(self.part[GATEWAY].phone_command("walk", "-0.33", "--duration", "60"),
+        walk = subprocess.Popen(self.part[GATEWAY].phone_command("walk", "-0.1", "--duration", "60"),
                                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
             deadline = time.monotonic() + DEADLINE

@@ -24,12 +24,12 @@ PROGRAMS = ["nao-sim", "nao-motion", "nao-head-camera", "nao-phone-gateway"]
 MAX_FOOT_DRIFT = 0.005  # m
 MAX_REAL_TIME_ERROR = 0.01
 MAX_TILT = math.radians(20)
-# Allocators keep a little more after the first minute; a leak of one message in a hundred shows as more.
+# Bound of the growth of allocators after the first minute; a leak of one message in a hundred exceeds it.
 MAX_MEMORY_GROWTH_MB = 8
 
 
 def rotate(q, v):
-    """Vector v turned by the unit quaternion q = (w, x, y, z)."""
+    """Vector v rotated by the unit quaternion q = (w, x, y, z)."""
     w, u = q[0], q[1:]
     t = [2 * c for c in cross(u, v)]
     return [v[i] + w * t[i] + cross(u, t)[i] for i in range(3)]
@@ -46,7 +46,7 @@ def multiply(p, q):
 
 
 class Legs:
-    """Where the soles are, from the robot's URDF (whose joints have no rotation at angle 0)."""
+    """Positions of the soles by forward kinematics of the robot's URDF (no joint has a rotation at angle 0)."""
 
     def __init__(self, urdf):
         self.joint_to = {}
@@ -97,17 +97,17 @@ def main():
         stack.start_or_fail()
         phone = subprocess.Popen(
             [str(BIN_DIR / "nao-phone"), "--port", str(stack.tcp_port), "watch", "--rate", "30",
-             "--pictures", "15", "--duration", str(60 * minutes + 60)],
+             "--images", "15", "--duration", str(60 * minutes + 60)],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT)
         try:
             time.sleep(30)  # StandInit reached, first allocations made
             first, first_memory, start = stack.truth(), memory_mb(stack.pids()), time.monotonic()
             drift = worst_tilt = 0.0
-            lateness = []
+            delay = []
             while time.monotonic() - start < 60 * minutes:
                 time.sleep(5)
                 truth = stack.truth()
-                lateness += [row["metrics"]["tick_lateness_p99_ms"]
+                delay += [row["metrics"]["tick_delay_p99_ms"]
                              for row in json.loads(stack.nao("status", "--json").stdout) if row["program"] == "nao-sim"]
                 robot = truth["robots"][0]
                 worst_tilt = max(worst_tilt, tilt(robot))
@@ -131,7 +131,7 @@ def main():
         ("greatest tilt of the torso", f"{math.degrees(worst_tilt):.2f} deg", worst_tilt <= MAX_TILT),
         ("error of real time", f"{(simulated / wall - 1) * 100:+.3f} %", abs(simulated / wall - 1) <= MAX_REAL_TIME_ERROR),
         ("ticks more than 2 ms late", f"{late} of {ticks}, {100 * late / ticks:.2f} %", True),
-        ("99th percentile of a second's lateness", f"{statistics.median(lateness):.2f} ms, at worst {max(lateness):.2f} ms", True),
+        ("99th percentile of the tick delay, per second", f"{statistics.median(delay):.2f} ms, maximum {max(delay):.2f} ms", True),
         *[(f"memory of {name}", f"{first_memory[name]:.1f} {growth[name]:+.1f} MB", growth[name] <= MAX_MEMORY_GROWTH_MB)
           for name in PROGRAMS],
         ("messages dropped", ", ".join(f"{name} {count}" for name, count in dropped.items()), not any(dropped.values())),

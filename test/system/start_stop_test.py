@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/start, stop and status, as a person uses them."""
+"""scripts/start, stop and status, as users call them."""
 
 import json
 import os
@@ -78,7 +78,7 @@ class Start(unittest.TestCase):
                 holder.bind(("127.0.0.1", 8080))
                 holder.listen()
             except OSError:
-                pass  # somebody else holds it: just as good
+                pass  # another program holds it: equivalent
             started = stack.start("--only", "sim,motion,phone-gateway", ports=False)
             self.assertEqual(started.returncode, 0, started.stderr + stack.logs())
             self.assertRegex(started.stdout, r"Port 8080 is in use by .*; taking 80[89]\d instead")
@@ -106,7 +106,7 @@ class Start(unittest.TestCase):
         with Stack() as stack:
             stack.start_or_fail("--only", "sim,motion")
             killed = set()
-            # The waits between ten starts add up to a minute.
+            # The delays between ten restarts add up to a minute.
             deadline = time.monotonic() + 5 * DEADLINE
             status = stack.script("status")
             while "given up" not in status.stdout:

@@ -3,12 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <naolcm/command_result_t.hpp>
 #include <naolcm/posture_command_t.hpp>
 #include <naolcm/walk_command_t.hpp>
+#include <naolcm/world_command_t.hpp>
+#include <naolcm/world_truth_t.hpp>
 
+#include "common/bus.h"
 #include "common/wall_clock.h"
 
-namespace nao {
+namespace nao::viewer {
 namespace {
 
 class CommandSenderTest : public testing::Test {
@@ -30,8 +34,8 @@ class CommandSenderTest : public testing::Test {
     }
   }
 
-  /** Turns of the viewer over some seconds. */
-  void turns(double seconds) {
+  /** Repeats as the viewer does, over some seconds of its clock. */
+  void advance(double seconds) {
     for (const double end = now_ + seconds; now_ < end; now_ += 0.02) sender_.repeat(now_);
     deliver();
   }
@@ -44,9 +48,9 @@ class CommandSenderTest : public testing::Test {
   std::vector<naolcm::world_command_t> worlds_;
 };
 
-TEST_F(CommandSenderTest, RepeatsACommandUnchangedUntilItIsAnswered) {
+TEST_F(CommandSenderTest, RepeatsACommandUnchangedUntilItIsAcknowledged) {
   sender_.go_to_posture("Crouch", 0.5);
-  turns(1.0);
+  advance(1.0);
   ASSERT_GE(postures_.size(), 4u);
   EXPECT_LE(postures_.size(), 7u);
   for (const auto& command : postures_) {
@@ -58,25 +62,25 @@ TEST_F(CommandSenderTest, RepeatsACommandUnchangedUntilItIsAnswered) {
   result.command_id = postures_[0].command_id + 1;
   sender_.receive(result);
   const size_t before = postures_.size();
-  turns(0.5);
-  EXPECT_GT(postures_.size(), before) << "that was the answer to another command";
+  advance(0.5);
+  EXPECT_GT(postures_.size(), before) << "the result of another command";
   result.command_id = postures_[0].command_id;
   sender_.receive(result);
-  const size_t answered = postures_.size();
-  turns(1.0);
-  EXPECT_EQ(postures_.size(), answered);
+  const size_t acknowledged = postures_.size();
+  advance(1.0);
+  EXPECT_EQ(postures_.size(), acknowledged);
 }
 
-TEST_F(CommandSenderTest, GivesUpAndSaysSoWhenNobodyAnswers) {
-  sender_.change_world("pause");
-  turns(3.0);
-  EXPECT_EQ(sender_.last_outcome(), "pause: nobody answered");
-  const size_t given_up = worlds_.size();
-  turns(1.0);
-  EXPECT_EQ(worlds_.size(), given_up);
+TEST_F(CommandSenderTest, ReportsATimeoutWithoutAnAnswer) {
+  sender_.send_world_command("pause");
+  advance(3.0);
+  EXPECT_EQ(sender_.last_outcome(), "pause: no answer within 2 s");
+  const size_t num_sent = worlds_.size();
+  advance(1.0);
+  EXPECT_EQ(worlds_.size(), num_sent);
 }
 
-TEST_F(CommandSenderTest, TellsWhatTheSimulatorAnswers) {
+TEST_F(CommandSenderTest, ReportsTheAnswerOfTheSimulator) {
   sender_.push("NAO", "torso", {1, 0, 0});
   deliver();
   ASSERT_EQ(worlds_.size(), 1u);
@@ -89,17 +93,17 @@ TEST_F(CommandSenderTest, TellsWhatTheSimulatorAnswers) {
   EXPECT_EQ(sender_.last_outcome(), "push: no link \"torso\"");
 }
 
-TEST_F(CommandSenderTest, WantsTheBallOnlyWhereItWasPutLast) {
+TEST_F(CommandSenderTest, RepeatsOnlyTheLastPlacementOfTheBall) {
   sender_.place_ball(1, 0);
   sender_.place_ball(2, 0);
   deliver();
   worlds_.clear();
-  turns(1.0);
+  advance(1.0);
   ASSERT_GE(worlds_.size(), 2u);
   for (const auto& command : worlds_) EXPECT_DOUBLE_EQ(command.position_in_world[0], 2);
 }
 
-TEST_F(CommandSenderTest, SendsOneWalkAsOneCommand) {
+TEST_F(CommandSenderTest, SendsAWalkAsOneCommand) {
   sender_.walk(0.1, 0, 0);
   sender_.walk(0.2, 0, 0);
   sender_.end_walk();
@@ -111,4 +115,4 @@ TEST_F(CommandSenderTest, SendsOneWalkAsOneCommand) {
 }
 
 }  // namespace
-}  // namespace nao
+}  // namespace nao::viewer

@@ -9,10 +9,10 @@
 #include "common/error.h"
 #include "viewer/log_player.h"
 
-namespace nao {
+namespace nao::viewer {
 namespace {
 
-/** Bytes of a log as LCM's documentation describes them, written down without lcm. */
+/** Bytes of a log in the format of LCM's documentation, written without lcm. */
 class LogBytes {
  public:
   void add(int64_t utime, const std::string& channel, const std::string& data) {
@@ -54,15 +54,15 @@ class LogFileTest : public testing::Test {
     return log;
   }
 
-  /** Writes down what is visited: "A=a0 B=b0 ". */
-  LogFile::Visitor note() {
+  /** Appends what is visited to seen_: "A=a0 B=b0 ". */
+  LogFile::Visitor record() {
     return [this](const std::string& channel, const std::vector<uint8_t>& data, double time) {
       seen_ += channel + "=" + std::string(data.begin(), data.end()) + " ";
       times_.push_back(time);
     };
   }
 
-  /** What was visited since the last call. */
+  /** Returns and clears seen_. */
   std::string seen() { return std::exchange(seen_, ""); }
 
   const std::filesystem::path path_ =
@@ -71,53 +71,53 @@ class LogFileTest : public testing::Test {
   std::vector<double> times_;
 };
 
-TEST_F(LogFileTest, ReadsWhatWasRecordedInATime) {
+TEST_F(LogFileTest, ReadsTheMessagesOfATimeInterval) {
   LogFile log = open(some_log().bytes());
   EXPECT_EQ(log.num_events(), 11u);
   EXPECT_NEAR(log.duration(), 4.5, 1e-9);
-  log.read(1.0, 2.0, note());
+  log.read(1.0, 2.0, record());
   EXPECT_EQ(seen(), "B=b1 C=c A=a2 ");
   EXPECT_NEAR(times_[0], 1.5, 1e-9);
 }
 
 TEST_F(LogFileTest, FindsTheNewestMessageOfEveryChannel) {
   LogFile log = open(some_log().bytes());
-  log.read_latest(3.7, note());
+  log.read_latest(3.7, record());
   EXPECT_EQ(seen(), "C=c A=a3 B=b3 ");
-  log.read_latest(-1, note());
+  log.read_latest(-1, record());
   EXPECT_EQ(seen(), "");
 }
 
-TEST_F(LogFileTest, LeavesOutABrokenEnd) {
+TEST_F(LogFileTest, SkipsATruncatedEnd) {
   LogBytes log = some_log();
   log.bytes().resize(log.bytes().size() - 1);
   EXPECT_EQ(open(log.bytes()).num_events(), 10u);
   EXPECT_EQ(open(some_log().bytes() + "garbage that is no event header").num_events(), 11u);
 }
 
-TEST_F(LogFileTest, RefusesWhatIsNoLog) {
+TEST_F(LogFileTest, RejectsAFileThatIsNotALog) {
   EXPECT_THROW(open(""), Error);
   EXPECT_THROW(open("This is a text file that is long enough."), Error);
   EXPECT_THROW(LogFile("/nonexistent.log"), Error);
 }
 
-TEST_F(LogFileTest, PlaysOnJumpsAndEnds) {
+TEST_F(LogFileTest, PlaysSeeksAndPausesAtTheEnd) {
   LogPlayer player(open(some_log().bytes()));
-  player.advance(0.1, note());
+  player.advance(0.1, record());
   EXPECT_EQ(seen(), "A=a0 ");
   player.speed = 2;
-  player.advance(0.72, note());
+  player.advance(0.72, record());
   EXPECT_EQ(seen(), "B=b0 A=a1 B=b1 ");
   player.is_paused = true;
-  player.advance(5, note());
+  player.advance(5, record());
   EXPECT_EQ(seen(), "");
-  player.seek(0.2, 1, note());  // back
+  player.seek(0.2, 1, record());  // back
   EXPECT_EQ(seen(), "A=a0 ");
   player.is_paused = false;
-  player.advance(100, note());
+  player.advance(100, record());
   EXPECT_EQ(seen().size(), 49u);
   EXPECT_TRUE(player.is_paused);
 }
 
 }  // namespace
-}  // namespace nao
+}  // namespace nao::viewer

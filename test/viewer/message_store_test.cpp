@@ -10,7 +10,7 @@
 
 #include "common/error.h"
 
-namespace nao {
+namespace nao::viewer {
 namespace {
 
 template <class Message>
@@ -45,20 +45,20 @@ TEST(MessageStore, KeepsTheNewestOfEachKind) {
   EXPECT_EQ(store.robot_state()->message.utime, 456);
   EXPECT_EQ(store.robot_state()->time, 2);
   EXPECT_TRUE(store.receive("OTHER_ROBOT_STATE", data.data(), static_cast<int>(data.size()), 3));
-  EXPECT_EQ(store.robot_state()->time, 2);  // another robot's
+  EXPECT_EQ(store.robot_state()->time, 2) << "the other state is of another robot";
 }
 
-TEST(MessageStore, RefusesAMessageOfAnotherTypeAndKeepsTheLastGoodOne) {
+TEST(MessageStore, RejectsAMessageOfAnotherTypeAndKeepsTheLastValidOne) {
   MessageStore store("NAO");
   auto data = encode(some_state());
   store.receive("NAO_ROBOT_STATE", data.data(), static_cast<int>(data.size()), 1);
   const auto wrong = encode(naolcm::stop_command_t{});
   EXPECT_FALSE(store.receive("NAO_ROBOT_STATE", wrong.data(), static_cast<int>(wrong.size()), 2));
-  EXPECT_FALSE(store.receive("NAO_ROBOT_STATE", data.data(), 20, 2));  // cut off
+  EXPECT_FALSE(store.receive("NAO_ROBOT_STATE", data.data(), 20, 2));  // truncated
   EXPECT_EQ(store.robot_state()->time, 1);
 }
 
-TEST(MessageStore, IsBounded) {
+TEST(MessageStore, HasABoundedSize) {
   MessageStore store("NAO");
   for (int i = 0; i < 1000; ++i) {
     naolcm::command_result_t result{};
@@ -91,10 +91,10 @@ TEST(MessageStore, ListsARepeatedResultOnce) {
   EXPECT_EQ(store.results().back().message.status, naolcm::command_result_t::STATUS_DONE);
 }
 
-TEST(TimePlots, KeepTheLastSecondsOfTheChosenFields) {
+TEST(TimePlots, KeepTheLastSecondsOfTheSelectedFields) {
   TimePlots plots(2);
   plots.add("NAO_ROBOT_STATE", "joint_position[HeadYaw]");
-  plots.add("NAO_ROBOT_STATE", "joint_position[HeadYaw]");  // twice is once
+  plots.add("NAO_ROBOT_STATE", "joint_position[HeadYaw]");  // only once
   plots.add("NAO_ROBOT_STATE", "center_of_pressure_in_odometry[1]");
   ASSERT_EQ(plots.series().size(), 2u);
   naolcm::robot_state_t state = some_state();
@@ -105,13 +105,13 @@ TEST(TimePlots, KeepTheLastSecondsOfTheChosenFields) {
   }
   EXPECT_NEAR(static_cast<double>(plots.series()[0].points.size()), 21, 1);
   EXPECT_EQ(plots.series()[0].points.back().value, 50);
-  EXPECT_TRUE(plots.series()[1].points.empty());  // no number
+  EXPECT_TRUE(plots.series()[1].points.empty());  // not finite
   const auto data = encode(state);
   plots.receive("NAO_ROBOT_STATE", data.data(), static_cast<int>(data.size()), 0);
-  EXPECT_EQ(plots.series()[0].points.size(), 1u);  // time started anew
+  EXPECT_EQ(plots.series()[0].points.size(), 1u);  // time ran backwards
 }
 
-TEST(ViewerOptions, RefuseWhatDoesNotFitTogether) {
+TEST(ViewerOptions, RejectContradictions) {
   const auto is_valid = [](const auto& change) {
     ViewerOptions options;
     change(options);
@@ -138,4 +138,4 @@ TEST(ViewerOptions, RefuseWhatDoesNotFitTogether) {
 }
 
 }  // namespace
-}  // namespace nao
+}  // namespace nao::viewer

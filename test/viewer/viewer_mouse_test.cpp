@@ -1,8 +1,12 @@
-// The viewer under a mouse, drawn without a screen.
+// The viewer, without a screen, with simulated mouse input.
 
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <naolcm/world_command_t.hpp>
+#include <naolcm/world_truth_t.hpp>
+
+#include "common/bus.h"
 #include "common/data_path.h"
 #include "common/wall_clock.h"
 #include "rendering/decode_state.h"
@@ -11,7 +15,7 @@
 #include "test/daemons/head-camera/truth.h"
 #include "viewer/viewer.h"
 
-namespace nao {
+namespace nao::viewer {
 namespace {
 
 constexpr int kWidth = 1280;
@@ -62,10 +66,10 @@ class ViewerMouse : public testing::Test {
     }
   }
 
-  /** Puts the mouse where a place in the world is seen. */
-  void point_at(const Eigen::Vector3d& place) {
+  /** Moves the mouse to the pixel of a point in the world. */
+  void point_at(const Eigen::Vector3d& point) {
     const Eigen::Vector2d pixel =
-        camera_.pinhole(kWidth, kHeight).project(camera_.pose().inverse() * place);
+        camera_.pinhole(kWidth, kHeight).project(camera_.pose().inverse() * point);
     ImGui::GetIO().MousePos = {static_cast<float>(pixel.x() + 0.5),
                                static_cast<float>(pixel.y() + 0.5)};
     frame();
@@ -109,7 +113,7 @@ TEST_F(ViewerMouse, PushesTheLinkThatIsDraggedWithControlHeld) {
   point_at(center);
   press(true);
   point_at(center + Eigen::Vector3d(0, 0.3, 0));
-  EXPECT_TRUE(commands_.empty()) << "the push comes when the button is let go";
+  EXPECT_TRUE(commands_.empty()) << "the push is sent when the button is released";
   press(false);
   ASSERT_FALSE(commands_.empty());
   const naolcm::world_command_t& push = commands_.front();
@@ -117,10 +121,10 @@ TEST_F(ViewerMouse, PushesTheLinkThatIsDraggedWithControlHeld) {
   EXPECT_EQ(push.robot, truth_.robots[0].robot);
   EXPECT_FALSE(push.link.empty());
   EXPECT_NEAR(push.impulse_in_world[1], 1.5, 0.4) << "5 N s for each metre";
-  EXPECT_NEAR(push.impulse_in_world[2], 0, 1e-9) << "level";
+  EXPECT_NEAR(push.impulse_in_world[2], 0, 1e-9) << "horizontal";
 }
 
-TEST_F(ViewerMouse, TurnsTheViewWhereNothingIsHeld) {
+TEST_F(ViewerMouse, RotatesTheViewWhereNothingIsGrabbed) {
   point_at({-0.6, -0.6, 0});
   press(true);
   point_at({-0.3, -0.6, 0});
@@ -129,4 +133,4 @@ TEST_F(ViewerMouse, TurnsTheViewWhereNothingIsHeld) {
 }
 
 }  // namespace
-}  // namespace nao
+}  // namespace nao::viewer

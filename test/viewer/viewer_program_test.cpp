@@ -1,4 +1,4 @@
-// The program itself, without a screen.
+// The whole program, without a screen.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,11 +13,11 @@
 #include <string>
 
 #include "common/data_path.h"
-#include "rendering/picture.h"
+#include "rendering/image.h"
 #include "robot_model/robot_model.h"
 #include "test/daemons/head-camera/truth.h"
 
-namespace nao {
+namespace nao::viewer {
 namespace {
 
 class ViewerProgram : public testing::Test {
@@ -45,7 +45,7 @@ class ViewerProgram : public testing::Test {
     return outcome;
   }
 
-  /** Ten seconds of a robot that stands for five and then lies. */
+  /** Ten seconds of a robot that stands for five seconds and then lies. */
   std::string make_log() const {
     const std::filesystem::path file = folder_ / "test.log";
     const auto model = RobotModel::load(data_path() / "robots" / "nao");
@@ -71,7 +71,7 @@ class ViewerProgram : public testing::Test {
     return file.string();
   }
 
-  static int count_different(const Picture& a, const Picture& b) {
+  static int count_different(const Image& a, const Image& b) {
     int count = 0;
     for (size_t i = 0; i < a.rgb.size(); ++i) count += std::abs(a.rgb[i] - b.rgb[i]) > 20 ? 1 : 0;
     return count;
@@ -85,12 +85,12 @@ TEST_F(ViewerProgram, StartsBeforeAnythingElseAndDrawsWithoutAScreen) {
   const std::string file = folder_ / "empty.png";
   const Outcome outcome = run("--offscreen --frames 3 --screenshot " + file);
   EXPECT_EQ(outcome.status, 0) << outcome.text;
-  const Picture picture = read_png(file);
-  EXPECT_EQ(picture.width, 1280);
-  EXPECT_EQ(picture.height, 800);
+  const Image image = read_png(file);
+  EXPECT_EQ(image.width, 1280);
+  EXPECT_EQ(image.height, 800);
 }
 
-TEST_F(ViewerProgram, ShowsAnyMomentOfALog) {
+TEST_F(ViewerProgram, ShowsAnyTimeOfALog) {
   const std::string log = make_log();
   const auto shot = [&](const std::string& name, double time) {
     const std::string file = folder_ / name;
@@ -100,13 +100,13 @@ TEST_F(ViewerProgram, ShowsAnyMomentOfALog) {
     EXPECT_EQ(outcome.status, 0) << outcome.text;
     return read_png(file);
   };
-  const Picture standing = shot("standing.png", 2);
-  const Picture lying = shot("lying.png", 8);
+  const Image standing = shot("standing.png", 2);
+  const Image lying = shot("lying.png", 8);
   EXPECT_EQ(count_different(standing, shot("again.png", 4)), 0);
   EXPECT_GT(count_different(standing, lying), 1000);
 }
 
-TEST_F(ViewerProgram, SaysWhatItCannotDo) {
+TEST_F(ViewerProgram, ReportsMissingScreensAndWrongFiles) {
   const Outcome display = run("");
   EXPECT_EQ(display.status, 1);
   EXPECT_THAT(display.text, testing::HasSubstr("DISPLAY"));
@@ -115,9 +115,9 @@ TEST_F(ViewerProgram, SaysWhatItCannotDo) {
   std::ofstream(text) << "no log";
   const Outcome log = run("--offscreen --screenshot a.png --log " + text);
   EXPECT_EQ(log.status, 1);
-  EXPECT_THAT(log.text, testing::HasSubstr("no log of lcm-logger"));
+  EXPECT_THAT(log.text, testing::HasSubstr("not a log of lcm-logger"));
   EXPECT_EQ(run("--log /nonexistent.log").status, 2);
 }
 
 }  // namespace
-}  // namespace nao
+}  // namespace nao::viewer

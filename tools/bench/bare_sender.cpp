@@ -1,5 +1,6 @@
-// nao-bare-sender: the peer of the gateway's 32 clients. An Asio loop that sends the same
-// number of bytes as often to as many TCP connections, and does nothing else.
+// nao-bare-sender: the baseline of the gateway with 32 clients. A Boost.Asio loop that sends the
+// same number of bytes at the same rate to the same number of TCP connections and does nothing
+// else.
 //
 // nao-bare-sender RATE_1 BYTES_1 RATE_2 BYTES_2: prints its port, then serves until SIGTERM.
 #include <utility>

@@ -1,5 +1,5 @@
-// Measures the message bus: a message to another process and back, and how many a second get there,
-// against the same by bare UDP.
+// Measures the message bus: round-trip time of a message to another process, and throughput.
+// Baseline: the same over plain UDP.
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -27,11 +27,11 @@
 namespace nao {
 namespace {
 
-/** About what a robot_state_t has. */
+/** Message size, bytes: about that of a robot_state_t. */
 constexpr int kMessageBytes = 1200;
 constexpr int kWarmUps = 100;
-/** Messages under way at once where throughput is measured: fewer than the 30 that LCM lets wait
- * for a subscriber, so that none is lost. */
+/** Burst length of the throughput measurement: below LCM's default queue of 30 messages, so that
+ * none is dropped. */
 constexpr int kBurst = 16;
 constexpr int kReceiveTimeoutMs = 500;
 
@@ -40,7 +40,7 @@ double now_us() {
   return std::chrono::duration<double, std::micro>(time).count();
 }
 
-/** A process that runs `body` until this object ends. */
+/** A child process that runs `body` until this object is destroyed. */
 class Child {
  public:
   template <class Body>
@@ -61,12 +61,12 @@ class Child {
   pid_t process_id_;
 };
 
-/** What every message begins with. */
+/** Header of every message. */
 struct Header {
-  /** Number of the burst that it belongs to. */
+  /** Number of the message's burst. */
   int32_t burst = 0;
-  /** On the way there: 1 in the burst's last message, which is answered. On the way back: how many
-   * of the burst came. */
+  /** In a request: 1 in the burst's last message, which is answered. In an answer: number of
+   * received messages of the burst. */
   int32_t number = 0;
 };
 
@@ -87,7 +87,7 @@ Header header_of(const void* bytes) {
 /** Counts the messages of a burst. */
 class BurstCounter {
  public:
-  /** @return What to send back, after the burst's last message. */
+  /** @return The answer, after the burst's last message; nullopt otherwise. */
   std::optional<Message> add(Header header) {
     if (header.burst != burst_) num_received_ = 0;
     burst_ = header.burst;
@@ -101,22 +101,22 @@ class BurstCounter {
   int32_t num_received_ = 0;
 };
 
-/** How a burst of messages went. */
+/** Result of one burst. */
 struct Exchange {
-  /** From the first message sent to the answer received, µs. */
+  /** Time from sending the first message to receiving the answer, µs. */
   double time_us = 0;
   int num_lost = 0;
 };
 
 /** Sends a burst and waits for the answer to its last message.
  * @param send  Sends a message.
- * @param receive  Waits for an answer; nothing after kReceiveTimeoutMs. */
+ * @param receive  Waits for an answer; nullopt after kReceiveTimeoutMs. */
 template <class Send, class Receive>
 Exchange exchange_burst(int32_t burst, int num_messages, const Send& send, const Receive& receive) {
   const double start = now_us();
   for (int i = 1; i < num_messages; ++i) send(make_message({burst, 0}));
   send(make_message({burst, 1}));
-  // An answer that came too late for its own burst must not be taken for this one's.
+  // A late answer to an earlier burst must not count for this one.
   std::optional<Header> answer;
   do {
     answer = receive();
@@ -144,11 +144,11 @@ void run_lcm_echo(const std::string& url) {
 }
 
 /** Messages to another process through the bus. */
-class LcmPeer {
+class LcmClient {
  public:
-  explicit LcmPeer(const std::string& url) : echo_([&url] { run_lcm_echo(url); }), lcm_(url) {
+  explicit LcmClient(const std::string& url) : echo_([&url] { run_lcm_echo(url); }), lcm_(url) {
     if (!lcm_.good()) throw std::runtime_error("cannot open the bus " + url);
-    lcm_.subscribe("BENCH_BACK", &LcmPeer::take, this);
+    lcm_.subscribe("BENCH_BACK", &LcmClient::take, this);
   }
 
   Exchange exchange(int32_t burst, int num_messages) {
@@ -204,7 +204,7 @@ void run_udp_echo(int descriptor, const sockaddr_in& back) {
   }
 }
 
-/** The same without LCM: one socket here, one in the other process. */
+/** Baseline without LCM: one UDP socket here, one in the other process. */
 class UdpPeer {
  public:
   UdpPeer()
@@ -240,7 +240,7 @@ class UdpPeer {
   Child echo_;
 };
 
-/** What many bursts took. */
+/** Results of many bursts. */
 struct Times {
   std::vector<double> us;
   int num_lost = 0;
@@ -251,8 +251,9 @@ struct Times {
   }
 };
 
-/** Bursts through LCM and UDP in turns, so that a busy moment of the machine hits both alike. */
-std::pair<Times, Times> exchange_in_turns(LcmPeer& lcm, UdpPeer& udp, int num_messages,
+/** Interleaves bursts through LCM and UDP, so that other load on the machine affects both equally.
+ */
+std::pair<Times, Times> exchange_in_turns(LcmClient& lcm, UdpPeer& udp, int num_messages,
                                           int num_rounds, int32_t& burst) {
   std::pair<Times, Times> times;
   for (int i = 0; i < num_rounds; ++i) {
@@ -266,7 +267,7 @@ std::pair<Times, Times> exchange_in_turns(LcmPeer& lcm, UdpPeer& udp, int num_me
 }
 
 std::vector<Figure> measure(const std::string& url, int num_rounds) {
-  LcmPeer lcm(url);
+  LcmClient lcm(url);
   UdpPeer udp;
   int32_t burst = 0;
   for (int i = 0; i < kWarmUps; ++i) {
@@ -297,7 +298,7 @@ int main(int argc, char** argv) {
   std::string url = "udpm://239.255.76.67:7699?ttl=0";
   std::string json_file;
   int num_rounds = 2000;
-  app.add_option("--lcm-url", url, "A bus that nobody else uses")->show_default();
+  app.add_option("--lcm-url", url, "Bus without other traffic")->show_default();
   app.add_option("--json", json_file, "File for the figures as JSON");
   app.add_option("--rounds", num_rounds, "Messages to send")->positive()->show_default();
   if (const auto status = app.parse(argc, argv)) return *status;

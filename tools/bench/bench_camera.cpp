@@ -1,6 +1,6 @@
-// Measures what a picture of the head camera costs, stage by stage, against the least that any
-// renderer must do: clear, read back, resize, compress. Both run in turns, so that a busy machine
-// slows both.
+// Measures the processor time of one image of the head camera, stage by stage, and of a baseline
+// that every renderer needs: clear, read back, resize, compress. Both run alternately, so that
+// other load on the machine affects both.
 
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
@@ -21,19 +21,24 @@
 #include "daemons/head-camera/half_size.h"
 #include "daemons/head-camera/head_camera.h"
 #include "daemons/head-camera/head_camera_daemon.h"
+#include "daemons/head-camera/image_requests.h"
 #include "daemons/head-camera/jpeg_encoder.h"
-#include "daemons/head-camera/picture_wishes.h"
 #include "rendering/decode_state.h"
+#include "rendering/gl.h"
 #include "robot_model/robot_model.h"
 #include "tools/bench/figures.h"
 
 namespace {
 
-using nao::CameraFrame;
 using nao::Figure;
-using nao::HeadCamera;
-using nao::JpegEncoder;
+using nao::camera::CameraFrame;
+using nao::camera::HeadCamera;
+using nao::camera::HeadCameraDaemon;
+using nao::camera::HeadCameraOptions;
+using nao::camera::JpegEncoder;
 
+/** Camera of the NAO that is measured. */
+const char* const kCamera = "top";
 constexpr int kQuality = 80;
 constexpr int kMostBytes = 64000;
 
@@ -101,15 +106,15 @@ void encode_all(const CameraFrame& frame, JpegEncoder& encoder) {
   }
 }
 
-/** Everything that one picture in three sizes takes. */
+/** All stages of one image in three sizes. */
 void take_and_encode(HeadCamera& camera, const nao::WorldState& world, JpegEncoder& encoder) {
-  encode_all(camera.take(world, "top", 160), encoder);
+  encode_all(camera.take(world, kCamera, 160), encoder);
 }
 
 void measure_stages(HeadCamera& camera, const nao::WorldState& world, JpegEncoder& encoder,
                     Stages& stages) {
   stages.measure("draw", [&] {
-    camera.draw(world, "top");
+    camera.draw(world, kCamera);
     glFinish();
   });
   stages.measure("read_back", [&] { camera.read_back(); });
@@ -122,17 +127,17 @@ void measure_stages(HeadCamera& camera, const nao::WorldState& world, JpegEncode
   }
 }
 
-/** Share of one core that the daemon takes at full rate, with the simulator's 100 states a second.
- */
+/** Percentage of one core that the daemon uses at full rate, with 100 states a second as from the
+ * simulator. */
 double daemon_percent(const nao::RobotModel& model, double seconds) {
   nao::Bus bus("memq://");
-  nao::HeadCameraOptions options;
+  HeadCameraOptions options;
   options.always = true;
-  nao::HeadCameraDaemon daemon(bus, model, options);
+  HeadCameraDaemon daemon(bus, model, options);
   naolcm::world_truth_t truth = soccer_truth(model);
   const auto turns = [&](int num_turns) {
     for (int turn = 0; turn < num_turns; ++turn) {
-      for (int i = 0; i < 10; ++i) {  // ten states for three pictures
+      for (int i = 0; i < 10; ++i) {  // ten states for three images
         truth.utime += 10000;
         bus.publish(nao::kWorldTruthChannel, truth);
         while (bus.handle_for(0)) {
@@ -147,14 +152,14 @@ double daemon_percent(const nao::RobotModel& model, double seconds) {
   return 100 * (processor_seconds() - start) / seconds;
 }
 
-/** How old pictures are when they are published, s: since the state they show was. The simulator's
- * 100 states a second and the camera's own clock run freely, as between two programs. */
+/** Ages of the images when they are published, s: time since their state was published. States (100
+ * a second) and images have independent timers, as in two programs. */
 std::vector<double> frame_ages(const nao::RobotModel& model, double seconds) {
   nao::EventLoop loop;
   nao::Bus bus("memq://");
-  nao::HeadCameraOptions options;
+  HeadCameraOptions options;
   options.always = true;
-  nao::HeadCameraDaemon daemon(bus, model, options);
+  HeadCameraDaemon daemon(bus, model, options);
   naolcm::world_truth_t truth = soccer_truth(model);
   std::map<int64_t, double> published;
   std::vector<double> ages;
@@ -190,15 +195,15 @@ std::vector<Figure> run(int num_rounds) {
     // Contexts are current one at a time, so with and without shadows take turns in blocks.
     constexpr int kBlocks = 5;
     for (int block = 0; block < kBlocks; ++block) {
-      for (const int shadow_size : {nao::HeadCameraOptions().shadow_size, 0}) {
-        nao::HeadCameraOptions options;
+      for (const int shadow_size : {HeadCameraOptions().shadow_size, 0}) {
+        HeadCameraOptions options;
         options.shadow_size = shadow_size;
         HeadCamera camera(model, options);
         if (block == 0 && shadow_size > 0) spdlog::info("drawing with {}", camera.driver());
         for (int i = 0; i < 3; ++i) take_and_encode(camera, world, encoder);
-        // The floor compresses the same pictures, so that it does the same work there.
+        // The baseline compresses the same images, so that it does the same work there.
         const CameraFrame frame = camera.frame();
-        const nao::gl::Framebuffer floor_target(nao::kFullWidth, nao::kFullHeight);
+        const nao::gl::Framebuffer floor_target(nao::camera::kFullWidth, nao::camera::kFullHeight);
         std::vector<uint8_t> cleared;
         std::vector<uint8_t> half;
         std::vector<uint8_t> quarter;
@@ -208,8 +213,8 @@ std::vector<Figure> run(int num_rounds) {
             glBindFramebuffer(GL_FRAMEBUFFER, floor_target.id());
             glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
             floor_target.read(cleared);
-            nao::halve(frame.bgrx[0], 640, 480, half);
-            nao::halve(half, 320, 240, quarter);
+            nao::camera::halve(frame.bgrx[0], 640, 480, half);
+            nao::camera::halve(half, 320, 240, quarter);
             encode_all(frame, encoder);
           });
           const double start = nao::monotonic_seconds();
@@ -253,7 +258,7 @@ int main(int argc, char** argv) {
   std::string json_file;
   int num_rounds = 100;
   app.add_option("--json", json_file, "File for the figures as JSON");
-  app.add_option("--rounds", num_rounds, "Pictures of each kind")->range(5, 100000)->show_default();
+  app.add_option("--rounds", num_rounds, "Images of each kind")->range(5, 100000)->show_default();
   if (const auto status = app.parse(argc, argv)) return *status;
   try {
     nao::report(run(num_rounds), json_file);

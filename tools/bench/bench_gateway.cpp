@@ -13,6 +13,7 @@
 #include <cmath>
 #include <csignal>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <naolcm/daemon_status_t.hpp>
@@ -29,10 +30,10 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
+#include "common/child_process.h"
 #include "common/command_line.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
-#include "tools/bench/child_process.h"
 #include "tools/bench/disturbing_clients.h"
 #include "tools/bench/figures.h"
 #include "tools/bench/wire_client.h"
@@ -47,7 +48,7 @@ using nao::percentile;
 using nao::WireClient;
 
 constexpr double kDeadline = 60;
-/** A change of the head's yaw that is quick and hurts nobody, rad. */
+/** Change of the head yaw, rad. Chosen: executed within half a second, far from the limits. */
 constexpr double kYawChange = 0.4;
 /** The joint has moved when its encoder (steps of 0.0015 rad, no other noise) reads the next step
  * on the way to the goal. Before, the reading has stood still for this long, s. */
@@ -286,6 +287,7 @@ std::map<std::string, WayTimes> measure_ways(Stack& stack, int num_rounds) {
     command.num_joints = 1;
     command.joint_names = {"HeadYaw"};
     command.joint_position = {change};
+    command.joint_stiffness = {std::numeric_limits<double>::quiet_NaN()};
     command.is_relative = 1;
     command.speed = 1;
     stack.bus().publish(nao::RobotChannels().joint_change_command, command);
@@ -326,18 +328,18 @@ std::map<std::string, WayTimes> measure_ways(Stack& stack, int num_rounds) {
 /** What the clients saw in some seconds. */
 struct Watching {
   std::vector<double> state_age_ms;
-  std::vector<double> picture_age_ms;
+  std::vector<double> image_age_ms;
   double num_states = 0;
-  double num_pictures = 0;
+  double num_images = 0;
   double state_bytes = 0;
-  double picture_bytes = 0;
+  double image_bytes = 0;
   double cpu_percent = 0;
   double rss_mib = 0;
 };
 
 /** Lets clients watch, half of them over WebSocket. Ages: from when the state that is shown was on
  * the bus to when it is here. */
-Watching watch(Stack& stack, int num_clients, double state_rate, double picture_rate, double time) {
+Watching watch(Stack& stack, int num_clients, double state_rate, double image_rate, double time) {
   std::vector<std::unique_ptr<WireClient>> clients;
   Watching seen;
   for (int i = 0; i < num_clients; ++i) {
@@ -346,7 +348,7 @@ Watching watch(Stack& stack, int num_clients, double state_rate, double picture_
     clients.back()->send(hello("bench " + std::to_string(i)));
     naoremote::Request request;
     request.mutable_subscribe()->set_state_rate(state_rate);
-    request.mutable_subscribe()->set_picture_rate(picture_rate);
+    request.mutable_subscribe()->set_image_rate(image_rate);
     clients.back()->send(request);
     stack.watch(clients.back().get(), [&](const naoremote::ServerMessage& message, double now) {
       if (message.has_state()) {
@@ -355,12 +357,12 @@ Watching watch(Stack& stack, int num_clients, double state_rate, double picture_
         }
         ++seen.num_states;
         seen.state_bytes += static_cast<double>(message.ByteSizeLong());
-      } else if (message.has_picture()) {
-        if (const auto then = stack.time_of_state(message.picture().utime())) {
-          seen.picture_age_ms.push_back((now - *then) * 1e3);
+      } else if (message.has_image()) {
+        if (const auto then = stack.time_of_state(message.image().utime())) {
+          seen.image_age_ms.push_back((now - *then) * 1e3);
         }
-        ++seen.num_pictures;
-        seen.picture_bytes += static_cast<double>(message.ByteSizeLong());
+        ++seen.num_images;
+        seen.image_bytes += static_cast<double>(message.ByteSizeLong());
       }
     });
   }
@@ -391,14 +393,15 @@ struct LossTimes {
 };
 
 LossTimes time_loss(Stack& stack, WireClient& phone, const std::string& program,
-                    const std::string& part) {
+                    naoremote::Notice::Component component) {
   std::optional<bool> is_available;
   stack.watch(&phone, [&](const naoremote::ServerMessage& message, double) {
-    if (message.has_notice() && message.notice().part() == part) {
-      is_available = message.notice().available();
+    if (message.has_notice() && message.notice().kind() == naoremote::Notice::COMPONENT_CHANGED &&
+        message.notice().component() == component) {
+      is_available = message.notice().is_available();
     }
   });
-  const auto time_until = [&](bool wished, int signal) {
+  const auto time_until = [&](bool expected, int signal) {
     kill(stack.program(program).pid(), signal);
     const double start = monotonic_seconds();
     double next_ping = 0;
@@ -410,9 +413,9 @@ LossTimes time_loss(Stack& stack, WireClient& phone, const std::string& program,
             phone.send(ping);
             next_ping = monotonic_seconds() + 1;
           }
-          return is_available == wished;
+          return is_available == expected;
         },
-        "the phone is told of the " + part);
+        "the client is notified of " + program);
     return monotonic_seconds() - start;
   };
   LossTimes times;
@@ -426,25 +429,25 @@ LossTimes time_loss(Stack& stack, WireClient& phone, const std::string& program,
 void measure_losses(Stack& stack, std::vector<Figure>& figures) {
   const auto phone = nao::connect_tcp(stack.tcp_port());
   phone->send(hello("bench"));
-  const auto measure = [&](const std::string& program, const std::string& part, double picture_rate,
-                           const std::string& name) {
+  const auto measure = [&](const std::string& program, naoremote::Notice::Component component,
+                           double image_rate, const std::string& name) {
     naoremote::Request request;
     request.mutable_subscribe()->set_state_rate(30);
-    request.mutable_subscribe()->set_picture_rate(picture_rate);
+    request.mutable_subscribe()->set_image_rate(image_rate);
     phone->send(request);
     stack.watch(phone.get(), [](const auto&, double) {});
     // A camera that is not watched any more draws for 2 s.
     stack.run_for(3);
     stack.forget_clients();
-    const LossTimes times = time_loss(stack, *phone, program, part);
+    const LossTimes times = time_loss(stack, *phone, program, component);
     figures.push_back({"gateway.told_of_lost_" + name + "_s", times.told_s, "s", "promised", 2});
     figures.push_back(
         {"gateway.told_of_lost_" + name + "_s.back", times.back_s, "s", "promised", 2});
   };
-  measure("nao-head-camera", "camera", 15, "camera");
-  measure("nao-head-camera", "camera", 0, "unwatched_camera");
-  measure("nao-motion", "motion", 15, "motion");
-  measure("nao-sim", "robot", 15, "robot");
+  measure("nao-head-camera", naoremote::Notice::CAMERA, 15, "camera");
+  measure("nao-head-camera", naoremote::Notice::CAMERA, 0, "unwatched_camera");
+  measure("nao-motion", naoremote::Notice::MOTION, 15, "motion");
+  measure("nao-sim", naoremote::Notice::ROBOT, 15, "robot");
 }
 
 int connect_plain(uint16_t port) {
@@ -460,14 +463,14 @@ int connect_plain(uint16_t port) {
 }
 
 /** Processor time of a bare Asio loop that sends as many bytes as often, percent of a core. */
-double measure_bare_sender(const Watching& seen, double state_rate, double picture_rate,
+double measure_bare_sender(const Watching& seen, double state_rate, double image_rate,
                            double time) {
   const auto bytes = [](double sum, double number) {
     return std::to_string(static_cast<int>(number > 0 ? sum / number : 0) + 4);
   };
   const ChildProcess sender({nao::program_folder() + "/nao-bare-sender", std::to_string(state_rate),
-                             bytes(seen.state_bytes, seen.num_states), std::to_string(picture_rate),
-                             bytes(seen.picture_bytes, seen.num_pictures)});
+                             bytes(seen.state_bytes, seen.num_states), std::to_string(image_rate),
+                             bytes(seen.image_bytes, seen.num_images)});
   std::smatch port;
   std::string output;
   for (int i = 0; i < 100 && !std::regex_search(output, port, std::regex("port (\\d+)")); ++i) {
@@ -521,10 +524,9 @@ void report_ways(Stack& stack, int num_rounds, std::vector<Figure>& figures) {
 void report_watching(Stack& stack, double time, std::vector<Figure>& figures) {
   const Watching one = watch(stack, 1, 60, 30, time);
   figures.push_back({"gateway.state_age_ms.p99", percentile(one.state_age_ms, 0.99), "ms", "", 0});
-  figures.push_back(
-      {"gateway.picture_age_ms.p95", percentile(one.picture_age_ms, 0.95), "ms", "", 0});
+  figures.push_back({"gateway.image_age_ms.p95", percentile(one.image_age_ms, 0.95), "ms", "", 0});
   figures.push_back({"gateway.state_rate_hz", one.num_states / time, "1/s", "asked for", 60});
-  figures.push_back({"gateway.picture_rate_hz", one.num_pictures / time, "1/s", "asked for", 30});
+  figures.push_back({"gateway.image_rate_hz", one.num_images / time, "1/s", "asked for", 30});
 
   const Watching few = watch(stack, 1, 30, 15, time);
   const Watching many = watch(stack, kNumClients, 30, 15, time);
@@ -546,9 +548,8 @@ void report_watching(Stack& stack, double time, std::vector<Figure>& figures) {
                      many.cpu_percent});
   figures.push_back({"gateway.disturbed_state_age_ms.p99", percentile(disturbed.state_age_ms, 0.99),
                      "ms", "undisturbed", percentile(many.state_age_ms, 0.99)});
-  figures.push_back({"gateway.disturbed_picture_age_ms.p95",
-                     percentile(disturbed.picture_age_ms, 0.95), "ms", "undisturbed",
-                     percentile(many.picture_age_ms, 0.95)});
+  figures.push_back({"gateway.disturbed_image_age_ms.p95", percentile(disturbed.image_age_ms, 0.95),
+                     "ms", "undisturbed", percentile(many.image_age_ms, 0.95)});
   figures.push_back({"gateway.disturbed_rate_hz", disturbed.num_states / time / good_clients, "1/s",
                      "undisturbed", many.num_states / time / kNumClients});
   figures.push_back(
@@ -583,7 +584,7 @@ int main(int argc, char** argv) {
   if (const auto status = app.parse(argc, argv)) return *status;
   spdlog::set_level(spdlog::level::warn);
   // Phones are machines of their own: what they see must not wait for a turn on this one.
-  nao::ask_for_prompt_turns(nao::Turns::kControl);
+  nao::request_realtime_scheduling(nao::RealtimePriority::kControl);
   try {
     nao::report(run(num_rounds, time), json_file);
   } catch (const std::exception& error) {

@@ -1,8 +1,7 @@
-// Measures the motion core: processor time of one step while it stands and while it walks, and how
-// fast simulator and core run together on one core.
+// Measures the motion core: CPU time of one step while standing and while walking, and the
+// real-time factor of simulator and motion core on one CPU core.
 
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <memory>
 #include <string>
@@ -12,17 +11,11 @@
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "robot_model/robot_model.h"
+#include "tools/bench/cpu_time.h"
 #include "tools/bench/figures.h"
 
 namespace nao {
 namespace {
-
-/** Time of the processor that this thread has used, s. */
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 ClosedLoopOptions trial_options() {
   ClosedLoopOptions options;
@@ -31,7 +24,7 @@ ClosedLoopOptions trial_options() {
   return options;
 }
 
-/** Median over ticks of a core's step, us, with the sensors of a trial that runs beside it. */
+/** Median CPU time of a motion core's step, us; the sensor states come from a trial. */
 double step_us(const Eigen::Vector3d& velocity, double seconds) {
   ClosedLoop trial(trial_options(), 1);
   std::vector<double> times;

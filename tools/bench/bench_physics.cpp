@@ -1,26 +1,25 @@
-// Measures the physics: time of a step, by stages, over contacts and robots; beside MuJoCo, where
-// that is installed, on the same robot in turns, and the error of both at 2 ms against their own
-// answers at a fortieth of that.
+// Measures the physics: CPU time of a step, in total, by stage, by number of contacts and of
+// robots. Baseline, if installed: MuJoCo with the same robot, interleaved. Also measures the error
+// of both at a time step of 2 ms relative to their own solution at 0.05 ms.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "closed_loop/closed_loop.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "robot_model/robot_model.h"
 #include "sim/world.h"
+#include "tools/bench/cpu_time.h"
 #include "tools/bench/figures.h"
+#include "tools/bench/physics_scenarios.h"
 #ifdef NAO_HAS_MUJOCO
-#include "sim/mujoco_peer.h"
+#include "sim/mujoco_baseline.h"
 #endif
 
 namespace nao {
@@ -31,78 +30,13 @@ using sim::RobotOptions;
 using sim::World;
 using sim::WorldOptions;
 
-constexpr double kTick = 0.01;
-
-/** Time of the processor that this thread has used, s. */
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-std::shared_ptr<const RobotModel> nao_model() {
-  static const auto model =
-      std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots/nao"));
-  return model;
-}
-
-/** What the robot does, in both simulators. */
-struct Scenario {
-  std::string name;
-  std::string posture = "StandInit";
-  double height = 0;
-  bool is_limp = false;
-  /** Targets of each tick; the last ones stay. Empty: as it stands. */
-  std::vector<Eigen::VectorXd> targets;
-};
-
-/** Ten seconds of the motion core's walk at 0.1 m/s, as targets. */
-Scenario walking() {
-  Scenario scenario;
-  scenario.name = "walking";
-  ClosedLoopOptions options;
-  options.model = nao_model();
-  options.is_ideal = true;
-  ClosedLoop trial(options, 1);
-  trial.on_tick([&] {
-    const std::vector<double>& targets = trial.targets();
-    scenario.targets.emplace_back(
-        Eigen::Map<const Eigen::VectorXd>(targets.data(), static_cast<long>(targets.size())));
-  });
-  trial.run(1);
-  trial.hold_walk({0.1, 0, 0});
-  trial.run(9);
-  std::fprintf(stderr, "physics: recorded a walk of %.2f m\n",
-               trial.torso_in_world().translation().x());
-  return scenario;
-}
-
-/** In the air, all joints swinging, the legs so far apart that they do not meet. */
-Scenario falling() {
-  Scenario scenario;
-  scenario.name = "falling";
-  scenario.height = 10;
-  const Posture& start = *nao_model()->find_posture("StandInit");
-  for (int tick = 0; tick < 100; ++tick) {
-    Eigen::VectorXd targets(nao_model()->num_motors());
-    for (int i = 0; i < targets.size(); ++i) {
-      targets[i] =
-          start.position[static_cast<size_t>(i)] + 0.3 * std::sin(kTick * tick * (3 + 0.3 * i));
-    }
-    targets[nao_model()->find_motor("LHipRoll")] += 0.25;
-    targets[nao_model()->find_motor("RHipRoll")] -= 0.25;
-    scenario.targets.push_back(targets);
-  }
-  return scenario;
-}
-
-/** Our physics in a scenario. */
-class Ours {
+/** The project's physics in a scenario. */
+class ProjectPhysics {
  public:
-  Ours(const Scenario& scenario, double step, const WorldOptions& base = {})
+  ProjectPhysics(const PhysicsScenario& scenario, double step, const WorldOptions& base = {})
       : scenario_(scenario), options_(base) {
     options_.step = step;
-    options_.steps_per_tick = static_cast<int>(std::lround(kTick / step));
+    options_.steps_per_tick = static_cast<int>(std::lround(kControlPeriod / step));
     world_ = std::make_unique<World>(SceneFile{}, options_);
     RobotOptions robot;
     robot.posture = scenario.posture;
@@ -131,7 +65,7 @@ class Ours {
   sim::TreeState state() const { return world_->robot(0).state(); }
 
  private:
-  const Scenario& scenario_;
+  const PhysicsScenario& scenario_;
   WorldOptions options_;
   std::unique_ptr<World> world_;
   MotorTargets targets_;
@@ -140,34 +74,34 @@ class Ours {
 
 #ifdef NAO_HAS_MUJOCO
 /** MuJoCo in the same scenario. */
-class Theirs {
+class MujocoPhysics {
  public:
-  Theirs(const Scenario& scenario, double step, sim::PeerOptions options = {})
+  MujocoPhysics(const PhysicsScenario& scenario, double step, sim::BaselineOptions options = {})
       : scenario_(scenario),
         start_(scenario, step),
         steps_per_tick_(start_.options().steps_per_tick),
         state_(start_.state()),
-        peer_(start_.world().robot(0), start_.options(),
-              {options.feet, options.laws, scenario.is_limp}) {}
+        baseline_(start_.world().robot(0), start_.options(),
+                  {options.feet, options.laws, scenario.is_limp}) {}
   void tick() {
-    if (tick_ < scenario_.targets.size()) peer_.set_targets(scenario_.targets[tick_]);
+    if (tick_ < scenario_.targets.size()) baseline_.set_targets(scenario_.targets[tick_]);
     ++tick_;
-    for (int i = 0; i < steps_per_tick_; ++i) peer_.step();
+    for (int i = 0; i < steps_per_tick_; ++i) baseline_.step();
   }
   void restart() {
-    peer_.set_state(start_.world().robot(0).tree(), state_);
-    peer_.set_targets(start_.world().robot(0).motor_position());
+    baseline_.set_state(start_.world().robot(0).tree(), state_);
+    baseline_.set_targets(start_.world().robot(0).motor_position());
     tick_ = 0;
   }
-  sim::TreeState state() { return peer_.state(start_.world().robot(0).tree()); }
-  int num_contacts() { return peer_.data().ncon; }
+  sim::TreeState state() { return baseline_.state(start_.world().robot(0).tree()); }
+  int num_contacts() { return baseline_.data().ncon; }
 
  private:
-  const Scenario& scenario_;
-  Ours start_;
+  const PhysicsScenario& scenario_;
+  ProjectPhysics start_;
   int steps_per_tick_;
   sim::TreeState state_;
-  sim::MujocoPeer peer_;
+  sim::MujocoBaseline baseline_;
   size_t tick_ = 0;
 };
 #endif
@@ -178,7 +112,7 @@ double joint_difference(const sim::TreeState& a, const sim::TreeState& b) {
   return std::sqrt(difference.squaredNorm() / static_cast<double>(difference.size() - 6));
 }
 
-/** Error of the joints of one physics over a time against another, rad. */
+/** RMS joint angle error of one simulation relative to another over a duration, rad. */
 template <class Physics, class Reference>
 double difference(Physics& physics, Reference& reference, int ticks) {
   double sum = 0;
@@ -193,26 +127,27 @@ double difference(Physics& physics, Reference& reference, int ticks) {
 constexpr double kStep = 0.002;
 constexpr double kFineStep = 0.00005;
 
-/** Error of the joints at 2 ms over a time, by the same physics at 0.05 ms, rad. */
+/** RMS joint angle error at a time step of 2 ms relative to the same physics at 0.05 ms, rad. */
 template <class Physics>
-double step_error(const Scenario& scenario, int ticks) {
+double step_error(const PhysicsScenario& scenario, int ticks) {
   Physics coarse(scenario, kStep);
   Physics fine(scenario, kFineStep);
   return difference(coarse, fine, ticks);
 }
 
 #ifdef NAO_HAS_MUJOCO
-/** Error at 2 ms against one reference for both: MuJoCo at 0.05 ms with our laws of contact and dry
- * friction, rad. */
+/** RMS joint angle error at a time step of 2 ms relative to a common reference solution, rad:
+ * MuJoCo at 0.05 ms with the project's contact and friction models. */
 template <class Physics>
-double common_error(const Scenario& scenario, int ticks) {
+double common_error(const PhysicsScenario& scenario, int ticks) {
   Physics coarse(scenario, kStep);
-  Theirs reference(scenario, kFineStep, {sim::PeerFeet::kPoints, sim::PeerLaws::kOurs});
+  MujocoPhysics reference(scenario, kFineStep,
+                          {sim::BaselineFeet::kPoints, sim::BaselineLaws::kMatched});
   return difference(coarse, reference, ticks);
 }
 #endif
 
-/** Processor time of a step, us, of several tasks in turns. */
+/** CPU time of a step of several interleaved tasks, us. */
 std::vector<double> times_in_turns(const std::vector<std::function<void()>>& ticks, int rounds,
                                    int ticks_per_round, int steps_per_tick) {
   std::vector<std::vector<double>> times(ticks.size());
@@ -228,27 +163,27 @@ std::vector<double> times_in_turns(const std::vector<std::function<void()>>& tic
   return medians;
 }
 
-void measure_scenario(const Scenario& scenario, int rounds, std::vector<Figure>& figures) {
-  // A recorded motion is played anew in each round; a state of rest is settled first.
+void measure_scenario(const PhysicsScenario& scenario, int rounds, std::vector<Figure>& figures) {
+  // A recorded motion restarts in each round; a resting state first settles.
   const bool is_recorded = !scenario.targets.empty();
   const int ticks = is_recorded ? static_cast<int>(scenario.targets.size()) : 100;
-  Ours ours(scenario, 0.002);
+  ProjectPhysics ours(scenario, 0.002);
   for (int i = 0; i < 300 && !is_recorded; ++i) ours.tick();
   std::vector<std::function<void()>> tasks;
   int tick_of_ours = 0;
   double contacts = 0;
-  double sweeps = 0;
+  double iterations = 0;
   int64_t counted = 0;
   tasks.emplace_back([&] {
     if (is_recorded && tick_of_ours++ % ticks == 0) ours.restart();
     ours.tick();
     contacts += static_cast<double>(ours.world().contacts().size());
-    sweeps += ours.world().last_sweeps();
+    iterations += ours.world().last_iterations();
     ++counted;
   });
 #ifdef NAO_HAS_MUJOCO
-  Theirs points(scenario, 0.002);
-  Theirs boxes(scenario, 0.002, {sim::PeerFeet::kBoxes});
+  MujocoPhysics points(scenario, 0.002);
+  MujocoPhysics boxes(scenario, 0.002, {sim::BaselineFeet::kBoxes});
   for (int i = 0; i < 300 && !is_recorded; ++i) {
     points.tick();
     boxes.tick();
@@ -267,8 +202,8 @@ void measure_scenario(const Scenario& scenario, int rounds, std::vector<Figure>&
 #endif
   const std::vector<double> us = times_in_turns(tasks, rounds, ticks, 5);
   const std::string name = "physics." + scenario.name;
-  std::fprintf(stderr, "%s: %.1f contacts, %.1f sweeps a step", name.c_str(),
-               contacts / static_cast<double>(counted), sweeps / static_cast<double>(counted));
+  std::fprintf(stderr, "%s: %.1f contacts, %.1f solver iterations per step", name.c_str(),
+               contacts / static_cast<double>(counted), iterations / static_cast<double>(counted));
 #ifdef NAO_HAS_MUJOCO
   const sim::TreeState end_ours = ours.state();
   const sim::TreeState end_theirs = points.state();
@@ -294,12 +229,12 @@ struct StageTimes {
   std::array<double, 5> sum{};
 };
 
-void measure_stages(const Scenario& scenario, std::vector<Figure>& figures) {
+void measure_stages(const PhysicsScenario& scenario, std::vector<Figure>& figures) {
   static constexpr const char* kNames[] = {"dynamics", "collision", "rows", "solve", "integrate"};
-  Ours ours(scenario, 0.002);
+  ProjectPhysics ours(scenario, 0.002);
   StageTimes times;
   for (int i = 0; i < 300; ++i) ours.tick();
-  // Reading the clock costs as much as a stage: an empty step's worth of readings is taken off.
+  // Reading the clock takes about as long as a stage: the duration of the readings is subtracted.
   constexpr int kReadings = 100000;
   const double start = processor_seconds();
   for (int i = 0; i < kReadings; ++i) (void)processor_seconds();
@@ -323,14 +258,14 @@ void measure_stages(const Scenario& scenario, std::vector<Figure>& figures) {
   }
 }
 
-void measure_contacts(const Scenario& standing, std::vector<Figure>& figures) {
-  std::vector<std::unique_ptr<Ours>> all;
+void measure_contacts(const PhysicsScenario& standing, std::vector<Figure>& figures) {
+  std::vector<std::unique_ptr<ProjectPhysics>> all;
   std::vector<std::function<void()>> tasks;
   const std::vector<int> corners{3, 4, 6, 8, 12, 15};
   for (const int count : corners) {
     WorldOptions options;
     options.num_sole_points = count;
-    all.push_back(std::make_unique<Ours>(standing, 0.002, options));
+    all.push_back(std::make_unique<ProjectPhysics>(standing, 0.002, options));
     for (int i = 0; i < 300; ++i) all.back()->tick();
     tasks.emplace_back([&ours = *all.back()] { ours.tick(); });
   }
@@ -366,14 +301,14 @@ void measure_robots(std::vector<Figure>& figures) {
 
 void measure(int rounds, const std::string& json_file) {
   std::vector<Figure> figures;
-  Scenario standing;
+  PhysicsScenario standing;
   standing.name = "standing";
-  Scenario lying;
+  PhysicsScenario lying;
   lying.name = "lying";
   lying.posture = "LyingBack";
   lying.is_limp = true;
-  const Scenario walk = walking();
-  const Scenario fall = falling();
+  const PhysicsScenario walk = walking();
+  const PhysicsScenario fall = falling();
 
   measure_scenario(standing, rounds, figures);
   const auto standing_us = std::find_if(figures.begin(), figures.end(), [](const Figure& figure) {
@@ -388,20 +323,21 @@ void measure(int rounds, const std::string& json_file) {
   measure_contacts(standing, figures);
   measure_robots(figures);
 
-  for (const Scenario* scenario : std::vector<const Scenario*>{&fall, &standing, &walk, &lying}) {
+  for (const PhysicsScenario* scenario :
+       std::vector<const PhysicsScenario*>{&fall, &standing, &walk, &lying}) {
     const int ticks = scenario == &walk ? 250 : 100;
     Figure figure{"physics." + scenario->name + ".error_mrad",
-                  1e3 * step_error<Ours>(*scenario, ticks), "mrad", "", 0};
+                  1e3 * step_error<ProjectPhysics>(*scenario, ticks), "mrad", "", 0};
 #ifdef NAO_HAS_MUJOCO
-    figure.peer = "MuJoCo, same contact points";
-    figure.peer_value = 1e3 * step_error<Theirs>(*scenario, ticks);
+    figure.baseline = "MuJoCo, same contact points";
+    figure.baseline_value = 1e3 * step_error<MujocoPhysics>(*scenario, ticks);
 #endif
     figures.push_back(figure);
 #ifdef NAO_HAS_MUJOCO
     figures.push_back({"physics." + scenario->name + ".common_error_mrad",
-                       1e3 * common_error<Ours>(*scenario, ticks), "mrad",
+                       1e3 * common_error<ProjectPhysics>(*scenario, ticks), "mrad",
                        "MuJoCo, same contact points",
-                       1e3 * common_error<Theirs>(*scenario, ticks)});
+                       1e3 * common_error<MujocoPhysics>(*scenario, ticks)});
 #endif
   }
   report(figures, json_file);
@@ -411,12 +347,12 @@ void measure(int rounds, const std::string& json_file) {
 }  // namespace nao
 
 int main(int argc, char** argv) {
-  nao::CommandLine app("Measures the physics, beside MuJoCo where that is installed.",
+  nao::CommandLine app("Measures the physics. Baseline, if installed: MuJoCo.",
                        "nao-bench-physics");
   std::string json_file;
   int rounds = 40;
   app.add_option("--json", json_file, "File for the figures");
-  app.add_option("--rounds", rounds, "Turns of each simulator in each scenario")
+  app.add_option("--rounds", rounds, "Repetitions of each simulator in each scenario")
       ->range(3, 1000)
       ->show_default();
   if (const auto status = app.parse(argc, argv)) return *status;

@@ -22,14 +22,14 @@ naoremote::Request ping() {
   return request;
 }
 
-/** Greets, and wishes for all that there is. */
-std::unique_ptr<WireClient> connect_watcher(uint16_t tcp_port) {
+/** Connects and subscribes at the highest rates. */
+std::unique_ptr<WireClient> connect_subscriber(uint16_t tcp_port) {
   auto client = connect_tcp(tcp_port);
   naoremote::Request request;
   request.mutable_connect()->set_protocol_version(1);
   client->send(request);
   request.mutable_subscribe()->set_state_rate(60);
-  request.mutable_subscribe()->set_picture_rate(30);
+  request.mutable_subscribe()->set_image_rate(30);
   client->send(request);
   return client;
 }
@@ -37,9 +37,9 @@ std::unique_ptr<WireClient> connect_watcher(uint16_t tcp_port) {
 }  // namespace
 
 DisturbingClients::DisturbingClients(uint16_t tcp_port)
-    : stalled_(connect_watcher(tcp_port)),
-      slow_(connect_watcher(tcp_port)),
-      flooding_(connect_watcher(tcp_port)),
+    : stalled_(connect_subscriber(tcp_port)),
+      slow_(connect_subscriber(tcp_port)),
+      flooding_(connect_subscriber(tcp_port)),
       thread_([this] { run(); }) {}
 
 DisturbingClients::~DisturbingClients() {
@@ -52,7 +52,7 @@ void DisturbingClients::run() {
   for (int turn = 0; !is_ending_; ++turn) {
     std::this_thread::sleep_for(kTurn);
     if (turn % kTurnsPerSecond == 0) {
-      // A sign of life, or the gateway would close them after 5 s.
+      // Without a request in 5 s the gateway would close them.
       stalled_->send(ping());
       slow_->send(ping());
     }

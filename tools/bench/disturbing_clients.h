@@ -9,9 +9,9 @@
 
 namespace nao {
 
-/** Three clients that a gateway must not let others suffer from, in a thread of their own: one
- * wants every state and picture and never reads, one reads 1 kB a second, one sends 10,000 requests
- * a second and reads all answers. */
+/** Three clients that must not affect other clients, in a thread of their own: one subscribes to
+ * every state and image and never reads, one reads 1 kB a second, one sends 10,000 requests a
+ * second and reads all answers. */
 class DisturbingClients {
  public:
   explicit DisturbingClients(uint16_t tcp_port);
@@ -26,7 +26,7 @@ class DisturbingClients {
   std::unique_ptr<WireClient> stalled_;
   std::unique_ptr<WireClient> slow_;
   std::unique_ptr<WireClient> flooding_;
-  /** Requests on their way to the gateway. */
+  /** Requests that have not been sent yet. */
   std::string flood_;
   std::atomic<bool> is_ending_ = false;
   std::thread thread_;

@@ -8,17 +8,9 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "common/json_writer.h"
+
 namespace nao {
-namespace {
-
-std::string number(double value) {
-  if (!std::isfinite(value)) return "null";
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
-
-}  // namespace
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -26,11 +18,11 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-double percentile(std::vector<double> values, double share) {
+double percentile(std::vector<double> values, double fraction) {
   if (values.empty()) return std::nan("");
   std::sort(values.begin(), values.end());
   const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<size_t>(std::lround(share * last))];
+  return values[static_cast<size_t>(std::lround(fraction * last))];
 }
 
 std::string to_table(const std::vector<Figure>& figures) {
@@ -40,9 +32,9 @@ std::string to_table(const std::vector<Figure>& figures) {
     std::snprintf(line.data(), line.size(), "%-36s %12.6g %-8s", figure.name.c_str(), figure.value,
                   figure.unit.c_str());
     table += line.data();
-    if (!figure.peer.empty()) {
-      std::snprintf(line.data(), line.size(), " %s: %.6g, ratio %.3g", figure.peer.c_str(),
-                    figure.peer_value, figure.value / figure.peer_value);
+    if (!figure.baseline.empty()) {
+      std::snprintf(line.data(), line.size(), " %s: %.6g, ratio %.3g", figure.baseline.c_str(),
+                    figure.baseline_value, figure.value / figure.baseline_value);
       table += line.data();
     }
     table += "\n";
@@ -51,17 +43,24 @@ std::string to_table(const std::vector<Figure>& figures) {
 }
 
 std::string to_json(const std::vector<Figure>& figures) {
-  std::string json = "[";
+  JsonWriter json;
+  json.begin_array();
   for (const Figure& figure : figures) {
-    const bool has_peer = !figure.peer.empty();
-    json += json == "[" ? "\n" : ",\n";
-    json += "  {\"name\": \"" + figure.name + "\", \"value\": " + number(figure.value) +
-            ", \"unit\": \"" + figure.unit +
-            "\", \"peer\": " + (has_peer ? "\"" + figure.peer + "\"" : "null") +
-            ", \"peer_value\": " + (has_peer ? number(figure.peer_value) : "null") +
-            ", \"ratio\": " + (has_peer ? number(figure.value / figure.peer_value) : "null") + "}";
+    json.begin_object();
+    json.add("name", figure.name);
+    json.add("value", figure.value);
+    json.add("unit", figure.unit);
+    if (figure.baseline.empty()) {
+      for (const char* key : {"baseline", "baseline_value", "ratio"}) json.add_null(key);
+    } else {
+      json.add("baseline", figure.baseline);
+      json.add("baseline_value", figure.baseline_value);
+      json.add("ratio", figure.value / figure.baseline_value);
+    }
+    json.end();
   }
-  return json + "\n]\n";
+  json.end();
+  return json.text() + "\n";
 }
 
 void report(const std::vector<Figure>& figures, const std::string& json_file) {

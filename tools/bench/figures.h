@@ -5,30 +5,30 @@
 
 namespace nao {
 
-/** One thing measured. */
+/** One measured quantity. */
 struct Figure {
   /** "camera.soccer_ms". */
   std::string name;
   double value = 0;
   std::string unit;
-  /** What it is held against in the same run, and that one's value; empty where there is none. */
-  std::string peer;
-  double peer_value = 0;
+  /** Baseline measured in the same run and its value; empty if there is none. */
+  std::string baseline;
+  double baseline_value = 0;
 };
 
-/** Middle value; the mean of both where their number is even. @param values  Not empty. */
+/** Median; the mean of the two middle values of an even number. @param values  Not empty. */
 double median(std::vector<double> values);
 
-/** The value below which that share of the others lies, nearest rank; NaN for no values.
- * @param share  [0, 1]: 0.99 for the 99th percentile. */
-double percentile(std::vector<double> values, double share);
+/** Quantile by nearest rank; NaN for no values.
+ * @param fraction  [0, 1]: 0.99 for the 99th percentile. */
+double percentile(std::vector<double> values, double fraction);
 
-/** The figures as a table for people. */
+/** The figures as a text table. */
 std::string to_table(const std::vector<Figure>& figures);
 
-/** As an array of {"name", "value", "unit", "peer", "peer_value", "ratio"}; peer, its value and the
- * ratio value / peer_value are null where there is no peer, and so is every number that is not
- * finite. */
+/** JSON array of {"name", "value", "unit", "baseline", "baseline_value", "ratio"} with ratio =
+ * value / baseline_value. The last three are null without a baseline; non-finite numbers are null.
+ */
 std::string to_json(const std::vector<Figure>& figures);
 
 /** Prints the table, and writes the JSON to a file unless its name is empty.

@@ -3,12 +3,20 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
-#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
+// <utility> first: Boost 1.74's coroutine headers rely on it with GCC 12.
+#include <utility>
+//
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket.hpp>
 #include <cerrno>
+#include <optional>
 #include <stdexcept>
 
 #include "phone-gateway/protocol/framing.h"
@@ -16,126 +24,123 @@
 namespace nao {
 namespace {
 
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+
+/** Above every message of the gateway, which are below 100 kB. */
 constexpr size_t kMaxMessageBytes = 1 << 20;
 
-class TcpClient : public WireClient {
- public:
-  explicit TcpClient(uint16_t port) { connect(port); }
-  ~TcpClient() override { close(descriptor_); }
-
-  void send(const naoremote::Request& request) override {
-    send_bytes(frame(request.SerializeAsString()));
-  }
-
- private:
-  bool take_message(std::string& message) override {
-    reader_.add(bytes_);
-    bytes_.clear();
-    auto next = reader_.next();
-    if (!next) return false;
-    message = std::move(*next);
-    return true;
-  }
-
-  FrameReader reader_{kMaxMessageBytes};
-};
-
-/** RFC 6455, as much of it as the gateway uses: binary messages in one frame. */
-class WebSocketClient : public WireClient {
- public:
-  explicit WebSocketClient(uint16_t port) {
-    connect(port);
-    send_bytes(
-        "GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n");
-    size_t end = std::string::npos;
-    while ((end = bytes_.find("\r\n\r\n")) == std::string::npos) wait_for_bytes();
-    if (bytes_.find(" 101 ") == std::string::npos) throw std::runtime_error(bytes_);
-    bytes_.erase(0, end + 4);
-  }
-  ~WebSocketClient() override { close(descriptor_); }
-
-  void send(const naoremote::Request& request) override {
-    const std::string message = request.SerializeAsString();
-    std::string bytes = "\x82";
-    if (message.size() < 126) {
-      bytes.push_back(static_cast<char>(0x80 | message.size()));
-    } else {
-      bytes.push_back(static_cast<char>(0x80 | 126));
-      bytes.push_back(static_cast<char>(message.size() >> 8));
-      bytes.push_back(static_cast<char>(message.size() & 0xff));
-    }
-    // A mask of zero leaves the payload as it is, and is as good as any to the other end.
-    bytes.append(4, '\0');
-    send_bytes(bytes + message);
-  }
-
- private:
-  bool take_message(std::string& message) override {
-    const auto byte = [this](size_t i) { return static_cast<unsigned char>(bytes_[i]); };
-    if (bytes_.size() < 2) return false;
-    size_t length = byte(1) & 0x7f;
-    size_t start = 2;
-    if (length >= 126) {
-      const size_t num_bytes = length == 126 ? 2 : 8;
-      start += num_bytes;
-      if (bytes_.size() < start) return false;
-      length = 0;
-      for (size_t i = 2; i < start; ++i) length = length << 8 | byte(i);
-    }
-    if (bytes_.size() < start + length) return false;
-    if (byte(0) != 0x82) throw std::runtime_error("the gateway closes the WebSocket");
-    message = bytes_.substr(start, length);
-    bytes_.erase(0, start + length);
-    return true;
-  }
-};
-
-}  // namespace
-
-void WireClient::connect(uint16_t port) {
-  descriptor_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+int connect_socket(uint16_t port) {
+  const int descriptor = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (::connect(descriptor_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
+  if (connect(descriptor, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
+    close(descriptor);
     throw std::runtime_error("no gateway on port " + std::to_string(port));
   }
   const int on = 1;
-  setsockopt(descriptor_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  return descriptor;
 }
 
-void WireClient::send_bytes(const std::string& bytes) {
-  if (::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL) !=
-      static_cast<ssize_t>(bytes.size())) {
-    throw std::runtime_error("the connection is lost");
+/** A client over raw TCP. */
+class TcpClient : public WireClient {
+ public:
+  explicit TcpClient(uint16_t port) : descriptor_(connect_socket(port)) {}
+  ~TcpClient() override { close(descriptor_); }
+  TcpClient(const TcpClient&) = delete;
+  TcpClient& operator=(const TcpClient&) = delete;
+
+  void send(const naoremote::Request& request) override {
+    const std::string bytes = frame(request.SerializeAsString());
+    if (::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL) !=
+        static_cast<ssize_t>(bytes.size())) {
+      throw std::runtime_error("the connection is lost");
+    }
   }
-}
 
-void WireClient::wait_for_bytes() {
-  std::array<char, 65536> part;
-  const ssize_t size = recv(descriptor_, part.data(), part.size(), 0);
-  if (size <= 0) throw std::runtime_error("the gateway closed the connection");
-  bytes_.append(part.data(), static_cast<size_t>(size));
-}
-
-void WireClient::read() {
-  std::array<char, 65536> part;
-  const ssize_t size = recv(descriptor_, part.data(), part.size(), MSG_DONTWAIT);
-  if (size == 0 || (size < 0 && errno != EAGAIN)) {
-    throw std::runtime_error("the gateway closed the connection");
+  void read() override {
+    std::array<char, 65536> bytes;
+    const ssize_t size = recv(descriptor_, bytes.data(), bytes.size(), MSG_DONTWAIT);
+    if (size == 0 || (size < 0 && errno != EAGAIN)) {
+      throw std::runtime_error("the gateway closed the connection");
+    }
+    if (size < 0) return;
+    reader_.add({bytes.data(), static_cast<size_t>(size)});
+    while (auto message = reader_.next()) messages_.push_back(std::move(*message));
   }
-  if (size > 0) bytes_.append(part.data(), static_cast<size_t>(size));
-}
+
+  int descriptor() const override { return descriptor_; }
+
+ private:
+  int descriptor_;
+  FrameReader reader_{kMaxMessageBytes};
+};
+
+/** A client over a WebSocket. One asynchronous read is always in progress; read() runs the handlers
+ * that are ready. */
+class WebSocketClient : public WireClient {
+ public:
+  explicit WebSocketClient(uint16_t port) : websocket_(io_) {
+    const asio::ip::tcp::endpoint endpoint(asio::ip::address_v4::loopback(), port);
+    boost::system::error_code error;
+    websocket_.next_layer().connect(endpoint, error);
+    if (error) throw std::runtime_error("no gateway on port " + std::to_string(port));
+    websocket_.next_layer().set_option(asio::ip::tcp::no_delay(true));
+    websocket_.handshake("localhost", "/ws");
+    websocket_.binary(true);
+    websocket_.read_message_max(kMaxMessageBytes);
+    descriptor_ = websocket_.next_layer().native_handle();
+    start_reading();
+  }
+
+  void send(const naoremote::Request& request) override {
+    websocket_.write(asio::buffer(request.SerializeAsString()));
+  }
+
+  void read() override {
+    io_.restart();
+    io_.poll();
+    if (error_) {
+      throw std::runtime_error("the gateway closed the connection: " + error_->message());
+    }
+  }
+
+  int descriptor() const override { return descriptor_; }
+
+ private:
+  void start_reading() {
+    websocket_.async_read(buffer_, [this](const boost::system::error_code& error, size_t) {
+      if (error) {
+        error_ = error;
+        return;
+      }
+      messages_.push_back(beast::buffers_to_string(buffer_.data()));
+      buffer_.consume(buffer_.size());
+      start_reading();
+    });
+  }
+
+  asio::io_context io_{1};
+  beast::websocket::stream<asio::ip::tcp::socket> websocket_;
+  int descriptor_ = -1;
+  beast::flat_buffer buffer_;
+  std::optional<boost::system::error_code> error_;
+};
+
+}  // namespace
 
 std::vector<naoremote::ServerMessage> WireClient::take_messages() {
-  std::vector<naoremote::ServerMessage> messages;
-  for (std::string bytes; take_message(bytes);) {
-    messages.emplace_back();
-    if (!messages.back().ParseFromString(bytes)) throw std::runtime_error("no ServerMessage");
+  std::vector<naoremote::ServerMessage> decoded(messages_.size());
+  for (size_t i = 0; i < messages_.size(); ++i) {
+    if (!decoded[i].ParseFromString(messages_[i])) {
+      throw std::runtime_error("the gateway sent a message that is no ServerMessage");
+    }
   }
-  return messages;
+  messages_.clear();
+  return decoded;
 }
 
 std::unique_ptr<WireClient> connect_tcp(uint16_t port) {

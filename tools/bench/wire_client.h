@@ -9,35 +9,35 @@
 
 namespace nao {
 
-/** A phone reduced to its socket, so that what is measured is the gateway. */
+/** A client of the gateway that does as little as possible, so that a benchmark measures the
+ * gateway.
+ *
+ * Reading and decoding are separate: a benchmark first reads from all readable clients and notes
+ * the time, then decodes. */
 class WireClient {
  public:
   virtual ~WireClient() = default;
 
-  /** Sends a request. @throws std::runtime_error  if the connection is gone. */
+  /** Sends a request. @throws std::runtime_error  if the connection is lost. */
   virtual void send(const naoremote::Request& request) = 0;
 
-  /** Reads what has come, without waiting. @throws std::runtime_error  if the connection is gone.
-   */
-  void read();
-  /** The messages in what was read. @throws std::runtime_error  if one is none. */
+  /** Reads what has been received, without waiting.
+   * @throws std::runtime_error  if the connection is lost. */
+  virtual void read() = 0;
+
+  /** The whole messages that were read. @throws std::runtime_error  if one is no ServerMessage. */
   std::vector<naoremote::ServerMessage> take_messages();
 
-  int descriptor() const { return descriptor_; }
+  /** Readable when read() has something to read. */
+  virtual int descriptor() const = 0;
 
  protected:
-  /** Takes the next whole message off the front of `bytes_`. @return false if there is none. */
-  virtual bool take_message(std::string& message) = 0;
-  void connect(uint16_t port);
-  void send_bytes(const std::string& bytes);
-  /** Waits until bytes have come, and appends them. */
-  void wait_for_bytes();
-
-  int descriptor_ = -1;
-  std::string bytes_;
+  /** Messages that were read, not decoded. */
+  std::vector<std::string> messages_;
 };
 
-/** Connections to a gateway on this host, which have not said Connect. */
+/** Connections to a gateway on this host, without Connect.
+ * @throws std::runtime_error  if there is no gateway. */
 std::unique_ptr<WireClient> connect_tcp(uint16_t port);
 std::unique_ptr<WireClient> connect_websocket(uint16_t port);
 

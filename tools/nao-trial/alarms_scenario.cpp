@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kDuration = 600;  // s
 
-/** Something to do for a few seconds, on the feet. */
+/** A random command that keeps the robot on its feet for a few seconds. */
 void do_something(ClosedLoop& trial) {
   constexpr std::array<const char*, 4> kPostures = {"StandInit", "StandZero", "Stand", "Crouch"};
   const double kind = trial.random(0, 3);
@@ -48,7 +48,7 @@ std::vector<RunResult> AlarmsScenario::run(const ScenarioOptions& options, uint6
   while (trial.time() < duration) do_something(trial);
   RunResult result;
   result.is_success = num_alarms == 0;
-  if (!result.is_success) result.failure = "told a fall that nobody had pushed it into";
+  if (!result.is_success) result.failure = "predicted a fall without a push";
   result.metrics = {{"alarms", num_alarms}, {"hours", trial.time() / 3600}};
   return {result};
 }

@@ -14,7 +14,7 @@ constexpr double kLowHeight = 0.28;  // m, of the torso in the stance; it stands
 constexpr double kWide = 0.17;       // m between the soles; they stand 0.1 m apart
 constexpr double kLyingTilt = 1.2;   // rad
 
-/** When a condition has held first, s since the start. */
+/** Time at which a condition first held, s since the start. */
 class FirstTime {
  public:
   void look(bool holds, double time) {
@@ -64,7 +64,7 @@ RunResult act(const ScenarioOptions& options, uint64_t seed, const std::string& 
   if (fell) {
     result.failure = "fell";
   } else if (!end || end->status != ResultStatus::kDone) {
-    result.failure = end ? end->reason : "did not end";
+    result.failure = end ? to_sentence(end->reason) : "did not end";
   } else if (!stands) {
     result.failure = "does not stand";
   } else if (!reached.is_within(kAsked)) {

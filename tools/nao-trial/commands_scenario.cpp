@@ -14,7 +14,7 @@ constexpr double kTick = 0.01;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr int kNumCommands = 100;
 constexpr double kPushShare = 0.03;     // of the commands, with a push that throws the robot over
-constexpr double kRestartShare = 0.02;  // of the commands, after which the mind dies
+constexpr double kRestartShare = 0.02;  // fraction of the commands after which the core restarts
 constexpr double kTimeToEnd = 150;      // s for the last command, six tries to get up included
 
 Command random_joint_change(ClosedLoop& trial) {
@@ -51,7 +51,7 @@ Command random_command(ClosedLoop& trial) {
   return random_joint_change(trial);
 }
 
-/** Watches targets and results while commands rain. */
+/** Checks joint targets and results during a series of commands. */
 class Watch {
  public:
   Watch(ClosedLoop& trial, RunResult& result) : trial_(trial), result_(result) {
@@ -60,7 +60,7 @@ class Watch {
   }
   ~Watch() { trial_.on_tick({}); }
 
-  /** A new mind takes over; what the old one owed is forgotten. */
+  /** A new motion core starts; results that the old one still owed are no longer expected. */
   void expect_restart() {
     forgiven_.clear();
     for (const auto& [id, is_open] : open_) {
@@ -124,15 +124,15 @@ std::vector<RunResult> CommandsScenario::run(const ScenarioOptions& options, uin
       ++num_pushes;
     }
     if (trial.random(0, 1) < kRestartShare) {
-      trial.set_core_dead(true);
+      trial.set_core_crashed(true);
       trial.run(trial.random(0.05, 0.5));
-      trial.set_core_dead(false);
+      trial.set_core_crashed(false);
       trial.restart_core();
       watch.expect_restart();
       ++num_restarts;
     }
   }
-  // A walk has no end of its own.
+  // A walk ends only at another command.
   if (result.failure.empty()) watch.expect_result(trial.send({"", 0, StopCommand{}}));
   const bool all_ended =
       trial.run_until([&] { return !watch.has_open() || !result.failure.empty(); }, kTimeToEnd);

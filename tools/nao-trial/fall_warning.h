@@ -6,16 +6,16 @@
 
 namespace nao::trial {
 
-/** Measures how long before the impact of a fall the motion core tells it. */
+/** Measures the time between the motion core's fall prediction and the impact. */
 class FallWarning {
  public:
-  /** Looks at a tick. */
+  /** Evaluates one tick. */
   void look(ClosedLoop& trial);
 
-  /** Whether anything but a foot has touched the floor. */
+  /** True once a link other than a foot has touched the floor. */
   bool has_touched() const { return touched_.has_value(); }
-  /** s from the core's first sign of a fall to the first touch; nothing without a touch, -1 if the
-   * core had told nothing by then. */
+  /** Time from the core's fall prediction to the first contact, s; nullopt without a contact, -1 if
+   * the core had predicted no fall by then. */
   std::optional<double> warning() const;
 
  private:

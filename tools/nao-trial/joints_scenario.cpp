@@ -11,7 +11,7 @@ namespace {
 constexpr double kTick = 0.01;
 constexpr double kDeepest = 0.01;  // s of self-contact force that a brush may last
 
-/** A command for one to three random joints, sensible or absurd. */
+/** A command for one to three random joints, valid or invalid. */
 Command random_command(ClosedLoop& trial) {
   JointChangeCommand change;
   const int num_joints = 1 + static_cast<int>(trial.random(0, 3));

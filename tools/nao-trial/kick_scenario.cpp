@@ -40,7 +40,7 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   if (!is_upright) {
     result.failure = "fell";
   } else if (!end || end->status != ResultStatus::kDone) {
-    result.failure = end ? end->reason : "did not end";
+    result.failure = end ? to_sentence(end->reason) : "did not end";
   } else if (!result.is_success) {
     result.failure = "ball too short";
   }
@@ -87,7 +87,7 @@ std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uin
   const Eigen::Vector2d way = (trial.world().ball().position - start).head<2>();
   RunResult result;
   if (!end || end->status != ResultStatus::kDone) {
-    result.failure = end ? end->reason : "did not end";
+    result.failure = end ? to_sentence(end->reason) : "did not end";
   } else if (!walks_on || trial.torso_tilt() > 0.5) {
     result.failure = "did not walk on";
   } else if (way.norm() < kLeastWay) {

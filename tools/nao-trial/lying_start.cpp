@@ -23,8 +23,8 @@ void lay_down(ClosedLoop& trial, double side) {
   Posture posture = *trial.model().find_posture("StandInit");
   for (int motor = 0; motor < trial.model().num_motors(); ++motor) {
     const Joint& joint = trial.model().motor_joint(motor);
-    const double wished = posture.position[motor] + trial.random(-0.5, 0.5);
-    posture.position[motor] = std::min(std::max(wished, joint.lower), joint.upper);
+    const double angle = posture.position[motor] + trial.random(-0.5, 0.5);
+    posture.position[motor] = std::min(std::max(angle, joint.lower), joint.upper);
   }
   const Eigen::Quaterniond orientation = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()) *
                                          Eigen::AngleAxisd(side, Eigen::Vector3d::UnitZ());

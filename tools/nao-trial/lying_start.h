@@ -6,29 +6,29 @@
 
 namespace nao::trial {
 
-/** Pushes the robot that stands until it falls.
- * @param direction  To where, rad: 0 ahead, pi / 2 to the left.
+/** Pushes the standing robot until it falls.
+ * @param direction  Direction of the push, rad: 0 forward, pi / 2 to the left.
  * @return false if it has not fallen after 5 s. */
 bool knock_over(ClosedLoop& trial, double direction);
 
-/** Lays the robot down with joints up to 0.5 rad from StandInit, and switches its mind on there:
- * one that is carried feels it, but this one is put there by magic.
- * @param side  What it lies on, rad about its long axis: 0 belly, pi back. */
+/** Places the robot lying, with joint angles up to 0.5 rad from StandInit, and starts a new motion
+ * core there: the placement is a jump that the sensors of a running core could not explain.
+ * @param side  Rotation about its long axis, rad: 0 on the belly, pi on the back. */
 void lay_down(ClosedLoop& trial, double side);
 
-/** How the robot lies once it has come to rest. */
+/** Lying pose of the robot at rest. */
 struct LyingStill {
   /** "belly", "back", "left" or "right". */
   std::string side;
-  /** When it came to rest, s since the start of the trial. */
+  /** Time at which it came to rest, s since the start of the trial. */
   double since = 0;
 };
 
-/** Lets the robot come to rest, 3 s at most: its torso turns at less than 0.1 rad/s for 0.1 s. One
- * that begins to get up before has lain still for long enough. */
+/** Waits until the robot is at rest, at most 3 s: the torso's angular velocity stays below 0.1
+ * rad/s for 0.1 s. A robot that begins to get up earlier counts as at rest. */
 LyingStill wait_until_still(ClosedLoop& trial);
 
-/** Whether the robot stands in StandInit and says so. */
+/** True if the robot stands in StandInit and its motion state reports it. */
 bool has_got_up(ClosedLoop& trial);
 
 }  // namespace nao::trial

@@ -23,7 +23,7 @@ std::vector<uint64_t> parse_seeds(const std::string& text) {
   if (num_read == 1 && text.find_first_not_of("0123456789") == std::string::npos) last = first;
   const bool is_range = num_read == 2 && last >= first && last - first < 1000000;
   if (!is_range && !(num_read == 1 && last == first)) {
-    throw ConfigError("--seeds wants A-B with A up to B, such as 1-100, not " + text);
+    throw ConfigError("--seeds " + text + " is not a range A-B with A <= B, such as 1-100");
   }
   std::vector<uint64_t> seeds;
   for (uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
@@ -85,26 +85,28 @@ int main(int argc, char** argv) {
     command->add_option("--plot", plot_file, "Draw the results to this SVG file (push)");
     command->add_option("--model", model_name, "Folder of robots/ that describes the robot")
         ->show_default();
-    command->add_option("--duration", options.duration, "Length of a run, s (0: as usual)")
+    command
+        ->add_option("--duration", options.duration,
+                     "Duration of a run, s (0: the scenario's default)")
         ->show_default();
-    command->add_option("--vx", options.velocity.x(), "Where it walks: ahead, m/s");
+    command->add_option("--vx", options.velocity.x(), "Commanded velocity ahead, m/s");
     command->add_option("--vy", options.velocity.y(), "To the left, m/s");
     command->add_option("--wz", options.velocity.z(), "Turning to the left, rad/s");
-    command->add_option("--distance", options.distance, "Way to go, m (0: as usual)")
+    command->add_option("--distance", options.distance, "Distance, m (0: the scenario's default)")
         ->show_default();
     command
-        ->add_option("--late", options.trial.late_share,
-                     "Chance in each tick that motion misses it and up to three more")
+        ->add_option("--late", options.trial.missed_tick_probability,
+                     "Probability in each tick that motion misses it and up to three more")
         ->show_default();
     command
         ->add_option(
             "--latency", options.trial.command_latency_ticks,
-            "Ticks of 10 ms between a joint command and the motors' following it, 0: 1 or 2")
+            "Latency from a joint command to the motors in ticks of 10 ms (0: random, 1 or 2)")
         ->range(0, 10)
         ->show_default();
     command->add_option("--trace", options.trace_file,
                         "walk: write true and estimated pose to this file, CSV");
-    command->add_flag("--ideal", options.trial.is_ideal, "No randomisation, noise or latency");
+    command->add_flag("--ideal", options.trial.is_ideal, "No randomization, noise or latency");
     command->add_flag("--verbose", is_verbose, "Print a line for each run");
     command->on_parsed([&chosen, &scenario] { chosen = scenario->name(); });
   }
@@ -119,9 +121,9 @@ int main(int argc, char** argv) {
       std::fputs(to_table(summary).c_str(), stdout);
       if (!json_file.empty()) write_file(json_file, to_json(summary));
       if (!plot_file.empty()) {
-        const std::string picture = scenario->plot(summary);
-        if (picture.empty()) throw nao::Error(chosen + " has nothing to draw; leave --plot out");
-        write_file(plot_file, picture);
+        const std::string plot = scenario->plot(summary);
+        if (plot.empty()) throw nao::Error(chosen + " has no plot; omit --plot");
+        write_file(plot_file, plot);
       }
     }
   });

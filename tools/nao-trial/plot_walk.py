@@ -119,7 +119,7 @@ def plot_pushes(trial, out, seeds):
     text = run(trial, "walk-push", "--seeds", seeds, "--verbose")
     points = re.findall(r"impulse_Ns (\S+)\s+direction_deg (\S+)", text)
     if not points:
-        sys.exit("walk-push told of no push")
+        sys.exit("walk-push reported no push")
     plot = Plot((-3.2, -3.2), (3.2, 3.2), "Greatest push survived at 0.15 m/s (ahead is up)", "N s")
     plot.circle(0.6, FALLEN)
     for impulse, direction in points:

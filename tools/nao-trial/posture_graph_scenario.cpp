@@ -13,13 +13,13 @@ constexpr double kTimeout = 60;  // s for one way, getting up and trying again i
 constexpr double kTolerance = 3 * M_PI / 180;
 constexpr double kLyingTolerance = 8 * M_PI / 180;
 
-/** Goes one way. @return Why it failed, or nothing. */
+/** Moves from one posture to another. @return Cause of the failure; empty on success. */
 std::string go(ClosedLoop& trial, const Posture& goal, RunResult& result) {
   const double start = trial.time();
   const auto end = trial.await_end(trial.send_posture(goal.name, kSpeed), kTimeout);
-  if (!end) return "no end";
+  if (!end) return "no result";
   if (end->status != ResultStatus::kDone) {
-    return std::string(to_string(end->status)) + ": " + end->reason;
+    return std::string(to_string(end->status)) + ": " + to_sentence(end->reason);
   }
   result.metrics.emplace_back("time_s", trial.time() - start);
   trial.run(0.3);

@@ -23,8 +23,8 @@ constexpr double kWatch = 2.5;      // s after the push
 
 struct Outcome {
   bool stands = false;
-  /** s from the first sign of a fall in the motion core to the first touch of something else than a
-   * foot; nothing if it stood, negative if it came too late. */
+  /** Time from the motion core's fall prediction to the first contact of a link other than a foot,
+   * s; nullopt if the robot stood, negative if the prediction came too late. */
   std::optional<double> warning;
 };
 
@@ -43,7 +43,7 @@ Outcome push(const ScenarioOptions& options, uint64_t seed, double direction, do
   return outcome;
 }
 
-/** Halves the range of impulses until the greatest that is survived is known to 0.06 N s. */
+/** Bisection of the greatest impulse survived, to 0.06 N s. */
 double find_boundary(const ScenarioOptions& options, uint64_t seed, double direction,
                      RunResult& result) {
   double survived = kLeast;
@@ -74,7 +74,7 @@ std::vector<RunResult> measure_all_directions(const ScenarioOptions& options, ui
 constexpr double kPlotScale = 90;    // pixels per N s
 constexpr double kPlotCenter = 340;  // pixels
 
-/** Ahead is up, left is left. */
+/** Forward is up, left is left. */
 std::string polygon(const std::vector<double>& impulses, const std::string& style) {
   std::string points;
   for (size_t i = 0; i < impulses.size(); ++i) {
@@ -94,7 +94,7 @@ std::string text(double x, double y, const std::string& words) {
 
 std::vector<RunResult> PushScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   if (options.is_for_plot) return measure_all_directions(options, seed);
-  // Directions of the impulse, and what must be survived, N s.
+  // Directions of the impulse, rad, and the required impulse, N s.
   const struct {
     const char* name;
     double direction;
@@ -111,7 +111,7 @@ std::vector<RunResult> PushScenario::run(const ScenarioOptions& options, uint64_
     result.metrics.emplace_back(std::string(one.name) + "_impulse_Ns", survived);
     result.metrics.emplace_back("impulse_Ns", survived);
     result.is_success = survived >= one.least;
-    if (!result.is_success) result.failure = "fell at less than asked for";
+    if (!result.is_success) result.failure = "fell below the required impulse";
     results.push_back(std::move(result));
   }
   return results;
@@ -143,7 +143,7 @@ std::string PushScenario::plot(const Summary& summary) const {
   svg += polygon(medians, "fill=\"#36c\" fill-opacity=\"0.2\" stroke=\"#36c\" stroke-width=\"2\"");
   svg += polygon(leasts, "fill=\"none\" stroke=\"#d33\" stroke-width=\"2\"");
   svg += text(10, 20, "Greatest impulse at the torso survived without a step");
-  svg += text(10, 40, fmt::format("blue: median, red: least of {} seeds", summary.runs.size()));
+  svg += text(10, 40, fmt::format("blue: median, red: minimum of {} seeds", summary.runs.size()));
   svg += text(kPlotCenter - 25, 2 * kPlotCenter - 10, "backward");
   svg += text(10, kPlotCenter, "left");
   return svg + "</svg>\n";

@@ -11,35 +11,36 @@
 
 namespace nao::trial {
 
-/** What one run of a scenario gave. */
+/** Result of one run of a scenario. */
 struct RunResult {
-  /** Which of a seed's several runs it is, such as "Sit to Stand"; empty if there is one. */
+  /** Identifies one of several runs of a seed, such as "Sit to Stand"; empty if there is only one.
+   */
   std::string label;
   bool is_success = false;
-  /** Why not, in a few words; empty on success. */
+  /** Cause of the failure in a few words; empty on success. */
   std::string failure;
-  /** Measured values; a name may have several from one run. */
+  /** Measured values; one run may give several values of one name. */
   std::vector<std::pair<std::string, double>> metrics;
 };
 
-/** Options of the command line that scenarios look at. */
+/** Command-line options of scenarios. */
 struct ScenarioOptions {
   ClosedLoopOptions trial;
-  /** s; 0: as the scenario says. */
+  /** Duration of a run, s; 0: the scenario's default. */
   double duration = 0;
-  /** Wished for, where the scenario walks: m/s ahead and to the left, rad/s. */
+  /** Commanded velocity, where the scenario walks: m/s ahead, m/s to the left, rad/s. */
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  /** m; 0: as the scenario says. */
+  /** Distance, m; 0: the scenario's default. */
   double distance = 0;
   /** If not empty: true and estimated pose of the last seed's walk, ten times a second, as CSV. */
   std::string trace_file;
-  /** Measure what plot() draws, in place of the usual. */
+  /** Measure what plot() draws instead of the default metrics. */
   bool is_for_plot = false;
 };
 
 struct Summary;
 
-/** Something that the robot shall manage. One seed is one run, or several with labels. */
+/** A task of the robot. One seed gives one run, or several with labels. */
 class Scenario {
  public:
   virtual ~Scenario() = default;
@@ -48,9 +49,9 @@ class Scenario {
   /** Unit of each metric, "s" or "m/s"; "1" for counts. */
   virtual std::map<std::string, std::string> units() const = 0;
   virtual std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const = 0;
-  /** Picture of what runs with is_for_plot gave, as SVG; empty if there is none. */
+  /** Plot of runs with is_for_plot, as SVG; empty if the scenario has none. */
   virtual std::string plot(const Summary& /*summary*/) const { return ""; }
-  /** Scenes other than "empty" are named here. */
+  /** Name of the scene. */
   virtual const char* scene() const { return "empty"; }
 };
 

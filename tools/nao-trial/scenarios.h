@@ -15,7 +15,7 @@ class StandScenario : public Scenario {
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 
-/** Goes to every posture from every other one. */
+/** Moves from every posture to every other one. */
 class PostureGraphScenario : public Scenario {
  public:
   const char* name() const override { return "posture-graph"; }
@@ -26,11 +26,13 @@ class PostureGraphScenario : public Scenario {
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 
-/** Gets up after a push, or after being laid down somehow. */
+/** Gets up after a push, or from a random lying pose. */
 class GetUpScenario : public Scenario {
  public:
   const char* name() const override { return "get-up"; }
-  const char* summary() const override { return "Get up after a fall, or from lying anyhow"; }
+  const char* summary() const override {
+    return "Get up after a fall, or from a random lying pose";
+  }
   std::map<std::string, std::string> units() const override {
     return {{"time_s", "s"},
             {"time_from_belly_s", "s"},
@@ -40,12 +42,12 @@ class GetUpScenario : public Scenario {
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 
-/** Stands against pushes, and finds how hard they may be. */
+/** Withstands pushes, and searches for the greatest impulse survived. */
 class PushScenario : public Scenario {
  public:
   const char* name() const override { return "push"; }
   const char* summary() const override {
-    return "Stand against pushes at the torso, harder and harder, in four directions";
+    return "Withstand pushes of increasing impulse at the torso in four directions";
   }
   std::map<std::string, std::string> units() const override {
     return {{"impulse_Ns", "N s"},          {"forward_impulse_Ns", "N s"},
@@ -53,36 +55,40 @@ class PushScenario : public Scenario {
             {"right_impulse_Ns", "N s"},    {"warning_ms", "ms"}};
   }
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
-  /** Greatest impulse survived in every direction: median and least of the seeds. */
+  /** Greatest impulse survived in every direction: median and minimum of the seeds. */
   std::string plot(const Summary& summary) const override;
 };
 
-/** Turns random joints by random angles; nothing may tip, hit itself, or jump. */
+/** Turns random joints by random angles; the robot must not tip over or collide with itself, and no
+ * target may jump. */
 class JointsScenario : public Scenario {
  public:
   const char* name() const override { return "joints"; }
-  const char* summary() const override { return "Obey 100 random joint commands without harm"; }
-  std::map<std::string, std::string> units() const override { return {}; }
-  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
-};
-
-/** Gets any command in any mode, is pushed over, and loses its mind and gets a new one. */
-class CommandsScenario : public Scenario {
- public:
-  const char* name() const override { return "commands"; }
   const char* summary() const override {
-    return "Answer 100 random commands, in any mode, among pushes and restarts";
+    return "Execute 100 random joint commands without a fall, self-collision or jump";
   }
   std::map<std::string, std::string> units() const override { return {}; }
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 
-/** Walks, poses and turns joints without anybody's push: every alarm of a fall is one too many. */
+/** Sends random commands in every mode, pushes the robot over, and restarts the motion core. */
+class CommandsScenario : public Scenario {
+ public:
+  const char* name() const override { return "commands"; }
+  const char* summary() const override {
+    return "Answer 100 random commands in any mode, with pushes and restarts of the motion core";
+  }
+  std::map<std::string, std::string> units() const override { return {}; }
+  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
+};
+
+/** Walks, changes postures and turns joints without a push: every fall prediction is a false alarm.
+ */
 class AlarmsScenario : public Scenario {
  public:
   const char* name() const override { return "alarms"; }
   const char* summary() const override {
-    return "Walk, pose and turn joints for 10 minutes; count alarms of a fall";
+    return "Walk, change postures and turn joints for 10 minutes; count false fall predictions";
   }
   std::map<std::string, std::string> units() const override { return {{"hours", "h"}}; }
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;

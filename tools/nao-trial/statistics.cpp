@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/json_writer.h"
+
 namespace nao::trial {
 namespace {
 
@@ -28,10 +30,6 @@ std::string unit_of(const Summary& summary, const std::string& name) {
   return found == summary.units.end() ? "1" : found->second;
 }
 
-std::string json_number(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "null";
-}
-
 }  // namespace
 
 int Summary::num_successes() const {
@@ -45,12 +43,13 @@ MetricStatistics calc_statistics(const std::string& name, std::vector<double> va
       name.rfind("warning", 0) == 0) {
     std::reverse(values.begin(), values.end());
   }
-  const auto at_share = [&](double share) {
-    return values[static_cast<size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+  const auto at_fraction = [&](double fraction) {
+    return values[static_cast<size_t>(
+        std::lround(fraction * static_cast<double>(values.size() - 1)))];
   };
   const double mean =
       std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  return {mean, at_share(0.5), at_share(0.95), values.back()};
+  return {mean, at_fraction(0.5), at_fraction(0.95), values.back()};
 }
 
 std::string to_table(const Summary& summary) {
@@ -86,24 +85,27 @@ std::string to_table(const Summary& summary) {
 }
 
 std::string to_json(const Summary& summary) {
-  const size_t num_runs = summary.runs.size();
-  std::string metrics;
-  for (const auto& [name, list] : collect(summary)) {
-    const MetricStatistics statistics = calc_statistics(name, list);
-    metrics += fmt::format(
-        "{}\"{}\": {{\"mean\": {}, \"median\": {}, \"p95\": {}, \"worst\": {}, \"unit\": \"{}\"}}",
-        metrics.empty() ? "" : ", ", name, json_number(statistics.mean),
-        json_number(statistics.median), json_number(statistics.p95), json_number(statistics.worst),
-        unit_of(summary, name));
+  const auto num_runs = static_cast<int>(summary.runs.size());
+  JsonWriter json;
+  json.begin_object();
+  json.add("scenario", summary.scenario);
+  json.add("runs", num_runs);
+  json.add("successes", summary.num_successes());
+  json.add("rate", num_runs > 0 ? static_cast<double>(summary.num_successes()) / num_runs : 0.0);
+  json.begin_object("metrics");
+  for (const auto& [name, values] : collect(summary)) {
+    const MetricStatistics statistics = calc_statistics(name, values);
+    json.begin_object(name);
+    json.add("mean", statistics.mean);
+    json.add("median", statistics.median);
+    json.add("p95", statistics.p95);
+    json.add("worst", statistics.worst);
+    json.add("unit", unit_of(summary, name));
+    json.end();
   }
-  return fmt::format(
-      "{{\"scenario\": \"{}\", \"runs\": {}, \"successes\": {}, \"rate\": {}, \"metrics\": "
-      "{{{}}}}}\n",
-      summary.scenario, num_runs, summary.num_successes(),
-      json_number(num_runs > 0
-                      ? static_cast<double>(summary.num_successes()) / static_cast<double>(num_runs)
-                      : 0.0),
-      metrics);
+  json.end();
+  json.end();
+  return json.text() + "\n";
 }
 
 }  // namespace nao::trial

@@ -20,9 +20,9 @@ struct Summary {
   int num_successes() const;
 };
 
-/** Mean, median, 95th percentile and worst of some values. "Worst" is the greatest, for names that
- * tell of something wished for (ending in "_mps", "_Ns" or "_m", or a warning) the least; p95
- * likewise.
+/** Mean, median, 95th percentile and worst of values. "Worst" is the maximum; for quantities that
+ * should be large (names that end in "_mps", "_Ns" or "_m", or begin with "warning") it is the
+ * minimum, and p95 is the 5th percentile.
  */
 struct MetricStatistics {
   double mean = 0;
@@ -32,9 +32,9 @@ struct MetricStatistics {
 };
 MetricStatistics calc_statistics(const std::string& name, std::vector<double> values);
 
-/** Table for a person: successes, metrics, and each reason of failure with its seeds. */
+/** Text table: successes, metrics, and each cause of failure with its seeds. */
 std::string to_table(const Summary& summary);
-/** As the specification has it: scenario, runs, successes, rate, metrics. */
+/** One line of JSON: scenario, runs, successes, rate, metrics. */
 std::string to_json(const Summary& summary);
 
 }  // namespace nao::trial

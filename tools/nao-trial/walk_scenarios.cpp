@@ -17,14 +17,14 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kTick = 0.01;
-// Before the first command the estimate settles, s.
+// Time before the first command in which the state estimate converges, s.
 constexpr double kStand = 1;
-// The gait has reached its velocity after this, s.
+// Time from the command until the gait has reached its velocity, s.
 constexpr double kSpeedUp = 2.5;
 constexpr double kFallenHeight = 0.2;  // m, of the torso
 constexpr double kFallenTilt = 1.0;    // rad
 
-/** Place and heading on the ground. */
+/** Position and heading (yaw) on the ground. */
 struct GroundPose {
   Vector2d position = Vector2d::Zero();
   double heading = 0;
@@ -54,7 +54,7 @@ GroundPose estimated_pose(const ClosedLoop& trial) {
   return GroundPose(trial.estimate().torso_in_odometry);
 }
 
-/** How far odometry and truth disagree about the way between two moments, m. */
+/** Difference between the displacement by odometry and the true one, m. */
 class OdometryCheck {
  public:
   explicit OdometryCheck(const ClosedLoop& trial)
@@ -76,8 +76,8 @@ bool run_upright(ClosedLoop& trial, double duration) {
   return !has_fallen(trial);
 }
 
-/** Mean velocity as the robot itself would say it: of each second the constant velocity in its own
- * frame that leads from its pose at the beginning to the one at the end. */
+/** Mean velocity in the robot's frame: for each second, the constant body twist that moves the
+ * robot from its pose at the beginning to its pose at the end. */
 class VelocityMean {
  public:
   explicit VelocityMean(const ClosedLoop& trial) : last_(true_pose(trial)) {}
@@ -86,8 +86,8 @@ class VelocityMean {
     ticks_ = 0;
     const GroundPose now = true_pose(trial);
     const double turn = wrapped(now.heading - last_.heading);
-    // Inverse of the way along an arc: R. Murray, Z. Li, S. Sastry, "A mathematical introduction to
-    // robotic manipulation", 1994, eq. 2.36, in the plane.
+    // Inverse of the exponential map of a planar twist: R. Murray, Z. Li, S. Sastry, "A
+    // mathematical introduction to robotic manipulation", 1994, eq. 2.36, in the plane.
     const double half = turn / 2;
     const double stretch = std::abs(half) > 1e-6 ? half / std::tan(half) : 1;
     Eigen::Matrix2d inverse;
@@ -107,7 +107,7 @@ class VelocityMean {
   int ticks_ = 0;
 };
 
-/** True and estimated way of a robot, both seen from where they began. */
+/** True and estimated path of a robot, each relative to its start. */
 class Trace {
  public:
   explicit Trace(const ClosedLoop& trial)
@@ -134,10 +134,11 @@ class Trace {
   std::ostringstream text_;
 };
 
-/** Tells when a robot that stops has come to a stand: from when on its torso moves no faster. */
-class StandstillWatch {
+/** Detects when a stopping robot stands still: the time after which its torso moves slower than the
+ * limits below. */
+class StandstillDetector {
  public:
-  explicit StandstillWatch(const ClosedLoop& trial)
+  explicit StandstillDetector(const ClosedLoop& trial)
       : start_(trial.time()), last_(trial.torso_in_world()), place_(true_pose(trial)) {}
   void look(const ClosedLoop& trial) {
     const Eigen::Isometry3d now = trial.torso_in_world();
@@ -146,15 +147,15 @@ class StandstillWatch {
     last_ = now;
     if (speed > kStillSpeed || turning / kTick > kStillTurning) still_since_ = trial.time();
   }
-  /** s from the beginning until it stood still. */
+  /** Time from the construction until the robot stood still, s. */
   double duration() const { return std::max(0.0, still_since_ - start_); }
-  /** m from the place of the beginning. */
+  /** Distance from the position at the construction, m. */
   double way(const ClosedLoop& trial) const {
     return (true_pose(trial).position - place_.position).norm();
   }
 
  private:
-  // Both below what a finger on the shoulder feels: m/s, rad/s.
+  // Limits of a standing torso, m/s and rad/s. Chosen: visibly at rest.
   static constexpr double kStillSpeed = 0.03;
   static constexpr double kStillTurning = 0.2;
   double start_;
@@ -200,7 +201,7 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   const double odometry_error = odometry.error(trial);
   const GroundPose way_end = true_pose(trial);
 
-  StandstillWatch standstill(trial);
+  StandstillDetector standstill(trial);
   trial.on_tick([&] { standstill.look(trial); });
   trial.release_walk();
   const auto end = trial.await_end(walk, 10);
@@ -211,19 +212,19 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
     result.failure = has_fallen(trial) ? "fell while stopping" : "did not stop";
     return {result};
   }
-  // The velocity that was carried out; a radian weighs like 0.15 m.
+  // Error of the executed velocity; the weight of 1 rad equals 0.15 m.
   const Vector3d scale(1, 1, 0.15);
   const Vector3d missed = (mean - options.velocity).cwiseProduct(scale);
-  const double wished = options.velocity.cwiseProduct(scale).norm();
+  const double commanded = options.velocity.cwiseProduct(scale).norm();
   const double distance = mean.head<2>().norm() * duration;
   result.metrics = {{"speed_mps", mean.head<2>().norm()},
                     {"turning_radps", mean.z()},
-                    {"tracking_error", wished > 0 ? missed.norm() / wished : missed.norm()},
+                    {"tracking_error", commanded > 0 ? missed.norm() / commanded : missed.norm()},
                     {"stopping_s", standstill.duration()},
                     {"stopping_mm", 1e3 * standstill.way(trial)}};
   const bool is_straight = options.velocity.z() == 0 && distance > 0;
   if (is_straight) {
-    // Off the line on which it was sent, as far as it would be after 5 m.
+    // Lateral deviation from the commanded line, extrapolated to 5 m.
     const Vector2d line =
         (Rotation2Dd(start_pose.heading) * options.velocity.head<2>()).normalized();
     const Vector2d went = way_end.position - way_start.position;
@@ -336,11 +337,12 @@ std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint6
   const double by_odometry = miss(estimated_start, estimated_pose(trial));
   const double turned = turn_miss(estimated_start, estimated_pose(trial));
   RunResult result;
-  // Within 3 cm and 3 degrees for each metre of the way, and no less than for one.
+  // Tolerance: 3 cm and 3 degrees for each meter of the path, at least those of 1 m.
   const double scale = std::max(1.0, distance);
   result.is_success =
       end && end->status == ResultStatus::kDone && by_odometry < 0.03 * scale && turned < 3 * scale;
-  if (!result.is_success) result.failure = end ? "missed; " + end->reason : "did not end";
+  if (!result.is_success)
+    result.failure = end ? "missed; " + to_sentence(end->reason) : "did not end";
   result.metrics = {{"odometry_miss_mm", 1e3 * by_odometry},
                     {"odometry_miss_deg", turned},
                     {"true_miss_mm", 1e3 * miss(start, true_pose(trial))},
@@ -360,7 +362,7 @@ std::vector<RunResult> WalkPushScenario::run(const ScenarioOptions& options, uin
   constexpr double kFallTime = 3;  // s until a robot that falls lies
   double direction = 0;
   RunResult result;
-  // The same robot, moment and direction each time.
+  // The same robot, time and direction in each run.
   const auto survives = [&](double impulse) {
     ClosedLoop trial(options.trial, seed);
     direction = trial.random(-M_PI, M_PI);

@@ -15,23 +15,23 @@ class WalkScenario : public Scenario {
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 
-/** Walks straight ahead as fast as it can. */
+/** Walks straight ahead at the maximum speed. */
 class SprintScenario : public Scenario {
  public:
   const char* name() const override { return "sprint"; }
   const char* summary() const override {
-    return "Walk --distance (10 m) ahead at the greatest speed; out with the torso below 0.20 m";
+    return "Walk --distance (10 m) ahead at the maximum speed; fails with the torso below 0.20 m";
   }
   std::map<std::string, std::string> units() const override;
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 
-/** A random thumb on the joystick: starts, stops, reversals, diagonals, turns. */
+/** A joystick session: random starts, stops, reversals, diagonals and turns. */
 class JoystickScenario : public Scenario {
  public:
   const char* name() const override { return "joystick"; }
   const char* summary() const override {
-    return "Walk as a random thumb says for --duration (600 s)";
+    return "Walk with random joystick input for --duration (600 s)";
   }
   std::map<std::string, std::string> units() const override;
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
@@ -46,7 +46,7 @@ class MoveToScenario : public Scenario {
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 
-/** Is pushed while it walks. */
+/** Is pushed during a walk. */
 class WalkPushScenario : public Scenario {
  public:
   const char* name() const override { return "walk-push"; }

@@ -28,24 +28,25 @@
 namespace nao {
 namespace {
 
-/** Round trips happen within a millisecond; this says that the message is not coming. */
+/** Timeout of the round trip, s. Measured round trips take less than 1 ms. */
 constexpr double kEchoDeadline = 1.0;
-/** Longer than the one second between two daemon_status_t of a program. */
+/** Listening time, s: longer than the period of daemon_status_t, 1 s. */
 constexpr double kListenTime = 1.3;
-/** Below this, a burst of pictures for several phones may overflow a busy receiver's buffer. */
-constexpr double kWishedBufferBytes = 2e6;
-/** Clocks that differ by more make the programs' wall times incomparable, s. */
+/** Receive buffer that holds a burst of images for several phones, bytes. A smaller one may
+ * overflow. */
+constexpr double kRecommendedBufferBytes = 2e6;
+/** Maximum clock difference at which wall times of two hosts are comparable, s. */
 constexpr double kClockTolerance = 0.1;
 constexpr const char* kEchoChannel = "BUS_CHECK";
 
-/** Where a multicast bus is. */
+/** Address of a multicast bus. */
 struct BusAddress {
   std::string group = "239.255.76.67";
   int port = 7667;
 };
 
-/** Reads udpm://GROUP:PORT?options; what is left out is LCM's default.
- * @throws ConfigError  if the bus is of another kind, or the port is no number. */
+/** Reads udpm://GROUP:PORT?options; omitted parts have LCM's defaults.
+ * @throws ConfigError  if the bus is of another kind or the port is invalid. */
 BusAddress parse_address(const std::string& url) {
   const std::string scheme = "udpm://";
   if (!url.starts_with(scheme)) {
@@ -60,20 +61,20 @@ BusAddress parse_address(const std::string& url) {
     const char* end = port.data() + port.size();
     if (const auto [rest, error] = std::from_chars(port.data(), end, address.port);
         rest != end || error != std::errc() || address.port < 1 || address.port > 65535) {
-      throw ConfigError("'" + port + "' in " + url + " is no port");
+      throw ConfigError("'" + port + "' in " + url + " is not a port from 1 to 65535");
     }
   }
   return address;
 }
 
-/** Local address that the system sends from to a group.
- * @return Nothing if there is no route; then errno says why. */
+/** Local address from which the system sends to a multicast group.
+ * @return nullopt if there is no route; errno then holds the reason. */
 std::optional<in_addr> local_address_towards(const BusAddress& address) {
   sockaddr_in target{};
   target.sin_family = AF_INET;
   target.sin_port = htons(static_cast<uint16_t>(address.port));
   if (inet_pton(AF_INET, address.group.c_str(), &target.sin_addr) != 1) {
-    throw ConfigError("'" + address.group + "' is no IPv4 address");
+    throw ConfigError("'" + address.group + "' is not an IPv4 address");
   }
   const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
   sockaddr_in local{};
@@ -101,13 +102,13 @@ std::string interface_with(const in_addr& address) {
   return name;
 }
 
-/** Sends a message to itself. @return Seconds it took, or nothing if it did not come. */
+/** Sends a message to this process. @return Round-trip time, s; nullopt if it did not arrive. */
 std::optional<double> echo_time(Bus& bus) {
   const int64_t own_id = wall_utime();
-  bool has_come = false;
+  bool has_arrived = false;
   bus.subscribe<naolcm::daemon_status_t>(
       kEchoChannel, Bus::Queue::kAll, [&](const naolcm::daemon_status_t& status) {
-        has_come |= status.wall_utime == own_id && status.process_id == getpid();
+        has_arrived |= status.wall_utime == own_id && status.process_id == getpid();
       });
   naolcm::daemon_status_t status{};
   status.wall_utime = own_id;
@@ -115,15 +116,15 @@ std::optional<double> echo_time(Bus& bus) {
   status.process_id = getpid();
   const double start = monotonic_seconds();
   bus.publish(kEchoChannel, status);
-  while (!has_come && monotonic_seconds() - start < kEchoDeadline) bus.handle_for(0.05);
-  if (!has_come) return std::nullopt;
+  while (!has_arrived && monotonic_seconds() - start < kEchoDeadline) bus.handle_for(0.05);
+  if (!has_arrived) return std::nullopt;
   return monotonic_seconds() - start;
 }
 
-/** What one host's programs say. */
+/** Programs and clock of one host. */
 struct HostReport {
   std::map<std::string, std::set<int>> processes;
-  /** Smallest difference of its clock to ours seen, s: the one with the least delay in it. */
+  /** Minimum measured difference of its clock to ours, s: the sample with the lowest latency. */
   double clock_difference = std::nan("");
 };
 
@@ -146,7 +147,7 @@ std::map<std::string, HostReport> listen_for_hosts(Bus& bus) {
 void report_buffer() {
   double bytes = 0;
   std::ifstream("/proc/sys/net/core/rmem_max") >> bytes;
-  const bool is_enough = bytes >= kWishedBufferBytes;
+  const bool is_enough = bytes >= kRecommendedBufferBytes;
   std::printf("%s  receive buffer: up to %.0f kB%s\n", is_enough ? "ok  " : "note", bytes / 1000,
               is_enough ? ""
                         : "; if programs report dropped messages: sysctl -w "
@@ -157,7 +158,7 @@ void report_buffer() {
 bool report_hosts(const std::map<std::string, HostReport>& hosts) {
   bool is_alone = true;
   bool are_clocks_fine = true;
-  if (hosts.empty()) std::printf("note  no program speaks on this bus\n");
+  if (hosts.empty()) std::printf("note  no program publishes its status on this bus\n");
   for (const auto& [name, host] : hosts) {
     std::string programs;
     for (const auto& [program, processes] : host.processes) {
@@ -169,9 +170,9 @@ bool report_hosts(const std::map<std::string, HostReport>& hosts) {
     }
     const bool is_clock_fine = std::abs(host.clock_difference) < kClockTolerance;
     are_clocks_fine &= is_clock_fine;
-    std::printf("%s  host %s:%s; its clock differs by %.3f s%s\n", is_clock_fine ? "ok  " : "FAIL",
+    std::printf("%s  host %s:%s; clock difference %.3f s%s\n", is_clock_fine ? "ok  " : "FAIL",
                 name.c_str(), programs.c_str(), host.clock_difference,
-                is_clock_fine ? "" : "; let both follow the same time server");
+                is_clock_fine ? "" : "; synchronize both with the same time server");
   }
   if (!is_alone) {
     std::printf(
@@ -188,7 +189,7 @@ int run_bus_check(const std::string& url, bool is_quick) {
   if (!local) {
     const std::string network = address.group.substr(0, address.group.rfind('.')) + ".0/24";
     std::printf("FAIL  no route to %s: %s\n", address.group.c_str(), std::strerror(errno));
-    std::printf("      mend it: ip link set lo up multicast on && ip route add %s dev lo\n",
+    std::printf("      fix it: ip link set lo up multicast on && ip route add %s dev lo\n",
                 network.c_str());
     return 1;
   }
@@ -197,13 +198,13 @@ int run_bus_check(const std::string& url, bool is_quick) {
   Bus bus(url);
   const auto echo = echo_time(bus);
   if (!echo) {
-    std::printf("FAIL  an own message does not come back within %.0f s\n", kEchoDeadline);
+    std::printf("FAIL  a test message did not return within %.0f s\n", kEchoDeadline);
     std::printf(
-        "      mend it: ip link set %s multicast on, and let the firewall pass UDP port %d\n",
+        "      fix it: ip link set %s multicast on, and let the firewall pass UDP port %d\n",
         interface.c_str(), address.port);
     return 1;
   }
-  std::printf("ok    an own message came back in %.2f ms\n", *echo * 1000);
+  std::printf("ok    a test message returned in %.2f ms\n", *echo * 1000);
   if (is_quick) return 0;
   report_buffer();
   return report_hosts(listen_for_hosts(bus)) ? 0 : 1;
@@ -214,8 +215,9 @@ int run_bus_check(const std::string& url, bool is_quick) {
 void add_bus_command(CommandLine& app, Invocation& invocation) {
   auto is_quick = std::make_shared<bool>(false);
   CommandLine* bus = app.add_subcommand(
-      "bus", "Check the message bus: route, loop, buffers, who else is there; say what mends it");
-  bus->add_flag("--quick", *is_quick, "Only route and loop");
+      "bus",
+      "Check the message bus: route, loopback, buffers, other hosts; print how to fix faults");
+  bus->add_flag("--quick", *is_quick, "Check only route and loopback");
   bus->on_parsed([&invocation, is_quick] {
     invocation.run = [&invocation, is_quick] {
       return run_bus_check(invocation.common.lcm_url, *is_quick);

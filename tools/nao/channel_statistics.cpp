@@ -1,7 +1,7 @@
 #include "tools/nao/channel_statistics.h"
 
+#include "common/json_writer.h"
 #include "message_reflection/message_types.h"
-#include "tools/nao/json_writer.h"
 #include "tools/nao/text_table.h"
 
 namespace nao {

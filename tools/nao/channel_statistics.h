@@ -7,12 +7,12 @@
 
 namespace nao {
 
-/** What passed on one channel. */
+/** Statistics of one channel. */
 struct ChannelRecord {
-  /** Type of the newest message; "?" if it is none of the project's. */
+  /** Type of the newest message; "?" if the type is unknown. */
   std::string type = "?";
   int64_t num_messages = 0;
-  /** Messages that are of no known type, or do not decode as theirs. */
+  /** Messages of an unknown type, and messages that do not decode. */
   int64_t num_undecodable = 0;
   int64_t num_bytes = 0;
   /** Arrival of the first and the newest message, s. */
@@ -21,27 +21,27 @@ struct ChannelRecord {
   /** Messages and bytes since the last call of finish_period(). */
   int64_t num_messages_in_period = 0;
   int64_t num_bytes_in_period = 0;
-  /** Messages and bytes per second in the last whole period. */
+  /** Messages and bytes per second in the last complete period. */
   double rate = 0;
   double bytes_per_second = 0;
 };
 
-/** Counts all messages on a bus, channel by channel. Time is an argument, s of any clock. */
+/** Counts the messages of each channel of a bus. Time is an argument: s of any monotonic clock. */
 class ChannelStatistics {
  public:
-  /** A message arrived. */
+  /** Records a received message. */
   void add(const std::string& channel, const void* data, int size, double now);
 
-  /** Turns the counts since the last call, or since the start, into rates. */
+  /** Computes the rates from the counts since the last call, or since the start. */
   void finish_period(double now);
 
-  /** By name of the channel. */
+  /** Statistics by channel name. */
   const std::map<std::string, ChannelRecord>& channels() const { return channels_; }
 
   /** Messages of all channels that could not be decoded. */
   int64_t num_undecodable() const;
 
-  /** A table for people: channel, type, rate, size, counts and age. */
+  /** Text table: channel, type, rate, size, counts and age. */
   std::string to_text(double now) const;
 
   /** The same as a JSON array of objects. */

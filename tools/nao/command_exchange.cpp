@@ -2,30 +2,18 @@
 
 namespace nao {
 
-bool CommandExchange::should_send(double now) {
-  const double period = is_accepted_ ? timing_.confirm_period : timing_.repeat_period;
-  if (last_sent_ && now - *last_sent_ < period) return false;
-  last_sent_ = now;
-  return true;
-}
-
-void CommandExchange::handle_result(ResultStatus status, const std::string& reason,
-                                    double now) {
-  last_heard_ = now;
-  if (status == ResultStatus::kAccepted) {
-    is_accepted_ = true;
-  } else if (!result_) {
+void CommandExchange::handle_result(ResultStatus status, const std::string& reason, double now) {
+  const bool is_news = retry_.handle_result(status, now);
+  if (is_news && retry_.has_ended()) {
     result_ = Outcome{status == ResultStatus::kDone, to_string(status), reason};
   }
 }
 
-void CommandExchange::handle_sign_of_life(double now) {
-  if (is_accepted_) last_heard_ = now;
-}
-
 std::optional<CommandExchange::Outcome> CommandExchange::outcome(double now) const {
-  if (result_ || now - last_heard_ < timing_.silence_limit) return result_;
-  if (is_accepted_) return Outcome{false, "silent", "nao-motion accepted it, then fell silent"};
+  if (result_ || !retry_.has_timed_out(now)) return result_;
+  if (retry_.is_accepted()) {
+    return Outcome{false, "silent", "nao-motion accepted the command, then stopped publishing"};
+  }
   return Outcome{false, "unanswered", "nao-motion does not answer; is it running?"};
 }
 

@@ -3,56 +3,49 @@
 #include <optional>
 #include <string>
 
-#include "messages/command.h"
+#include "messages/command_retry.h"
 
 namespace nao {
 
-/** Where one command stands between its sender and nao-motion, from the sender's side.
+/** State of one command of this program: retransmission, and its outcome in words.
  *
- * The bus may lose any message, so the command is repeated: quickly until it is answered, then
- * slowly, which makes nao-motion repeat its latest result. Time is an argument: s of any clock
- * that does not run backwards. */
+ * CommandRetry decides when the command is sent again; this class adds the texts for the user. Time
+ * is an argument: s of any monotonic clock. */
 class CommandExchange {
  public:
-  struct Timing {
-    /** Between two repetitions while nobody has answered, s. */
-    double repeat_period = 0.1;
-    /** Between two repetitions after "accepted", s. */
-    double confirm_period = 1.0;
-    /** Without an answer, or after it without a sign of life, for so long: given up, s. */
-    double silence_limit = 3.0;
-  };
-
   /** How the command ended. */
   struct Outcome {
     bool is_success = false;
     /** done, refused, interrupted, failed, unanswered or silent. */
     std::string status;
-    /** Why, for a person; may be empty if done. */
+    /** Explanation for the user; may be empty if done. */
     std::string reason;
   };
 
-  CommandExchange(const Timing& timing, double now) : timing_(timing), last_heard_(now) {}
+  /** @param now  Time from which the timeout for the first answer counts. */
+  explicit CommandExchange(double now) : retry_(kTiming, now) {}
 
-  /** Asks whether to send the command now; answers yes once per period. */
-  bool should_send(double now);
+  /** @return true once per period: the command must be sent now. */
+  bool should_send(double now) { return retry_.should_send(now); }
 
-  /** A command_result_t for this command came in. */
+  /** Handles a command_result_t of this command. */
   void handle_result(ResultStatus status, const std::string& reason, double now);
 
-  /** nao-motion published something else. */
-  void handle_sign_of_life(double now);
+  /** Handles any other message of nao-motion. */
+  void handle_sign_of_life(double now) { retry_.handle_sign_of_life(now); }
 
-  bool is_accepted() const { return is_accepted_; }
+  bool is_accepted() const { return retry_.is_accepted(); }
 
-  /** @return Nothing while the command is under way. */
+  /** @return nullopt while the command is in progress. */
   std::optional<Outcome> outcome(double now) const;
 
  private:
-  Timing timing_;
-  std::optional<double> last_sent_;
-  double last_heard_;
-  bool is_accepted_ = false;
+  /** The periods are the protocol's, see README.md. Timeouts, s: chosen: 30 repetitions, so that
+   * only a stopped nao-motion causes one. */
+  static constexpr CommandRetry::Timing kTiming{
+      .repeat_period = 0.1, .confirm_period = 1.0, .answer_timeout = 3.0, .silence_timeout = 3.0};
+
+  CommandRetry retry_;
   std::optional<Outcome> result_;
 };
 

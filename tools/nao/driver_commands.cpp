@@ -1,4 +1,4 @@
-// The operator's console: who may drive from a phone. Speaks to the gateway, not to the bus.
+// Operator commands: control leases of phones. They use the gateway's protocol, not the bus.
 
 #include <cstdio>
 #include <memory>
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/command_line.h"
+#include "common/json_writer.h"
 #include "phone-gateway/client/phone_client.h"
-#include "tools/nao/json_writer.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/text_table.h"
 
@@ -17,7 +17,7 @@ namespace {
 using naoremote::Operate;
 using naoremote::Response;
 
-/** What the subcommands of driver share. */
+/** Options of the subcommands of `driver`. */
 struct DriverOptions {
   /** Port of the gateway on this host. */
   uint16_t port = 7668;
@@ -45,13 +45,13 @@ void print_json(const naoremote::Clients& clients) {
   json.begin_array();
   for (const auto& client : clients.clients()) {
     json.begin_object();
-    json.add("client_id", static_cast<long>(client.client_id()));
+    json.add("client_id", static_cast<int64_t>(client.client_id()));
     json.add("name", client.name());
     json.add("address", client.address());
     json.add("transport", client.transport());
     json.add("is_driver", client.is_driver());
-    json.add("num_sent", static_cast<long>(client.num_sent()));
-    json.add("num_skipped", static_cast<long>(client.num_skipped()));
+    json.add("num_sent", static_cast<int64_t>(client.num_sent()));
+    json.add("num_skipped", static_cast<int64_t>(client.num_skipped()));
     json.end();
   }
   json.end();
@@ -87,12 +87,13 @@ int list(const DriverOptions& options) {
 
 void add_driver_commands(CommandLine& app, Invocation& invocation) {
   CommandLine* driver = app.add_subcommand(
-      "driver", "See and decide who drives from a phone (on the gateway's host)");
+      "driver", "List and change who drives from a phone (on the gateway's host)");
   driver->require_subcommand();
   const auto options = std::make_shared<DriverOptions>();
   driver->add_option("--port", options->port, "TCP port of the gateway")->show_default();
 
-  CommandLine* listing = driver->add_subcommand("list", "Show who is connected, and who drives");
+  CommandLine* listing =
+      driver->add_subcommand("list", "List the connected clients and the current driver");
   listing->add_flag("--json", options->as_json, "As JSON");
   listing->on_parsed(
       [&invocation, options] { invocation.run = [options] { return list(*options); }; });
@@ -108,10 +109,10 @@ void add_driver_commands(CommandLine& app, Invocation& invocation) {
     });
     return subcommand;
   };
-  add("take", "Drive from here: phones are refused until release", Operate::TAKE);
-  add("release", "Let phones drive again", Operate::RELEASE);
+  add("take", "Take the control lease: phones are refused until release", Operate::TAKE);
+  add("release", "Release the control lease: phones may drive again", Operate::RELEASE);
   add("kick", "Close the connection of a client", Operate::KICK)
-      ->add_option("client", options->client_id, "Its number, as list shows it")
+      ->add_option("client", options->client_id, "Client number, as printed by list")
       ->required();
 }
 

@@ -13,10 +13,11 @@ std::vector<int> HangDetector::process_ids() const {
 }
 
 std::vector<HangDetector::Hung> HangDetector::step(double now) {
-  const double period = last_turn_ < 0 ? 0 : now - last_turn_;
-  last_turn_ = now;
+  const double period = last_step_ < 0 ? 0 : now - last_step_;
+  last_step_ = now;
   std::vector<Hung> result;
-  if (period > limits_.late_turn || now - last_own_heartbeat_ > limits_.own_silence) return result;
+  if (period > limits_.max_step_period || now - last_own_heartbeat_ > limits_.max_own_silence)
+    return result;
   for (auto entry = programs_.begin(); entry != programs_.end();) {
     Program& program = entry->second;
     program.silence += period;

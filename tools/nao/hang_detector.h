@@ -6,46 +6,47 @@
 
 namespace nao {
 
-/** Finds programs that still exist but have stopped speaking: hung, or stopped by a signal.
+/** Detects programs that still exist but have stopped publishing: hung, or stopped by a signal.
  *
- * Silence proves a hang only while the listener itself hears well. So it counts time only while the
- * listener's own heartbeat comes back over the bus and its own turns come on time: a broken bus, a
- * machine that is overloaded or was asleep, accuse nobody. Time is an argument, s of any clock. */
+ * A missing status proves a hang only while the detector receives messages. Time therefore counts
+ * only while the detector's own heartbeat returns over the bus and step() is called on time: a
+ * broken bus, an overloaded machine or a suspended one causes no false detection. Time is an
+ * argument: s of any monotonic clock. */
 class HangDetector {
  public:
   struct Limits {
-    /** Silence that means a hang, s; every program speaks once a second. */
+    /** Time without a status that means a hang, s; every program publishes once a second. */
     double silence = 4.0;
-    /** Longest time between two turns of a listener that is on time, s. */
-    double late_turn = 1.0;
-    /** Longest time between two own heartbeats heard, s. */
-    double own_silence = 2.5;
+    /** Maximum time between two calls of step() that counts as on time, s. */
+    double max_step_period = 1.0;
+    /** Maximum time between two received own heartbeats, s. */
+    double max_own_silence = 2.5;
   };
 
-  /** One program that is to be ended. */
+  /** A program that hangs. */
   struct Hung {
     int process_id = 0;
     std::string program;
-    /** For how long it has said nothing, s. */
+    /** Counted time without a status, s. */
     double silence = 0;
   };
 
   explicit HangDetector(const Limits& limits) : limits_(limits) {}
 
-  /** A program spoke. */
+  /** A program published its status. */
   void handle_status(int process_id, const std::string& program);
 
-  /** The listener's own heartbeat came back. */
+  /** The detector's own heartbeat was received. */
   void handle_own_heartbeat(double now) { last_own_heartbeat_ = now; }
 
-  /** A process ended; it is no longer waited for. */
+  /** A process has ended and is no longer monitored. */
   void forget(int process_id) { programs_.erase(process_id); }
 
-  /** Processes that have spoken and were not forgotten. */
+  /** Monitored processes. */
   std::vector<int> process_ids() const;
 
-  /** One turn of the listener, several times a second.
-   * @return Who hangs; each is named once and then forgotten. */
+  /** Advances to time `now`; call it several times a second. @return The programs that hang; each
+   * is returned once and then forgotten. */
   std::vector<Hung> step(double now);
 
  private:
@@ -56,7 +57,7 @@ class HangDetector {
 
   Limits limits_;
   std::map<int, Program> programs_;
-  double last_turn_ = -1;
+  double last_step_ = -1;
   double last_own_heartbeat_ = -1e9;
 };
 

@@ -9,7 +9,7 @@
 namespace nao {
 namespace {
 
-/** @return NaN if the text is no finite angle. */
+/** @return NaN if the text is not a finite angle. */
 double parse_angle(const std::string& text) {
   if (text.empty()) return std::nan("");
   char* end = nullptr;

@@ -14,8 +14,8 @@ struct JointArguments {
 };
 
 /** Reads pairs of a joint's name and "+0.3", "-0.3" (a change) or "=0.3" (a target), in rad, or in
- * degrees with "deg" behind: {"HeadYaw", "+20deg"}.
- * @throws ConfigError  naming the argument that is no such thing, or if changes and targets mix. */
+ * degrees with the suffix "deg": {"HeadYaw", "+20deg"}.
+ * @throws ConfigError  if an argument is invalid, or if changes and targets are mixed. */
 JointArguments parse_joint_arguments(const std::vector<std::string>& arguments);
 
 }  // namespace nao

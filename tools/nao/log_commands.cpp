@@ -9,9 +9,9 @@
 
 #include "common/command_line.h"
 #include "common/error.h"
+#include "common/json_writer.h"
 #include "common/log_reader.h"
 #include "message_reflection/message_types.h"
-#include "tools/nao/json_writer.h"
 #include "tools/nao/log_statistics.h"
 #include "tools/nao/mcap_writer.h"
 #include "tools/nao/message_json.h"
@@ -32,15 +32,16 @@ struct LogOptions {
   std::vector<std::string> renames;
 };
 
-/** Opens a log and reads its first event, so that what is no log is refused at once. */
+/** Opens a log and reads its first event, so that a file of another format is rejected at once. */
 class Log {
  public:
   explicit Log(const std::string& file) : file_(file), reader_(file), next_(next_message()) {
-    if (!next_) throw Error(file + " holds no message: it is empty, or no log of scripts/record");
+    if (!next_)
+      throw Error(file + " contains no message: it is empty, or not a log of scripts/record");
     start_ = next_->wall_utime;
   }
 
-  /** @param event  The next one. @return false at the end. */
+  /** @param event  Receives the next event. @return false at the end. */
   bool read(LogEvent& event) {
     if (!next_) return false;
     event = std::move(*next_);
@@ -48,23 +49,23 @@ class Log {
     return true;
   }
 
-  /** Since the log's first event, s. */
+  /** Time since the log's first event, s. */
   double time_of(const LogEvent& event) const {
     return static_cast<double>(event.wall_utime - start_) * 1e-6;
   }
 
   void warn_about_damage() const {
     if (reader_.num_bytes_skipped() == 0) return;
-    std::fprintf(stderr,
-                 "nao: log: %s: left out %ld damaged bytes (a recorder that was killed cuts "
-                 "off its last message)\n",
-                 file_.c_str(), static_cast<long>(reader_.num_bytes_skipped()));
+    std::fprintf(
+        stderr,
+        "nao: log: %s: skipped %ld damaged bytes (a killed recorder truncates its last message)\n",
+        file_.c_str(), static_cast<long>(reader_.num_bytes_skipped()));
   }
 
  private:
   std::optional<LogEvent> next_message() {
     auto event = reader_.next();
-    // LCM sends this to itself whenever a program opens the bus; it is nobody's message.
+    // LCM's own self-test message, sent whenever a program opens the bus.
     while (event && event->channel == "LCM_SELF_TEST") event = reader_.next();
     return event;
   }
@@ -81,16 +82,17 @@ const MessageLayout* layout_of(const LogEvent& event) {
   return type != nullptr ? find_message_layout(type->name) : nullptr;
 }
 
-/** Messages that could not be decoded, by channel; said once at the end. */
+/** Number of undecodable messages by channel, reported at the end. */
 class Undecodable {
  public:
   void add(const std::string& channel) { ++counts_[channel]; }
   void warn() const {
     for (const auto& [channel, count] : counts_) {
-      std::fprintf(stderr,
-                   "nao: log: %s: left out %ld messages of no type that this version knows; "
-                   "they were recorded by another version, whose nao can read them\n",
-                   channel.c_str(), count);
+      std::fprintf(
+          stderr,
+          "nao: log: %s: skipped %ld messages of unknown types; they were recorded by another "
+          "version, whose nao can read them\n",
+          channel.c_str(), count);
     }
   }
 
@@ -102,11 +104,11 @@ std::regex compiled(const std::string& expression) {
   try {
     return std::regex(expression, std::regex::extended);
   } catch (const std::regex_error& fault) {
-    throw ConfigError("--channels " + expression + " is no regular expression: " + fault.what());
+    throw ConfigError("--channels " + expression + " is not a regular expression: " + fault.what());
   }
 }
 
-/** Standard output, or the file that was named. */
+/** Standard output, or a file if one is named. */
 class Output {
  public:
   explicit Output(const std::string& file) : file_(file) {
@@ -133,7 +135,7 @@ int show_info(const LogOptions& options) {
   return 0;
 }
 
-/** Layout of what a channel carries, from its first message. */
+/** Layout of the type of a channel's first message. */
 const MessageLayout& find_layout_of_channel(const LogOptions& options) {
   Log log(options.file);
   LogEvent event;
@@ -141,15 +143,16 @@ const MessageLayout& find_layout_of_channel(const LogOptions& options) {
     if (event.channel != options.channel) continue;
     const MessageLayout* layout = layout_of(event);
     if (layout != nullptr) return *layout;
-    throw Error(options.channel + " in " + options.file +
-                " carries no type that this version knows: the messages have changed since it was "
-                "recorded. Read it with the nao of that version, or record again");
+    throw Error(
+        options.channel + " in " + options.file +
+        " has a type unknown to this version: the messages have changed since the recording. "
+        "Read it with the nao of that version, or record again");
   }
-  throw Error(options.file + " holds nothing on " + options.channel +
-              "; what it holds: nao log info " + options.file);
+  throw Error(options.file + " contains no message on " + options.channel +
+              "; list its channels: nao log info " + options.file);
 }
 
-/** Says what a log that was read to its end did not give. @return Exit status. */
+/** Reports skipped messages and bytes after the log's end. @return Exit status. */
 int end_reading(const Log& log, const Undecodable& undecodable) {
   undecodable.warn();
   log.warn_about_damage();
@@ -182,14 +185,14 @@ int write_csv(const LogOptions& options) {
   return end_reading(log, undecodable);
 }
 
-/** Reads a log to its end and hands on the messages of some channels: event, layout, JSON text.
- * @return What could not be decoded. */
+/** Reads a log to its end and passes the messages of selected channels on: event, layout, JSON
+ * text. @return Statistics of undecodable messages. */
 template <class Take>
-Undecodable read_as_json(Log& log, const std::regex& wanted, Take take) {
+Undecodable read_as_json(Log& log, const std::regex& selected, Take take) {
   Undecodable undecodable;
   LogEvent event;
   while (log.read(event)) {
-    if (!std::regex_match(event.channel, wanted)) continue;
+    if (!std::regex_match(event.channel, selected)) continue;
     const MessageLayout* layout = layout_of(event);
     const auto message = layout != nullptr ? message_to_json(*layout, event.data) : std::nullopt;
     if (message) {
@@ -202,28 +205,28 @@ Undecodable read_as_json(Log& log, const std::regex& wanted, Take take) {
 }
 
 int write_json(const LogOptions& options) {
-  const std::regex wanted = compiled(options.channels);
+  const std::regex selected = compiled(options.channels);
   Log log(options.file);
   Output output(options.output);
   const auto write = [&](const LogEvent& event, const MessageLayout& layout,
                          const std::string& message) {
     JsonWriter head;
     head.begin_object();
-    head.add("log_wall_utime", long{event.wall_utime});
+    head.add("log_wall_utime", int64_t{event.wall_utime});
     head.add("channel", event.channel);
     head.add("type", layout.name);
     head.end();
     std::string line = head.text();
     line.pop_back();
-    output.stream() << line << ", \"message\": " << message << "}\n";
+    output.stream() << line << ",\"message\":" << message << "}\n";
   };
-  const Undecodable undecodable = read_as_json(log, wanted, write);
+  const Undecodable undecodable = read_as_json(log, selected, write);
   output.finish();
   return end_reading(log, undecodable);
 }
 
 int write_mcap(const LogOptions& options) {
-  const std::regex wanted = compiled(options.channels);
+  const std::regex selected = compiled(options.channels);
   Log log(options.file);
   McapWriter mcap(options.output);
   std::map<std::string, uint16_t> schemas;
@@ -233,14 +236,14 @@ int write_mcap(const LogOptions& options) {
     if (!schemas.contains(layout.name)) {
       schemas[layout.name] = mcap.add_schema("naolcm." + layout.name, json_schema_of(layout));
     }
-    // A channel that changed its type while it was recorded becomes two.
+    // A channel whose type changed during the recording becomes two MCAP channels.
     const std::string key = event.channel + " " + layout.name;
     if (!channels.contains(key)) {
       channels[key] = mcap.add_channel(event.channel, schemas[layout.name]);
     }
     mcap.add_message(channels[key], event.wall_utime, message);
   };
-  const Undecodable undecodable = read_as_json(log, wanted, write);
+  const Undecodable undecodable = read_as_json(log, selected, write);
   mcap.finish();
   return end_reading(log, undecodable);
 }
@@ -258,7 +261,7 @@ std::map<std::string, std::string> parse_renames(const std::vector<std::string>&
 }
 
 int write_cut(const LogOptions& options) {
-  const std::regex wanted = compiled(options.channels);
+  const std::regex selected = compiled(options.channels);
   const auto names = parse_renames(options.renames);
   Log log(options.file);
   Output output(options.output);
@@ -267,7 +270,7 @@ int write_cut(const LogOptions& options) {
   while (log.read(event)) {
     const double time = log.time_of(event);
     if (time < options.from || time > options.to) continue;
-    if (!std::regex_match(event.channel, wanted)) continue;
+    if (!std::regex_match(event.channel, selected)) continue;
     const auto name = names.find(event.channel);
     if (name != names.end()) event.channel = name->second;
     event.number = number++;
@@ -277,7 +280,7 @@ int write_cut(const LogOptions& options) {
   }
   output.finish();
   log.warn_about_damage();
-  if (number == 0) throw Error("nothing of " + options.file + " is between these times");
+  if (number == 0) throw Error(options.file + " contains no message between these times");
   return 0;
 }
 
@@ -295,7 +298,7 @@ CommandLine* add_log_subcommand(CommandLine& log, Invocation& invocation,
 
 void add_log_command(CommandLine& app, Invocation& invocation) {
   CommandLine* log =
-      app.add_subcommand("log", "Read what scripts/record has recorded; needs no running robot");
+      app.add_subcommand("log", "Read and convert logs of scripts/record; needs no running robot");
   log->require_subcommand();
   const auto options = std::make_shared<LogOptions>();
   const auto add_channels = [&](CommandLine* command) {

@@ -4,9 +4,9 @@
 #include <ctime>
 #include <optional>
 
+#include "common/json_writer.h"
 #include "message_reflection/message_types.h"
 #include "message_reflection/message_walk.h"
-#include "tools/nao/json_writer.h"
 #include "tools/nao/text_table.h"
 
 namespace nao {
@@ -103,19 +103,19 @@ std::string LogStatistics::to_text() const {
 std::string LogStatistics::to_json() const {
   JsonWriter json;
   json.begin_object();
-  json.add("first_wall_utime", long{first_utime_});
+  json.add("first_wall_utime", int64_t{first_utime_});
   json.add("duration_s", duration());
   json.begin_array("channels");
   for (const auto& [name, channel] : channels_) {
     json.begin_object();
     json.add("channel", name);
     json.add("type", channel.type);
-    json.add("messages", long{channel.num_messages});
-    json.add("bytes", long{channel.num_bytes});
+    json.add("messages", int64_t{channel.num_messages});
+    json.add("bytes", int64_t{channel.num_bytes});
     json.add("rate_hz", channel.rate());
     json.add("longest_gap_s", channel.longest_gap);
-    json.add("missing_ticks", long{channel.num_missing_ticks()});
-    json.add("undecodable", long{channel.num_undecodable});
+    json.add("missing_ticks", int64_t{channel.num_missing_ticks()});
+    json.add("undecodable", int64_t{channel.num_undecodable});
     json.end();
   }
   json.end();

@@ -9,29 +9,29 @@
 
 namespace nao {
 
-/** What a log holds of one channel. */
+/** Statistics of one channel of a log. */
 struct LoggedChannel {
-  /** Of the last message; "?" if it is none of the project's. */
+  /** Of the last message; "?" if the type is unknown. */
   std::string type = "?";
   int64_t num_messages = 0;
   int64_t num_bytes = 0;
-  /** Messages of no known type, or that do not decode as theirs. */
+  /** Messages of an unknown type, and messages that do not decode. */
   int64_t num_undecodable = 0;
   /** Wall clock, microseconds since 1970. */
   int64_t first_utime = 0;
   int64_t last_utime = 0;
-  /** Longest time between two messages, s. */
+  /** Maximum time between two messages, s. */
   double longest_gap = 0;
   /** Control ticks; empty if the messages have none. */
   std::set<int64_t> ticks;
 
-  /** Messages a second between the first and the last one; 0 if there is but one. */
+  /** Mean rate between the first and the last message, Hz; 0 for a single message. */
   double rate() const;
-  /** Ticks between the first and the last one that are not in the log: messages that were lost. */
+  /** Number of ticks between the first and the last one that the log lacks: lost messages. */
   int64_t num_missing_ticks() const;
 };
 
-/** Counts the messages of a log, channel by channel. */
+/** Counts the messages of each channel of a log. */
 class LogStatistics {
  public:
   void add(const LogEvent& event);

@@ -36,7 +36,7 @@ void LogWriter::open_next() {
       file = numbered(path_, num_files_++, 2);
     } while (std::filesystem::exists(file));
   }
-  // x: never over a recording that is there.
+  // "x" fails if the file exists: recordings are never overwritten.
   file_.reset(std::fopen(file.c_str(), "wbx"));
   if (file_ == nullptr) throw Error("cannot write " + file.string() + ": " + std::strerror(errno));
   num_bytes_ = 0;
@@ -50,14 +50,14 @@ void LogWriter::write(LogEvent event) {
   event.number = num_events_++;
   const auto bytes = encode_log_event(event);
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-    throw Error("cannot write on into " + path_.string() + ": " + std::strerror(errno));
+    throw Error("cannot append to " + path_.string() + ": " + std::strerror(errno));
   }
   num_bytes_ += static_cast<int64_t>(bytes.size());
 }
 
 void LogWriter::flush() {
   if (std::fflush(file_.get()) != 0) {
-    throw Error("cannot write on into " + path_.string() + ": " + std::strerror(errno));
+    throw Error("cannot append to " + path_.string() + ": " + std::strerror(errno));
   }
 }
 

@@ -9,25 +9,26 @@
 
 namespace nao {
 
-/** When a recording goes on in another file. */
+/** Conditions for splitting a recording into several files. */
 struct LogSplit {
-  /** Size of a file, bytes, from which on the next is begun; 0: never. */
+  /** Size of a file at which the next one is opened, bytes; 0: no splitting. */
   int64_t max_bytes = 0;
-  /** Files kept: FILE.0 is the newest. 0: all, as FILE.00, FILE.01 and so on. */
+  /** Number of files kept, FILE.0 being the newest. 0: all, as FILE.00, FILE.01 and so on. */
   int num_kept = 0;
 };
 
 /** Writes a log that LCM's tools and LogReader read. */
 class LogWriter {
  public:
-  /** @throws Error  if a file of this name is there, or none can be written. */
+  /** @throws Error  if a file of this name exists or cannot be written. */
   LogWriter(const std::filesystem::path& file, const LogSplit& split);
 
-  /** Appends an event; its number becomes its place in the recording.
+  /** Appends an event; its number becomes its index in the recording.
    * @throws Error  if it cannot be written: a full disk. */
   void write(LogEvent event);
 
-  /** Hands what is written to the system, so that a reader sees it and a kill does not lose it.
+  /** Flushes the buffer to the operating system: a reader sees the events, and a killed process
+   * does not lose them.
    * @throws Error  as write(). */
   void flush();
 

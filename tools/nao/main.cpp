@@ -15,10 +15,9 @@ int main(int argc, char** argv) {
       "  nao move-to 0.5 0 90deg       walk half a metre ahead, end turned to the left\n"
       "  nao joint HeadYaw +20deg      turn the head to the left\n"
       "  nao action kick-left && echo scored\n"
-      "  nao state --watch             what the robot does, over and over\n"
+      "  nao state --watch             the robot's state, refreshed continuously\n"
       "Exit status: 0 done; 1 refused, failed or no answer (the reason is on stderr); 2 bad "
-      "command "
-      "line.\n"
+      "command line.\n"
       "Every subcommand answers --help.");
 
   nao::Invocation invocation;

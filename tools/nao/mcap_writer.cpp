@@ -24,12 +24,14 @@ constexpr uint8_t kSummaryOffset = 0x0E;
 constexpr uint8_t kDataEnd = 0x0F;
 
 constexpr std::array<uint8_t, 8> kMagic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
-// Readers load a chunk at a time.
+// Uncompressed size at which a chunk is closed, bytes. Readers load one chunk at a time; the value
+// is of the order of the MCAP library's default (768 KiB).
 constexpr size_t kChunkSize = 1 << 20;
 // The specification lets a checksum of 0 mean that there is none.
 constexpr uint32_t kNoChecksum = 0;
 
-/** Puts together a record's content: little-endian numbers, strings and maps after their size. */
+/** Builds a record's content: little-endian numbers; strings and maps are preceded by their size.
+ */
 class Content {
  public:
   template <class Number>

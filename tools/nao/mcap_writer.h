@@ -11,7 +11,8 @@
 
 namespace nao {
 
-/** Writes an MCAP file of JSON messages with JSON schemas, which Foxglove and PlotJuggler open.
+/** Writes an MCAP file of JSON messages with JSON schemas, for Foxglove and PlotJuggler.
+ * Implemented here because Debian 12 has no package of the MCAP library.
  *
  * Format: https://mcap.dev/spec: chunks without compression, an index of each, statistics. */
 class McapWriter {
@@ -23,11 +24,11 @@ class McapWriter {
   uint16_t add_schema(const std::string& name, const std::string& json_schema);
   /** @return Number of the channel, for add_message(). */
   uint16_t add_channel(const std::string& topic, uint16_t schema);
-  /** @param wall_utime  When it was received, microseconds since 1970. */
+  /** @param wall_utime  Time of reception, microseconds since 1970. */
   void add_message(uint16_t channel, int64_t wall_utime, const std::string& json);
 
   /** Writes the index and closes the file.
-   * @throws Error  if any of it could not be written: a full disk. */
+   * @throws Error  if the file could not be written completely, such as on a full disk. */
   void finish();
 
  private:

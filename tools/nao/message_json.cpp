@@ -1,20 +1,60 @@
 #include "tools/nao/message_json.h"
 
+#include "common/json_writer.h"
 #include "message_reflection/message_walk.h"
-#include "tools/nao/json_writer.h"
 
 namespace nao {
 namespace {
 
-/** Writes a message into a JSON object that is open already. */
+/** Key of the name that belongs to an enumeration's value: "status_name" for "status". */
+std::string name_key(const std::string& key) {
+  return key + "_name";
+}
+
+/** Writes a message into an open JSON object. */
 class JsonMessageWriter : public MessageVisitor {
  public:
   explicit JsonMessageWriter(JsonWriter& json) : json_(json) {}
-  void begin_struct(const std::string& key) override { json_.begin_object(key); }
-  void end_struct() override { json_.end(); }
-  void begin_list(const std::string& key) override { json_.begin_array(key); }
-  void end_list() override { json_.end(); }
-  void integer(const std::string& key, int64_t value) override { json_.add(key, long{value}); }
+  void begin_struct(const std::string& key) override {
+    json_.begin_object(key);
+    containers_.emplace_back();
+  }
+  void end_struct() override {
+    json_.end();
+    containers_.pop_back();
+  }
+  void begin_list(const std::string& key) override {
+    json_.begin_array(key);
+    containers_.push_back({true, key, {}, false});
+  }
+  void end_list() override {
+    json_.end();
+    const Container list = std::move(containers_.back());
+    containers_.pop_back();
+    if (!list.has_names) return;
+    json_.begin_array(name_key(list.key));
+    for (const std::string& name : list.names) {
+      if (name.empty()) {
+        json_.add_null("");
+      } else {
+        json_.add("", name);
+      }
+    }
+    json_.end();
+  }
+  void integer(const std::string& key, int64_t value) override {
+    json_.add(key, value);
+    if (containers_.back().is_list) containers_.back().names.emplace_back();
+  }
+  void enumerator(const std::string& key, int64_t value, const std::string& constant) override {
+    integer(key, value);
+    if (containers_.back().is_list) {
+      containers_.back().names.back() = constant;
+      containers_.back().has_names = true;
+    } else {
+      json_.add(name_key(key), constant);
+    }
+  }
   void number(const std::string& key, double value) override { json_.add(key, value); }
   void boolean(const std::string& key, bool value) override { json_.add(key, value); }
   void text(const std::string& key, const std::string& value) override { json_.add(key, value); }
@@ -23,7 +63,18 @@ class JsonMessageWriter : public MessageVisitor {
   }
 
  private:
+  /** An enclosing struct or array. */
+  struct Container {
+    bool is_list = false;
+    std::string key;
+    /** Constant of each integer of an array; "" where no constant has its value. */
+    std::vector<std::string> names;
+    bool has_names = false;
+  };
+
   JsonWriter& json_;
+  /** The enclosing structs and arrays, outermost first; the message itself is the first. */
+  std::vector<Container> containers_ = std::vector<Container>(1);
 };
 
 void add_schema_fields(JsonWriter& json, const MessageLayout& layout);
@@ -64,6 +115,25 @@ void add_schema_of_list(JsonWriter& json, const FieldLayout& field, size_t depth
   json.end();
 }
 
+/** The property that holds the names of an enumeration's values. Only one-dimensional arrays of
+ * enumerations exist. */
+void add_schema_of_names(JsonWriter& json, const FieldLayout& field) {
+  json.begin_object(name_key(field.name));
+  if (!field.dimensions.empty()) {
+    json.add("type", "array");
+    json.begin_object("items");
+  }
+  json.begin_array("enum");
+  for (const EnumConstant& constant : field.constants) json.add("", constant.name);
+  // An array element, or a value without a name.
+  if (!field.dimensions.empty()) json.add_null("");
+  json.end();
+  if (!field.dimensions.empty()) json.end();
+  json.add("description",
+           "Name of the constant that " + field.name + " equals; absent if none does.");
+  json.end();
+}
+
 void add_schema_fields(JsonWriter& json, const MessageLayout& layout) {
   json.add("type", "object");
   json.begin_object("properties");
@@ -72,6 +142,7 @@ void add_schema_fields(JsonWriter& json, const MessageLayout& layout) {
     add_schema_of_list(json, field, 0);
     json.add("description", field.description);
     json.end();
+    if (!field.constants.empty()) add_schema_of_names(json, field);
   }
   json.end();
 }

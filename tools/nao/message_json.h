@@ -9,14 +9,15 @@
 
 namespace nao {
 
-/** A message as a JSON object with the field names of its .lcm file. Numbers that are not finite
- * are null, bytes are base64.
+/** A message as a JSON object with the field names of its .lcm file. Non-finite numbers are null,
+ * bytes are base64. The name of an enumeration's value follows in a field of its own, as in
+ * "status":2,"status_name":"STATUS_DONE".
  * @return nullopt if the bytes are not a message of this type. */
 [[nodiscard]] std::optional<std::string> message_to_json(const MessageLayout& layout,
                                                          std::span<const uint8_t> message);
 
-/** JSON Schema of what message_to_json() makes of a type; the descriptions are the comments of the
- * .lcm file, with their units. */
+/** JSON Schema of message_to_json() for a type; the descriptions are the comments of the .lcm file,
+ * with their units. */
 std::string json_schema_of(const MessageLayout& layout);
 
 /** RFC 4648, section 4. */

@@ -9,7 +9,7 @@
 namespace nao {
 namespace {
 
-/** Gives every value the name of its column. */
+/** Passes each value on with the name of its column. */
 class Flattener : public PathVisitor {
  public:
   using Take = std::function<void(const std::string& column, const std::string& value)>;

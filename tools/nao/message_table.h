@@ -10,22 +10,22 @@
 
 namespace nao {
 
-/** Turns the messages of one type into the rows of a table: a column for every field, and for every
- * element of a list, such as joint_position[HeadYaw] or position_torso_in_odometry[0]; for bytes
- * the column says how many. Columns appear in the order in which they are first seen. */
+/** Converts messages of one type to rows of a table. Each field and each element of an array has a
+ * column, such as joint_position[HeadYaw] or position_torso_in_odometry[0]; the column of a byte
+ * array holds its length. Columns are in the order of their first occurrence. */
 class MessageTable {
  public:
   explicit MessageTable(const MessageLayout& layout) : layout_(&layout) {}
 
-  /** Makes columns for whatever a message holds.
-   * @return false if the bytes are no message of the type. */
+  /** Adds columns for all values of a message. @return false if the bytes are not a message of the
+   * type. */
   bool see(std::span<const uint8_t> message);
 
-  /** One line of comma-separated values, without its end, of all columns. */
+  /** Names of all columns, comma-separated, without a line end. */
   std::string heading() const;
 
-  /** The values of a message in all columns; empty where it has none, and where a number is not
-   * finite "nan", "inf" or "-inf". "" if the bytes are no message of the type. */
+  /** Values of a message in all columns: empty where it has none; non-finite numbers are "nan",
+   * "inf" or "-inf". "" if the bytes are not a message of the type. */
   std::string row(std::span<const uint8_t> message) const;
 
  private:
@@ -34,7 +34,7 @@ class MessageTable {
   std::vector<std::string> names_;
 };
 
-/** A value for a CSV file: in quotes if it needs them (RFC 4180). */
+/** Value for a CSV file, quoted if necessary (RFC 4180). */
 std::string csv_quoted(const std::string& text);
 
 }  // namespace nao

@@ -12,8 +12,8 @@ namespace nao {
 std::optional<ProcessUsage> read_process_usage(int process_id) {
   std::ifstream file("/proc/" + std::to_string(process_id) + "/stat");
   const std::string line((std::istreambuf_iterator<char>(file)), {});
-  // The second field is the program's name in brackets and may hold blanks. Behind it, counted
-  // from 3, proc(5): utime is field 14, stime 15, rss 24.
+  // Source: proc(5). Field 2 is the program's name in parentheses and may contain spaces. The rest
+  // begins with field 3; utime is field 14, stime 15, rss 24.
   const size_t name_end = line.rfind(')');
   if (name_end == std::string::npos) return std::nullopt;
   std::istringstream fields(line.substr(name_end + 1));

@@ -4,15 +4,15 @@
 
 namespace nao {
 
-/** What a process of this machine has used so far. */
+/** Resources used by a process of this host. */
 struct ProcessUsage {
-  /** Time on any core, s. */
+  /** CPU time on all cores, s. */
   double cpu_seconds = 0;
   /** Resident memory, bytes. */
   double memory_bytes = 0;
 };
 
-/** Reads it from /proc. @return Nothing if there is no such process. */
+/** Reads /proc. @return nullopt if there is no such process. */
 std::optional<ProcessUsage> read_process_usage(int process_id);
 
 }  // namespace nao

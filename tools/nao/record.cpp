@@ -16,12 +16,12 @@
 namespace nao {
 namespace {
 
-// What a recorder that is killed may lose, s.
+// Maximum duration of the recording that a killed recorder loses, s.
 constexpr double kFlushPeriod = 0.1;
-// LCM keeps 30 messages for a subscriber that is late, and drops the rest: 60 ms of this bus. These
-// are minutes.
+// LCM's default queue holds 30 messages, about 60 ms of this bus; later ones are dropped. This
+// queue holds minutes.
 constexpr int kQueueCapacity = 100'000;
-// Wished for in the kernel; it gives at most net.core.rmem_max.
+// Requested size of the socket's buffer, bytes; the kernel limits it to net.core.rmem_max.
 constexpr const char* kReceiveBuffer = "recv_buf_size=8388608";
 
 struct RecordOptions {
@@ -38,15 +38,15 @@ std::string with_receive_buffer(const std::string& url) {
   return url + (url.find('?') == std::string::npos ? "?" : "&") + kReceiveBuffer;
 }
 
-/** Puts every wanted message into the log. */
+/** Writes every selected message to the log. */
 struct Recorder {
   LogWriter writer;
   std::optional<std::regex> without;
-  /** Why it cannot write; no exception may pass through LCM's C code. */
+  /** Error of the last write; an exception must not propagate through LCM's C code. */
   std::string fault;
 
   void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    // LCM sends this to itself whenever a program opens the bus; it is nobody's message.
+    // LCM's own self-test message, sent whenever a program opens the bus.
     if (channel == "LCM_SELF_TEST") return;
     if (without && std::regex_match(channel, *without)) return;
     const auto* data = static_cast<const uint8_t*>(buffer->data);
@@ -60,7 +60,7 @@ struct Recorder {
 
 int run_record(const CommonOptions& common, const RecordOptions& options) {
   EventLoop loop;
-  // Not a nao::Bus, as in spy.cpp.
+  // nao::Bus decodes one known type per channel; a recorder takes raw messages, as spy.cpp does.
   lcm::LCM lcm(with_receive_buffer(common.lcm_url));
   if (!lcm.good()) {
     throw BusError("cannot open the message bus " + common.lcm_url + "; try: nao bus");
@@ -96,13 +96,13 @@ void add_record_command(CommandLine& app, Invocation& invocation) {
   const auto options = std::make_shared<RecordOptions>();
   CommandLine* record = app.add_subcommand(
       "record", "Record messages into a log until Ctrl-C; scripts/record knows the stack's bus");
-  record->add_option("file", options->file, "Log to write; must not be there yet")->required();
+  record->add_option("file", options->file, "Log to write; must not exist")->required();
   record
       ->add_option("--channels", options->channels,
                    "Only channels whose whole name matches this regular expression")
       ->show_default();
-  record->add_option("--without", options->without, "But not those that match this one");
-  record->add_option("--for", options->duration, "End by itself, s")->positive();
+  record->add_option("--without", options->without, "Exclude channels that match this one");
+  record->add_option("--for", options->duration, "Duration of the recording, s")->positive();
   CommandLine::Option* split =
       record
           ->add_option("--split-mb", options->split_mb,

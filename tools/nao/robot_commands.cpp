@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <naolcm/action_command_t.hpp>
 #include <naolcm/command_result_t.hpp>
@@ -31,27 +32,27 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/** How long to stay with a command. */
-struct Patience {
-  /** Longest wait for the final result, s. */
-  double wait = kNever;
-  /** True: be content with "accepted". */
+/** Options for waiting for a command's result. */
+struct WaitOptions {
+  /** Maximum time to wait for the final result, s. */
+  double timeout = kNever;
+  /** Return at "accepted". */
   bool accepts_only = false;
 };
 
-/** Sends one command until it is answered, and waits for its end.
+/** Sends one command until it is acknowledged, and waits for its end.
  *
- * Ctrl-C ends the waiting; what it does to the robot is up to `send`'s owner. */
+ * Ctrl-C ends the waiting only; the robot continues unless the command is a walk. */
 class Conversation {
  public:
-  /** @param name  The command as the person gave it, for messages: "posture Crouch". */
+  /** @param name  The command as given by the user, for messages: "posture Crouch". */
   Conversation(const CommonOptions& common, std::string name)
       : name_(std::move(name)),
         source_("nao." + std::to_string(getpid())),
         command_id_(wall_utime()),
         bus_(common.lcm_url),
         channels_(common.robot),
-        exchange_({}, monotonic_seconds()) {
+        exchange_(monotonic_seconds()) {
     loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
     bus_.subscribe<naolcm::command_result_t>(
         channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
@@ -69,7 +70,7 @@ class Conversation {
   const RobotChannels& channels() const { return channels_; }
   EventLoop& loop() { return loop_; }
 
-  /** Fills in the sender and publishes the command. */
+  /** Sets the source and publishes the command. */
   template <class Command>
   void publish(const std::string& channel, Command& command) {
     command.utime = 0;
@@ -79,17 +80,17 @@ class Conversation {
     bus_.publish(channel, command);
   }
 
-  /** Sends an event until its end. @return The exit status. */
+  /** Sends a command with a final result until its end. @return The exit status. */
   template <class Command>
-  int run_event(const std::string& channel, Command command, const Patience& patience) {
+  int run_command(const std::string& channel, Command command, const WaitOptions& wait) {
     const double start = monotonic_seconds();
-    loop_.every(0.02, [this, &channel, &command, &patience, start] {
+    loop_.every(0.02, [this, &channel, &command, &wait, start] {
       const double now = monotonic_seconds();
       if (exchange_.should_send(now)) publish(channel, command);
-      if (exchange_.outcome(now) || (patience.accepts_only && exchange_.is_accepted())) {
+      if (exchange_.outcome(now) || (wait.accepts_only && exchange_.is_accepted())) {
         loop_.stop("end");
-      } else if (now - start > patience.wait) {
-        loop_.stop("patience");
+      } else if (now - start > wait.timeout) {
+        loop_.stop("timeout");
       }
     });
     return report(loop_.run(), start);
@@ -114,7 +115,8 @@ class Conversation {
     loop_.every(0.02, step);
     std::string why = loop_.run();
     if (why != "end" && exchange_.is_accepted()) {
-      // Asked to end: a second Ctrl-C does not wait for the robot to stand.
+      // First Ctrl-C: command zero velocity and wait until the robot stands. A second one ends the
+      // waiting.
       end = monotonic_seconds();
       step();
       why = loop_.run();
@@ -132,7 +134,7 @@ class Conversation {
       return 1;
     }
     if (!outcome && why_ended != "end") {
-      std::fprintf(stderr, "nao: %s: waited no longer; \"nao stop\" ends what the robot does\n",
+      std::fprintf(stderr, "nao: %s: stopped waiting; \"nao stop\" ends the motion\n",
                    name_.c_str());
       return 1;
     }
@@ -149,29 +151,30 @@ class Conversation {
   CommandExchange exchange_;
 };
 
-/** A length, speed or angle that is no number may not leave this program. */
+/** Rejects a length, speed or angle that is not a finite number. @return The fault, or "". */
 std::string fault_unless_finite(const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
-  return *end == '\0' && std::isfinite(number) ? "" : "'" + text + "' is no finite number";
+  return *end == '\0' && std::isfinite(number) ? "" : "'" + text + "' is not a finite number";
 }
 
-void add_patience(CommandLine& command, Patience& patience) {
-  command.add_option("--wait", patience.wait, "Wait at most so long for the end, s")->positive();
-  command.add_flag("--no-wait", patience.accepts_only, "Return as soon as the robot accepts it");
+void add_wait_options(CommandLine& command, WaitOptions& wait) {
+  command.add_option("--wait", wait.timeout, "Maximum time to wait for the end, s")->positive();
+  command.add_flag("--no-wait", wait.accepts_only, "Return as soon as the robot accepts it");
 }
 
 void add_walk(CommandLine& app, Invocation& invocation) {
   auto command = std::make_shared<naolcm::walk_command_t>();
   auto duration = std::make_shared<double>(kNever);
   CommandLine* walk = app.add_subcommand(
-      "walk", "Walk at a velocity until Ctrl-C; the robot is told ten times a second");
+      "walk", "Walk at a velocity until Ctrl-C; the command is sent ten times a second");
   walk->add_option("vx", command->vx, "Ahead, m/s")->required()->check(fault_unless_finite);
   walk->add_option("vy", command->vy, "To the left, m/s")->required()->check(fault_unless_finite);
   walk->add_option("wz", command->wz, "Turning to the left, rad/s")
       ->required()
       ->check(fault_unless_finite);
-  walk->add_option("--for", *duration, "Walk for so long, then stand, s")->positive();
+  walk->add_option("--for", *duration, "Duration of the walk before the robot stands, s")
+      ->positive();
   walk->on_parsed([&invocation, command, duration] {
     invocation.run = [&invocation, command, duration] {
       return Conversation(invocation.common, "walk").run_walk(*command, *duration);
@@ -182,22 +185,22 @@ void add_walk(CommandLine& app, Invocation& invocation) {
 void add_move_to(CommandLine& app, Invocation& invocation) {
   auto command = std::make_shared<naolcm::move_to_command_t>();
   auto theta = std::make_shared<std::string>("0");
-  auto patience = std::make_shared<Patience>();
-  CommandLine* move_to = app.add_subcommand("move-to", "Walk to a place seen from the robot");
+  auto wait = std::make_shared<WaitOptions>();
+  CommandLine* move_to = app.add_subcommand("move-to", "Walk to a pose in the robot's frame");
   move_to->add_option("x", command->x, "Ahead, m")->required()->check(fault_unless_finite);
   move_to->add_option("y", command->y, "To the left, m")->required()->check(fault_unless_finite);
-  move_to->add_option("theta", *theta, "Heading there, to the left, rad, or such as 90deg")
+  move_to->add_option("theta", *theta, "Final heading, counterclockwise, rad, or such as 90deg")
       ->show_default();
-  add_patience(*move_to, *patience);
-  move_to->on_parsed([&invocation, command, theta, patience] {
+  add_wait_options(*move_to, *wait);
+  move_to->on_parsed([&invocation, command, theta, wait] {
     try {
       command->theta = parse_joint_arguments({"theta", "=" + *theta}).positions[0];
     } catch (const ConfigError&) {
-      throw UsageError("theta", "'" + *theta + "' is no angle");
+      throw UsageError("theta", "'" + *theta + "' is not an angle");
     }
-    invocation.run = [&invocation, command, patience] {
+    invocation.run = [&invocation, command, wait] {
       Conversation conversation(invocation.common, "move-to");
-      return conversation.run_event(conversation.channels().move_to_command, *command, *patience);
+      return conversation.run_command(conversation.channels().move_to_command, *command, *wait);
     };
   });
 }
@@ -205,17 +208,17 @@ void add_move_to(CommandLine& app, Invocation& invocation) {
 void add_posture(CommandLine& app, Invocation& invocation) {
   auto command = std::make_shared<naolcm::posture_command_t>();
   command->speed = 0.5;
-  auto patience = std::make_shared<Patience>();
+  auto wait = std::make_shared<WaitOptions>();
   CommandLine* posture = app.add_subcommand("posture", "Go to a posture: Stand, Crouch, Sit ...");
   posture->add_option("name", command->posture, "Name as in robots/nao/postures.yaml")->required();
   posture->add_option("--speed", command->speed, "Fraction of the maximum speed, above 0 up to 1")
       ->check(fault_unless_finite)
       ->show_default();
-  add_patience(*posture, *patience);
-  posture->on_parsed([&invocation, command, patience] {
-    invocation.run = [&invocation, command, patience] {
+  add_wait_options(*posture, *wait);
+  posture->on_parsed([&invocation, command, wait] {
+    invocation.run = [&invocation, command, wait] {
       Conversation conversation(invocation.common, "posture " + command->posture);
-      return conversation.run_event(conversation.channels().posture_command, *command, *patience);
+      return conversation.run_command(conversation.channels().posture_command, *command, *wait);
     };
   });
 }
@@ -225,7 +228,7 @@ void add_joint(CommandLine& app, Invocation& invocation) {
   command->speed = 0.3;
   auto allow_tipping = std::make_shared<bool>(false);
   auto arguments = std::make_shared<std::vector<std::string>>();
-  auto patience = std::make_shared<Patience>();
+  auto wait = std::make_shared<WaitOptions>();
   CommandLine* joint = app.add_subcommand(
       "joint", "Turn joints: \"HeadYaw +0.3\" by an angle, \"HeadYaw =0.3\" to an angle");
   joint
@@ -234,9 +237,9 @@ void add_joint(CommandLine& app, Invocation& invocation) {
   joint->add_option("--speed", command->speed, "Fraction of the maximum speed, above 0 up to 1")
       ->check(fault_unless_finite)
       ->show_default();
-  joint->add_flag("--allow-tipping", *allow_tipping, "Do it even if the robot tips over");
-  add_patience(*joint, *patience);
-  joint->on_parsed([&invocation, command, allow_tipping, arguments, patience] {
+  joint->add_flag("--allow-tipping", *allow_tipping, "Execute it even if the robot tips over");
+  add_wait_options(*joint, *wait);
+  joint->on_parsed([&invocation, command, allow_tipping, arguments, wait] {
     JointArguments joints;
     try {
       joints = parse_joint_arguments(*arguments);
@@ -246,12 +249,14 @@ void add_joint(CommandLine& app, Invocation& invocation) {
     command->num_joints = static_cast<int32_t>(joints.names.size());
     command->joint_names = joints.names;
     command->joint_position = joints.positions;
+    command->joint_stiffness.assign(joints.positions.size(),
+                                    std::numeric_limits<double>::quiet_NaN());
     command->is_relative = static_cast<int8_t>(joints.is_relative);
     command->allow_tipping = static_cast<int8_t>(*allow_tipping);
-    invocation.run = [&invocation, command, patience] {
+    invocation.run = [&invocation, command, wait] {
       Conversation conversation(invocation.common, "joint");
-      return conversation.run_event(conversation.channels().joint_change_command, *command,
-                                    *patience);
+      return conversation.run_command(conversation.channels().joint_change_command, *command,
+                                      *wait);
     };
   });
 }
@@ -260,39 +265,39 @@ void add_action(CommandLine& app, Invocation& invocation) {
   auto command = std::make_shared<naolcm::action_command_t>();
   command->ball_x = command->ball_y = command->strength = std::nan("");
   auto ball = std::make_shared<std::vector<double>>();
-  auto patience = std::make_shared<Patience>();
-  CommandLine* action = app.add_subcommand(
-      "action",
-      "Do something: kick-left, kick-right, block, dive-left, dive-right, wave, get-up, wake-up, "
-      "rest");
-  action->add_option("name", command->action, "Its name")->required();
+  auto wait = std::make_shared<WaitOptions>();
+  CommandLine* action = app.add_subcommand("action",
+                                           "Execute an action: kick-left, kick-right, block, "
+                                           "dive-left, dive-right, wave, get-up, wake-up, "
+                                           "rest");
+  action->add_option("name", command->action, "Name of the action")->required();
   action->add_option("--ball", *ball, "For kicks: where the ball lies, ahead and to the left, m")
       ->count(2)
       ->check(fault_unless_finite);
   action->add_option("--strength", command->strength, "For kicks: above 0 up to 1")
       ->check(fault_unless_finite);
-  add_patience(*action, *patience);
-  action->on_parsed([&invocation, command, ball, patience] {
+  add_wait_options(*action, *wait);
+  action->on_parsed([&invocation, command, ball, wait] {
     if (ball->size() == 2) {
       command->ball_x = (*ball)[0];
       command->ball_y = (*ball)[1];
     }
-    invocation.run = [&invocation, command, patience] {
+    invocation.run = [&invocation, command, wait] {
       Conversation conversation(invocation.common, "action " + command->action);
-      return conversation.run_event(conversation.channels().action_command, *command, *patience);
+      return conversation.run_command(conversation.channels().action_command, *command, *wait);
     };
   });
 }
 
 void add_stop(CommandLine& app, Invocation& invocation) {
-  auto patience = std::make_shared<Patience>();
+  auto wait = std::make_shared<WaitOptions>();
   CommandLine* stop = app.add_subcommand("stop", "End any motion");
-  add_patience(*stop, *patience);
-  stop->on_parsed([&invocation, patience] {
-    invocation.run = [&invocation, patience] {
+  add_wait_options(*stop, *wait);
+  stop->on_parsed([&invocation, wait] {
+    invocation.run = [&invocation, wait] {
       Conversation conversation(invocation.common, "stop");
-      return conversation.run_event(conversation.channels().stop_command, naolcm::stop_command_t(),
-                                    *patience);
+      return conversation.run_command(conversation.channels().stop_command,
+                                      naolcm::stop_command_t(), *wait);
     };
   });
 }

@@ -16,14 +16,15 @@
 namespace nao {
 namespace {
 
+/** Averaging period of the rates, s. */
 constexpr double kPeriod = 1.0;
 
-/** Puts every message on the bus, of whatever type, into the statistics. */
+/** Adds every message on the bus, of any type, to the statistics. */
 struct Listener {
   ChannelStatistics statistics;
 
   void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    // LCM sends this to itself whenever a program opens the bus; it is nobody's message.
+    // LCM's own self-test message, sent whenever a program opens the bus.
     if (channel == "LCM_SELF_TEST") return;
     statistics.add(channel, buffer->data, static_cast<int>(buffer->data_size), monotonic_seconds());
   }
@@ -31,7 +32,7 @@ struct Listener {
 
 int run_spy(const CommonOptions& common, double duration, bool as_json) {
   EventLoop loop;
-  // Not a nao::Bus: that decodes one known type per channel, and this must hear them all.
+  // nao::Bus decodes one known type per channel; this program receives all types.
   lcm::LCM lcm(common.lcm_url);
   if (!lcm.good())
     throw BusError("cannot open the message bus " + common.lcm_url + "; try: nao bus");
@@ -70,7 +71,8 @@ void add_spy_command(CommandLine& app, Invocation& invocation) {
   auto as_json = std::make_shared<bool>(false);
   CommandLine* spy = app.add_subcommand(
       "spy", "Show every channel on the bus with its type and rate, until Ctrl-C");
-  spy->add_option("--for", *duration, "Listen for so long, print once, end, s")->positive();
+  spy->add_option("--for", *duration, "Listening time before printing once and ending, s")
+      ->positive();
   spy->add_flag("--json", *as_json, "As JSON, one line each time");
   spy->on_parsed([&invocation, duration, as_json] {
     invocation.run = [&invocation, duration, as_json] {

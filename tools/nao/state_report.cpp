@@ -12,10 +12,10 @@
 #include "common/channels.h"
 #include "common/command_line.h"
 #include "common/event_loop.h"
+#include "common/json_writer.h"
 #include "common/wall_clock.h"
 #include "messages/command.h"
 #include "messages/mode.h"
-#include "tools/nao/json_writer.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/terminal.h"
 #include "tools/nao/text_table.h"
@@ -23,7 +23,8 @@
 namespace nao {
 namespace {
 
-constexpr double kAnswerDeadline = 3.0;
+/** Time to wait for both states, s. Chosen: many times their periods. */
+constexpr double kAnswerTimeout = 3.0;
 
 struct RobotReport {
   std::optional<naolcm::robot_state_t> robot;
@@ -44,9 +45,8 @@ std::string to_text(const naolcm::robot_state_t& robot, const naolcm::motion_sta
   if (!motion.posture.empty()) text += ", posture " + motion.posture;
   if (motion.needs_help) text += ", needs help";
   if (motion.command_kind != motion.COMMAND_KIND_NONE) {
-    text += std::string(", executing ") +
-            to_string(static_cast<CommandKind>(motion.command_kind)) + " " + motion.command_name +
-            " for " + motion.command_source;
+    text += std::string(", executing ") + to_string(static_cast<CommandKind>(motion.command_kind)) +
+            " " + motion.command_name + " for " + motion.command_source;
     if (std::isfinite(motion.command_progress)) {
       text += " (" + format_number(motion.command_progress * 100, 0) + " %)";
     }
@@ -97,7 +97,7 @@ std::string to_json(const naolcm::robot_state_t& robot, const naolcm::motion_sta
   json.add("utime", motion.utime);
   json.add("mode", std::string(to_string(static_cast<Mode>(motion.mode))));
   json.add("posture", motion.posture);
-  json.add("command_kind", long{motion.command_kind});
+  json.add("command_kind", int64_t{motion.command_kind});
   json.add("command_name", motion.command_name);
   json.add("needs_help", motion.needs_help != 0);
   json.add("command_source", motion.command_source);
@@ -137,7 +137,7 @@ int run_state(const CommonOptions& common, bool as_json, bool watches) {
       std::fflush(stdout);
       report = {};
       if (!watches) loop.stop("end");
-    } else if (now - last_complete > kAnswerDeadline) {
+    } else if (now - last_complete > kAnswerTimeout) {
       is_silent = true;
       loop.stop("silence");
     }
@@ -156,9 +156,9 @@ void add_state_command(CommandLine& app, Invocation& invocation) {
   auto as_json = std::make_shared<bool>(false);
   auto watches = std::make_shared<bool>(false);
   CommandLine* state =
-      app.add_subcommand("state", "Show what the robot does and how its joints stand");
+      app.add_subcommand("state", "Show the robot's motion state and joint angles");
   state->add_flag("--json", *as_json, "One line of JSON, fields as in the messages");
-  state->add_flag("--watch", *watches, "Over and over, five times a second, until Ctrl-C");
+  state->add_flag("--watch", *watches, "Repeat five times a second until Ctrl-C");
   state->on_parsed([&invocation, as_json, watches] {
     invocation.run = [&invocation, as_json, watches] {
       return run_state(invocation.common, *as_json, *watches);

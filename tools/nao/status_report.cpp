@@ -15,8 +15,8 @@
 #include "common/channels.h"
 #include "common/command_line.h"
 #include "common/event_loop.h"
+#include "common/json_writer.h"
 #include "common/wall_clock.h"
-#include "tools/nao/json_writer.h"
 #include "tools/nao/process_usage.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/text_table.h"
@@ -24,13 +24,13 @@
 namespace nao {
 namespace {
 
-/** Every program speaks once a second; this hears each of them at least once. */
+/** Listening time, s: every program publishes once a second, so each is received at least once. */
 constexpr double kListenTime = 1.3;
 
 /** One running program. */
 struct ProgramReport {
   naolcm::daemon_status_t status;
-  /** Usage when first heard of, and when that was, s. Only of programs on this host. */
+  /** Usage at the first status and its time, s. Only for programs on this host. */
   std::optional<ProcessUsage> first_usage;
   double first_time = 0;
 };
@@ -55,7 +55,7 @@ class StatusListener {
 
   EventLoop& loop() { return loop_; }
 
-  /** @return The last status of the program of that name that still lives, or nullptr. */
+  /** @return Newest status of the program of that name; nullptr if none was received. */
   const naolcm::daemon_status_t* find(const std::string& program) const {
     const naolcm::daemon_status_t* newest = nullptr;
     for (const auto& [key, report] : programs_) {
@@ -120,7 +120,7 @@ class StatusListener {
     return status.loop_period_mean > 0 ? format_number(1 / status.loop_period_mean, 0) : "-";
   }
 
-  /** @return Share of one core since first heard of, %, and memory, bytes; NaN if unknown. */
+  /** @return CPU usage since the first status, % of one core, and memory, bytes; NaN if unknown. */
   static std::pair<double, double> usage_of(const ProgramReport& report) {
     const auto usage = read_process_usage(report.status.process_id);
     const double duration = monotonic_seconds() - report.first_time;
@@ -153,9 +153,9 @@ int wait_until_ready(StatusListener& listener, const std::vector<std::string>& w
   for (const std::string& program : wanted) {
     if (is_ready(program)) continue;
     const auto* status = listener.find(program);
-    std::fprintf(
-        stderr, "nao: %s is not ready: %s\n", program.c_str(),
-        status == nullptr ? "it says nothing" : (status->state + ", " + status->detail).c_str());
+    std::fprintf(stderr, "nao: %s is not ready: %s\n", program.c_str(),
+                 status == nullptr ? "it publishes no status"
+                                   : (status->state + ", " + status->detail).c_str());
   }
   return 1;
 }

@@ -9,10 +9,10 @@ namespace nao {
 
 class CommandLine;
 
-/** What the command line asked for: filled in by the subcommand that was named. */
+/** Action selected on the command line; set by the subcommand. */
 struct Invocation {
   CommonOptions common;
-  /** Does it. @return The exit status: 0 done, 1 refused, failed or no answer. */
+  /** Executes the subcommand. @return The exit status: 0 done, 1 refused, failed or no answer. */
   std::function<int()> run;
 };
 

@@ -6,7 +6,7 @@
 
 namespace nao {
 
-/** Empties the screen before it is drawn anew; does nothing where stdout is no terminal. */
+/** Clears the screen before it is redrawn; no effect if stdout is not a terminal. */
 inline void clear_terminal() {
   if (isatty(STDOUT_FILENO) == 1) std::fputs("\033[H\033[J", stdout);
 }

@@ -5,8 +5,8 @@
 
 namespace nao {
 
-/** Lays out rows of text in columns, two blanks apart, each as wide as its longest cell. Cells that
- * begin with a digit, a sign or a dot are set to the right, others to the left.
+/** Formats rows of text as columns, two spaces apart, each as wide as its longest cell. Cells that
+ * begin with a digit, a sign or a dot are right-aligned, others left-aligned.
  * @param rows  The first is the heading; all have the same number of cells. */
 std::string format_table(const std::vector<std::vector<std::string>>& rows);
 

@@ -10,15 +10,16 @@
 #include "common/bus.h"
 #include "common/channels.h"
 #include "common/command_line.h"
+#include "common/json_writer.h"
 #include "common/wall_clock.h"
-#include "tools/nao/json_writer.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/text_table.h"
 
 namespace nao {
 namespace {
 
-constexpr double kAnswerDeadline = 3.0;
+/** Time to wait for WORLD_TRUTH, s. Chosen: many times its period. */
+constexpr double kAnswerTimeout = 3.0;
 
 /** Angle between the torso's z axis and the vertical, rad, from a unit quaternion (w, x, y, z). */
 double tilt_of(const double* q) {
@@ -87,7 +88,7 @@ int run_show(const CommonOptions& common, bool as_json) {
       kWorldTruthChannel, Bus::Queue::kLatest,
       [&truth](const naolcm::world_truth_t& message) { truth = message; });
   const double start = monotonic_seconds();
-  while (!truth && monotonic_seconds() - start < kAnswerDeadline) bus.handle_for(0.1);
+  while (!truth && monotonic_seconds() - start < kAnswerTimeout) bus.handle_for(0.1);
   if (!truth) {
     std::fprintf(stderr, "nao: no simulated world on %s; is nao-sim running?\n",
                  common.lcm_url.c_str());

@@ -23,12 +23,14 @@
 namespace nao {
 namespace {
 
-constexpr double kTurnPeriod = 0.2;
+/** Period of HangDetector::step(), s: far below its limits. */
+constexpr double kStepPeriod = 0.2;
+/** As of every program, see daemon_status_t, s. */
 constexpr double kHeartbeatPeriod = 1.0;
 constexpr const char* kStackVariable = "NAO_REMOTE_STACK";
 
-/** Whether a process belongs to the same stack as this one: its environment carries the same mark.
- * False if it is gone, or somebody else's. */
+/** True if a process belongs to the same stack as this one: its environment has the same value of
+ * NAO_REMOTE_STACK. False if the process has ended or is another user's. */
 bool is_of_own_stack(int process_id) {
   const char* own = std::getenv(kStackVariable);
   if (own == nullptr) return false;
@@ -56,14 +58,14 @@ int run_watchdog(const CommonOptions& common) {
         }
       });
   loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
-  loop.every(kTurnPeriod, [&] {
+  loop.every(kStepPeriod, [&] {
     const double now = monotonic_seconds();
     reporter.tick(now);
     for (const int process_id : detector.process_ids()) {
       if (!is_of_own_stack(process_id)) detector.forget(process_id);
     }
     for (const HangDetector::Hung& hung : detector.step(now)) {
-      spdlog::warn("{} (process {}) has said nothing for {:.1f} s: killing it", hung.program,
+      spdlog::warn("{} (process {}) has published no status for {:.1f} s: killing it", hung.program,
                    hung.process_id, hung.silence);
       kill(hung.process_id, SIGKILL);
     }
@@ -79,11 +81,10 @@ int run_watchdog(const CommonOptions& common) {
 }  // namespace
 
 void add_watchdog_command(CommandLine& app, Invocation& invocation) {
-  CommandLine* watchdog =
-      app.add_subcommand("watchdog",
-                         "Kill programs of the own stack that hang, so that they "
-                         "are started again; scripts/start runs "
-                         "it");
+  CommandLine* watchdog = app.add_subcommand(
+      "watchdog",
+      "Kill programs of the own stack that hang, so that supervisor restarts them; "
+      "scripts/start runs it");
   watchdog->on_parsed([&invocation] {
     invocation.run = [&invocation] { return run_watchdog(invocation.common); };
   });

@@ -19,10 +19,12 @@
 namespace nao {
 namespace {
 
+/** Between two transmissions of an unacknowledged command, s. */
 constexpr double kRepeatPeriod = 0.1;
-constexpr double kAnswerDeadline = 3.0;
+/** Time after which nao-sim is reported as unavailable, s: 30 transmissions. */
+constexpr double kAnswerTimeout = 3.0;
 
-/** Sends a world command until WORLD_TRUTH names it. @return The exit status. */
+/** Sends a world command until WORLD_TRUTH acknowledges it. @return The exit status. */
 int run_world(const CommonOptions& common, naolcm::world_command_t command) {
   EventLoop loop;
   Bus bus(common.lcm_url);
@@ -45,7 +47,7 @@ int run_world(const CommonOptions& common, naolcm::world_command_t command) {
   const auto send = [&] {
     command.wall_utime = wall_utime();
     bus.publish(kWorldCommandChannel, command);
-    if (monotonic_seconds() - start > kAnswerDeadline) loop.stop("silence");
+    if (monotonic_seconds() - start > kAnswerTimeout) loop.stop("timeout");
   };
   send();
   loop.every(kRepeatPeriod, send);
@@ -85,8 +87,8 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
   world->require_subcommand();
   add_show_command(*world, invocation);
   add_world_command(*world, invocation, "pause", "Stop simulated time");
-  add_world_command(*world, invocation, "resume", "Let simulated time go on");
-  add_world_command(*world, invocation, "reset", "Put everything back to where it started");
+  add_world_command(*world, invocation, "resume", "Resume simulated time");
+  add_world_command(*world, invocation, "reset", "Reset the world to its initial state");
 
   const auto [step, step_command] = add_world_command(
       *world, invocation, "step", "While paused: run some control ticks of 10 ms");
@@ -94,13 +96,14 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
   step->add_option("ticks", step_command->num_ticks, "How many")->positive()->show_default();
 
   const auto [pace, pace_command] =
-      add_world_command(*world, invocation, "set-pace", "How fast simulated time runs");
-  pace->add_option("pace", pace_command->pace, "Simulated seconds per second; 0: all it can")
+      add_world_command(*world, invocation, "set-pace", "Set the rate of simulated time");
+  pace->add_option("pace", pace_command->pace,
+                   "Simulated seconds per second; 0: as fast as possible")
       ->required()
       ->not_negative();
 
   const auto [push, push_command] =
-      add_world_command(*world, invocation, "push", "Give the robot or the ball a knock");
+      add_world_command(*world, invocation, "push", "Apply an impulse to the robot or the ball");
   push_command->link = "torso";
   push->add_option("x", push_command->impulse_in_world[0], "Impulse along the field, N s")
       ->required();
@@ -110,7 +113,7 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
 
   auto ball_velocity = std::make_shared<std::vector<double>>();
   const auto [ball, ball_command] =
-      add_world_command(*world, invocation, "place-ball", "Put the ball somewhere",
+      add_world_command(*world, invocation, "place-ball", "Place the ball",
                         [ball_velocity](naolcm::world_command_t& command) {
                           for (size_t i = 0; i < ball_velocity->size(); ++i) {
                             command.velocity_in_world[i] = (*ball_velocity)[i];
@@ -123,7 +126,7 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
 
   auto theta = std::make_shared<double>(0);
   const auto [place, place_command] =
-      add_world_command(*world, invocation, "place-robot", "Put the robot somewhere",
+      add_world_command(*world, invocation, "place-robot", "Place the robot",
                         [theta](naolcm::world_command_t& command) {
                           command.orientation_in_world[0] = std::cos(*theta / 2);
                           command.orientation_in_world[3] = std::sin(*theta / 2);
@@ -132,9 +135,10 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
   place->add_option("y", place_command->position_in_world[1], "To the left of it, m")->required();
   place->add_option("--theta", *theta, "Heading, rad")->show_default();
   place->add_option("--height", place_command->position_in_world[2], "Above the ground, m");
-  place->add_option("--posture", place_command->posture, "Posture to put it in")->show_default();
+  place->add_option("--posture", place_command->posture, "Posture of the placed robot")
+      ->show_default();
   place->on_end([&invocation, command = place_command] {
-    // --robot names the robot here as everywhere; the simulator knows it by the same name.
+    // The simulator knows the robot by the same name as the channels.
     command->robot = invocation.common.robot;
   });
 }

@@ -12,11 +12,12 @@ namespace {
 constexpr double kTimeout = 14;     // s for one try
 constexpr double kSpread = 0.6;     // rad, either side of how it shall lie
 constexpr double kStanding = 0.32;  // m, torso
-// Cost of a failed try, and what of it a torso that came all the way up spares, s.
+// Cost of a failed try, s, above kTimeout; and its reduction at full torso height, s, so that a
+// failed try always costs as much as a success at the timeout.
 constexpr double kFailed = 20;
 constexpr double kHeightCounts = 6;
 
-/** To where a robot must be pushed to lie so, or about its long axis laid, rad. */
+/** Direction of the push that makes the robot lie so, or rotation about its long axis, rad. */
 double direction_of(GetUpCourse::Start start) {
   switch (start) {
     case GetUpCourse::Start::kBack:
@@ -70,7 +71,7 @@ GetUpCourse::Start parse_start(const std::string& name) {
   if (name == "back") return Start::kBack;
   if (name == "left") return Start::kLeft;
   if (name == "right") return Start::kRight;
-  throw ConfigError("there is no start " + name + "; say any, belly, back, left or right");
+  throw ConfigError("start " + name + " is not one of any, belly, back, left, right");
 }
 
 }  // namespace nao

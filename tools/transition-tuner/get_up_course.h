@@ -11,17 +11,18 @@
 
 namespace nao {
 
-/** How a graph of transitions did from one start. */
+/** Result of a transition graph from one start. */
 struct GetUpResult {
   bool is_up = false;
   /** s from lying still to standing in StandInit. */
   double time = 0;
-  /** s if it stood at the first try; else more than any time, the less the higher it came. */
+  /** Time in s if it stood at the first try; otherwise a penalty above any time, decreasing with
+   * the height reached. */
   double cost = 0;
 };
 
-/** What a way up from the floor is judged by: getting up at the first try, and how long that takes,
- * from lying on a side of the body, each time with a physics, noise and latency of its own. */
+/** Cost function of get-up motions: success at the first try and its duration, from lying on one
+ * side of the body. Physics, noise and latency are random in each trial. */
 class GetUpCourse {
  public:
   enum class Start { kAny, kBelly, kBack, kLeft, kRight };
@@ -29,8 +30,8 @@ class GetUpCourse {
   GetUpCourse(std::shared_ptr<const RobotModel> model, SceneFile scene, Start start)
       : model_(std::move(model)), scene_(std::move(scene)), start_(start) {}
 
-  /** @param seed  Of everything drawn by chance: of even ones the robot is laid down, of odd ones
-   * pushed over. */
+  /** @param seed  Seed of all random values. Even: the robot is placed lying; odd: it is pushed
+   * over. */
   GetUpResult run(const motion::TransitionGraph& transitions, uint64_t seed) const;
 
  private:

@@ -29,7 +29,8 @@ struct TunerOptions {
   bool is_check = false;
 };
 
-/** Every text in every trial, on several cores; the answer does not depend on how many. */
+/** Evaluates every text in every trial on several cores; the result does not depend on their
+ * number. */
 std::vector<std::vector<GetUpResult>> judge(const RobotModel& model, const GetUpCourse& course,
                                             const std::vector<std::string>& texts,
                                             const TunerOptions& options, uint64_t first_seed) {
@@ -45,7 +46,7 @@ std::vector<std::vector<GetUpResult>> judge(const RobotModel& model, const GetUp
 struct Verdict {
   double cost = 0;
   int num_up = 0;
-  /** Mean of those that got up, s. */
+  /** Mean duration of the successful trials, s. */
   double time = 0;
 };
 
@@ -77,7 +78,7 @@ void tune(const TunerOptions& options) {
   if (options.is_check) return check(*model, course, text, options);
 
   const TransitionText space(*model, text, options.sequences, options.fixed);
-  // Of all numbers, those of the chosen keyframes are searched for.
+  // Only the numbers of the selected keyframes are searched.
   Eigen::VectorXd values(space.parameters().size());
   std::vector<long> chosen;
   for (long i = 0; i < values.size(); ++i) {
@@ -134,10 +135,10 @@ void tune(const TunerOptions& options) {
 
 int main(int argc, char** argv) {
   nao::CommandLine app(
-      "Tunes ways up from the floor: a seeded search over durations and angles of their keyframes, "
-      "judged by getting up in physics with noise, latency and friction drawn by chance. Writes "
-      "the "
-      "file of transitions anew after every generation; the same seed gives the same search.",
+      "Tunes get-up motions: a seeded search over durations and angles of their keyframes, "
+      "evaluated "
+      "in the simulator with random noise, latency and friction. Rewrites the file of transitions "
+      "after every generation; the same seed gives the same search.",
       "nao-transition-tuner");
   nao::CommonOptions common;
   nao::add_common_options(app, common);
@@ -149,11 +150,12 @@ int main(int argc, char** argv) {
       ->count(2);
   app.add_option("--fixed", options.fixed, "Joints, without side, whose angles stay")
       ->show_default();
-  app.add_option("--start", options.start, "How it lies: any, belly, back, left or right")
+  app.add_option("--start", options.start,
+                 "Lying pose at the start: any, belly, back, left or right")
       ->show_default();
-  app.add_option("--trials", options.trials, "Times that each candidate gets up")
+  app.add_option("--trials", options.trials, "Trials of each candidate")
       ->positive()
       ->show_default();
-  app.add_flag("--check", options.is_check, "Only judge the file, by --trials trials");
+  app.add_flag("--check", options.is_check, "Only evaluate the file with --trials trials");
   return nao::run_program(app, common, argc, argv, [&] { nao::tune(options); });
 }

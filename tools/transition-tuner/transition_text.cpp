@@ -17,7 +17,7 @@ constexpr double kLongest = 3;      // s
 constexpr double kLongestPause = 1;
 constexpr double kLeastStiffness = 0.1;
 
-/** Motor of a joint's name, of the left one if the name means both. */
+/** Motor of a joint; of the left joint if the name has no side. */
 int find_motor(const RobotModel& model, const std::string& name) {
   const int motor = model.find_motor(name);
   return motor >= 0 ? motor : model.find_motor("L" + name);
@@ -60,7 +60,7 @@ void TransitionText::read_line(const RobotModel& model, const std::string& seque
     char* number_end = nullptr;
     const double value = std::strtod(text_.c_str() + number, &number_end);
     const auto size = static_cast<size_t>(number_end - (text_.c_str() + number));
-    if (size == 0) throw Error(name + " is no number");
+    if (size == 0) throw Error(name + " is not a number");
     parameters_.push_back({name, keyframe, value, lower, upper, number, size});
   };
   const auto starts = [&](const char* key) {
@@ -96,7 +96,7 @@ std::string TransitionText::with(const Eigen::VectorXd& values) const {
     const Parameter& parameter = parameters_[i];
     const double value = std::clamp(values[static_cast<long>(i)], parameter.lower, parameter.upper);
     result += text_.substr(end, parameter.begin - end);
-    // Rounding must not lead beyond a joint's limit.
+    // Round inwards: the rounded value must not exceed a joint's limit.
     double rounded = std::round(value * 1000) / 1000;
     if (rounded < parameter.lower) rounded += 0.001;
     if (rounded > parameter.upper) rounded -= 0.001;

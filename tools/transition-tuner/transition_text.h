@@ -8,11 +8,10 @@
 
 namespace nao {
 
-/** The text of a transitions.yaml with numbers of some of its sequences as parameters of a search:
- * durations and pauses, joint angles, and shares of stiffness of single joints. Comments and order
- * stay as they are.
+/** Text of a transitions.yaml whose numbers are search parameters: durations, pauses, joint angles
+ * and stiffness of single joints of selected sequences. Comments and order are preserved.
  *
- * It wants the file's own layout: `duration`, `pause`, `joints` and `stiffness` each begin a line
+ * Required layout of the file: `duration`, `pause`, `joints` and `stiffness` each begin a line
  * of their own, the latter two as `{NAME: NUMBER, ...}`. */
 class TransitionText {
  public:
@@ -21,23 +20,24 @@ class TransitionText {
     std::string name;
     int keyframe;
     double value;
-    /** Range that a search may use: the joint's own; 0.03 to 3 s; 0 to 1 s of pause; a share of
-     * 0.1 to 1. */
+    /** Search range: the joint's limits; durations 0.03 to 3 s; pauses 0 to 1 s; stiffness 0.1
+     * to 1. */
     double lower;
     double upper;
-    /** Where the number stands in the text. */
+    /** Position of the number in the text. */
     size_t begin;
     size_t size;
   };
 
-  /** @param sequences  Names of those to search.
+  /** @param sequences  Names of the sequences to search.
    * @param fixed  Joints, without side, whose angles stay.
-   * @throws Error  if the text lacks one of the sequences, or names a joint the model has not. */
+   * @throws Error  if the text lacks one of the sequences, or names a joint that the model lacks.
+   */
   TransitionText(const RobotModel& model, std::string text,
                  const std::vector<std::string>& sequences, const std::vector<std::string>& fixed);
 
   const std::vector<Parameter>& parameters() const { return parameters_; }
-  /** The text with other numbers, clipped to their ranges. @param values  (parameters().size()). */
+  /** The text with new numbers, clipped to their ranges. @param values  (parameters().size()). */
   std::string with(const Eigen::VectorXd& values) const;
 
  private:

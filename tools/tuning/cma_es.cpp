@@ -35,7 +35,7 @@ CmaEs::CmaEs(const Eigen::VectorXd& start, double sigma, int population, uint64_
 }
 
 double CmaEs::normal() {
-  // Box and Muller's; the standard library's own differs between implementations.
+  // Box-Muller transform: std::normal_distribution differs between standard libraries.
   const double u = 1 - std::generate_canonical<double, 53>(random_);
   const double v = std::generate_canonical<double, 53>(random_);
   return std::sqrt(-2 * std::log(u)) * std::cos(2 * M_PI * v);
@@ -64,7 +64,8 @@ void CmaEs::tell(const std::vector<double>& costs) {
   mean_.setZero();
   for (int i = 0; i < weights_.size(); ++i) mean_ += weights_[i] * candidates_[order[i]];
 
-  // The path in coordinates where the candidates are a ball: long if steps keep their direction.
+  // Evolution path in coordinates where the candidates' distribution is isotropic: it is long if
+  // consecutive steps have similar directions.
   const Eigen::VectorXd step = (mean_ - old_mean) / sigma_;
   const double keep = 1 - rates_.c_sigma;
   const Eigen::VectorXd along = axes_.transpose() * step;

@@ -7,11 +7,12 @@
 
 namespace nao {
 
-/** Covariance matrix adaptation evolution strategy: minimises a noisy function of some tens of
- * numbers without its derivatives.
+/** Covariance matrix adaptation evolution strategy (CMA-ES): minimizes a noisy function of some
+ * tens of variables without derivatives.
  *
  * Source: N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772, with its default
- * constants and positive weights. The same seed gives the same search. */
+ * constants and positive weights. The same seed gives the same search. Implemented here because
+ * Debian 12 has no package of a C++ CMA-ES. */
 class CmaEs {
  public:
   /** @param start       First mean, (dimension).
@@ -19,9 +20,10 @@ class CmaEs {
    * @param population  Candidates in a generation, at least 4. */
   CmaEs(const Eigen::VectorXd& start, double sigma, int population, uint64_t seed);
 
-  /** Candidates of the next generation, (population) of (dimension). */
+  /** Candidates of the next generation, (population) of (dimension). With tell(), this is the
+   * ask-and-tell interface of Hansen's implementations. */
   const std::vector<Eigen::VectorXd>& ask();
-  /** @param costs  Of the last candidates, in their order; smaller is better. */
+  /** @param costs  Costs of the last candidates, in their order; smaller is better. */
   void tell(const std::vector<double>& costs);
 
   const Eigen::VectorXd& mean() const { return mean_; }
@@ -32,7 +34,7 @@ class CmaEs {
   void adapt_covariance(const std::vector<int>& order, const Eigen::VectorXd& old_mean,
                         bool is_steady);
 
-  /** Rates of learning; names as in the tutorial. */
+  /** Learning rates; names as in the tutorial. */
   struct Rates {
     double c_sigma = 0;
     double d_sigma = 0;
@@ -44,17 +46,18 @@ class CmaEs {
   std::mt19937_64 random_;
   int population_;
   int generation_ = 0;
-  /** Of the best half, falling, sum 1; and how many candidates they are worth. */
+  /** Recombination weights of the best half, decreasing, with sum 1; and their effective selection
+   * mass mu_eff. */
   Eigen::VectorXd weights_;
   double mu_effective_ = 0;
   Rates rates_;
-  /** Mean length of a vector of (dimension) normal deviates. */
+  /** Expected norm of a standard normal vector of (dimension). */
   double expected_length_ = 0;
 
   Eigen::VectorXd mean_;
   double sigma_;
   Eigen::MatrixXd covariance_;
-  /** Its square root: principal axes and standard deviations along them. */
+  /** Eigendecomposition of the covariance: principal axes and standard deviations along them. */
   Eigen::MatrixXd axes_;
   Eigen::VectorXd lengths_;
   Eigen::VectorXd path_sigma_;

@@ -15,16 +15,16 @@ void add_search_options(CommandLine& app, SearchOptions& options, const std::str
                         const std::string& sigma_unit) {
   app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
       ->show_default();
-  app.add_option("--output", options.output, "Where the tuned " + result + " goes")->show_default();
+  app.add_option("--output", options.output, "File for the tuned " + result)->show_default();
   app.add_option("--generations", options.generations, "Generations of the search")->show_default();
   app.add_option("--population", options.population, "Candidates in a generation")
       ->range(4, 1000)
       ->show_default();
   app.add_option("--jobs", options.jobs, "Threads")->range(1, 256)->show_default();
-  app.add_option("--sigma", options.sigma, "First spread, " + sigma_unit)
+  app.add_option("--sigma", options.sigma, "Initial standard deviation, " + sigma_unit)
       ->positive()
       ->show_default();
-  app.add_option("--seed", options.seed, "Of the search and of all trials")->show_default();
+  app.add_option("--seed", options.seed, "Seed of the search and of all trials")->show_default();
 }
 
 void for_each_index(size_t count, int jobs, const std::function<void(size_t)>& work) {

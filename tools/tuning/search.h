@@ -9,26 +9,26 @@ namespace nao {
 
 class CommandLine;
 
-/** What every seeded search of a tuner takes. */
+/** Options of the tuners' seeded search. */
 struct SearchOptions {
   std::string model = "nao";
   std::string output;
   int generations = 30;
   int population = 14;
   int jobs = 1;
-  /** First spread, in units of the tuner's parameters. */
+  /** Initial standard deviation, in units of the tuner's parameters. */
   double sigma = 0.05;
   uint64_t seed = 1;
 };
 
 /** Adds --model, --output, --generations, --population, --jobs, --sigma and --seed.
- * @param result      What --output holds: "gait".
- * @param sigma_unit  Of --sigma, in words. */
+ * @param result      Content of --output: "gait".
+ * @param sigma_unit  Unit of --sigma. */
 void add_search_options(CommandLine& app, SearchOptions& options, const std::string& result,
                         const std::string& sigma_unit);
 
-/** Calls `work` once for every index below `count`, on `jobs` threads, in no order; ends when all
- * are done. Calls share nothing but what `work` itself does. */
+/** Calls `work` once for every index below `count`, on `jobs` threads, in unspecified order;
+ * returns when all calls have returned. `work` must be thread-safe. */
 void for_each_index(size_t count, int jobs, const std::function<void(size_t)>& work);
 
 /** @throws Error  if the file cannot be read. */

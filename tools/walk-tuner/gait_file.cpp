@@ -2,24 +2,54 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <sstream>
+
 #include "common/error.h"
 
-namespace nao {
+namespace nao::tool {
+namespace {
+
+constexpr const char* kValue = ": {value: ";
+
+/** Name of the group that a line begins ("timing:"), or "". */
+std::string group_of(const std::string& line) {
+  const bool is_group = !line.empty() && line.front() != ' ' && line.back() == ':';
+  return is_group ? line.substr(0, line.size() - 1) : "";
+}
+
+/** Key of a line "  KEY: {value: ...", or "". */
+std::string key_of(const std::string& line) {
+  const size_t end = line.find(kValue);
+  const bool is_key = end != std::string::npos && line.compare(0, 2, "  ") == 0 && line[2] != '#';
+  return is_key ? line.substr(2, end - 2) : "";
+}
+
+}  // namespace
 
 std::string with_gait_values(const std::string& text, const motion::Gait& gait,
                              const std::vector<motion::Gait::Parameter>& parameters) {
-  std::string result = "\n" + text;
-  for (const motion::Gait::Parameter& parameter : parameters) {
-    const std::string head = fmt::format("\n{}: {{value: ", parameter.key);
-    const size_t at = result.find(head);
-    const size_t end = at == std::string::npos ? at : result.find(',', at + head.size());
-    if (end == std::string::npos) {
-      throw Error(fmt::format("no line \"{}: {{value: ...\" in the gait file", parameter.key));
+  std::vector<motion::Gait::Parameter> left = parameters;
+  std::string result;
+  std::string group;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!group_of(line).empty()) group = group_of(line);
+    const std::string name = group + "." + key_of(line);
+    for (size_t i = 0; i < left.size(); ++i) {
+      if (left[i].name != name) continue;
+      const size_t start = line.find(kValue) + std::string(kValue).size();
+      line.replace(start, line.find(',', start) - start,
+                   fmt::format("{:.4g}", left[i].value(gait)));
+      left.erase(left.begin() + static_cast<long>(i));
+      break;
     }
-    result.replace(at + head.size(), end - at - head.size(),
-                   fmt::format("{:.4g}", gait.*parameter.member));
+    result += line + "\n";
   }
-  return result.substr(1);
+  if (!left.empty()) {
+    throw Error(
+        fmt::format("the gait file has no line \"  KEY: {{value: ...\" for {}", left.front().name));
+  }
+  return result;
 }
 
-}  // namespace nao
+}  // namespace nao::tool

@@ -5,12 +5,13 @@
 
 #include "daemons/motion/walk/gait.h"
 
-namespace nao {
+namespace nao::tool {
 
-/** A gait file's text with other values; ranges, order and comments stay as they are.
- * @param text        Of a file that Gait::load() took. @param parameters  Those to be written.
- * @throws Error  if the text has no line of the form "key: {value: ..." for one of them. */
+/** Replaces values in the text of a gait file; ranges, order and comments stay as they are.
+ * @param text        Of a file that Gait::load() accepts, with one parameter in a line.
+ * @param parameters  Whose values are replaced by those of `gait`.
+ * @throws Error  if the text has no line "  KEY: {value: ..." in the group of one of them. */
 std::string with_gait_values(const std::string& text, const motion::Gait& gait,
                              const std::vector<motion::Gait::Parameter>& parameters);
 
-}  // namespace nao
+}  // namespace nao::tool

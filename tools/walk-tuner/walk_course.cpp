@@ -2,81 +2,86 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include "closed_loop/closed_loop.h"
 
-namespace nao {
+namespace nao::tool {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTick = 0.01;
-constexpr double kStand = 0.5;  // s before the walk
-constexpr double kSpeedUp = 2;  // s until a velocity counts
-constexpr double kWalk = 7;     // s at one velocity
-constexpr double kThumb = 15;   // s of joystick
-constexpr double kStop = 2;     // s to come to a stand
-constexpr double kPush = 0.8;   // N s
+constexpr double kTick = 0.01;            // s
+constexpr double kStandDuration = 0.5;    // s before the walk
+constexpr double kSpeedUpDuration = 2;    // s until the velocity is measured
+constexpr double kWalkDuration = 7;       // s at one velocity
+constexpr double kJoystickDuration = 15;  // s of random velocities
+constexpr double kStopDuration = 2;       // s to come to a stand
+constexpr double kPush = 0.8;             // N s
+// A walk has ended in a fall below this height of the torso, m, or above this tilt, rad.
 constexpr double kFallenHeight = 0.2;
 constexpr double kFallenTilt = 1.0;
-// A radian weighs like so many metres: about half the robot's width.
-const Vector3d kScale(1, 1, 0.15);
+// Velocity errors: 1 rad/s counts as 0.15 m/s, about half the robot's width.
+const Vector3d kVelocityScale(1, 1, 0.15);
+// Least velocity that an error is relative to, m/s.
+constexpr double kMinVelocity = 0.1;
 
-/** One walk, and the sums that it is judged by. */
-class JudgedWalk {
+/** A walk and the sums that its cost is made of. */
+class EvaluatedWalk {
  public:
-  JudgedWalk(const ClosedLoopOptions& options, uint64_t seed, double planned_time)
+  EvaluatedWalk(const ClosedLoopOptions& options, uint64_t seed, double planned_time)
       : trial_(options, seed), planned_time_(planned_time) {
-    trial_.run(kStand);
-    last_ = trial_.torso_in_world();
+    trial_.run(kStandDuration);
+    last_pose_ = trial_.torso_in_world();
   }
 
   ClosedLoop& trial() { return trial_; }
   bool has_fallen() const { return has_fallen_; }
 
-  /** Walks on for a while. @param wished  Velocity to be judged by, if any. */
-  void run(double duration, const Vector3d* wished) {
-    Vector3d way = Vector3d::Zero();
+  /** Walks for a time. @param commanded  Velocity that the mean velocity is compared with, or null:
+   * m/s, m/s, rad/s. */
+  void run(double duration, const Vector3d* commanded) {
+    Vector3d displacement = Vector3d::Zero();
     double time = 0;
     for (; time < duration && !has_fallen_; time += kTick) {
       trial_.step();
-      way += advance();
-      watch();
+      displacement += measure_displacement();
+      add_tick();
     }
     time_ += time;
-    if (wished == nullptr || has_fallen_) return;
-    const Vector3d missed = (way / time - *wished).cwiseProduct(kScale);
-    error_ += missed.norm() / std::max(0.1, wished->cwiseProduct(kScale).norm());
+    if (commanded == nullptr || has_fallen_) return;
+    const Vector3d error = (displacement / time - *commanded).cwiseProduct(kVelocityScale);
+    const double scale = std::max(kMinVelocity, commanded->cwiseProduct(kVelocityScale).norm());
+    velocity_error_ += error.norm() / scale;
   }
 
   double cost() const {
     if (has_fallen_) return 2 + 2 * std::max(0.0, 1 - time_ / planned_time_);
-    return std::min(1.0, error_) + 0.5 * std::min(1.0, std::sqrt(shake_ / num_ticks_)) +
-           0.2 * std::min(2.0, effort_ / num_ticks_);
+    return std::min(1.0, velocity_error_) +
+           0.5 * std::min(1.0, std::sqrt(squared_rate_ / num_ticks_)) +
+           0.2 * std::min(2.0, squared_load_ / num_ticks_);
   }
 
  private:
-  /** Way since the last tick, m, m, rad, in the robot's heading frame. */
-  Vector3d advance() {
-    const Eigen::Isometry3d now = trial_.torso_in_world();
-    const auto heading = [](const Eigen::Isometry3d& pose) {
-      return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
+  /** Since the last tick, m, m, rad, in the torso's heading frame. */
+  Vector3d measure_displacement() {
+    const Eigen::Isometry3d pose = trial_.torso_in_world();
+    const auto heading = [](const Eigen::Isometry3d& torso) {
+      return std::atan2(torso.linear()(1, 0), torso.linear()(0, 0));
     };
-    const Eigen::Vector2d way =
-        Eigen::Rotation2Dd(-heading(last_)) * (now.translation() - last_.translation()).head<2>();
-    const double turn = std::remainder(heading(now) - heading(last_), 2 * M_PI);
-    last_ = now;
-    return {way.x(), way.y(), turn};
+    const Eigen::Vector2d displacement = Eigen::Rotation2Dd(-heading(last_pose_)) *
+                                         (pose.translation() - last_pose_.translation()).head<2>();
+    const double turn = std::remainder(heading(pose) - heading(last_pose_), 2 * M_PI);
+    last_pose_ = pose;
+    return {displacement.x(), displacement.y(), turn};
   }
 
-  void watch() {
+  void add_tick() {
     const sim::SensorReadings& readings = trial_.world().sensors(0);
-    shake_ += readings.gyroscope.head<2>().squaredNorm();
+    squared_rate_ += readings.gyroscope.head<2>().squaredNorm();
     for (int motor = 0; motor < trial_.model().num_motors(); ++motor) {
       const double load = readings.torque[motor] / trial_.model().motor_joint(motor).max_torque;
-      effort_ += load * load;
+      squared_load_ += load * load;
     }
     ++num_ticks_;
     has_fallen_ = trial_.torso_height() < kFallenHeight || trial_.torso_tilt() > kFallenTilt;
@@ -84,12 +89,15 @@ class JudgedWalk {
 
   ClosedLoop trial_;
   double planned_time_;
-  Eigen::Isometry3d last_;
+  Eigen::Isometry3d last_pose_;
   bool has_fallen_ = false;
+  /** s. */
   double time_ = 0;
-  double error_ = 0;
-  double shake_ = 0;
-  double effort_ = 0;
+  /** Relative. */
+  double velocity_error_ = 0;
+  /** Sums over the ticks: rad^2/s^2; squared torque relative to the peak torque, all motors. */
+  double squared_rate_ = 0;
+  double squared_load_ = 0;
   int num_ticks_ = 1;
 };
 
@@ -100,60 +108,62 @@ CourseResult WalkCourse::run(const motion::Gait& gait, uint64_t seed) const {
   options.model = model_;
   options.scene = scene_;
   options.motion.gait = gait;
-  options.late_share = late_share_;
+  options.missed_tick_probability = late_probability_;
   const WalkLimits& limits = model_->walk_limits();
   CourseResult result;
   const auto next_seed = [&] { return seed * 100 + static_cast<uint64_t>(result.num_walks); };
-  const auto judge = [&](const JudgedWalk& walk) {
+  const auto add_walk = [&](const EvaluatedWalk& walk) {
     result.cost += walk.cost();
     result.num_falls += walk.has_fallen() ? 1 : 0;
     ++result.num_walks;
   };
 
+  // Constant velocities; sideways and turning to the left for even seeds.
   const double left = seed % 2 == 0 ? 1 : -1;
   const double forward = speed_ * limits.forward;
   const double sideways = left * speed_ * limits.sideways;
   const double turning = left * speed_ * limits.turning;
-  const std::vector<Vector3d> wishes = {
+  const std::vector<Vector3d> velocities = {
       {forward, 0, 0},  {0.6 * forward, 0, 0}, {-speed_ * limits.backward, 0, 0},
       {0, sideways, 0}, {0, 0, turning},       {0.6 * forward, 0.4 * sideways, -0.4 * turning}};
-  for (const Vector3d& wish : wishes) {
-    JudgedWalk walk(options, next_seed(), kSpeedUp + kWalk + kStop);
-    walk.trial().hold_walk(wish);
-    walk.run(kSpeedUp, nullptr);
-    walk.run(kWalk, &wish);
+  for (const Vector3d& velocity : velocities) {
+    EvaluatedWalk walk(options, next_seed(), kSpeedUpDuration + kWalkDuration + kStopDuration);
+    walk.trial().hold_walk(velocity);
+    walk.run(kSpeedUpDuration, nullptr);
+    walk.run(kWalkDuration, &velocity);
     walk.trial().release_walk();
-    walk.run(kStop, nullptr);
-    judge(walk);
+    walk.run(kStopDuration, nullptr);
+    add_walk(walk);
   }
+  // Random velocities, held for random times.
   for (int i = 0; i < 2; ++i) {
-    JudgedWalk walk(options, next_seed(), kThumb);
-    for (double time = 0; time < kThumb;) {
+    EvaluatedWalk walk(options, next_seed(), kJoystickDuration);
+    for (double time = 0; time < kJoystickDuration;) {
       ClosedLoop& trial = walk.trial();
       const double x = trial.random(-1, 1);
-      const Vector3d wish(x * (x > 0 ? limits.forward : limits.backward),
-                          trial.random(-1, 1) * limits.sideways,
-                          trial.random(-1, 1) * limits.turning);
-      trial.hold_walk(speed_ * wish);
+      const Vector3d velocity(x * (x > 0 ? limits.forward : limits.backward),
+                              trial.random(-1, 1) * limits.sideways,
+                              trial.random(-1, 1) * limits.turning);
+      trial.hold_walk(speed_ * velocity);
       const double duration = trial.random(0.3, 2.5);
       walk.run(duration, nullptr);
       time += duration;
     }
-    judge(walk);
+    add_walk(walk);
   }
+  // A push in a random direction at a random phase of the step.
   for (int i = 0; i < 2; ++i) {
-    JudgedWalk walk(options, next_seed(), kSpeedUp + kWalk);
+    EvaluatedWalk walk(options, next_seed(), kSpeedUpDuration + kWalkDuration);
     ClosedLoop& trial = walk.trial();
-    const Vector3d wish(0.5 * forward, 0, 0);
-    trial.hold_walk(wish);
+    trial.hold_walk({0.5 * forward, 0, 0});
     walk.run(trial.random(3, 4), nullptr);
     const double direction = trial.random(-M_PI, M_PI);
     trial.world().push(0, 0, kPush * Vector3d(std::cos(direction), std::sin(direction), 0));
-    walk.run(kWalk / 2, nullptr);
-    judge(walk);
+    walk.run(kWalkDuration / 2, nullptr);
+    add_walk(walk);
   }
   result.cost /= result.num_walks;
   return result;
 }
 
-}  // namespace nao
+}  // namespace nao::tool

@@ -7,41 +7,44 @@
 #include "robot_model/robot_model.h"
 #include "robot_model/scene_file.h"
 
-namespace nao {
+namespace nao::tool {
 
-/** How a gait did on one course. */
+/** Result of a gait on one course. */
 struct CourseResult {
-  /** Mean over the walks; smaller is better, above 2 for a walk with a fall. */
+  /** Mean cost of the walks, >= 0; above 2 for a walk with a fall. */
   double cost = 0;
   int num_walks = 0;
   int num_falls = 0;
 };
 
-/** The walks that a gait is judged by: ahead, ahead a bit slower, back, sideways, turning, a curve,
- * a thumb on the joystick (twice), a push (twice); each with a physics, noise and latency of its
- * own.
+/** Simulated walks that a gait is evaluated by: forward, forward at 60 %, backward, sideways,
+ * turning, a curve, random velocities as from a joystick (twice), a push (twice). Each has its own
+ * friction, mass, noise and latency.
  *
- * Cost of a walk: 2 to 4 with a fall, the more the sooner; else how much velocity was missed (up to
- * 1), how much the torso shook and how hard the motors worked. */
+ * Cost of a walk with a fall: 2 to 4, more for an earlier fall. Else the sum of
+ *   relative velocity error, up to 1;
+ *   RMS of the torso's roll and pitch rate, 0.5 s/rad, up to 0.5;
+ *   sum over the motors of the mean squared torque relative to the peak torque, times 0.2, up to
+ *   0.4. */
 class WalkCourse {
  public:
-  /** @param speed       Share of the model's walk limits that is asked for.
-   * @param late_share  Chance in each tick that motion misses it and some more. */
+  /** @param speed             Fraction of the model's walk limits that is commanded.
+   * @param late_probability  That the motion core misses a tick and up to three more. */
   WalkCourse(std::shared_ptr<const RobotModel> model, SceneFile scene, double speed,
-             double late_share)
+             double late_probability)
       : model_(std::move(model)),
         scene_(std::move(scene)),
         speed_(speed),
-        late_share_(late_share) {}
+        late_probability_(late_probability) {}
 
-  /** @param seed  Of everything drawn by chance. The same seed gives the same course. */
+  /** @param seed  Of all random numbers; equal seeds give equal courses. */
   CourseResult run(const motion::Gait& gait, uint64_t seed) const;
 
  private:
   std::shared_ptr<const RobotModel> model_;
   SceneFile scene_;
   double speed_;
-  double late_share_;
+  double late_probability_;
 };
 
-}  // namespace nao
+}  // namespace nao::tool

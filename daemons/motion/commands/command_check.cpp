@@ -2,60 +2,78 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+
+#include "messages/named_joints.h"
 
 namespace nao::motion {
 namespace {
 
-using Fault = std::optional<std::string>;
+using Fault = std::optional<Reason>;
 
+// Characters. Chosen: a host name and a program name fit in.
 constexpr size_t kMaxSourceLength = 64;
+
+/** Names joined by commas. */
+template <class Items, class NameOf>
+std::string list_names(const Items& items, NameOf name_of) {
+  std::string list;
+  for (const auto& item : items) list += (list.empty() ? "" : ", ") + name_of(item);
+  return list;
+}
 
 Fault find_speed_fault(double speed) {
   if (speed > 0 && speed <= 1) return std::nullopt;
-  return "The speed must be a fraction of the maximum, above 0 up to 1.";
+  return Reason("speed-out-of-range", {to_argument(speed)});
 }
 
 Fault find_fault_in(const RobotModel& /*model*/, const WalkCommand& walk) {
   if (std::isfinite(walk.vx) && std::isfinite(walk.vy) && std::isfinite(walk.wz)) {
     return std::nullopt;
   }
-  return "The velocity has something in it that is not a number.";
+  return Reason("velocity-not-finite");
 }
 
 Fault find_fault_in(const RobotModel& /*model*/, const MoveToCommand& move_to) {
   if (std::isfinite(move_to.x) && std::isfinite(move_to.y) && std::isfinite(move_to.theta)) {
     return std::nullopt;
   }
-  return "The goal has something in it that is not a number.";
+  return Reason("goal-not-finite");
 }
 
 Fault find_fault_in(const RobotModel& model, const PostureCommand& posture) {
   if (model.find_posture(posture.posture) == nullptr) {
-    std::string known;
-    for (const Posture& other : model.postures()) known += (known.empty() ? "" : ", ") + other.name;
-    return "There is no posture " + quoted(posture.posture) + "; there are " + known + ".";
+    return Reason("posture-unknown",
+                  {quoted(posture.posture),
+                   list_names(model.postures(), [](const Posture& known) { return known.name; })});
   }
   return find_speed_fault(posture.speed);
 }
 
 Fault find_fault_in(const RobotModel& model, const JointChangeCommand& change) {
-  if (change.joint_names.size() != change.joint_position.size()) {
-    return "There are " + std::to_string(change.joint_names.size()) + " joint names but " +
-           std::to_string(change.joint_position.size()) + " angles.";
+  if (change.joint_names.empty()) return Reason("joints-missing");
+  for (const std::string& name : change.joint_names) {
+    // A mimic joint is no unknown joint: RHipYawPitch follows the motor of LHipYawPitch.
+    if (model.find_motor(name) < 0 && model.find_joint(name) >= 0) {
+      return Reason("joint-without-motor", {name});
+    }
   }
-  if (change.joint_names.empty()) return "No joint is named.";
-  std::set<std::string> seen;
-  for (size_t i = 0; i < change.joint_names.size(); ++i) {
-    const std::string& name = change.joint_names[i];
-    if (model.find_motor(name) < 0) {
-      return model.find_joint(name) >= 0 ? "The joint " + quoted(name) + " has no motor of its own."
-                                         : "The robot has no joint " + quoted(name) + ".";
-    }
-    if (!seen.insert(name).second) return "The joint " + name + " is named twice.";
-    if (!std::isfinite(change.joint_position[i])) {
-      return "The angle for " + name + " is not a number.";
-    }
+  // Only the faults are of interest here; the values stay in the command.
+  std::vector<double> position;
+  std::vector<double> stiffness;
+  const std::vector<double> keep_stiffness(change.joint_names.size(), std::nan(""));
+  const auto& joint_stiffness =
+      change.joint_stiffness.empty() ? keep_stiffness : change.joint_stiffness;
+  if (auto fault = read_named_joints(
+          model.motor_names(), change.joint_names,
+          {{.quantity = "position", .values = change.joint_position, .result = position},
+           {.quantity = "stiffness",
+            .values = joint_stiffness,
+            .result = stiffness,
+            .lower = 0,
+            .upper = 1,
+            .allows_nan = true}},
+          JointCoverage::kSubset)) {
+    return fault;
   }
   return find_speed_fault(change.speed);
 }
@@ -63,15 +81,13 @@ Fault find_fault_in(const RobotModel& model, const JointChangeCommand& change) {
 Fault find_fault_in(const RobotModel& model, const ActionCommand& action) {
   const auto& actions = model.actions();
   if (std::find(actions.begin(), actions.end(), action.action) == actions.end()) {
-    std::string known;
-    for (const std::string& other : actions) known += (known.empty() ? "" : ", ") + other;
-    return "There is no action " + quoted(action.action) + "; there are " + known + ".";
+    return Reason("action-unknown",
+                  {quoted(action.action),
+                   list_names(actions, [](const std::string& known) { return known; })});
   }
-  if (std::isinf(action.ball_x) || std::isinf(action.ball_y)) {
-    return "The ball's place is not a number.";
-  }
+  if (std::isinf(action.ball_x) || std::isinf(action.ball_y)) return Reason("ball-not-finite");
   if (!std::isnan(action.strength) && !(action.strength > 0 && action.strength <= 1)) {
-    return "The strength must be above 0 up to 1.";
+    return Reason("strength-out-of-range", {to_argument(action.strength)});
   }
   return std::nullopt;
 }
@@ -82,17 +98,18 @@ Fault find_fault_in(const RobotModel& /*model*/, const StopCommand& /*stop*/) {
 
 }  // namespace
 
-std::optional<std::string> find_fault(const RobotModel& model, const Command& command) {
+std::optional<Reason> find_fault(const RobotModel& model, const Command& command) {
   return std::visit([&](const auto& request) { return find_fault_in(model, request); },
                     command.request);
 }
 
-std::optional<std::string> find_sender_fault(const Command& command) {
-  if (command.source.empty()) return "The command does not say who sends it.";
+std::optional<Reason> find_sender_fault(const Command& command) {
+  if (command.source.empty()) return Reason("source-missing");
   if (command.source.size() > kMaxSourceLength) {
-    return "The sender's name is longer than " + std::to_string(kMaxSourceLength) + " characters.";
+    return Reason("source-too-long",
+                  {std::to_string(command.source.size()), std::to_string(kMaxSourceLength)});
   }
-  if (command.id == 0) return "The command has the number 0, which means none.";
+  if (command.id == 0) return Reason("command-id-zero");
   return std::nullopt;
 }
 

@@ -1,19 +1,20 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "messages/command.h"
+#include "messages/reason.h"
 #include "robot_model/robot_model.h"
 
 namespace nao::motion {
 
-/** Looks whether a command makes sense for this robot, whatever the robot is doing.
- * @return What is wrong with it, as a sentence for a person; nothing if it is well formed. */
-std::optional<std::string> find_fault(const RobotModel& model, const Command& command);
+/** Checks the values of a command against the robot's description, independent of the robot's
+ * state.
+ * @return What is wrong; nothing if the command is well formed. */
+std::optional<Reason> find_fault(const RobotModel& model, const Command& command);
 
-/** @return What is wrong with a command's sender and number, which a result could not even be
- * remembered for; nothing if they are good. */
-std::optional<std::string> find_sender_fault(const Command& command);
+/** Checks source and number of a command. With a fault in them no result can be remembered.
+ * @return What is wrong; nothing if they are well formed. */
+std::optional<Reason> find_sender_fault(const Command& command);
 
 }  // namespace nao::motion

@@ -12,11 +12,11 @@ void CommandLedger::note(const CommandResult& result) {
   const bool is_new = results_.insert_or_assign(key, result).second;
   if (!is_new) return;
   order_.push_back(key);
-  if (order_.size() > capacity_) forget_oldest();
+  if (order_.size() > capacity_) drop_oldest();
 }
 
-void CommandLedger::forget_oldest() {
-  // The few commands still running go to the back of the row: their end is still to come.
+void CommandLedger::drop_oldest() {
+  // The few commands that still run move to the end of the queue: their final result is to come.
   for (size_t i = 0; i < order_.size(); ++i) {
     const Key key = order_.front();
     order_.pop_front();

@@ -10,17 +10,18 @@
 
 namespace nao::motion {
 
-/** Remembers what became of commands, so that a repeated one is answered again and acted on once.
+/** Latest result of each command, so that a repeated command is answered again and executed once.
  *
- * Its memory is bounded: of more than `capacity` commands it forgets the oldest that have ended. */
+ * Bounded: of more than `capacity` commands the oldest that has ended is dropped. */
 class CommandLedger {
  public:
+  /** @param capacity  Chosen: an hour of one command a second. */
   explicit CommandLedger(size_t capacity = 4096) : capacity_(capacity) {}
 
-  /** @return The latest result of this command; nullptr if it is new. */
+  /** @return The latest result of a command; nullptr if it is new. */
   const CommandResult* find(const std::string& source, int64_t id) const;
 
-  /** Notes a result; it replaces the command's earlier one. */
+  /** Adds a result; it replaces the command's earlier one. */
   void note(const CommandResult& result);
 
   size_t size() const { return results_.size(); }
@@ -28,10 +29,11 @@ class CommandLedger {
  private:
   using Key = std::pair<std::string, int64_t>;
 
-  void forget_oldest();
+  void drop_oldest();
 
   size_t capacity_;
   std::map<Key, CommandResult> results_;
+  /** Oldest first. */
   std::deque<Key> order_;
 };
 

@@ -9,44 +9,46 @@
 
 namespace nao::motion {
 
-/** Tells the ends of commands again, at kDelays after the first time: a bus may lose a message, and
- * a sender that was told "accepted" asks no more. */
+/** Repeats final results at kDelays after they were published first: the bus may lose a message,
+ * and a sender whose command was accepted does not ask again. */
 class ResultReminder {
  public:
-  /** s. Far enough apart not to be lost together. */
+  /** s. Chosen: far enough apart not to be lost together. */
   static constexpr std::array kDelays = {0.1, 0.5};
-  /** Of more ends than this in half a second the oldest are told no more. */
-  static constexpr size_t kMostResults = 256;
+  /** Results that are waiting to be repeated; of more, the oldest are not repeated. Chosen: as many
+   * as the commands of one control step (MotionDaemon). */
+  static constexpr size_t kMaxResults = 256;
 
-  /** A result is being published. What a sender gets by asking again is left out: accepted and
-   * refused. */
+  /** A result is being published. Accepted and refused results are not repeated: the sender repeats
+   * its command until it gets one. */
   void note(const CommandResult& result) {
     if (result.status == ResultStatus::kAccepted || result.status == ResultStatus::kRefused) return;
-    told_.push_back({result});
-    if (told_.size() > kMostResults) told_.pop_front();
+    entries_.push_back({result});
+    if (entries_.size() > kMaxResults) entries_.pop_front();
   }
 
-  /** @param dt  s since the last call. @return What to publish again now. */
+  /** @param dt  s since the last call. @return Results to publish again now. */
   std::vector<CommandResult> due(double dt) {
     std::vector<CommandResult> results;
-    for (Told& told : told_) {
-      told.age += dt;
-      if (told.age < kDelays[told.num_reminders]) continue;
-      ++told.num_reminders;
-      results.push_back(told.result);
+    for (Entry& entry : entries_) {
+      entry.age += dt;
+      if (entry.age < kDelays[entry.num_repetitions]) continue;
+      ++entry.num_repetitions;
+      results.push_back(entry.result);
     }
-    std::erase_if(told_, [](const Told& told) { return told.num_reminders == kDelays.size(); });
+    std::erase_if(entries_,
+                  [](const Entry& entry) { return entry.num_repetitions == kDelays.size(); });
     return results;
   }
 
  private:
-  struct Told {
+  struct Entry {
     CommandResult result;
-    /** s. */
+    /** s since it was published first. */
     double age = 0;
-    size_t num_reminders = 0;
+    size_t num_repetitions = 0;
   };
-  std::deque<Told> told_;
+  std::deque<Entry> entries_;
 };
 
 }  // namespace nao::motion

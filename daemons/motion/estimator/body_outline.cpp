@@ -6,48 +6,50 @@
 namespace nao::motion {
 
 BodyOutline::BodyOutline(const RobotModel& model) {
-  const auto link_of_sole = [&](int sole) {
+  add_sole(model.left_sole(), model.left_sole_outline());
+  add_sole(model.right_sole(), model.right_sole_outline());
+  const auto foot_of = [&](int sole) {
     return model.joints()[model.links()[sole].parent_joint].parent_link;
   };
-  const int left_foot = link_of_sole(model.left_sole());
-  const int right_foot = link_of_sole(model.right_sole());
-  for (int sole : {model.left_sole(), model.right_sole()}) {
-    const auto& outline =
-        sole == model.left_sole() ? model.left_sole_outline() : model.right_sole_outline();
-    for (const Eigen::Vector2d& corner : outline) {
-      points_.push_back({sole, {corner.x(), corner.y(), 0}, 0});
-    }
-  }
+  const int left_foot = foot_of(model.left_sole());
+  const int right_foot = foot_of(model.right_sole());
   for (int link = 0; link < static_cast<int>(model.links().size()); ++link) {
-    for (const Shape& shape : model.links()[link].collisions) {
-      const auto add = [&](double x, double y, double z, double radius) {
-        points_.push_back({link, shape.pose_in_link * Eigen::Vector3d(x, y, z), radius});
-      };
-      switch (shape.kind) {
-        case Shape::Kind::kSphere:
-          add(0, 0, 0, shape.radius);
-          break;
-        case Shape::Kind::kCapsule:
-          add(0, 0, shape.length / 2, shape.radius);
-          add(0, 0, -shape.length / 2, shape.radius);
-          break;
-        case Shape::Kind::kBox: {
-          // Of a foot only the upper corners: the sole's outline, which is rounder, is below.
-          const bool is_foot = link == left_foot || link == right_foot;
-          const Eigen::Vector3d half = shape.size / 2;
-          for (double x : {-half.x(), half.x()}) {
-            for (double y : {-half.y(), half.y()}) {
-              if (!is_foot) add(x, y, -half.z(), 0);
-              add(x, y, half.z(), 0);
-            }
-          }
-          break;
+    const bool is_foot = link == left_foot || link == right_foot;
+    for (const Shape& shape : model.links()[link].collisions) add_shape(link, shape, is_foot);
+  }
+}
+
+void BodyOutline::add_sole(int link, const std::vector<Eigen::Vector2d>& outline) {
+  for (const Eigen::Vector2d& corner : outline) {
+    points_.push_back({link, {corner.x(), corner.y(), 0}, 0});
+  }
+}
+
+void BodyOutline::add_shape(int link, const Shape& shape, bool is_foot) {
+  const auto add = [&](double x, double y, double z, double radius) {
+    points_.push_back({link, shape.pose_in_link * Eigen::Vector3d(x, y, z), radius});
+  };
+  switch (shape.kind) {
+    case Shape::Kind::kSphere:
+      add(0, 0, 0, shape.radius);
+      break;
+    case Shape::Kind::kCapsule:
+      add(0, 0, shape.length / 2, shape.radius);
+      add(0, 0, -shape.length / 2, shape.radius);
+      break;
+    case Shape::Kind::kBox: {
+      const Eigen::Vector3d half = shape.size / 2;
+      for (double x : {-half.x(), half.x()}) {
+        for (double y : {-half.y(), half.y()}) {
+          if (!is_foot) add(x, y, -half.z(), 0);
+          add(x, y, half.z(), 0);
         }
-        case Shape::Kind::kCylinder:
-        case Shape::Kind::kMesh:
-          break;
       }
+      break;
     }
+    case Shape::Kind::kCylinder:
+    case Shape::Kind::kMesh:
+      break;  // No robot's collision shapes: SelfCollisionGuard rejects them.
   }
 }
 

@@ -4,37 +4,53 @@
 
 namespace nao::motion {
 
-/** Orientation of the torso from gyroscope and accelerometer: a complementary filter that
- * integrates the gyroscope and turns slowly to where the accelerometer sees up.
+/** Estimates the orientation of the torso from gyroscope and accelerometer: an explicit
+ * complementary filter with bias estimation.
  *
- * Source: Mahony, Hamel, Pflimlin, "Nonlinear complementary filters on the special orthogonal
- * group", IEEE TAC 53(5), 2008, the explicit filter with bias (eq. 48). Heading is the integrated
- * gyroscope alone, less its bias, which the filter learns about the level axes always and about the
- * vertical one while the robot rests. */
+ * With the rotation R from the torso frame T to a frame O with z up, the measured angular velocity
+ * w_m = w + b + noise with the bias b, and the measured specific force a, both in T:
+ *
+ *     v_hat = R^T e_z                          estimated direction of up in T
+ *     e     = (a / |a|) x v_hat                error: rotates the estimate towards the measurement
+ *     dR/dt = R [w_m - b + k_P q(|a|) e]_x     integration with proportional correction
+ *     db/dt = -k_I q(|a|) e                    integral correction
+ *
+ * The weight q falls from 1 at |a| = g to 0 at |a| = g +- 3 m/s^2, since an accelerated torso does
+ * not measure gravity alone. Gravity does not determine the heading, so the heading is the integral
+ * of the gyroscope; the bias about the vertical axis is learnt while the robot rests, when w = 0.
+ *
+ * Source: R. Mahony, T. Hamel, J.-M. Pflimlin, "Nonlinear complementary filters on the special
+ * orthogonal group", IEEE Trans. Automatic Control 53(5), 2008, eq. 48. */
 class OrientationFilter {
  public:
-  /** Starts at the next update(), with heading 0: upright as the accelerometer sees it or, if that
-   * shows more than gravity, as this estimate of somebody else's has it. */
+  /** Restarts at the next update(), with heading 0.
+   * @param orientation  Initial estimate from another source; used if the accelerometer then
+   * measures more than gravity. The bias is kept. */
   void reset(const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity()) {
     orientation_ = orientation;
     is_started_ = false;
   }
 
-  /** Takes in one measurement.
-   * @param gyroscope      rad/s, torso frame. @param accelerometer  m/s^2, torso frame.
-   * @param is_at_rest     True while nothing moves: what the gyroscope says then is its bias.
+  /** Adds one measurement.
+   * @param gyroscope      Angular velocity, rad/s, T.
+   * @param accelerometer  Specific force, m/s^2, T: (0, 0, +g) upright at rest.
+   * @param is_at_rest     True while nothing moves: the gyroscope then measures its bias.
    * @param dt             s since the last measurement. */
   void update(const Eigen::Vector3d& gyroscope, const Eigen::Vector3d& accelerometer,
               bool is_at_rest, double dt);
 
-  /** Re-expresses in a frame with z up a vector given in the torso frame. */
+  /** Re-expresses a vector given in T in O. */
   const Eigen::Quaterniond& orientation() const { return orientation_; }
-  /** Angular velocity less the bias, rad/s, torso frame. */
+  /** Angular velocity without the bias, rad/s, T. */
   const Eigen::Vector3d& angular_velocity() const { return angular_velocity_; }
-  /** rad/s. */
+  /** Estimated bias of the gyroscope, rad/s, T. */
   const Eigen::Vector3d& bias() const { return bias_; }
 
  private:
+  void start(const Eigen::Vector3d& gyroscope, const Eigen::Vector3d& accelerometer);
+  /** Replaces an estimate that contradicts gravity at rest. */
+  void recover(const Eigen::Vector3d& accelerometer);
+
   bool is_started_ = false;
   Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();
   Eigen::Vector3d angular_velocity_ = Eigen::Vector3d::Zero();

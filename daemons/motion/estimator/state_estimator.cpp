@@ -2,35 +2,63 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "kinematics/support_polygon.h"
 
 namespace nao::motion {
 namespace {
 
-// A foot that has come off must press a bit harder to count again, so that it does not flicker.
+// Factor by which the force on a foot must exceed the contact threshold to make contact after none.
+// Chosen: above the noise of the force sensors, so that the contact does not flicker.
 constexpr double kContactHysteresis = 1.5;
-// The other foot takes over as the one that stands still when it carries this much more, N.
-constexpr double kSwitchForce = 5.0;
-// At rest nothing turns faster than this, rad/s: above the gyroscope's noise and bias, and well
-// below any motion.
+// Difference of load at which the other foot becomes the support foot, N. Chosen: a tenth of
+// NAO's weight, so that the support foot does not alternate in double support.
+constexpr double kSupportSwitchForce = 5.0;
+// Velocities below which the robot rests, rad/s. Chosen: above the noise and bias of the gyroscope
+// and of differentiated encoders, below any motion.
 constexpr double kRestAngularVelocity = 0.06;
 constexpr double kRestJointVelocity = 0.15;
-constexpr double kSettlingTime = 0.3;  // s of rest before the gyroscope's bias is learnt
-// Time constant of the velocities, s: three ticks, since differences of 0.1 degree encoder steps
-// over 10 ms are noisy.
+// Rest after which the gyroscope's bias is learnt, s. Chosen: longer than a turning point of a
+// sway.
+constexpr double kSettlingTime = 0.3;
+// Time constant of the velocity filter, s. Chosen: three periods of 10 ms, since differences of 0.1
+// degree encoder steps over one period are noisy.
 constexpr double kVelocityTimeConstant = 0.03;
+
+/** Whether a link is fixed to, or moved by, the same foot as a sole: one of its ancestors is the
+ * parent of the sole's frame. */
+bool is_on_foot_of(const RobotModel& model, int link, int sole) {
+  const int foot = model.joints()[model.links()[sole].parent_joint].parent_link;
+  while (link != foot) {
+    const int joint = model.links()[link].parent_joint;
+    if (joint < 0) return false;
+    link = model.joints()[joint].parent_link;
+  }
+  return true;
+}
 
 }  // namespace
 
 StateEstimator::StateEstimator(const RobotModel& model, double contact_force)
-    : model_(&model), contact_force_(contact_force), kinematics_(model), outline_(model) {}
+    : model_(&model), contact_force_(contact_force), kinematics_(model), outline_(model) {
+  bool has_right = false;
+  bool has_left = false;
+  for (int link : model.foot_sensors()) {
+    is_left_sensor_.push_back(is_on_foot_of(model, link, model.left_sole()));
+    (is_left_sensor_.back() ? has_left : has_right) = true;
+  }
+  state_.has_foot_force_sensors = has_left && has_right;
+}
 
 void StateEstimator::reset() {
+  const bool has_foot_force_sensors = state_.has_foot_force_sensors;
   is_started_ = false;
   rest_time_ = 0;
   torso_velocity_in_odometry_.setZero();
   state_ = RobotState();
+  state_.has_foot_force_sensors = has_foot_force_sensors;
 }
 
 void StateEstimator::update(const Sensors& sensors, double dt) {
@@ -39,20 +67,17 @@ void StateEstimator::update(const Sensors& sensors, double dt) {
   state_.joint_position = sensors.position;
   state_.joint_velocity = sensors.velocity;
   kinematics_.update(sensors.position);
-  watch_rest(sensors, dt);
-  if (!is_started_) orientation_.reset(sensors.orientation_torso_in_world);
-  orientation_.update(sensors.gyroscope_torso, sensors.accelerometer_torso,
-                      rest_time_ > kSettlingTime, dt);
-  state_.torso_in_odometry.linear() = orientation_.orientation().toRotationMatrix();
-  state_.angular_velocity_torso = orientation_.angular_velocity();
-  weigh_feet(sensors);
-  stand_on_foot();
-  measure_velocity(dt);
+  detect_rest(sensors, dt);
+  estimate_orientation(sensors, dt);
+  measure_foot_forces(sensors);
+  update_support_foot();
+  estimate_position();
+  estimate_velocity(dt);
   find_support(sensors);
   is_started_ = true;
 }
 
-void StateEstimator::watch_rest(const Sensors& sensors, double dt) {
+void StateEstimator::detect_rest(const Sensors& sensors, double dt) {
   bool is_at_rest =
       (sensors.gyroscope_torso - orientation_.bias()).cwiseAbs().maxCoeff() < kRestAngularVelocity;
   for (double velocity : sensors.velocity) {
@@ -62,13 +87,22 @@ void StateEstimator::watch_rest(const Sensors& sensors, double dt) {
   state_.rest_time = rest_time_;
 }
 
-void StateEstimator::weigh_feet(const Sensors& sensors) {
-  const size_t num_left = sensors.foot_force.size() / 2;
+void StateEstimator::estimate_orientation(const Sensors& sensors, double dt) {
+  if (!is_started_) orientation_.reset(sensors.orientation_torso_in_world);
+  orientation_.update(sensors.gyroscope_torso, sensors.accelerometer_torso,
+                      rest_time_ > kSettlingTime, dt);
+  state_.torso_in_odometry.linear() = orientation_.orientation().toRotationMatrix();
+  state_.angular_velocity_torso = orientation_.angular_velocity();
+}
+
+void StateEstimator::measure_foot_forces(const Sensors& sensors) {
   state_.left_foot_force = 0;
   state_.right_foot_force = 0;
   for (size_t i = 0; i < sensors.foot_force.size(); ++i) {
-    (i < num_left ? state_.left_foot_force : state_.right_foot_force) += sensors.foot_force[i];
+    (is_left_sensor_[i] ? state_.left_foot_force : state_.right_foot_force) +=
+        sensors.foot_force[i];
   }
+  if (!state_.has_foot_force_sensors) return;
   const auto carries = [&](bool carried, double force) {
     return force > (carried ? contact_force_ : contact_force_ * kContactHysteresis);
   };
@@ -76,23 +110,26 @@ void StateEstimator::weigh_feet(const Sensors& sensors) {
   state_.right_foot_carries = carries(state_.right_foot_carries, state_.right_foot_force);
 }
 
-void StateEstimator::stand_on_foot() {
+void StateEstimator::update_support_foot() {
   const Eigen::Matrix3d& R_OT = state_.torso_in_odometry.linear();
   if (!is_started_) {
-    stands_on_left_ = state_.left_foot_force >= state_.right_foot_force;
-    standing_sole_in_odometry_ = (R_OT * sole(stands_on_left_).translation()).head<2>();
+    is_left_support_ = state_.left_foot_force >= state_.right_foot_force;
+    support_sole_in_odometry_ = (R_OT * sole(is_left_support_).translation()).head<2>();
   }
   const double more_on_left = state_.left_foot_force - state_.right_foot_force;
-  const bool other_stands =
-      stands_on_left_ ? more_on_left < -kSwitchForce : more_on_left > kSwitchForce;
-  if (other_stands) {
-    const Eigen::Vector3d step =
-        R_OT * (sole(!stands_on_left_).translation() - sole(stands_on_left_).translation());
-    standing_sole_in_odometry_ += step.head<2>();
-    stands_on_left_ = !stands_on_left_;
-  }
-  Eigen::Vector3d position = -(R_OT * sole(stands_on_left_).translation());
-  position.head<2>() += standing_sole_in_odometry_;
+  const bool is_other_support =
+      is_left_support_ ? more_on_left < -kSupportSwitchForce : more_on_left > kSupportSwitchForce;
+  if (!is_other_support) return;
+  const Eigen::Vector3d step =
+      R_OT * (sole(!is_left_support_).translation() - sole(is_left_support_).translation());
+  support_sole_in_odometry_ += step.head<2>();
+  is_left_support_ = !is_left_support_;
+}
+
+void StateEstimator::estimate_position() {
+  const Eigen::Matrix3d& R_OT = state_.torso_in_odometry.linear();
+  Eigen::Vector3d position = -(R_OT * sole(is_left_support_).translation());
+  position.head<2>() += support_sole_in_odometry_;
   position.z() = -outline_.calc_lowest(kinematics_, R_OT);
   state_.torso_in_odometry.translation() = position;
   state_.center_of_mass_in_odometry = state_.torso_in_odometry * kinematics_.center_of_mass();
@@ -100,18 +137,18 @@ void StateEstimator::stand_on_foot() {
   state_.right_sole_in_odometry = state_.torso_in_odometry * kinematics_.right_sole();
 }
 
-void StateEstimator::measure_velocity(double dt) {
+void StateEstimator::estimate_velocity(double dt) {
   const Eigen::Vector3d position = state_.torso_in_odometry.translation();
   if (!is_started_) {
     torso_velocity_in_odometry_.setZero();
     state_.center_of_mass_velocity_in_odometry.setZero();
   } else if (dt > 0) {
-    const double share = std::min(1.0, dt / kVelocityTimeConstant);
+    const double weight = std::min(1.0, dt / kVelocityTimeConstant);
     torso_velocity_in_odometry_ +=
-        share * ((position - last_torso_position_) / dt - torso_velocity_in_odometry_);
+        weight * ((position - last_torso_position_) / dt - torso_velocity_in_odometry_);
     state_.center_of_mass_velocity_in_odometry +=
-        share * ((state_.center_of_mass_in_odometry - last_center_of_mass_) / dt -
-                 state_.center_of_mass_velocity_in_odometry);
+        weight * ((state_.center_of_mass_in_odometry - last_center_of_mass_) / dt -
+                  state_.center_of_mass_velocity_in_odometry);
   }
   last_torso_position_ = position;
   last_center_of_mass_ = state_.center_of_mass_in_odometry;

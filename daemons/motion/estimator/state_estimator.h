@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "daemons/motion/estimator/body_outline.h"
 #include "daemons/motion/estimator/orientation_filter.h"
 #include "daemons/motion/robot_state.h"
@@ -9,18 +11,30 @@
 
 namespace nao::motion {
 
-/** Estimates the robot's state from its sensors: orientation from the inertial unit, feet's load
- * from their force sensors, position by standing on one foot after the other (odometry). The model
- * must outlive it. */
+/** Estimates the robot's state from its sensors. T is the torso frame, O the odometry frame.
+ *
+ * - Orientation R_OT: OrientationFilter.
+ * - Contact: a foot carries weight when the sum of its force sensors exceeds a threshold (with
+ *   hysteresis). The sensors are assigned to the feet by the links that carry them; a foot may have
+ *   any number of them.
+ * - Position: leg odometry. The foot with more load is the support foot and does not move: with its
+ *   sole origin p_TS from forward kinematics and p_OS constant,
+ *       p_OT = p_OS - R_OT p_TS        (x and y),
+ *   and the height is such that the lowest point of the body touches the ground (z = 0). When the
+ *   other foot takes over, p_OS advances by R_OT (p_TS' - p_TS).
+ * - Velocities: finite differences through a first-order low-pass filter.
+ * - Center of pressure: p = sum_i f_i p_i / sum_i f_i over all force sensors.
+ * - Support polygon: convex hull of the outlines of the soles that carry weight; the balance margin
+ *   is the distance of the center of mass's ground projection to its edge. */
 class StateEstimator {
  public:
-  /** @param contact_force  Least force on a foot that carries weight, N. */
+  /** @param model  Must outlive this. @param contact_force  Least force on a foot in contact, N. */
   StateEstimator(const RobotModel& model, double contact_force);
 
-  /** Forgets everything: the next update() starts with the odometry frame below the torso. */
+  /** Restarts: the next update() places the odometry frame below the torso. */
   void reset();
 
-  /** Takes in one tick's measurements. @param dt  s since the last ones. */
+  /** Adds the measurements of one control step. @param dt  s since the last ones. */
   void update(const Sensors& sensors, double dt);
 
   /** As of the last update(). */
@@ -29,10 +43,12 @@ class StateEstimator {
   const Kinematics& kinematics() const { return kinematics_; }
 
  private:
-  void weigh_feet(const Sensors& sensors);
-  void watch_rest(const Sensors& sensors, double dt);
-  void stand_on_foot();
-  void measure_velocity(double dt);
+  void detect_rest(const Sensors& sensors, double dt);
+  void estimate_orientation(const Sensors& sensors, double dt);
+  void measure_foot_forces(const Sensors& sensors);
+  void update_support_foot();
+  void estimate_position();
+  void estimate_velocity(double dt);
   void find_support(const Sensors& sensors);
   const Eigen::Isometry3d& sole(bool is_left) const {
     return is_left ? kinematics_.left_sole() : kinematics_.right_sole();
@@ -40,6 +56,8 @@ class StateEstimator {
 
   const RobotModel* model_;
   double contact_force_;
+  /** For each foot force sensor whether it is on the left foot. */
+  std::vector<bool> is_left_sensor_;
   Kinematics kinematics_;
   BodyOutline outline_;
   OrientationFilter orientation_;
@@ -47,9 +65,9 @@ class StateEstimator {
   bool is_started_ = false;
   double rest_time_ = 0;
 
-  /** The foot that stands still, and where its sole is in O (level, on the ground). */
-  bool stands_on_left_ = true;
-  Eigen::Vector2d standing_sole_in_odometry_ = Eigen::Vector2d::Zero();
+  bool is_left_support_ = true;
+  /** p_OS: x and y of the support foot's sole in O, m. */
+  Eigen::Vector2d support_sole_in_odometry_ = Eigen::Vector2d::Zero();
   Eigen::Vector3d last_torso_position_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_center_of_mass_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d torso_velocity_in_odometry_ = Eigen::Vector3d::Zero();

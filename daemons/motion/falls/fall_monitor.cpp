@@ -3,46 +3,56 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/constants.h"
 #include "kinematics/support_polygon.h"
 
 namespace nao::motion {
 namespace {
 
-constexpr double kGravity = 9.81;
-constexpr double kLeastHeight = 0.1;  // m, so that the pendulum's rate stays finite
-// How far beyond the soles' edge the capture point must be, and for how long: pushes that the
-// ankles catch reach a centimetre over it for a tick or two (measured in the push trials).
-constexpr double kOutside = -0.025;  // m
-constexpr double kPatience = 0.03;   // s
-// A robot that tips has leant; one that only moves its limbs fast has not. rad.
-constexpr double kLeastLean = 0.12;
-// Walks that took a push, however hard, leant by 0.34 rad at most; of those that fell, 98 of 100
-// leant by this much 150 ms or more before the first touch (measured with nao-trial walk-push),
-// rad.
-constexpr double kWalkingLean = 0.38;
+// Least height of the center of mass, m: keeps the pendulum's frequency finite for a robot that
+// lies.
+constexpr double kMinHeight = 0.1;
+// Margin of the capture point to the edge of the support polygon, m, and for how long it must be
+// below it, s. Pushes from which the ankles recover bring it a centimeter outside for one or two
+// steps (measured: nao-trial push).
+constexpr double kFallMargin = -0.025;
+constexpr double kFallTime = 0.03;
+// Least tilt of the flatter sole, rad: a body that tips over the edge of its soles tilts them, one
+// that only moves its limbs fast does not. Chosen: twice the angle at which TippingGuard calls a
+// sole flat.
+constexpr double kMinSoleTilt = 0.12;
+// Torso tilt at which a walk falls, rad. Walks that recovered from a push tilted by 0.34 rad at
+// most; of those that fell, 98 of 100 tilted by this much 150 ms or more before the impact
+// (measured: nao-trial walk-push).
+constexpr double kWalkingTilt = 0.38;
+// Slack of a sum of time steps, s.
+constexpr double kRounding = 1e-9;
+
+/** Angle between the z axis of a rotation and vertical, rad. */
+double calc_tilt(double cosine) {
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
 
 }  // namespace
 
 Eigen::Vector2d calc_capture_point(const RobotState& state) {
-  const double height = std::max(kLeastHeight, state.center_of_mass_in_odometry.z());
+  const double height = std::max(kMinHeight, state.center_of_mass_in_odometry.z());
   return state.center_of_mass_in_odometry.head<2>() +
          std::sqrt(height / kGravity) * state.center_of_mass_velocity_in_odometry.head<2>();
 }
 
-bool FallMonitor::update(const RobotState& state, bool steps, double dt) {
-  const double tilt = std::acos(std::clamp(state.torso_in_odometry.linear()(2, 2), -1.0, 1.0));
+bool FallMonitor::update(const RobotState& state, bool is_walking, double dt) {
+  const double tilt = calc_tilt(state.torso_in_odometry.linear()(2, 2));
   if (tilt > lying_tilt_) return true;
-  if (steps) return tilt > kWalkingLean;
-  // The soles lean with a body that tips over their edge.
-  const double sole_lean =
-      std::acos(std::clamp(std::max(state.left_sole_in_odometry.linear()(2, 2),
-                                    state.right_sole_in_odometry.linear()(2, 2)),
-                           -1.0, 1.0));
+  if (is_walking) return tilt > kWalkingTilt;
+  const double sole_tilt = calc_tilt(std::max(state.left_sole_in_odometry.linear()(2, 2),
+                                              state.right_sole_in_odometry.linear()(2, 2)));
   const double margin =
       margin_in_polygon(state.support_polygon_in_odometry, calc_capture_point(state));
-  const bool is_outside = margin < kOutside && sole_lean > kLeastLean;
+  // Without a support polygon the margin is NaN: a robot in the air does not fall by this test.
+  const bool is_outside = margin < kFallMargin && sole_tilt > kMinSoleTilt;
   time_outside_ = is_outside ? time_outside_ + dt : 0;
-  return time_outside_ >= kPatience - 1e-9;
+  return time_outside_ >= kFallTime - kRounding;
 }
 
 }  // namespace nao::motion

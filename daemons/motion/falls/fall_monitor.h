@@ -1,32 +1,43 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "daemons/motion/robot_state.h"
 
 namespace nao::motion {
 
-/** Tells a fall before the impact.
+/** Predicts a fall before the impact.
  *
- * A standing robot is lost when its capture point (centre of mass plus velocity over the pendulum's
- * rate: where it would have to step to come to rest) has left its soles for good; ankles can push
- * only as far as the soles reach. Source: Pratt et al., "Capture point", Humanoids 2006. */
+ * Standing: with the feet in place, a robot can come to rest only while its capture point is inside
+ * the support polygon, since the ZMP cannot leave the soles. It falls when the capture point stays
+ * outside by a margin while the soles tilt with the body.
+ *
+ * Walking: the next footstep moves the support polygon to the capture point. The robot falls when
+ * its torso tilts more than it does in walks that recover from a push.
+ *
+ * Source: J. Pratt, J. Carff, S. Drakunov, A. Goswami, "Capture point: a step toward humanoid push
+ * recovery", Humanoids 2006. */
 class FallMonitor {
  public:
-  /** @param lying_tilt  Torso tilt from which on there is no doubt, rad. */
+  /** @param lying_tilt  Torso tilt above which the robot falls in any case, rad. */
   explicit FallMonitor(double lying_tilt) : lying_tilt_(lying_tilt) {}
 
-  /** Looks at one tick of a robot that means to stand.
-   * @param steps  True for a walk, whose next step catches what its soles cannot.
+  /** One control step of a robot that must stay on its feet.
+   * @param is_walking  Its next footstep can recover from a push. @param dt  s since the last step.
    * @return Whether it falls. */
-  bool update(const RobotState& state, bool steps, double dt);
+  bool update(const RobotState& state, bool is_walking, double dt);
 
   void reset() { time_outside_ = 0; }
 
  private:
   double lying_tilt_;
+  /** s for which the capture point has been outside of the support polygon. */
   double time_outside_ = 0;
 };
 
-/** Capture point on the ground in the odometry frame, m. */
+/** Capture point xi = c + v / omega on the ground, m, odometry frame, with the center of mass's
+ * ground projection c, its velocity v, and the natural frequency omega = sqrt(g / h) of the linear
+ * inverted pendulum at its height h. Also called the divergent component of motion (DCM). */
 Eigen::Vector2d calc_capture_point(const RobotState& state);
 
 }  // namespace nao::motion

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "daemons/motion/guards/joint_limits.h"
 #include "daemons/motion/standing_rates.h"
@@ -9,18 +10,18 @@
 namespace nao::motion {
 namespace {
 
-// Less than this is rounding, not clipping, rad.
+// Difference between commanded and clipped angle below which it is rounding, rad.
 constexpr double kClippingTolerance = 1e-6;
 
-/** The angles that a change asks for before any limit. */
-std::vector<double> wished_angles(const RobotModel& model, const JointChangeCommand& change,
-                                  const std::vector<double>& targets) {
-  std::vector<double> wished = targets;
+/** Angles that a change commands, before any limit. */
+std::vector<double> commanded_angles(const RobotModel& model, const JointChangeCommand& change,
+                                     const std::vector<double>& targets) {
+  std::vector<double> commanded = targets;
   for (size_t i = 0; i < change.joint_names.size(); ++i) {
     const int motor = model.find_motor(change.joint_names[i]);
-    wished[motor] = change.joint_position[i] + (change.is_relative ? targets[motor] : 0.0);
+    commanded[motor] = change.joint_position[i] + (change.is_relative ? targets[motor] : 0.0);
   }
-  return wished;
+  return commanded;
 }
 
 }  // namespace
@@ -28,7 +29,7 @@ std::vector<double> wished_angles(const RobotModel& model, const JointChangeComm
 std::vector<double> JointChangeMotion::calc_goal(const RobotModel& model,
                                                  const JointChangeCommand& change,
                                                  const std::vector<double>& targets) {
-  std::vector<double> goal = wished_angles(model, change, targets);
+  std::vector<double> goal = commanded_angles(model, change, targets);
   clip_to_limits(model, goal);
   return goal;
 }
@@ -39,22 +40,16 @@ void JointChangeMotion::start(const MotionContext& context, const JointTargets& 
           ? joint_rates(context.model, change_.speed, context.options.max_acceleration)
           : standing_rates(context, change_.speed);
   const JointTrajectory::Start how = choose_start(context, rates);
-  // The joints that are not named stop; the named ones start from where they are.
+  // The joints that are not named stop; the named ones start from their present targets.
   stop_ = JointTrajectory::stopping(targets.position, targets.velocity, stopping_rates(context));
   std::vector<double> base = stop_.goal();
   for (const std::string& name : change_.joint_names) {
     const int motor = context.model.find_motor(name);
     base[motor] = targets.position[motor];
   }
-  const std::vector<double> wished = wished_angles(context.model, change_, base);
   const std::vector<double> goal = calc_goal(context.model, change_, base);
-  for (const std::string& name : change_.joint_names) {
-    const int motor = context.model.find_motor(name);
-    if (std::abs(goal[motor] - wished[motor]) < kClippingTolerance) continue;
-    remark_ += remark_.empty() ? "Clipped to the limit: " : ", ";
-    remark_ += name;
-  }
-  if (!remark_.empty()) remark_ += ".";
+  note_clipping(context.model, commanded_angles(context.model, change_, base), goal);
+  // Joints that rest have equal start and goal, and do not make the trajectory longer.
   std::vector<double> start = goal;
   std::vector<double> velocity(goal.size(), 0.0);
   turning_.clear();
@@ -71,29 +66,41 @@ void JointChangeMotion::start(const MotionContext& context, const JointTargets& 
   time_ = 0;
 }
 
-void JointChangeMotion::sample(double time, std::vector<double>& position) const {
-  stop_.sample(time, position);
-  std::vector<double> turned;
-  trajectory_.sample(time, turned);
-  for (int motor : turning_) position[motor] = turned[motor];
+void JointChangeMotion::note_clipping(const RobotModel& model, const std::vector<double>& commanded,
+                                      const std::vector<double>& goal) {
+  std::string clipped;
+  for (const std::string& name : change_.joint_names) {
+    const int motor = model.find_motor(name);
+    if (std::abs(goal[motor] - commanded[motor]) < kClippingTolerance) continue;
+    clipped += (clipped.empty() ? "" : ", ") + name;
+  }
+  if (!clipped.empty()) reason_ = Reason("clipped-to-limits", {clipped});
 }
 
-std::vector<std::vector<double>> JointChangeMotion::calc_way(const RobotModel& model) const {
-  constexpr double kStep = 0.005;  // s
-  constexpr double kTurn = 0.05;   // rad: an arm's end then moves 1 cm
-  std::vector<std::vector<double>> way(1);
-  sample(0, way.front());
+void JointChangeMotion::sample(double time, std::vector<double>& position) const {
+  stop_.sample(time, position);
+  std::vector<double> turning;
+  trajectory_.sample(time, turning);
+  for (int motor : turning_) position[motor] = turning[motor];
+}
+
+std::vector<std::vector<double>> JointChangeMotion::calc_path(const RobotModel& model) const {
+  constexpr double kTimeStep = 0.005;  // s
+  // Chosen: the end of an arm, 0.2 m from its shoulder, then moves by 1 cm.
+  constexpr double kAngleStep = 0.05;  // rad
+  std::vector<std::vector<double>> path(1);
+  sample(0, path.front());
   std::vector<double> position;
-  for (double time = kStep; time < duration() + kStep; time += kStep) {
+  for (double time = kTimeStep; time < duration() + kTimeStep; time += kTimeStep) {
     sample(time, position);
     clip_to_limits(model, position);
     double largest = 0;
     for (size_t i = 0; i < position.size(); ++i) {
-      largest = std::max(largest, std::abs(position[i] - way.back()[i]));
+      largest = std::max(largest, std::abs(position[i] - path.back()[i]));
     }
-    if (largest >= kTurn || time >= duration()) way.push_back(position);
+    if (largest >= kAngleStep || time >= duration()) path.push_back(position);
   }
-  return way;
+  return path;
 }
 
 JointTrajectory::Start JointChangeMotion::choose_start(const MotionContext& context,

@@ -1,23 +1,25 @@
 #pragma once
 
 #include <algorithm>
-#include <string>
+#include <utility>
 #include <vector>
 
-#include "messages/command.h"
 #include "daemons/motion/generators/joint_trajectory.h"
 #include "daemons/motion/generators/motion_generator.h"
+#include "messages/command.h"
 
 namespace nao::motion {
 
-/** Turns single joints to their goals; the others come to rest where they are, each of both in its
- * own time: one that had to arrive together with a slow change would coast far. */
+/** Turns single joints to their goals and brings the others to rest.
+ *
+ * The two groups have trajectories of their own: joints that had to arrive together with a slow
+ * change would coast far. */
 class JointChangeMotion : public MotionGenerator {
  public:
-  /** @param change  Checked: known joints, finite numbers. */
+  /** @param change  Well formed (find_fault()). */
   explicit JointChangeMotion(JointChangeCommand change) : change_(std::move(change)) {}
 
-  /** Targets after the change, clipped to all limits, rad, (num_motors). */
+  /** Targets after a change, clipped to all limits, rad, (num_motors). */
   static std::vector<double> calc_goal(const RobotModel& model, const JointChangeCommand& change,
                                        const std::vector<double>& targets);
 
@@ -25,26 +27,31 @@ class JointChangeMotion : public MotionGenerator {
   Phase step(const MotionContext& context, JointTargets& targets) override;
   Mode mode() const override { return Mode::kMoving; }
   double progress() const override;
-  std::string remark() const override { return remark_; }
-  /** Targets from the start to the end, rad, each (num_motors); from one to the next no joint turns
-   * farther than it must within 5 ms, or 0.05 rad. After start(). */
-  std::vector<std::vector<double>> calc_way(const RobotModel& model) const;
+  Reason reason() const override { return reason_; }
+
+  /** Targets from the start to the end, rad, each (num_motors), for collision checks. From one to
+   * the next no joint turns by more than 0.05 rad, or than it does in 5 ms. After start(). */
+  std::vector<std::vector<double>> calc_path(const RobotModel& model) const;
 
  private:
   double duration() const { return std::max(stop_.duration(), trajectory_.duration()); }
   void sample(double time, std::vector<double>& position) const;
-  /** Brisk, with the rates that go with it, if none of the joints carries the body. */
+  /** Brisk if none of the named joints carries the body; then sets their rates accordingly. */
   JointTrajectory::Start choose_start(const MotionContext& context,
                                       std::vector<JointRates>& rates) const;
+  /** Notes the named joints whose goal was clipped. */
+  void note_clipping(const RobotModel& model, const std::vector<double>& commanded,
+                     const std::vector<double>& goal);
 
   JointChangeCommand change_;
-  /** Of all joints, but those that turn. */
+  /** Brings the joints that do not turn to rest. */
   JointTrajectory stop_;
-  /** Of those that turn: the named ones, and those whose limits depend on them. */
+  /** Of the joints that turn: the named ones, and those whose limits depend on them. */
   JointTrajectory trajectory_;
+  /** Motors of trajectory_. */
   std::vector<int> turning_;
   double time_ = 0;
-  std::string remark_;
+  Reason reason_;
 };
 
 /** Brings all joints to rest as soon as their accelerations allow. */

@@ -4,35 +4,46 @@
 
 namespace nao::motion {
 
-/** What a joint's targets may do. */
+/** Limits of a joint's target. */
 struct JointRates {
   /** rad/s, rad/s^2. */
   double max_velocity = 0;
   double max_acceleration = 0;
 };
 
-/** Smooth way of all joints from moving targets to resting ones: a polynomial of fifth degree for
- * each, so that position and velocity go on from where they are and acceleration ends at 0. */
+/** Smooth path of all joints from moving targets to targets at rest: one polynomial of at most
+ * fifth degree per joint, continuous in position and velocity at its start. All joints arrive
+ * together.
+ *
+ * With the duration T, s = t / T, the distance D = goal - start and the initial velocity v0:
+ *
+ *     q(s) = q0 + D b(s) + v0 T c(s)
+ *     smooth:  b = 10 s^3 - 15 s^4 + 6 s^5         b'' = 0 at both ends (minimum jerk)
+ *     brisk:   b = 6 s^2 - 8 s^3 + 3 s^4           b''(0) = 12, the greatest value; b''(1) = 0
+ *     coast:   c = s - 6 s^3 + 8 s^4 - 3 s^5       c'(0) = 1, c = c' = c'' = 0 at the end
+ *
+ * T is the least duration with which velocity and acceleration stay within the rates. */
 class JointTrajectory {
  public:
-  /** How the acceleration begins: at 0, as joints that carry the body need it, or with its greatest
-   * value at once, so that a joint answers in the first tick. */
+  /** Start of the acceleration: at 0, for joints that carry the body; or at its greatest value, so
+   * that a joint responds in the first control step. */
   enum class Start { kSmooth, kBrisk };
 
   JointTrajectory() = default;
 
-  /** Plans the way on which all joints arrive together.
+  /** Plans the path.
    *
-   * @param start     Where the targets are, rad, and how fast they move, rad/s.
-   * @param goal      rad; where they come to rest. All lists have the same length.
-   * @param rates     Limits that the targets keep. One that moves faster at the start slows down.
-   * @param shortest  The way takes at least this long, s.
-   * @param how       All joints begin so: then they stay on one line through joint space. */
+   * @param start     Targets, rad, and their velocities, rad/s. All lists have the same length.
+   * @param goal      rad; where the targets come to rest.
+   * @param rates     Limits of each joint. A joint that is faster at the start slows down.
+   * @param shortest  Least duration, s.
+   * @param how       Of all joints, so that they stay on one line through joint space. */
   JointTrajectory(const std::vector<double>& start, const std::vector<double>& start_velocity,
                   const std::vector<double>& goal, const std::vector<JointRates>& rates,
                   double shortest = 0, Start how = Start::kSmooth);
 
-  /** Plans to come to rest as soon as the accelerations allow, along the present direction. */
+  /** Plans to come to rest as soon as the accelerations allow, in the direction of the velocities.
+   */
   static JointTrajectory stopping(const std::vector<double>& start,
                                   const std::vector<double>& start_velocity,
                                   const std::vector<JointRates>& rates);
@@ -47,6 +58,7 @@ class JointTrajectory {
   void sample(double time, std::vector<double>& position) const;
 
  private:
+  /** Whether all samples of the path are within the rates. */
   bool keeps(const std::vector<JointRates>& rates) const;
 
   Start how_ = Start::kSmooth;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "daemons/motion/generators/walk_motion.h"
@@ -20,7 +19,7 @@ using Eigen::Vector3d;
 constexpr double kGravity = 9.81;
 constexpr double kRateTimeConstant = 0.015;  // s, of the gyroscope
 // The torso makes room for the leg's mass, but does not follow every swing of it, s.
-constexpr double kMassTimeConstant = 0.05;
+constexpr double kComTimeConstant = 0.05;
 // Farthest that the zero moment point may be steered from the mass, m: a sole's half, less a
 // margin.
 constexpr double kReachForward = 0.045;
@@ -33,18 +32,15 @@ double smooth_step(double s) {
 
 }  // namespace
 
-std::optional<std::string> KickMotion::find_obstacle(const Kick& kick, bool is_left,
-                                                     const Vector2d& ball) {
+std::optional<Reason> KickMotion::find_obstacle(const Kick& kick, bool is_left,
+                                                const Vector2d& ball) {
   const Vector2d best(kick.ball.x(), (is_left ? 1 : -1) * kick.ball.y());
   for (int i = 0; i < 2; ++i) {
     if (std::isnan(ball[i]) || std::abs(ball[i] - best[i]) <= kick.ball_reach[i]) continue;
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(),
-                  "The ball is out of reach: it must lie %.2f to %.2f m ahead and %.2f to %.2f m "
-                  "to the left.",
-                  best.x() - kick.ball_reach.x(), best.x() + kick.ball_reach.x(),
-                  best.y() - kick.ball_reach.y(), best.y() + kick.ball_reach.y());
-    return text.data();
+    const Vector2d least = best - kick.ball_reach;
+    const Vector2d greatest = best + kick.ball_reach;
+    return Reason("ball-out-of-reach", {to_argument(least.x()), to_argument(greatest.x()),
+                                        to_argument(least.y()), to_argument(greatest.y())});
   }
   return std::nullopt;
 }
@@ -91,21 +87,21 @@ void KickMotion::start_kick(const JointTargets& targets) {
   start_torso_ = support.inverse();
   const Isometry3d foot = start_torso_ * other;
   kick_heading_ = std::atan2(foot.linear()(1, 0), foot.linear()(0, 0));
-  mass_centre_in_torso_ = kinematics_.center_of_mass();
-  const Vector3d mass = start_torso_ * mass_centre_in_torso_;
+  com_in_torso_ = kinematics_.center_of_mass();
+  const Vector3d mass = start_torso_ * com_in_torso_;
   height_ = mass.z();
-  start_wish_.mass = {mass.x(), side() * mass.y()};
-  start_wish_.foot = {foot.translation().x(), side() * foot.translation().y(),
-                      foot.translation().z()};
-  start_wish_.pitch = 0;
+  start_reference_.mass = {mass.x(), side() * mass.y()};
+  start_reference_.foot = {foot.translation().x(), side() * foot.translation().y(),
+                           foot.translation().z()};
+  start_reference_.pitch = 0;
   // It ends where it began.
-  phases_.back().mass = start_wish_.mass;
-  phases_.back().foot = start_wish_.foot;
-  wished_position_ = targets.position;
+  phases_.back().mass = start_reference_.mass;
+  phases_.back().foot = start_reference_.foot;
+  reference_position_ = targets.position;
 }
 
-KickMotion::Wish KickMotion::wish_at(double time) const {
-  Wish from = start_wish_;
+KickMotion::Reference KickMotion::reference_at(double time) const {
+  Reference from = start_reference_;
   for (const Kick::Phase& phase : phases_) {
     if (time < phase.duration) {
       const double s = smooth_step(time / phase.duration);
@@ -118,22 +114,22 @@ KickMotion::Wish KickMotion::wish_at(double time) const {
   return from;
 }
 
-Isometry3d KickMotion::torso_for(const Wish& wish) const {
+Isometry3d KickMotion::torso_for(const Reference& reference) const {
   Isometry3d torso = start_torso_;
-  const Vector3d offset = torso.linear() * mass_centre_in_torso_;
-  torso.translation().x() = wish.mass.x() - offset.x();
-  torso.translation().y() = side() * wish.mass.y() - offset.y();
+  const Vector3d offset = torso.linear() * com_in_torso_;
+  torso.translation().x() = reference.mass.x() - offset.x();
+  torso.translation().y() = side() * reference.mass.y() - offset.y();
   return torso;
 }
 
-std::vector<double> KickMotion::solve(const Wish& wish, const Isometry3d& torso,
+std::vector<double> KickMotion::solve(const Reference& reference, const Isometry3d& torso,
                                       const std::vector<double>& position) const {
   const Isometry3d support = torso.inverse();
   Isometry3d foot = Isometry3d::Identity();
-  foot.translation() << wish.foot.x(), side() * wish.foot.y(), wish.foot.z();
-  foot.linear() =
-      (AngleAxisd(kick_heading_, Vector3d::UnitZ()) * AngleAxisd(wish.pitch, Vector3d::UnitY()))
-          .toRotationMatrix();
+  foot.translation() << reference.foot.x(), side() * reference.foot.y(), reference.foot.z();
+  foot.linear() = (AngleAxisd(kick_heading_, Vector3d::UnitZ()) *
+                   AngleAxisd(reference.pitch, Vector3d::UnitY()))
+                      .toRotationMatrix();
   foot = support * foot;
   const LegsSolution solution =
       legs_.solve_both(is_left_ ? foot : support, is_left_ ? support : foot, is_left_ ? 0.0 : 1.0);
@@ -146,7 +142,7 @@ std::vector<double> KickMotion::solve(const Wish& wish, const Isometry3d& torso,
 MotionGenerator::Phase KickMotion::step(const MotionContext& context, JointTargets& targets) {
   if (is_standing_up_) {
     const Phase phase = stand_up_->step(context, targets);
-    if (phase == Phase::kFailed) remark_ = stand_up_->remark();
+    if (phase == Phase::kFailed) reason_ = stand_up_->reason();
     if (phase != Phase::kDone) return phase;
     is_standing_up_ = false;
     if (is_finishing_) return Phase::kDone;
@@ -154,46 +150,47 @@ MotionGenerator::Phase KickMotion::step(const MotionContext& context, JointTarge
     return Phase::kRunning;
   }
   time_ += context.dt;
-  follow(context, wish_at(time_), targets);
+  follow(context, reference_at(time_), targets);
   return time_ < duration_ ? Phase::kRunning : Phase::kDone;
 }
 
-void KickMotion::follow(const MotionContext& context, const Wish& wish, JointTargets& targets) {
+void KickMotion::follow(const MotionContext& context, const Reference& reference,
+                        JointTargets& targets) {
   const double dt = context.dt;
-  const Isometry3d torso = torso_for(wish);
-  const std::vector<double> position = solve(wish, torso, wished_position_);
+  const Isometry3d torso = torso_for(reference);
+  const std::vector<double> position = solve(reference, torso, reference_position_);
   std::vector<double> velocity(position.size());
   for (size_t i = 0; i < position.size(); ++i) {
-    velocity[i] = (position[i] - wished_position_[i]) / dt;
+    velocity[i] = (position[i] - reference_position_[i]) / dt;
   }
-  wished_position_ = position;
+  reference_position_ = position;
   kinematics_.update(position);
-  mass_centre_in_torso_ += std::min(1.0, dt / kMassTimeConstant) *
-                           (kinematics_.center_of_mass() - mass_centre_in_torso_);
+  com_in_torso_ +=
+      std::min(1.0, dt / kComTimeConstant) * (kinematics_.center_of_mass() - com_in_torso_);
 
-  // Measured: the mass over the standing sole, with its velocity, against the wish.
+  // Measured: CoM over the support sole, with its velocity, against the reference.
   const RobotState& state = context.state;
   const Pose2 sole =
       Pose2::from(is_left_ ? state.right_sole_in_odometry : state.left_sole_in_odometry);
   const double omega = std::sqrt(kGravity / height_);
   const Vector2d divergent = state.center_of_mass_in_odometry.head<2>() +
                              state.center_of_mass_velocity_in_odometry.head<2>() / omega;
-  const Vector2d mass(wish.mass.x(), side() * wish.mass.y());
+  const Vector2d mass(reference.mass.x(), side() * reference.mass.y());
   const Vector2d error = sole.inverse() * divergent - mass;
   const Vector2d reach(kReachForward, kReachSideways);
   const Vector2d steer = (kick_->balance_gain * error).cwiseMax(-reach).cwiseMin(reach);
   rate_ += std::min(1.0, dt / kRateTimeConstant) * (state.angular_velocity_torso - rate_);
 
-  const double foot_y = side() * wish.foot.y();
-  const double other_share = wish.foot.z() > 0 ? 0.0 : std::clamp(mass.y() / foot_y, 0.0, 1.0);
+  const double foot_y = side() * reference.foot.y();
+  const double other_share = reference.foot.z() > 0 ? 0.0 : std::clamp(mass.y() / foot_y, 0.0, 1.0);
   const Vector3d force =
       torso.linear().transpose() * Vector3d(0, 0, model_->total_mass() * kGravity);
   const Isometry3d to_torso = torso.inverse();
-  const double here_y = wish.foot.z() > 0 ? mass.y() : 0.0;
+  const double here_y = reference.foot.z() > 0 ? mass.y() : 0.0;
   const FootLoad support{(1 - other_share) * force,
                          to_torso * Vector3d(mass.x() + steer.x(), here_y + steer.y(), 0)};
   const FootLoad other{other_share * force,
-                       to_torso * Vector3d(wish.foot.x() + mass.x() + steer.x(), foot_y, 0)};
+                       to_torso * Vector3d(reference.foot.x() + mass.x() + steer.x(), foot_y, 0)};
   const std::array<FootLoad, 2> loads =
       is_left_ ? std::array<FootLoad, 2>{other, support} : std::array<FootLoad, 2>{support, other};
   const Vector3d up = torso.linear().transpose() * Vector3d::UnitZ();
@@ -204,14 +201,14 @@ void KickMotion::follow(const MotionContext& context, const Wish& wish, JointTar
   const double share = smooth_step(time_ / kFade) * smooth_step((duration_ - time_) / kFade);
   std::vector<double> balance(position.size(), 0.0);
   const auto& ankle = legs_.motors(is_left_ ? Leg::kRight : Leg::kLeft);
-  balance[ankle[4]] = gait_->gyro_ankle_pitch * rate_.y();
-  balance[ankle[5]] = gait_->gyro_ankle_roll * rate_.x();
+  balance[ankle[4]] = gait_->orientation.gyro_ankle_pitch * rate_.y();
+  balance[ankle[5]] = gait_->orientation.gyro_ankle_roll * rate_.x();
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     for (const int motor : legs_.motors(leg)) {
       targets.position[motor] =
           position[motor] +
           share * (balance[motor] + feedforward_.calc_offset(motor, torque[motor], velocity[motor],
-                                                             gait_->damping_share));
+                                                             gait_->servo.velocity_scale));
     }
   }
 }

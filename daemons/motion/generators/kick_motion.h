@@ -13,7 +13,7 @@
 
 namespace nao::motion {
 
-/** Kicks from a stand: the mass goes over the standing foot, the other one strikes, and both come
+/** Kicks from a stand: the CoM moves over the support foot, the other foot strikes, and both come
  * back. Balance by the centre of mass, the standing ankle's torque and the gyroscope.
  *
  * Frame S is the standing sole, levelled, as the joints have it. For a kick with the right foot the
@@ -28,9 +28,9 @@ class KickMotion : public MotionGenerator {
              std::unique_ptr<MotionGenerator> stand_up, bool is_left, const Eigen::Vector2d& ball,
              double strength);
 
-  /** Why a ball cannot be kicked, as a sentence; nothing if it can. NaN counts as well placed. */
-  static std::optional<std::string> find_obstacle(const Kick& kick, bool is_left,
-                                                  const Eigen::Vector2d& ball);
+  /** Why a ball cannot be kicked; nothing if it can. NaN counts as well placed. */
+  static std::optional<Reason> find_obstacle(const Kick& kick, bool is_left,
+                                             const Eigen::Vector2d& ball);
 
   void start(const MotionContext& context, const JointTargets& targets) override;
   Phase step(const MotionContext& context, JointTargets& targets) override;
@@ -38,22 +38,22 @@ class KickMotion : public MotionGenerator {
   void finish() override;
   Mode mode() const override { return Mode::kActing; }
   double progress() const override;
-  std::string remark() const override { return remark_; }
+  Reason reason() const override { return reason_; }
 
  private:
   /** What the body does at a moment, in S. */
-  struct Wish {
+  struct Reference {
     Eigen::Vector2d mass = Eigen::Vector2d::Zero();
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();
     double pitch = 0;
   };
 
   void start_kick(const JointTargets& targets);
-  Wish wish_at(double time) const;
-  std::vector<double> solve(const Wish& wish, const Eigen::Isometry3d& torso,
+  Reference reference_at(double time) const;
+  std::vector<double> solve(const Reference& reference, const Eigen::Isometry3d& torso,
                             const std::vector<double>& position) const;
-  Eigen::Isometry3d torso_for(const Wish& wish) const;
-  void follow(const MotionContext& context, const Wish& wish, JointTargets& targets);
+  Eigen::Isometry3d torso_for(const Reference& reference) const;
+  void follow(const MotionContext& context, const Reference& reference, JointTargets& targets);
   double side() const { return is_left_ ? 1 : -1; }
 
   const RobotModel* model_;
@@ -71,15 +71,15 @@ class KickMotion : public MotionGenerator {
   std::vector<Kick::Phase> phases_;
   double duration_ = 0;
   double time_ = 0;
-  Wish start_wish_;
+  Reference start_reference_;
   /** Torso in S at the start: its height and orientation are kept. */
   Eigen::Isometry3d start_torso_ = Eigen::Isometry3d::Identity();
   double kick_heading_ = 0;
-  std::vector<double> wished_position_;
-  Eigen::Vector3d mass_centre_in_torso_ = Eigen::Vector3d::Zero();
+  std::vector<double> reference_position_;
+  Eigen::Vector3d com_in_torso_ = Eigen::Vector3d::Zero();
   double height_ = 0.26;
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
-  std::string remark_;
+  Reason reason_;
 };
 
 }  // namespace nao::motion

@@ -1,84 +1,83 @@
 #pragma once
 
 #include <limits>
-#include <string>
 
-#include "messages/command.h"
 #include "daemons/motion/joint_targets.h"
-#include "messages/mode.h"
 #include "daemons/motion/motion_options.h"
 #include "daemons/motion/motion_state.h"
 #include "daemons/motion/robot_state.h"
 #include "daemons/motion/sensors.h"
 #include "kinematics/kinematics.h"
+#include "messages/command.h"
+#include "messages/mode.h"
+#include "messages/reason.h"
 #include "robot_model/robot_model.h"
 
 namespace nao::motion {
 
-/** What a motion sees in one tick. The references hold for the call only. */
+/** Input of a motion in one control step. The references are valid during the call only. */
 struct MotionContext {
   const RobotModel& model;
   const MotionOptions& options;
-  /** This tick's measurements, the estimate made from them, and the kinematics of the measured
+  /** Measurements of this step, the state estimated from them, and the kinematics of the measured
    * joint angles. */
   const Sensors& sensors;
   const RobotState& state;
   const Kinematics& kinematics;
-  /** s since the last tick. */
+  /** s since the last step. */
   double dt;
 };
 
-/** One motion in progress: the way to a posture, a walk, a kick, getting up.
+/** One motion in progress: to a posture, a walk, a kick, a get-up motion.
  *
- * The core calls start() once and step() in every tick until it returns something else than
- * kRunning. It may drop the motion between two ticks whenever can_be_replaced(); while that is
- * false and something newer waits it has called finish(), and goes on stepping until the motion
- * ends or lets itself be replaced. Whatever a motion writes, the core keeps the joints' limits and
- * speeds afterwards. */
+ * The core calls start() once and then step() in every control step until it returns something
+ * other than kRunning. Between two steps it may drop the motion if can_be_replaced(). If a newer
+ * motion waits and can_be_replaced() is false, the core calls finish() and continues to step until
+ * the motion ends or can be replaced. The core limits the joint targets of every motion afterwards.
+ */
 class MotionGenerator {
  public:
   enum class Phase { kRunning, kDone, kFailed };
 
   virtual ~MotionGenerator() = default;
 
-  /** Begins. @param targets  As sent in the last tick; a motion goes on from there, velocity too.
-   */
+  /** Starts the motion. @param targets  As sent in the last step; the motion continues from their
+   * position and velocity. */
   virtual void start(const MotionContext& context, const JointTargets& targets) = 0;
 
-  /** One tick.
-   * @param targets  In: as sent in the last tick. Out: position and stiffness to send in this one;
-   *                 joints that the motion does not move stay as they are. `velocity` is the
-   *                 core's: it follows from the positions. */
+  /** One control step.
+   * @param targets  In: as sent in the last step. Out: position and stiffness to send in this one;
+   *                 joints that the motion does not move keep theirs. The core derives `velocity`
+   *                 from the positions. */
   virtual Phase step(const MotionContext& context, JointTargets& targets) = 0;
 
-  /** Whether the motion may end right here, between two ticks. A walk in single support must not.
-   */
+  /** Whether the motion may end here, between two steps. False for a walk in single support. */
   virtual bool can_be_replaced() const { return true; }
 
-  /** Asks the motion to end at its next safe point, stable. May be called again and again. */
+  /** Asks the motion to end at its next safe point. May be called repeatedly. */
   virtual void finish() {}
 
-  /** Goes on with a newer command of the same kind without ending (a walk's new velocity).
-   * @return false if it must be a new motion. */
+  /** Continues with a newer command of the same kind without ending (a walk's new velocity).
+   * @return false if the command needs a motion of its own. */
   virtual bool adopt(const Command& /*command*/) { return false; }
 
-  /** What became of a kick that it adopted: a walk strikes in passing. */
+  /** Progress of a kick that this motion adopted: a walk kicks without stopping. */
   enum class Strike { kNone, kPending, kStruck, kMissed };
   virtual Strike strike() const { return Strike::kNone; }
 
   /** Mode while it runs. */
   virtual Mode mode() const = 0;
 
-  /** Whether the robot shall be on its feet now: while this is true a fall is watched for. */
-  virtual bool means_to_stand() const { return true; }
+  /** Whether the robot must stay on its feet now: falls are predicted while this is true. */
+  virtual bool must_stay_upright() const { return true; }
 
-  /** Share done, 0..1; NaN where the end is open. */
+  /** Fraction done, 0..1; NaN where the end is open. */
   virtual double progress() const { return std::numeric_limits<double>::quiet_NaN(); }
 
-  /** After kDone: what should be said of it, after kFailed: why. A sentence, or empty. */
-  virtual std::string remark() const { return ""; }
+  /** Why it failed after kFailed; a remark, usually none, after kDone. */
+  virtual Reason reason() const { return {}; }
 
-  /** Adds what a walk has to say: velocity after clipping, footsteps. */
+  /** Adds what only this motion knows: a walk's velocity after clipping, its footsteps. */
   virtual void describe(MotionState& /*state*/) const {}
 };
 

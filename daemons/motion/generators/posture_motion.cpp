@@ -8,7 +8,8 @@
 namespace nao::motion {
 namespace {
 
-// How long the joints may take to follow their last targets, s.
+// Time in which the joints must reach their last targets, s. Chosen; a joint that takes longer is
+// blocked.
 constexpr double kSettlingTime = 1.5;
 
 }  // namespace
@@ -35,9 +36,9 @@ MotionGenerator::Phase PostureMotion::step(const MotionContext& context, JointTa
   const PostureDeviation deviation = deviation_from(*posture_, context.sensors.position);
   if (deviation.angle <= context.options.posture_tolerance) return Phase::kDone;
   if (time_ < trajectory_.duration() + kSettlingTime) return Phase::kRunning;
-  remark_ = context.model.motor_joint(deviation.motor).name + " stays " +
-            std::to_string(std::lround(deviation.angle * 180 / M_PI)) + " degrees away from " +
-            posture_->name + "; something holds it.";
+  reason_ = Reason("posture-not-reached",
+                   {context.model.motor_joint(deviation.motor).name,
+                    std::to_string(std::lround(deviation.angle * 180 / M_PI)), posture_->name});
   return Phase::kFailed;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "daemons/motion/generators/joint_trajectory.h"
@@ -8,7 +7,7 @@
 
 namespace nao::motion {
 
-/** How far a joint is from a posture at most, rad, and which joint that is. */
+/** Greatest difference between a joint's angle and a posture, rad, and the motor of that joint. */
 struct PostureDeviation {
   double angle = 0;
   int motor = 0;
@@ -17,10 +16,10 @@ struct PostureDeviation {
 /** @param position  Measured angles, rad, (num_motors). */
 PostureDeviation deviation_from(const Posture& posture, const std::vector<double>& position);
 
-/** Straight way of all joints to a posture on both feet, then a moment to settle.
+/** Straight line of all joints to a posture, then a time in which they settle.
  *
  * Between the standing and crouching postures hip, knee and ankle turn in proportion, so that the
- * soles stay flat and the centre of mass stays over them all the way (checked in the tests). */
+ * soles stay flat and the center of mass stays over them on the whole line. */
 class PostureMotion : public MotionGenerator {
  public:
   /** @param posture  Must outlive this. @param speed  Fraction of the maximum, (0, 1]. */
@@ -30,14 +29,14 @@ class PostureMotion : public MotionGenerator {
   Phase step(const MotionContext& context, JointTargets& targets) override;
   Mode mode() const override { return Mode::kMoving; }
   double progress() const override;
-  std::string remark() const override { return remark_; }
+  Reason reason() const override { return reason_; }
 
  private:
   const Posture* posture_;
   double speed_;
   JointTrajectory trajectory_;
   double time_ = 0;
-  std::string remark_;
+  Reason reason_;
 };
 
 }  // namespace nao::motion

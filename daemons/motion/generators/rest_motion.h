@@ -1,32 +1,31 @@
 #pragma once
 
-#include <string>
-
-#include "daemons/motion/generators/journey_motion.h"
 #include "daemons/motion/generators/motion_generator.h"
+#include "daemons/motion/generators/posture_path_motion.h"
 
 namespace nao::motion {
 
-/** Goes to a posture in which the robot rests, and lets the motors become limp. */
+/** Goes to a posture in which the robot needs no torque, and relaxes the motors. */
 class RestMotion : public MotionGenerator {
  public:
-  /** @param graph, posture  Must outlive this. */
+  /** @param graph, posture  Must outlive this. @param speed  Fraction of the maximum, (0, 1]. */
   RestMotion(const TransitionGraph& graph, const Posture& posture, double speed)
-      : journey_(graph, posture, speed) {}
+      : path_(graph, posture, speed) {}
 
   void start(const MotionContext& context, const JointTargets& targets) override {
-    journey_.start(context, targets);
+    path_.start(context, targets);
   }
   Phase step(const MotionContext& context, JointTargets& targets) override;
-  bool can_be_replaced() const override { return journey_.can_be_replaced(); }
-  void finish() override { journey_.finish(); }
-  Mode mode() const override { return journey_.mode(); }
-  bool means_to_stand() const override { return !is_there_ && journey_.means_to_stand(); }
-  std::string remark() const override { return journey_.remark(); }
+  bool can_be_replaced() const override { return path_.can_be_replaced(); }
+  void finish() override { path_.finish(); }
+  Mode mode() const override { return path_.mode(); }
+  bool must_stay_upright() const override { return !is_there_ && path_.must_stay_upright(); }
+  Reason reason() const override { return path_.reason(); }
 
  private:
-  JourneyMotion journey_;
+  PosturePathMotion path_;
   bool is_there_ = false;
+  /** s since the motors began to relax. */
   double time_ = 0;
 };
 

@@ -49,7 +49,7 @@ MotionGenerator::Phase ScriptMotion::step(const MotionContext& context, JointTar
   if (part_ == Part::kPlaying) return play(context, targets);
   MotionGenerator& way = part_ == Part::kStandingUp ? *stand_up_ : *get_up_;
   const Phase phase = way.step(context, targets);
-  if (phase == Phase::kFailed) remark_ = way.remark();
+  if (phase == Phase::kFailed) reason_ = way.reason();
   if (phase != Phase::kDone || part_ == Part::kGettingUp || is_finishing_) return phase;
   start_playing(context, targets);
   return Phase::kRunning;
@@ -73,7 +73,7 @@ void ScriptMotion::balance(const MotionContext& context, JointTargets& targets) 
   if (!state.left_foot_carries || !state.right_foot_carries) return;
   const Pose2 left = Pose2::from(state.left_sole_in_odometry);
   const Pose2 right = Pose2::from(state.right_sole_in_odometry);
-  const Eigen::Vector2d ahead(gait_->zmp_forward, 0);
+  const Eigen::Vector2d ahead(gait_->stance.zmp_forward, 0);
   const Eigen::Vector2d middle = 0.5 * (left * ahead + right * ahead);
   const Eigen::Vector2d error = calc_capture_point(state) - middle;
   const double half_weight = 0.5 * model_->total_mass() * kGravity;
@@ -91,10 +91,10 @@ void ScriptMotion::balance(const MotionContext& context, JointTargets& targets) 
     // Toes pressed down move the weight ahead; a sole rolled to its left moves it to its left.
     targets.position[motors[4]] +=
         share * (feedforward_.calc_offset(motors[4], half_weight * steer.x(), 0, 0) +
-                 gait_->gyro_ankle_pitch * rate_.y());
+                 gait_->orientation.gyro_ankle_pitch * rate_.y());
     targets.position[motors[5]] +=
         share * (feedforward_.calc_offset(motors[5], -half_weight * steer.y(), 0, 0) +
-                 gait_->gyro_ankle_roll * rate_.x());
+                 gait_->orientation.gyro_ankle_roll * rate_.x());
   }
 }
 
@@ -120,8 +120,8 @@ Mode ScriptMotion::mode() const {
   return part_ == Part::kGettingUp ? get_up_->mode() : Mode::kActing;
 }
 
-bool ScriptMotion::means_to_stand() const {
-  if (part_ == Part::kGettingUp) return get_up_->means_to_stand();
+bool ScriptMotion::must_stay_upright() const {
+  if (part_ == Part::kGettingUp) return get_up_->must_stay_upright();
   return part_ == Part::kStandingUp || script_->end == ActionScript::End::kOnFeet;
 }
 

@@ -28,9 +28,9 @@ class ScriptMotion : public MotionGenerator {
   bool can_be_replaced() const override;
   void finish() override;
   Mode mode() const override;
-  bool means_to_stand() const override;
+  bool must_stay_upright() const override;
   double progress() const override;
-  std::string remark() const override { return remark_; }
+  Reason reason() const override { return reason_; }
 
  private:
   enum class Part { kStandingUp, kPlaying, kGettingUp };
@@ -52,7 +52,7 @@ class ScriptMotion : public MotionGenerator {
   KeyframePlayer player_;
   double time_ = 0;
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
-  std::string remark_;
+  Reason reason_;
 };
 
 }  // namespace nao::motion

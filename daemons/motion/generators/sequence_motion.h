@@ -7,7 +7,7 @@
 
 namespace nao::motion {
 
-/** Plays a sequence of keyframes once, as an action: wave. */
+/** Plays a keyframe sequence once, as an action: wave. */
 class SequenceMotion : public MotionGenerator {
  public:
   /** @param sequence  Must outlive this. */
@@ -30,6 +30,7 @@ class SequenceMotion : public MotionGenerator {
  private:
   const KeyframeSequence* sequence_;
   KeyframePlayer player_;
+  /** s since the start. */
   double time_ = 0;
 };
 

@@ -11,15 +11,15 @@
 
 namespace nao::motion {
 
-/** Why legs of this stiffness must not walk, as a sentence; nothing if they may.
+/** Why legs of this stiffness must not walk; nothing if they may.
  * @param stiffness  Of all motors, motor order. */
-std::optional<std::string> find_soft_leg(const LegKinematics& legs,
-                                         const std::vector<double>& stiffness);
+std::optional<Reason> find_soft_leg(const LegKinematics& legs,
+                                    const std::vector<double>& stiffness);
 
-/** Why the robot must not start to walk, as a sentence; nothing if it may.
+/** Why the robot must not start to walk; nothing if it may.
  * @param stiffness  Of all motors, motor order. */
-std::optional<std::string> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
-                                              const std::vector<double>& stiffness);
+std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
+                                         const std::vector<double>& stiffness);
 
 /** Whether the walk can begin in the pose that these targets make: both soles flat on one level,
  * side by side, below bent knees. */
@@ -39,25 +39,27 @@ class WalkingMotion : public MotionGenerator {
   bool can_be_replaced() const override;
   void finish() override;
   Mode mode() const override { return is_standing_up_ ? stand_up_->mode() : Mode::kWalking; }
-  bool means_to_stand() const override { return !is_standing_up_ || stand_up_->means_to_stand(); }
-  std::string remark() const override { return remark_; }
+  bool must_stay_upright() const override {
+    return !is_standing_up_ || stand_up_->must_stay_upright();
+  }
+  Reason reason() const override { return reason_; }
   void describe(MotionState& state) const override;
 
  protected:
-  /** Once, when the engine begins, and in every tick before the engine's: wishes a velocity or the
-   * end. */
+  /** Once, when the engine begins, and in every tick before the engine's: commands a velocity or
+   * the end. */
   virtual void start_steering(const MotionContext& /*context*/) {}
   virtual void steer(const MotionContext& context) = 0;
-  /** A wish to walk came while the walk was ending: it begins anew. */
+  /** A walk command arrived while the walk was ending: the walk starts again. */
   virtual bool wants_to_go_on() const { return false; }
   /** What is to be said when the walk has ended by itself. @return false if it failed. */
-  virtual bool conclude(const MotionContext& /*context*/, std::string& /*remark*/) { return true; }
+  virtual bool conclude(const MotionContext& /*context*/, Reason& /*reason*/) { return true; }
 
   WalkEngine& engine() { return engine_; }
   const WalkEngine& engine() const { return engine_; }
 
  private:
-  std::optional<std::string> find_trouble(const MotionContext& context);
+  std::optional<Reason> find_trouble(const MotionContext& context);
 
   WalkEngine engine_;
   std::unique_ptr<MotionGenerator> stand_up_;
@@ -65,7 +67,7 @@ class WalkingMotion : public MotionGenerator {
   bool is_finishing_ = false;
   bool has_ended_ = false;
   double time_in_air_ = 0;
-  std::string remark_;
+  Reason reason_;
 };
 
 /** Walks at the velocity of the newest walk command, until it asks for none, until it is too old,
@@ -82,7 +84,7 @@ class WalkMotion : public WalkingMotion {
  protected:
   void steer(const MotionContext& context) override;
   bool wants_to_go_on() const override;
-  bool conclude(const MotionContext& context, std::string& remark) override;
+  bool conclude(const MotionContext& context, Reason& reason) override;
 
  private:
   WalkCommand command_;
@@ -101,15 +103,18 @@ class MoveToMotion : public WalkingMotion {
  protected:
   void start_steering(const MotionContext& context) override;
   void steer(const MotionContext& context) override;
-  bool conclude(const MotionContext& context, std::string& remark) override;
+  bool conclude(const MotionContext& context, Reason& reason) override;
 
  private:
   /** Goal seen from where the robot would stand if it stopped now. */
   Pose2 remaining(const MotionContext& context) const;
+  /** Body of a robot that stands on both feet, in odometry. */
+  Pose2 standing_body(const RobotState& state) const;
 
   MoveToCommand command_;
   /** Of the body between the feet. */
   Pose2 goal_in_odometry_;
+  double turn_center_;
   WalkLimits limits_;
   double way_ = 0;
   double time_ = 0;

@@ -9,11 +9,14 @@
 namespace nao::motion {
 namespace {
 
-// Links keep this far from each other: the servos' lag and the encoders' steps, m.
+// Least distance between two links, m. Chosen: a reserve for the servos' tracking error and the
+// encoders' resolution.
 constexpr double kClearance = 0.003;
-// Links that touch already may come this much closer before it counts, m.
+// Approach of links that are closer than that already, m. Chosen: a sixth of the least distance,
+// above rounding.
 constexpr double kTouchTolerance = 0.0005;
-// Edges of boxes are rounded by this much, m.
+// Radius of the rounded edges of boxes, m; closest_points() needs one above 0. Chosen: half of the
+// simulator's, so that the boxes reach a little farther into their corners than there.
 constexpr double kEdgeRadius = 0.004;
 
 }  // namespace
@@ -63,41 +66,44 @@ double SelfCollisionGuard::calc_clearance(const std::vector<double>& position) {
   return least;
 }
 
-size_t SelfCollisionGuard::find_last_free(const std::vector<std::vector<double>>& way,
+size_t SelfCollisionGuard::find_last_free(const std::vector<std::vector<double>>& path,
                                           SelfCollision& collision) {
-  place(way.front());
-  std::vector<double> needed;
+  place(path.front());
+  std::vector<double> needed;  // m, for each pair
   for (const auto& pair : pairs_) {
     needed.push_back(std::min(kClearance, distance(pair, kClearance) - kTouchTolerance));
   }
-  for (size_t k = 1; k < way.size(); ++k) {
-    place(way[k]);
+  for (size_t k = 1; k < path.size(); ++k) {
+    place(path[k]);
     for (size_t i = 0; i < pairs_.size(); ++i) {
       if (distance(pairs_[i], kClearance) >= needed[i]) continue;
       const std::vector<Link>& links = kinematics_.model().links();
       collision.link_a = links[parts_[pairs_[i].first].link].name;
       collision.link_b = links[parts_[pairs_[i].second].link].name;
-      std::vector<double> change = way[k];
-      for (size_t m = 0; m < change.size(); ++m) change[m] -= way.front()[m];
+      std::vector<double> change = path[k];
+      for (size_t m = 0; m < change.size(); ++m) change[m] -= path.front()[m];
       collision.motor = find_mover(pairs_[i], change);
       return k - 1;
     }
   }
-  return way.size() - 1;
+  return path.size() - 1;
 }
 
 int SelfCollisionGuard::find_mover(const std::pair<int, int>& pair,
                                    const std::vector<double>& change) const {
+  // The velocity at which the two links approach each other along the contact normal n, for a
+  // change dq, is -n . (J_a - J_b) dq at the closest point; its summands are the motors'
+  // contributions.
   const Proximity proximity = closest_points(placed_[pair.first], placed_[pair.second]);
-  const Eigen::Matrix3Xd parting =
+  const Eigen::Matrix3Xd relative_jacobian =
       kinematics_.calc_point_jacobian(parts_[pair.first].link, proximity.point) -
       kinematics_.calc_point_jacobian(parts_[pair.second].link, proximity.point);
   int mover = -1;
   double fastest = 0;
   for (int motor = 0; motor < static_cast<int>(change.size()); ++motor) {
-    const double closing = -proximity.normal.dot(parting.col(motor)) * change[motor];
-    if (mover >= 0 && closing <= fastest) continue;
-    fastest = closing;
+    const double approach = -proximity.normal.dot(relative_jacobian.col(motor)) * change[motor];
+    if (mover >= 0 && approach <= fastest) continue;
+    fastest = approach;
     mover = motor;
   }
   return mover;

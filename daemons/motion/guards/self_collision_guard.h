@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,48 +10,55 @@
 
 namespace nao::motion {
 
-/** Two links that would hit each other. */
+/** A predicted collision of two links. */
 struct SelfCollision {
   std::string link_a;
   std::string link_b;
-  /** Joint of the way that moves them towards each other fastest; index of a motor. */
+  /** Motor of the path whose joint contributes most to the approach of the two links. */
   int motor = -1;
 };
 
-/** Foresees whether joint angles bring the robot's links into each other, by the collision
- * primitives of its URDF. Links that may touch (RobotModel::allowed_contacts()) are left out. */
+/** Predicts collisions of the robot with itself from the distances between the collision primitives
+ * of its URDF. Pairs of links that may touch (RobotModel::allowed_contacts()) are not checked. */
 class SelfCollisionGuard {
  public:
-  /** @throws ModelError  for a collision shape that is no box, sphere or capsule. */
+  /** @param model  Must outlive this.
+   * @throws ModelError  for a collision shape that is no box, sphere or capsule. */
   explicit SelfCollisionGuard(const RobotModel& model);
 
-  /** Least distance between any two links that should not touch, m; negative if they overlap. */
+  /** Least distance of all pairs of links, m; negative if two overlap.
+   * @param position  rad, (num_motors). */
   double calc_clearance(const std::vector<double>& position);
 
-  /** How far along a way there is no self-collision. Links that touch at its beginning may go on
-   * touching, no deeper.
-   * @param way  Joint angles, rad, so dense that no link jumps over another.
-   * @param collision  Set if the way is not free to its end. @return Index of the last point before
-   * the collision, or of the last one. */
-  size_t find_last_free(const std::vector<std::vector<double>>& way, SelfCollision& collision);
+  /** Finds the part of a path without self-collision. Links that touch at its start may keep
+   * touching, but not deeper.
+   * @param path       Joint angles, rad, each (num_motors), so dense that no link passes another
+   *   between two of them. Not empty.
+   * @param collision  Set if the path is not free to its end.
+   * @return Index of the last point before the collision, or of the last point. */
+  size_t find_last_free(const std::vector<std::vector<double>>& path, SelfCollision& collision);
 
  private:
+  /** A collision primitive. */
   struct Part {
     int link;
     RoundedBox box_in_link;
-    /** Of a ball about its centre that holds it, m. */
+    /** Radius of a sphere about the primitive's center that contains it, m. */
     double bounding_radius;
   };
 
   void place(const std::vector<double>& position);
-  /** Distance of a pair, or a lower bound of it if that is above `enough`. */
+  /** Distance of a pair of parts, m, or a lower bound of it that is above `enough`. */
   double distance(const std::pair<int, int>& pair, double enough) const;
-  /** Motor whose part of a change closes the gap of a pair most, where the parts are placed now. */
+  /** Motor whose part of a change reduces the distance of a pair most, at the placed angles.
+   * @param change  rad, (num_motors). */
   int find_mover(const std::pair<int, int>& pair, const std::vector<double>& change) const;
 
   Kinematics kinematics_;
   std::vector<Part> parts_;
+  /** Pairs of parts that are checked, as indices. */
   std::vector<std::pair<int, int>> pairs_;
+  /** The parts in the torso frame, at the angles of the last place(). */
   std::vector<RoundedBox> placed_;
 };
 

@@ -4,43 +4,62 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kinematics/support_polygon.h"
 
 namespace nao::motion {
 namespace {
 
-// Points this little above the lowest one carry weight too: soles and floor give that much, m.
+// Height above the lowest corner up to which a corner is in contact, m. Chosen: what the soles and
+// the ground yield under the weight.
 constexpr double kContactDepth = 0.002;
-// One step of rolling over an edge, and when it has rolled over for good, rad.
+// Step of a roll over an edge, and the greatest roll, rad. Chosen: a robot that has rolled by 0.06
+// rad (3.4 degrees) does not stop by itself.
 constexpr double kRollStep = 0.01;
 constexpr double kMaxRoll = 0.06;
-// A sole that leans less than this against the floor is flat, rad.
+// Tilt of a sole against the ground up to which it is flat, rad. Chosen: the greatest roll.
 constexpr double kFlat = 0.06;
-// An edge of the other sole may press this far below the flat one, m; more lifts the body off it.
-constexpr double kLifting = 0.004;
-constexpr double kFlatTolerance = 1e-3;  // of the cosine
-// Largest error of the estimated up, rad: bias of the accelerometer, before and after settling.
+// Depth below the flat sole to which an edge of the other sole may reach, m; deeper, it lifts the
+// body off the flat sole. Chosen: twice the contact depth.
+constexpr double kMaxLifting = 0.004;
+// Decrease of the flatter sole's cosine below its value at the start that counts as a tilt.
+constexpr double kFlatTolerance = 1e-3;
+// Greatest error of the measured direction of up, rad (2 degrees): the accelerometer's bias.
 constexpr double kUpError = 0.035;
-// Three corners that span less than this, m^2, are on a line.
+// Area below which three corners are on one line, m^2.
 constexpr double kOnLine = 1e-6;
-// Cosines that differ by less belong to the same face.
-constexpr double kNoNearer = 1e-12;
-// Corners this far below a face are on it, m: rounding only.
+// Difference of cosines up to which two faces have the same normal.
+constexpr double kSameNormal = 1e-12;
+// Distance of a corner to a face that it is on, m: rounding only.
 constexpr double kOnFace = 1e-9;
-// Reserve for momentum and for what the sensors do not see, m.
+// Least static stability margin, m: a reserve for accelerations and for the sensors' errors.
+// Chosen; NAO's upright postures have 0.03 m and more.
 constexpr double kReserve = 0.012;
-// The way is looked at every so many rad of the joint that turns most.
+// Change of the joint that turns most from one sample of the line to the next, rad, and the
+// greatest number of samples.
 constexpr double kSampleAngle = 0.03;
 constexpr int kMaxSamples = 100;
+// Slack of comparisons of margins, m: rounding only.
+constexpr double kRounding = 1e-9;
 
-/** Two unit vectors that are level if `up` is up: x ahead, y to the left. */
-void find_level_axes(const Eigen::Vector3d& up, Eigen::Vector3d& x, Eigen::Vector3d& y) {
-  y = up.cross(Eigen::Vector3d::UnitX()).normalized();
-  x = y.cross(up);
-}
+/** Horizontal axes for a direction of up, all in the torso frame. */
+struct LevelAxes {
+  explicit LevelAxes(const Eigen::Vector3d& up)
+      : y(up.cross(Eigen::Vector3d::UnitX()).normalized()), x(y.cross(up)) {}
 
-/** Point of the polygon's edge that is nearest. */
+  /** Coordinates of a point on the ground. */
+  Eigen::Vector2d project(const Eigen::Vector3d& point) const {
+    return {x.dot(point), y.dot(point)};
+  }
+
+  /** To the left. */
+  Eigen::Vector3d y;
+  /** Forward. */
+  Eigen::Vector3d x;
+};
+
+/** Point on the edge of a convex polygon that is nearest to a point. */
 Eigen::Vector2d nearest_on_edge(const std::vector<Eigen::Vector2d>& polygon,
                                 const Eigen::Vector2d& point) {
   Eigen::Vector2d nearest = polygon.front();
@@ -77,84 +96,83 @@ std::array<Sole, 2> find_soles(const Kinematics& kinematics) {
   return soles;
 }
 
-/** True if a body on a face with this up, through these corners, stays there. */
+/** Support polygon for a direction of up, in level axes. Sets `flattest` and `lifting`. */
+std::vector<Eigen::Vector2d> find_support(const std::array<Sole, 2>& soles,
+                                          const Eigen::Vector3d& up, const LevelAxes& axes,
+                                          Equilibrium& state) {
+  state.flattest = std::max(up.dot(soles[0].normal), up.dot(soles[1].normal));
+  // A sole on its edge yields under load: only flat soles support the body, or the flatter one.
+  const double flat = std::min(std::cos(kFlat), state.flattest);
+  double lowest = std::numeric_limits<double>::infinity();
+  double lowest_flat = lowest;
+  for (const Sole& sole : soles) {
+    for (const Eigen::Vector3d& corner : sole.corners) {
+      const double height = up.dot(corner);
+      lowest = std::min(lowest, height);
+      if (up.dot(sole.normal) >= flat) lowest_flat = std::min(lowest_flat, height);
+    }
+  }
+  state.lifting = lowest_flat - lowest;
+  std::vector<Eigen::Vector2d> contacts;
+  for (const Sole& sole : soles) {
+    if (up.dot(sole.normal) < flat) continue;
+    for (const Eigen::Vector3d& corner : sole.corners) {
+      if (up.dot(corner) < lowest_flat + kContactDepth) contacts.push_back(axes.project(corner));
+    }
+  }
+  return convex_hull(std::move(contacts));
+}
+
+/** Whether a body at rest on a face of its hull stays there: no corner is below the face, and the
+ * center of mass projects into it.
+ * @param height  Of the face along up, m. */
 bool rests_on(const Eigen::Vector3d& up, double height, const std::vector<Eigen::Vector3d>& corners,
               const Eigen::Vector3d& center_of_mass) {
-  Eigen::Vector3d x;
-  Eigen::Vector3d y;
-  find_level_axes(up, x, y);
+  const LevelAxes axes(up);
   std::vector<Eigen::Vector2d> face;
   for (const Eigen::Vector3d& corner : corners) {
     if (up.dot(corner) < height - kOnFace) return false;
-    if (up.dot(corner) <= height + kOnFace) face.push_back({x.dot(corner), y.dot(corner)});
+    if (up.dot(corner) <= height + kOnFace) face.push_back(axes.project(corner));
   }
-  const Eigen::Vector2d mass(x.dot(center_of_mass), y.dot(center_of_mass));
-  return margin_in_polygon(convex_hull(std::move(face)), mass) >= 0;
+  return margin_in_polygon(convex_hull(std::move(face)), axes.project(center_of_mass)) >= 0;
 }
 
 }  // namespace
 
-TippingGuard::TippingGuard(const RobotModel& model) : kinematics_(model) {}
-
-Rest TippingGuard::find_rest(const std::vector<double>& position,
-                             const Eigen::Vector3d& up_in_torso) {
+Equilibrium TippingGuard::find_equilibrium(const std::vector<double>& position,
+                                           const Eigen::Vector3d& up_in_torso) {
   kinematics_.update(position);
   const std::array<Sole, 2> soles = find_soles(kinematics_);
-  Rest rest;
-  rest.up_in_torso = up_in_torso;
+  Equilibrium state;
+  state.up_in_torso = up_in_torso;
   for (double rolled = 0;; rolled += kRollStep) {
-    const Eigen::Vector3d& up = rest.up_in_torso;
-    Eigen::Vector3d x;
-    Eigen::Vector3d y;
-    find_level_axes(up, x, y);
-    rest.flattest = std::max(up.dot(soles[0].normal), up.dot(soles[1].normal));
-    // A sole on its edge gives way under load: only the flat ones count, or the one that is nearer
-    // to it.
-    const double flat = std::min(std::cos(kFlat), rest.flattest);
-    double lowest = std::numeric_limits<double>::infinity();
-    double lowest_flat = lowest;
-    for (const Sole& sole : soles) {
-      for (const Eigen::Vector3d& corner : sole.corners) {
-        const double height = up.dot(corner);
-        lowest = std::min(lowest, height);
-        if (up.dot(sole.normal) >= flat) lowest_flat = std::min(lowest_flat, height);
-      }
-    }
-    rest.lifting = lowest_flat - lowest;
-    std::vector<Eigen::Vector2d> support;
-    for (const Sole& sole : soles) {
-      if (up.dot(sole.normal) < flat) continue;
-      for (const Eigen::Vector3d& corner : sole.corners) {
-        if (up.dot(corner) < lowest_flat + kContactDepth) {
-          support.push_back({x.dot(corner), y.dot(corner)});
-        }
-      }
-    }
-    const Eigen::Vector2d mass(x.dot(kinematics_.center_of_mass()),
-                               y.dot(kinematics_.center_of_mass()));
-    support = convex_hull(std::move(support));
-    rest.margin = margin_in_polygon(support, mass);
-    const Eigen::Vector2d to_edge = nearest_on_edge(support, mass) - mass;
+    const Eigen::Vector3d& up = state.up_in_torso;
+    const LevelAxes axes(up);
+    const std::vector<Eigen::Vector2d> support = find_support(soles, up, axes, state);
+    const Eigen::Vector2d com = axes.project(kinematics_.center_of_mass());
+    state.margin = margin_in_polygon(support, com);
+    const Eigen::Vector2d to_edge = nearest_on_edge(support, com) - com;
     const double distance = to_edge.norm();
     if (distance > 0) {
-      const double sign = rest.margin < 0 ? -1 : 1;
+      // From inside, the body tips towards the edge; from outside, away from it.
+      const double sign = state.margin < 0 ? -1 : 1;
       const Eigen::Vector2d direction = sign / distance * to_edge;
-      rest.tipping_direction = direction.x() * x + direction.y() * y;
+      state.tipping_direction = direction.x() * axes.x + direction.y() * axes.y;
     }
-    if (rest.margin >= 0 || rolled >= kMaxRoll) return rest;
-    // Rolling towards a direction turns what was up away from it.
-    rest.up_in_torso = (up - kRollStep * rest.tipping_direction).normalized();
+    if (state.margin >= 0 || rolled >= kMaxRoll) return state;
+    // A roll towards a direction turns up away from it, seen from the body.
+    state.up_in_torso = (up - kRollStep * state.tipping_direction).normalized();
   }
 }
 
-Eigen::Vector3d TippingGuard::find_standing_up(const std::vector<double>& position,
-                                               const Eigen::Vector3d& up_in_torso) {
+Eigen::Vector3d TippingGuard::find_support_normal(const std::vector<double>& position,
+                                                  const Eigen::Vector3d& up_in_torso) {
   kinematics_.update(position);
   std::vector<Eigen::Vector3d> corners;
   for (const Sole& sole : find_soles(kinematics_)) {
     corners.insert(corners.end(), sole.corners.begin(), sole.corners.end());
   }
-  // A few corners: every plane through three of them is tried.
+  // The soles have few corners: every plane through three of them is tried.
   Eigen::Vector3d best = up_in_torso;
   double nearest = std::cos(kUpError);
   for (size_t i = 0; i < corners.size(); ++i) {
@@ -164,7 +182,7 @@ Eigen::Vector3d TippingGuard::find_standing_up(const std::vector<double>& positi
         if (up.norm() < kOnLine) continue;
         up.normalize();
         if (up.dot(up_in_torso) < 0) up = -up;
-        if (up.dot(up_in_torso) <= nearest + kNoNearer) continue;
+        if (up.dot(up_in_torso) <= nearest + kSameNormal) continue;
         if (!rests_on(up, up.dot(corners[i]), corners, kinematics_.center_of_mass())) continue;
         nearest = up.dot(up_in_torso);
         best = up;
@@ -174,32 +192,33 @@ Eigen::Vector3d TippingGuard::find_standing_up(const std::vector<double>& positi
   return best;
 }
 
-double TippingGuard::find_safe_share(const std::vector<double>& from, const std::vector<double>& to,
-                                     const Eigen::Vector3d& up_in_torso, Rest& tipping) {
+double TippingGuard::find_safe_fraction(const std::vector<double>& from,
+                                        const std::vector<double>& to,
+                                        const Eigen::Vector3d& up_in_torso, Equilibrium& tipping) {
   double largest = 0;
   for (size_t i = 0; i < from.size(); ++i) largest = std::max(largest, std::abs(to[i] - from[i]));
   const int num_samples =
       std::clamp(static_cast<int>(std::ceil(largest / kSampleAngle)), 1, kMaxSamples);
-  const Eigen::Vector3d standing_up = find_standing_up(from, up_in_torso);
+  const Eigen::Vector3d standing_up = find_support_normal(from, up_in_torso);
   Eigen::Vector3d up = standing_up;
-  // Who stands badly already may move, as long as it does not get worse.
-  const Rest start = find_rest(from, up);
-  double needed = std::min(kReserve, start.margin);
-  const double allowed_lifting = std::max(kLifting, start.lifting + kLifting / 4);
+  // A robot that stands badly at the start may move, as long as it does not become worse.
+  const Equilibrium start = find_equilibrium(from, up);
+  double needed_margin = std::min(kReserve, start.margin);
+  const double allowed_lifting = std::max(kMaxLifting, start.lifting + kMaxLifting / 4);
   const double needed_flatness = std::min(std::cos(kFlat), start.flattest - kFlatTolerance);
   std::vector<double> position = from;
   for (int k = 1; k <= num_samples; ++k) {
-    const double share = static_cast<double>(k) / num_samples;
-    for (size_t i = 0; i < from.size(); ++i) position[i] = from[i] + share * (to[i] - from[i]);
-    const Rest rest = find_rest(position, up);
-    const bool leans = rest.up_in_torso.dot(standing_up) < std::cos(kMaxRoll);
-    if (rest.margin < needed - 1e-9 || rest.flattest < needed_flatness ||
-        rest.lifting > allowed_lifting || leans) {
-      tipping = rest;
+    const double fraction = static_cast<double>(k) / num_samples;
+    for (size_t i = 0; i < from.size(); ++i) position[i] = from[i] + fraction * (to[i] - from[i]);
+    const Equilibrium state = find_equilibrium(position, up);
+    const bool leans = state.up_in_torso.dot(standing_up) < std::cos(kMaxRoll);
+    if (state.margin < needed_margin - kRounding || state.flattest < needed_flatness ||
+        state.lifting > allowed_lifting || leans) {
+      tipping = state;
       return static_cast<double>(k - 1) / num_samples;
     }
-    needed = std::min(kReserve, std::max(needed, rest.margin));
-    up = rest.up_in_torso;
+    needed_margin = std::min(kReserve, std::max(needed_margin, state.margin));
+    up = state.up_in_torso;
   }
   return 1;
 }

@@ -8,48 +8,58 @@
 
 namespace nao::motion {
 
-/** How a robot with stiff joints comes to rest on its soles. */
-struct Rest {
+/** Static equilibrium of a robot with rigid joints on its soles. */
+struct Equilibrium {
   /** Direction of up in the torso frame, unit. */
   Eigen::Vector3d up_in_torso = Eigen::Vector3d::UnitZ();
-  /** Cosine of the angle between up and the normal of the sole that is nearer to level. */
+  /** Cosine of the angle between up and the normal of the flatter sole. */
   double flattest = 1;
-  /** How far the other sole's edge would reach below the flat one, m. */
+  /** Depth of the other sole's lowest corner below the flat one, m. */
   double lifting = 0;
-  /** From the centre of mass's ground projection to the edge of what it stands on, m; negative if
-   * the robot tips farther than looked for. */
+  /** Static stability margin: distance of the center of mass's ground projection to the edge of the
+   * support polygon, m; negative if the robot tips farther than the search goes. */
   double margin = 0;
-  /** Way to the nearest edge, unit, horizontal, torso frame: where it tips to. */
+  /** Direction to the nearest edge, unit, horizontal, torso frame: the robot tips there. */
   Eigen::Vector3d tipping_direction = Eigen::Vector3d::UnitX();
 };
 
-/** Foresees whether joint angles would tip a standing robot over.
+/** Predicts whether joint angles would tip a standing robot over.
  *
- * Treats the robot as one stiff body and lets it roll over the edges of its soles, from how it
- * stands now, until its centre of mass is above what it stands on. A tilt of more than a few
- * degrees on the way there counts as tipping over. Slow motions only: momentum is not looked at. */
+ * A rigid body on the ground is in static equilibrium if its center of mass projects into the
+ * support polygon, the convex hull of its contact points. The robot is treated as one rigid body
+ * for each sample of a path of joint angles: starting with the direction of up of the sample
+ * before, the body rolls in small steps over the nearest edge of its support polygon until its
+ * center of mass is above it. A roll of more than a few degrees, a flat sole that is lifted, or a
+ * margin below a reserve count as tipping over. Accelerations are not considered: the paths are
+ * slow.
+ *
+ * Source: R. B. McGhee, A. A. Frank, "On the stability properties of quadruped creeping gaits",
+ * Mathematical Biosciences 3, 1968, for the static stability margin. */
 class TippingGuard {
  public:
-  explicit TippingGuard(const RobotModel& model);
+  /** @param model  Must outlive this. */
+  explicit TippingGuard(const RobotModel& model) : kinematics_(model) {}
 
-  /** @param position     Joint angles, rad, (num_motors).
-   * @param up_in_torso   Where it starts to roll from, unit. */
-  Rest find_rest(const std::vector<double>& position, const Eigen::Vector3d& up_in_torso);
+  /** Rolls the robot to its equilibrium. @param position  Joint angles, rad, (num_motors).
+   * @param up_in_torso  Where the roll starts, unit. */
+  Equilibrium find_equilibrium(const std::vector<double>& position,
+                               const Eigen::Vector3d& up_in_torso);
 
-  /** How a robot that is said to stand on its soles really stands, if it is at rest: on a face of
-   * the hull of its soles' corners. The inertial unit's up tells which face; the joints tell how it
-   * lies, for an error of one degree there is 3 mm of height between the feet.
-   * @param up_in_torso  As measured, unit.
-   * @return Up of that face, unit; as measured if no face is as near as the measurement's error. */
-  Eigen::Vector3d find_standing_up(const std::vector<double>& position,
-                                   const Eigen::Vector3d& up_in_torso);
+  /** Corrects the measured direction of up of a robot that rests on its soles: it rests on a face
+   * of the convex hull of the soles' corners, whose normal the joint angles give exactly. The
+   * measurement only selects the face: one degree of its error is 3 mm of height between the feet.
+   * @param up_in_torso  Measured, unit.
+   * @return Normal of the face, unit; the measurement if no face is within its error. */
+  Eigen::Vector3d find_support_normal(const std::vector<double>& position,
+                                      const Eigen::Vector3d& up_in_torso);
 
-  /** Share of the straight way from one set of angles to another that keeps the balance.
-   * @param up_in_torso  How the robot stands at the beginning, unit.
-   * @param tipping      Set if the answer is below 1: the rest that is none.
-   * @return 0..1; 1 if the whole way does. */
-  double find_safe_share(const std::vector<double>& from, const std::vector<double>& to,
-                         const Eigen::Vector3d& up_in_torso, Rest& tipping);
+  /** Finds how much of the straight line between two sets of joint angles keeps the balance.
+   * @param from, to     rad, (num_motors).
+   * @param up_in_torso  Measured at `from`, unit.
+   * @param tipping      Set if the result is below 1: the first state without equilibrium.
+   * @return Fraction of the line, 0..1. */
+  double find_safe_fraction(const std::vector<double>& from, const std::vector<double>& to,
+                            const Eigen::Vector3d& up_in_torso, Equilibrium& tipping);
 
  private:
   Kinematics kinematics_;

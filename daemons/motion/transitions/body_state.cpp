@@ -9,21 +9,24 @@
 namespace nao::motion {
 namespace {
 
-// Torso height from which on an upright robot is on its feet and not on its seat, m: a crouch has
-// 0.229, a seat 0.12.
-constexpr double kLeastStandingHeight = 0.19;
+// Torso height above which an upright robot is on its feet and not on its seat, m. Chosen between
+// the seat (0.12) and the crouch (0.229: facts sheet, table of standing postures).
+constexpr double kSeatHeight = 0.19;
+// Greatest difference of a measured angle to the posture that the robot is in, rad (5 degrees): the
+// servos' tracking error under load and the encoders' resolution.
+constexpr double kInPostureTolerance = 0.09;
 
 }  // namespace
 
 std::string find_body_state(const RobotModel& model, const RobotState& state, double lying_tilt) {
-  const Eigen::Vector3d up = state.torso_in_odometry.linear().row(2);
-  const bool lies = up.z() < std::cos(lying_tilt);
-  if (lies) {
+  if (is_lying(state, lying_tilt)) {
+    // The side follows from the torso axis that is nearest to vertical: x forward, y to the left.
+    const Eigen::Vector3d up = state.torso_in_odometry.linear().row(2);
     if (std::abs(up.y()) > std::abs(up.x())) return up.y() < 0 ? "left" : "right";
     return up.x() < 0 ? "belly" : "back";
   }
-  if (state.torso_in_odometry.translation().z() > kLeastStandingHeight) {
-    return state.left_foot_carries || state.right_foot_carries ? "on-feet" : "";
+  if (is_above_seat(state)) {
+    return state.left_foot_carries || state.right_foot_carries ? kOnFeet : "";
   }
   std::string nearest;
   double least = std::numeric_limits<double>::infinity();
@@ -35,6 +38,29 @@ std::string find_body_state(const RobotModel& model, const RobotState& state, do
     nearest = state_of(posture);
   }
   return nearest;
+}
+
+bool is_lying(const RobotState& state, double lying_tilt) {
+  // The cosine of the tilt is the z component of the torso's z axis in the odometry frame.
+  return state.torso_in_odometry.linear()(2, 2) < std::cos(lying_tilt);
+}
+
+bool is_above_seat(const RobotState& state) {
+  return state.torso_in_odometry.translation().z() > kSeatHeight;
+}
+
+bool is_sitting(const RobotModel& model, const std::string& body_state) {
+  const Posture* posture = model.find_posture(body_state);
+  return posture != nullptr && posture->family == "sitting";
+}
+
+const Posture* find_present_posture(const RobotModel& model, const std::vector<double>& position,
+                                    const RobotState& state, double lying_tilt) {
+  for (const Posture& posture : model.postures()) {
+    if (deviation_from(posture, position).angle >= kInPostureTolerance) continue;
+    if (state_of(posture) == find_body_state(model, state, lying_tilt)) return &posture;
+  }
+  return nullptr;
 }
 
 }  // namespace nao::motion

@@ -6,17 +6,13 @@
 namespace nao::motion {
 namespace {
 
-// A stage takes at least this many times as long as its joints at their greatest speeds. The spline
-// of one that starts and ends at rest asks for 1.5 times the mean velocity: the motion core limits
-// that peak, and the targets catch up towards the end.
-constexpr double kLeastOverQuickest = 1.15;
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
+// Least duration of a stage relative to the distance over the maximum speed. Chosen: a spline that
+// starts and ends at rest peaks at 1.5 times its mean velocity; between 1.15 and 1.5 TargetLimiter
+// clips that peak, and the targets catch up towards the end of the stage.
+constexpr double kMinDurationRatio = 1.15;
 
 /** Motor on the other side, and the sign of its angle there. Facts sheet: rolls and yaws change
- * sign, pitches, the hip's yaw-pitch and the hands do not. */
+ * their sign; pitches, the hip's yaw-pitch and the hands do not. */
 struct Mirror {
   int motor;
   double sign;
@@ -24,7 +20,7 @@ struct Mirror {
 
 Mirror mirror_of(const RobotModel& model, int motor) {
   std::string name = model.motor_joint(motor).name;
-  const bool changes_sign = ends_with(name, "Roll") || ends_with(name, "Yaw");
+  const bool changes_sign = name.ends_with("Roll") || name.ends_with("Yaw");
   if (name[0] == 'L' || name[0] == 'R') {
     name[0] = name[0] == 'L' ? 'R' : 'L';
     const int other = model.find_motor(name);
@@ -78,7 +74,7 @@ KeyframePlayer::KeyframePlayer(const RobotModel& model, const KeyframeSequence& 
     for (size_t i = 0; i < num_motors; ++i) {
       if (!std::isnan(keyframe.position[i])) stage.to[i] = keyframe.position[i];
       const double distance = std::abs(stage.to[i] - stage.from[i]);
-      duration = std::max(duration, kLeastOverQuickest * distance /
+      duration = std::max(duration, kMinDurationRatio * distance /
                                         model.motor_joint(static_cast<int>(i)).max_velocity);
     }
     stage.stiffness = keyframe.stiffness;
@@ -91,21 +87,21 @@ KeyframePlayer::KeyframePlayer(const RobotModel& model, const KeyframeSequence& 
     last = stage.to;
     stages_.push_back(std::move(stage));
   }
-  for (size_t k = 0; k + 1 < stages_.size(); ++k) {
-    Stage& before = stages_[k];
-    Stage& after = stages_[k + 1];
-    if (before.end > before.arrival) continue;
-    const double duration_before = before.arrival - before.start;
-    const double duration_after = after.arrival - after.start;
-    if (duration_before <= 0 || duration_after <= 0) continue;
-    for (size_t i = 0; i < num_motors; ++i) {
-      const double slope_before = (before.to[i] - before.from[i]) / duration_before;
-      const double slope_after = (after.to[i] - after.from[i]) / duration_after;
-      if (slope_before * slope_after <= 0) continue;
-      const double velocity = 2 * slope_before * slope_after / (slope_before + slope_after);
-      before.to_velocity[i] = velocity;
-      after.from_velocity[i] = velocity;
-    }
+  for (size_t k = 0; k + 1 < stages_.size(); ++k) connect(stages_[k], stages_[k + 1]);
+}
+
+void KeyframePlayer::connect(Stage& before, Stage& after) {
+  if (before.end > before.arrival) return;  // The targets rest in between.
+  const double duration_before = before.arrival - before.start;
+  const double duration_after = after.arrival - after.start;
+  if (duration_before <= 0 || duration_after <= 0) return;
+  for (size_t i = 0; i < before.from.size(); ++i) {
+    const double slope_before = (before.to[i] - before.from[i]) / duration_before;
+    const double slope_after = (after.to[i] - after.from[i]) / duration_after;
+    if (slope_before * slope_after <= 0) continue;
+    const double velocity = 2 * slope_before * slope_after / (slope_before + slope_after);
+    before.to_velocity[i] = velocity;
+    after.from_velocity[i] = velocity;
   }
 }
 
@@ -121,12 +117,12 @@ void KeyframePlayer::sample(double time, std::vector<double>& position,
   const Stage& stage = stages_[stage_at(time)];
   const double duration = stage.arrival - stage.start;
   const double s = duration > 0 ? std::clamp((time - stage.start) / duration, 0.0, 1.0) : 1.0;
-  // Hermite basis.
-  const double to_share = s * s * (3 - 2 * s);
+  // Cubic Hermite basis: h01 for the distance, h10 and h11 for the velocities at both ends.
+  const double to_weight = s * s * (3 - 2 * s);
   const double from_slope = s * (1 - s) * (1 - s) * duration;
   const double to_slope = -s * s * (1 - s) * duration;
   for (size_t i = 0; i < position.size(); ++i) {
-    position[i] = stage.from[i] + to_share * (stage.to[i] - stage.from[i]) +
+    position[i] = stage.from[i] + to_weight * (stage.to[i] - stage.from[i]) +
                   from_slope * stage.from_velocity[i] + to_slope * stage.to_velocity[i];
     if (!std::isnan(stage.stiffness[i])) stiffness[i] = stage.stiffness[i];
   }

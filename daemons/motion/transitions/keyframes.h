@@ -8,31 +8,32 @@
 
 namespace nao::motion {
 
-/** One stage of a motion that is kept as data. */
+/** One keyframe of a motion that is kept as data. */
 struct Keyframe {
-  /** s from the stage before to this one at full speed. */
+  /** s from the keyframe before to this one at full speed. */
   double duration = 0;
-  /** Targets at its end, rad, (num_motors); NaN: as in the stage before. */
+  /** Targets at its end, rad, (num_motors); NaN: as in the keyframe before. */
   std::vector<double> position;
-  /** Share of the motors' torque from its beginning on, (num_motors); NaN: as before. */
+  /** Fraction of the peak torque from its beginning on, (num_motors); NaN: as before. */
   std::vector<double> stiffness;
-  /** s for which the targets rest afterwards, at any speed. After the last stage of a transition:
-   * at most, for it is over as soon as the body is where it leads. */
+  /** s for which the targets rest afterwards, at any speed. The pause of a transition's last
+   * keyframe ends early, as soon as the body is in the state to which the transition leads. */
   double pause = 0;
-  /** What the direction of up in the torso frame must be at its end, or the motion has failed:
-   * least and greatest value along x, y, z. */
+  /** Allowed range of a component of the direction of up. */
   struct Range {
     double least = -std::numeric_limits<double>::infinity();
     double greatest = std::numeric_limits<double>::infinity();
     bool has(double value) const { return value >= least && value <= greatest; }
   };
+  /** Of the direction of up along x, y, z of the torso frame at its end; outside, the motion has
+   * failed. */
   Range up[3];
 };
 
-/** A motion kept as data: a way from one state of the body to another. */
+/** A motion that is kept as data: keyframes that lead from one state of the body to another. */
 struct KeyframeSequence {
   std::string name;
-  /** States that it leads from and to: a posture's name, or where the body lies. */
+  /** States of the body (find_body_state()), or a posture's name. */
   std::string from;
   std::string to;
   std::vector<Keyframe> keyframes;
@@ -47,11 +48,16 @@ KeyframeSequence mirrored(const RobotModel& model, const KeyframeSequence& seque
 /** Angles of a posture with left and right exchanged, rad, (num_motors). */
 std::vector<double> mirrored(const RobotModel& model, const std::vector<double>& position);
 
-/** Smooth targets through all stages, from where the joints are.
+/** Interpolates joint targets through the keyframes of a sequence, from the present targets.
  *
- * Between stages without a pause a joint that goes on in the same direction does not stop: cubic
- * Hermite splines with the slopes of Fritsch and Carlson, "Monotone piecewise cubic interpolation",
- * SIAM J. Numer. Anal. 17(2), 1980, which never overshoot. */
+ * Cubic Hermite splines. A joint that continues in the same direction between two keyframes without
+ * a pause does not stop there: its velocity is the harmonic mean of the slopes on both sides, which
+ * keeps the spline monotone, so that it never overshoots a keyframe. In every other keyframe it is
+ * 0.
+ *
+ * Source: F. N. Fritsch, R. E. Carlson, "Monotone piecewise cubic interpolation", SIAM J. Numer.
+ * Anal. 17(2), 1980; the harmonic mean is from F. N. Fritsch, J. Butland, SIAM J. Sci. Stat.
+ * Comput. 5(2), 1984. */
 class KeyframePlayer {
  public:
   KeyframePlayer() = default;
@@ -64,21 +70,24 @@ class KeyframePlayer {
   /** s. */
   double duration() const { return stages_.empty() ? 0.0 : stages_.back().end; }
   int num_stages() const { return static_cast<int>(stages_.size()); }
-  /** When the last stage's targets are reached and its pause begins, s. */
+  /** Time at which the last keyframe's targets are reached and its pause begins, s. */
   double last_arrival() const { return stages_.empty() ? 0.0 : stages_.back().arrival; }
-  /** When a stage ends, its pause included, s. */
+  /** Time at which a stage ends, its pause included, s. */
   double end_of(int stage) const { return stages_[stage].end; }
-  /** Stage that runs at a time, s since the start; the last one after the end. */
+  /** Stage (index of the keyframe) at a time since the start, s; the last one after the end. */
   int stage_at(double time) const;
 
-  /** @param position, stiffness  (num_motors), set; stiffness only where the stages say so. */
+  /** Targets at a time since the start, s.
+   * @param position, stiffness  (num_motors), set; stiffness only where the keyframes give it. */
   void sample(double time, std::vector<double>& position, std::vector<double>& stiffness) const;
 
  private:
+  /** Interpolation from one keyframe to the next. Times since the start of the motion, s. */
   struct Stage {
     double start;
-    /** When the targets are reached, and when the pause is over. */
+    /** The targets are reached. */
     double arrival;
+    /** The pause is over. */
     double end;
     std::vector<double> from;
     std::vector<double> to;
@@ -87,6 +96,9 @@ class KeyframePlayer {
     std::vector<double> to_velocity;
     std::vector<double> stiffness;
   };
+
+  /** Gives joints that continue in the same direction a velocity between two stages. */
+  static void connect(Stage& before, Stage& after);
 
   std::vector<Stage> stages_;
 };

@@ -7,13 +7,15 @@
 #include <set>
 
 #include "common/error.h"
+#include "daemons/motion/transitions/body_state.h"
 
 namespace nao::motion {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/** A joint's name or, for both sides at once, the name without its side. */
+/** Motors of a name: one joint, or both sides of a joint that is named without its side. -1: none.
+ */
 struct Motors {
   int left = -1;
   int right = -1;
@@ -29,7 +31,7 @@ void read_joints(const RobotModel& model, const YamlEntry& joints, std::vector<d
   for (const auto& [name, value] : joints.entries()) {
     const Motors motors = find_motors(model, name);
     if (motors.left < 0) joints.fail("no joint " + name);
-    // Mirrored by way of a list in which only this joint has a value.
+    // mirrored() takes all joints: a list in which only this one has a value.
     std::vector<double> single(model.num_motors(), kNan);
     single[motors.left] = value.number();
     position[motors.left] = single[motors.left];
@@ -43,19 +45,19 @@ void read_joints(const RobotModel& model, const YamlEntry& joints, std::vector<d
   }
 }
 
-void read_stiffness(const RobotModel& model, const YamlEntry& shares,
+void read_stiffness(const RobotModel& model, const YamlEntry& entry,
                     std::vector<double>& stiffness) {
-  for (const auto& [name, value] : shares.entries()) {
-    const double share = value.number();
-    if (share < 0 || share > 1) value.fail("must be 0 to 1");
+  for (const auto& [name, value] : entry.entries()) {
+    const double fraction = value.number();
+    if (fraction < 0 || fraction > 1) value.fail("must be 0 to 1");
     if (name == "all") {
-      std::fill(stiffness.begin(), stiffness.end(), share);
+      std::fill(stiffness.begin(), stiffness.end(), fraction);
       continue;
     }
     const Motors motors = find_motors(model, name);
-    if (motors.left < 0) shares.fail("no joint " + name);
-    stiffness[motors.left] = share;
-    if (motors.right >= 0) stiffness[motors.right] = share;
+    if (motors.left < 0) entry.fail("no joint " + name);
+    stiffness[motors.left] = fraction;
+    if (motors.right >= 0) stiffness[motors.right] = fraction;
   }
 }
 
@@ -95,7 +97,7 @@ std::vector<Keyframe> read_keyframes(const RobotModel& model, const YamlEntry& l
 }
 
 std::string state_of(const Posture& posture) {
-  if (posture.family == "standing" || posture.family == "crouching") return "on-feet";
+  if (posture.family == "standing" || posture.family == "crouching") return kOnFeet;
   if (posture.family == "lying-back") return "back";
   if (posture.family == "lying-belly") return "belly";
   return posture.name;
@@ -112,7 +114,7 @@ TransitionGraph TransitionGraph::parse(const RobotModel& model, const std::strin
 TransitionGraph TransitionGraph::read(const RobotModel& model, const YamlEntry& root) {
   TransitionGraph graph;
   root.allow_only({"transitions"});
-  std::set<std::string> states = {"on-feet", "belly", "back", "left", "right"};
+  std::set<std::string> states = {kOnFeet, "belly", "back", "left", "right"};
   for (const Posture& posture : model.postures()) states.insert(state_of(posture));
   for (const YamlEntry& entry : root.at("transitions").items()) {
     entry.allow_only({"name", "from", "to", "mirrors", "keyframes"});
@@ -160,10 +162,10 @@ const KeyframeSequence* TransitionGraph::find_approach(const Posture& posture) c
   return nullptr;
 }
 
-std::vector<const KeyframeSequence*> TransitionGraph::find_way(
+std::vector<const KeyframeSequence*> TransitionGraph::find_path(
     const std::string& from, const std::string& to,
-    const std::vector<const KeyframeSequence*>& without) const {
-  // Dijkstra; the graph has a dozen nodes.
+    const std::vector<const KeyframeSequence*>& excluded) const {
+  // Dijkstra's algorithm with a linear search for the nearest node: the graph has a dozen nodes.
   struct Reached {
     double duration = 0;
     const KeyframeSequence* last = nullptr;
@@ -180,7 +182,7 @@ std::vector<const KeyframeSequence*> TransitionGraph::find_way(
     nearest->second.is_settled = true;
     for (const KeyframeSequence& sequence : sequences_) {
       if (sequence.from != nearest->first) continue;
-      if (std::find(without.begin(), without.end(), &sequence) != without.end()) continue;
+      if (std::find(excluded.begin(), excluded.end(), &sequence) != excluded.end()) continue;
       const double duration = nearest->second.duration + sequence.duration();
       const auto [other, is_new] = reached.try_emplace(sequence.to);
       if (is_new || duration < other->second.duration) {
@@ -189,14 +191,15 @@ std::vector<const KeyframeSequence*> TransitionGraph::find_way(
       }
     }
   }
-  std::vector<const KeyframeSequence*> way;
+  // Back from the goal along the last transitions.
+  std::vector<const KeyframeSequence*> path;
   auto node = reached.find(to);
   while (node != reached.end() && node->second.last != nullptr) {
-    way.push_back(node->second.last);
+    path.push_back(node->second.last);
     node = reached.find(node->second.last->from);
   }
-  std::reverse(way.begin(), way.end());
-  return way;
+  std::reverse(path.begin(), path.end());
+  return path;
 }
 
 }  // namespace nao::motion

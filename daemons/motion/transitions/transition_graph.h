@@ -10,11 +10,11 @@
 
 namespace nao::motion {
 
-/** Where the body can be, and the verified ways between: robots/NAME/transitions.yaml.
+/** States of the body and the verified transitions between them: robots/NAME/transitions.yaml.
  *
- * States are "on-feet" for any upright stand on both soles, "belly", "back", "left" and "right" for
- * how a body lies, whatever its joints do, and the sitting postures by their names. A sequence may
- * also lead to a lying posture by name: see find_approach(). */
+ * States are "on-feet" for any upright stand on both soles; "belly", "back", "left" and "right" for
+ * the side on which the body lies, at any joint angles; and the sitting postures by their names.
+ * A transition may also lead to a lying posture by name: see find_approach(). */
 class TransitionGraph {
  public:
   /** @throws ModelError  naming the file, the line and what is wrong. */
@@ -26,19 +26,21 @@ class TransitionGraph {
   /** @return nullptr if there is none of that name. */
   const KeyframeSequence* find(const std::string& name) const;
 
-  /** Quickest chain of sequences from one state to another.
-   * @param without  Sequences that it must do without.
-   * @return Empty if there is none, or if the two are the same. */
-  std::vector<const KeyframeSequence*> find_way(
+  /** Path of least duration from one state to another (Dijkstra's algorithm).
+   * @param excluded  Transitions that the path must not contain.
+   * @return Empty if there is no path, or if the two states are the same. */
+  std::vector<const KeyframeSequence*> find_path(
       const std::string& from, const std::string& to,
-      const std::vector<const KeyframeSequence*>& without = {}) const;
+      const std::vector<const KeyframeSequence*>& excluded = {}) const;
 
-  /** Of the sequences between the same two states as this one, the one for the n-th try, from 0, in
-   * the order of the file and over again: what failed once in some place fails there again. */
+  /** Of the transitions between the same two states as this one, the one for an attempt, in the
+   * order of the file and cyclically: a transition that failed once would fail again in the same
+   * place.
+   * @param num_failed  Attempts so far. */
   const KeyframeSequence& find_alternative(const KeyframeSequence& sequence, int num_failed) const;
 
-  /** Sequence that leads from anyhow in a posture's own state to that posture, where a straight
-   * turn of the joints would be stopped by the ground.
+  /** Transition to a posture from anywhere in the posture's own state, where the ground would block
+   * a straight line of the joints.
    * @return nullptr if there is none. */
   const KeyframeSequence* find_approach(const Posture& posture) const;
 
@@ -48,14 +50,13 @@ class TransitionGraph {
   std::vector<KeyframeSequence> sequences_;
 };
 
-/** Reads a list of keyframes: a `keyframes` entry of transitions.yaml, which says what its keys
- * mean.
+/** Reads a list of keyframes: a `keyframes` entry of transitions.yaml, which documents its keys.
  * @throws ModelError  naming the line and what is wrong with it. */
 std::vector<Keyframe> read_keyframes(const RobotModel& model, const YamlEntry& list);
 
 /** State of a posture in the graph: "on-feet" for the standing and crouching ones, "back" and
- * "belly" for the lying ones, else the posture's own name. Between two postures in one state all
- * joints may go straight. */
+ * "belly" for the lying ones, else the posture's own name. Between two postures in one state the
+ * joints may move on a straight line. */
 std::string state_of(const Posture& posture);
 
 }  // namespace nao::motion

@@ -9,58 +9,57 @@
 
 namespace nao::motion {
 
-/** A footprint to come. */
+/** A planned footstep. */
 struct PlannedStep {
   bool is_left = false;
   /** Sole in the frame that the plan was asked for. */
   Pose2 pose;
 };
 
-/** How far the feet stand outside their nominal places, each on its own side: m and rad. Walking
- * sideways and turning need room, since the closing foot must not run into the other one. */
+/** How far each foot is placed outward of its nominal place beside the body: m and rad. Sideways
+ * steps and turns need it, because the closing foot must not touch the other one. */
 struct Spread {
   double width = 0;
   double heading = 0;
 };
 
-/** Chooses footprints for a wished velocity.
+/** Places footsteps for a velocity.
  *
- * A body frame runs along the wished path; each foot is set down at its place beside the body, and
- * sideways and turning motion spread the feet as far as the closing foot would else come too near.
- */
+ * A body frame moves along the commanded path; each foot is placed beside it. Sideways and turning
+ * velocities spread the feet as far as the closing foot would otherwise come too near. */
 class FootstepPlanner {
  public:
   FootstepPlanner(const RobotModel& model, const Gait& gait);
 
-  /** The velocity nearest to the wished one, along its direction, that the gait holds.
-   * @param velocity  m/s ahead and to the left, rad/s. */
-  Eigen::Vector3d clip_velocity(const Eigen::Vector3d& velocity) const;
-
-  /** A step towards a velocity, as large as one footstep may change it. */
-  Eigen::Vector3d ramp_velocity(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
-
+  /** Spread of the feet at a velocity: m/s, m/s, rad/s. */
   Spread spread_for(const Eigen::Vector3d& velocity) const;
 
-  /** The steps that follow, the first with the foot that now swings.
-   * @param support_is_left  The foot that stands, at the origin of the frame of the results.
-   * @param spread           With which the standing foot was set down.
+  /** Plans the next footsteps, the first of them with the present swing foot.
+   * @param support_is_left  The support foot, at the origin of the frame of the results.
+   * @param spread           With which the support foot was placed.
    * @param velocity         m/s, m/s, rad/s. @param duration  Of a step, s. */
   std::vector<PlannedStep> plan(bool support_is_left, const Spread& spread,
                                 const Eigen::Vector3d& velocity, double duration, int count) const;
 
-  /** The nearest pose to the wished one that the swinging leg reaches without touching the other.
-   * @param step  Sole of the swinging foot seen from the standing one. */
+  /** The nearest footstep that the leg reaches without a contact of the feet.
+   * @param step  Sole of the swing foot seen from the support foot. */
   Pose2 clip_step(const Pose2& step, bool swing_is_left) const;
 
-  /** Place of a foot in the body's frame, whose origin is what the robot turns about. */
+  /** Place of a foot in the body frame. Turns are about the origin of that frame. */
   Pose2 foot_in_body(bool is_left, const Spread& spread) const;
+
+  /** Place of the swing foot beside the support foot without spread. */
+  Pose2 square_step(bool support_is_left) const;
 
  private:
   const Gait* gait_;
-  WalkLimits limits_;
-  /** How far a sole reaches ahead of and behind its origin, m. */
+  /** From the sole's origin to the front and to the rear of its outline, m. */
   double toe_ = 0;
   double heel_ = 0;
 };
+
+/** Body frame of a robot that stands on both feet: between the soles, ahead by turn_center.
+ * @param left, right  Soles in any common frame. */
+Pose2 body_between(const Pose2& left, const Pose2& right, double turn_center);
 
 }  // namespace nao::motion

@@ -1,54 +1,96 @@
 #include "daemons/motion/walk/gait.h"
 
 #include <algorithm>
-#include <string>
 
 #include "common/yaml_entry.h"
 
 namespace nao::motion {
 namespace {
 
-#define NAO_GAIT_PARAMETER(name) \
-  Gait::Parameter {              \
-#name, &Gait::name           \
+// A parameter's name in the file is the name of its member: "timing.step_duration".
+#define NAO_GAIT_PARAMETER(group, key)                                     \
+  Gait::Parameter {                                                        \
+#group "." #key, [](Gait & gait) -> double& { return gait.group.key; } \
   }
 
 const std::vector<Gait::Parameter>& all_parameters() {
   static const std::vector<Gait::Parameter> parameters = {
-      NAO_GAIT_PARAMETER(step_duration),       NAO_GAIT_PARAMETER(min_step_duration),
-      NAO_GAIT_PARAMETER(max_step_duration),   NAO_GAIT_PARAMETER(double_support),
-      NAO_GAIT_PARAMETER(start_duration),      NAO_GAIT_PARAMETER(stop_duration),
-      NAO_GAIT_PARAMETER(hip_height),          NAO_GAIT_PARAMETER(torso_pitch),
-      NAO_GAIT_PARAMETER(foot_separation),     NAO_GAIT_PARAMETER(turn_centre),
-      NAO_GAIT_PARAMETER(step_height),         NAO_GAIT_PARAMETER(zmp_forward),
-      NAO_GAIT_PARAMETER(zmp_inward),          NAO_GAIT_PARAMETER(swing_arrival),
-      NAO_GAIT_PARAMETER(swing_pitch),         NAO_GAIT_PARAMETER(max_step_forward),
-      NAO_GAIT_PARAMETER(max_step_backward),   NAO_GAIT_PARAMETER(max_step_outward),
-      NAO_GAIT_PARAMETER(min_foot_separation), NAO_GAIT_PARAMETER(max_turn_outward),
-      NAO_GAIT_PARAMETER(max_turn_inward),     NAO_GAIT_PARAMETER(turn_inward),
-      NAO_GAIT_PARAMETER(max_change_forward),  NAO_GAIT_PARAMETER(max_change_sideways),
-      NAO_GAIT_PARAMETER(max_change_turning),  NAO_GAIT_PARAMETER(envelope_exponent),
-      NAO_GAIT_PARAMETER(raise_duration),      NAO_GAIT_PARAMETER(path_gain),
-      NAO_GAIT_PARAMETER(lead_time),           NAO_GAIT_PARAMETER(reaction_time),
-      NAO_GAIT_PARAMETER(torque_share),        NAO_GAIT_PARAMETER(damping_share),
-      NAO_GAIT_PARAMETER(mass_centre_time),    NAO_GAIT_PARAMETER(zmp_gain),
-      NAO_GAIT_PARAMETER(zmp_reach_forward),   NAO_GAIT_PARAMETER(zmp_reach_backward),
-      NAO_GAIT_PARAMETER(zmp_reach_sideways),  NAO_GAIT_PARAMETER(absorb_position),
-      NAO_GAIT_PARAMETER(absorb_velocity),     NAO_GAIT_PARAMETER(step_gain),
-      NAO_GAIT_PARAMETER(timing_gain),         NAO_GAIT_PARAMETER(dcm_gain),
-      NAO_GAIT_PARAMETER(gyro_ankle_pitch),    NAO_GAIT_PARAMETER(gyro_ankle_roll),
-      NAO_GAIT_PARAMETER(gyro_hip_pitch),      NAO_GAIT_PARAMETER(gyro_hip_roll),
-      NAO_GAIT_PARAMETER(tilt_ankle_pitch),    NAO_GAIT_PARAMETER(tilt_ankle_roll),
-      NAO_GAIT_PARAMETER(bias_gain),           NAO_GAIT_PARAMETER(touchdown_share),
-      NAO_GAIT_PARAMETER(kick_distance),       NAO_GAIT_PARAMETER(kick_reach),
-      NAO_GAIT_PARAMETER(kick_lift),           NAO_GAIT_PARAMETER(shoulder_pitch),
-      NAO_GAIT_PARAMETER(shoulder_roll),       NAO_GAIT_PARAMETER(elbow_yaw),
-      NAO_GAIT_PARAMETER(elbow_roll),          NAO_GAIT_PARAMETER(arm_swing),
+      NAO_GAIT_PARAMETER(timing, step_duration),
+      NAO_GAIT_PARAMETER(timing, min_step_duration),
+      NAO_GAIT_PARAMETER(timing, max_step_duration),
+      NAO_GAIT_PARAMETER(timing, double_support_duration),
+      NAO_GAIT_PARAMETER(timing, start_duration),
+      NAO_GAIT_PARAMETER(timing, stop_duration),
+      NAO_GAIT_PARAMETER(timing, raise_duration),
+      NAO_GAIT_PARAMETER(stance, hip_height),
+      NAO_GAIT_PARAMETER(stance, torso_pitch),
+      NAO_GAIT_PARAMETER(stance, foot_separation),
+      NAO_GAIT_PARAMETER(stance, turn_center),
+      NAO_GAIT_PARAMETER(stance, zmp_forward),
+      NAO_GAIT_PARAMETER(stance, zmp_inward),
+      NAO_GAIT_PARAMETER(stance, com_time_constant),
+      NAO_GAIT_PARAMETER(swing, height),
+      NAO_GAIT_PARAMETER(swing, arrival_fraction),
+      NAO_GAIT_PARAMETER(swing, toe_pitch_gain),
+      NAO_GAIT_PARAMETER(swing, touchdown_load_ratio),
+      NAO_GAIT_PARAMETER(step_limits, max_forward),
+      NAO_GAIT_PARAMETER(step_limits, max_backward),
+      NAO_GAIT_PARAMETER(step_limits, max_outward),
+      NAO_GAIT_PARAMETER(step_limits, min_foot_separation),
+      NAO_GAIT_PARAMETER(step_limits, max_turn_outward),
+      NAO_GAIT_PARAMETER(step_limits, max_turn_inward),
+      NAO_GAIT_PARAMETER(step_limits, turn_inward_without_spread),
+      NAO_GAIT_PARAMETER(velocity, max_change_vx),
+      NAO_GAIT_PARAMETER(velocity, max_change_vy),
+      NAO_GAIT_PARAMETER(velocity, max_change_wz),
+      NAO_GAIT_PARAMETER(velocity, envelope_exponent),
+      NAO_GAIT_PARAMETER(velocity, path_gain),
+      NAO_GAIT_PARAMETER(zmp, gain),
+      NAO_GAIT_PARAMETER(zmp, reach_forward),
+      NAO_GAIT_PARAMETER(zmp, reach_backward),
+      NAO_GAIT_PARAMETER(zmp, reach_sideways),
+      NAO_GAIT_PARAMETER(feedback, prediction_time),
+      NAO_GAIT_PARAMETER(feedback, com_position_gain),
+      NAO_GAIT_PARAMETER(feedback, com_velocity_gain),
+      NAO_GAIT_PARAMETER(feedback, footstep_gain),
+      NAO_GAIT_PARAMETER(feedback, timing_gain),
+      NAO_GAIT_PARAMETER(feedback, ankle_dcm_gain),
+      NAO_GAIT_PARAMETER(feedback, bias_gain),
+      NAO_GAIT_PARAMETER(orientation, gyro_ankle_pitch),
+      NAO_GAIT_PARAMETER(orientation, gyro_ankle_roll),
+      NAO_GAIT_PARAMETER(orientation, gyro_hip_pitch),
+      NAO_GAIT_PARAMETER(orientation, gyro_hip_roll),
+      NAO_GAIT_PARAMETER(orientation, tilt_ankle_pitch),
+      NAO_GAIT_PARAMETER(orientation, tilt_ankle_roll),
+      NAO_GAIT_PARAMETER(servo, lead_time),
+      NAO_GAIT_PARAMETER(servo, torque_scale),
+      NAO_GAIT_PARAMETER(servo, velocity_scale),
+      NAO_GAIT_PARAMETER(kick, ball_distance),
+      NAO_GAIT_PARAMETER(kick, swing_reach),
+      NAO_GAIT_PARAMETER(kick, swing_lift),
+      NAO_GAIT_PARAMETER(arms, shoulder_pitch),
+      NAO_GAIT_PARAMETER(arms, shoulder_roll),
+      NAO_GAIT_PARAMETER(arms, elbow_yaw),
+      NAO_GAIT_PARAMETER(arms, elbow_roll),
+      NAO_GAIT_PARAMETER(arms, swing_gain),
   };
   return parameters;
 }
 
 #undef NAO_GAIT_PARAMETER
+
+Gait::Parameter read_parameter(const std::string& name, const YamlEntry& entry, Gait& gait) {
+  const auto known =
+      std::find_if(all_parameters().begin(), all_parameters().end(),
+                   [&](const Gait::Parameter& parameter) { return parameter.name == name; });
+  if (known == all_parameters().end()) entry.fail("is unknown");
+  entry.allow_only({"value", "range"});
+  const double value = entry.at("value").number();
+  const std::vector<double> range = entry.at("range").numbers(2);
+  if (!(range[0] <= value && value <= range[1])) entry.fail("has a value outside its range");
+  known->in(gait) = value;
+  return {name, known->in, range[0], range[1]};
+}
 
 }  // namespace
 
@@ -56,21 +98,22 @@ Gait Gait::load(const std::filesystem::path& file, std::vector<Parameter>* param
   const YamlEntry root = YamlEntry::load(file);
   Gait gait;
   std::vector<Parameter> read;
-  for (const auto& [key, entry] : root.entries()) {
-    const std::string& name = key;
-    const auto known = std::find_if(all_parameters().begin(), all_parameters().end(),
-                                    [&](const Parameter& p) { return name == p.key; });
-    if (known == all_parameters().end()) entry.fail("is unknown");
-    entry.allow_only({"value", "range"});
-    const double value = entry.at("value").number();
-    const std::vector<double> range = entry.at("range").numbers(2);
-    if (!(range[0] <= value && value <= range[1])) entry.fail("has a value outside its range");
-    gait.*known->member = value;
-    read.push_back({known->key, known->member, range[0], range[1]});
+  for (const auto& [group, keys] : root.entries()) {
+    for (const auto& [key, entry] : keys.entries()) {
+      read.push_back(read_parameter(group + "." + key, entry, gait));
+    }
   }
-  for (const Parameter& parameter : all_parameters()) root.at(parameter.key);
-  if (gait.min_step_duration > gait.step_duration || gait.step_duration > gait.max_step_duration) {
-    root.at("step_duration").fail("must lie between the shortest and the longest step");
+  // at() reports a parameter that the file does not have.
+  for (const Parameter& parameter : all_parameters()) {
+    const size_t dot = parameter.name.find('.');
+    (void)root.at(parameter.name.substr(0, dot)).at(parameter.name.substr(dot + 1));
+  }
+  const Timing& timing = gait.timing;
+  if (timing.min_step_duration > timing.step_duration ||
+      timing.step_duration > timing.max_step_duration) {
+    root.at("timing")
+        .at("step_duration")
+        .fail("must lie between min_step_duration and max_step_duration");
   }
   if (parameters != nullptr) *parameters = std::move(read);
   return gait;

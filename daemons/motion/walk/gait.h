@@ -6,94 +6,129 @@
 
 namespace nao::motion {
 
-/** Everything about how a robot walks that is tuned: robots/NAME/gait.yaml, which says what each
- * value is, its unit and where it comes from. The members carry the file's keys. */
+/** All tuned parameters of a robot's walk, as read from robots/NAME/gait.yaml.
+ *
+ * Groups and members carry the file's keys. The file states for each value its unit, its meaning,
+ * the range in which nao-walk-tuner may choose it, and how it was found. */
 struct Gait {
-  // Rhythm, s.
-  double step_duration = 0;
-  double min_step_duration = 0;
-  double max_step_duration = 0;
-  double double_support = 0;
-  double start_duration = 0;
-  double stop_duration = 0;
-
-  // Stance and swing: m, rad.
-  double hip_height = 0;
-  double torso_pitch = 0;
-  double foot_separation = 0;
-  double turn_centre = 0;
-  double step_height = 0;
-  double zmp_forward = 0;
-  double zmp_inward = 0;
-  double swing_arrival = 0;
-  double swing_pitch = 0;
-
-  // Steps: m, rad.
-  double max_step_forward = 0;
-  double max_step_backward = 0;
-  double max_step_outward = 0;
-  double min_foot_separation = 0;
-  double max_turn_outward = 0;
-  double max_turn_inward = 0;
-  double turn_inward = 0;
-
-  // Velocities: m/s, rad/s, and their change per step.
-  double max_change_forward = 0;
-  double max_change_sideways = 0;
-  double max_change_turning = 0;
-  double envelope_exponent = 0;
-  double raise_duration = 0;
-  double path_gain = 0;
-
-  // Servos: s; shares.
-  double lead_time = 0;
-  double reaction_time = 0;
-  double torque_share = 0;
-  double damping_share = 0;
-  double mass_centre_time = 0;
-
-  // Balance.
-  double zmp_gain = 0;
-  double zmp_reach_forward = 0;
-  double zmp_reach_backward = 0;
-  double zmp_reach_sideways = 0;
-  double absorb_position = 0;
-  double absorb_velocity = 0;
-  double step_gain = 0;
-  double timing_gain = 0;
-  double dcm_gain = 0;
-  double gyro_ankle_pitch = 0;
-  double gyro_ankle_roll = 0;
-  double gyro_hip_pitch = 0;
-  double gyro_hip_roll = 0;
-  double tilt_ankle_pitch = 0;
-  double tilt_ankle_roll = 0;
-  double bias_gain = 0;
-  double touchdown_share = 0;
-
-  // Kick out of the walk: m.
-  double kick_distance = 0;
-  double kick_reach = 0;
-  double kick_lift = 0;
-
-  // Arms: rad, rad per m.
-  double shoulder_pitch = 0;
-  double shoulder_roll = 0;
-  double elbow_yaw = 0;
-  double elbow_roll = 0;
-  double arm_swing = 0;
-
-  /** One entry of the file: which member, and between what a tuner may choose it. */
-  struct Parameter {
-    const char* key;
-    double Gait::*member;
-    double lower = 0;
-    double upper = 0;
+  /** Durations, s. */
+  struct Timing {
+    double step_duration = 0;
+    double min_step_duration = 0;
+    double max_step_duration = 0;
+    double double_support_duration = 0;
+    double start_duration = 0;
+    double stop_duration = 0;
+    double raise_duration = 0;
+  };
+  /** Nominal pose of torso and feet: m, rad; time constant, s. */
+  struct Stance {
+    double hip_height = 0;
+    double torso_pitch = 0;
+    double foot_separation = 0;
+    double turn_center = 0;
+    double zmp_forward = 0;
+    double zmp_inward = 0;
+    double com_time_constant = 0;
+  };
+  /** Trajectory of the swing foot: m, fractions, rad s/m. */
+  struct Swing {
+    double height = 0;
+    double arrival_fraction = 0;
+    double toe_pitch_gain = 0;
+    double touchdown_load_ratio = 0;
+  };
+  /** Bounds of one footstep, measured from the support foot: m, rad. */
+  struct StepLimits {
+    double max_forward = 0;
+    double max_backward = 0;
+    double max_outward = 0;
+    double min_foot_separation = 0;
+    double max_turn_outward = 0;
+    double max_turn_inward = 0;
+    double turn_inward_without_spread = 0;
+  };
+  /** Velocity of the steps: change per step, m/s and rad/s; exponent; 1/s. */
+  struct Velocity {
+    double max_change_vx = 0;
+    double max_change_vy = 0;
+    double max_change_wz = 0;
+    double envelope_exponent = 0;
+    double path_gain = 0;
+  };
+  /** Control law of the zero moment point: gain and range on the sole, m. */
+  struct Zmp {
+    double gain = 0;
+    double reach_forward = 0;
+    double reach_backward = 0;
+    double reach_sideways = 0;
+  };
+  /** Feedback of the measured center of mass: s, 1/s, dimensionless gains. */
+  struct Feedback {
+    double prediction_time = 0;
+    double com_position_gain = 0;
+    double com_velocity_gain = 0;
+    double footstep_gain = 0;
+    double timing_gain = 0;
+    double ankle_dcm_gain = 0;
+    double bias_gain = 0;
+  };
+  /** Feedback of the torso's angular velocity, s, and tilt, dimensionless, to joint angles. */
+  struct Orientation {
+    double gyro_ankle_pitch = 0;
+    double gyro_ankle_roll = 0;
+    double gyro_hip_pitch = 0;
+    double gyro_hip_roll = 0;
+    double tilt_ankle_pitch = 0;
+    double tilt_ankle_roll = 0;
+  };
+  /** Feedforward to the position servos: s, dimensionless scales. */
+  struct Servo {
+    double lead_time = 0;
+    double torque_scale = 0;
+    double velocity_scale = 0;
+  };
+  /** Kick during the walk, m. */
+  struct Kick {
+    double ball_distance = 0;
+    double swing_reach = 0;
+    double swing_lift = 0;
+  };
+  /** Arms: rad; swing in rad per m of stride. */
+  struct Arms {
+    double shoulder_pitch = 0;
+    double shoulder_roll = 0;
+    double elbow_yaw = 0;
+    double elbow_roll = 0;
+    double swing_gain = 0;
   };
 
-  /** Reads robots/NAME/gait.yaml: for every member a value and the range that it may be tuned in.
-   * @param parameters  If given, set to all entries, with their ranges.
-   * @throws ModelError  naming the line and what is wrong with it. */
+  Timing timing;
+  Stance stance;
+  Swing swing;
+  StepLimits step_limits;
+  Velocity velocity;
+  Zmp zmp;
+  Feedback feedback;
+  Orientation orientation;
+  Servo servo;
+  Kick kick;
+  Arms arms;
+
+  /** One entry of the file: where its value is stored, and the range of the tuner. */
+  struct Parameter {
+    /** "GROUP.KEY". */
+    std::string name;
+    double& (*in)(Gait&);
+    double lower = 0;
+    double upper = 0;
+
+    double value(Gait gait) const { return in(gait); }
+  };
+
+  /** Reads robots/NAME/gait.yaml, which must hold every parameter.
+   * @param parameters  If given, set to all entries with their ranges, in the file's order.
+   * @throws ModelError  naming the file, the line and the fault. */
   static Gait load(const std::filesystem::path& file, std::vector<Parameter>* parameters = nullptr);
 };
 

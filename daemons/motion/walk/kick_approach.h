@@ -4,22 +4,23 @@
 
 namespace nao::motion {
 
-/** Steps that bring a walking robot to a ball, so that a foot can strike it in passing. */
+/** Steps that bring a walking robot to a ball, so that a foot can kick it without a stop. */
 struct KickApproach {
-  /** Steps to take before the one that strikes; 0: the step that begins now strikes. */
+  /** Number of steps before the one that kicks; 0: the step that begins now kicks. */
   int num_steps = 0;
-  /** m/s ahead and to the left, in each of these steps. */
+  /** Velocity of each of these steps: m/s ahead and to the left. */
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
 };
 
-/** Chooses the number of steps, and their velocity, that end with the ball before the foot that
- * kicks: of all that do, the one nearest to the velocity that the robot walks at anyway.
+/** Chooses number and velocity of the steps that end with the ball before the kicking foot. Of all
+ * such approaches it takes the one with the least cost: change of the forward velocity, plus
+ * sideways velocity, plus a constant for each step.
  *
- * @param way         From where the ball lies best for a kick in the step that begins now, to where
- *                    it lies; m, in the body's frame.
- * @param kicks_next  The foot that swings in the step that begins now is the one to kick with.
- * @param wished      m/s ahead and to the left. @param step_duration  s. */
-KickApproach plan_kick_approach(const Eigen::Vector2d& way, bool kicks_next,
-                                const Eigen::Vector2d& wished, double step_duration);
+ * @param offset      From the best place of the ball for a kick in the step that begins now to the
+ *                    ball; m, in the body frame.
+ * @param kicks_next  The swing foot of the step that begins now is the kicking foot.
+ * @param commanded   m/s ahead and to the left. @param step_duration  s. */
+KickApproach plan_kick_approach(const Eigen::Vector2d& offset, bool kicks_next,
+                                const Eigen::Vector2d& commanded, double step_duration);
 
 }  // namespace nao::motion

@@ -5,37 +5,53 @@
 
 namespace nao::motion {
 
-/** The linear inverted pendulum: a mass that stays at one height h above the point on the ground
- * where the floor's force acts (the zero moment point), and is pushed away from it with
- * omega^2 = g / h times its distance.
+/** State of the linear inverted pendulum: a center of mass x at constant height h over the ground,
+ * driven by the zero moment point (ZMP) p:
  *
- * Source: S. Kajita et al., "The 3D linear inverted pendulum mode", IROS 2001; for the divergent
- * component (capture point) J. Englsberger et al., "Three-dimensional bipedal walking control based
- * on divergent component of motion", IEEE T-RO 31(2), 2015. */
+ *     x'' = omega^2 (x - p),  omega = sqrt(g / h).
+ *
+ * Its divergent component of motion (DCM, also called the capture point) is
+ *
+ *     xi = x + x' / omega,  with  xi' = omega (xi - p)  and  x' = -omega (x - xi):
+ *
+ * x converges to xi without control, xi diverges from p. A ZMP held at xi brings the pendulum to
+ * rest there.
+ *
+ * Source: S. Kajita et al., "Biped walking pattern generation by using preview control of
+ * zero-moment point", ICRA 2003 (pendulum, ZMP); J. Pratt et al., "Capture point: a step toward
+ * humanoid push recovery", Humanoids 2006; J. Englsberger, C. Ott, A. Albu-Schäffer,
+ * "Three-dimensional bipedal walking control based on divergent component of motion", IEEE T-RO
+ * 31(2), 2015. */
 struct PendulumState {
-  /** Of the centre of mass over the ground, m and m/s. */
+  /** Center of mass over the ground, m and m/s. */
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
 
-  /** Divergent component of motion: where the zero moment point must be for the mass to come to
-   * rest above it, m. @param omega  1/s. */
-  Eigen::Vector2d divergent(double omega) const { return position + velocity / omega; }
+  /** Divergent component of motion, m. @param omega  1/s. */
+  Eigen::Vector2d dcm(double omega) const { return position + velocity / omega; }
 };
 
-/** The state some time later with the zero moment point held. @param time  s. */
-inline PendulumState advance(const PendulumState& state, const Eigen::Vector2d& zero_moment_point,
-                             double omega, double time) {
+/** State after a time with the ZMP held: the closed-form solution of the pendulum's equation.
+ * @param zmp  m. @param omega  1/s. @param time  s. */
+inline PendulumState advance(const PendulumState& state, const Eigen::Vector2d& zmp, double omega,
+                             double time) {
   const double c = std::cosh(omega * time);
   const double s = std::sinh(omega * time);
-  const Eigen::Vector2d offset = state.position - zero_moment_point;
-  return {zero_moment_point + c * offset + s / omega * state.velocity,
-          omega * s * offset + c * state.velocity};
+  const Eigen::Vector2d offset = state.position - zmp;
+  return {zmp + c * offset + s / omega * state.velocity, omega * s * offset + c * state.velocity};
 }
 
-/** Where the zero moment point must be held for a time so that the divergent component goes from
- * one point to another, m. @param time  s, above 0. */
-inline Eigen::Vector2d steering_point(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-                                      double omega, double time) {
+/** DCM after a time with the ZMP held: xi(t) = p + e^(omega t) (xi - p).
+ * @param time  s; negative: the DCM before. */
+inline Eigen::Vector2d advance_dcm(const Eigen::Vector2d& dcm, const Eigen::Vector2d& zmp,
+                                   double omega, double time) {
+  return zmp + std::exp(omega * time) * (dcm - zmp);
+}
+
+/** ZMP, m, that when held for a time moves the DCM from one point to another.
+ * @param time  s, above 0. */
+inline Eigen::Vector2d zmp_between_dcms(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                        double omega, double time) {
   const double growth = std::exp(omega * time);
   return (growth * from - to) / (growth - 1);
 }

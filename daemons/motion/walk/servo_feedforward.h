@@ -9,7 +9,7 @@
 
 namespace nao::motion {
 
-/** What the floor does to one foot, in the torso frame. */
+/** Ground reaction force on one foot, in the torso frame. */
 struct FootLoad {
   /** N. */
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
@@ -17,25 +17,29 @@ struct FootLoad {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
 };
 
-/** How far position servos must aim beyond the wished angles to reach them under load.
+/** Offsets of position targets that make the servos follow under load.
  *
- * A servo gives torque = gain * (target - angle) - damping * velocity, less what the moving motor
- * loses. Aiming ahead by (needed torque + losses) / gain makes it follow without lag, and makes a
- * wished torque (an ankle's, for balance) a plain addition to the target. */
+ * A servo gives torque = stiffness_gain * (target - angle) - damping_gain * velocity, less the
+ * losses of the moving motor. A target ahead by (required torque + losses) / stiffness_gain removes
+ * the static and the velocity error. A required torque, as of an ankle that moves the zero moment
+ * point, is an offset of the target in the same way. */
 class ServoFeedforward {
  public:
   explicit ServoFeedforward(const RobotModel& model);
 
-  /** Torques that hold the robot up, N m, (num_motors): weight of the parts beyond each joint, less
-   * what the floor carries.
-   * @param kinematics  Of the angles wished for. @param up  Vertical, torso frame.
+  /** Static joint torques, N m, (num_motors): the weight of the links less what the ground carries,
+   *
+   *     tau = m g up^T J_com - sum_i f_i^T J_i   (virtual work with the torso fixed).
+   *
+   * @param kinematics  Of the commanded angles. @param up  Unit vector upwards, torso frame.
    * @param loads       Left foot, right foot. */
   std::vector<double> calc_torques(const Kinematics& kinematics, const Eigen::Vector3d& up,
                                    const std::array<FootLoad, 2>& loads) const;
 
-  /** Offset of a motor's target for a torque and a velocity, rad. @param damping_share  Share of
-   * the velocity's losses to make up for. */
-  double calc_offset(int motor, double torque, double velocity, double damping_share) const;
+  /** Offset of a motor's target, rad, for a torque, N m, clamped to the motor's peak, and a
+   * velocity, rad/s. @param velocity_scale  Fraction of the velocity-dependent losses to
+   * compensate. */
+  double calc_offset(int motor, double torque, double velocity, double velocity_scale) const;
 
  private:
   const RobotModel* model_;

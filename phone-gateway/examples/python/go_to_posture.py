@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Sends the robot to a posture, prints its height while it moves, and saves a picture at the end.
+"""Sends the robot to a posture, prints its height while it moves, and saves an image at the end.
 
-go_to_posture.py [--host HOST] [--port 7668] [--token TOKEN] [--picture FILE] POSTURE
+go_to_posture.py [--host HOST] [--port 7668] [--token TOKEN] [--image FILE] POSTURE
 Exit status: 0 done, 1 refused or failed.
 """
 
@@ -12,24 +12,24 @@ from phone import ConnectionLost, Phone, Refused
 from remote_protocol import remote_pb2 as pb
 
 
-def go(phone, posture, picture_file):
-    """@return what became of it, as a Notice."""
-    phone.ask(subscribe=pb.Subscribe(state_rate=10, picture_rate=10 if picture_file else 0))
+def go(phone, posture, image_file):
+    """@return its final result, a Notice."""
+    phone.ask(subscribe=pb.Subscribe(state_rate=10, image_rate=10 if image_file else 0))
     phone.ask(take_control=pb.TakeControl())
     request_id = phone.ask(go_to_posture=pb.GoToPosture(posture=posture)).request_id
     while True:
-        outcome = phone.wait_for_outcome(request_id, 1.0)
+        result = phone.wait_for_result(request_id, 1.0)
         if phone.state:
-            print(f"{phone.state.mode:10} {phone.state.activity:20} torso {phone.state.torso_position[2]:.3f} m")
-        if outcome:
+            print(f"{pb.Mode.Name(phone.state.mode):16} {phone.state.activity.name:12} torso {phone.state.torso_position[2]:.3f} m")
+        if result:
             break
-    if picture_file:
-        phone.wait_until(lambda: phone.picture, 5.0)
-        if phone.picture:
-            with open(picture_file, "wb") as file:
-                file.write(phone.picture.jpeg)
-            print(f"{picture_file}: {phone.picture.width}x{phone.picture.height}")
-    return outcome
+    if image_file:
+        phone.wait_until(lambda: phone.image, 5.0)
+        if phone.image:
+            with open(image_file, "wb") as file:
+                file.write(phone.image.jpeg)
+            print(f"{image_file}: {phone.image.width}x{phone.image.height}")
+    return result
 
 
 def main():
@@ -38,16 +38,16 @@ def main():
     parser.add_argument("--host", default="127.0.0.1")
     parser.add_argument("--port", type=int, default=7668)
     parser.add_argument("--token", default="")
-    parser.add_argument("--picture", metavar="FILE", help="JPEG file for a picture of the head camera")
+    parser.add_argument("--image", metavar="FILE", help="JPEG file for an image of the head camera")
     options = parser.parse_args()
     try:
         with Phone(options.host, options.port, options.token, "python example") as phone:
-            outcome = go(phone, options.posture, options.picture)
+            result = go(phone, options.posture, options.image)
     except (ConnectionLost, Refused) as error:
         print(error, file=sys.stderr)
         return 1
-    print(pb.Notice.Outcome.Name(outcome.outcome), outcome.message)
-    return 0 if outcome.outcome == pb.Notice.DONE else 1
+    print(pb.Notice.Status.Name(result.status), result.message)
+    return 0 if result.status == pb.Notice.DONE else 1
 
 
 if __name__ == "__main__":

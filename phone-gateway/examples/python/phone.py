@@ -1,7 +1,7 @@
-"""A phone in Python: one connection to nao-phone-gateway over raw TCP.
+"""A client in Python: one connection to nao-phone-gateway over raw TCP.
 
-Everything that PROTOCOL.md asks of a client is here: the framing, Connect first, a sign of life at
-least every few seconds, answers told apart from what comes unasked.
+It implements all that PROTOCOL.md requires of a client: the framing, Connect first, a ping after a
+second without another request, answers separated from states, images and notices.
 """
 
 import socket
@@ -11,11 +11,11 @@ import time
 from remote_protocol import remote_pb2 as pb
 
 PROTOCOL_VERSION = 1
-PING_PERIOD = 1.0
+PING_PERIOD = 1.0  # s, see PROTOCOL.md
 
 
 class ConnectionLost(Exception):
-    """The gateway is not there, or has closed the connection."""
+    """The gateway cannot be reached, or has closed the connection."""
 
 
 class Refused(Exception):
@@ -33,12 +33,12 @@ class Phone:
     def __init__(self, host="127.0.0.1", port=7668, token="", name="python", timeout=5.0):
         self.timeout = timeout
         self.state = None  # newest State
-        self.picture = None  # newest Picture
+        self.image = None  # newest Image
         self.notices = []  # every Notice, oldest first
         self._last_request_id = 0
         self._last_sent = 0.0
         self._responses = {}
-        self._own_pings = set()  # sent as signs of life; nobody waits for their answers
+        self._own_pings = set()  # sent to keep the connection open; their answers are dropped
         self._bytes = b""
         try:
             self._socket = socket.create_connection((host, port), timeout)
@@ -72,7 +72,7 @@ class Phone:
         return response
 
     def wait_until(self, is_done, timeout):
-        """Handles what comes until is_done() or the time is over. @return is_done()."""
+        """Handles messages until is_done() or the timeout, s. @return is_done()."""
         deadline = time.monotonic() + timeout
         while not is_done():
             left = deadline - time.monotonic()
@@ -83,17 +83,17 @@ class Phone:
             self._handle(self._receive(min(left, PING_PERIOD)))
         return True
 
-    def wait_for_outcome(self, request_id, timeout):
-        """Waits for the end of a command. @return its Notice, None if it did not come in time."""
+    def wait_for_result(self, request_id, timeout):
+        """Waits for the final result of a command. @return its Notice, None after the timeout, s."""
         def find():
             return next((notice for notice in self.notices
-                         if notice.kind == pb.Notice.COMMAND_OUTCOME and notice.request_id == request_id
-                         and notice.outcome != pb.Notice.ACCEPTED), None)
+                         if notice.kind == pb.Notice.COMMAND_RESULT and notice.request_id == request_id
+                         and notice.status != pb.Notice.ACCEPTED), None)
         self.wait_until(find, timeout)
         return find()
 
     def joint_positions(self):
-        """Joint name to angle, rad, of the newest state."""
+        """@return the angles of the newest state by joint name, rad."""
         return {joint.name: angle for joint, angle in zip(self.robot.joints, self.state.joint_position)}
 
     def _send(self, **use_case):
@@ -107,7 +107,7 @@ class Phone:
         return self._last_request_id
 
     def _receive(self, timeout):
-        """@return the next message's bytes, None if none came in time."""
+        """@return the next message's bytes, None after the timeout, s."""
         deadline = time.monotonic() + timeout
         while True:
             if len(self._bytes) >= 4:
@@ -140,7 +140,7 @@ class Phone:
             self._own_pings.discard(message.response.request_id)
         elif kind == "state":
             self.state = message.state
-        elif kind == "picture":
-            self.picture = message.picture
+        elif kind == "image":
+            self.image = message.image
         elif kind == "notice":
             self.notices.append(message.notice)

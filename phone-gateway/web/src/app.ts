@@ -5,14 +5,16 @@ import {sticksFromPad, driveFromKeys, stickFromKeys} from "./controls/keys";
 import type {PadButton} from "./controls/keys";
 import {Gamepads, listenToKeys} from "./controls/held_keys";
 import {JointDriver} from "./controls/joint_driver";
-import {PictureView} from "./controls/picture_view";
+import {ImageView} from "./controls/image_view";
 import {driveFromSticks} from "./controls/stick";
+import type {Drive} from "./controls/stick";
 import {TiltSensor} from "./controls/tilt_sensor";
 import {WalkSender} from "./controls/walk_sender";
 import {exposeAutomation} from "./automation";
 import {el} from "./dom";
 import {Messages} from "./messages";
 import {registerOfflineShell} from "./offline";
+import {Mode} from "./protocol/generated/remote_pb";
 import type {Connected} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import {JointBalls} from "./robot/joint_balls";
@@ -23,7 +25,7 @@ import type {RobotTree} from "./robot/robot_tree";
 import {kDriveView, kJointsView, Stage} from "./robot/stage";
 import {attachGestures} from "./robot/stage_gestures";
 import {ConnectionScreen} from "./screens/connection_screen";
-import type {ConnectionWish} from "./screens/connection_screen";
+import type {ConnectionForm} from "./screens/connection_screen";
 import {ControllerScreen, linkInWords, linkQuality} from "./screens/controller_screen";
 import {JointsPanel} from "./screens/joints_panel";
 import {LoadingScreen} from "./screens/loading_screen";
@@ -38,11 +40,11 @@ import type {Language} from "./text/texts";
 import {WebSocketTransport} from "./transport";
 
 const kSoftware = "nao-phone-app 0.1.0";
-/** As often as the screen is drawn: a thumb sees its joint move 8 ms sooner than at half the rate, for 20 kB/s. */
+/** The screen's rate: a joint is seen to move 8 ms sooner than at half the rate, for 20 kB/s. */
 const kStateRateHz = 60;
-const kPictureRateHz = 15;
+const kImageRateHz = 15;
 
-/** Group that the picture's drag turns, and posture that "reset" goes to. */
+/** Group that the image's drag turns, and posture that "reset" goes to. */
 const kHeadGroup = "head";
 const kResetPosture = "StandInit";
 /** Felt: a tap that did something, the end of a joint's range, a refusal; ms on, off, on. */
@@ -59,7 +61,7 @@ export class App {
   private readonly commander: Commander;
   private readonly walk: WalkSender;
   private readonly stage: Stage;
-  private readonly picture = new PictureView(() => this.subscribe(), (yaw, pitch) =>
+  private readonly image = new ImageView(() => this.subscribe(), (yaw, pitch) =>
       this.commander.stream(useCases.changeJoints({group: kHeadGroup, yaw, pitch, roll: 0})));
   private readonly jointDriver = new JointDriver((change) =>
       this.commander.stream(useCases.changeJoints(change)));
@@ -86,15 +88,14 @@ export class App {
             this.stage.wake();
             this.store.set({state});
           },
-          picture: (picture) => {
-            this.store.set({picture});
-            this.picture.show(picture);
+          image: (image) => {
+            this.store.set({image});
+            this.image.show(image);
           },
           notice: (notice) => this.commander.notice(notice),
         });
     this.commander = new Commander(this.connection, this.store, this.messages);
-    this.walk = new WalkSender(({x, y, theta}) =>
-        this.commander.stream(useCases.walkTurn(x, y, theta)));
+    this.walk = new WalkSender((drive) => this.sendWalk(drive));
     const canvas = el("canvas", {class: "stage", role: "img", "aria-label": say("drive.stage")});
     root.append(canvas);
     this.stage = new Stage(canvas);
@@ -106,7 +107,7 @@ export class App {
         void this.commander.command(useCases.moveTo(x, y, theta)));
     this.commander.onRefusal = () => vibrate(kRefusalPattern);
     this.connectionScreen = new ConnectionScreen(this.store, {
-      connect: (wish) => this.connect(wish),
+      connect: (form) => this.connect(form),
       cancel: () => this.connection.disconnect(),
       retryNow: () => this.connection.retryNow(),
     });
@@ -115,7 +116,7 @@ export class App {
       select: (selectedGroup) => this.store.set({selectedGroup}),
       atLimit: () => vibrate(kLimitPattern),
     });
-    this.controllerScreen = new ControllerScreen(this.store, this.commander, this.walk, this.picture,
+    this.controllerScreen = new ControllerScreen(this.store, this.commander, this.walk, this.image,
                                                  joints, this.tilt, this.walkHere.element, {
       openMenu: () => this.openMenu(),
       setJointsMode: (isJointsMode) => this.setJointsMode(isJointsMode),
@@ -138,7 +139,7 @@ export class App {
   }
 
   start(): void {
-    exposeAutomation(this.store, this.stage, this.picture, () => this.robot, () => this.balls);
+    exposeAutomation(this.store, this.stage, this.image, () => this.robot, () => this.balls);
     listenToKeys(() => this.root.dataset["screen"] === "controller", {
       heldChanged: (held, isSlow) => this.keysChanged(held, isSlow),
       pressed: (button) => this.pressed(button),
@@ -147,16 +148,16 @@ export class App {
       this.balls?.show(isOn);
       this.stage.outdate();
     });
-    // Whoever chose something else does not mean the spot any more.
-    this.store.watch((state) => state.state?.activity ?? "", (activity) => {
+    // Another motion replaces the walk to the marked spot.
+    this.store.watch((state) => state.state?.activity?.name ?? "", (activity) => {
       if (activity) this.walkHere.clear();
     });
     this.store.watch((state) => state.selectedGroup, (group) => {
       this.balls?.select(group);
       this.stage.outdate();
     });
-    this.store.watch((state) => state.state?.mode ?? "", (mode) => {
-      if (mode === "falling" || mode === "fallen") this.messages.tell("info", say("fall.calm"));
+    this.store.watch((state) => state.state?.mode ?? Mode.NO_ROBOT, (mode) => {
+      if (mode === Mode.FALLING || mode === Mode.FALLEN) this.messages.show("info", say("fall.calm"));
     });
     void loadFieldLines(location.href).then((lines) => {
       if (!lines) return;
@@ -182,7 +183,7 @@ export class App {
     if (fromUrl || known || isLoopback(location.hostname)) this.open();
   }
 
-  private connect({address, token, clientName}: ConnectionWish): void {
+  private connect({address, token, clientName}: ConnectionForm): void {
     this.keep({clientName});
     this.token = token;
     const url = pageUrl(address, token);
@@ -204,6 +205,7 @@ export class App {
   private async connected({robot}: Connected): Promise<void> {
     this.keep(remember(this.settings, location.host, this.token));
     this.connectionScreen.fill(location.host, this.token, this.settings);
+    this.image.setCameras(robot?.cameras ?? []);
     this.subscribe();
     if (robot && robot.urdfPath !== this.robotPath) await this.prepareRobot();
     else this.makeMirror();
@@ -238,9 +240,9 @@ export class App {
   private subscribe(): void {
     if (this.store.get().phase !== "connected") return;
     const isHidden = document.visibilityState === "hidden";
-    const wish = {camera: this.picture.camera, width: this.picture.isLarge ? 640 : 320};
+    const request = {camera: this.image.camera, width: this.image.isLarge ? 640 : 320};
     void this.connection.request(useCases.subscribe(isHidden ? 0 : kStateRateHz,
-                                                    isHidden ? 0 : kPictureRateHz, wish));
+                                                    isHidden ? 0 : kImageRateHz, request));
   }
 
   private visibilityChanged(): void {
@@ -282,6 +284,14 @@ export class App {
     this.walkHere.clear();
     this.store.set({isJointsMode, selectedGroup: ""});
     this.stage.orbit.setView(isJointsMode ? kJointsView : kDriveView);
+  }
+
+  /** Scales fractions of the controls' range by the limits of the robot's walk. */
+  private sendWalk({x, y, theta}: Drive): void {
+    const {robot} = this.store.get();
+    if (!robot) return;
+    const vx = x * (x < 0 ? -robot.minVx : robot.maxVx);
+    this.commander.stream(useCases.walkTurn(vx, y * robot.maxVy, theta * robot.maxWz));
   }
 
   private stop(): void {
@@ -342,7 +352,7 @@ export class App {
   private explainLink(): void {
     const state = this.store.get();
     const words = linkInWords(state);
-    this.messages.tell("info", linkQuality(state) === "poor" ? `${words}. ${say("drive.linkPoor")}` : words);
+    this.messages.show("info", linkQuality(state) === "poor" ? `${words}. ${say("drive.linkPoor")}` : words);
   }
 
   private keep(settings: Partial<Settings>): void {

@@ -1,23 +1,26 @@
-/** A window for tests and automation: what a person sees, as numbers. Reads only, so that a script
- * drives the app by its controls as a person does. */
-import type {PictureView} from "./controls/picture_view";
+/** Read-only view of the app for tests and automation. Scripts drive the app by its controls, as a
+ * person does. */
+import type {ImageView} from "./controls/image_view";
 import type {JointBalls} from "./robot/joint_balls";
 import type {RobotTree} from "./robot/robot_tree";
 import type {Stage} from "./robot/stage";
 import type {AppState, Store} from "./store";
+import {kModeNames} from "./text/activity";
 
 export interface Automation {
-  /** What the app knows. */
+  /** State of the app. */
   readonly state: Readonly<AppState>;
-  /** Pictures drawn so far. */
-  readonly numPictures: number;
+  /** Mode of the robot: "walking"; empty before the first state. */
+  readonly mode: string;
+  /** Images drawn so far. */
+  readonly numImages: number;
   /** Frames drawn so far. */
   readonly numFrames: number;
   /** Angles that the 3D robot shows, rad, by joint name, mimics among them. */
   jointAngles(): Record<string, number>;
-  /** Where the 3D robot's torso is, m, in the odometry frame. */
+  /** Position of the 3D robot's torso, m, in the odometry frame. */
   torsoPosition(): [number, number, number];
-  /** Where the balls of joints mode are on the page, px, by joint group. */
+  /** Positions of the balls of joints mode on the page, px, by joint group. */
   ballPlaces(): Record<string, [number, number]>;
 }
 
@@ -27,15 +30,19 @@ declare global {
   }
 }
 
-export function exposeAutomation(store: Store, stage: Stage, picture: PictureView,
+export function exposeAutomation(store: Store, stage: Stage, image: ImageView,
                                  robot: () => RobotTree | null,
                                  balls: () => JointBalls | null): void {
   window.naoRemote = {
     get state() {
       return store.get();
     },
-    get numPictures() {
-      return picture.numPictures;
+    get mode() {
+      const {state} = store.get();
+      return state ? kModeNames[state.mode] : "";
+    },
+    get numImages() {
+      return image.numImages;
     },
     get numFrames() {
       return stage.numFrames;

@@ -3,7 +3,7 @@ import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
 import {Commander} from "./commander";
 import {Messages} from "./messages";
 import type {UseCase} from "./protocol/codec";
-import {ControlSchema, ErrorCode, Notice_Kind, Notice_Outcome, NoticeSchema, ResponseSchema} from "./protocol/generated/remote_pb";
+import {ControlSchema, ErrorCode, Notice_Component, Notice_Kind, Notice_Status, NoticeSchema, ResponseSchema} from "./protocol/generated/remote_pb";
 import type {Response} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import {Store} from "./store";
@@ -46,21 +46,21 @@ describe("Commander", () => {
 
   const texts = () => store.get().messages.map(({text}) => text);
 
-  it("takes the wheel with the first command where nobody has it, and once for two thumbs", async () => {
+  it("takes control with the first command if it is free, and once for two simultaneous commands", async () => {
     await Promise.all([commander.command(useCases.walkTurn(1, 0, 0)),
                        commander.command(useCases.goToPosture("Stand"))]);
     expect(asked).toEqual(["takeControl", "walkTurn", "goToPosture"]);
     expect(store.get().control?.isMine).toBe(true);
   });
 
-  it("commands nothing while somebody else drives, and says who", async () => {
+  it("sends no command while another client drives, and names it", async () => {
     store.set({control: bens});
     expect(await commander.command(useCases.goToPosture("Stand"))).toBe(false);
     expect(asked).toEqual([]);
     expect(texts()).toEqual(["Ben drives"]);
   });
 
-  it("stops the robot whoever drives", async () => {
+  it("stops the robot also without control", async () => {
     store.set({control: bens});
     expect(await commander.stop()).toBe(true);
     expect(asked).toEqual(["stop"]);
@@ -79,7 +79,7 @@ describe("Commander", () => {
     expect(texts()).toEqual([]);
   });
 
-  it("asks for the wheel again after the gateway has forgotten that we hold it", async () => {
+  it("requests control again after the gateway has withdrawn it", async () => {
     store.set({control: mine});
     answer = () => ({error: ErrorCode.NO_CONTROL, message: "You do not drive."});
     await commander.command(useCases.goToPosture("Stand"));
@@ -103,37 +103,38 @@ describe("Commander", () => {
     expect(asked).toEqual(["walkTurn"]);
   });
 
-  it("tells of failed and refused commands, not of those that went well", () => {
-    const outcome = (value: Notice_Outcome, message: string) => commander.notice(create(
-        NoticeSchema, {kind: Notice_Kind.COMMAND_OUTCOME, outcome: value, message}));
-    outcome(Notice_Outcome.ACCEPTED, "a");
-    outcome(Notice_Outcome.DONE, "b");
-    outcome(Notice_Outcome.INTERRUPTED, "c");
-    outcome(Notice_Outcome.REFUSED, "It would tip over.");
-    outcome(Notice_Outcome.FAILED, "It fell.");
+  it("shows failed and refused commands, not completed ones", () => {
+    const outcome = (value: Notice_Status, message: string) => commander.notice(create(
+        NoticeSchema, {kind: Notice_Kind.COMMAND_RESULT, status: value, message}));
+    outcome(Notice_Status.ACCEPTED, "a");
+    outcome(Notice_Status.DONE, "b");
+    outcome(Notice_Status.INTERRUPTED, "c");
+    outcome(Notice_Status.REFUSED, "It would tip over.");
+    outcome(Notice_Status.FAILED, "It fell.");
     expect(texts()).toEqual(["It would tip over.", "It fell."]);
   });
 
-  it("tells who took the wheel from us", () => {
+  it("names the client that took control", () => {
     store.set({control: mine});
     commander.notice(create(NoticeSchema, {kind: Notice_Kind.CONTROL_CHANGED, control: bens}));
     expect(texts()).toEqual(["Ben drives now."]);
     expect(store.get().control?.driverName).toBe("Ben");
   });
 
-  it("keeps a list of the parts that are away", () => {
-    const change = (part: string, available: boolean) => commander.notice(create(
-        NoticeSchema, {kind: Notice_Kind.PART_CHANGED, part, available, message: `${part} ${available}`}));
-    change("camera", false);
-    change("motion", false);
-    change("camera", true);
-    expect(store.get().missingParts).toEqual(["motion"]);
+  it("lists the unavailable components", () => {
+    const change = (component: Notice_Component, isAvailable: boolean) => commander.notice(create(
+        NoticeSchema, {kind: Notice_Kind.COMPONENT_CHANGED, component, isAvailable}));
+    change(Notice_Component.CAMERA, false);
+    change(Notice_Component.MOTION, false);
+    change(Notice_Component.CAMERA, true);
+    expect(store.get().unavailableComponents).toEqual([Notice_Component.MOTION]);
   });
 
-  it("says in the page's language what the gateway tells by code", async () => {
+  it("translates the gateway's error codes", async () => {
     store.set({control: mine});
     setLanguage("de");
-    commander.notice(create(NoticeSchema, {kind: Notice_Kind.PART_CHANGED, part: "motion", message: "away"}));
+    commander.notice(create(NoticeSchema, {kind: Notice_Kind.COMPONENT_CHANGED,
+                                          component: Notice_Component.MOTION, message: "away"}));
     for (const error of [ErrorCode.STOPPED, ErrorCode.CONTROL_TAKEN, ErrorCode.ROBOT_UNAVAILABLE]) {
       answer = () => ({error, message: "in English", result: {case: "control", value: bens}});
       await commander.command(useCases.walkTurn(1, 0, 0));

@@ -1,11 +1,12 @@
-/** Commands to the robot: takes the wheel first where nobody has it, and tells what came of it. */
+/** Commands to the robot: takes control first if no client has it, and shows the results. */
 import type {Messages} from "./messages";
 import type {UseCase} from "./protocol/codec";
-import {ErrorCode, Notice_Kind, Notice_Outcome} from "./protocol/generated/remote_pb";
+import {ErrorCode, Notice_Component, Notice_Kind, Notice_Status} from "./protocol/generated/remote_pb";
 import type {Notice, Response} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import type {Store} from "./store";
-import {isText, say} from "./text/texts";
+import {reasonInWords} from "./text/reasons";
+import {say} from "./text/texts";
 
 /** The part of Connection that commands need. */
 export interface Requester {
@@ -13,8 +14,15 @@ export interface Requester {
   isCongested(): boolean;
 }
 
+/** Parts of text keys. */
+const kComponentNames: Record<Notice_Component, "motion" | "robot" | "camera"> = {
+  [Notice_Component.MOTION]: "motion",
+  [Notice_Component.ROBOT]: "robot",
+  [Notice_Component.CAMERA]: "camera",
+};
+
 export class Commander {
-  /** Called when the robot refuses something: the controller makes it felt. */
+  /** Called when a command is refused: the controller vibrates. */
   onRefusal: () => void = () => {};
   private taking: Promise<boolean> | null = null;
 
@@ -27,18 +35,18 @@ export class Commander {
     return this.report(await this.requester.request(useCase));
   }
 
-  /** Sends a command that is repeated anyway: left out while the link is behind. The end of a walk is
-   * not: it comes once. */
+  /** Sends a command of a repeated stream; skipped while the link is congested. The end of a walk is
+   * never skipped, since it is sent once. */
   stream(useCase: UseCase): void {
     if (isWalkEnd(useCase) || !this.requester.isCongested()) void this.command(useCase);
   }
 
-  /** Anybody may stop the robot, driver or not. */
+  /** Every client may stop the robot, whether it drives or not. */
   async stop(): Promise<boolean> {
     return this.report(await this.requester.request(useCases.stop()));
   }
 
-  /** Asks for the wheel, also from somebody who holds it. */
+  /** Requests control, also while another client has it. */
   async takeControl(): Promise<boolean> {
     const response = await this.requester.request(useCases.takeControl());
     return this.report(response);
@@ -48,13 +56,13 @@ export class Commander {
     return this.report(await this.requester.request(useCases.releaseControl()));
   }
 
-  /** What the gateway tells unasked. */
+  /** Handles an event that does not answer a request. */
   notice(notice: Notice): void {
     switch (notice.kind) {
-      case Notice_Kind.COMMAND_OUTCOME: this.outcome(notice); break;
+      case Notice_Kind.COMMAND_RESULT: this.commandResult(notice); break;
       case Notice_Kind.CONTROL_CHANGED: this.controlChanged(notice); break;
-      case Notice_Kind.PART_CHANGED: this.partChanged(notice); break;
-      case Notice_Kind.CLOSING: this.messages.tell("bad", notice.message); break;
+      case Notice_Kind.COMPONENT_CHANGED: this.componentChanged(notice); break;
+      case Notice_Kind.CLOSING: this.messages.show("bad", reasonInWords(notice)); break;
     }
   }
 
@@ -62,10 +70,10 @@ export class Commander {
     const control = this.store.get().control;
     if (control?.isMine) return Promise.resolve(true);
     if (control && control.driverId !== 0) {
-      this.messages.tell("info", say("control.other", {name: control.driverName}));
+      this.messages.show("info", say("control.other", {name: control.driverName}));
       return Promise.resolve(false);
     }
-    // Two thumbs at once ask once.
+    // Two controls touched at once send one request.
     this.taking ??= this.takeControl().finally(() => this.taking = null);
     return this.taking;
   }
@@ -80,57 +88,60 @@ export class Commander {
   }
 
   /** What a code says, in the page's language; else the gateway's own words. */
-  private inWords({error, message, result}: Response): string {
+  private inWords(response: Response): string {
+    const {error, result} = response;
     switch (error) {
       case ErrorCode.STOPPED: return say("refusal.stopped");
       case ErrorCode.CONTROL_TAKEN:
-        return result.case === "control" ? say("control.other", {name: result.value.driverName}) : message;
+        return result.case === "control" ? say("control.other", {name: result.value.driverName})
+            : reasonInWords(response);
       case ErrorCode.ROBOT_UNAVAILABLE: {
-        const {missingParts} = this.store.get();
-        return missingParts.includes("motion") ? say("part.motion")
-            : missingParts.includes("robot") ? say("part.robot") : message;
+        const {unavailableComponents} = this.store.get();
+        return unavailableComponents.includes(Notice_Component.MOTION) ? say("component.motion")
+            : unavailableComponents.includes(Notice_Component.ROBOT) ? say("component.robot")
+            : reasonInWords(response);
       }
-      default: return message;
+      default: return reasonInWords(response);
     }
   }
 
-  /** The gateway says that we do not drive although we thought so: ask again with the next command. */
+  /** The gateway reports that this client has lost control: the next command requests it again. */
   private forgetControl(): void {
     const control = this.store.get().control;
     if (control?.isMine) this.store.set({control: {...control, isMine: false, driverId: 0}});
   }
 
-  private outcome(notice: Notice): void {
-    this.store.set({lastOutcome: notice});
-    const isBad = notice.outcome === Notice_Outcome.REFUSED ||
-        notice.outcome === Notice_Outcome.FAILED;
-    if (isBad) this.refused(notice.message);
+  private commandResult(notice: Notice): void {
+    this.store.set({lastResult: notice});
+    const isBad = notice.status === Notice_Status.REFUSED || notice.status === Notice_Status.FAILED;
+    if (isBad) this.refused(reasonInWords(notice));
   }
 
   private refused(message: string): void {
-    if (this.messages.tell("bad", message || say("outcome.failed"))) this.onRefusal();
+    if (this.messages.show("bad", message || say("result.failed"))) this.onRefusal();
   }
 
   private controlChanged(notice: Notice): void {
     const before = this.store.get().control;
     const control = notice.control ?? null;
     this.store.set({control});
-    if (control?.isMine && !before?.isMine) this.messages.tell("good", say("control.taken"));
+    if (control?.isMine && !before?.isMine) this.messages.show("good", say("control.taken"));
     if (before?.isMine && control && !control.isMine && control.driverId !== 0) {
-      this.messages.tell("info", say("control.lost", {name: control.driverName}));
+      this.messages.show("info", say("control.lost", {name: control.driverName}));
     }
   }
 
-  private partChanged(notice: Notice): void {
-    const others = this.store.get().missingParts.filter((part) => part !== notice.part);
-    this.store.set({missingParts: notice.available ? others : [...others, notice.part]});
-    const key = `part.${notice.part}${notice.available ? ".back" : ""}`;
-    this.messages.tell(notice.available ? "good" : "bad", isText(key) ? say(key) : notice.message);
+  private componentChanged({component, isAvailable}: Notice): void {
+    const others = this.store.get().unavailableComponents.filter((other) => other !== component);
+    this.store.set({unavailableComponents: isAvailable ? others : [...others, component]});
+    const name = kComponentNames[component];
+    this.messages.show(isAvailable ? "good" : "bad",
+                       say(isAvailable ? `component.${name}.back` : `component.${name}`));
   }
 }
 
 function isWalkEnd(useCase: UseCase): boolean {
   if (useCase.case !== "walkTurn") return false;
-  const {x, y, theta} = useCase.value;
-  return x === 0 && y === 0 && theta === 0;
+  const {vx, vy, wz} = useCase.value;
+  return vx === 0 && vy === 0 && wz === 0;
 }

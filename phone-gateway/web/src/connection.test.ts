@@ -2,7 +2,7 @@ import {create} from "@bufbuild/protobuf";
 import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
 import {FakeTransport} from "../test_support/fake_transport";
 import {Connection, kOpenTimeoutMs, kSilenceMs} from "./connection";
-import {ErrorCode, PongSchema, StateSchema} from "./protocol/generated/remote_pb";
+import {ErrorCode, Mode, PongSchema, StateSchema} from "./protocol/generated/remote_pb";
 import type {State} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import {Store} from "./store";
@@ -23,7 +23,7 @@ describe("Connection", () => {
     connection = new Connection(transport, store, {
       connected: () => {},
       state: (state) => states.push(state),
-      picture: () => {},
+      image: () => {},
       notice: () => {},
     }, () => Date.now());
     connection.connect(kIdentity);
@@ -72,7 +72,7 @@ describe("Connection", () => {
     expect(transport.numOpens).toBe(2);
   });
 
-  it("tells an absent host from one that refuses", async () => {
+  it("distinguishes an absent host from one that refuses", async () => {
     transport.broken(false);
     await pass(0);
     expect(store.get().problem).toBe("unreachable");
@@ -118,7 +118,7 @@ describe("Connection", () => {
     await welcome();
     for (let i = 0; i < 10; i++) {
       await pass(2000);
-      transport.receive({case: "state", value: create(StateSchema, {mode: "holding"})});
+      transport.receive({case: "state", value: create(StateSchema, {mode: Mode.HOLDING})});
     }
     expect(store.get().phase).toBe("connected");
     expect(states).toHaveLength(10);
@@ -148,7 +148,7 @@ describe("Connection", () => {
     expect(store.get().phase).toBe("connected");
   });
 
-  it("stays away once told to disconnect", async () => {
+  it("stays disconnected after disconnect()", async () => {
     await welcome();
     connection.disconnect();
     await pass(60_000);

@@ -1,9 +1,9 @@
-/** The link to the gateway: opens it, greets, keeps it alive, opens it again, and says why not. */
+/** Connection to the gateway: opens it, sends Connect and pings, reopens it, and reports problems. */
 import {retryDelayMs} from "./backoff";
 import {decodeServerMessage, encodeRequest} from "./protocol/codec";
 import type {UseCase} from "./protocol/codec";
 import {ErrorCode} from "./protocol/generated/remote_pb";
-import type {Connected, Notice, Picture, Response, State} from "./protocol/generated/remote_pb";
+import type {Connected, Notice, Image, Response, State} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import type {Problem, Store} from "./store";
 import type {Transport} from "./transport";
@@ -12,18 +12,18 @@ import type {Transport} from "./transport";
 export const kSilenceMs = 5000;
 /** A transport that has not opened by then will not. */
 export const kOpenTimeoutMs = 5000;
-/** Signs of life, and samples of the latency. */
+/** Keeps the connection open and samples the latency. */
 export const kPingPeriodMs = 1000;
 const kCheckPeriodMs = 250;
 const kNumLatencySamples = 5;
 /** A state that waits behind this many bytes would come too late to be of use. */
 const kMaxBacklogBytes = 16384;
 
-/** What the connection tells the rest of the app. */
+/** Receives the events of a connection. */
 export interface ConnectionListener {
   connected(connected: Connected): void;
   state(state: State): void;
-  picture(picture: Picture): void;
+  image(image: Image): void;
   notice(notice: Notice): void;
 }
 
@@ -33,7 +33,7 @@ export interface Identity {
   clientSoftware: string;
 }
 
-/** Refusals that another attempt would meet again. */
+/** Problems that another attempt would not solve. */
 const kFinalProblems: readonly Problem[] = ["wrong-token", "wrong-version"];
 
 export class Connection {
@@ -124,7 +124,7 @@ export class Connection {
       phase: "connected", problem: null, problemDetail: "", attempts: 0,
       clientId: connected.clientId, clientName: connected.clientName,
       robot: connected.robot ?? null, control: connected.control ?? null,
-      state: null, missingParts: [], latencyMs: -1,
+      state: null, unavailableComponents: [], latencyMs: -1,
     });
     this.ping();
     this.checkTimer = setInterval(() => this.check(), kCheckPeriodMs);
@@ -164,7 +164,7 @@ export class Connection {
         break;
       }
       case "state": this.listener.state(message.value); break;
-      case "picture": this.listener.picture(message.value); break;
+      case "image": this.listener.image(message.value); break;
       case "notice": this.listener.notice(message.value); break;
       case undefined: break;
     }
@@ -177,7 +177,7 @@ export class Connection {
 
   private async closed(wasOpen: boolean, attempt: number): Promise<void> {
     if (wasOpen) {
-      // Whoever was connected saw a link break; whoever was not met something that is no gateway.
+      // After Connect the link broke; before, the host is not a gateway.
       const problem = this.store.get().phase === "connected" ? "closed" : "not-a-robot";
       this.failed(problem, this.closingReason);
       return;

@@ -1,4 +1,4 @@
-/** What the app tells a person in passing: a few lines that go by themselves. */
+/** Short messages to the user that disappear after some seconds. */
 import type {Message, Store} from "./store";
 
 const kMaxShown = 3;
@@ -13,7 +13,7 @@ export class Messages {
 
   /** Shows a sentence. One that is shown already stays, for longer.
    * @return false if it was shown already: a refusal that comes ten times a second is one event. */
-  tell(kind: Message["kind"], text: string): boolean {
+  show(kind: Message["kind"], text: string): boolean {
     if (!text) return false;
     const shown = this.store.get().messages.find((message) => message.text === text);
     const message = shown ?? {id: this.nextId++, kind, text};

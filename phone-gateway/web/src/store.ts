@@ -1,16 +1,16 @@
-/** The one copy of what the app knows. Everything on screen is drawn from here. */
+/** The state of the app; everything on screen is drawn from it. */
 import type {
-  Control, Joint, Notice, Picture, RobotDescription, State,
+  Control, Joint, Notice, Notice_Component, Image, RobotDescription, State,
 } from "./protocol/generated/remote_pb";
 
-/** Where the link to the gateway stands. */
+/** Phase of the connection to the gateway. */
 export type LinkPhase =
-    /** Nobody has asked to connect yet, or the last attempt was refused for good. */
+    /** No connection was requested yet, or the last attempt was refused permanently. */
     "idle" |
     /** The transport is being opened, or Connect waits for its answer. */
     "connecting" |
     "connected" |
-    /** Lost or failed; the next attempt comes by itself. */
+    /** Lost or failed; the next attempt is scheduled. */
     "waiting";
 
 /** Why there is no connection; each has a sentence and an advice in text/texts.ts. */
@@ -18,7 +18,7 @@ export type Problem =
     "unreachable" | "not-a-robot" | "wrong-token" | "wrong-version" | "too-many" | "silent" |
     "closed";
 
-/** Something worth telling a person, shown for a while. */
+/** A message to the user, shown for some seconds. */
 export interface Message {
   id: number;
   kind: "info" | "good" | "bad";
@@ -47,14 +47,14 @@ export interface AppState {
   robot: RobotDescription | null;
   control: Control | null;
   state: State | null;
-  picture: Picture | null;
+  image: Image | null;
   loading: Loading;
   /** Newest last. */
   messages: readonly Message[];
-  /** What became of the newest command that the gateway told of. */
-  lastOutcome: Notice | null;
-  /** Parts of the robot that are away: motion, robot, camera. */
-  missingParts: readonly string[];
+  /** Latest result of a command. */
+  lastResult: Notice | null;
+  /** Components that do not answer. */
+  unavailableComponents: readonly Notice_Component[];
   /** Median round trip of the last pings, ms; negative before the first. */
   latencyMs: number;
   numClients: number;
@@ -75,11 +75,11 @@ const kInitialState: AppState = {
   robot: null,
   control: null,
   state: null,
-  picture: null,
+  image: null,
   loading: {done: 0, total: 0, error: ""},
   messages: [],
-  lastOutcome: null,
-  missingParts: [],
+  lastResult: null,
+  unavailableComponents: [],
   latencyMs: -1,
   numClients: 0,
   isJointsMode: false,
@@ -98,7 +98,7 @@ export class Store {
     return this.current;
   }
 
-  /** Changes some values and tells those who watch them. */
+  /** Changes some values and notifies the watchers. */
   set(patch: Partial<AppState>): void {
     Object.assign(this.current, patch);
     for (const watcher of this.watchers) watcher.check(this.current);

@@ -44,7 +44,7 @@ export class WebSocketTransport implements Transport {
         listener.received(new Uint8Array(event.data));
       }
     };
-    // An error is always followed by a close; the browser tells scripts no more than that.
+    // An error is always followed by a close; browsers give scripts no further information.
     socket.onclose = () => {
       if (!isCurrent()) return;
       this.socket = null;

@@ -12,7 +12,7 @@ import type {WebSocket} from "ws";
 import * as pb from "../src/protocol/generated/remote_pb";
 
 const kStatePeriodMs = 33;
-const kPicturePeriodMs = 100;
+const kImagePeriodMs = 100;
 /** Speed of the imaginary joints, rad/s. */
 const kJointSpeed = 1.5;
 const kTypes: Record<string, string> = {
@@ -35,8 +35,8 @@ export interface FakeGatewayOptions {
   jointGroups: {name: string; yawJoint?: string; pitchJoint?: string; rollJoint?: string}[];
   postures: Record<string, FakePosture>;
   actions: string[];
-  /** JPEG of the head picture for a time in s; without it no pictures are sent. */
-  picture?: (time: number) => Uint8Array;
+  /** JPEG of the head image for a time in s; without it no images are sent. */
+  image?: (time: number) => Uint8Array;
 }
 
 interface Phone {
@@ -45,13 +45,13 @@ interface Phone {
   isConnected: boolean;
   socket: WebSocket;
   states: boolean;
-  pictures: boolean;
+  images: boolean;
 }
 
 export class FakeGateway {
   /** Every use case received, oldest first. */
   readonly received: pb.Request[] = [];
-  mode = "holding";
+  mode = pb.Mode.HOLDING;
   posture = "";
   /** Refusal for the next command, if any. */
   refuseNext: {error: pb.ErrorCode; message: string} | null = null;
@@ -64,7 +64,7 @@ export class FakeGateway {
   private heading = 0;
   private x = 0;
   private y = 0;
-  private drive = {x: 0, y: 0, theta: 0};
+  private drive = {vx: 0, vy: 0, wz: 0};
   private lastDriveMs = 0;
   private driverId = 0;
   private nextId = 1;
@@ -86,7 +86,7 @@ export class FakeGateway {
   async start(port = 0): Promise<string> {
     await new Promise<void>((resolve) => this.http.listen(port, "127.0.0.1", resolve));
     this.timers.push(setInterval(() => this.tick(), kStatePeriodMs),
-                     setInterval(() => this.sendPicture(), kPicturePeriodMs));
+                     setInterval(() => this.sendImage(), kImagePeriodMs));
     return `http://127.0.0.1:${this.port}/#token=${this.options.token}`;
   }
 
@@ -122,7 +122,7 @@ export class FakeGateway {
 
   private welcome(socket: WebSocket): void {
     const phone: Phone = {id: this.nextId++, name: "", isConnected: false, socket, states: false,
-                          pictures: false};
+                          images: false};
     this.phones.add(phone);
     socket.on("message", (data: Buffer) => this.receive(phone, fromBinary(pb.RequestSchema, data)));
     socket.on("close", () => {
@@ -143,7 +143,7 @@ export class FakeGateway {
     switch (useCase.case) {
       case "subscribe":
         phone.states = useCase.value.stateRate > 0;
-        phone.pictures = useCase.value.pictureRate > 0;
+        phone.images = useCase.value.imageRate > 0;
         return answer(pb.ErrorCode.OK);
       case "ping":
         return answer(pb.ErrorCode.OK, "", {case: "pong", value: create(pb.PongSchema, {
@@ -159,7 +159,7 @@ export class FakeGateway {
         if (this.driverId === phone.id) this.setDriver(0);
         return answer(pb.ErrorCode.OK, "", {case: "control", value: this.control(phone)});
       case "stop":
-        this.drive = {x: 0, y: 0, theta: 0};
+        this.drive = {vx: 0, vy: 0, wz: 0};
         return answer(pb.ErrorCode.OK);
       default:
         return this.move(phone, request, answer);
@@ -176,8 +176,8 @@ export class FakeGateway {
     }
     switch (useCase.case) {
       case "walkTurn": {
-        const {x, y, theta} = useCase.value;
-        this.drive = {x, y, theta};
+        const {vx, vy, wz} = useCase.value;
+        this.drive = {vx, vy, wz};
         this.lastDriveMs = Date.now();
         break;
       }
@@ -203,7 +203,7 @@ export class FakeGateway {
     answer(pb.ErrorCode.OK);
     if (useCase.case === "goToPosture" || useCase.case === "doAction") {
       send(phone, {case: "notice", value: create(pb.NoticeSchema, {
-        kind: pb.Notice_Kind.COMMAND_OUTCOME, requestId, outcome: pb.Notice_Outcome.ACCEPTED})});
+        kind: pb.Notice_Kind.COMMAND_RESULT, requestId, status: pb.Notice_Status.ACCEPTED})});
     }
   }
 
@@ -226,7 +226,8 @@ export class FakeGateway {
       protocolVersion: 1, serverVersion: "fake", clientId: phone.id, clientName: phone.name,
       control: this.control(phone),
       robot: {name: "NAO", urdfPath: "/robots/nao/nao.urdf", joints, jointGroups, actions,
-              postures: Object.keys(postures), maxWalkX: 0.2, maxWalkY: 0.15, maxWalkTheta: 1},
+              postures: Object.keys(postures), maxVx: 0.2, minVx: -0.2, maxVy: 0.15, maxWz: 1,
+              model: "nao", cameras: ["top", "bottom"]},
     })});
   }
 
@@ -255,29 +256,29 @@ export class FakeGateway {
       const step = kJointSpeed * dt;
       this.angle[i]! += Math.min(Math.max(target - this.angle[i]!, -step), step);
     });
-    if (Date.now() - this.lastDriveMs > 500) this.drive = {x: 0, y: 0, theta: 0};
-    this.heading += this.drive.theta * dt;
+    if (Date.now() - this.lastDriveMs > 500) this.drive = {vx: 0, vy: 0, wz: 0};
+    this.heading += this.drive.wz * dt;
     const [c, s] = [Math.cos(this.heading), Math.sin(this.heading)];
-    this.x += 0.2 * (this.drive.x * c - this.drive.y * s) * dt;
-    this.y += 0.2 * (this.drive.x * s + this.drive.y * c) * dt;
-    const isWalking = this.drive.x !== 0 || this.drive.y !== 0 || this.drive.theta !== 0;
+    this.x += (this.drive.vx * c - this.drive.vy * s) * dt;
+    this.y += (this.drive.vx * s + this.drive.vy * c) * dt;
+    const isWalking = this.drive.vx !== 0 || this.drive.vy !== 0 || this.drive.wz !== 0;
     const state = create(pb.StateSchema, {
       utime: BigInt(Math.round(this.time * 1e6)), ageMs: 4, jointPosition: this.angle,
       torsoOrientation: [Math.cos(this.heading / 2), 0, 0, Math.sin(this.heading / 2)],
       torsoPosition: [this.x, this.y, this.height],
-      mode: isWalking ? "walking" : this.mode, posture: isWalking ? "" : this.posture,
+      mode: isWalking ? pb.Mode.WALKING : this.mode, posture: isWalking ? "" : this.posture,
       progress: -1, stiffness: 1,
     });
     for (const phone of this.phones) if (phone.states) send(phone, {case: "state", value: state});
   }
 
-  private sendPicture(): void {
-    const jpeg = this.options.picture?.(this.time);
+  private sendImage(): void {
+    const jpeg = this.options.image?.(this.time);
     if (!jpeg) return;
-    const picture = create(pb.PictureSchema, {utime: BigInt(Math.round(this.time * 1e6)), ageMs: 20,
-                                              width: 320, height: 240, jpeg});
+    const image = create(pb.ImageSchema, {utime: BigInt(Math.round(this.time * 1e6)), ageMs: 20,
+                                              camera: "top", width: 320, height: 240, jpeg});
     for (const phone of this.phones) {
-      if (phone.pictures) send(phone, {case: "picture", value: picture});
+      if (phone.images) send(phone, {case: "image", value: image});
     }
   }
 }

@@ -55,7 +55,7 @@ export class FakeTransport implements Transport {
   answer(useCase: pb.Request["useCase"]["case"], error = pb.ErrorCode.OK, message = "",
          result?: pb.Response["result"]): void {
     const request = this.sent.filter((one) => one.useCase.case === useCase).at(-1);
-    if (!request) throw new Error(`nobody asked for ${useCase}`);
+    if (!request) throw new Error(`no request ${useCase} was sent`);
     const {requestId} = request;
     this.receive({case: "response",
                   value: create(pb.ResponseSchema, {requestId, error, message, result})});

@@ -1,5 +1,5 @@
 /** Serves the app with the fake gateway: `npm run fake -- DATA_DIR [PORT]`, DATA_DIR as build/dev/share/nao-remote.
- * A JPEG named by NAO_PICTURE, if any, is sent as the head's picture. */
+ * A JPEG named by NAO_IMAGE, if any, is sent as the head's image. */
 import {readFileSync} from "node:fs";
 import {join} from "node:path";
 import {FakeGateway} from "./fake_gateway";
@@ -8,11 +8,11 @@ import {readActions, readJointGroups, readJoints, readPostures} from "./nao_file
 const [dataDir, port] = process.argv.slice(2);
 if (!dataDir) throw new Error("usage: npm run fake -- DATA_DIR [PORT]");
 const robot = join(dataDir, "robots/nao");
-const pictureFile = process.env["NAO_PICTURE"];
-const picture = pictureFile ? readFileSync(pictureFile) : null;
+const imageFile = process.env["NAO_IMAGE"];
+const image = imageFile ? readFileSync(imageFile) : null;
 const gateway = new FakeGateway({
   dataDir, token: "fake", joints: readJoints(robot), jointGroups: readJointGroups(robot),
   postures: readPostures(robot), actions: readActions(robot),
-  ...(picture ? {picture: () => picture} : {}),
+  ...(image ? {image: () => image} : {}),
 });
 console.log(await gateway.start(Number(port ?? 0)));

@@ -1,4 +1,4 @@
-// The program itself: what it says and how it ends.
+// The whole program: its messages and its exit status.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <naolcm/daemon_status_t.hpp>
 #include <naolcm/image_t.hpp>
+#include <naolcm/world_truth_t.hpp>
 #include <string>
 
 #include "common/bus.h"
@@ -26,7 +27,7 @@ std::string program() {
   return std::filesystem::canonical("/proc/self/exe").parent_path() / "nao-head-camera";
 }
 
-/** A bus of this process's own. */
+/** A bus that only this process uses. */
 std::string private_url() {
   return "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 10000) + "?ttl=0";
 }
@@ -36,7 +37,7 @@ struct Outcome {
   std::string text;
 };
 
-/** Runs a command line to its end. */
+/** Runs a command line until it ends. */
 Outcome run(const std::string& command) {
   Outcome outcome{-1, ""};
   FILE* pipe = popen((command + " 2>&1").c_str(), "r");
@@ -46,8 +47,8 @@ Outcome run(const std::string& command) {
   return outcome;
 }
 
-TEST(HeadCameraProgram, SaysSoWhenThereIsNoWayToDraw) {
-  // Without a vendor library the EGL dispatcher finds no driver at all.
+TEST(HeadCameraProgram, ReportsAMissingOpenGlDriver) {
+  // Without a vendor library the EGL dispatcher finds no driver.
   const Outcome outcome = run("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent timeout 60 " +
                               program() + " --lcm-url '" + private_url() + "'");
   EXPECT_EQ(outcome.status, 1);
@@ -55,18 +56,24 @@ TEST(HeadCameraProgram, SaysSoWhenThereIsNoWayToDraw) {
   EXPECT_THAT(outcome.text, testing::HasSubstr("libegl-mesa0"));
 }
 
-TEST(HeadCameraProgram, RefusesAWrongCommandLine) {
+TEST(HeadCameraProgram, RejectsAWrongCommandLine) {
   EXPECT_EQ(run(program() + " --wide").status, 2);
   const Outcome size = run(program() + " --always --width 641");
   EXPECT_EQ(size.status, 1);
   EXPECT_THAT(size.text, testing::HasSubstr("640, 320 or 160"));
+  const Outcome camera = run(program() + " --always --camera tail");
+  EXPECT_EQ(camera.status, 1);
+  EXPECT_THAT(camera.text, testing::HasSubstr("its cameras are: top, bottom"));
+  const Outcome distortion = run(program() + " --p1 3");
+  EXPECT_EQ(distortion.status, 1);
+  EXPECT_THAT(distortion.text, testing::HasSubstr("outside -2 to 2"));
   const Outcome platform =
       run(program() + " --egl-platform moon --lcm-url '" + private_url() + "'");
   EXPECT_EQ(platform.status, 1);
   EXPECT_THAT(platform.text, testing::HasSubstr("moon"));
 }
 
-/** The program, running until this ends. */
+/** The program, running during the lifetime of this object. */
 class RunningCamera {
  public:
   explicit RunningCamera(const std::string& url) : process_(fork()) {
@@ -80,7 +87,7 @@ class RunningCamera {
     if (process_ > 0) stop();
   }
 
-  /** Asks it to end. @return Its exit status. */
+  /** Sends SIGTERM. @return The exit status. */
   int stop() {
     kill(process_, SIGTERM);
     int status = 0;
@@ -93,7 +100,7 @@ class RunningCamera {
   pid_t process_;
 };
 
-TEST(HeadCameraProgram, SendsPicturesInOrderAndEndsWhenAsked) {
+TEST(HeadCameraProgram, SendsImagesInOrderAndEndsOnSigterm) {
   const std::string url = private_url();
   Bus bus(url);
   std::vector<int64_t> utimes;

@@ -9,7 +9,7 @@
 #include "common/error.h"
 #include "daemons/head-camera/half_size.h"
 
-namespace nao {
+namespace nao::camera {
 namespace {
 
 std::vector<uint8_t> noise(int width, int height) {
@@ -29,7 +29,7 @@ std::vector<uint8_t> decode(const std::vector<uint8_t>& jpeg, int width, int hei
   return pixels;
 }
 
-TEST(JpegEncoder, KeepsThePictureAndItsOrientation) {
+TEST(JpegEncoder, KeepsTheImageAndItsOrientation) {
   constexpr int kWidth = 64;
   constexpr int kHeight = 48;
   std::vector<uint8_t> pixels;
@@ -54,11 +54,11 @@ TEST(JpegEncoder, LowersTheQualityUntilTheFileFits) {
   const auto jpeg = encoder.encode(pixels, 640, 480, 95, 64000);
   EXPECT_LE(jpeg.size(), 64000u);
   decode(jpeg, 640, 480);
-  // The next picture has its full quality again.
+  // The next image is encoded with its full quality.
   EXPECT_GT(encoder.encode(pixels, 640, 480, 95, 10000000).size(), 64000u);
 }
 
-TEST(JpegEncoder, SaysWhatItCannotDo) {
+TEST(JpegEncoder, RejectsWrongSizesAndLimitsItCannotReach) {
   JpegEncoder encoder;
   EXPECT_THROW(encoder.encode(noise(8, 8), 16, 16, 80, 60000), Error);
   EXPECT_THROW(encoder.encode({}, 0, 0, 80, 60000), Error);
@@ -88,4 +88,4 @@ TEST(HalfSize, IsTheRoundedMeanOfFourPixels) {
 }
 
 }  // namespace
-}  // namespace nao
+}  // namespace nao::camera

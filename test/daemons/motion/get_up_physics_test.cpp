@@ -19,7 +19,7 @@ TEST(GetUp, FromEverySideOnWhichItCanLie) {
   }
 }
 
-TEST(GetUp, WithoutItTheRobotLiesUntilSomebodyTellsIt) {
+TEST(GetUp, WithoutTheOptionTheRobotLiesUntilACommand) {
   ClosedLoopOptions options = trial_options();
   options.motion.gets_up = false;
   ClosedLoop trial(options, 1);

@@ -72,7 +72,7 @@ TEST(Kick, RefusesABallOutOfReachAndSaysWhereItMayLie) {
   const auto end = trial.await_end(id, 1);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->status, ResultStatus::kRefused);
-  EXPECT_NE(end->reason.find("out of reach"), std::string::npos) << end->reason;
+  EXPECT_EQ(end->reason.code, "ball-out-of-reach") << end->reason;
 }
 
 TEST(Kick, APostureWaitsUntilBothFeetStand) {

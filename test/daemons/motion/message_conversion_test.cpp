@@ -29,7 +29,16 @@ TEST(MessageConversion, RefusesIncompleteAndBrokenSensorStates) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refuses([](auto& m) { m.joint_names[3] = "Tail"; });
   refuses([](auto& m) { m.joint_names[3] = m.joint_names[4]; });
-  refuses([](auto& m) { --m.num_joints; });
+  refuses([](auto& m) {
+    m.joint_names.pop_back();
+    for (auto* list : {&m.joint_position, &m.joint_velocity, &m.joint_torque,
+                       &m.joint_target_position, &m.joint_stiffness}) {
+      list->pop_back();
+    }
+  });
+  refuses([](auto& m) { m.joint_torque.pop_back(); });
+  refuses([](auto& m) { m.period = 0; });
+  refuses([&](auto& m) { m.period = nan; });
   refuses([&](auto& m) { m.joint_position[0] = nan; });
   refuses([&](auto& m) { m.joint_velocity[0] = nan; });
   refuses([&](auto& m) { m.joint_torque[0] = nan; });
@@ -42,6 +51,24 @@ TEST(MessageConversion, RefusesIncompleteAndBrokenSensorStates) {
   refuses([](auto& m) { m.foot_sensor_names[0] = "Nose"; });
   refuses([](auto& m) { --m.num_foot_sensors; });
   refuses([&](auto& m) { m.foot_force[2] = nan; });
+}
+
+TEST(MessageConversion, ResultsCarryCodeArgumentsAndSentence) {
+  const CommandResult result{
+      "test", 3, CommandKind::kJointChange, ResultStatus::kRefused, {"joint-unknown", {"Tail"}}};
+  const auto message = to_message(result, 5);
+  EXPECT_EQ(message.utime, 5);
+  EXPECT_EQ(message.reason_code, "joint-unknown");
+  EXPECT_EQ(message.num_reason_arguments, 1);
+  EXPECT_EQ(message.reason_arguments, std::vector<std::string>{"Tail"});
+  EXPECT_EQ(message.reason, "The robot has no joint Tail.");
+  MotionState state;
+  state.last_refusal = result.reason;
+  const auto state_message = to_message(state);
+  EXPECT_EQ(state_message.last_refusal_code, "joint-unknown");
+  EXPECT_EQ(state_message.num_last_refusal_arguments, 1);
+  EXPECT_EQ(state_message.last_refusal_arguments, std::vector<std::string>{"Tail"});
+  EXPECT_EQ(state_message.last_refusal, "The robot has no joint Tail.");
 }
 
 TEST(MessageConversion, JointCommandAnswersTheTick) {

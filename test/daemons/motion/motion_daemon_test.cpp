@@ -26,7 +26,7 @@ class MotionDaemonTest : public ::testing::Test {
   }
 
   void tick() {
-    bus_.publish("NAO_SENSOR_STATE", sensor_message("StandInit", next_tick_++));
+    bus_.publish("NAO_SENSOR_STATE", sensor_message("StandInit", next_tick_++, period_));
     while (bus_.handle_for(0)) {
     }
   }
@@ -35,6 +35,7 @@ class MotionDaemonTest : public ::testing::Test {
   EventLoop loop_;
   MotionDaemon daemon_{bus_, loop_, nao_model(), MotionOptions(), "NAO"};
   int64_t next_tick_ = 0;
+  double period_ = 0.01;
   std::vector<naolcm::joint_command_t> commands_;
   std::vector<naolcm::robot_state_t> states_;
   std::vector<naolcm::command_result_t> results_;
@@ -75,10 +76,14 @@ TEST_F(MotionDaemonTest, PublishesResultsOfCommands) {
   ASSERT_EQ(results_.size(), 1u);
   EXPECT_EQ(results_[0].status, naolcm::command_result_t::STATUS_REFUSED);
   EXPECT_EQ(results_[0].command_kind, naolcm::command_result_t::COMMAND_KIND_POSTURE);
+  EXPECT_EQ(results_[0].reason_code, "posture-unknown");
+  EXPECT_EQ(results_[0].num_reason_arguments, 2);
+  EXPECT_EQ(results_[0].reason_arguments.at(0), "\"Nirvana\"");
+  EXPECT_NE(results_[0].reason.find("\"Nirvana\""), std::string::npos);
   EXPECT_EQ(results_[0].command_id, 1);
 }
 
-TEST_F(MotionDaemonTest, TellsTheEndOfACommandThreeTimesForTheBusMayLoseOne) {
+TEST_F(MotionDaemonTest, PublishesTheFinalResultThreeTimes) {
   for (int i = 0; i < 20; ++i) tick();
   naolcm::stop_command_t command{};
   command.source = "test";
@@ -102,6 +107,26 @@ TEST_F(MotionDaemonTest, TellsTheEndOfACommandThreeTimesForTheBusMayLoseOne) {
   ASSERT_EQ(done_at.size(), 3u);
   EXPECT_NEAR(static_cast<double>(done_at[1] - done_at[0]), 10, 1);
   EXPECT_NEAR(static_cast<double>(done_at[2] - done_at[0]), 50, 1);
+}
+
+TEST_F(MotionDaemonTest, StepsWithTheControlPeriodOfTheSensorStates) {
+  // A final result is repeated 0.1 and 0.5 s after the first one, in robot time.
+  period_ = 0.012;
+  for (int i = 0; i < 20; ++i) tick();
+  naolcm::stop_command_t command{};
+  command.source = "test";
+  command.command_id = 1;
+  bus_.publish("NAO_STOP_COMMAND", command);
+  std::vector<int64_t> done_utimes;
+  for (int i = 0; i < 200; ++i) {
+    tick();
+    for (const auto& result : std::exchange(results_, {})) {
+      if (result.status == result.STATUS_DONE) done_utimes.push_back(result.utime);
+    }
+  }
+  ASSERT_EQ(done_utimes.size(), 3u);
+  EXPECT_NEAR(static_cast<double>(done_utimes[1] - done_utimes[0]) * 1e-6, 0.1, 0.012);
+  EXPECT_NEAR(static_cast<double>(done_utimes[2] - done_utimes[0]) * 1e-6, 0.5, 0.012);
 }
 
 TEST_F(MotionDaemonTest, DropsABrokenSensorState) {

@@ -1,4 +1,4 @@
-// nao-motion killed at any moment and started again: the servos hold, and a new core takes over.
+// nao-motion is killed at any time and restarted: the servos hold, and a new core takes over.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTick = 0.01;  // s
 
-/** Watches that no target jumps while the core dies, and for a second after it is back. */
+/** Kills and restarts the core; no target may jump until a second after the restart. */
 void kill_and_restart(ClosedLoop& trial, double dead_time) {
   std::vector<double> last = trial.targets();
   int num_jumps = 0;
@@ -28,42 +28,42 @@ void kill_and_restart(ClosedLoop& trial, double dead_time) {
     }
     last = trial.targets();
   });
-  trial.set_core_dead(true);
+  trial.set_core_crashed(true);
   trial.run(dead_time);
   trial.restart_core();
-  trial.set_core_dead(false);
+  trial.set_core_crashed(false);
   trial.run(1);
   trial.on_tick({});
   EXPECT_EQ(num_jumps, 0) << worst;
 }
 
-bool is_at_ease(ClosedLoop& trial) {
+bool is_settled(ClosedLoop& trial) {
   return trial.core().motion_state().mode == Mode::kHolding &&
          !trial.core().motion_state().posture.empty();
 }
 
-TEST(Takeover, StandingItStandsOn) {
+TEST(Takeover, AStandingRobotKeepsStanding) {
   for (uint64_t seed = 1; seed <= 3; ++seed) {
     ClosedLoop trial(trial_options(), seed);
     trial.run(1 + trial.random(0, 0.5));
     kill_and_restart(trial, 0.5);
     EXPECT_LT(trial.torso_tilt(), 0.2);
-    EXPECT_TRUE(trial.run_until([&] { return is_at_ease(trial); }, 5));
+    EXPECT_TRUE(trial.run_until([&] { return is_settled(trial); }, 5));
   }
 }
 
-TEST(Takeover, AtAnyMomentOfAPostureChange) {
+TEST(Takeover, AtAnyTimeOfAPostureChange) {
   for (uint64_t seed = 1; seed <= 8; ++seed) {
     ClosedLoop trial(trial_options(), seed);
     trial.run(1);
     trial.send_posture(seed % 2 == 0 ? "SitRelax" : "LyingBelly", 0.5);
     trial.run(0.5 + 0.6 * static_cast<double>(seed));
     kill_and_restart(trial, 0.3);
-    EXPECT_TRUE(trial.run_until([&] { return is_at_ease(trial); }, 60)) << seed;
+    EXPECT_TRUE(trial.run_until([&] { return is_settled(trial); }, 60)) << seed;
   }
 }
 
-TEST(Takeover, AtAnyMomentOfAWalk) {
+TEST(Takeover, AtAnyTimeOfAWalk) {
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     ClosedLoop trial(trial_options(), seed);
     trial.run(1);
@@ -71,11 +71,11 @@ TEST(Takeover, AtAnyMomentOfAWalk) {
     trial.run(3 + 0.11 * static_cast<double>(seed));
     trial.release_walk(false);
     kill_and_restart(trial, 0.3);
-    EXPECT_TRUE(trial.run_until([&] { return is_at_ease(trial); }, 60)) << seed;
+    EXPECT_TRUE(trial.run_until([&] { return is_settled(trial); }, 60)) << seed;
   }
 }
 
-TEST(Takeover, LyingWithPressedLimbsAndGettingUp) {
+TEST(Takeover, DuringAFallAndGettingUp) {
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     ClosedLoop trial(trial_options(), seed);
     trial.run(1);
@@ -87,7 +87,7 @@ TEST(Takeover, LyingWithPressedLimbsAndGettingUp) {
   }
 }
 
-TEST(Takeover, RestingItRestsOn) {
+TEST(Takeover, ARelaxedRobotStaysRelaxed) {
   ClosedLoop trial(trial_options(), 1);
   trial.run(1);
   ASSERT_TRUE(trial.await_end(trial.send_action("rest"), 20));

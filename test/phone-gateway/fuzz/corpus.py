@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Usage: corpus.py seed FOLDER | unpack PACK FOLDER | pack FOLDER PACK
 
-What fuzzers have found, kept in one file for each: every input after its length, 4 bytes, most significant first.
-seed writes one input for fuzz_session for each use case; unpack writes a pack's inputs as libFuzzer wants them, a
-file each; pack makes a pack of them. The tests play the packs.
+A pack has the stored inputs of one fuzzer: each after its length, 4 bytes, most significant first.
+seed writes one input of fuzz_session for each use case; unpack writes each input of a pack to a file, as libFuzzer
+reads them; pack makes a pack of such files. The tests run the fuzzers on the packs.
 """
 
 import hashlib
@@ -17,9 +17,9 @@ from remote_protocol import remote_pb2 as pb  # noqa: E402
 
 USE_CASES = {
     "connect": dict(connect=pb.Connect(protocol_version=1, token="k", client_name="Ana")),
-    "get_state": dict(get_state=pb.GetState(with_picture=True, picture=pb.PictureWish(width=320))),
-    "subscribe": dict(subscribe=pb.Subscribe(state_rate=30, picture_rate=15)),
-    "walk_turn": dict(walk_turn=pb.WalkTurn(x=0.5, y=-0.5, theta=1)),
+    "get_state": dict(get_state=pb.GetState(with_image=True, image=pb.ImageRequest(camera="top", width=320))),
+    "subscribe": dict(subscribe=pb.Subscribe(state_rate=30, image_rate=15)),
+    "walk_turn": dict(walk_turn=pb.WalkTurn(vx=0.1, vy=-0.1, wz=1)),
     "move_to": dict(move_to=pb.MoveTo(x=1, y=1, theta=1)),
     "go_to_posture": dict(go_to_posture=pb.GoToPosture(posture="Crouch", speed=0.5)),
     "change_joints": dict(change_joints=pb.ChangeJoints(group="head", yaw=0.1, pitch=0.1)),
@@ -31,15 +31,15 @@ USE_CASES = {
 }
 
 
-def played(action, **use_case):
+def encode(events, **use_case):
     message = pb.Request(request_id=1, **use_case).SerializeToString()
-    return bytes([action, len(message)]) + message
+    return bytes([events, len(message)]) + message
 
 
 def seed(folder):
-    begin = played(6, **USE_CASES["connect"]) + played(6, take_control=pb.TakeControl())
+    begin = encode(6, **USE_CASES["connect"]) + encode(6, take_control=pb.TakeControl())
     for name, use_case in USE_CASES.items():
-        (folder / name).write_bytes(begin + played(14, **use_case) + played(6, **use_case))
+        (folder / name).write_bytes(begin + encode(14, **use_case) + encode(6, **use_case))
 
 
 def pack(folder, file):

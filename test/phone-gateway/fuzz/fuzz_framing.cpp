@@ -1,5 +1,5 @@
-// Any bytes, cut in any way, into the reader of raw TCP messages. The first byte of the input
-// chooses the size of the pieces.
+// Input of libFuzzer: bytes for the reader of raw TCP messages. The first byte is the size of the
+// pieces in which the others are passed, minus one.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       taken += nao::frame(*message);
     }
   }
-  // What came out is the beginning of what went in.
+  // The messages, framed again, are the beginning of the input.
   if (stream.substr(0, taken.size()) != taken) std::abort();
   if (!reader.is_oversized() && taken.size() + reader.num_waiting_bytes() != stream.size()) {
     std::abort();

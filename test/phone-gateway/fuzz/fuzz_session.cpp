@@ -1,102 +1,120 @@
-// Any messages of two connections, one of them from another host, into the gateway's core, with a
-// robot that answers. Input: for each message one byte of what happens besides, one byte of length,
-// the message.
+// Input of libFuzzer: messages of two connections to the gateway's core, one of them from another
+// host, with a robot that answers. For each message one byte that selects other events, one byte of
+// length, and the message.
 #include <google/protobuf/stubs/logging.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
-#include <vector>
+#include <variant>
 
-#include "phone-gateway/server/gateway_core.h"
-#include "test/phone-gateway/server/test_robot.h"
+#include "phone-gateway/server/core/gateway_core.h"
+#include "test/phone-gateway/server/core/test_robot.h"
 
+namespace nao::gateway {
 namespace {
 
 void require(bool condition) {
   if (!condition) std::abort();
 }
 
-/** What must hold of every command, whatever a client sent. */
-void check(const nao::NumberedCommand& sent) {
-  require(sent.command_id != 0 && !sent.source.empty());
-  if (const auto* walk = std::get_if<nao::WalkVelocity>(&sent.command)) {
+/** Conditions that every command must fulfil, whatever a client sends. */
+void check(const Command& command) {
+  require(command.id != 0 && !command.source.empty());
+  if (const auto* walk = std::get_if<WalkCommand>(&command.request)) {
     require(std::abs(walk->vx) <= 0.2 && std::abs(walk->vy) <= 0.15 && std::abs(walk->wz) <= 1);
-  } else if (const auto* posture = std::get_if<nao::PostureGoal>(&sent.command)) {
+  } else if (const auto* posture = std::get_if<PostureCommand>(&command.request)) {
     require(posture->speed > 0 && posture->speed <= 1);
-  } else if (const auto* change = std::get_if<nao::JointChange>(&sent.command)) {
-    require(change->joint_names.size() == change->change.size());
-    for (const double value : change->change) require(std::isfinite(value));
-  } else if (const auto* goal = std::get_if<nao::RelativeGoal>(&sent.command)) {
+  } else if (const auto* change = std::get_if<JointChangeCommand>(&command.request)) {
+    require(change->joint_names.size() == change->joint_position.size());
+    for (const double value : change->joint_position) require(std::isfinite(value));
+  } else if (const auto* goal = std::get_if<MoveToCommand>(&command.request)) {
     require(std::isfinite(goal->x) && std::isfinite(goal->y) && std::isfinite(goal->theta));
   }
 }
 
-class Scene {
+/** A core with two connections. */
+class FuzzedGateway {
  public:
-  Scene()
-      : core_(nao::make_test_robot(), nao::GatewayLimits{}, {"0.1.0", "k", "phone.1", 1},
-              {[this](const nao::NumberedCommand& command) {
+  FuzzedGateway()
+      : core_(make_test_robot(), GatewayLimits{}, {"0.1.0", "k", "phone.1", 1},
+              {[this](const Command& command) {
                  check(command);
                  last_ = command;
                },
-               [](const nao::AuditEvent&) {}}) {
+               [](const AuditEvent&) {}}) {
     for (int i = 0; i < 2; ++i) open(i);
   }
 
-  void play(uint8_t action, std::string_view message) {
-    const int who = action & 1;
-    (void)core_.receive(ids_[who], message, now_);
-    if ((action & 2) != 0) pass();
-    if ((action & 4) != 0) collect(who);
-    if ((action & 8) != 0 && last_.command_id != 0) {
-      core_.add_result({last_.source, last_.command_id,
-                        static_cast<nao::CommandStatus>((action >> 4) % 5), "because"},
-                       now_);
+  /** Receives a message. @param events  Bit 0: the connection; bit 1: time passes; bit 2: the
+   * client reads; bit 3: nao-motion answers the last command with the status in bits 4 to 7. */
+  void receive(uint8_t events, std::string_view message) {
+    const int client = events & 1;
+    (void)core_.receive(ids_[client], message, now_);
+    if ((events & 2) != 0) pass();
+    if ((events & 4) != 0) collect(client);
+    if ((events & 8) != 0 && last_.id != 0) {
+      CommandResult result;
+      result.source = last_.source;
+      result.id = last_.id;
+      result.kind = kind_of(last_);
+      result.status = static_cast<ResultStatus>((events >> 4) % 5);
+      result.sentence = "because";
+      core_.handle_result(result, now_);
     }
-    if (core_.is_closing(ids_[who])) {
-      collect(who);
-      core_.closed(ids_[who], "fuzz", now_);
-      open(who);
+    if (core_.is_closing(ids_[client])) {
+      collect(client);
+      core_.closed(ids_[client], "fuzz", now_);
+      open(client);
     }
   }
 
  private:
-  void open(int who) {
-    ids_[who] = core_.open(
-        {who == 0 ? "127.0.0.1" : "10.0.0.1", "tcp", who == 0}, [] {}, now_);
+  void open(int client) {
+    const Endpoint endpoint{client == 0 ? "127.0.0.1" : "10.0.0.1", "tcp", client == 0};
+    ids_[client] = core_.open(
+        endpoint, [] {}, now_);
   }
   void pass() {
     now_ += 0.2;
-    core_.set_motion({"holding", "", "", -1, {}, 1}, now_);
-    core_.set_robot({static_cast<int64_t>(now_ * 1e6), {0, 0, 0, 0}, {1, 0, 0, 0}, {}}, now_);
-    nao::StoredPicture picture;
-    picture.width = 320;
-    picture.jpeg = "jpeg";
-    core_.add_picture(picture, now_);
+    MotionSnapshot motion;
+    motion.mode = Mode::kHolding;
+    motion.stiffness = 1;
+    core_.set_motion(motion, now_);
+    RobotSnapshot robot;
+    robot.utime = static_cast<int64_t>(now_ * 1e6);
+    robot.joint_position.assign(4, 0);
+    core_.set_robot(robot, now_);
+    CachedImage image;
+    image.camera = "top";
+    image.width = 320;
+    image.jpeg = "jpeg";
+    core_.add_image(image, now_);
     core_.step(now_);
   }
-  void collect(int who) {
-    while (core_.next_message(ids_[who], now_)) {
+  void collect(int client) {
+    while (core_.next_message(ids_[client], now_)) {
     }
   }
 
   double now_ = 100;
   uint32_t ids_[2] = {};
-  nao::NumberedCommand last_;
-  nao::GatewayCore core_;
+  Command last_;
+  GatewayCore core_;
 };
 
 }  // namespace
+}  // namespace nao::gateway
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   google::protobuf::SetLogHandler(nullptr);
-  Scene scene;
+  nao::gateway::FuzzedGateway gateway;
   while (size >= 2) {
-    const uint8_t action = data[0];
+    const uint8_t events = data[0];
     const size_t length = std::min<size_t>(data[1], size - 2);
-    scene.play(action, {reinterpret_cast<const char*>(data) + 2, length});
+    gateway.receive(events, {reinterpret_cast<const char*>(data) + 2, length});
     data += 2 + length;
     size -= 2 + length;
   }

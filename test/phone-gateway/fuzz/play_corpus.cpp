@@ -1,5 +1,5 @@
-// Plays a pack of kept inputs (see corpus.py) to a fuzzer's entry, without libFuzzer: what once was
-// interesting stays harmless, with every compiler. Usage: play_corpus PACK
+// Runs a fuzzer's entry point on a pack of stored inputs (see corpus.py), without libFuzzer and
+// with any compiler. Usage: play_corpus PACK
 #include <cstdint>
 #include <fstream>
 #include <iostream>
@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   }
   std::cout << num_inputs << " inputs\n";
   const bool is_whole = num_inputs > 0 && reader.num_waiting_bytes() == 0;
-  if (!is_whole) std::cerr << "no pack of inputs: " << (argc == 2 ? argv[1] : "none named") << "\n";
+  if (!is_whole)
+    std::cerr << "not a pack of inputs: " << (argc == 2 ? argv[1] : "no file given") << "\n";
   return is_whole ? 0 : 1;
 }

@@ -12,14 +12,14 @@
 namespace nao {
 namespace {
 
-TEST(Framing, PutsTheLengthFirstMostSignificantByteFirst) {
+TEST(Framing, PutsTheLengthBeforeTheMessageMostSignificantByteFirst) {
   const std::string message(0x0102, 'x');
   const std::string framed = frame(message);
   EXPECT_EQ(framed.substr(0, 4), std::string("\0\0\1\2", 4));
   EXPECT_EQ(framed.substr(4), message);
 }
 
-TEST(Framing, FindsMessagesHoweverTheBytesWereCut) {
+TEST(Framing, FindsMessagesInPiecesOfAnySize) {
   const std::string stream = frame("one") + frame("") + frame("three");
   for (size_t piece = 1; piece <= stream.size(); ++piece) {
     FrameReader reader(kMaxRequestBytes);
@@ -33,7 +33,7 @@ TEST(Framing, FindsMessagesHoweverTheBytesWereCut) {
   }
 }
 
-TEST(Framing, TakesTheLongestMessageAndRefusesOneByteMore) {
+TEST(Framing, AcceptsTheLongestMessageAndRefusesOneByteMore) {
   FrameReader reader(10);
   reader.add(frame(std::string(10, 'x')));
   EXPECT_TRUE(reader.next().has_value());
@@ -42,7 +42,7 @@ TEST(Framing, TakesTheLongestMessageAndRefusesOneByteMore) {
   EXPECT_TRUE(reader.is_oversized());
 }
 
-TEST(Framing, KeepsNothingOfWhatFollowsAnOversizedLength) {
+TEST(Framing, StoresNothingAfterAnOversizedLength) {
   FrameReader reader(10);
   reader.add("GET / HTTP/1.1\r\n");
   EXPECT_FALSE(reader.next().has_value());
@@ -51,15 +51,16 @@ TEST(Framing, KeepsNothingOfWhatFollowsAnOversizedLength) {
   EXPECT_EQ(reader.num_waiting_bytes(), 0u);
 }
 
-/** The bytes of a block of PROTOCOL.md, counted from 0, which stand in pairs of digits before the
- * remarks. */
-std::string example_bytes(int wanted) {
+/** The bytes of an example of PROTOCOL.md: pairs of hexadecimal digits at the beginnings of its
+ * lines.
+ * @param index  Number of the code block, counted from 0. */
+std::string example_bytes(int index) {
   std::ifstream document(PROTOCOL_MD);
   std::string bytes;
   int num_marks = 0;
   for (std::string line; std::getline(document, line);) {
     if (line == "```") ++num_marks;
-    if (line == "```" || num_marks != 2 * wanted + 1) continue;
+    if (line == "```" || num_marks != 2 * index + 1) continue;
     std::istringstream words(line);
     for (std::string word; words >> word && word.size() == 2;) {
       bytes.push_back(static_cast<char>(std::stoi(word, nullptr, 16)));
@@ -68,7 +69,7 @@ std::string example_bytes(int wanted) {
   return bytes;
 }
 
-TEST(Framing, AgreesWithTheWorkedExamplesOfTheDocument) {
+TEST(Framing, AgreesWithTheExamplesOfTheDocument) {
   naoremote::Request request;
   request.set_request_id(1);
   request.mutable_connect()->set_protocol_version(1);
@@ -82,7 +83,7 @@ TEST(Framing, AgreesWithTheWorkedExamplesOfTheDocument) {
   state.set_age_ms(1.5);
   for (const float angle : {0.5F, -0.25F}) state.add_joint_position(angle);
   for (const float x : {1.0F, 0.0F, 0.3125F}) state.add_torso_position(x);
-  state.set_mode("holding");
+  state.set_mode(naoremote::MODE_HOLDING);
   EXPECT_EQ(frame(message.SerializeAsString()), example_bytes(1));
 }
 

@@ -4,7 +4,7 @@
 import {connect, createServer} from "node:net";
 
 export class Air {
-  /** Bytes of HTTP answers, headers among them; the WebSocket's states and pictures are not. */
+  /** Bytes of HTTP answers, headers among them; the WebSocket's states and images are not. */
   numBytes = 0;
   /** Paths asked for, in this order. */
   paths = [];

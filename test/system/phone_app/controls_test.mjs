@@ -1,4 +1,4 @@
-// Every other way to drive, against the real programs: keyboard, gamepad, tilt; the head camera's picture, which
+// Every other way to drive, against the real programs: keyboard, gamepad, tilt; the head camera's image, which
 // turns the head; and the settings.
 import assert from "node:assert/strict";
 import {test} from "node:test";
@@ -8,26 +8,27 @@ import {until} from "./stack.mjs";
 const kDegree = Math.PI / 180;
 
 const {stack, phone} = setUp({prepare: async ({page}) => {
-  // Headless Chromium has no gamepad: what the page would be told of one.
+  // Headless Chromium has no gamepad: the page gets a simulated one.
   await page.evaluate(() => {
     window.pad = null;
     navigator.getGamepads = () => [window.pad];
   });
 }});
 
-/** The walk that the motion daemon was last asked for: vx, vy m/s, wz rad/s. Zero when none is wanted. */
-async function wantedWalk() {
-  return JSON.parse(await stack.nao("state", "--json")).motion_state.walk_velocity;
+/** The walk velocity being executed: vx, vy m/s, wz rad/s. Zero without a walk. */
+async function executedWalk() {
+  const {vx, vy, wz} = JSON.parse(await stack.nao("state", "--json")).motion_state;
+  return [vx, vy, wz];
 }
 
-const walks = (what, isSo) => until(what, async () => isSo(...await wantedWalk()));
+const walks = (what, isSo) => until(what, async () => isSo(...await executedWalk()));
 
 async function stops() {
   await walks("the walk has ended", (vx, vy, wz) => vx === 0 && vy === 0 && wz === 0);
-  await until("the robot stands", async () => (await phone.look("state.state.mode")) === "holding");
+  await until("the robot stands", async () => (await phone.look("mode")) === "holding");
 }
 
-test("keys walk while they are held, and stop when they are let go", async () => {
+test("keys walk while they are held, and stop when they are released", async () => {
   await phone.page.keyboard.down("KeyW");
   await walks("W walks ahead", (vx) => vx > 0.01);
   await phone.page.keyboard.up("KeyW");
@@ -38,7 +39,7 @@ test("keys walk while they are held, and stop when they are let go", async () =>
   await stops();
 });
 
-test("the space bar stops while a key is held, and the page that loses the focus lets go", async () => {
+test("the space bar stops while a key is held, and losing the focus releases it", async () => {
   await phone.page.keyboard.down("KeyW");
   await walks("W walks ahead", (vx) => vx > 0.01);
   await phone.page.keyboard.press("Space");
@@ -57,7 +58,7 @@ const holdPad = (axes, pressed = []) => phone.page.evaluate(([axes, pressed]) =>
                         buttons: Array.from({length: 17}, (_, i) => ({pressed: pressed.includes(i)}))};
 }, [axes, pressed]);
 
-test("a gamepad's sticks walk and its buttons command; one that is unplugged lets go", async () => {
+test("a gamepad's sticks walk and its buttons command; unplugging releases it", async () => {
   await holdPad([0, -1, 0, 0]);
   await walks("the left stick walks ahead", (vx) => vx > 0.01);
   await holdPad([0, 0, 0, 0]);
@@ -76,13 +77,13 @@ test("a gamepad's sticks walk and its buttons command; one that is unplugged let
 const tilt = (beta) => phone.page.evaluate((beta) => window.dispatchEvent(
     new DeviceOrientationEvent("deviceorientation", {alpha: 0, beta, gamma: 0})), beta);
 
-test("tilting the phone walks, only while a thumb is on the pad", async () => {
+test("tilting the phone walks, only while the pad is touched", async () => {
   await phone.page.locator(".corner .round").nth(1).tap();
   await phone.page.locator(".menu [role=switch]").first().tap();
   await phone.page.locator(".menu header .round").tap();
   await tilt(40);
   await tilt(15);
-  assert.deepEqual(await wantedWalk(), [0, 0, 0], "it walks without a thumb");
+  assert.deepEqual(await executedWalk(), [0, 0, 0], "it walks without a touch");
   await tilt(40);
   const pad = await phone.middleOf(".joystick-walk");
   await phone.fingers("touchStart", [{id: 1, x: pad.x, y: pad.y}]);
@@ -95,28 +96,28 @@ test("tilting the phone walks, only while a thumb is on the pad", async () => {
   await phone.page.locator(".menu header .round").tap();
 });
 
-test("a drag on the picture turns the head, as if it moved what is seen", async () => {
+test("a drag on the image turns the head, as if it moved what is seen", async () => {
   const {HeadYaw: yaw} = (await stack.truth()).angles;
-  const picture = await phone.middleOf(".picture-main");
-  await phone.fingers("touchStart", [{id: 1, x: picture.x - 30, y: picture.y}]);
-  for (let x = -20; x <= 30; x += 10) await phone.fingers("touchMove", [{id: 1, x: picture.x + x, y: picture.y}]);
+  const image = await phone.middleOf(".image-main");
+  await phone.fingers("touchStart", [{id: 1, x: image.x - 30, y: image.y}]);
+  for (let x = -20; x <= 30; x += 10) await phone.fingers("touchMove", [{id: 1, x: image.x + x, y: image.y}]);
   await phone.fingers("touchEnd", []);
   // What is under the finger goes to the right when the head turns to the left, which is positive.
   await until("the head has turned left", async () => (await stack.truth()).angles.HeadYaw - yaw > 5 * kDegree);
-  assert.ok(!(await phone.page.locator(".picture.large").count()), "a drag counted as a tap");
+  assert.ok(!(await phone.page.locator(".image.large").count()), "a drag counted as a tap");
 });
 
-test("a tap on the picture enlarges it, another makes it small; the other camera is a tap away", async () => {
-  const small = await phone.middleOf(".picture-main");
-  await phone.tap(".picture-main");
-  await until("a large picture comes", async () => (await phone.look("state.picture.width")) === 640);
-  assert.ok((await phone.middleOf(".picture-main")).radius > 1.5 * small.radius, "it is no larger");
-  await phone.tap(".picture-camera");
-  await until("the bottom camera's picture comes", async () => (await phone.look("state.picture.camera")) === 1);
-  await phone.tap(".picture-camera");
-  await until("the top camera's picture comes", async () => (await phone.look("state.picture.camera")) === 0);
-  await phone.tap(".picture-main");
-  await until("a small picture comes", async () => (await phone.look("state.picture.width")) === 320);
+test("a tap on the image enlarges it, another makes it small; the other camera is a tap away", async () => {
+  const small = await phone.middleOf(".image-main");
+  await phone.tap(".image-main");
+  await until("a large image comes", async () => (await phone.look("state.image.width")) === 640);
+  assert.ok((await phone.middleOf(".image-main")).radius > 1.5 * small.radius, "it is no larger");
+  await phone.tap(".image-camera");
+  await until("the bottom camera's image comes", async () => (await phone.look("state.image.camera")) === 1);
+  await phone.tap(".image-camera");
+  await until("the top camera's image comes", async () => (await phone.look("state.image.camera")) === 0);
+  await phone.tap(".image-main");
+  await until("a small image comes", async () => (await phone.look("state.image.width")) === 320);
 });
 
 test("left-handed people get the pads the other way round", async () => {

@@ -11,7 +11,7 @@ const kDegree = Math.PI / 180;
 const {stack, openPhone} = setUp({scene: "soccer", hasPhone: false});
 let phone;
 
-/** Asks the world until it is as wished, for some seconds of simulated time. @return the last truth. */
+/** Asks the world until it meets the condition, for some seconds of simulated time. @return the last truth. */
 async function untilWorld(what, isSo, simulatedSeconds) {
   const begin = (await stack.truth()).time;
   for (;;) {
@@ -38,18 +38,18 @@ test("a link with the token opens the controller", async () => {
   phone = await openPhone();
   await phone.sees("controller");
   assert.equal(await phone.page.evaluate("location.hash"), "", "the token is still in sight");
-  await until("a picture is drawn", async () => (await phone.look("numPictures")) > 0);
+  await until("an image is drawn", async () => (await phone.look("numImages")) > 0);
 });
 
 test("Crouch lowers the torso to 0.229 m within 5 s, and the phone shows the same robot", async () => {
-  const before = await phone.look("state.picture.jpeg.join()");
+  const before = await phone.look("state.image.jpeg.join()");
   await phone.tap('[data-name="Crouch"]');
   await untilWorld("the torso is at 0.229 m", ({torso}) => Math.abs(torso[2] - 0.229) < 0.015, 5);
   await until("the phone shows the true angles within 1 degree",
               async () => (await worstJoint()).difference < 1 * kDegree);
   const height = (await phone.look("torsoPosition()"))[2];
   assert.ok(Math.abs(height - 0.229) < 0.02, `the phone shows the torso at ${height} m`);
-  assert.notEqual(await phone.look("state.picture.jpeg.join()"), before, "the picture has not changed");
+  assert.notEqual(await phone.look("state.image.jpeg.join()"), before, "the image has not changed");
 });
 
 test("nothing went wrong on the page", () => {

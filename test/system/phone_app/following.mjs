@@ -5,7 +5,7 @@ import {pause} from "./stack.mjs";
 /** In this time a frame has come to within 1 % of a state, ms: five times the time constant of the app's PoseMirror.
  * What the page shows is made of states that were the newest within it. */
 const kInterpolationMs = 60;
-/** From the joint to the state that tells of it, us: two ticks. */
+/** From the joint to the state that reports it, us: two ticks. */
 const kStateDelay = 20_000;
 
 /** How long the page is watched after it is done, ms. */

@@ -7,12 +7,12 @@ import {setUp} from "./set_up.mjs";
 import {until} from "./stack.mjs";
 
 const kDegree = Math.PI / 180;
-/** Share of the pad by which the thumb is off its middle: 0.9 rad/s for head and arms; 0.2 rad/s for a leg,
+/** Deflection of the joystick, fraction of its radius: 0.9 rad/s for head and arms; 0.2 rad/s for a leg,
  * which shall turn only so far that the robot keeps standing. */
 const kArmReach = 0.8;
 const kLegReach = 0.35;
 const kMoved = 3 * kDegree;
-/** The phone knows a joint by its encoder, whose step is 1.5 mrad, and shows no change that nobody sees: 0.8 mrad. */
+/** The phone knows a joint by its encoder, whose step is 1.5 mrad, and draws no invisible change: 0.8 mrad. */
 const kShownTolerance = 0.003;
 const kDeadlineMs = 20_000;
 
@@ -80,7 +80,7 @@ for (const [group, joint, direction, sign] of groups) {
   });
 }
 
-test("the end of a joint's range is told, and felt", async () => {
+test("the end of a joint's range is shown, and vibrates", async () => {
   await phone.page.evaluate(() => {
     window.felt = [];
     navigator.vibrate = (pattern) => window.felt.push(pattern);
@@ -88,7 +88,7 @@ test("the end of a joint's range is told, and felt", async () => {
   await choose("left hand");
   // The tap itself is felt, shortly.
   const before = await phone.page.evaluate("window.felt.length");
-  // The range's end is told from its last hundredth on.
+  // The end of the range is shown from its last hundredth on.
   await push(0, kArmReach, "the hand is wide open, and said to be", async () =>
       (await phone.page.locator(".axis.at-limit dd").allTextContents()).includes("100 % · End of its range"));
   assert.ok((await phone.page.evaluate("window.felt")).slice(before).some((pattern) => pattern > 20), "nothing was felt");
@@ -108,7 +108,7 @@ for (const [group, joint] of legGroups) {
   });
 }
 
-test("the roll slider turns the roll joint, and both sides at once where that is wished", async () => {
+test("the roll slider turns the roll joint, and both sides at once if selected", async () => {
   await choose("left shoulder");
   await phone.page.locator(".joint-buttons .button").nth(0).tap();
   const {angles} = await stack.truth();

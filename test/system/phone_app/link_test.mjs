@@ -25,7 +25,7 @@ test("the first to touch a control drives; the second phone sees who, and may as
   ben = await openPhone();
   await ben.sees("controller");
   await until("Ben sees it", async () => (await driverText(ben)) === "Ana drives");
-  // A command of the second phone moves nothing, and says who drives.
+  // A command of the second phone moves nothing, and names the driver.
   await ben.tap('[data-name="Crouch"]');
   await ben.page.locator(".message", {hasText: "Ana drives"}).waitFor();
   // Ana is active: refused. When she has given no command for 10 s, granted.
@@ -39,9 +39,9 @@ test("the first to touch a control drives; the second phone sees who, and may as
   await until("Ana sees it", async () => (await driverText(ana)).endsWith(" drives"));
 });
 
-test("the driver hands over, and the other takes the wheel by touching a control", async () => {
+test("the driver hands over, and the other takes control by touching a joystick", async () => {
   await ben.tap(".driver-button");
-  await until("nobody drives", async () => (await ana.look("state.control.driverId")) === 0);
+  await until("no client drives", async () => (await ana.look("state.control.driverId")) === 0);
   await ana.tap('[data-name="StandInit"]');
   await until("Ana drives again", async () => (await driverText(ana)) === "You drive");
 });
@@ -58,9 +58,9 @@ test("a killed gateway brings the connection screen, and the app comes back by i
   await ana.page.locator(".problem").waitFor();
   await stack.startGateway();
   await ana.sees("controller");
-  await until("pictures go on", async () => {
-    const count = await ana.look("numPictures");
-    return until("another", async () => (await ana.look("numPictures")) > count, 2000);
+  await until("images go on", async () => {
+    const count = await ana.look("numImages");
+    return until("another", async () => (await ana.look("numImages")) > count, 2000);
   });
 });
 

@@ -1,19 +1,19 @@
 // Times and memory of the app with the real programs: node measure.mjs [--only PART,PART] [--minutes N]. Prints
-// a table; judges nothing, for machines differ. Parts: link, thumb, tasks, stop. NAO_BIN_DIR and NAO_WEB_SOURCE_DIR
+// a table; no limits are applied, since machines differ. Parts: link, touch, tasks, stop. NAO_BIN_DIR and NAO_WEB_SOURCE_DIR
 // as for the tests.
 //   link to robot     from following the QR link, in a browser that was never here, to the first frame drawn
-//   thumb to pixel    from the touch event's own time stamp to the end of drawing the first frame in which the
+//   touch to pixel    from the touch event's own time stamp to the end of drawing the first frame in which the
 //                     head has turned by 1 mrad (an encoder's step is 1.5), and the marks on the way
 //   hidden to stop    from hiding the page to the end of the true torso's way ahead, on the world's own clock
-//   long tasks        of the page's main thread while two thumbs walk, above 50 ms
-//   memory            with --minutes: heap after collecting garbage, and the processes', while somebody drives
+//   long tasks        of the page's main thread while two joysticks walk, above 50 ms
+//   memory            with --minutes: heap after collecting garbage, and the processes', while the app drives
 import {readFileSync} from "node:fs";
 import {parseArgs} from "node:util";
 import {openBrowser, Phone} from "./phone.mjs";
 import {pause, Stack, until} from "./stack.mjs";
 
 const {values: options} = parseArgs({options: {
-  minutes: {type: "string", default: "0"}, only: {type: "string", default: "link,thumb,tasks,stop"}}});
+  minutes: {type: "string", default: "0"}, only: {type: "string", default: "link,touch,tasks,stop"}}});
 const isWanted = (part) => options.only.split(",").includes(part);
 const kNumLinks = 7;
 const kNumThumbs = 24;
@@ -50,7 +50,7 @@ async function measureLinks() {
   row("link to robot", times);
 }
 
-/** In the page: notes the marks of one push of the thumb into window.marks. */
+/** In the page: notes the marks of one deflection of the joystick into window.marks. */
 function watchThumb() {
   const {naoRemote} = window;
   const index = naoRemote.state.robot.joints.findIndex(({name}) => name === "HeadYaw");
@@ -83,7 +83,7 @@ function watchThumb() {
   }, true);
 }
 
-async function measureThumb() {
+async function measureTouch() {
   const phone = await openController();
   await phone.tap(".lock");
   await phone.page.locator('[data-name="head"]').tap();
@@ -100,13 +100,13 @@ async function measureThumb() {
     await phone.page.evaluate("window.isWatching = false");
   }
   const marks = await phone.page.evaluate("window.marks");
-  row("thumb to command sent", marks.map(({sent, moved}) => sent - moved));
-  row("thumb to moved state known", marks.map(({known, moved}) => known - moved).filter(Number.isFinite));
-  row("thumb to moved pixel", marks.map(({drawn, moved}) => drawn - moved));
+  row("touch to command sent", marks.map(({sent, moved}) => sent - moved));
+  row("touch to moved state known", marks.map(({known, moved}) => known - moved).filter(Number.isFinite));
+  row("touch to moved pixel", marks.map(({drawn, moved}) => drawn - moved));
   await phone.close();
 }
 
-async function thumbs(phone, walk, turn) {
+async function touchJoysticks(phone, walk, turn) {
   const left = await phone.middleOf(".joystick-walk");
   const right = await phone.middleOf(".joystick-turn");
   const at = (pad, id, [x, y]) => ({id, x: pad.x + x * pad.radius, y: pad.y - y * pad.radius});
@@ -127,7 +127,7 @@ async function measureLongTasks() {
         .observe({type: "longtask"});
     window.numFramesBefore = window.naoRemote.numFrames;
   });
-  await thumbs(phone, [0, 0.7], [-0.4, 0]);
+  await touchJoysticks(phone, [0, 0.7], [-0.4, 0]);
   await pause(kWalkMs);
   await phone.fingers("touchEnd", []);
   const {tasks, numFrames} = await phone.page.evaluate(
@@ -143,8 +143,8 @@ async function measureStop() {
   const toCommand = [];
   const toRest = [];
   for (let i = 0; i < kNumHidden; i++) {
-    await thumbs(phone, [0, 0.7], [0, 0]);
-    await until("it walks", async () => (await phone.look("state.state.mode")) === "walking");
+    await touchJoysticks(phone, [0, 0.7], [0, 0]);
+    await until("it walks", async () => (await phone.look("mode")) === "walking");
     let hidden = 0;
     const recorded = await stack.record("WORLD_TRUTH|NAO_WALK_COMMAND", async () => {
       await pause(2000 + 130 * i);
@@ -157,7 +157,7 @@ async function measureStop() {
     toRest.push(timeOfRest(after.filter(({channel}) => channel === "WORLD_TRUTH")));
     await phone.fingers("touchEnd", []);
     await phone.unhide();
-    await until("it holds", async () => (await phone.look("state.state.mode")) === "holding");
+    await until("it holds", async () => (await phone.look("mode")) === "holding");
     await standsReady(phone);
   }
   row("hidden to zero command on the bus", toCommand);
@@ -200,7 +200,7 @@ async function measureMemory(minutes) {
     console.log([`${minute}`.padEnd(10), (metrics.JSHeapUsedSize / 1e6).toFixed(2), metrics.Nodes,
                  metrics.JSEventListeners, processes.renderer?.toFixed(0), processes.GPU?.toFixed(0)].join("  "));
   }
-  console.log("complaints of the page:", phone.errors);
+  console.log("errors of the page:", phone.errors);
   await phone.close();
 }
 
@@ -208,12 +208,12 @@ let turn = 0;
 /** Some seconds of what people do, on either side in turn so that the robot stays where it is. */
 async function driveALittle(phone) {
   const side = ++turn % 2 ? 1 : -1;
-  await thumbs(phone, [0, 0.5 * side], [0.4 * side, 0]);
+  await touchJoysticks(phone, [0, 0.5 * side], [0.4 * side, 0]);
   await pause(3000);
   await phone.fingers("touchEnd", []);
-  await phone.tap(".picture-main");
+  await phone.tap(".image-main");
   await pause(1000);
-  await phone.tap(".picture-main");
+  await phone.tap(".image-main");
   await phone.tap(".lock");
   await phone.page.locator(`[data-name="${side > 0 ? "head" : "left shoulder"}"]`).tap();
   const pad = await phone.middleOf(".joystick-joint");
@@ -222,7 +222,7 @@ async function driveALittle(phone) {
   await pause(1000);
   await phone.fingers("touchEnd", []);
   await phone.tap(".lock");
-  const mode = await phone.look("state.state.mode");
+  const mode = await phone.look("mode");
   if (mode !== "holding" && mode !== "walking" && mode !== "moving") await standsReady(phone);
 }
 
@@ -232,7 +232,7 @@ try {
     await measureMemory(Number(options.minutes));
   } else {
     if (isWanted("link")) await measureLinks();
-    if (isWanted("thumb")) await measureThumb();
+    if (isWanted("touch")) await measureTouch();
     if (isWanted("tasks")) await measureLongTasks();
     if (isWanted("stop")) await measureStop();
   }

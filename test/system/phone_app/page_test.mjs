@@ -42,7 +42,7 @@ test("a first visit fetches less than 400 kB, and nothing twice", async (t) => {
   air.stop();
 });
 
-test("every icon of the manifest is a picture of the size it says, as phones want for their home screen", async () => {
+test("every icon of the manifest is an image of the size it says, as phones want for their home screen", async () => {
   const phone = await openPhone();
   const icons = await phone.page.evaluate(async () => {
     const manifest = await (await fetch("/manifest.webmanifest")).json();
@@ -58,7 +58,7 @@ test("every icon of the manifest is a picture of the size it says, as phones wan
   await phone.close();
 });
 
-test("a browser that cannot draw in 3D is told so", async () => {
+test("a browser without 3D gets a message", async () => {
   const phone = await openPhone("about:blank");
   await phone.context.addInitScript(() => HTMLCanvasElement.prototype.getContext = () => null);
   await phone.page.goto(stack.url);
@@ -69,7 +69,7 @@ test("a browser that cannot draw in 3D is told so", async () => {
 
 /** Every control lies within the screen, and none over another. */
 async function lieApart(phone, size, mode) {
-  const boxes = await phone.page.evaluate(() => [".picture-main", ".lock", ".stop", ".joystick-walk",
+  const boxes = await phone.page.evaluate(() => [".image-main", ".lock", ".stop", ".joystick-walk",
     ".joystick-turn", ".joystick-joint", ".joint-card", ".strips", ".joints-panel .strip"].map((selector) => {
     const {left, top, right, bottom, width} = document.querySelector(selector).getBoundingClientRect();
     return {selector, left, top, right, bottom, width};
@@ -105,7 +105,7 @@ for (const size of [{width: 360, height: 640}, {width: 412, height: 915}, {width
     await phone.page.locator(".corner .round").nth(1).tap();
     await phone.page.locator(".menu").waitFor();
     assert.deepEqual(await violations(phone), []);
-    // A wrong code answers with a close that the console tells; nothing else may be there.
+    // A wrong code answers with a close that the console reports; nothing else may be there.
     assert.deepEqual(phone.errors, []);
     await phone.close();
   });

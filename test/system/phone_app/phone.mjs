@@ -50,7 +50,7 @@ export class Phone {
     await this.page.locator(`#app[data-screen="${screen}"]`).waitFor({timeout: ms});
   }
 
-  /** Something of window.naoRemote, by an expression: "numPictures". */
+  /** Something of window.naoRemote, by an expression: "numImages". */
   look(expression) {
     return this.page.evaluate(`window.naoRemote.${expression}`);
   }

@@ -12,7 +12,7 @@ const {stack, phone} = setUp();
 
 /** Said where a busy machine has held a program up: no answer to a button, or one after which a person presses
  * it again. */
-const kPartIsAway = /does not answer|sends no pictures/;
+const kPartIsAway = /does not answer|sends no images/;
 const kNoRobot = /sensors are silent/;
 const kMaxPresses = 3;
 
@@ -54,10 +54,10 @@ test("every posture is reached, or refused in words", async (t) => {
 
 test("every action begins, or is refused in words", async (t) => {
   for (const action of await phone.look("state.robot.actions")) {
-    const before = await phone.look("state.lastOutcome?.requestId");
+    const before = await phone.look("state.lastResult?.requestId");
     const end = await pressAndSee(action, async () => {
-      const isNew = (await phone.look("state.lastOutcome?.requestId")) !== before;
-      return isNew && [0, 2].includes(await phone.look("state.lastOutcome?.outcome"));
+      const isNew = (await phone.look("state.lastResult?.requestId")) !== before;
+      return isNew && [0, 2].includes(await phone.look("state.lastResult?.status"));
     });
     t.diagnostic(`${action}: ${end}`);
     assert.ok(end.length > 5, `${action} is refused without a reason`);

@@ -1,4 +1,4 @@
-// A recorded run, played again into a gateway without robot: the phone shows the same poses and pictures.
+// A recorded run, played again into a gateway without robot: the phone shows the same poses and images.
 // NAO_BIN_DIR and NAO_WEB_SOURCE_DIR say where the programs and the app's package.json are.
 import assert from "node:assert/strict";
 import {execFile, spawn} from "node:child_process";
@@ -31,7 +31,7 @@ after(async () => {
 test("a run to Crouch is recorded", async () => {
   await stack.start();
   const watcher = await openPhone();
-  await until("somebody watches", async () => (await watcher.look("numPictures")) > 0);
+  await until("a client watches", async () => (await watcher.look("numImages")) > 0);
   const logger = spawn("lcm-logger", ["--quiet", `--lcm-url=${stack.lcmUrl}`, log], {stdio: "ignore"});
   try {
     await pause(1000);
@@ -46,7 +46,7 @@ test("a run to Crouch is recorded", async () => {
   assert.ok(Math.abs(crouched.torso[2] - 0.229) < 0.015, `the torso is at ${crouched.torso[2]} m`);
 });
 
-test("played again, the phone shows the robot crouch, and its pictures", async () => {
+test("played again, the phone shows the robot crouch, and its images", async () => {
   await stack.startGateway();
   const phone = await openPhone();
   await phone.sees("controller");
@@ -59,6 +59,6 @@ test("played again, the phone shows the robot crouch, and its pictures", async (
   });
   const height = (await phone.look("torsoPosition()"))[2];
   assert.ok(Math.abs(height - 0.229) < 0.02, `the phone shows the torso at ${height} m`);
-  assert.ok(await phone.look("numPictures") > 0, "no recorded picture was drawn");
+  assert.ok(await phone.look("numImages") > 0, "no recorded image was drawn");
   await replay;
 });

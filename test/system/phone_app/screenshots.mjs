@@ -34,7 +34,7 @@ const stack = new Stack(process.env.NAO_BIN_DIR);
 async function take(phone, name) {
   if (wantedScreens.length > 0 && !wantedScreens.includes(name.split("-")[0])) return;
   await pause(kRestMs);
-  // Nor does the sign of the link tell of a phone that draws in software.
+  // The link indicator would show the software renderer's delay.
   await until("the link is good", async () => (await phone.look("state.latencyMs")) < kGoodLatencyMs, kLinkMs).catch(() => {});
   const file = join(outputDir, `app-${name}.png`);
   await phone.page.screenshot({path: file});
@@ -52,7 +52,7 @@ const screens = {
     await take(phone, `connection-${name}`);
     await phone.page.locator('[name="token"]').fill(stack.token);
     await phone.page.locator('[name="client-name"]').fill("Ana");
-    // One file that does not come: the loading screen stays for its picture.
+    // One file that does not come: the loading screen stays for its image.
     let release;
     await phone.page.route("**/Head.glb", (route) => release = () => route.continue());
     await phone.tap('[type="submit"]');
@@ -60,16 +60,16 @@ const screens = {
     await take(phone, `loading-${name}`);
     release();
     await phone.sees("controller");
-    await until("a picture", async () => (await phone.look("numPictures")) > 2);
+    await until("an image", async () => (await phone.look("numImages")) > 2);
   },
   async drive(phone, name) {
     await phone.page.locator('[data-name="StandInit"]').tap();
     await take(phone, `drive-${name}`);
   },
-  async picture(phone, name) {
-    await phone.tap(".picture-main");
-    await take(phone, `picture-${name}`);
-    await phone.tap(".picture-main");
+  async image(phone, name) {
+    await phone.tap(".image-main");
+    await take(phone, `image-${name}`);
+    await phone.tap(".image-main");
   },
   async joints(phone, name) {
     await phone.tap(".lock");

@@ -1,4 +1,4 @@
-// Walking by thumbs: two fingers at once, seen in the simulated world; and everything that must end a walk.
+// Walking by two joysticks at once, observed in the simulated world; and everything that must end a walk.
 import assert from "node:assert/strict";
 import {test} from "node:test";
 import {setUp} from "./set_up.mjs";
@@ -16,8 +16,8 @@ async function place() {
   return {time, x: torso[0], y: torso[1], height: torso[2], heading: headingOf(orientation)};
 }
 
-/** Both thumbs down, each pad pushed by shares of its radius: right and up. */
-async function thumbs(walk, turn) {
+/** Touches both joysticks, each deflected by fractions of its radius: right and up. */
+async function touchJoysticks(walk, turn) {
   const left = await phone.middleOf(".joystick-walk");
   const right = await phone.middleOf(".joystick-turn");
   const at = (pad, id, [x, y]) => ({id, x: pad.x + x * pad.radius, y: pad.y - y * pad.radius});
@@ -27,7 +27,7 @@ async function thumbs(walk, turn) {
 
 const lift = () => phone.lift();
 
-/** Asks for places until one is as wished, for some seconds of simulated time. */
+/** Asks for places until one meets the condition, for some seconds of simulated time. */
 async function untilPlace(what, isSo, simulatedSeconds) {
   const begin = (await place()).time;
   for (;;) {
@@ -63,7 +63,7 @@ function walkTest(name, body) {
 /** The walk has ended: the robot says so, and stands still. */
 async function stands() {
   const mode = await until("the robot stands", async () => {
-    const mode = await phone.look("state.state.mode");
+    const mode = await phone.look("mode");
     return ["holding", "falling", "fallen", "getting-up"].includes(mode) && mode;
   });
   if (mode !== "holding") throw new Fall("the robot fell as it stopped");
@@ -72,9 +72,9 @@ async function stands() {
   assert.ok(Math.hypot(after.x - before.x, after.y - before.y) < 0.02, "it says that it stands, and walks on");
 }
 
-walkTest("the left thumb up and the right one to the left walk ahead in a left turn", async () => {
+walkTest("the left joystick up and the right one to the left walk forward in a left turn", async () => {
   const start = await place();
-  await thumbs([0, 0.75], [-0.6, 0]);
+  await touchJoysticks([0, 0.75], [-0.6, 0]);
   const end = await untilPlace("the robot has walked and turned", (now) =>
       Math.hypot(now.x - start.x, now.y - start.y) > 0.12 && turned(start.heading, now.heading) > 0.15, 20);
   await lift();
@@ -86,12 +86,12 @@ walkTest("a page that is hidden stops the walk", async () => {
   const start = await place();
   let hidden = 0;
   const commands = await stack.record("NAO_WALK_COMMAND", async () => {
-    await thumbs([0, 0.75], [0, 0]);
+    await touchJoysticks([0, 0.75], [0, 0]);
     await untilPlace("the robot walks", (now) => Math.hypot(now.x - start.x, now.y - start.y) > 0.05, 20);
     hidden = await phone.hide();
     const {velocity} = await until("the walk command has ended", async () => {
       const state = JSON.parse(await stack.nao("state", "--json")).motion_state;
-      return state.mode !== "walking" && {velocity: state.walk_velocity};
+      return state.mode !== "walking" && {velocity: [state.vx, state.vy, state.wz]};
     });
     assert.deepEqual(velocity, [0, 0, 0]);
   });
@@ -105,9 +105,9 @@ walkTest("a page that is hidden stops the walk", async () => {
   await stands();
 });
 
-walkTest("the stop button stops the walk while the thumb stays", async () => {
+walkTest("the stop button stops the walk while the joystick is held", async () => {
   const start = await place();
-  await thumbs([0, 0.75], [0, 0]);
+  await touchJoysticks([0, 0.75], [0, 0]);
   await untilPlace("the robot walks", (now) => Math.hypot(now.x - start.x, now.y - start.y) > 0.05, 20);
   const stop = await phone.middleOf(".stop");
   const walk = await phone.middleOf(".joystick-walk");

@@ -46,7 +46,7 @@ TEST(ChannelStatistics, CountsWhatItCannotDecode) {
   EXPECT_EQ(statistics.channels().at("B").type, "?");
   EXPECT_EQ(statistics.num_undecodable(), 2);
   EXPECT_THAT(statistics.to_text(1.0), HasSubstr("stop_command_t"));
-  EXPECT_THAT(statistics.to_json(1.0), HasSubstr(R"("channel": "B", "type": "?")"));
+  EXPECT_THAT(statistics.to_json(1.0), HasSubstr(R"("channel":"B","type":"?")"));
 }
 
 }  // namespace

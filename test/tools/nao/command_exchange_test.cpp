@@ -6,7 +6,7 @@ namespace nao {
 namespace {
 
 TEST(CommandExchange, RepeatsQuicklyUntilAnsweredThenSlowly) {
-  CommandExchange exchange({}, 0);
+  CommandExchange exchange(0);
   int num_sent = 0;
   for (int i = 0; i < 100; ++i) num_sent += exchange.should_send(i * 0.01) ? 1 : 0;
   EXPECT_EQ(num_sent, 10);
@@ -17,8 +17,8 @@ TEST(CommandExchange, RepeatsQuicklyUntilAnsweredThenSlowly) {
   EXPECT_EQ(num_sent, 3);
 }
 
-TEST(CommandExchange, IsOpenUntilTheFinalResult) {
-  CommandExchange exchange({}, 0);
+TEST(CommandExchange, HasNoOutcomeUntilTheFinalResult) {
+  CommandExchange exchange(0);
   EXPECT_FALSE(exchange.outcome(0.1));
   exchange.handle_result(ResultStatus::kAccepted, "", 0.2);
   EXPECT_TRUE(exchange.is_accepted());
@@ -29,7 +29,7 @@ TEST(CommandExchange, IsOpenUntilTheFinalResult) {
 }
 
 TEST(CommandExchange, KeepsTheReasonOfARefusal) {
-  CommandExchange exchange({}, 0);
+  CommandExchange exchange(0);
   exchange.handle_result(ResultStatus::kRefused, "no posture Handstand", 0.1);
   ASSERT_TRUE(exchange.outcome(0.1));
   EXPECT_FALSE(exchange.outcome(0.1)->is_success);
@@ -37,16 +37,16 @@ TEST(CommandExchange, KeepsTheReasonOfARefusal) {
   EXPECT_EQ(exchange.outcome(0.1)->reason, "no posture Handstand");
 }
 
-TEST(CommandExchange, GivesUpWhenNobodyAnswersEvenIfSomebodyTalks) {
-  CommandExchange exchange({}, 0);
+TEST(CommandExchange, TimesOutUnansweredEvenIfMotionPublishes) {
+  CommandExchange exchange(0);
   for (int i = 0; i < 29; ++i) exchange.handle_sign_of_life(i * 0.1);
   EXPECT_FALSE(exchange.outcome(2.9));
   ASSERT_TRUE(exchange.outcome(3.1));
   EXPECT_EQ(exchange.outcome(3.1)->status, "unanswered");
 }
 
-TEST(CommandExchange, WaitsAnyTimeForAnAcceptedCommandWhileMotionLives) {
-  CommandExchange exchange({}, 0);
+TEST(CommandExchange, WaitsForAnAcceptedCommandWhileMotionPublishes) {
+  CommandExchange exchange(0);
   exchange.handle_result(ResultStatus::kAccepted, "", 0.1);
   for (double now = 1; now < 600; now += 1) {
     exchange.handle_sign_of_life(now);
@@ -57,7 +57,7 @@ TEST(CommandExchange, WaitsAnyTimeForAnAcceptedCommandWhileMotionLives) {
 }
 
 TEST(CommandExchange, KeepsItsFirstFinalResult) {
-  CommandExchange exchange({}, 0);
+  CommandExchange exchange(0);
   exchange.handle_result(ResultStatus::kInterrupted, "a newer command came", 0.1);
   exchange.handle_result(ResultStatus::kDone, "", 0.2);
   EXPECT_EQ(exchange.outcome(0.2)->status, "interrupted");

@@ -5,7 +5,7 @@
 namespace nao {
 namespace {
 
-/** Turns of 0.2 s from `begin` to `end`, with an own heartbeat every second. */
+/** Steps of 0.2 s from `begin` to `end`, with its own heartbeat every second. */
 std::vector<HangDetector::Hung> run(HangDetector& detector, double begin, double end,
                                     bool hears_itself = true) {
   std::vector<HangDetector::Hung> all;
@@ -20,7 +20,7 @@ std::vector<HangDetector::Hung> run(HangDetector& detector, double begin, double
   return all;
 }
 
-TEST(HangDetector, NamesAProgramThatFellSilentOnce) {
+TEST(HangDetector, ReportsASilentProgramOnce) {
   HangDetector detector({});
   detector.handle_status(7, "nao-motion");
   EXPECT_TRUE(run(detector, 0, 3.8).empty());
@@ -30,7 +30,7 @@ TEST(HangDetector, NamesAProgramThatFellSilentOnce) {
   EXPECT_EQ(hung[0].program, "nao-motion");
 }
 
-TEST(HangDetector, LeavesAProgramThatSpeaksAlone) {
+TEST(HangDetector, DoesNotReportAProgramThatPublishes) {
   HangDetector detector({});
   for (int second = 0; second < 60; ++second) {
     detector.handle_status(7, "nao-motion");
@@ -38,14 +38,14 @@ TEST(HangDetector, LeavesAProgramThatSpeaksAlone) {
   }
 }
 
-TEST(HangDetector, AccusesNobodyWhileItDoesNotHearItself) {
+TEST(HangDetector, ReportsNothingWithoutItsOwnHeartbeat) {
   HangDetector detector({});
   run(detector, 0, 1);
   detector.handle_status(7, "nao-motion");
   EXPECT_TRUE(run(detector, 4, 60, false).empty());
 }
 
-TEST(HangDetector, DoesNotCountTimeInWhichItWasHeldUpItself) {
+TEST(HangDetector, DoesNotCountTimeInWhichItWasDelayedItself) {
   HangDetector detector({});
   run(detector, 0, 1);
   detector.handle_status(7, "nao-motion");

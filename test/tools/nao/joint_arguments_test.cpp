@@ -27,13 +27,13 @@ TEST(JointArguments, ReadsDegrees) {
               ElementsAre(DoubleNear(1.5707963, 1e-7)));
 }
 
-TEST(JointArguments, RefusesWhatIsNoAngle) {
+TEST(JointArguments, RejectsInvalidAngles) {
   for (const char* text : {"", "0.3", "+", "=", "+nan", "=inf", "+1e999", "+0.3m", "left"}) {
     EXPECT_THROW(parse_joint_arguments({"HeadYaw", text}), ConfigError) << text;
   }
 }
 
-TEST(JointArguments, RefusesHalfAPairAndMixedPairs) {
+TEST(JointArguments, RejectsIncompleteAndMixedPairs) {
   EXPECT_THROW(parse_joint_arguments({}), ConfigError);
   EXPECT_THROW(parse_joint_arguments({"HeadYaw"}), ConfigError);
   EXPECT_THROW(parse_joint_arguments({"HeadYaw", "+0.3", "HeadPitch", "=0.1"}), ConfigError);

@@ -13,7 +13,7 @@ class LogWriterTest : public testing::Test {
   LogWriterTest() { std::filesystem::create_directory(folder_); }
   ~LogWriterTest() override { std::filesystem::remove_all(folder_); }
 
-  /** Writes ten events of a hundred bytes each, and somewhat more. */
+  /** Writes ten events of a bit more than 100 bytes each. */
   void write(const LogSplit& split) {
     LogWriter writer(folder_ / "run", split);
     for (int i = 0; i < 10; ++i) writer.write({0, i, "CHANNEL", std::vector<uint8_t>(100)});
@@ -41,7 +41,7 @@ TEST_F(LogWriterTest, WritesOneFileThatTheReaderReads) {
   EXPECT_EQ(times("run"), (Times{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
 }
 
-TEST_F(LogWriterTest, SplitsWithoutLosingAnything) {
+TEST_F(LogWriterTest, SplitsWithoutLosingEvents) {
   write({500, 0});
   EXPECT_EQ(times("run.00"), (Times{0, 1, 2, 3}));
   EXPECT_EQ(times("run.01"), (Times{4, 5, 6, 7}));
@@ -55,12 +55,12 @@ TEST_F(LogWriterTest, KeepsTheNewestFiles) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "run.2"));
 }
 
-TEST_F(LogWriterTest, NeverWritesOverARecording) {
+TEST_F(LogWriterTest, DoesNotOverwriteARecording) {
   write({});
   EXPECT_THROW(LogWriter(folder_ / "run", {}), Error);
 }
 
-TEST_F(LogWriterTest, SaysWhereItCannotWrite) {
+TEST_F(LogWriterTest, NamesTheFileThatCannotBeWritten) {
   EXPECT_THROW(LogWriter("/no/such/folder/run", {}), Error);
 }
 

@@ -33,7 +33,7 @@ struct Record {
   std::string content;
 };
 
-/** The records from one place to another, each opcode, size and content. */
+/** The records between two offsets, each opcode, size and content. */
 std::vector<Record> records(const std::string& bytes, size_t begin, size_t end) {
   std::vector<Record> found;
   while (begin < end) {
@@ -66,7 +66,7 @@ class McapWriterTest : public testing::Test {
       std::filesystem::temp_directory_path() / ("nao-mcap-" + std::to_string(getpid()));
 };
 
-TEST_F(McapWriterTest, EveryMessageIsFoundByWayOfTheIndex) {
+TEST_F(McapWriterTest, TheIndexFindsEveryMessage) {
   const std::string magic{"\x89MCAP0\r\n", 8};
   const std::string bytes = written(60, 100'000);  // several chunks
   ASSERT_TRUE(bytes.starts_with(magic));
@@ -119,7 +119,7 @@ TEST_F(McapWriterTest, StatisticsCountTheMessages) {
   FAIL() << "no statistics";
 }
 
-TEST_F(McapWriterTest, SaysWhatItCannotWrite) {
+TEST_F(McapWriterTest, NamesTheFileThatCannotBeWritten) {
   EXPECT_THROW(McapWriter("/no/such/folder/file.mcap"), Error);
   McapWriter full("/dev/full");
   const uint16_t channel = full.add_channel("A", full.add_schema("a", "{}"));

@@ -49,10 +49,9 @@ naolcm::world_truth_t truth_with_contacts(int num_contacts) {
 
 TEST(MessageWalk, MakesJsonWithTheNamesOfTheLcmFile) {
   EXPECT_EQ(message_to_json(*find_message_layout("joint_command_t"), encoded(two_joints())),
-            "{\"utime\": 20000, \"tick\": 2, \"num_joints\": 2, \"joint_names\": [\"HeadYaw\", "
-            "\"HeadPitch\"], \"joint_position\": [0.5, -0.25], \"joint_velocity\": [0, 0], "
-            "\"joint_torque\": [0, 0], \"joint_kp\": [0, 0], \"joint_kd\": [0, 0], "
-            "\"joint_stiffness\": [1, null]}");
+            R"({"utime":20000,"tick":2,"num_joints":2,"joint_names":["HeadYaw","HeadPitch"],)"
+            R"("joint_position":[0.5,-0.25],"joint_velocity":[0.0,0.0],"joint_torque":[0.0,0.0],)"
+            R"("joint_kp":[0.0,0.0],"joint_kd":[0.0,0.0],"joint_stiffness":[1.0,null]})");
 }
 
 TEST(MessageWalk, MakesColumnsNamedByJoint) {
@@ -68,7 +67,7 @@ TEST(MessageWalk, MakesColumnsNamedByJoint) {
   EXPECT_EQ(table.row(bytes), "20000,2,2,HeadYaw,HeadPitch,0.5,-0.25,0,0,0,0,0,0,0,0,1,nan");
 }
 
-TEST(MessageWalk, ATableHasRoomForTheLongestList) {
+TEST(MessageWalk, ATableHasColumnsForTheLongestList) {
   MessageTable table(*find_message_layout("world_truth_t"));
   const auto few = encoded(truth_with_contacts(0));
   const auto many = encoded(truth_with_contacts(2));
@@ -78,19 +77,19 @@ TEST(MessageWalk, ATableHasRoomForTheLongestList) {
     return std::count(line.begin(), line.end(), ',');
   };
   EXPECT_NE(table.heading().find("contacts[1].force_on_a_in_world[2]"), std::string::npos);
-  // The scene's name has one of its own.
+  // The scene's name contains one more comma.
   EXPECT_EQ(commas(table.row(few)), commas(table.heading()) + 1);
   EXPECT_EQ(commas(table.row(many)), commas(table.heading()) + 1);
   EXPECT_NE(table.row(few).find("\"soccer, \"\"empty\"\"\""), std::string::npos);
 }
 
-TEST(MessageWalk, WritesPicturesAsBase64) {
+TEST(MessageWalk, WritesImagesAsBase64) {
   naolcm::image_t image{};
   image.data = {'f', 'o', 'o', 'b'};
   image.size_bytes = 4;
   const auto json = message_to_json(*find_message_layout("image_t"), encoded(image));
   ASSERT_TRUE(json);
-  EXPECT_NE(json->find("\"data\": \"Zm9vYg==\""), std::string::npos) << *json;
+  EXPECT_NE(json->find("\"data\":\"Zm9vYg==\""), std::string::npos) << *json;
   // RFC 4648, section 10.
   const auto base64 = [](const std::string& text) {
     return to_base64({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
@@ -102,13 +101,13 @@ TEST(MessageWalk, WritesPicturesAsBase64) {
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
 }
 
-TEST(MessageWalk, SchemasTellTheUnits) {
+TEST(MessageWalk, SchemasStateTheUnits) {
   const std::string schema = json_schema_of(*find_message_layout("walk_command_t"));
-  EXPECT_NE(schema.find("\"vx\": {\"type\": \"number\""), std::string::npos) << schema;
+  EXPECT_NE(schema.find("\"vx\":{\"type\":\"number\""), std::string::npos) << schema;
   EXPECT_NE(schema.find("m/s"), std::string::npos) << schema;
 }
 
-TEST(MessageWalk, AgreesWithLcmOnWhatIsNoMessage) {
+TEST(MessageWalk, RejectsTruncatedMessages) {
   std::mt19937 random(1);
   for (const auto& whole : {encoded(two_joints()), encoded(truth_with_contacts(3))}) {
     const MessageType* type = find_message_type(whole.data(), static_cast<int>(whole.size()));
@@ -122,7 +121,7 @@ TEST(MessageWalk, AgreesWithLcmOnWhatIsNoMessage) {
       for (int i = 0; i < 3; ++i) {
         damaged[8 + random() % (damaged.size() - 8)] = static_cast<uint8_t>(random());
       }
-      // Must neither crash nor read beyond the end; what it makes of it is not defined.
+      // Must neither crash nor read beyond the end; the result is unspecified.
       (void)message_to_json(layout, damaged);
       MessageTable table(layout);
       if (table.see(damaged)) {
@@ -132,7 +131,7 @@ TEST(MessageWalk, AgreesWithLcmOnWhatIsNoMessage) {
   }
 }
 
-TEST(LogStatistics, CountsLostTicksAndForeignMessages) {
+TEST(LogStatistics, CountsLostTicksAndUnknownMessages) {
   LogStatistics statistics;
   for (const int64_t tick : {10, 11, 14, 13}) {
     naolcm::joint_command_t command = two_joints();

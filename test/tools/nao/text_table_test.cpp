@@ -7,7 +7,7 @@
 namespace nao {
 namespace {
 
-TEST(TextTable, SetsNumbersToTheRightAndTextToTheLeft) {
+TEST(TextTable, AlignsNumbersRightAndTextLeft) {
   EXPECT_EQ(format_table({{"joint", "rad"}, {"HeadYaw", "0.10"}, {"LHand", "-1.00"}}),
             "joint      rad\n"
             "HeadYaw   0.10\n"
@@ -18,7 +18,7 @@ TEST(TextTable, CountsCharactersNotBytes) {
   EXPECT_EQ(format_table({{"µs", "x"}, {"a", "b"}}), "µs  x\na   b\n");
 }
 
-TEST(TextTable, ShowsNoNumberForNan) {
+TEST(TextTable, ShowsADashForNan) {
   EXPECT_EQ(format_number(std::nan(""), 2), "-");
   EXPECT_EQ(format_number(1.005, 1), "1.0");
 }

@@ -37,7 +37,7 @@ const std::string kText =
     "      - duration: 0.7\n"
     "        joints: {KneePitch: 1.0}\n";
 
-TEST(TransitionText, FindsTheNumbersOfTheSequencesThatItIsToldTo) {
+TEST(TransitionText, FindsTheNumbersOfTheSelectedSequences) {
   const TransitionText text(nao_model(), kText, {"rise"}, {"HeadYaw"});
   std::vector<std::string> names;
   for (const auto& parameter : text.parameters()) names.push_back(parameter.name);
@@ -56,11 +56,11 @@ TEST(TransitionText, ChangesNumbersAndNothingElseWithinTheirRanges) {
   EXPECT_NE(changed.find("{HeadYaw: 0, KneePitch: 2.112, LHipRoll: -0.123}"), std::string::npos);
   EXPECT_NE(changed.find("stiffness: {KneePitch: 0.100}"), std::string::npos);
   EXPECT_NE(changed.find("joints: {KneePitch: 1.0}\n"), std::string::npos);
-  // What was written is a graph that loads: no angle is beyond its joint's limit by rounding.
+  // The new text loads: rounding moves no angle beyond its joint's limit.
   EXPECT_NO_THROW(motion::TransitionGraph::parse(nao_model(), changed));
 }
 
-TEST(TransitionText, SaysWhichSequenceOrJointIsMissing) {
+TEST(TransitionText, NamesTheMissingSequenceOrJoint) {
   EXPECT_THROW(TransitionText(nao_model(), kText, {"fly"}, {}), Error);
   std::string tail = kText;
   tail.replace(tail.find("LHipRoll"), 8, "Tail");

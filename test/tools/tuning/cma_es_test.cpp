@@ -5,7 +5,7 @@
 namespace nao {
 namespace {
 
-/** Rosenbrock's valley, curved and narrow; minimum 0 at (1, ..., 1). */
+/** Rosenbrock function: a curved, narrow valley; minimum 0 at (1, ..., 1). */
 double rosenbrock(const Eigen::VectorXd& x) {
   double sum = 0;
   for (int i = 0; i + 1 < x.size(); ++i) {
@@ -24,12 +24,12 @@ Eigen::VectorXd minimise(int generations, uint64_t seed) {
   return search.mean();
 }
 
-TEST(CmaEs, FollowsACurvedValleyToItsEnd) {
+TEST(CmaEs, MinimizesTheRosenbrockFunction) {
   const Eigen::VectorXd x = minimise(400, 1);
   EXPECT_NEAR((x - Eigen::VectorXd::Ones(6)).norm(), 0, 1e-4);
 }
 
-TEST(CmaEs, SearchesTheSameWayWithTheSameSeedOnly) {
+TEST(CmaEs, DependsOnTheSeedOnly) {
   EXPECT_EQ(minimise(10, 7), minimise(10, 7));
   EXPECT_NE(minimise(10, 7), minimise(10, 8));
 }

@@ -10,7 +10,7 @@
 namespace nao {
 namespace {
 
-TEST(ForEachIndex, CallsOnceForEachOnAnyNumberOfThreads) {
+TEST(ForEachIndex, CallsOncePerIndexOnAnyNumberOfThreads) {
   for (const int jobs : {1, 2, 7}) {
     std::vector<std::atomic<int>> calls(100);
     for_each_index(calls.size(), jobs, [&](size_t i) { ++calls[i]; });

@@ -4,29 +4,46 @@
 
 #include "common/error.h"
 
-namespace nao {
+namespace nao::tool {
 namespace {
 
 using motion::Gait;
 
-TEST(GaitFile, ChangesValuesAndNothingElse) {
+const std::vector<Gait::Parameter> kHipHeight = {
+    {"stance.hip_height", [](Gait& gait) -> double& { return gait.stance.hip_height; }}};
+
+TEST(GaitFile, ReplacesValuesAndKeepsEverythingElse) {
   const std::string text =
       "# About steps.\n"
-      "step_height: {value: 0.018, range: [0.008, 0.04]}\n"
-      "hip_height: {value: 0.2, range: [0.1, 0.3]}  # m\n";
+      "swing:\n"
+      "  height: {value: 0.018, range: [0.008, 0.04]}\n"
+      "  hip_height: {value: 5, range: [1, 9]}\n"
+      "\n"
+      "stance:\n"
+      "  # hip_height: {value: 7\n"
+      "  hip_height: {value: 0.2, range: [0.1, 0.3]}  # m\n";
   Gait gait;
-  gait.hip_height = 0.22500001;
-  const std::vector<Gait::Parameter> parameters = {{"hip_height", &Gait::hip_height}};
-  EXPECT_EQ(with_gait_values(text, gait, parameters),
+  gait.stance.hip_height = 0.22500001;
+  EXPECT_EQ(with_gait_values(text, gait, kHipHeight),
             "# About steps.\n"
-            "step_height: {value: 0.018, range: [0.008, 0.04]}\n"
-            "hip_height: {value: 0.225, range: [0.1, 0.3]}  # m\n");
+            "swing:\n"
+            "  height: {value: 0.018, range: [0.008, 0.04]}\n"
+            "  hip_height: {value: 5, range: [1, 9]}\n"
+            "\n"
+            "stance:\n"
+            "  # hip_height: {value: 7\n"
+            "  hip_height: {value: 0.225, range: [0.1, 0.3]}  # m\n");
 }
 
-TEST(GaitFile, SaysWhichLineIsMissing) {
-  const std::vector<Gait::Parameter> parameters = {{"hip_height", &Gait::hip_height}};
-  EXPECT_THROW((void)with_gait_values("step_height: {value: 1}\n", Gait(), parameters), Error);
+TEST(GaitFile, ReportsAParameterWithoutALine) {
+  try {
+    (void)with_gait_values("stance:\n  height: {value: 1}\n", Gait(), kHipHeight);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("stance.hip_height"), std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace
-}  // namespace nao
+}  // namespace nao::tool

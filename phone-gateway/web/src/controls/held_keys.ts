@@ -11,14 +11,14 @@ export interface KeyActions {
 /** Listens on the page; keys meant for a form or a dialog are left to it. */
 export function listenToKeys(isActive: () => boolean, actions: KeyActions): void {
   const held = new Set<string>();
-  const tell = (event: KeyboardEvent) => actions.heldChanged(held, event.shiftKey);
+  const notify = (event: KeyboardEvent) => actions.heldChanged(held, event.shiftKey);
   document.addEventListener("keydown", (event) => {
     if (!isActive() || event.ctrlKey || event.metaKey || event.altKey || isForAnother(event)) return;
     if (isDriveKey(event.code)) {
       event.preventDefault();
       if (event.repeat) return;
       held.add(event.code);
-      tell(event);
+      notify(event);
     } else if (event.code === "Space" || event.code === "Escape") {
       event.preventDefault();
       actions.pressed("stop");
@@ -27,7 +27,7 @@ export function listenToKeys(isActive: () => boolean, actions: KeyActions): void
     }
   });
   document.addEventListener("keyup", (event) => {
-    if (held.delete(event.code) || event.key === "Shift") tell(event);
+    if (held.delete(event.code) || event.key === "Shift") notify(event);
   });
   window.addEventListener("blur", () => {
     held.clear();

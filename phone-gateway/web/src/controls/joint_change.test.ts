@@ -11,11 +11,11 @@ const groups = readJointGroups(new URL("../../../../robots/nao", import.meta.url
 const group = (name: string) => groups.find((one) => one.name === name)!;
 
 describe("changeFromStick", () => {
-  it("lifts when the thumb goes up", () => {
+  it("lifts when the joystick moves up", () => {
     expect(changeFromStick(group("head"), {right: 0, up: 1}, false, 0.1).pitch)
         .toBeCloseTo(-0.1 * kJointRate, 9);
   });
-  it("turns to where the thumb goes, seen from behind and from the front", () => {
+  it("turns to where the joystick points, seen from behind and from the front", () => {
     expect(changeFromStick(group("head"), {right: 1, up: 0}, false, 0.1).yaw).toBeLessThan(0);
     expect(changeFromStick(group("head"), {right: 1, up: 0}, true, 0.1).yaw).toBeGreaterThan(0);
   });
@@ -45,7 +45,7 @@ describe("JointDriver", () => {
     vi.useRealTimers();
   });
 
-  it("turns at the same speed however long the thumb stays", () => {
+  it("turns at the same speed however long the joystick is held", () => {
     driver.setStick({right: 0, up: 1});
     vi.advanceTimersByTime(10 * kJointPeriodMs - 1);
     driver.setStick(null);

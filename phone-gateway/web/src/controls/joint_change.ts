@@ -1,4 +1,4 @@
-/** From a thumb's place to a change of a joint group; pure. */
+/** From a joystick position to a change of a joint group; pure. */
 import type {JointGroup} from "../protocol/generated/remote_pb";
 import type {JointChange} from "../protocol/use_cases";
 import type {StickValue} from "./stick";
@@ -8,7 +8,7 @@ export const kJointRate = 0.9;
 /** A hand opens in about a second; 1/s. */
 const kHandRate = 1;
 
-/** What the pad asks of a group within `dt` seconds. The ball moves where the thumb goes: up lifts
+/** Change of a group for a joystick position held for `dt` seconds. The ball follows the finger: up lifts
  * (negative pitch), and left turns to the left of the screen, which is the robot's right when it is
  * seen from the front. Hands open upwards. */
 export function changeFromStick(group: JointGroup, stick: StickValue, isInFront: boolean,

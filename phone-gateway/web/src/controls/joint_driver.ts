@@ -1,4 +1,4 @@
-/** Turns the chosen joint group while a thumb is on the pad or the slider. */
+/** Turns the selected joint group while the joystick or the slider is held. */
 import type {JointGroup} from "../protocol/generated/remote_pb";
 import type {JointChange} from "../protocol/use_cases";
 import {changeFromStick, isNoChange} from "./joint_change";
@@ -17,7 +17,7 @@ export class JointDriver {
   /** @param send  takes a change to the robot. */
   constructor(private readonly send: (change: JointChange) => void) {}
 
-  /** Where the thumb is on the pad; null: let go. The first push out of the middle goes out at once. */
+  /** Joystick position; null: released. The first deflection is sent at once. */
   setStick(stick: StickValue | null): void {
     const wasPushed = isPushed(this.stick);
     this.stick = stick;

@@ -1,15 +1,15 @@
-/** A round pad for a thumb. Each follows its own pointer, so that two thumbs do not disturb each other. */
+/** A joystick on the screen. Each follows its own pointer, so that two fingers do not disturb each other. */
 import {drawing, el} from "../dom";
 import {stickValue} from "./stick";
 import type {StickValue} from "./stick";
 
-/** What the rim shows in a box of 100: where the thumb may go. */
+/** What the rim shows in a box of 100: the range of the touch. */
 const kFourWays = "M45 14l5-5 5 5M45 86l5 5 5-5M14 45l-5 5 5 5M86 45l5 5-5 5";
 const kTwoWays = "M14 62a40 40 0 0 1 8-32M22 38v-9h-9M86 62a40 40 0 0 0-8-32M78 38v-9h9";
 
 export class Joystick {
   readonly element: HTMLElement;
-  /** Where it is, or null while nobody touches it. */
+  /** Position, or null while it is not touched. */
   value: StickValue | null = null;
   private readonly knob: HTMLElement;
   private readonly label: HTMLElement;
@@ -43,7 +43,7 @@ export class Joystick {
     this.element.setAttribute("aria-label", label);
   }
 
-  /** Lets go, whoever holds it. */
+  /** Releases it, whichever pointer holds it. */
   release(): void {
     this.pointer = null;
     this.element.classList.remove("held");
@@ -80,7 +80,7 @@ export class Joystick {
     if (event.pointerId === this.pointer) this.release();
   }
 
-  /** Arrow keys, for those who cannot drag. */
+  /** Arrow keys, for people who cannot drag. */
   private key(event: KeyboardEvent, isDown: boolean): void {
     const direction = kArrows[event.key];
     if (!direction || (this.isHorizontal && direction[0] === 0)) return;

@@ -31,7 +31,7 @@ describe("a gamepad", () => {
   it("does nothing while its sticks only tremble", () => {
     expect(sticksFromPad([0.05, -0.08, 0.1])).toEqual({walk: {right: 0, up: 0}, turn: {right: 0, up: 0}});
   });
-  it("tells a button once", () => {
+  it("reports a button once", () => {
     const before: boolean[] = [];
     const down = [false, true];
     expect(pressedButtons(down, before)).toEqual(["stop"]);

@@ -1,4 +1,4 @@
-/** Keyboard and gamepad to the same commands as the thumbs; pure. */
+/** Keyboard and gamepad to the same commands as the joysticks; pure. */
 import {stickValue} from "./stick";
 import type {Drive, StickValue} from "./stick";
 

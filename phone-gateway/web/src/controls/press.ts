@@ -1,10 +1,10 @@
 /** Presses that work while another finger is down. A browser makes a click of the first finger only, so a
- * button that listens for clicks alone is dead while a thumb walks the robot: Stop above all. */
+ * button that listens for clicks alone does not react while another finger holds a joystick: Stop above all. */
 
 /** A touch that moves farther is no press but a drag, px. */
 const kTravel = 14;
 
-/** Calls `act` when the element is pressed and let go: by any finger, mouse, or key. */
+/** Calls `act` when the element is pressed and released: by any finger, mouse, or key. */
 export function onPress(element: HTMLElement, act: () => void): void {
   const starts = new Map<number, {x: number; y: number}>();
   element.addEventListener("click", () => act());

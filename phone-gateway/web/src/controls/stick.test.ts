@@ -25,13 +25,13 @@ describe("stickValue", () => {
 });
 
 describe("driveFromSticks", () => {
-  it("walks ahead when the thumb goes up", () => {
+  it("walks forward when the joystick moves up", () => {
     expect(driveFromSticks({right: 0, up: 1}, none)).toEqual({x: 1, y: 0, theta: 0});
   });
-  it("walks to the right, which is negative y, when the thumb goes right", () => {
+  it("walks to the right, which is negative y, when the joystick moves right", () => {
     expect(driveFromSticks({right: 1, up: 0}, none)).toEqual({x: 0, y: -1, theta: 0});
   });
-  it("turns right, which is negative, when the other thumb goes right", () => {
+  it("turns right, which is negative, when the other joystick moves right", () => {
     expect(driveFromSticks(none, {right: 0.5, up: 0})).toEqual({x: 0, y: 0, theta: -0.5});
   });
 });

@@ -1,6 +1,6 @@
-/** From a thumb's place on a round pad to a command; pure. */
+/** From a touch position on a round pad to a command; pure. */
 
-/** Thumbs tremble: nothing below this share of the radius. */
+/** Dead zone, fraction of the radius: fingers tremble. */
 export const kDeadZone = 0.12;
 
 export interface StickValue {
@@ -10,18 +10,18 @@ export interface StickValue {
 }
 
 /** @param dx,dy  px from the pad's centre, y down as on screens. @param radius  px.
- * @return shares with the dead zone taken out, so that they begin at 0 at its edge; finer near the
+ * @return fractions with the dead zone removed, so that they begin at 0 at its edge; finer near the
  * middle than at the rim (square law), for slow steps. */
 export function stickValue(dx: number, dy: number, radius: number): StickValue {
   const reach = Math.hypot(dx, dy) / radius;
   if (!(reach > kDeadZone)) return {right: 0, up: 0};
-  const share = (Math.min(reach, 1) - kDeadZone) / (1 - kDeadZone);
-  const strength = 0.35 * share + 0.65 * share * share;
+  const fraction = (Math.min(reach, 1) - kDeadZone) / (1 - kDeadZone);
+  const strength = 0.35 * fraction + 0.65 * fraction * fraction;
   const length = Math.hypot(dx, dy);
   return {right: strength * dx / length, up: strength * -dy / length};
 }
 
-/** A drive command: shares of the greatest speeds, ahead, to the left, turning to the left. */
+/** A drive command: fractions of the highest velocities forward, to the left and of turning left, -1 to 1. */
 export interface Drive {
   x: number;
   y: number;

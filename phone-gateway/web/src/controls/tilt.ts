@@ -26,7 +26,7 @@ export function tiltFromAngles(beta: number, gamma: number, screenAngle: number)
   return {right: c * x - s * y, up: s * x + c * y};
 }
 
-/** Walk that a tilt asks for. @param neutral  how the phone was held when the thumb came down. */
+/** Walk command for a tilt. @param neutral  the phone's attitude when the pad was touched. */
 export function driveFromTilt(tilt: Tilt, neutral: Tilt): Drive {
   return {
     x: share(angle(tilt.up) - angle(neutral.up)),

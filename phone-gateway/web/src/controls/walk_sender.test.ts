@@ -26,7 +26,7 @@ describe("WalkSender", () => {
     expect(sent.length).toBe(1 + 1000 / kWalkPeriodMs);
   });
 
-  it("ends the walk at once, and once, when let go", () => {
+  it("ends the walk at once, and once, when released", () => {
     sender.set("sticks", ahead);
     sender.set("sticks", null);
     expect(sent.at(-1)).toEqual(zero);
@@ -44,7 +44,7 @@ describe("WalkSender", () => {
     expect(sent.at(-1)).toEqual({x: 0, y: 0, theta: 0.5});
   });
 
-  it("does not flood the link when a thumb moves fast", () => {
+  it("does not flood the link when a finger moves fast", () => {
     for (let i = 0; i < 200; i++) {
       sender.set("sticks", {x: i / 200, y: 0, theta: 0});
       vi.advanceTimersByTime(5);

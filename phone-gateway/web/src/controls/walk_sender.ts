@@ -1,11 +1,11 @@
-/** Repeats the walk command while somebody holds a control, and ends it once when the last is let go. */
+/** Repeats the walk command while a control is held, and ends it once when the last one is released. */
 import type {Drive} from "./stick";
 import {addDrives} from "./stick";
 
 /** Twice as often as the gateway needs it, so that one lost frame is not a stumble; ms. */
 export const kWalkPeriodMs = 100;
 
-/** A changed wish goes out at once, but not more often than this; ms. */
+/** A changed command is sent at once, but not more often than this; ms. */
 const kMinPeriodMs = 30;
 
 export type DriveSource = "sticks" | "keys" | "gamepad" | "tilt";
@@ -19,7 +19,7 @@ export class WalkSender {
   constructor(private readonly publish: (drive: Drive) => void,
               private readonly now: () => number = () => performance.now()) {}
 
-  /** A source's wish; null when it is let go. A held source at zero keeps the walk alive. */
+  /** Sets the command of a source; null when it is released. A held source at zero keeps the walk alive. */
   set(source: DriveSource, drive: Drive | null): void {
     const wasDriving = this.drives.size > 0;
     if (drive) this.drives.set(source, drive);
@@ -29,14 +29,14 @@ export class WalkSender {
     if (this.drives.size === 0 && wasDriving) this.end();
   }
 
-  /** Lets everything go, at once: page hidden, link lost, stop pressed. */
+  /** Releases all sources at once: page hidden, link lost, stop pressed. */
   release(): void {
     if (this.drives.size === 0) return;
     this.drives.clear();
     this.end();
   }
 
-  /** What is being asked for. */
+  /** Sum of all held sources. */
   get drive(): Drive {
     return addDrives([...this.drives.values()]);
   }

@@ -1,12 +1,12 @@
-/** One short function for each thing the app asks for, so that nobody else builds messages. */
+/** One function for each request; the only place that builds request messages. */
 import {create} from "@bufbuild/protobuf";
 import * as pb from "./generated/remote_pb";
 import type {UseCase} from "./codec";
 import {kProtocolVersion} from "./codec";
 
-/** Which pictures the app wishes for; `width` is 640, 320 or 160 pixels. */
-export interface PictureWish {
-  camera: pb.Camera;
+/** Requested images: camera by its name in the robot description; `width` is 640, 320 or 160 pixels. */
+export interface ImageRequest {
+  camera: string;
   width: number;
 }
 
@@ -16,18 +16,18 @@ export function connect(token: string, clientName: string, clientSoftware: strin
   return {case: "connect", value};
 }
 
-/** @param stateRate states a second, @param pictureRate pictures a second. */
-export function subscribe(stateRate: number, pictureRate: number, wish: PictureWish): UseCase {
-  const picture = create(pb.PictureWishSchema, {camera: wish.camera, width: wish.width});
-  return {case: "subscribe", value: create(pb.SubscribeSchema, {stateRate, pictureRate, picture})};
+/** @param stateRate states a second, @param imageRate images a second. */
+export function subscribe(stateRate: number, imageRate: number, request: ImageRequest): UseCase {
+  const image = create(pb.ImageRequestSchema, request);
+  return {case: "subscribe", value: create(pb.SubscribeSchema, {stateRate, imageRate, image})};
 }
 
-/** Shares of the gait's greatest speeds, -1 to 1: ahead, to the left, turning to the left. */
-export function walkTurn(x: number, y: number, theta: number): UseCase {
-  return {case: "walkTurn", value: create(pb.WalkTurnSchema, {x, y, theta})};
+/** Commanded velocity: m/s forward, m/s to the left, rad/s to the left. */
+export function walkTurn(vx: number, vy: number, wz: number): UseCase {
+  return {case: "walkTurn", value: create(pb.WalkTurnSchema, {vx, vy, wz})};
 }
 
-/** Relative to where the robot stands: m ahead, m to the left, rad to the left. */
+/** Goal relative to the robot: m forward, m to the left, rad to the left. */
 export function moveTo(x: number, y: number, theta: number): UseCase {
   return {case: "moveTo", value: create(pb.MoveToSchema, {x, y, theta})};
 }
@@ -42,7 +42,7 @@ export interface JointChange {
   yaw: number;
   pitch: number;
   roll: number;
-  /** True: the other side does the same as in a mirror. */
+  /** True: the group of the other side makes the mirrored change. */
   bothSides?: boolean;
 }
 

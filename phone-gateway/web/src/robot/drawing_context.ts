@@ -11,7 +11,7 @@ export class CannotDraw extends Error {}
 
 /** @throws CannotDraw if the browser cannot draw in 3D. */
 export function openDrawingContext(canvas: HTMLCanvasElement): DrawingContext {
-  // Smooth edges must be asked for before one can ask who draws: another canvas tells.
+  // Antialiasing is requested before the renderer is known: a second canvas reports the renderer.
   const isSoftware = isSoftwareRenderer(nameOfRenderer());
   const gl = canvas.getContext("webgl2", {
     alpha: true, antialias: !isSoftware, powerPreference: "high-performance"});

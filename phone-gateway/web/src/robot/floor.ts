@@ -1,5 +1,5 @@
 /** The ground: dark turf with the lines of the field, fading out around the robot. Lines are computed
- * per pixel, as in the head camera's picture, so that they stay sharp without a texture. */
+ * per pixel, as in the head camera's image, so that they stay sharp without a texture. */
 import {
   Group, Mesh, MeshBasicMaterial, PlaneGeometry, RingGeometry, ShaderMaterial, ShadowMaterial,
   Vector2, Vector4,

@@ -50,7 +50,7 @@ function labOf(color: number, eyes: readonly number[][]): [number, number, numbe
 
 describe("the axes' colours", () => {
   for (const [name, eyes] of Object.entries(kColorBlindness)) {
-    it(`are told apart with ${name}`, () => {
+    it(`are distinguishable with ${name}`, () => {
       const labs = kAxes.map((axis) => labOf(kAxisColors[axis], eyes));
       for (const [i, a] of labs.entries()) {
         // Differences of some 2.3 are just noticed side by side; arcs are thin and apart.
@@ -61,7 +61,7 @@ describe("the axes' colours", () => {
 });
 
 describe("JointBalls", () => {
-  it("takes the nearest ball within a thumb's width, and none beyond", () => {
+  it("selects the nearest ball within the tap radius, and none beyond", () => {
     const balls = makeBalls();
     const camera = makeCamera();
     const [x, y] = balls.places(camera, 400, 400)["left shoulder"]!;

@@ -12,7 +12,7 @@ import type {RobotTree} from "./robot_tree";
 const kBallRadius = 0.015;
 const kArcRadius = 0.075;
 const kArcWidth = 0.008;
-/** Thumbs are this wide: a tap within it chooses the nearest ball, px. */
+/** Radius of a tap, px, about a fingertip: the nearest ball within it is selected. */
 const kReach = 44;
 /** Far apart for colour-blind eyes too, as joint_balls.test.ts holds; and named beside the controls. */
 export const kAxisColors = {yaw: 0x3d9bff, pitch: 0xffb84d, roll: 0xf0c8ff} as const;
@@ -41,7 +41,7 @@ interface Arc {
 export class JointBalls {
   private readonly balls: Ball[] = [];
   private arcs: readonly Arc[] = [];
-  /** Of each group that was chosen before: made once, for a driver of the graphics chip keeps some of what it is told
+  /** Of each group that was chosen before: made once, since some graphics drivers keep the memory of each change
    * to drop. */
   private readonly arcsOfGroup = new Map<string, readonly Arc[]>();
   private selected = "";

@@ -1,5 +1,5 @@
 /** Keeps a slow phone fluent: when frames take too long it draws fewer pixels, then no shadow. It never
- * goes back up by itself, so that the picture does not pump. Pure. */
+ * goes back up by itself, so that the image does not pump. Pure. */
 
 /** A frame longer than this is slow, s: below 40 frames a second. */
 const kSlowFrame = 0.025;

@@ -4,10 +4,10 @@ import {Quaternion, Vector3} from "three";
 import type {State} from "../protocol/generated/remote_pb";
 import type {RobotTree} from "./robot_tree";
 
-/** Time in which 63 % of the distance to the newest state is covered, s: less than a frame, so that a thumb does not
+/** Time in which 63 % of the distance to the newest state is covered, s: less than a frame, so that a joystick does not
  * wait for its robot; uneven states are still spread over two or three. */
 const kFollowTime = 0.012;
-/** A difference that nobody sees, rad and m: less than half a pixel of a robot as tall as a phone's screen. */
+/** An invisible difference, rad and m: less than half a pixel of a robot as tall as a phone's screen. */
 const kSeenAngle = 0.0008;
 const kSeenLength = 0.0003;
 /** A jump farther than this is shown at once: the robot was placed elsewhere, not moved; m. */

@@ -13,7 +13,7 @@ import {PixelBudget} from "./pixel_budget";
 import {RobotSurface} from "./robot_surface";
 import type {RobotTree} from "./robot_tree";
 
-/** Over the right shoulder, from behind: what is "ahead" for the robot is "up" for the thumb. */
+/** View over the right shoulder, from behind: the robot's forward direction is up on the screen. */
 export const kDriveView: View = {azimuth: -0.42, elevation: 0.30};
 /** Face to face. */
 export const kJointsView: View = {azimuth: Math.PI - 0.35, elevation: 0.14};

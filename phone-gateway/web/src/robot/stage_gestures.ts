@@ -1,5 +1,5 @@
 /** Fingers, mouse and wheel on the stage: one finger looks around, two come nearer, a double tap
- * returns to the first view. A single tap goes to whoever listens. */
+ * returns to the first view. A single tap calls the handler. */
 import type {Stage} from "./stage";
 
 /** A touch that moves less and lasts shorter is a tap: px, ms. */

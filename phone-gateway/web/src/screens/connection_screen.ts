@@ -4,14 +4,14 @@ import type {Settings} from "../settings";
 import type {AppState, Problem, Store} from "../store";
 import {say} from "../text/texts";
 
-export interface ConnectionWish {
+export interface ConnectionForm {
   address: string;
   token: string;
   clientName: string;
 }
 
 export interface ConnectionActions {
-  connect(wish: ConnectionWish): void;
+  connect(form: ConnectionForm): void;
   cancel(): void;
   retryNow(): void;
 }

@@ -1,8 +1,8 @@
-/** The remote control itself: who and what above, the robot in the middle, thumbs below. */
+/** The remote control: status above, the robot in the middle, joysticks below. */
 import type {Commander} from "../commander";
 import {ChoiceStrip} from "../controls/choice_strip";
 import {Joystick} from "../controls/joystick";
-import type {PictureView} from "../controls/picture_view";
+import type {ImageView} from "../controls/image_view";
 import {onPress, onPressDown} from "../controls/press";
 import {driveFromSticks} from "../controls/stick";
 import type {TiltSensor} from "../controls/tilt_sensor";
@@ -14,7 +14,7 @@ import type {Control, State} from "../protocol/generated/remote_pb";
 import * as useCases from "../protocol/use_cases";
 import type {FreeArea} from "../robot/stage";
 import type {AppState, Store} from "../store";
-import {activityInWords} from "../text/activity";
+import {activityInWords, kModeNames, modeInWords} from "../text/activity";
 import {say, sayName} from "../text/texts";
 import type {JointsPanel} from "./joints_panel";
 
@@ -52,7 +52,7 @@ export class ControllerScreen {
   private tiltNeutral: Tilt | null = null;
 
   constructor(private readonly store: Store, private readonly commander: Commander,
-              private readonly walk: WalkSender, private readonly picture: PictureView,
+              private readonly walk: WalkSender, private readonly image: ImageView,
               private readonly joints: JointsPanel, private readonly tilt: TiltSensor,
               walkHere: HTMLElement, private readonly act: ControllerActions) {
     this.walkStick = new Joystick(say("drive.walk"), "walk", false, () => this.sticksChanged());
@@ -82,7 +82,7 @@ export class ControllerScreen {
       this.turnStick.element, joints.element);
     this.element = el("section", {class: "screen controller-screen"},
       walkHere,
-      el("header", {class: "top"}, picture.element, this.status,
+      el("header", {class: "top"}, image.element, this.status,
          el("div", {class: "corner"}, this.lock,
             el("button", {class: "round", "aria-label": say("drive.menu"), onclick: () => act.openMenu()},
                icon(kMenuIcon)),
@@ -91,7 +91,7 @@ export class ControllerScreen {
     this.watch();
   }
 
-  /** Lets go of everything that drives. */
+  /** Releases all controls. */
   release(): void {
     this.walkStick.release();
     this.turnStick.release();
@@ -113,23 +113,23 @@ export class ControllerScreen {
     const measure = (): void => {
       const box = this.element.getBoundingClientRect();
       if (box.width === 0) return;
-      const picture = this.picture.element.getBoundingClientRect();
+      const image = this.image.element.getBoundingClientRect();
       const bottom = this.bottom.getBoundingClientRect();
       const isBeside = box.width > box.height;
       changed({
-        left: isBeside && this.picture.isLarge ? picture.right : 0,
+        left: isBeside && this.image.isLarge ? image.right : 0,
         right: box.width,
-        // A large picture in portrait pushes the words below it.
-        top: isBeside ? 4 : this.picture.isLarge ? this.status.getBoundingClientRect().bottom : picture.bottom,
+        // A large image in portrait pushes the words below it.
+        top: isBeside ? 4 : this.image.isLarge ? this.status.getBoundingClientRect().bottom : image.bottom,
         bottom: isBeside ? this.centreTop() : bottom.top,
       });
     };
     const observer = new ResizeObserver(measure);
-    for (const part of [this.element, this.bottom, this.picture.element, this.status]) observer.observe(part);
+    for (const part of [this.element, this.bottom, this.image.element, this.status]) observer.observe(part);
     this.store.watch((state) => state.isJointsMode, measure);
   }
 
-  /** Upper edge of what stands between the thumbs in landscape, px. */
+  /** Upper edge of the elements between the joysticks in landscape, px. */
   private centreTop(): number {
     const middle = this.store.get().isJointsMode ? this.joints.strip.element : this.postures.element;
     return middle.getBoundingClientRect().top;
@@ -159,7 +159,7 @@ export class ControllerScreen {
     this.tiltChanged();
   }
 
-  /** Tilt drives only while a thumb is on the pad: a phone that falls or is handed on must not. */
+  /** Tilt drives only while the pad is touched: a phone that falls or is handed on must not drive. */
   private tiltChanged(): void {
     const {tilt} = this.tilt;
     if (!tilt || this.walkStick.value === null) {
@@ -188,13 +188,13 @@ export class ControllerScreen {
   }
 
   private showState(state: State | null): void {
-    setText(this.mode, state ? sayName("mode", state.mode) : say("mode.waiting"));
-    setText(this.activity, activityInWords(state?.activity ?? ""));
+    setText(this.mode, state ? modeInWords(state.mode) : say("mode.waiting"));
+    setText(this.activity, activityInWords(state?.activity));
     const progress = state?.activity ? state.progress : -1;
     this.progress.hidden = !(progress >= 0);
     if (progress >= 0) this.progress.value = progress;
     this.postures.mark(state?.posture ?? "");
-    const mode = state?.mode ?? "";
+    const mode = state ? kModeNames[state.mode] ?? "" : "";
     if (this.status.dataset["mode"] !== mode) this.status.dataset["mode"] = mode;
   }
 
@@ -222,14 +222,14 @@ export class ControllerScreen {
   }
 }
 
-/** Good: nobody notices the delay; fair: it is felt; poor: drive slowly. */
-export function linkQuality({latencyMs, picture}: Readonly<AppState>): "good" | "fair" | "poor" {
-  const worst = Math.max(latencyMs, (picture?.ageMs ?? 0) / 2);
+/** Good: the delay is not noticeable; fair: noticeable; poor: drive slowly. */
+export function linkQuality({latencyMs, image}: Readonly<AppState>): "good" | "fair" | "poor" {
+  const worst = Math.max(latencyMs, (image?.ageMs ?? 0) / 2);
   return worst < 60 ? "good" : worst < 200 ? "fair" : "poor";
 }
 
-export function linkInWords({latencyMs, picture}: Readonly<AppState>): string {
-  return say("drive.link", {latency: Math.round(latencyMs), picture: Math.round(picture?.ageMs ?? 0)});
+export function linkInWords({latencyMs, image}: Readonly<AppState>): string {
+  return say("drive.link", {latency: Math.round(latencyMs), image: Math.round(image?.ageMs ?? 0)});
 }
 
 /** Leaves the page alone where nothing changes: states come 30 times a second. */

@@ -5,7 +5,7 @@ import {getLanguage, kLanguages, say} from "../text/texts";
 import type {Language, TextKey} from "../text/texts";
 
 const kLanguageNames: Record<Language, string> = {en: "English", pt: "Português", de: "Deutsch"};
-const kHelp: readonly TextKey[] = ["menu.helpWalk", "menu.helpView", "menu.helpPicture",
+const kHelp: readonly TextKey[] = ["menu.helpWalk", "menu.helpView", "menu.helpImage",
                                    "menu.helpGround", "menu.helpKeys", "menu.helpPad"];
 
 export interface MenuActions {

@@ -7,7 +7,7 @@ import {say} from "../text/texts";
 
 /** A spot farther away than this is not seen well enough to be meant, m. */
 const kMaxDistance = 3;
-/** On the robot's own feet nobody means the ground, m. */
+/** Taps closer to the robot than this are not walk goals, m. */
 const kMinDistance = 0.15;
 const kShownMs = 6000;
 /** Half the button's width and some air, px. */

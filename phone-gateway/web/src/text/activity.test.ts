@@ -1,25 +1,34 @@
+import {create} from "@bufbuild/protobuf";
 import {describe, expect, it} from "vitest";
-import {activityInWords} from "./activity";
-import {setLanguage} from "./texts";
+import {ActivitySchema, CommandKind, Mode} from "../protocol/generated/remote_pb";
+import {activityInWords, kModeNames, modeInWords} from "./activity";
+import {isText, setLanguage} from "./texts";
+
+const inWords = (kind: CommandKind, name = "", needsHelp = false): string =>
+    activityInWords(create(ActivitySchema, {kind, name, needsHelp}));
 
 describe("activityInWords", () => {
   it("names postures and actions as their buttons do", () => {
     setLanguage("de");
-    expect(activityInWords("posture StandInit")).toBe("Startklar");
-    expect(activityInWords("action kick-left")).toBe("Schuss links");
+    expect(inWords(CommandKind.POSTURE, "StandInit")).toBe("Startklar");
+    expect(inWords(CommandKind.ACTION, "kick-left")).toBe("Schuss links");
     setLanguage("en");
-    expect(activityInWords("posture Headstand")).toBe("Headstand");
+    expect(inWords(CommandKind.POSTURE, "Headstand")).toBe("Headstand");
   });
-  it("leaves out what the mode says", () => {
-    expect(activityInWords("walk 0.10 0.00 0.00")).toBe("");
-    expect(activityInWords("stop")).toBe("");
-    expect(activityInWords("")).toBe("");
+  it("omits what the mode says", () => {
+    expect(inWords(CommandKind.WALK)).toBe("");
+    expect(inWords(CommandKind.STOP)).toBe("");
+    expect(activityInWords(undefined)).toBe("");
   });
-  it("says where it goes, and that it needs a hand", () => {
-    expect(activityInWords("move-to 0.5 0 0")).toBe("to the marked spot");
-    expect(activityInWords("needs help")).toBe("please put it on its feet");
+  it("names the goal of a walk and the need for help", () => {
+    expect(inWords(CommandKind.MOVE_TO)).toBe("to the marked spot");
+    expect(inWords(CommandKind.NONE, "", true)).toBe("please put it on its feet");
   });
-  it("says as it is what it does not know", () => {
-    expect(activityInWords("dance waltz")).toBe("dance waltz");
+});
+
+describe("modeInWords", () => {
+  it("has a text for every mode", () => {
+    for (const name of Object.values(kModeNames)) expect(isText(`mode.${name}`)).toBe(true);
+    expect(modeInWords(Mode.GETTING_UP)).toBe("Getting up");
   });
 });

@@ -1,18 +1,34 @@
-/** What the robot is doing, as a person says it; pure. */
+/** Mode and activity of the robot in the page's language; pure. */
+import {CommandKind, Mode} from "../protocol/generated/remote_pb";
+import type {Activity} from "../protocol/generated/remote_pb";
 import {say, sayName} from "./texts";
 
-/** @param activity  State.activity: the kind of command and its detail, such as "posture Sit". What the mode says
- * already, such as that it walks, is left out; what nobody knows is said as it is. */
-export function activityInWords(activity: string): string {
-  const [kind = "", ...rest] = activity.split(" ");
-  const detail = rest.join(" ");
-  switch (kind) {
-    case "posture": return sayName("posture", detail);
-    case "action": return sayName("action", detail);
-    case "move-to": return say("activity.moveTo");
-    case "joint-change": return say("activity.joints");
-    case "walk":
-    case "stop": return "";
-    default: return activity === "needs help" ? say("activity.needsHelp") : activity;
+/** The last parts of the text keys "mode.NAME"; also the values of the status element's data-mode. */
+export const kModeNames = {
+  [Mode.RELAXED]: "relaxed",
+  [Mode.HOLDING]: "holding",
+  [Mode.MOVING]: "moving",
+  [Mode.WALKING]: "walking",
+  [Mode.ACTING]: "acting",
+  [Mode.FALLING]: "falling",
+  [Mode.FALLEN]: "fallen",
+  [Mode.GETTING_UP]: "getting-up",
+  [Mode.NO_ROBOT]: "no-robot",
+} as const satisfies Record<Mode, string>;
+
+export function modeInWords(mode: Mode): string {
+  return say(`mode.${kModeNames[mode] ?? "no-robot"}`);
+}
+
+/** What the robot does beyond what its mode says; empty for a walk, a stop or no activity. */
+export function activityInWords(activity: Activity | undefined): string {
+  if (!activity) return "";
+  if (activity.needsHelp) return say("activity.needsHelp");
+  switch (activity.kind) {
+    case CommandKind.POSTURE: return sayName("posture", activity.name);
+    case CommandKind.ACTION: return sayName("action", activity.name);
+    case CommandKind.MOVE_TO: return say("activity.moveTo");
+    case CommandKind.JOINT_CHANGE: return say("activity.joints");
+    default: return "";
   }
 }

@@ -32,7 +32,7 @@ describe("texts", () => {
     expect(keys.filter((key) => !isText(key))).toEqual([]);
   });
 
-  it("show a name that nobody translated as it is", () => {
+  it("show a name without translation as it is", () => {
     expect(sayName("posture", "Crouch")).toBe("Crouch");
     expect(sayName("action", "moon-walk")).toBe("moon walk");
   });

@@ -1,5 +1,4 @@
-/** Every word that the app says, in every language it speaks; one row per thing said. Places for
- * values are written {name}. What the gateway says in its own words is shown as it comes. */
+/** All texts of the app, in every language; one row per text. Placeholders are written {name}. */
 
 export const kLanguages = ["en", "pt", "de"] as const;
 export type Language = (typeof kLanguages)[number];
@@ -93,15 +92,15 @@ const kTexts = {
   "activity.moveTo": ["to the marked spot", "até ao ponto marcado", "zur markierten Stelle"],
   "activity.joints": ["single joints", "articulações", "einzelne Gelenke"],
   "activity.needsHelp": ["please put it on its feet", "por favor, ponha-o de pé", "bitte stell ihn auf die Füße"],
-  "part.motion": ["The robot's motion program does not answer.", "O programa de movimento não responde.",
+  "component.motion": ["The robot's motion program does not answer.", "O programa de movimento não responde.",
                   "Das Bewegungsprogramm antwortet nicht."],
-  "part.motion.back": ["The robot's motion program is back.", "O programa de movimento está de volta.",
+  "component.motion.back": ["The robot's motion program is back.", "O programa de movimento está de volta.",
                        "Das Bewegungsprogramm ist wieder da."],
-  "part.robot": ["The robot does not answer.", "O robô não responde.", "Der Roboter antwortet nicht."],
-  "part.robot.back": ["The robot is back.", "O robô está de volta.", "Der Roboter ist wieder da."],
-  "part.camera": ["The head camera sends no pictures.", "A câmara da cabeça não envia imagens.",
+  "component.robot": ["The robot does not answer.", "O robô não responde.", "Der Roboter antwortet nicht."],
+  "component.robot.back": ["The robot is back.", "O robô está de volta.", "Der Roboter ist wieder da."],
+  "component.camera": ["The head camera sends no pictures.", "A câmara da cabeça não envia imagens.",
                   "Die Kopfkamera schickt keine Bilder."],
-  "part.camera.back": ["The head camera is back.", "A câmara da cabeça está de volta.",
+  "component.camera.back": ["The head camera is back.", "A câmara da cabeça está de volta.",
                        "Die Kopfkamera ist wieder da."],
   // Refusals that the gateway tells by code.
   "refusal.stopped": ["Stopped: let go of the pad, then walk on.", "Parado: solte o comando e depois continue.",
@@ -112,17 +111,18 @@ const kTexts = {
   "drive.turn": ["Turn", "Virar", "Drehen"],
   "drive.postures": ["Postures", "Posturas", "Haltungen"],
   "drive.actions": ["Actions", "Ações", "Aktionen"],
-  "drive.picture": ["Picture from the robot's head", "Imagem da cabeça do robô",
+  "drive.image": ["Picture from the robot's head", "Imagem da cabeça do robô",
                     "Bild aus dem Kopf des Roboters"],
-  "drive.pictureWaiting": ["No picture yet", "Ainda sem imagem", "Noch kein Bild"],
+  "drive.imageWaiting": ["No picture yet", "Ainda sem imagem", "Noch kein Bild"],
   "drive.enlarge": ["Enlarge the picture", "Ampliar a imagem", "Bild vergrößern"],
   "drive.shrink": ["Make the picture small", "Reduzir a imagem", "Bild verkleinern"],
   "drive.camera": ["Other camera", "Outra câmara", "Andere Kamera"],
-  "drive.cameraTop": ["Top", "Cima", "Oben"],
-  "drive.cameraBottom": ["Bottom", "Baixo", "Unten"],
-  "drive.link": ["Delay {latency} ms, picture {picture} ms old",
-                 "Atraso {latency} ms, imagem com {picture} ms",
-                 "Verzögerung {latency} ms, Bild {picture} ms alt"],
+  "camera.top": ["Top", "Cima", "Oben"],
+  "camera.head": ["Head", "Cabeça", "Kopf"],
+  "camera.bottom": ["Bottom", "Baixo", "Unten"],
+  "drive.link": ["Delay {latency} ms, picture {image} ms old",
+                 "Atraso {latency} ms, imagem com {image} ms",
+                 "Verzögerung {latency} ms, Bild {image} ms alt"],
   "drive.stage": ["The robot, seen from outside. Drag to look around.",
                   "O robô visto de fora. Arraste para rodar a vista.",
                   "Der Roboter von außen. Ziehen, um herumzuschauen."],
@@ -185,7 +185,7 @@ const kTexts = {
   "menu.helpView": ["Drag the robot to look around, pinch to come nearer, double tap to go back.",
                     "Arraste para rodar a vista, aperte para aproximar, toque duas vezes para repor.",
                     "Ziehen schaut herum, zwei Finger holen näher, Doppeltippen stellt zurück."],
-  "menu.helpPicture": ["Tap the picture to enlarge it, drag on it to turn the head.",
+  "menu.helpImage": ["Tap the picture to enlarge it, drag on it to turn the head.",
                        "Toque na imagem para ampliar, arraste para virar a cabeça.",
                        "Bild antippen vergrößert, auf dem Bild ziehen dreht den Kopf."],
   "menu.helpGround": ["Tap the ground to send the robot there.",
@@ -197,7 +197,7 @@ const kTexts = {
   "menu.helpPad": ["Gamepad: sticks walk and turn, A ready, B stop, X crouch, Y stand, shoulders kick.",
                    "Gamepad: manípulos andam e viram, A pronto, B parar, X agachar, Y de pé, L/R chutam.",
                    "Gamepad: Sticks gehen und drehen, A startklar, B Stopp, X hocken, Y stehen, Schultertasten schießen."],
-  "outcome.failed": ["That did not work.", "Não resultou.", "Das hat nicht geklappt."],
+  "result.failed": ["That did not work.", "Não resultou.", "Das hat nicht geklappt."],
   // Postures and actions; what has no row is shown by its own name.
   "posture.StandZero": ["Zero", "Zero", "Null"],
   "posture.StandInit": ["Ready", "Pronto", "Startklar"],
@@ -252,7 +252,7 @@ export function isText(key: string): key is TextKey {
 }
 
 /** A name from the robot ("posture", "Crouch") as a person says it; unknown names as they are. */
-export function sayName(family: "posture" | "action" | "mode" | "group", name: string): string {
+export function sayName(family: "posture" | "action" | "mode" | "group" | "camera", name: string): string {
   const key = `${family}.${name}`;
   return isText(key) ? say(key) : name.replace(/[-_]/g, " ");
 }

@@ -2,19 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include "test/daemons/motion/nao_model.h"
+#include "test/daemons/motion/walk/nao_gait.h"
 
 namespace nao::motion {
 namespace {
 
 class FootstepPlannerTest : public testing::Test {
  protected:
-  Gait gait_ = Gait::load(nao_model().folder() / "gait.yaml");
+  const Gait& gait_ = nao_gait();
   FootstepPlanner planner_{nao_model(), gait_};
 };
 
 TEST_F(FootstepPlannerTest, TwoStepsCoverTwiceTheVelocityTimesTheDuration) {
-  const double duration = gait_.step_duration;
+  const double duration = gait_.timing.step_duration;
   const std::vector<Eigen::Vector3d> velocities = {{0.2, 0, 0},   {-0.1, 0, 0}, {0, 0.12, 0},
                                                    {0, -0.12, 0}, {0, 0, 0.8},  {0.1, 0.05, -0.3}};
   for (const Eigen::Vector3d& velocity : velocities) {
@@ -24,61 +24,52 @@ TEST_F(FootstepPlannerTest, TwoStepsCoverTwiceTheVelocityTimesTheDuration) {
       ASSERT_EQ(steps.size(), 2u);
       EXPECT_EQ(steps[0].is_left, !support_is_left);
       EXPECT_EQ(steps[1].is_left, support_is_left);
-      // The foot that stood moves as the body does, seen from the body.
+      // The support foot moves as the body does, seen from the body.
       const Pose2 body = planner_.foot_in_body(support_is_left, spread);
       const Pose2 moved = body * steps[1].pose * body.inverse();
       const Pose2 advance{velocity.head<2>() * duration, velocity.z() * duration};
-      const Pose2 wished = advance * advance;
-      // A foot that turns too near to the other one is set down some millimetres farther out.
+      const Pose2 expected = advance * advance;
+      // A foot that turns too near to the other one is placed some millimeters farther out.
       const double allowed = velocity.z() != 0 ? 0.005 : 1e-9;
-      EXPECT_NEAR((moved.position - wished.position).norm(), 0, allowed) << velocity.transpose();
-      EXPECT_NEAR(moved.heading, wished.heading, 1e-9) << velocity.transpose();
+      EXPECT_NEAR((moved.position - expected.position).norm(), 0, allowed) << velocity.transpose();
+      EXPECT_NEAR(moved.heading, expected.heading, 1e-9) << velocity.transpose();
     }
   }
 }
 
-TEST_F(FootstepPlannerTest, FeetKeepTheirDistanceWhateverIsWished) {
+TEST_F(FootstepPlannerTest, ClipsAStepToTheLimitsWithoutContactOfTheFeet) {
+  const Gait::StepLimits& limits = gait_.step_limits;
   for (int i = 0; i < 2000; ++i) {
-    const Pose2 wished{{0.3 * std::sin(i * 1.1), 0.3 * std::sin(i * 1.7)}, 2 * std::sin(i * 2.3)};
+    const Pose2 desired{{0.3 * std::sin(i * 1.1), 0.3 * std::sin(i * 1.7)}, 2 * std::sin(i * 2.3)};
     for (const bool is_left : {true, false}) {
-      const Pose2 step = planner_.clip_step(wished, is_left);
+      const Pose2 step = planner_.clip_step(desired, is_left);
       const double side = is_left ? 1 : -1;
-      // No corner of the swinging sole may come over the other sole's inner edge.
+      // No corner of the swing sole may be over the inner edge of the support sole.
       const auto& swing =
           is_left ? nao_model().left_sole_outline() : nao_model().right_sole_outline();
-      const auto& stand =
+      const auto& support =
           is_left ? nao_model().right_sole_outline() : nao_model().left_sole_outline();
       double inner = -1;
-      for (const Eigen::Vector2d& corner : stand) inner = std::max(inner, side * corner.y());
+      for (const Eigen::Vector2d& corner : support) inner = std::max(inner, side * corner.y());
       double nearest = 1;
       for (const Eigen::Vector2d& corner : swing) {
         nearest = std::min(nearest, side * (step * corner).y());
       }
       EXPECT_GT(nearest, inner) << i;
-      EXPECT_LE(step.position.x(), gait_.max_step_forward);
-      EXPECT_GE(step.position.x(), -gait_.max_step_backward);
-      EXPECT_LE(std::abs(step.heading), std::max(gait_.max_turn_outward, gait_.max_turn_inward));
+      EXPECT_LE(step.position.x(), limits.max_forward);
+      EXPECT_GE(step.position.x(), -limits.max_backward);
+      EXPECT_LE(std::abs(step.heading), std::max(limits.max_turn_outward, limits.max_turn_inward));
     }
   }
 }
 
-TEST_F(FootstepPlannerTest, ClipsAVelocityAlongItsDirection) {
-  const WalkLimits& limits = nao_model().walk_limits();
-  EXPECT_TRUE(planner_.clip_velocity({9, 0, 0}).isApprox(Eigen::Vector3d(limits.forward, 0, 0)));
-  EXPECT_TRUE(planner_.clip_velocity({-9, 0, 0}).isApprox(Eigen::Vector3d(-limits.backward, 0, 0)));
-  const Eigen::Vector3d wish(0.5, 0.3, -1);
-  const Eigen::Vector3d clipped = planner_.clip_velocity(wish);
-  EXPECT_NEAR(clipped.normalized().dot(wish.normalized()), 1, 1e-12);
-  EXPECT_LT(clipped.x(), limits.forward);
-  const Eigen::Vector3d small(0.02, 0.01, 0.1);
-  EXPECT_EQ(planner_.clip_velocity(small), small);
-}
-
-TEST_F(FootstepPlannerTest, ChangesVelocityByALimitedAmountPerStep) {
-  const Eigen::Vector3d next = planner_.ramp_velocity({0, 0, 0}, {1, -1, 0.01});
-  EXPECT_DOUBLE_EQ(next.x(), gait_.max_change_forward);
-  EXPECT_DOUBLE_EQ(next.y(), -gait_.max_change_sideways);
-  EXPECT_DOUBLE_EQ(next.z(), 0.01);
+TEST_F(FootstepPlannerTest, TheBodyOfSquareFeetIsAheadOfTheirMidpoint) {
+  const Pose2 right{{1, 2}, 0.5};
+  const Pose2 body = body_between(right * planner_.square_step(false), right, 0.03);
+  const Pose2 right_in_body = body.inverse() * right;
+  EXPECT_NEAR(right_in_body.position.x(), -0.03, 1e-12);
+  EXPECT_NEAR(right_in_body.position.y(), -gait_.stance.foot_separation / 2, 1e-12);
+  EXPECT_NEAR(right_in_body.heading, 0, 1e-12);
 }
 
 }  // namespace

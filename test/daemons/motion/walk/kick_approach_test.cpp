@@ -9,36 +9,36 @@ namespace {
 
 constexpr double kStep = 0.25;  // s
 
-TEST(KickApproach, StrikesABallThatLiesRight) {
+TEST(KickApproach, KicksABallAtItsBestPlaceAtOnce) {
   EXPECT_EQ(plan_kick_approach({0.01, -0.01}, true, {0.2, 0}, kStep).num_steps, 0);
 }
 
-TEST(KickApproach, WaitsForTheFootThatKicks) {
+TEST(KickApproach, WaitsForTheKickingFoot) {
   const KickApproach approach = plan_kick_approach({0.01, 0}, false, {0.2, 0}, kStep);
   EXPECT_EQ(approach.num_steps, 1);
 }
 
-TEST(KickApproach, EndsWithTheBallBeforeTheFootThatKicks) {
+TEST(KickApproach, EndsWithTheBallBeforeTheKickingFoot) {
   for (const bool kicks_next : {true, false}) {
     for (double x = 0.05; x < 1; x += 0.07) {
-      const Eigen::Vector2d way(x, 0.06);
-      const KickApproach approach = plan_kick_approach(way, kicks_next, {0.2, 0}, kStep);
+      const Eigen::Vector2d offset(x, 0.06);
+      const KickApproach approach = plan_kick_approach(offset, kicks_next, {0.2, 0}, kStep);
       EXPECT_EQ(approach.num_steps % 2, kicks_next ? 0 : 1);
-      EXPECT_LT((approach.num_steps * kStep * approach.velocity - way).norm(), 1e-9);
+      EXPECT_LT((approach.num_steps * kStep * approach.velocity - offset).norm(), 1e-9);
     }
   }
 }
 
-TEST(KickApproach, ChangesTheSpeedByNoMoreThanTwoStepsOfAFootNeed) {
+TEST(KickApproach, KeepsTheForwardVelocity) {
   const KickApproach approach = plan_kick_approach({0.6, 0}, true, {0.2, 0}, kStep);
   EXPECT_NEAR(approach.velocity.x(), 0.2, 0.02);
 }
 
-TEST(KickApproach, GetsToABallAsideOfItInAFewSteps) {
+TEST(KickApproach, ReachesABallAsideInAFewSteps) {
   EXPECT_LE(plan_kick_approach({0.15, -0.1}, true, {0.2, 0}, kStep).num_steps, 8);
 }
 
-TEST(KickApproach, GoesBackSlowlyFromABallThatIsTooNear) {
+TEST(KickApproach, WalksBackSlowlyFromABallThatIsTooNear) {
   const KickApproach approach = plan_kick_approach({-0.1, 0}, true, {0.2, 0}, kStep);
   EXPECT_GT(approach.num_steps, 0);
   EXPECT_LT(approach.velocity.x(), 0);

@@ -16,8 +16,8 @@ TEST(Pendulum, FollowsItsEquationOfMotion) {
   // Midpoint rule in steps of 10 us: its own error is about 1e-9 m.
   const double h = 1e-5;
   for (int i = 0; i < 30000; ++i) {
-    const Eigen::Vector2d middle = fine.position + h / 2 * fine.velocity;
-    const Eigen::Vector2d acceleration = kOmega * kOmega * (middle - zmp);
+    const Eigen::Vector2d midpoint = fine.position + h / 2 * fine.velocity;
+    const Eigen::Vector2d acceleration = kOmega * kOmega * (midpoint - zmp);
     fine.position += h * fine.velocity + h * h / 2 * acceleration;
     fine.velocity += h * acceleration;
   }
@@ -25,27 +25,57 @@ TEST(Pendulum, FollowsItsEquationOfMotion) {
   EXPECT_NEAR((fine.velocity - exact.velocity).norm(), 0, 1e-5);
 }
 
-TEST(Pendulum, SteeringPointBringsTheDivergentComponentToItsGoal) {
-  PendulumState state{{0.03, 0.01}, {-0.1, 0.2}};
-  const Eigen::Vector2d goal(0.05, -0.07);
-  const Eigen::Vector2d zmp = steering_point(state.divergent(kOmega), goal, kOmega, 0.17);
-  state = advance(state, zmp, kOmega, 0.17);
-  EXPECT_NEAR((state.divergent(kOmega) - goal).norm(), 0, 1e-12);
+TEST(Pendulum, ItsDcmGrowsExponentiallyFromTheZmp) {
+  const Eigen::Vector2d zmp(0.01, -0.02);
+  const PendulumState start{{0.03, 0.01}, {-0.1, 0.2}};
+  const PendulumState end = advance(start, zmp, kOmega, 0.3);
+  const Eigen::Vector2d dcm = advance_dcm(start.dcm(kOmega), zmp, kOmega, 0.3);
+  EXPECT_NEAR((end.dcm(kOmega) - dcm).norm(), 0, 1e-12);
+  EXPECT_NEAR((advance_dcm(dcm, zmp, kOmega, -0.3) - start.dcm(kOmega)).norm(), 0, 1e-12);
 }
 
-TEST(PendulumEstimator, FindsTheVelocityOfAMassThatItIsNotTold) {
+TEST(Pendulum, RestsOverAZmpThatIsHeldAtTheCapturePoint) {
+  PendulumState state{{0.03, 0.01}, {-0.1, 0.2}};
+  const Eigen::Vector2d capture_point = state.dcm(kOmega);
+  state = advance(state, capture_point, kOmega, 2);
+  EXPECT_NEAR((state.position - capture_point).norm(), 0, 1e-6);
+  EXPECT_NEAR(state.velocity.norm(), 0, 1e-5);
+}
+
+TEST(Pendulum, TheZmpBetweenTwoDcmsLeadsFromOneToTheOther) {
+  PendulumState state{{0.03, 0.01}, {-0.1, 0.2}};
+  const Eigen::Vector2d goal(0.05, -0.07);
+  const Eigen::Vector2d zmp = zmp_between_dcms(state.dcm(kOmega), goal, kOmega, 0.17);
+  state = advance(state, zmp, kOmega, 0.17);
+  EXPECT_NEAR((state.dcm(kOmega) - goal).norm(), 0, 1e-12);
+}
+
+TEST(PendulumEstimator, EstimatesTheVelocityFromNoisyPositions) {
   const Eigen::Vector2d zmp(0.01, 0);
   PendulumState truth{{0, 0.04}, {0.2, -0.25}};
   PendulumEstimator estimator;
   estimator.reset(truth.position);
   for (int tick = 0; tick < 20; ++tick) {
     truth = advance(truth, zmp, kOmega, 0.01);
-    // Half a millimetre of noise, to and fro.
+    // Noise of half a millimeter with alternating sign.
     const Eigen::Vector2d noise = Eigen::Vector2d::Constant(tick % 2 == 0 ? 5e-4 : -5e-4);
     estimator.update(truth.position + noise, zmp, kOmega, 0.01);
   }
   EXPECT_NEAR((estimator.state().position - truth.position).norm(), 0, 1.5e-3);
   EXPECT_NEAR((estimator.state().velocity - truth.velocity).norm(), 0, 0.05);
+}
+
+TEST(PendulumEstimator, KeepsTheVelocityWhenTheSupportFootChanges) {
+  PendulumEstimator estimator;
+  estimator.reset({0, 0});
+  for (int tick = 1; tick <= 100; ++tick) {
+    estimator.update({0.002 * tick, 0}, {0.002 * tick, 0}, kOmega, 0.01);
+  }
+  EXPECT_NEAR(estimator.state().velocity.x(), 0.2, 0.01);
+  // The new frame is turned to the left by 90 degrees.
+  estimator.change_frame({0.01, 0.02}, M_PI / 2);
+  EXPECT_EQ(estimator.state().position, Eigen::Vector2d(0.01, 0.02));
+  EXPECT_NEAR(estimator.state().velocity.y(), -0.2, 0.01);
 }
 
 }  // namespace

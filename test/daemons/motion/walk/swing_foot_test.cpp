@@ -10,14 +10,14 @@ namespace {
 
 constexpr double kTick = 0.01;
 
-TEST(SwingFoot, RestsOverAGoalThatMovedUnderWay) {
+TEST(SwingFoot, RestsOverAFootholdThatMovedDuringTheStep) {
   SwingFoot foot;
   foot.start({{-0.06, -0.1}, 0}, 0);
   Pose2 last = foot.pose();
   double greatest_jump = 0;
   for (int tick = 1; tick <= 20; ++tick) {
-    const Pose2 goal{{tick < 10 ? 0.06 : 0.08, -0.11}, 0.2};
-    foot.step(goal, 0.2 - (tick - 1) * kTick, tick / 20.0, 0.015, kTick);
+    const Pose2 foothold{{tick < 10 ? 0.06 : 0.08, -0.11}, 0.2};
+    foot.step(foothold, 0.2 - (tick - 1) * kTick, tick / 20.0, 0.015, kTick);
     greatest_jump = std::max(greatest_jump, (foot.pose().position - last.position).norm());
     last = foot.pose();
   }
@@ -25,24 +25,24 @@ TEST(SwingFoot, RestsOverAGoalThatMovedUnderWay) {
   EXPECT_NEAR(foot.pose().position.y(), -0.11, 1e-9);
   EXPECT_NEAR(foot.pose().heading, 0.2, 1e-9);
   EXPECT_NEAR(foot.height(), 0, 1e-12);
-  // A cubic over 0.14 m in 0.2 s is at 1.05 m/s at most; the moved goal asks for a bit more.
+  // A cubic over 0.14 m in 0.2 s is at 1.05 m/s at most; the moved foothold needs a little more.
   EXPECT_LT(greatest_jump, 1.3 * kTick);
 }
 
-TEST(SwingFoot, SaysHowFastItGoesAheadSeenFromItself) {
+TEST(SwingFoot, ItsForwardVelocityIsAlongItsOwnHeading) {
   SwingFoot foot;
   foot.start({{-0.06, -0.1}, M_PI / 2}, 0);
-  double way = 0;
+  double distance = 0;
   for (int tick = 0; tick < 10; ++tick) {
-    way += 0.5 * kTick * foot.forward_speed();
+    distance += 0.5 * kTick * foot.forward_velocity();
     foot.step({{-0.06, -0.02}, M_PI / 2}, 0.2 - tick * kTick, 0.5, 0.015, kTick);
-    way += 0.5 * kTick * foot.forward_speed();
+    distance += 0.5 * kTick * foot.forward_velocity();
   }
-  EXPECT_GT(foot.forward_speed(), 0.5);
-  EXPECT_NEAR(way, foot.pose().position.y() + 0.1, 1e-3);
+  EXPECT_GT(foot.forward_velocity(), 0.5);
+  EXPECT_NEAR(distance, foot.pose().position.y() + 0.1, 1e-3);
 }
 
-TEST(SwingFoot, LiftsHalfWayAndComesDownFromWhereItWas) {
+TEST(SwingFoot, ReachesItsLiftAtMidSwingAndTheGroundAtTheEnd) {
   SwingFoot foot;
   foot.start({{0, -0.1}, 0}, 0.004);
   foot.step({{0, -0.1}, 0}, 0.1, 0.5, 0.015, kTick);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "closed_loop/closed_loop.h"
-#include "sim/mujoco_peer.h"
+#include "sim/mujoco_baseline.h"
 
 namespace nao::trial {
 namespace {
@@ -38,15 +38,15 @@ TEST(WalkReplay, TheSameTargetsLeadAsFarInMujoco) {
   robot.command_latency_ticks = 0;
   world.add_robot(options.model, robot);
   const sim::Tree& tree = world.robot(0).tree();
-  sim::MujocoPeer peer(world.robot(0), world_options);
-  peer.set_state(tree, world.robot(0).state());
-  const double peer_start = world.robot(0).state().position.x();
+  sim::MujocoBaseline baseline(world.robot(0), world_options);
+  baseline.set_state(tree, world.robot(0).state());
+  const double baseline_start = world.robot(0).state().position.x();
   for (const Eigen::VectorXd& target : targets) {
-    peer.set_targets(target);
-    for (int i = 0; i < world_options.steps_per_tick; ++i) peer.step();
+    baseline.set_targets(target);
+    for (int i = 0; i < world_options.steps_per_tick; ++i) baseline.step();
   }
-  const sim::TreeState end = peer.state(tree);
-  EXPECT_NEAR(end.position.x() - peer_start, way, 0.1 * way);
+  const sim::TreeState end = baseline.state(tree);
+  EXPECT_NEAR(end.position.x() - baseline_start, way, 0.1 * way);
   EXPECT_GT(end.position.z(), 0.28);
 }
 

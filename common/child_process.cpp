@@ -1,0 +1,110 @@
+#include "common/child_process.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "common/error.h"
+#include "common/scheduling.h"
+
+namespace nao {
+
+ChildProcess::ChildProcess(const std::vector<std::string>& command, Output output) {
+  int file = -1;
+  if (output == Output::kFile) {
+    std::string pattern = (std::filesystem::temp_directory_path() / "nao-child-XXXXXX").string();
+    file = mkstemp(pattern.data());
+    if (file < 0) throw Error("cannot create " + pattern + " for a program's output");
+    output_file_ = pattern;
+  }
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  pid_ = fork();
+  if (pid_ == 0) {
+    use_normal_scheduling();
+    // The parent's EventLoop may have blocked SIGTERM; the mask survives execv().
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+    if (file >= 0) {
+      dup2(file, STDOUT_FILENO);
+      dup2(file, STDERR_FILENO);
+    }
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  if (file >= 0) close(file);
+  if (pid_ < 0) throw Error("cannot start " + command.at(0));
+}
+
+ChildProcess::~ChildProcess() {
+  if (pid_ > 0) {
+    using std::chrono::steady_clock;
+    const auto deadline = steady_clock::now() + std::chrono::seconds(5);
+    kill(pid_, SIGTERM);
+    while (waitpid(pid_, nullptr, WNOHANG) == 0) {
+      if (steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      } else {
+        kill(pid_, SIGKILL);
+      }
+    }
+  }
+  std::error_code ignored;
+  if (!output_file_.empty()) std::filesystem::remove(output_file_, ignored);
+}
+
+int ChildProcess::end(int signal) {
+  kill(pid_, signal);
+  return wait();
+}
+
+int ChildProcess::wait() {
+  int status = 0;
+  waitpid(pid_, &status, 0);
+  pid_ = -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+double ChildProcess::cpu_seconds() const {
+  std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
+  std::string line;
+  std::getline(file, line);
+  // Source: proc(5). The name in parentheses may contain spaces; 11 fields separate it from utime.
+  std::istringstream fields(line.substr(line.rfind(')') + 2));
+  std::string skipped;
+  for (int i = 0; i < 11; ++i) fields >> skipped;
+  double user = 0;
+  double system = 0;
+  fields >> user >> system;
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+double ChildProcess::rss_mib() const {
+  std::ifstream file("/proc/" + std::to_string(pid_) + "/statm");
+  double total_pages = 0;
+  double resident_pages = 0;
+  file >> total_pages >> resident_pages;
+  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024 * 1024);
+}
+
+std::string ChildProcess::output() const {
+  std::ifstream file(output_file_);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string program_folder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
+}
+
+}  // namespace nao

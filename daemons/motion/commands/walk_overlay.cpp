@@ -1,0 +1,38 @@
+#include "daemons/motion/commands/walk_overlay.h"
+
+#include <utility>
+
+#include "daemons/motion/generators/joint_change_motion.h"
+
+namespace nao::motion {
+
+void WalkOverlay::start(const Command& command, const MotionContext& context,
+                        const JointTargets& start) {
+  const auto& request = std::get<JointChangeCommand>(command.request);
+  Change change{std::make_unique<JointChangeMotion>(request), command, {}};
+  for (const std::string& name : request.joint_names) {
+    change.motors.push_back(context.model.find_motor(name));
+  }
+  change.generator->start(context, start);
+  change_ = std::move(change);
+}
+
+void WalkOverlay::release() {
+  change_.reset();
+  held_.clear();
+}
+
+std::optional<Reason> WalkOverlay::step(const MotionContext& context, const JointTargets& last) {
+  if (!change_) return std::nullopt;
+  JointTargets changed = last;
+  const MotionGenerator::Phase phase = change_->generator->step(context, changed);
+  for (int motor : change_->motors) held_[motor] = changed.position[motor];
+  if (phase != MotionGenerator::Phase::kDone) return std::nullopt;
+  return change_->generator->reason();
+}
+
+void WalkOverlay::write(std::vector<double>& position) const {
+  for (const auto& [motor, angle] : held_) position[motor] = angle;
+}
+
+}  // namespace nao::motion

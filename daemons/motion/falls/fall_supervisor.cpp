@@ -1,0 +1,55 @@
+#include "daemons/motion/falls/fall_supervisor.h"
+
+#include "daemons/motion/transitions/body_state.h"
+
+namespace nao::motion {
+
+void FallSupervisor::begin(const RobotState& state) {
+  was_lying_ = is_lying_now(state);
+}
+
+FallSupervisor::Action FallSupervisor::update(const RobotState& state, const Activity& activity,
+                                              double dt) {
+  if (predict_fall(state, activity, dt)) {
+    monitor_.reset();
+    has_fallen_ = true;
+    time_fallen_ = 0;
+    return Action::kProtect;
+  }
+  if (activity.is_busy) {
+    time_fallen_ = 0;
+    return Action::kNone;
+  }
+  // No motion runs: a robot that lies now and did not before was knocked over.
+  const bool lies = is_lying_now(state);
+  if (lies && !was_lying_) has_fallen_ = true;
+  was_lying_ = lies;
+  needs_help_ = needs_help_ && lies;
+  if (!has_fallen_) return Action::kNone;
+  time_fallen_ += dt;
+  if (!options_->gets_up || needs_help_ || time_fallen_ < options_->get_up_delay) {
+    return Action::kNone;
+  }
+  time_fallen_ = 0;
+  return Action::kGetUp;
+}
+
+bool FallSupervisor::predict_fall(const RobotState& state, const Activity& activity, double dt) {
+  if (has_fallen_ || was_lying_ || !activity.must_stay_upright) return false;
+  return is_above_seat(state) && monitor_.update(state, activity.is_walking, dt);
+}
+
+void FallSupervisor::note_end(bool is_done, bool was_fall, const RobotState& state) {
+  const bool lies = is_lying_now(state);
+  if (is_done && !was_fall) {
+    has_fallen_ = false;
+    was_lying_ = lies;
+  }
+  needs_help_ = !is_done && has_fallen_ && lies;
+}
+
+bool FallSupervisor::is_lying_now(const RobotState& state) const {
+  return is_lying(state, options_->lying_tilt);
+}
+
+}  // namespace nao::motion

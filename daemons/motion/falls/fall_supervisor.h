@@ -1,0 +1,72 @@
+#pragma once
+
+#include "daemons/motion/falls/fall_monitor.h"
+#include "daemons/motion/motion_options.h"
+#include "daemons/motion/robot_state.h"
+
+namespace nao::motion {
+
+/** Decides when the robot falls, has fallen, gets up by itself, and needs help.
+ *
+ * A robot on its feet falls when FallMonitor predicts so. A robot that lies without having been
+ * commanded to has fallen, too (it was knocked over while nothing ran). After a fall it gets up
+ * once it has lain for MotionOptions::get_up_delay; when the get-up motion fails for good it needs
+ * help, and tries no more until it is lifted or commanded. */
+class FallSupervisor {
+ public:
+  /** @param options  Must outlive this. */
+  explicit FallSupervisor(const MotionOptions& options)
+      : options_(&options), monitor_(options.lying_tilt) {}
+
+  /** Activity of the motions in this step. */
+  struct Activity {
+    /** A motion runs or waits. */
+    bool is_busy = false;
+    /** The robot must stay on its feet: no motion runs that may leave them. */
+    bool must_stay_upright = true;
+    bool is_walking = false;
+  };
+
+  /** Action that the core must take. */
+  enum class Action { kNone, kProtect, kGetUp };
+
+  /** Another robot, or the same one placed elsewhere, was taken over. */
+  void reset() { needs_help_ = false; }
+
+  /** Before the first update(): notes whether the robot lies already. */
+  void begin(const RobotState& state);
+
+  /** The robot lies, and not because a motion put it there. */
+  void note_fallen() { has_fallen_ = true; }
+
+  /** One control step. @param dt  s since the last one.
+   * @return kProtect: it falls, the fall motion must start now. kGetUp: a get-up motion must start.
+   */
+  Action update(const RobotState& state, const Activity& activity, double dt);
+
+  /** A motion has ended. @param is_done  False if it failed. @param was_fall  It was the fall
+   * motion. */
+  void note_end(bool is_done, bool was_fall, const RobotState& state);
+
+  /** Lies after a fall and has not got up yet. */
+  bool has_fallen() const { return has_fallen_; }
+  /** Could not get up. */
+  bool needs_help() const { return needs_help_; }
+
+ private:
+  /** @return Whether the robot falls in this step. */
+  bool predict_fall(const RobotState& state, const Activity& activity, double dt);
+  bool is_lying_now(const RobotState& state) const;
+
+  const MotionOptions* options_;
+  FallMonitor monitor_;
+  bool has_fallen_ = false;
+  /** s for which it has lain after a fall without a motion. */
+  double time_fallen_ = 0;
+  /** Lay when no motion ran last, or when one was done: it lies on purpose, or the fall is known.
+   */
+  bool was_lying_ = false;
+  bool needs_help_ = false;
+};
+
+}  // namespace nao::motion

@@ -1,0 +1,216 @@
+#include "daemons/motion/generators/posture_path_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "daemons/motion/transitions/body_state.h"
+
+namespace nao::motion {
+namespace {
+
+// Attempts to get up before the robot asks for help. Chosen: each of the three get-up motions from
+// the belly is tried twice.
+constexpr int kMaxTries = 6;
+// Segments of one path. Chosen: twice the longest path with detours; more is a cycle.
+constexpr int kMaxSegments = 16;
+// Time in which limp motors become stiff, s. Chosen: a joint off its target does not jump to it.
+constexpr double kStiffeningTime = 0.5;
+// Time for which a lying body must have been still before it moves, s, and after which it moves in
+// any case, s.
+constexpr double kStillTime = 0.1;
+constexpr double kMaxRestTime = 0.6;
+// Angular velocity of the torso below which it lies still, and below which it may go on from one
+// transition to the next that was planned, rad/s.
+constexpr double kStillVelocity = 0.3;
+constexpr double kContinueVelocity = 4;
+// Transition that brings feet together that stand too far apart to turn under their load, and how
+// often it is played.
+constexpr const char* kFeetTogether = "feet-together";
+constexpr int kMaxFeetTogether = 3;
+// Deviation from a posture below which no approach transition is needed, rad.
+constexpr double kNearPosture = 0.3;
+// Fraction of the progress that a transition stands for: what follows it is not known yet.
+constexpr double kTransitionProgress = 0.5;
+
+bool is_lying_state(const std::string& state) {
+  return state == "belly" || state == "back" || state == "left" || state == "right";
+}
+
+std::string body_state_in(const MotionContext& context) {
+  return find_body_state(context.model, context.state, context.options.lying_tilt);
+}
+
+}  // namespace
+
+void PosturePathMotion::start(const MotionContext& /*context*/, const JointTargets& targets) {
+  const bool is_stiff = std::all_of(targets.stiffness.begin(), targets.stiffness.end(),
+                                    [](double stiffness) { return stiffness >= 1; });
+  segment_ = is_stiff ? Segment::kResting : Segment::kStiffening;
+  time_ = 0;
+}
+
+bool PosturePathMotion::can_be_replaced() const {
+  return segment_ != Segment::kTransition;
+}
+
+Mode PosturePathMotion::mode() const {
+  return segment_ == Segment::kTransition && is_from_lying_ ? Mode::kGettingUp : Mode::kMoving;
+}
+
+double PosturePathMotion::progress() const {
+  if (segment_ == Segment::kLine) return line_->progress();
+  if (segment_ == Segment::kTransition) {
+    return std::min(1.0, time_ / transition_.player.duration()) * kTransitionProgress;
+  }
+  return 0;
+}
+
+MotionGenerator::Phase PosturePathMotion::step(const MotionContext& context,
+                                               JointTargets& targets) {
+  time_ += context.dt;
+  const bool is_still = context.state.angular_velocity_torso.norm() < kStillVelocity;
+  time_still_ = is_still ? time_still_ + context.dt : 0;
+  switch (segment_) {
+    case Segment::kStiffening:
+      stiffen(context.dt, targets.stiffness);
+      return Phase::kRunning;
+    case Segment::kResting:
+      return step_resting(context, targets);
+    case Segment::kTransition:
+      return step_transition(context, targets);
+    case Segment::kLine:
+      return step_line(context, targets);
+  }
+  return Phase::kFailed;
+}
+
+void PosturePathMotion::stiffen(double dt, std::vector<double>& stiffness) {
+  for (double& value : stiffness) value = std::min(1.0, value + dt / kStiffeningTime);
+  if (time_ >= kStiffeningTime) rest();
+}
+
+MotionGenerator::Phase PosturePathMotion::step_resting(const MotionContext& context,
+                                                       JointTargets& targets) {
+  if (is_finishing_) return Phase::kRunning;
+  if (time_ < kMaxRestTime && must_rest(context, body_state_in(context))) return Phase::kRunning;
+  return choose_segment(context, targets);
+}
+
+MotionGenerator::Phase PosturePathMotion::step_line(const MotionContext& context,
+                                                    JointTargets& targets) {
+  const Phase phase = line_->step(context, targets);
+  if (phase == Phase::kFailed && bring_feet_together(context, targets)) return Phase::kRunning;
+  if (phase == Phase::kFailed) reason_ = line_->reason();
+  if (phase != Phase::kDone) return phase;
+  if (body_state_in(context) == state_of(*goal_)) return Phase::kDone;
+  // The joints are there, but the body is not: it was tipped over meanwhile.
+  rest();
+  return Phase::kRunning;
+}
+
+void PosturePathMotion::rest() {
+  segment_ = Segment::kResting;
+  time_ = 0;
+}
+
+bool PosturePathMotion::must_rest(const MotionContext& context, const std::string& state) const {
+  if (state == kOnFeet) return false;
+  if (is_on_path_) return context.state.angular_velocity_torso.norm() > kContinueVelocity;
+  return time_still_ < kStillTime;
+}
+
+void PosturePathMotion::play(const MotionContext& context, const KeyframeSequence& sequence,
+                             const JointTargets& targets) {
+  segment_ = Segment::kTransition;
+  transition_ = {&sequence, KeyframePlayer(context.model, sequence, targets.position, 1.0), 0};
+}
+
+MotionGenerator::Phase PosturePathMotion::choose_segment(const MotionContext& context,
+                                                         const JointTargets& targets) {
+  time_ = 0;
+  const std::string state = body_state_in(context);
+  const std::string goal_state = state_of(*goal_);
+  is_standing_line_ = state == kOnFeet && goal_state == state;
+  if (++num_segments_ > kMaxSegments) {
+    reason_ = Reason("path-too-long", {goal_->name, std::to_string(kMaxSegments)});
+    return Phase::kFailed;
+  }
+  if (state == goal_state) return choose_segment_in_goal_state(context, targets);
+  return choose_transition(context, targets, state);
+}
+
+MotionGenerator::Phase PosturePathMotion::choose_segment_in_goal_state(
+    const MotionContext& context, const JointTargets& targets) {
+  const KeyframeSequence* approach = graph_->find_approach(*goal_);
+  const bool is_near = deviation_from(*goal_, context.sensors.position).angle < kNearPosture;
+  if (approach != nullptr && !has_approached_ && !is_near) {
+    has_approached_ = true;
+    is_from_lying_ = false;
+    play(context, *approach, targets);
+    return Phase::kRunning;
+  }
+  segment_ = Segment::kLine;
+  line_.emplace(*goal_, speed_);
+  line_->start(context, targets);
+  return Phase::kRunning;
+}
+
+MotionGenerator::Phase PosturePathMotion::choose_transition(const MotionContext& context,
+                                                            const JointTargets& targets,
+                                                            const std::string& state) {
+  const std::string goal_state = state_of(*goal_);
+  auto path = graph_->find_path(state, goal_state, failed_);
+  if (path.empty()) path = graph_->find_path(state, goal_state);
+  if (path.empty()) {
+    reason_ = Reason("no-path", {state.empty() ? "unknown" : state, goal_->name});
+    return Phase::kFailed;
+  }
+  is_from_lying_ = is_lying_state(state);
+  if (is_from_lying_ && !is_on_path_ && ++num_tries_ > kMaxTries) {
+    reason_ = Reason("get-up-failed", {std::to_string(kMaxTries)});
+    return Phase::kFailed;
+  }
+  const int num_failed = is_from_lying_ ? num_tries_ - 1 : 0;
+  play(context, graph_->find_alternative(*path.front(), num_failed), targets);
+  return Phase::kRunning;
+}
+
+bool PosturePathMotion::bring_feet_together(const MotionContext& context,
+                                            const JointTargets& targets) {
+  const KeyframeSequence* sequence = graph_->find(kFeetTogether);
+  const std::string state = body_state_in(context);
+  const bool applies = sequence != nullptr && state == sequence->from && state == state_of(*goal_);
+  if (!applies || num_feet_together_ >= kMaxFeetTogether) return false;
+  ++num_feet_together_;
+  time_ = 0;
+  is_standing_line_ = false;
+  is_from_lying_ = false;
+  play(context, *sequence, targets);
+  return true;
+}
+
+MotionGenerator::Phase PosturePathMotion::step_transition(const MotionContext& context,
+                                                          JointTargets& targets) {
+  transition_.player.sample(time_, targets.position, targets.stiffness);
+  const auto is_there = [&] { return body_state_in(context) == transition_.sequence->to; };
+  // The last pause ends as soon as the body is in the state to which the transition leads.
+  const bool is_over = time_ >= transition_.player.duration() ||
+                       (time_ >= transition_.player.last_arrival() && is_there());
+  const int stage = transition_.player.stage_at(time_);
+  bool has_failed = false;
+  if (stage != transition_.stage || is_over) {
+    const Keyframe& ended = transition_.sequence->keyframes[transition_.stage];
+    const Eigen::Vector3d up = context.state.torso_in_odometry.linear().row(2);
+    for (int axis = 0; axis < 3; ++axis) has_failed |= !ended.up[axis].has(up[axis]);
+    transition_.stage = stage;
+  }
+  if (!is_over && !has_failed) return Phase::kRunning;
+  is_on_path_ = !has_failed && is_there();
+  if (!is_on_path_) failed_.push_back(transition_.sequence);
+  // The next segment is chosen from the measured state, whether the transition succeeded or not.
+  std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
+  rest();
+  return Phase::kRunning;
+}
+
+}  // namespace nao::motion

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemons/motion/generators/motion_generator.h"
+#include "daemons/motion/generators/posture_motion.h"
+#include "daemons/motion/transitions/keyframes.h"
+#include "daemons/motion/transitions/transition_graph.h"
+
+namespace nao::motion {
+
+/** Path to a posture from any state of the body: transitions of the graph one after the other, then
+ * a straight line of the joints to the posture.
+ *
+ * After each transition the state of the body is measured and the path is planned anew, so that a
+ * transition that ended elsewhere is a detour and no failure. Transitions are played at the speed
+ * at which they were verified in physics; the commanded speed applies to the straight lines. */
+class PosturePathMotion : public MotionGenerator {
+ public:
+  /** @param graph, goal  Must outlive this. @param speed  Fraction of the maximum, (0, 1]. */
+  PosturePathMotion(const TransitionGraph& graph, const Posture& goal, double speed)
+      : graph_(&graph), goal_(&goal), speed_(speed) {}
+
+  void start(const MotionContext& context, const JointTargets& targets) override;
+  Phase step(const MotionContext& context, JointTargets& targets) override;
+  bool can_be_replaced() const override;
+  void finish() override { is_finishing_ = true; }
+  Mode mode() const override;
+  bool must_stay_upright() const override { return is_standing_line_; }
+  double progress() const override;
+  Reason reason() const override { return reason_; }
+  void describe(MotionState& state) const override { state.num_tries = num_tries_; }
+
+ private:
+  /** Parts of the path. */
+  enum class Segment {
+    /** Limp motors become stiff. */
+    kStiffening,
+    /** Waits until the body lies still; then the next segment is chosen. */
+    kResting,
+    /** Plays a transition of the graph. */
+    kTransition,
+    /** Straight line of the joints to the goal. */
+    kLine,
+  };
+
+  /** The transition that is played. */
+  struct Transition {
+    const KeyframeSequence* sequence = nullptr;
+    KeyframePlayer player;
+    int stage = 0;
+  };
+
+  Phase step_resting(const MotionContext& context, JointTargets& targets);
+  Phase step_transition(const MotionContext& context, JointTargets& targets);
+  Phase step_line(const MotionContext& context, JointTargets& targets);
+  void stiffen(double dt, std::vector<double>& stiffness);
+  Phase choose_segment(const MotionContext& context, const JointTargets& targets);
+  Phase choose_segment_in_goal_state(const MotionContext& context, const JointTargets& targets);
+  /** @param state  State of the body, other than the goal's. */
+  Phase choose_transition(const MotionContext& context, const JointTargets& targets,
+                          const std::string& state);
+  void play(const MotionContext& context, const KeyframeSequence& sequence,
+            const JointTargets& targets);
+  void rest();
+  /** Whether the body must come to rest before it moves on from a state. */
+  bool must_rest(const MotionContext& context, const std::string& state) const;
+  /** Starts to bring the feet together, if that may free legs that did not reach the posture.
+   * @return Whether it did. */
+  bool bring_feet_together(const MotionContext& context, const JointTargets& targets);
+
+  const TransitionGraph* graph_;
+  const Posture* goal_;
+  double speed_;
+
+  Segment segment_ = Segment::kStiffening;
+  /** s since the segment began. */
+  double time_ = 0;
+  /** s for which the torso has not turned. */
+  double time_still_ = 0;
+  Transition transition_;
+  std::optional<PostureMotion> line_;
+
+  int num_segments_ = 0;
+  /** Transitions that did not end where they should: other paths are preferred from then on. */
+  std::vector<const KeyframeSequence*> failed_;
+  int num_feet_together_ = 0;
+  /** Attempts to get up: a roll and the get-up motion after it count as one. */
+  int num_tries_ = 0;
+  /** The transition that is played started from a lying state. */
+  bool is_from_lying_ = false;
+  /** The last transition ended where it should. */
+  bool is_on_path_ = false;
+  bool has_approached_ = false;
+  /** The segment is a line between two postures on the feet. */
+  bool is_standing_line_ = false;
+  bool is_finishing_ = false;
+  Reason reason_;
+};
+
+}  // namespace nao::motion

@@ -1,0 +1,203 @@
+#include "daemons/motion/motion_factory.h"
+
+#include <filesystem>
+
+#include "common/error.h"
+#include "daemons/motion/generators/joint_change_motion.h"
+#include "daemons/motion/generators/kick_motion.h"
+#include "daemons/motion/generators/posture_path_motion.h"
+#include "daemons/motion/generators/rest_motion.h"
+#include "daemons/motion/generators/script_motion.h"
+#include "daemons/motion/generators/sequence_motion.h"
+#include "daemons/motion/generators/walk_motion.h"
+#include "daemons/motion/transitions/body_state.h"
+
+namespace nao::motion {
+namespace {
+
+constexpr const char* kStandPosture = "StandInit";
+constexpr const char* kRestPosture = "Crouch";
+constexpr const char* kTransitionFile = "transitions.yaml";
+constexpr const char* kGaitFile = "gait.yaml";
+constexpr const char* kKickFile = "actions/kick.yaml";
+constexpr const char* kScriptFile = "actions/keeper.yaml";
+
+TransitionGraph load_graph(const RobotModel& model, const MotionOptions& options) {
+  if (options.transitions) return *options.transitions;
+  return TransitionGraph::load(model, model.folder() / kTransitionFile);
+}
+
+const Posture& require_posture(const RobotModel& model, const char* name) {
+  const Posture* posture = model.find_posture(name);
+  if (posture == nullptr) throw ModelError(model.name() + " has no posture " + name);
+  return *posture;
+}
+
+/** A state of the body as an argument of a reason. */
+std::string name_of(const std::string& body_state) {
+  return body_state.empty() ? "unknown" : body_state;
+}
+
+}  // namespace
+
+MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& options,
+                             JointChangeGuard& guard)
+    : model_(&model),
+      options_(&options),
+      guard_(&guard),
+      graph_(load_graph(model, options)),
+      gait_(options.gait),
+      stand_(&require_posture(model, kStandPosture)) {
+  const std::filesystem::path& folder = model.folder();
+  if (!gait_ && std::filesystem::exists(folder / kGaitFile)) gait_ = Gait::load(folder / kGaitFile);
+  if (std::filesystem::exists(folder / kKickFile)) kick_ = Kick::load(folder / kKickFile);
+  if (std::filesystem::exists(folder / kScriptFile)) {
+    scripts_ = ActionScript::load(model, folder / kScriptFile);
+  }
+  actions_ = make_action_table();
+}
+
+std::map<std::string, MotionFactory::ActionPlanner> MotionFactory::make_action_table() {
+  const auto stand_up = [this](const ActionCommand&, const Situation&) -> MotionPlan {
+    return make_stand_path();
+  };
+  std::map<std::string, ActionPlanner> table = {
+      {"get-up", stand_up},
+      {"wake-up", stand_up},
+      {"rest",
+       [this](const ActionCommand&, const Situation&) -> MotionPlan {
+         return std::make_unique<RestMotion>(graph_, require_posture(*model_, kRestPosture),
+                                             options_->default_speed);
+       }},
+      {"kick-left",
+       [this](const ActionCommand& action, const Situation& situation) {
+         return plan_kick(action, situation, true);
+       }},
+      {"kick-right",
+       [this](const ActionCommand& action, const Situation& situation) {
+         return plan_kick(action, situation, false);
+       }},
+  };
+  for (const ActionScript& script : scripts_) {
+    table.try_emplace(script.sequence.name,
+                      [this, &script](const ActionCommand&, const Situation& situation) {
+                        return plan_script(script, situation);
+                      });
+  }
+  // Actions that are keyframe sequences of the transition graph.
+  for (const std::string& name : model_->actions()) {
+    const KeyframeSequence* sequence = graph_.find(name);
+    if (sequence == nullptr) continue;
+    table.try_emplace(name, [this, sequence](const ActionCommand&, const Situation& situation) {
+      return plan_sequence(*sequence, situation);
+    });
+  }
+  return table;
+}
+
+MotionPlan MotionFactory::plan(const Command& command, const MotionContext& context,
+                               const JointTargets& targets) {
+  const Situation situation{context, targets};
+  return std::visit([&](const auto& request) { return plan_request(request, situation); },
+                    command.request);
+}
+
+std::unique_ptr<MotionGenerator> MotionFactory::make_posture_path(const Posture& posture,
+                                                                  double speed) const {
+  return std::make_unique<PosturePathMotion>(graph_, posture, speed);
+}
+
+std::unique_ptr<MotionGenerator> MotionFactory::make_posture_path(const Posture& posture) const {
+  return make_posture_path(posture, options_->default_speed);
+}
+
+std::unique_ptr<MotionGenerator> MotionFactory::make_stand_path() const {
+  return make_posture_path(*stand_);
+}
+
+MotionPlan MotionFactory::plan_request(const WalkCommand& walk, const Situation& situation) {
+  if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
+  return std::make_unique<WalkMotion>(*model_, *gait_, make_stand_path(), walk);
+}
+
+MotionPlan MotionFactory::plan_request(const MoveToCommand& move_to, const Situation& situation) {
+  if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
+  return std::make_unique<MoveToMotion>(*model_, *gait_, make_stand_path(), move_to);
+}
+
+MotionPlan MotionFactory::plan_request(const PostureCommand& posture, const Situation& situation) {
+  const Posture& goal = *model_->find_posture(posture.posture);
+  const std::string state = find_body_state(*model_, situation.context.state, options_->lying_tilt);
+  if (state.empty() && !situation.context.state.has_foot_force_sensors) {
+    return Reason("no-foot-force-sensors");
+  }
+  // In an unknown state, such as held in the air, the motion looks for a path once it is known.
+  const bool needs_path = !state.empty() && state != state_of(goal);
+  if (needs_path && graph_.find_path(state, state_of(goal)).empty()) {
+    return Reason("no-path", {state, goal.name});
+  }
+  return make_posture_path(goal, posture.speed);
+}
+
+MotionPlan MotionFactory::plan_request(const JointChangeCommand& change,
+                                       const Situation& situation) {
+  if (auto danger = guard_->find_danger(change, situation.context, situation.targets)) {
+    return *danger;
+  }
+  return std::make_unique<JointChangeMotion>(change);
+}
+
+MotionPlan MotionFactory::plan_request(const ActionCommand& action, const Situation& situation) {
+  const auto planner = actions_.find(action.action);
+  if (planner == actions_.end()) return Reason("action-without-motion", {action.action});
+  return planner->second(action, situation);
+}
+
+MotionPlan MotionFactory::plan_request(const StopCommand& /*stop*/,
+                                       const Situation& /*situation*/) {
+  return std::make_unique<StopMotion>();
+}
+
+MotionPlan MotionFactory::plan_kick(const ActionCommand& action, const Situation& situation,
+                                    bool is_left) const {
+  if (!kick_) return Reason("no-kick", {model_->name()});
+  if (const auto obstacle = find_walk_obstacle(situation)) return *obstacle;
+  const Eigen::Vector2d ball(action.ball_x, action.ball_y);
+  if (const auto obstacle = KickMotion::find_obstacle(*kick_, is_left, ball)) return *obstacle;
+  return std::make_unique<KickMotion>(*model_, *kick_, *gait_, make_stand_path(), is_left, ball,
+                                      action.strength);
+}
+
+MotionPlan MotionFactory::plan_script(const ActionScript& script,
+                                      const Situation& situation) const {
+  if (const auto obstacle = find_walk_obstacle(situation)) return *obstacle;
+  return std::make_unique<ScriptMotion>(*model_, script, *gait_, make_stand_path(),
+                                        make_stand_path());
+}
+
+MotionPlan MotionFactory::plan_sequence(const KeyframeSequence& sequence,
+                                        const Situation& situation) const {
+  const std::string state = find_body_state(*model_, situation.context.state, options_->lying_tilt);
+  if (sequence.from != state) {
+    return Reason("action-needs-state", {sequence.name, sequence.from, name_of(state)});
+  }
+  return std::make_unique<SequenceMotion>(sequence);
+}
+
+std::optional<Reason> MotionFactory::find_walk_obstacle(const Situation& situation) const {
+  const RobotState& state = situation.context.state;
+  if (!gait_) return Reason("no-gait", {model_->name()});
+  if (!state.has_foot_force_sensors) return Reason("no-foot-force-sensors");
+  if (is_lying(state, options_->lying_tilt)) return Reason("robot-fallen");
+  return motion::find_walk_obstacle(LegKinematics(*model_), state, situation.targets.stiffness);
+}
+
+std::optional<Reason> MotionFactory::find_obstacle_after_standing_up(
+    const Situation& situation) const {
+  const RobotState& state = situation.context.state;
+  const bool sits = is_sitting(*model_, find_body_state(*model_, state, options_->lying_tilt));
+  if (!gait_ || !sits) return find_walk_obstacle(situation);
+  return find_soft_leg(LegKinematics(*model_), situation.targets.stiffness);
+}
+
+}  // namespace nao::motion

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "daemons/motion/actions/action_script.h"
+#include "daemons/motion/actions/kick.h"
+#include "daemons/motion/generators/motion_generator.h"
+#include "daemons/motion/guards/joint_change_guard.h"
+#include "daemons/motion/motion_options.h"
+#include "daemons/motion/transitions/transition_graph.h"
+#include "daemons/motion/walk/gait.h"
+#include "messages/command.h"
+#include "messages/reason.h"
+#include "robot_model/robot_model.h"
+
+namespace nao::motion {
+
+/** A motion that executes a command, or why there is none. */
+using MotionPlan = std::variant<std::unique_ptr<MotionGenerator>, Reason>;
+
+/** Makes the motion that executes a command, or refuses it.
+ *
+ * Owns the motion data of the robot: gait, kick, keyframe actions, transition graph. Actions are a
+ * table from name to planner; a new action is a new row of it, or an entry of a data file. */
+class MotionFactory {
+ public:
+  /** Reads the robot's motion data.
+   * @param model, options, guard  Must outlive this.
+   * @throws ModelError  if a file is wrong, or the robot has no posture StandInit. */
+  MotionFactory(const RobotModel& model, const MotionOptions& options, JointChangeGuard& guard);
+
+  // The motions hold pointers to the data.
+  MotionFactory(const MotionFactory&) = delete;
+  MotionFactory& operator=(const MotionFactory&) = delete;
+
+  /** @param command  Well formed (find_fault()). @param targets  As sent in the last step. */
+  MotionPlan plan(const Command& command, const MotionContext& context,
+                  const JointTargets& targets);
+
+  /** Path to a posture from any state of the body. @param speed  Fraction of the maximum, (0, 1].
+   */
+  std::unique_ptr<MotionGenerator> make_posture_path(const Posture& posture, double speed) const;
+  /** The same at the speed of the robot's own motions. */
+  std::unique_ptr<MotionGenerator> make_posture_path(const Posture& posture) const;
+  /** Path to the posture in which walks and actions begin. */
+  std::unique_ptr<MotionGenerator> make_stand_path() const;
+
+  /** The posture in which walks and actions begin. */
+  const Posture& stand() const { return *stand_; }
+
+ private:
+  /** Command-independent input of a plan. */
+  struct Situation {
+    const MotionContext& context;
+    const JointTargets& targets;
+  };
+  using ActionPlanner = std::function<MotionPlan(const ActionCommand&, const Situation&)>;
+
+  std::map<std::string, ActionPlanner> make_action_table();
+
+  MotionPlan plan_request(const WalkCommand& walk, const Situation& situation);
+  MotionPlan plan_request(const MoveToCommand& move_to, const Situation& situation);
+  MotionPlan plan_request(const PostureCommand& posture, const Situation& situation);
+  MotionPlan plan_request(const JointChangeCommand& change, const Situation& situation);
+  MotionPlan plan_request(const ActionCommand& action, const Situation& situation);
+  MotionPlan plan_request(const StopCommand& stop, const Situation& situation);
+
+  MotionPlan plan_kick(const ActionCommand& action, const Situation& situation, bool is_left) const;
+  MotionPlan plan_script(const ActionScript& script, const Situation& situation) const;
+  MotionPlan plan_sequence(const KeyframeSequence& sequence, const Situation& situation) const;
+
+  /** Why the robot must not walk; nothing if it may. */
+  std::optional<Reason> find_walk_obstacle(const Situation& situation) const;
+  /** The same for a walk that goes to its stand first: it may start from a seat. */
+  std::optional<Reason> find_obstacle_after_standing_up(const Situation& situation) const;
+
+  const RobotModel* model_;
+  const MotionOptions* options_;
+  JointChangeGuard* guard_;
+  TransitionGraph graph_;
+  /** None for a robot that does not walk, or does not kick. */
+  std::optional<Gait> gait_;
+  std::optional<Kick> kick_;
+  std::vector<ActionScript> scripts_;
+  const Posture* stand_;
+  std::map<std::string, ActionPlanner> actions_;
+};
+
+}  // namespace nao::motion

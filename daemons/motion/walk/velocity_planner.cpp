@@ -1,0 +1,44 @@
+#include "daemons/motion/walk/velocity_planner.h"
+
+#include <cmath>
+
+namespace nao::motion {
+
+VelocityPlanner::VelocityPlanner(const RobotModel& model, const Gait& gait)
+    : gait_(&gait.velocity), limits_(model.walk_limits()) {}
+
+Eigen::Vector3d VelocityPlanner::clip(const Eigen::Vector3d& velocity) const {
+  const Eigen::Vector3d max(velocity.x() > 0 ? limits_.forward : limits_.backward, limits_.sideways,
+                            limits_.turning);
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    sum += std::pow(std::abs(velocity[i]) / max[i], gait_->envelope_exponent);
+  }
+  const double size = std::pow(sum, 1 / gait_->envelope_exponent);
+  return size > 1 ? Eigen::Vector3d(velocity / size) : velocity;
+}
+
+Eigen::Vector3d VelocityPlanner::ramp(const Eigen::Vector3d& from,
+                                      const Eigen::Vector3d& to) const {
+  const Eigen::Vector3d max(gait_->max_change_vx, gait_->max_change_vy, gait_->max_change_wz);
+  return from + (to - from).cwiseMax(-max).cwiseMin(max);
+}
+
+void VelocityPlanner::stop() {
+  velocity_.setZero();
+  step_velocity_.setZero();
+}
+
+void VelocityPlanner::begin_step(const Eigen::Vector3d& commanded, const Pose2& body,
+                                 bool is_ending, bool tracks_path) {
+  const Eigen::Vector3d clipped = clip(commanded);
+  velocity_ = is_ending ? clipped : ramp(velocity_, clipped);
+  if (velocity_.isZero(0) || !tracks_path) {
+    path_.reset(body);
+    step_velocity_ = velocity_;
+  } else {
+    step_velocity_ = velocity_ + path_.correct(body, gait_->path_gain);
+  }
+}
+
+}  // namespace nao::motion

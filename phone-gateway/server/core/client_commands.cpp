@@ -1,0 +1,93 @@
+#include "phone-gateway/server/core/client_commands.h"
+
+#include <utility>
+
+namespace nao::gateway {
+namespace {
+
+static_assert(static_cast<int>(ResultStatus::kAccepted) == naoremote::Notice::ACCEPTED);
+static_assert(static_cast<int>(ResultStatus::kFailed) == naoremote::Notice::FAILED);
+
+/** Time within which the same refusal of a walk is reported once, s. Chosen: a held joystick starts
+ * a new walk every 0.2 s or faster, which would be ten or more notices in this time. */
+constexpr double kWalkRefusalPeriod = 2.0;
+
+}  // namespace
+
+Command ClientCommands::make(uint32_t client, decltype(Command::request) request) {
+  return {source_ + "." + std::to_string(client), next_id_++, std::move(request)};
+}
+
+void ClientCommands::send(uint32_t client, uint32_t request_id, const Command& command,
+                          double now) {
+  track(client, request_id, command, now);
+  transmit_(command);
+}
+
+void ClientCommands::track(uint32_t client, uint32_t request_id, const Command& command,
+                           double now) {
+  for (const CommandTracker::Entry& entry : tracker_.supersede(kind_of(command))) {
+    report(entry, ResultStatus::kInterrupted, Reason("replaced-before-start"), now);
+  }
+  tracker_.add(client, request_id, command, now);
+}
+
+void ClientCommands::handle_result(const CommandResult& result, double now) {
+  const auto entry = tracker_.handle_result(result.source, result.id, result.status, now);
+  if (!entry) return;
+  // nao-motion's own sentence: a newer nao-motion may send codes that this gateway does not know.
+  report(*entry, result.status, result.reason,
+         result.sentence.empty() ? describe_reason(result.reason) : result.sentence, now);
+}
+
+void ClientCommands::fail_all(const Reason& reason, double now) {
+  for (const CommandTracker::Entry& entry : tracker_.take_all()) {
+    report(entry, ResultStatus::kFailed, reason, now);
+  }
+}
+
+void ClientCommands::step(double now) {
+  for (const Command& command : tracker_.take_due(now)) transmit_(command);
+  for (const CommandTracker::Entry& entry : tracker_.take_timed_out(now)) {
+    report(entry, ResultStatus::kFailed,
+           gateway_reason("command-unanswered", {to_argument(answer_timeout_)}), now);
+  }
+}
+
+void ClientCommands::report(const CommandTracker::Entry& entry, ResultStatus status,
+                            const Reason& reason, double now) {
+  report(entry, status, reason, describe_reason(reason), now);
+}
+
+void ClientCommands::report(const CommandTracker::Entry& entry, ResultStatus status,
+                            const Reason& reason, const std::string& sentence, double now) {
+  ClientSession* session = sessions_.find(entry.client);
+  if (session == nullptr) return;
+  const bool is_walk = kind_of(entry.command) == CommandKind::kWalk;
+  if (is_walk && status == ResultStatus::kRefused && is_repeated_walk_refusal(sentence, now)) {
+    return;
+  }
+  naoremote::ServerMessage message;
+  naoremote::Notice& notice = *message.mutable_notice();
+  notice.set_kind(naoremote::Notice::COMMAND_RESULT);
+  notice.set_request_id(entry.request_id);
+  notice.set_status(static_cast<naoremote::Notice::Status>(status));
+  if (sentence.empty() && status == ResultStatus::kDone) {
+    write_reason(gateway_reason("command-done", {describe(entry.command)}), notice);
+  } else {
+    write_reason(reason, notice);
+    notice.set_message(sentence);
+  }
+  session->send(message);
+}
+
+bool ClientCommands::is_repeated_walk_refusal(const std::string& sentence, double now) {
+  if (sentence == last_walk_refusal_ && now - last_walk_refusal_time_ < kWalkRefusalPeriod) {
+    return true;
+  }
+  last_walk_refusal_ = sentence;
+  last_walk_refusal_time_ = now;
+  return false;
+}
+
+}  // namespace nao::gateway

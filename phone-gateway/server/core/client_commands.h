@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "messages/command.h"
+#include "phone-gateway/server/core/command_tracker.h"
+#include "phone-gateway/server/core/gateway_limits.h"
+#include "phone-gateway/server/core/gateway_reasons.h"
+#include "phone-gateway/server/core/sessions.h"
+
+namespace nao::gateway {
+
+/** Sends the clients' commands to nao-motion and reports their results to the clients. */
+class ClientCommands {
+ public:
+  /** @param source    Prefix of the commands' sources, unique on the bus: "phone.4711".
+   * @param first_id  Number of the first command.
+   * @param transmit  Puts a command on the bus.
+   * `sessions` must outlive this. */
+  ClientCommands(const GatewayLimits& limits, Sessions& sessions, std::string source,
+                 int64_t first_id, std::function<void(const Command&)> transmit)
+      : sessions_(sessions),
+        source_(std::move(source)),
+        next_id_(first_id),
+        transmit_(std::move(transmit)),
+        tracker_(limits),
+        answer_timeout_(limits.answer_timeout) {}
+
+  /** A command of a client, with a number of its own. */
+  Command make(uint32_t client, decltype(Command::request) request);
+
+  /** Sends a command and repeats it until nao-motion answers. It replaces the unanswered commands
+   * before it. @param client, request_id  Receiver of the results; 0: none. */
+  void send(uint32_t client, uint32_t request_id, const Command& command, double now);
+
+  /** As send() for a walk, which WalkStream transmits: replaces unanswered commands and reports
+   * results, but transmits nothing. */
+  void track(uint32_t client, uint32_t request_id, const Command& walk, double now);
+
+  void transmit(const Command& command) const { transmit_(command); }
+
+  /** Reports a result to the client that sent the command. */
+  void handle_result(const CommandResult& result, double now);
+
+  /** The client has disconnected: it gets no results.
+   * @return true if it leaves a MoveTo behind that must be stopped. */
+  bool forget_client(uint32_t client) { return tracker_.forget_client(client); }
+
+  /** Reports every command as failed. */
+  void fail_all(const Reason& reason, double now);
+
+  /** Repeats what is unanswered and reports what has timed out. */
+  void step(double now);
+
+ private:
+  void report(const CommandTracker::Entry& entry, ResultStatus status, const Reason& reason,
+              double now);
+  /** @param sentence  English sentence for the reason. */
+  void report(const CommandTracker::Entry& entry, ResultStatus status, const Reason& reason,
+              const std::string& sentence, double now);
+  bool is_repeated_walk_refusal(const std::string& sentence, double now);
+
+  Sessions& sessions_;
+  std::string source_;
+  int64_t next_id_;
+  std::function<void(const Command&)> transmit_;
+  CommandTracker tracker_;
+  double answer_timeout_;
+  /** Sentence of the last refusal of a walk that was reported, and when, s. */
+  std::string last_walk_refusal_;
+  double last_walk_refusal_time_ = -1e9;
+};
+
+}  // namespace nao::gateway

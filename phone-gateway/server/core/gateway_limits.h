@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+
+namespace nao::gateway {
+
+/** Limits and timeouts of the gateway. The defaults are those that PROTOCOL.md promises to clients.
+ * Times in s, rates in 1/s. One struct has all of them, so that a test can change any. */
+struct GatewayLimits {
+  /** Connected clients. */
+  int max_clients = 32;
+  /** Connected clients of one address that is not this host's. */
+  int max_clients_per_address = 8;
+  /** Requests of one client; also the size of its first burst. */
+  double max_request_rate = 100;
+  /** Messages of one connection that are no Request; one more closes it. */
+  int max_malformed_requests = 10;
+  /** Responses and notices queued for a slow client: above the first number the gateway pauses
+   * reading its requests, above the second one it closes the connection. */
+  size_t congested_outbox_messages = 32;
+  size_t max_outbox_messages = 256;
+  /** Wrong tokens of one address, after which it is refused for `wrong_token_pause`. */
+  int max_wrong_tokens = 5;
+  double wrong_token_pause = 10;
+
+  /** From accepting a connection to its Connect. */
+  double connect_timeout = 5;
+  /** From a client's last request to closing its connection. */
+  double silence_timeout = 5;
+  /** From the last WalkTurn to the end of the walk. nao-motion uses the same value. */
+  double walk_timeout = 0.5;
+  /** Between two transmissions of a walk command, or of an unanswered command, on the bus. */
+  double repeat_period = 0.1;
+  /** From sending a command to reporting that nao-motion does not answer. */
+  double answer_timeout = 1.5;
+  /** From the driver's last command to the moment when another client may take control. */
+  double lease_idle_timeout = 10;
+  /** From a GetState with image to the end of the image request that it stands for. */
+  double poll_timeout = 2;
+  /** Silence after which a component counts as unavailable: of nao-motion, of the robot, of the
+   * camera's images while a client requests them, and of the camera's DAEMON_STATUS. Chosen so that
+   * clients are notified within 2 s; the status arrives every 0.5 s, so that two may be lost. */
+  double motion_timeout = 1.0;
+  double robot_timeout = 1.0;
+  double image_timeout = 1.5;
+  double camera_status_timeout = 1.8;
+
+  /** States and images that a client may subscribe to. */
+  double max_state_rate = 60;
+  double max_image_rate = 30;
+};
+
+}  // namespace nao::gateway

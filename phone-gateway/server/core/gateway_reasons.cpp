@@ -1,0 +1,18 @@
+#include "phone-gateway/server/core/gateway_reasons.h"
+
+namespace nao::gateway {
+
+Reason gateway_reason(GatewayReasonCode code, std::vector<std::string> arguments) {
+  Reason reason;
+  reason.code = code.text();
+  reason.arguments = std::move(arguments);
+  return reason;
+}
+
+std::string describe_reason(const Reason& reason) {
+  const ReasonEntry* entry = find_gateway_reason(reason.code);
+  if (entry == nullptr) return to_sentence(reason);
+  return fill_in_arguments(entry->sentence, reason.arguments);
+}
+
+}  // namespace nao::gateway

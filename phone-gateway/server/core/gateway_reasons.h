@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "messages/reason.h"
+#include "messages/reason_table.h"
+#include "remote.pb.h"
+
+namespace nao::gateway {
+
+// clang-format off
+/** Reasons of the gateway itself, in addition to those of messages/reason_table.h. PROTOCOL.md has
+ * the same table; a test compares the two. */
+inline constexpr auto kGatewayReasons = std::to_array<ReasonEntry>({
+    // Requests.
+    {"not-a-request", "", "The bytes are no Request message."},
+    {"use-case-unknown", "", "The request has no use case that this gateway knows."},
+    {"too-many-requests", "limit", "More than {0} requests in a second."},
+    {"not-connected", "", "Send Connect first."},
+    // Connect.
+    {"already-connected", "", "This client is connected already."},
+    {"protocol-version-unsupported", "version, supported version", "Protocol version {0} is not supported; this gateway speaks version {1}."},
+    {"token-wrong", "", "The token is wrong or missing; open the address that the gateway printed, or scan its QR code."},
+    {"too-many-wrong-tokens", "seconds", "Too many wrong tokens; wait {0} s."},
+    {"too-many-clients", "limit", "{0} clients are connected already."},
+    {"too-many-clients-of-address", "limit", "{0} clients of this address are connected already."},
+    // Values of requests.
+    {"goal-out-of-range", "metres, radians", "x and y of the goal must be within {0} m, theta within {1} rad."},
+    {"joint-group-unknown", "group, known groups", "The robot has no joint group {0}; it has {1}."},
+    {"axis-missing", "group, axis", "The joint group {0} has no {1} axis."},
+    {"joint-change-out-of-range", "axis, radians, limit", "The {0} change {1} rad is outside [-{2}, {2}]."},
+    {"joint-change-zero", "", "The change is zero about every axis."},
+    {"ball-incomplete", "", "ball_x and ball_y must be given together."},
+    {"ball-out-of-range", "metres", "ball_x and ball_y must be within {0} m."},
+    {"camera-unknown", "camera, known cameras", "The robot has no camera {0}; it has {1}."},
+    {"width-unsupported", "pixels", "Image width {0} is none of 640, 320 and 160 pixels."},
+    {"quality-out-of-range", "quality", "JPEG quality {0} is outside [0, 95]."},
+    {"state-rate-out-of-range", "rate, limit", "State rate {0} is outside [0, {1}] a second."},
+    {"image-rate-out-of-range", "rate, limit", "Image rate {0} is outside [0, {1}] a second."},
+    {"operation-unknown", "", "The operation is none of LIST, TAKE, RELEASE and KICK."},
+    {"operator-only", "", "Only the gateway's own host may send Operate."},
+    {"client-unknown", "client", "No client has the number {0}."},
+    // Control.
+    {"no-driver", "", "No client has control; take control first."},
+    {"control-taken", "driver", "{0} has control."},
+    {"walk-stopped", "", "Stopped; release the joystick before walking again."},
+    {"driver-changed", "driver", "{0} has control now."},
+    {"control-released", "client", "{0} released control; no client has control."},
+    {"driver-disconnected", "client", "{0} disconnected; no client has control."},
+    // Components.
+    {"motion-unavailable", "", "The robot's motion program does not answer."},
+    {"motion-available", "", "The robot's motion program answers again."},
+    {"robot-unavailable", "", "The robot does not answer."},
+    {"robot-available", "", "The robot answers again."},
+    {"camera-unavailable", "", "The head camera sends no images."},
+    {"camera-available", "", "The head camera sends images again."},
+    {"no-state-yet", "", "No state of the robot has been received yet."},
+    // Results of commands.
+    {"command-done", "command", "{0}: done."},
+    {"command-unanswered", "seconds", "The robot's motion program did not answer the command within {0} s."},
+    // Closing of a connection.
+    {"connect-timeout", "seconds", "No Connect within {0} s."},
+    {"silence-timeout", "seconds", "No request for {0} s."},
+    {"messages-not-read", "limit", "More than {0} messages wait to be read."},
+    {"too-many-malformed-requests", "limit", "More than {0} messages were no Request."},
+    {"message-too-long", "bytes", "A message is longer than {0} bytes."},
+    {"text-message", "", "Messages must be sent as binary messages."},
+    {"closed-by-operator", "", "The operator closed this connection."},
+    {"gateway-stopping", "", "The gateway stops."},
+});
+// clang-format on
+
+/** @return The entry of kGatewayReasons; nullptr if there is no such code. */
+constexpr const ReasonEntry* find_gateway_reason(std::string_view code) {
+  for (const ReasonEntry& entry : kGatewayReasons) {
+    if (entry.code == code) return &entry;
+  }
+  return nullptr;
+}
+
+/** A code of kGatewayReasons. Any other text does not compile. */
+class GatewayReasonCode {
+ public:
+  // NOLINTNEXTLINE(google-explicit-constructor): written as gateway_reason("not-connected").
+  consteval GatewayReasonCode(const char* code) : code_(code) {
+    if (find_gateway_reason(code) == nullptr) throw "no such code in kGatewayReasons";
+  }
+  std::string text() const { return std::string(code_); }
+
+ private:
+  std::string_view code_;
+};
+
+/** A reason of the gateway. @param arguments  In the order of the table. */
+Reason gateway_reason(GatewayReasonCode code, std::vector<std::string> arguments = {});
+
+/** English sentence for a reason of the gateway or of messages/reason_table.h. */
+std::string describe_reason(const Reason& reason);
+
+/** Sets `message`, `reason_code` and `reason_arguments` of a Response or Notice. */
+template <class Message>
+void write_reason(const Reason& reason, Message& message) {
+  message.set_message(describe_reason(reason));
+  message.set_reason_code(reason.code);
+  message.mutable_reason_arguments()->Assign(reason.arguments.begin(), reason.arguments.end());
+}
+
+/** Why a request is refused. */
+struct Refusal {
+  naoremote::ErrorCode error = naoremote::INVALID_ARGUMENT;
+  Reason reason;
+};
+
+}  // namespace nao::gateway

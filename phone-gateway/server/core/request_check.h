@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "messages/command.h"
+#include "phone-gateway/server/core/gateway_limits.h"
+#include "phone-gateway/server/core/gateway_reasons.h"
+#include "remote.pb.h"
+
+namespace nao::gateway {
+
+// Each function checks every field of one use case: finite, in range, naming something that the
+// robot has. The result is safe to send to nao-motion.
+
+/** Clips the velocity to the robot's limits. */
+[[nodiscard]] std::variant<WalkCommand, Refusal> check(const naoremote::WalkTurn& request,
+                                                       const naoremote::RobotDescription& robot);
+[[nodiscard]] std::variant<MoveToCommand, Refusal> check(const naoremote::MoveTo& request);
+[[nodiscard]] std::variant<PostureCommand, Refusal> check(const naoremote::GoToPosture& request,
+                                                          const naoremote::RobotDescription& robot);
+/** Maps group and axes to joints. */
+[[nodiscard]] std::variant<JointChangeCommand, Refusal> check(
+    const naoremote::ChangeJoints& request, const naoremote::RobotDescription& robot);
+[[nodiscard]] std::variant<ActionCommand, Refusal> check(const naoremote::DoAction& request,
+                                                         const naoremote::RobotDescription& robot);
+
+/** The images that a client requests: checked, with the defaults filled in. */
+struct ImageSelection {
+  std::string camera;
+  /** Pixels. */
+  uint32_t width = 320;
+  /** JPEG quality, 1 to 95; 0: the camera's default. */
+  uint32_t quality = 0;
+
+  /** Whether the same images serve both, apart from their quality. */
+  bool is_same_stream(const ImageSelection& other) const {
+    return camera == other.camera && width == other.width;
+  }
+};
+
+[[nodiscard]] std::variant<ImageSelection, Refusal> check(const naoremote::ImageRequest& request,
+                                                          const naoremote::RobotDescription& robot);
+
+/** A checked Subscribe. Rates in 1/s. */
+struct Subscription {
+  double state_rate = 0;
+  double image_rate = 0;
+  ImageSelection image;
+};
+
+[[nodiscard]] std::variant<Subscription, Refusal> check(const naoremote::Subscribe& request,
+                                                        const naoremote::RobotDescription& robot,
+                                                        const GatewayLimits& limits);
+
+}  // namespace nao::gateway

@@ -1,0 +1,148 @@
+#include "phone-gateway/server/core/streams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace nao::gateway {
+namespace {
+
+/** Period of the last state's repetition while the robot is unavailable, s; see PROTOCOL.md. */
+constexpr double kStaleStatePeriod = 1.0;
+/** Rate of the images requested for a client that polls, 1/s: at the usual ten polls a second each
+ * finds a new image. */
+constexpr double kPolledImageRate = 15;
+/** Time after which an image that no newer one has replaced is dropped, s. Chosen: longer than any
+ * client waits for an image, so that the bound only limits memory. */
+constexpr double kImageLifetime = 10;
+/** Longest plausible time from exposure to reception of an image, s. Chosen: far above the 17 ms
+ * that are measured (median, docs/performance.md), far below the difference of two programs'
+ * starts. */
+constexpr double kMaxImageDelay = 2;
+/** Fractional part of the golden ratio. The multiples of it, modulo 1, are spread evenly over [0,
+ * 1) for any number of clients (Knuth, The Art of Computer Programming, vol. 3, section 6.4). */
+constexpr double kGoldenRatioFraction = 0.6180339887;
+
+}  // namespace
+
+void Streams::set_robot(const RobotSnapshot& robot, double now) {
+  mirror_.set(robot, now);
+  state_encoding_.reset();
+  for (const auto& [id, session] : sessions_.all()) {
+    if (!session->is_connected || !session->streams.state_throttle.allow(now)) continue;
+    session->request_state();
+  }
+}
+
+void Streams::set_motion(const MotionSnapshot& motion) {
+  mirror_.set(motion);
+  state_encoding_.reset();
+}
+
+void Streams::add_image(CachedImage image, double now) {
+  const ImageSelection received{image.camera, image.width, 0};
+  images_.put(std::move(image), now);
+  for (const auto& [id, session] : sessions_.all()) {
+    ClientStreams& streams = session->streams;
+    if (!session->is_connected || !streams.subscription.image.is_same_stream(received)) continue;
+    if (streams.image_throttle.allow(now)) session->request_image();
+  }
+}
+
+void Streams::subscribe(ClientSession& session, const Subscription& subscription) const {
+  ClientStreams& streams = session.streams;
+  streams.subscription = subscription;
+  // Each client has a phase of its own: otherwise one state would be due for all clients at once,
+  // and the last one served would wait for all others.
+  const double phase = std::fmod(session.id * kGoldenRatioFraction, 1);
+  streams.state_throttle = StreamThrottle(subscription.state_rate, phase);
+  streams.image_throttle = StreamThrottle(subscription.image_rate);
+}
+
+bool Streams::get(ClientSession& session, const ImageSelection* selection, double now,
+                  naoremote::StateAndImage& result) {
+  ClientStreams& streams = session.streams;
+  if (selection != nullptr) {
+    streams.polled_image = *selection;
+    streams.last_poll = now;
+  }
+  if (!mirror_.has_state()) return false;
+  mirror_.write(*result.mutable_state(), components_.is_available(Component::kRobot), now);
+  if (selection == nullptr) return true;
+  if (const CachedImage* image = images_.find(*selection, streams.last_image)) {
+    streams.last_image = image->number;
+    write_image(*image, *result.mutable_image(), now);
+  }
+  return true;
+}
+
+MessageBytes Streams::make_state_message(double now) {
+  if (!mirror_.has_state()) return nullptr;
+  return state_encoding_.get(now, [&] {
+    naoremote::ServerMessage message;
+    mirror_.write(*message.mutable_state(), components_.is_available(Component::kRobot), now);
+    return message;
+  });
+}
+
+MessageBytes Streams::make_image_message(ClientSession& session, double now) {
+  ClientStreams& streams = session.streams;
+  CachedImage* image = images_.find(streams.subscription.image, streams.last_image);
+  if (image == nullptr) return nullptr;
+  streams.last_image = image->number;
+  return image->encoding.get(now, [&] {
+    naoremote::ServerMessage message;
+    write_image(*image, *message.mutable_image(), now);
+    return message;
+  });
+}
+
+void Streams::write_image(const CachedImage& cached, naoremote::Image& image, double now) const {
+  image.set_utime(static_cast<uint64_t>(cached.utime));
+  // The age counts from the exposure on the robot's clock. If that is implausible (robot and camera
+  // may have been restarted separately, and their clocks differ), it counts from the reception.
+  const double since_reception = now - cached.received_at;
+  const double since_exposure =
+      static_cast<double>(mirror_.calc_robot_utime(now) - cached.utime) * 1e-6;
+  const bool is_plausible =
+      since_exposure >= since_reception && since_exposure < since_reception + kMaxImageDelay;
+  image.set_age_ms((is_plausible ? since_exposure : since_reception) * 1e3);
+  image.set_camera(cached.camera);
+  image.set_width(cached.width);
+  image.set_height(cached.height);
+  image.set_jpeg(cached.jpeg);
+}
+
+std::vector<CameraRequest> Streams::camera_requests(double now) const {
+  std::vector<CameraRequest> requests;
+  const auto add = [&requests](const ImageSelection& image, double rate) {
+    for (CameraRequest& request : requests) {
+      if (!request.image.is_same_stream(image)) continue;
+      request.rate = std::max(request.rate, rate);
+      request.image.quality = std::max(request.image.quality, image.quality);
+      return;
+    }
+    requests.push_back({image, rate});
+  };
+  for (const auto& [id, session] : sessions_.all()) {
+    if (!session->is_connected) continue;
+    const ClientStreams& streams = session->streams;
+    if (streams.subscription.image_rate > 0) {
+      add(streams.subscription.image, streams.subscription.image_rate);
+    }
+    if (now - streams.last_poll < limits_.poll_timeout) add(streams.polled_image, kPolledImageRate);
+  }
+  return requests;
+}
+
+void Streams::step(double now) {
+  images_.drop_before(now - kImageLifetime);
+  if (components_.is_available(Component::kRobot) || now < next_stale_state_) return;
+  next_stale_state_ = now + kStaleStatePeriod;
+  for (const auto& [id, session] : sessions_.all()) {
+    if (!session->is_connected || session->streams.subscription.state_rate <= 0) continue;
+    session->request_state();
+  }
+}
+
+}  // namespace nao::gateway

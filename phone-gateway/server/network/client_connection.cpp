@@ -1,0 +1,140 @@
+#include "phone-gateway/server/network/client_connection.h"
+
+#include <boost/asio/post.hpp>
+#include <utility>
+
+#include "common/wall_clock.h"
+
+namespace nao::gateway {
+namespace {
+
+using boost::system::error_code;
+
+/** Time in which a closing connection must send its last message and the other end must close. The
+ * gateway itself has 2 s to stop after SIGTERM. */
+constexpr std::chrono::seconds kClosingTimeout{2};
+/** Time in which one message must be sent: 64 kB at 2 kB/s. */
+constexpr std::chrono::seconds kWriteTimeout{30};
+
+}  // namespace
+
+ClientConnection::ClientConnection(ConnectionContext& context)
+    : context_(context), pause_(context.io), deadline_timer_(context.io) {}
+
+ClientConnection::~ClientConnection() {
+  if (!context_.is_shutting_down) finish("connection lost");
+}
+
+void ClientConnection::open(const Endpoint& endpoint) {
+  const std::weak_ptr<ClientConnection> weak = weak_from_this();
+  is_in_handshake_ = true;
+  const auto evict = [weak] {
+    if (const auto self = weak.lock()) self->abort("too many connections");
+  };
+  if (context_.handshakes.add(endpoint.address, evict, handshake_)) {
+    note_eviction(context_, endpoint.address);
+  }
+  const auto wake = [weak] {
+    const auto self = weak.lock();
+    if (!self || std::exchange(self->is_flush_posted_, true)) return;
+    asio::post(self->context_.io, [self] {
+      self->is_flush_posted_ = false;
+      self->flush_in_turn();
+    });
+  };
+  id_ = context_.core.open(endpoint, wake, monotonic_seconds());
+}
+
+bool ClientConnection::receive(std::string_view message) {
+  const double pause = context_.core.receive(id_, message, monotonic_seconds());
+  context_.core.set_round_trip_time(id_, measure_round_trip_time(socket()));
+  if (is_in_handshake_ && context_.core.is_connected(id_)) end_handshake();
+  if (pause <= 0) return true;
+  pause_.expires_after(std::chrono::microseconds(static_cast<int64_t>(pause * 1e6)));
+  pause_.async_wait([self = shared_from_this()](const error_code& error) {
+    if (!error) self->resume_reading();
+  });
+  return false;
+}
+
+void ClientConnection::reject(const Reason& reason) {
+  ++context_.counters.num_violations;
+  context_.core.close(id_, reason, monotonic_seconds());
+}
+
+void ClientConnection::flush_in_turn() {
+  if (is_writing_ || !context_.core.is_image_next(id_)) {
+    flush();
+  } else if (!std::exchange(is_image_queued_, true)) {
+    context_.image_queue.add([weak = weak_from_this()] {
+      const auto self = weak.lock();
+      if (!self) return;
+      self->is_image_queued_ = false;
+      self->flush();
+    });
+  }
+}
+
+void ClientConnection::flush() {
+  if (is_writing_ || is_finished_) return;
+  const auto message = context_.core.next_message(id_, monotonic_seconds());
+  if (message) {
+    is_writing_ = true;
+    set_deadline(is_closing() ? kClosingTimeout : kWriteTimeout);
+    write(message);
+  } else if (is_closing() && !std::exchange(is_shut_down_, true)) {
+    set_deadline(kClosingTimeout);
+    shut_down();
+  }
+}
+
+void ClientConnection::on_written(bool has_failed) {
+  is_writing_ = false;
+  deadline_.reset();
+  if (has_failed) {
+    abort("closed by the client");
+  } else {
+    flush_in_turn();
+  }
+}
+
+void ClientConnection::set_deadline(std::chrono::seconds time) {
+  deadline_ = asio::steady_timer::clock_type::now() + time;
+  if (!is_deadline_timer_running_ || deadline_timer_.expiry() > *deadline_) wait_for_deadline();
+}
+
+void ClientConnection::wait_for_deadline() {
+  is_deadline_timer_running_ = true;
+  deadline_timer_.expires_at(*deadline_);
+  deadline_timer_.async_wait([weak = weak_from_this()](const error_code& error) {
+    const auto self = weak.lock();
+    if (error || !self) return;
+    self->is_deadline_timer_running_ = false;
+    if (!self->deadline_) return;
+    if (asio::steady_timer::clock_type::now() < *self->deadline_) {
+      self->wait_for_deadline();
+    } else {
+      self->abort("does not read its messages");
+    }
+  });
+}
+
+void ClientConnection::abort(const std::string& why) {
+  finish(why);
+  pause_.cancel();
+  deadline_timer_.cancel();
+  close_socket();
+}
+
+void ClientConnection::end_handshake() {
+  is_in_handshake_ = false;
+  context_.handshakes.remove(handshake_);
+}
+
+void ClientConnection::finish(const std::string& why) {
+  if (std::exchange(is_finished_, true) || id_ == 0) return;
+  if (is_in_handshake_) end_handshake();
+  context_.core.closed(id_, why, monotonic_seconds());
+}
+
+}  // namespace nao::gateway

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "phone-gateway/server/network/connection_context.h"
+//
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace nao::gateway {
+
+/** The part of a client's connection that does not depend on its transport: passes messages to the
+ * core, sends the core's messages one at a time, and closes the connection.
+ *
+ * A connection lives as long as an operation on its socket is in progress. */
+class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
+ public:
+  explicit ClientConnection(ConnectionContext& context);
+  virtual ~ClientConnection();
+  ClientConnection(const ClientConnection&) = delete;
+  ClientConnection& operator=(const ClientConnection&) = delete;
+
+ protected:
+  /** Opens a session. To be called when messages can be sent and received. */
+  void open(const Endpoint& endpoint);
+  /** Passes a message to the core.
+   * @return true if reading may continue; otherwise resume_reading() is called later. */
+  [[nodiscard]] bool receive(std::string_view message);
+  /** Closes the connection: the client has violated the rules of the transport. */
+  void reject(const Reason& reason);
+  /** The write that write() has started is complete. */
+  void on_written(bool has_failed);
+  /** Ends the session and closes the socket. @param why  For the audit log. */
+  void abort(const std::string& why);
+  bool is_closing() const { return context_.core.is_closing(id_); }
+
+  // Operations of the transport.
+  /** Starts sending a message; calls on_written() when it is sent. */
+  virtual void write(MessageBytes message) = 0;
+  /** Continues reading after a pause. */
+  virtual void resume_reading() = 0;
+  /** Everything has been sent: closes the sending direction. */
+  virtual void shut_down() = 0;
+  /** The TCP socket. */
+  virtual Tcp::socket& socket() = 0;
+  /** Closes the socket; operations in progress end with an error. */
+  virtual void close_socket() = 0;
+
+  ConnectionContext& context_;
+
+ private:
+  /** Sends the next message: an image through the image queue, others at once. */
+  void flush_in_turn();
+  void flush();
+  void set_deadline(std::chrono::seconds time);
+  void wait_for_deadline();
+  void end_handshake();
+  void finish(const std::string& why);
+
+  asio::steady_timer pause_;
+  asio::steady_timer deadline_timer_;
+  /** Time at which the write in progress must be complete. The timer is not set again for every
+   * message: when it expires it compares with this. */
+  std::optional<asio::steady_timer::time_point> deadline_;
+  bool is_deadline_timer_running_ = false;
+  uint32_t id_ = 0;
+  HandshakeLimiter::Entry handshake_;
+  bool is_in_handshake_ = false;
+  bool is_flush_posted_ = false;
+  bool is_image_queued_ = false;
+  bool is_writing_ = false;
+  bool is_shut_down_ = false;
+  bool is_finished_ = false;
+};
+
+}  // namespace nao::gateway

@@ -1,0 +1,266 @@
+#include "phone-gateway/server/network/connection_context.h"
+//
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <csignal>
+#include <optional>
+
+#include "common/error.h"
+
+namespace nao::gateway {
+namespace {
+
+using boost::system::error_code;
+
+/** See PROTOCOL.md. Chosen: four times the clients that may connect, well below the usual limit of
+ * 1024 file descriptors. */
+constexpr size_t kMaxHandshakes = 128;
+/** Time until the next attempt after accepting has failed (no file descriptor left). */
+constexpr auto kAcceptPause = std::chrono::milliseconds(100);
+/** Bytes that the kernel holds unsent before it stops accepting more: two images of 320 x 240
+ * pixels (7 kB each), so that the next image is chosen late, but the connection always has data. */
+constexpr int kMaxUnsentBytes = 16384;
+
+Tcp::acceptor listen(asio::io_context& io, const std::string& address, uint16_t port,
+                     const std::string& option) {
+  error_code error;
+  const asio::ip::address ip = asio::ip::make_address(address, error);
+  if (error) throw Error("--bind " + address + " is not an IP address");
+  const Tcp::endpoint endpoint(ip, port);
+  Tcp::acceptor acceptor(io);
+  acceptor.open(endpoint.protocol());
+  acceptor.set_option(Tcp::acceptor::reuse_address(true));
+  acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  const std::string where = "port " + std::to_string(port) + " of " + address;
+  if (error == asio::error::address_in_use) {
+    throw Error(where + " is in use by another program: stop it, or choose another with " + option);
+  }
+  if (error) throw Error("cannot listen on " + where + ": " + error.message());
+  return acceptor;
+}
+
+std::unique_ptr<asio::ssl::context> load_tls(const NetworkOptions& options) {
+  if (options.certificate_file.empty()) return nullptr;
+  auto tls = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_server);
+  tls->set_options(asio::ssl::context::default_workarounds | asio::ssl::context::no_sslv2 |
+                   asio::ssl::context::no_sslv3 | asio::ssl::context::no_tlsv1 |
+                   asio::ssl::context::no_tlsv1_1);
+  error_code error;
+  tls->use_certificate_chain_file(options.certificate_file, error);
+  if (error) {
+    throw Error("cannot use the certificate " + options.certificate_file + ": " + error.message());
+  }
+  tls->use_private_key_file(options.key_file, asio::ssl::context::pem, error);
+  if (error) throw Error("cannot use the key " + options.key_file + ": " + error.message());
+  return tls;
+}
+
+std::chrono::nanoseconds to_duration(double seconds) {
+  return std::chrono::nanoseconds(static_cast<int64_t>(seconds * 1e9));
+}
+
+/** The address itself; for an IPv4 client on an IPv6 socket its IPv4 address. */
+asio::ip::address plain_address(const asio::ip::address& address) {
+  if (address.is_v6() && address.to_v6().is_v4_mapped()) {
+    return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
+  }
+  return address;
+}
+
+}  // namespace
+
+Endpoint make_endpoint(const Tcp::socket& socket, const std::string& transport) {
+  error_code remote_error;
+  error_code local_error;
+  const auto remote = plain_address(socket.remote_endpoint(remote_error).address());
+  const auto local = plain_address(socket.local_endpoint(local_error).address());
+  Endpoint endpoint;
+  endpoint.transport = transport;
+  endpoint.address = remote_error ? "unknown" : remote.to_string();
+  endpoint.is_local = !remote_error && !local_error && (remote.is_loopback() || remote == local);
+  return endpoint;
+}
+
+void note_eviction(ConnectionContext& context, const std::string& address) {
+  ++context.counters.num_evicted;
+  context.core.note_refusal(address, "Too many connections without Connect.");
+}
+
+void prepare_socket(Tcp::socket& socket) {
+  error_code ignored;
+  socket.set_option(Tcp::no_delay(true), ignored);
+  setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kMaxUnsentBytes,
+             sizeof kMaxUnsentBytes);
+}
+
+double measure_round_trip_time(Tcp::socket& socket) {
+  tcp_info info{};
+  socklen_t size = sizeof info;
+  if (getsockopt(socket.native_handle(), IPPROTO_TCP, TCP_INFO, &info, &size) != 0) return 0;
+  return info.tcpi_rtt * 1e-6;
+}
+
+struct Network::Impl {
+  Impl(const NetworkOptions& options, AccessRules rules, GatewayCore& core, WebPages& pages)
+      : context{io,
+                core,
+                pages,
+                std::move(rules),
+                load_tls(options),
+                HandshakeLimiter(kMaxHandshakes),
+                {},
+                FairQueue(io),
+                false},
+        http{listen(io, options.bind, options.http_port, "--http-port"), asio::steady_timer(io),
+             serve_http},
+        tcp{listen(io, options.bind, options.tcp_port, "--tcp-port"), asio::steady_timer(io),
+            serve_tcp},
+        signals(io, SIGINT, SIGTERM) {
+    accept(http);
+    accept(tcp);
+    signals.async_wait([this](const error_code& error, int signal) {
+      if (!error) stop(signal == SIGINT ? "SIGINT" : "SIGTERM");
+    });
+  }
+
+  struct Listener {
+    Tcp::acceptor acceptor;
+    asio::steady_timer pause;
+    void (*serve)(ConnectionContext&, Tcp::socket);
+  };
+  void accept(Listener& listener) {
+    listener.acceptor.async_accept([this, &listener](const error_code& error, Tcp::socket socket) {
+      if (error == asio::error::operation_aborted) return;
+      if (error) {
+        listener.pause.expires_after(kAcceptPause);
+        listener.pause.async_wait([this, &listener](const error_code& cancelled) {
+          if (!cancelled) accept(listener);
+        });
+        return;
+      }
+      ++context.counters.num_accepted;
+      prepare_socket(socket);
+      listener.serve(context, std::move(socket));
+      accept(listener);
+    });
+  }
+
+  void stop(const std::string& why) {
+    reason = why;
+    io.stop();
+  }
+
+  struct Watched {
+    asio::posix::stream_descriptor descriptor;
+    std::function<void()> handler;
+  };
+  void wait(Watched& watched) {
+    watched.descriptor.async_wait(asio::posix::stream_descriptor::wait_read,
+                                  [this, &watched](const error_code& error) {
+                                    if (error) return;
+                                    watched.handler();
+                                    wait(watched);
+                                  });
+  }
+
+  struct Timer {
+    asio::steady_timer timer;
+    std::chrono::nanoseconds period;
+    std::function<void()> handler;
+  };
+  void wait(Timer& timer) {
+    const auto next = timer.timer.expiry() + timer.period;
+    timer.timer.expires_at(std::max(next, asio::steady_timer::clock_type::now()));
+    timer.timer.async_wait([this, &timer](const error_code& error) {
+      if (error) return;
+      timer.handler();
+      wait(timer);
+    });
+  }
+
+  // Declared before `io`, which destroys the connections: they use the context until then.
+  ConnectionContext context;
+  asio::io_context io{1};
+  Listener http;
+  Listener tcp;
+  asio::signal_set signals;
+  std::list<Watched> watched;
+  std::list<Timer> timers;
+  std::string reason;
+};
+
+Network::Network(const NetworkOptions& options, AccessRules rules, GatewayCore& core,
+                 WebPages& pages)
+    : impl_(std::make_unique<Impl>(options, std::move(rules), core, pages)) {}
+
+Network::~Network() {
+  impl_->context.is_shutting_down = true;
+  // The caller owns these descriptors.
+  for (Impl::Watched& watched : impl_->watched) watched.descriptor.release();
+}
+
+uint16_t Network::http_port() const {
+  return impl_->http.acceptor.local_endpoint().port();
+}
+
+uint16_t Network::tcp_port() const {
+  return impl_->tcp.acceptor.local_endpoint().port();
+}
+
+const NetworkCounters& Network::counters() const {
+  return impl_->context.counters;
+}
+
+std::vector<Metric> Network::metrics() const {
+  const NetworkCounters& counters = impl_->context.counters;
+  const auto metric = [](const char* name, int64_t value, const char* help) {
+    return Metric{name, static_cast<double>(value), help};
+  };
+  return {
+      metric("accepted_total", counters.num_accepted, "Connections accepted"),
+      metric("http_requests_total", counters.num_http_requests, "HTTP requests"),
+      metric("refused_hosts_total", counters.num_refused_hosts,
+             "HTTP requests with an unknown Host"),
+      metric("refused_origins_total", counters.num_refused_origins,
+             "WebSockets refused because of their Origin"),
+      metric("evicted_total", counters.num_evicted, "Connections evicted by the handshake limiter"),
+      metric("violations_total", counters.num_violations,
+             "Connections that violated HTTP, WebSocket or framing")};
+}
+
+void Network::on_readable(int descriptor, std::function<void()> handler) {
+  impl_->watched.push_back(
+      {asio::posix::stream_descriptor(impl_->io, descriptor), std::move(handler)});
+  impl_->wait(impl_->watched.back());
+}
+
+void Network::every(double period, std::function<void()> handler) {
+  impl_->timers.push_back({asio::steady_timer(impl_->io, asio::steady_timer::clock_type::now()),
+                           to_duration(period), std::move(handler)});
+  impl_->wait(impl_->timers.back());
+}
+
+std::string Network::run() {
+  impl_->io.restart();
+  impl_->io.run();
+  return impl_->reason;
+}
+
+void Network::stop(const std::string& reason) {
+  impl_->stop(reason);
+}
+
+void Network::drain(double time) {
+  impl_->http.acceptor.close();
+  impl_->tcp.acceptor.close();
+  impl_->io.restart();
+  impl_->io.run_for(to_duration(time));
+}
+
+}  // namespace nao::gateway

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "phone-gateway/server/core/gateway_core.h"
+#include "phone-gateway/server/core/metric.h"
+#include "phone-gateway/server/http/access_rules.h"
+#include "phone-gateway/server/http/web_pages.h"
+
+namespace nao::gateway {
+
+/** Addresses, ports and certificate of the gateway. */
+struct NetworkOptions {
+  /** Address to listen on; "0.0.0.0" for all. */
+  std::string bind = "0.0.0.0";
+  /** 0: the system chooses, see Network::http_port(). */
+  uint16_t http_port = 8080;
+  uint16_t tcp_port = 7668;
+  /** Certificate and its key, PEM; empty: no https. */
+  std::string certificate_file;
+  std::string key_file;
+};
+
+/** Counters of the network layer since the start. */
+struct NetworkCounters {
+  int64_t num_accepted = 0;
+  int64_t num_http_requests = 0;
+  int64_t num_refused_hosts = 0;
+  int64_t num_refused_origins = 0;
+  /** Connections that the handshake limiter has closed. */
+  int64_t num_evicted = 0;
+  /** Connections closed because they violated HTTP, WebSocket or the framing. */
+  int64_t num_violations = 0;
+};
+
+/** The gateway's sockets and main loop: HTTP and WebSocket on one port, raw TCP on another, timers,
+ * other file descriptors, SIGINT and SIGTERM, in one thread. */
+class Network {
+ public:
+  /** Starts to listen. Core and pages must outlive this.
+   * @throws Error  naming the port or address that cannot be used, or the certificate's file. */
+  Network(const NetworkOptions& options, AccessRules rules, GatewayCore& core, WebPages& pages);
+  ~Network();
+  Network(const Network&) = delete;
+  Network& operator=(const Network&) = delete;
+
+  uint16_t http_port() const;
+  uint16_t tcp_port() const;
+  const NetworkCounters& counters() const;
+  /** The counters as metrics. */
+  std::vector<Metric> metrics() const;
+
+  /** Calls `handler` whenever `descriptor` is readable. The caller keeps it open. */
+  void on_readable(int descriptor, std::function<void()> handler);
+
+  /** Calls `handler` every `period` seconds. After a delay it is called once, not for each missed
+   * period. */
+  void every(double period, std::function<void()> handler);
+
+  /** Runs until a signal or stop(). @return "SIGINT", "SIGTERM" or the reason passed to stop(). */
+  std::string run();
+
+  /** Ends run(), from within a handler. */
+  void stop(const std::string& reason);
+
+  /** Closes the listening sockets and runs for up to `time` seconds, so that queued messages are
+   * sent. */
+  void drain(double time);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace nao::gateway

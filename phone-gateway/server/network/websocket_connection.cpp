@@ -1,0 +1,123 @@
+#include "phone-gateway/server/network/beast_streams.h"
+//
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+
+#include "common/program.h"
+#include "phone-gateway/protocol/framing.h"
+#include "phone-gateway/server/network/client_connection.h"
+
+namespace nao::gateway {
+namespace {
+
+namespace websocket = beast::websocket;
+using boost::system::error_code;
+
+/** Time for the opening and for the closing handshake, as for Connect. */
+constexpr std::chrono::seconds kHandshakeTimeout{5};
+
+/** A client's WebSocket: one message is one binary message. */
+template <class Stream>
+class WebSocketConnection : public ClientConnection {
+ public:
+  WebSocketConnection(ConnectionContext& context, Stream stream)
+      : ClientConnection(context), socket_(std::move(stream)) {}
+
+  void start(WebRequest request) {
+    beast::get_lowest_layer(socket_).expires_never();
+    // No idle timeout here: the core closes silent connections.
+    socket_.set_option(
+        websocket::stream_base::timeout{kHandshakeTimeout, websocket::stream_base::none(), false});
+    socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+      response.set(http::field::server, std::string("nao-phone-gateway/") + version());
+    }));
+    socket_.read_message_max(kMaxRequestBytes);
+    socket_.auto_fragment(false);
+    socket_.binary(true);
+    request_ = std::move(request);
+    socket_.async_accept(request_, [self = self()](const error_code& error) {
+      if (error) return;
+      self->open(make_endpoint(beast::get_lowest_layer(self->socket_).socket(), "websocket"));
+      self->read();
+    });
+  }
+
+ private:
+  std::shared_ptr<WebSocketConnection> self() {
+    return std::static_pointer_cast<WebSocketConnection>(shared_from_this());
+  }
+
+  void read() {
+    socket_.async_read(buffer_, [self = self()](const error_code& error, size_t) {
+      if (error) {
+        self->note_violation(error);
+        self->abort(error == websocket::error::closed ? "closed by the client" : error.message());
+        return;
+      }
+      self->on_message();
+    });
+  }
+
+  /** Counts a violation of RFC 6455. Beast has sent its close code already. */
+  void note_violation(const error_code& error) {
+    const bool is_websocket_error =
+        error.category() == make_error_code(websocket::error::closed).category();
+    if (!is_websocket_error || error == websocket::error::closed) return;
+    ++context_.counters.num_violations;
+    context_.core.note_refusal(make_endpoint(socket(), "").address,
+                               "WebSocket: " + error.message());
+  }
+
+  void on_message() {
+    if (!socket_.got_binary()) {
+      close_code_ = websocket::close_code::unknown_data;
+      reject(gateway_reason("text-message"));
+    }
+    bool may_read = true;
+    if (!is_closing()) {
+      may_read = receive({static_cast<const char*>(buffer_.data().data()), buffer_.size()});
+    }
+    buffer_.consume(buffer_.size());
+    if (may_read) read();
+  }
+
+  void resume_reading() override { read(); }
+
+  void write(MessageBytes message) override {
+    outgoing_ = std::move(message);
+    socket_.async_write(asio::buffer(*outgoing_), [self = self()](const error_code& error, size_t) {
+      self->on_written(error.failed());
+    });
+  }
+
+  void shut_down() override {
+    socket_.async_close(websocket::close_reason(close_code_), [self = self()](const error_code&) {
+      self->abort("closed by the gateway");
+    });
+  }
+
+  Tcp::socket& socket() override { return beast::get_lowest_layer(socket_).socket(); }
+
+  void close_socket() override { beast::get_lowest_layer(socket_).close(); }
+
+  websocket::stream<Stream> socket_;
+  WebRequest request_;
+  beast::flat_buffer buffer_;
+  MessageBytes outgoing_;
+  websocket::close_code close_code_ = websocket::close_code::policy_error;
+};
+
+}  // namespace
+
+void serve_websocket(ConnectionContext& context, PlainStream stream, WebRequest request) {
+  std::make_shared<WebSocketConnection<PlainStream>>(context, std::move(stream))
+      ->start(std::move(request));
+}
+
+void serve_websocket(ConnectionContext& context, SecureStream stream, WebRequest request) {
+  std::make_shared<WebSocketConnection<SecureStream>>(context, std::move(stream))
+      ->start(std::move(request));
+}
+
+}  // namespace nao::gateway

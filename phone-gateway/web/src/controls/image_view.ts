@@ -1,0 +1,134 @@
+/** The head camera's image. Decodes off the main thread; an image that arrives while the previous one is
+ * being decoded is dropped. */
+import {el, icon} from "../dom";
+import type {Image} from "../protocol/generated/remote_pb";
+import {say, sayName} from "../text/texts";
+
+/** Fields of view of the head cameras, rad: a drag over the whole image turns the head by this angle, so
+ * that the point under the finger stays there. Source: robot.yaml, cameras. */
+const kHorizontalView = 1.062906;
+const kVerticalView = 0.830777;
+/** A touch that moves less is a tap, px. */
+const kTapTravel = 8;
+/** Not more often than this while dragging, ms. */
+const kLookPeriodMs = 60;
+
+const kCameraIcon = "M4 8h3l2-2h6l2 2h3v11H4zM12 16.5a3.5 3.5 0 1 0 0-7 3.5 3.5 0 0 0 0 7z";
+
+export class ImageView {
+  readonly element: HTMLElement;
+  /** Images drawn so far. */
+  numImages = 0;
+  isLarge = false;
+  /** Selected camera; empty before setCameras(). */
+  camera = "";
+  private cameras: readonly string[] = [];
+  private readonly canvas = el("canvas", {width: 320, height: 240, "aria-hidden": "true"});
+  private readonly cameraName = el("span");
+  private readonly enlarge: HTMLButtonElement;
+  private readonly switcher: HTMLButtonElement;
+  private isBusy = false;
+  private drag: {pointer: number; x: number; y: number; travel: number; sentMs: number} | null = null;
+
+  /** @param requestChanged  called when another camera or size is selected.
+   * @param look  called with the head turn of a drag: left and down, rad. */
+  constructor(private readonly requestChanged: () => void,
+              private readonly look: (yaw: number, pitch: number) => void) {
+    this.enlarge = el("button", {
+      class: "image-main",
+      onclick: (event: MouseEvent) => this.clicked(event),
+      onpointerdown: (event: PointerEvent) => this.dragStarts(event),
+      onpointermove: (event: PointerEvent) => this.dragged(event),
+      onpointerup: (event: PointerEvent) => this.lifted(event),
+      onlostpointercapture: (event: PointerEvent) => this.dragged(event, true),
+    },
+                      this.canvas, el("span", {class: "image-empty"}, say("drive.imageWaiting")));
+    this.switcher = el("button", {class: "image-camera", onclick: () => this.switchCamera()},
+                       el("span", {class: "image-label"}, icon(kCameraIcon), this.cameraName));
+    this.element = el("section", {class: "image", "aria-label": say("drive.image")},
+                      this.enlarge, this.switcher);
+    this.relabel();
+  }
+
+  /** Sets the cameras of the connected robot; keeps the selected one if the robot has it. */
+  setCameras(cameras: readonly string[]): void {
+    this.cameras = cameras;
+    if (!cameras.includes(this.camera)) this.camera = cameras[0] ?? "";
+    this.relabel();
+  }
+
+  show(image: Image): void {
+    if (this.isBusy || image.camera !== this.camera) return;
+    this.isBusy = true;
+    const blob = new Blob([image.jpeg as Uint8Array<ArrayBuffer>], {type: "image/jpeg"});
+    createImageBitmap(blob).then((bitmap) => this.draw(bitmap), () => {
+      // Not a JPEG: the next image may be.
+    }).finally(() => this.isBusy = false);
+  }
+
+  private draw(bitmap: ImageBitmap): void {
+    if (this.canvas.width !== bitmap.width || this.canvas.height !== bitmap.height) {
+      this.canvas.width = bitmap.width;
+      this.canvas.height = bitmap.height;
+    }
+    this.canvas.getContext("2d")?.drawImage(bitmap, 0, 0);
+    bitmap.close();
+    this.numImages++;
+    this.element.classList.add("has-image");
+  }
+
+  private dragStarts(event: PointerEvent): void {
+    this.enlarge.setPointerCapture(event.pointerId);
+    this.drag = {pointer: event.pointerId, x: event.clientX, y: event.clientY, travel: 0, sentMs: 0};
+  }
+
+  private dragged(event: PointerEvent, isLast = false): void {
+    const drag = this.drag;
+    if (!drag || event.pointerId !== drag.pointer) return;
+    const dx = event.clientX - drag.x;
+    const dy = event.clientY - drag.y;
+    if (drag.travel < kTapTravel) {
+      drag.travel = Math.hypot(dx, dy);
+    } else if (isLast || event.timeStamp - drag.sentMs > kLookPeriodMs) {
+      drag.x = event.clientX;
+      drag.y = event.clientY;
+      drag.sentMs = event.timeStamp;
+      if (dx !== 0 || dy !== 0) {
+        this.look(dx / this.canvas.clientWidth * kHorizontalView,
+                  -dy / this.canvas.clientHeight * kVerticalView);
+      }
+    }
+    if (isLast) this.drag = null;
+  }
+
+  /** Detects a tap by the finger's travel: browsers suppress the click of a tap right after a drag. */
+  private lifted(event: PointerEvent): void {
+    if (this.drag && event.pointerId === this.drag.pointer && this.drag.travel < kTapTravel) this.toggleSize();
+  }
+
+  private clicked(event: MouseEvent): void {
+    if (event.detail === 0) this.toggleSize(); // by keyboard
+  }
+
+  private toggleSize(): void {
+    this.isLarge = !this.isLarge;
+    this.element.classList.toggle("large", this.isLarge);
+    this.relabel();
+    this.requestChanged();
+  }
+
+  private switchCamera(): void {
+    const next = (this.cameras.indexOf(this.camera) + 1) % this.cameras.length;
+    this.camera = this.cameras[next] ?? "";
+    this.relabel();
+    this.requestChanged();
+  }
+
+  private relabel(): void {
+    this.enlarge.setAttribute("aria-label", say(this.isLarge ? "drive.shrink" : "drive.enlarge"));
+    const name = sayName("camera", this.camera);
+    this.switcher.hidden = this.cameras.length < 2;
+    this.switcher.setAttribute("aria-label", `${say("drive.camera")} (${name})`);
+    this.cameraName.textContent = name;
+  }
+}

@@ -1,0 +1,93 @@
+#include "rendering/shaders.h"
+
+#include "rendering/shader_parts.h"
+
+namespace nao::shaders {
+namespace {
+
+const char* const kSolidVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 encoded_color;
+uniform mat4 clip_from_mesh;
+uniform mat4 world_from_mesh;
+uniform mat4 normal_from_mesh;
+uniform vec4 tint;
+out vec3 position_in_world;
+out vec3 position_in_mesh;
+out vec3 normal_in_world;
+flat out vec4 color;
+void main() {
+  position_in_world = (world_from_mesh * vec4(position, 1.0)).xyz;
+  position_in_mesh = position;
+  normal_in_world = mat3(normal_from_mesh) * normal;
+  color = vec4(encoded_color.rgb * encoded_color.rgb, encoded_color.a) * tint;
+  gl_Position = clip_from_mesh * vec4(position, 1.0);
+}
+)";
+
+const char* const kSolidFragment = R"(
+in vec3 position_in_world;
+in vec3 normal_in_world;
+flat in vec4 color;
+out vec4 screen;
+void main() {
+  vec3 light = lit(color.rgb, normalize(normal_in_world), position_in_world, 0.18);
+  screen = vec4(encoded(light), color.a);
+}
+)";
+
+// The pattern of a truncated icosahedron: a point belongs to the face whose plane its ray from the
+// center meets first. Distances of the planes from the center for edges of length 1: 2.3274
+// (pentagons) and 2.2673 (hexagons). By symmetry one of each pair of opposite faces is enough.
+const char* const kBallFragment = R"(
+in vec3 position_in_world;
+in vec3 position_in_mesh;
+in vec3 normal_in_world;
+out vec4 screen;
+const float kA = 0.5257311;  // vertices of the icosahedron: (0, +-a, +-b) and its rotations
+const float kB = 0.8506508;
+const float kC = 0.5773503;  // vertices of the dodecahedron: (+-c, +-c, +-c), (0, +-d, +-e), ...
+const float kD = 0.3568221;
+const float kE = 0.9341724;
+void main() {
+  vec3 n = abs(normalize(position_in_mesh));
+  float pentagon = max(max(kA * n.y + kB * n.z, kA * n.z + kB * n.x), kA * n.x + kB * n.y) / 2.3274;
+  vec4 hexagons = vec4(kC * (n.x + n.y + n.z), kE * n.y + kD * n.z, kE * n.z + kD * n.x,
+                       kE * n.x + kD * n.y) / 2.2673;
+  float hexagon = max(max(hexagons.x, hexagons.y), max(hexagons.z, hexagons.w));
+  float edge = fwidth(pentagon) + 1e-5;
+  float dark = clamp((pentagon - hexagon) / edge + 0.5, 0.0, 1.0);
+  vec3 albedo = mix(vec3(0.86), vec3(0.012), dark);
+  vec3 light = lit(albedo, normalize(normal_in_world), position_in_world, 0.12);
+  screen = vec4(encoded(light), 1.0);
+}
+)";
+
+const char* const kDepthVertex = R"(
+layout(location = 0) in vec3 position;
+uniform mat4 clip_from_mesh;
+void main() {
+  gl_Position = clip_from_mesh * vec4(position, 1.0);
+}
+)";
+
+const char* const kDepthFragment = R"(
+void main() {}
+)";
+
+}  // namespace
+
+Source solid(bool with_shadow) {
+  return {std::string(kHeader) + kSolidVertex, lit_header(with_shadow) + kSolidFragment};
+}
+
+Source ball(bool with_shadow) {
+  return {std::string(kHeader) + kSolidVertex, lit_header(with_shadow) + kBallFragment};
+}
+
+Source depth() {
+  return {std::string(kHeader) + kDepthVertex, std::string(kHeader) + kDepthFragment};
+}
+
+}  // namespace nao::shaders

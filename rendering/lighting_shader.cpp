@@ -1,0 +1,59 @@
+#include "rendering/shader_parts.h"
+
+namespace nao::shaders {
+namespace {
+
+/** Lighting of all lit surfaces: one directional light, a weak one from the opposite side, and
+ * ambient light of sky and ground. The intensities are chosen so that white plastic facing the
+ * light is just below full brightness. */
+const char* const kLighting = R"(
+uniform vec3 eye_position;
+uniform vec3 light_direction;
+uniform mat4 shadow_from_world;
+uniform sampler2DShadow shadow_map;
+
+// Linear red, green, blue.
+const vec3 kDirectLight = vec3(0.66, 0.64, 0.59);
+const vec3 kFillLight = vec3(0.22, 0.22, 0.23);
+const vec3 kSkyLight = vec3(0.42, 0.45, 0.49);
+const vec3 kGroundLight = vec3(0.26, 0.29, 0.26);
+const vec3 kHorizon = vec3(0.70, 0.77, 0.84);
+
+// Fraction of the direct light that reaches a point: 0 in shadow, 1 outside.
+float direct_fraction(vec3 position) {
+#ifdef WITH_SHADOW
+  vec3 in_map = (shadow_from_world * vec4(position, 1.0)).xyz;
+  return texture(shadow_map, vec3(in_map.xy, min(in_map.z, 0.999)));
+#else
+  return 1.0;
+#endif
+}
+
+// Light that a surface sends to the eye, by the model of Blinn, "Models of light reflection for
+// computer synthesized pictures" (SIGGRAPH 1977), with hemispherical ambient light.
+vec3 lit(vec3 albedo, vec3 normal, vec3 position, float gloss) {
+  // The shadow is looked up 4 mm outside of the surface: on it, the coarse map would shadow it.
+  float fraction = direct_fraction(position + 0.004 * normal);
+  float direct = max(dot(normal, light_direction), 0.0) * fraction;
+  float fill = max(dot(normal, vec3(-light_direction.xy, 0.0)), 0.0);
+  vec3 ambient = mix(kGroundLight, kSkyLight, 0.5 + 0.5 * normal.z);
+  vec3 halfway = normalize(light_direction + normalize(eye_position - position));
+  float specular = max(dot(normal, halfway), 0.0);
+  specular *= specular; specular *= specular; specular *= specular; specular *= specular;
+  specular *= specular;  // to the power of 32
+  return albedo * (ambient + direct * kDirectLight + fill * kFillLight) + gloss * specular * fraction * kDirectLight;
+}
+
+// Linear light to screen values: a square root approximates the sRGB curve.
+vec3 encoded(vec3 light) {
+  return sqrt(min(light, vec3(1.0)));
+}
+)";
+
+}  // namespace
+
+std::string lit_header(bool with_shadow) {
+  return std::string(kHeader) + (with_shadow ? "#define WITH_SHADOW\n" : "") + kLighting;
+}
+
+}  // namespace nao::shaders

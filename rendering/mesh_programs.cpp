@@ -1,0 +1,70 @@
+#include "rendering/mesh_programs.h"
+
+#include "rendering/light.h"
+#include "rendering/shadow_pass.h"
+
+namespace nao {
+namespace {
+
+/** Transforms points of the mesh: pose times scale. */
+Eigen::Matrix4f world_from_mesh(const MeshInstance& instance) {
+  Eigen::Matrix4f matrix = instance.pose_in_world.matrix();
+  for (int axis = 0; axis < 3; ++axis) matrix.col(axis) *= instance.scale[axis];
+  return matrix;
+}
+
+/** Transforms normals of the mesh: the inverse transpose of world_from_mesh(), that is the rotation
+ * times the inverse scale. */
+Eigen::Matrix4f normal_from_mesh(const MeshInstance& instance) {
+  Eigen::Matrix4f matrix = instance.pose_in_world.matrix();
+  for (int axis = 0; axis < 3; ++axis) matrix.col(axis) /= instance.scale[axis];
+  return matrix;
+}
+
+void draw_and_count(const gl::MeshBuffer& buffer, RenderStatistics& statistics) {
+  buffer.draw();
+  ++statistics.num_draws;
+  statistics.num_triangles += buffer.num_triangles();
+}
+
+}  // namespace
+
+gl::ShaderProgram compile(const std::string& name, const shaders::Source& source) {
+  return {name, source.vertex, source.fragment};
+}
+
+void use_lit(const gl::ShaderProgram& program, const RenderView& view, const ShadowPass& shadows) {
+  program.use();
+  program.set("clip_from_world", view.clip_from_world);
+  program.set("eye_position", view.eye);
+  program.set("light_direction", kLightDirection);
+  shadows.set_uniforms(program);
+}
+
+DepthProgram::DepthProgram() : program_(compile("depth", shaders::depth())) {}
+
+void DepthProgram::draw(const gl::MeshBuffer& buffer, const MeshInstance& instance,
+                        const Eigen::Matrix4f& clip_from_world,
+                        RenderStatistics& statistics) const {
+  program_.set("clip_from_mesh", Eigen::Matrix4f(clip_from_world * world_from_mesh(instance)));
+  draw_and_count(buffer, statistics);
+}
+
+LitProgram::LitProgram(const std::string& name, const shaders::Source& source)
+    : program_(compile(name, source)) {}
+
+void LitProgram::use(const RenderView& view, const ShadowPass& shadows) const {
+  use_lit(program_, view, shadows);
+}
+
+void LitProgram::draw(const gl::MeshBuffer& buffer, const MeshInstance& instance,
+                      const RenderView& view, RenderStatistics& statistics) const {
+  const Eigen::Matrix4f model_matrix = world_from_mesh(instance);
+  program_.set("clip_from_mesh", Eigen::Matrix4f(view.clip_from_world * model_matrix));
+  program_.set("world_from_mesh", model_matrix);
+  program_.set("normal_from_mesh", normal_from_mesh(instance));
+  program_.set("tint", instance.tint);
+  draw_and_count(buffer, statistics);
+}
+
+}  // namespace nao

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "rendering/gl_objects.h"
+#include "rendering/render_statistics.h"
+#include "rendering/render_view.h"
+#include "rendering/scene.h"
+#include "rendering/shaders.h"
+
+namespace nao {
+
+class ShadowPass;
+
+/** Compiles a shader. @param name  For error messages. */
+gl::ShaderProgram compile(const std::string& name, const shaders::Source& source);
+
+/** Shader that writes the depth of meshes and no color. */
+class DepthProgram {
+ public:
+  DepthProgram();
+
+  void use() const { program_.use(); }
+  /** Draws one mesh; use() must have been called. */
+  void draw(const gl::MeshBuffer& buffer, const MeshInstance& instance,
+            const Eigen::Matrix4f& clip_from_world, RenderStatistics& statistics) const;
+
+ private:
+  gl::ShaderProgram program_;
+};
+
+/** Shader of lit meshes. */
+class LitProgram {
+ public:
+  LitProgram(const std::string& name, const shaders::Source& source);
+
+  /** Sets the camera, the light and the shadow map. */
+  void use(const RenderView& view, const ShadowPass& shadows) const;
+  /** Draws one mesh; use() must have been called with the same view. */
+  void draw(const gl::MeshBuffer& buffer, const MeshInstance& instance, const RenderView& view,
+            RenderStatistics& statistics) const;
+
+ private:
+  gl::ShaderProgram program_;
+};
+
+/** Makes a program that includes the lighting shader the current one, and sets its camera, light
+ * and shadow map. */
+void use_lit(const gl::ShaderProgram& program, const RenderView& view, const ShadowPass& shadows);
+
+}  // namespace nao

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace nao {
+
+/** Counts of one image. */
+struct RenderStatistics {
+  int num_draws = 0;
+  /** Of meshes; the ground, the sky and markings are not counted. */
+  int num_triangles = 0;
+};
+
+}  // namespace nao

@@ -1,0 +1,134 @@
+#include "rendering/shadow_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "rendering/gl.h"
+#include "rendering/light.h"
+
+namespace nao {
+namespace {
+
+/** The edges of the shadow map's box move in multiples of this, m, so that the texels keep their
+ * places, and edges of shadows do not flicker, while a body moves. Chosen: about a tenth of the
+ * robot's height. */
+constexpr float kBoxStep = 0.05f;
+/** Depth offset of casters (glPolygonOffset's factor and units). It keeps surfaces from shadowing
+ * themselves where the map is coarser than they are. Chosen between stripes on curved surfaces
+ * (smaller values) and shadows detached from the feet (larger values). */
+constexpr float kOffsetFactor = 2.0f;
+constexpr float kOffsetUnits = 4.0f;
+
+/** Rotation into the axes of the light: z points to the light. */
+Eigen::Matrix3f light_from_world() {
+  Eigen::Matrix3f rotation;
+  rotation.row(2) = kLightDirection;
+  rotation.row(0) = Eigen::Vector3f::UnitX().cross(kLightDirection).normalized();
+  rotation.row(1) = rotation.row(2).cross(rotation.row(0));
+  return rotation;
+}
+
+/** Orthographic projection along the light of everything inside a box.
+ * @param box  m, in the axes of the light. @return Clip coordinates from world coordinates. */
+Eigen::Matrix4f light_projection(const Eigen::AlignedBox3f& box) {
+  const Eigen::Vector3f lower = (box.min() / kBoxStep).array().floor() * kBoxStep;
+  const Eigen::Vector3f upper = (box.max() / kBoxStep).array().ceil() * kBoxStep;
+  const Eigen::Vector3f scale = 2 * (upper - lower).cwiseInverse();
+  Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
+  matrix.topLeftCorner<3, 3>() = scale.asDiagonal() * light_from_world();
+  matrix.topRightCorner<3, 1>() = -scale.cwiseProduct((lower + upper) / 2);
+  matrix.row(2) *= -1;  // depth grows away from the light
+  return matrix;
+}
+
+/** From clip coordinates, -1 to 1, to texture coordinates, 0 to 1. */
+Eigen::Matrix4f texture_from_clip() {
+  Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity() * 0.5f;
+  matrix.col(3) << 0.5f, 0.5f, 0.5f, 1;
+  return matrix;
+}
+
+}  // namespace
+
+ShadowPass::ShadowPass(int size, const MeshStore& meshes, const DepthProgram& depth)
+    : meshes_(meshes), depth_(depth) {
+  if (size > 0) map_.emplace(size);
+}
+
+void ShadowPass::clear() {
+  casters_.clear();
+  casters_box_.setEmpty();
+}
+
+void ShadowPass::add_caster(const MeshInstance& instance, const RenderView& view) {
+  if (!map_) return;
+  const BoundingSphere sphere = meshes_.sphere_in_world(instance);
+  // The body and its shadow lie on the segment from the body along the light to the ground z = 0.
+  const float distance = std::max(0.0f, sphere.center.z() / kLightDirection.z());
+  if (!view.frustum.may_see(sphere.center, sphere.center - distance * kLightDirection,
+                            sphere.radius)) {
+    return;
+  }
+  casters_.push_back(instance);
+  const Eigen::Vector3f center = light_from_world() * sphere.center;
+  casters_box_.extend(Eigen::Vector3f(center.array() - sphere.radius));
+  casters_box_.extend(Eigen::Vector3f(center.array() + sphere.radius));
+}
+
+void ShadowPass::draw(RenderStatistics& statistics) {
+  if (!map_) return;
+  glBindFramebuffer(GL_FRAMEBUFFER, map_->framebuffer());
+  glViewport(0, 0, map_->size(), map_->size());
+  glClear(GL_DEPTH_BUFFER_BIT);
+  if (casters_.empty()) {
+    // Maps every point outside of the texture, where nothing is in shadow.
+    shadow_from_world_ = Eigen::Matrix4f::Zero();
+    shadow_from_world_.col(3) << 2, 2, 0, 1;
+    return;
+  }
+  const Eigen::Matrix4f clip_from_world = light_projection(casters_box_);
+  shadow_from_world_ = texture_from_clip() * clip_from_world;
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(kOffsetFactor, kOffsetUnits);
+  depth_.use();
+  for (const MeshInstance& caster : casters_) {
+    depth_.draw(meshes_.shadow_caster(caster.mesh), caster, clip_from_world, statistics);
+  }
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void ShadowPass::set_uniforms(const gl::ShaderProgram& program) const {
+  if (!map_) return;
+  glBindTexture(GL_TEXTURE_2D, map_->texture());
+  program.set("shadow_map", 0);
+  program.set("shadow_from_world", shadow_from_world_);
+}
+
+PixelBox ShadowPass::shadowed_pixels(const RenderView& view) const {
+  if (casters_.empty()) return {};
+  // Projects the four corners of the map along the light onto the ground, and from there into the
+  // image. The shadows on the ground lie between them.
+  const Eigen::Matrix4f world_from_map = shadow_from_world_.inverse();
+  Eigen::Vector2f lower = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
+  Eigen::Vector2f upper = -lower;
+  for (const auto& [x, y] : {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}, {1.0f, 1.0f}}) {
+    const Eigen::Vector3f on_ray = (world_from_map * Eigen::Vector4f(x, y, 0, 1)).head<3>();
+    const Eigen::Vector3f ground = on_ray - kLightDirection * (on_ray.z() / kLightDirection.z());
+    const Eigen::Vector4f clip = view.clip_from_world * ground.homogeneous();
+    // A corner behind the camera has no place in the image: no bound can be given.
+    if (clip.w() < static_cast<float>(kNearPlane)) return {0, 0, view.width, view.height};
+    lower = lower.cwiseMin(clip.head<2>() / clip.w());
+    upper = upper.cwiseMax(clip.head<2>() / clip.w());
+  }
+  const auto pixel = [](float in_clip, int size) {
+    return std::clamp((in_clip + 1) / 2, 0.0f, 1.0f) * static_cast<float>(size);
+  };
+  return {static_cast<int>(std::floor(pixel(lower.x(), view.width))),
+          static_cast<int>(std::floor(pixel(lower.y(), view.height))),
+          static_cast<int>(std::ceil(pixel(upper.x(), view.width))),
+          static_cast<int>(std::ceil(pixel(upper.y(), view.height)))};
+}
+
+}  // namespace nao

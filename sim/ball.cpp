@@ -1,0 +1,101 @@
+#include "sim/ball.h"
+
+#include <cmath>
+
+namespace nao::sim {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+Ball::Ball(const BallDescription& description)
+    : description_(description),
+      inertia_(0.4 * description.mass * description.radius * description.radius) {}
+
+double Ball::energy(const Vector3d& gravity) const {
+  const double mass = description_.mass;
+  return 0.5 * mass * state_.velocity.squaredNorm() +
+         0.5 * inertia_ * state_.angular_velocity.squaredNorm() -
+         mass * gravity.dot(state_.position);
+}
+
+bool Ball::is_within_bounds() const {
+  // Farther than any field is long: only a failed step brings the ball there.
+  constexpr double kMaxDistance = 1000;
+  return state_.position.allFinite() && state_.velocity.allFinite() &&
+         state_.angular_velocity.allFinite() &&
+         state_.position.cwiseAbs().maxCoeff() < kMaxDistance;
+}
+
+void Ball::reset() {
+  state_ = BallState();
+  impulse_.setZero();
+  place({description_.position.x(), description_.position.y(), 0}, Vector3d::Zero());
+}
+
+void Ball::place(const Vector3d& position, const Vector3d& velocity) {
+  state_.position = position + Vector3d(0, 0, description_.radius);
+  state_.velocity = velocity;
+  state_.angular_velocity.setZero();
+}
+
+void Ball::begin_step(double h, const Vector3d& gravity, Eigen::VectorXd& scaled_velocity) {
+  const double mass = description_.mass;
+  scaled_velocity.segment<3>(first_dof_) = std::sqrt(inertia_) * state_.angular_velocity;
+  scaled_velocity.segment<3>(first_dof_ + 3) =
+      std::sqrt(mass) * (state_.velocity + h * gravity + impulse_ / mass);
+  impulse_.setZero();
+}
+
+int Ball::add_contact_entries(double sign, const Vector3d& point, const Matrix3d& frame,
+                              ConstraintSolver& solver) const {
+  const int first = solver.add_entries(6);
+  if (first < 0) return -1;
+  const Vector3d arm = point - state_.position;
+  const double by_inertia = sign / std::sqrt(inertia_);
+  const double by_mass = sign / std::sqrt(description_.mass);
+  for (int i = 0; i < 3; ++i) {
+    RowEntry angular;
+    RowEntry linear;
+    for (int k = 0; k < 3; ++k) {
+      angular.row[k] = by_inertia * arm.cross(frame.col(k))[i];
+      linear.row[k] = by_mass * frame(i, k);
+    }
+    solver.dof(first + i) = first_dof_ + i;
+    solver.dof(first + 3 + i) = first_dof_ + 3 + i;
+    solver.entry(first + i) = angular;
+    solver.entry(first + 3 + i) = linear;
+  }
+  return 6;
+}
+
+void Ball::add_rolling_resistance(const Matrix3d& frame, double deceleration, double gravity,
+                                  ConstraintSolver& solver) const {
+  ContactBlock rolling;
+  rolling.is_rolling = true;
+  // (I + m r^2) / (m r) = 1.4 r for a solid sphere.
+  rolling.friction = rolling.spinning = 1.4 * description_.radius * deceleration / gravity;
+  rolling.num_entries = 3;
+  rolling.first_entry = solver.add_entries(3);
+  if (rolling.first_entry < 0) return;
+  for (int i = 0; i < 3; ++i) {
+    solver.dof(rolling.first_entry + i) = first_dof_ + i;
+    RowEntry entry;
+    for (int k = 0; k < 3; ++k) entry.row[k] = frame(i, k) / std::sqrt(inertia_);
+    solver.entry(rolling.first_entry + i) = entry;
+  }
+  solver.add_block(rolling);
+}
+
+void Ball::end_step(double h, const Eigen::VectorXd& scaled_velocity) {
+  state_.angular_velocity = scaled_velocity.segment<3>(first_dof_) / std::sqrt(inertia_);
+  state_.velocity = scaled_velocity.segment<3>(first_dof_ + 3) / std::sqrt(description_.mass);
+  state_.position += h * state_.velocity;
+  const double angle = h * state_.angular_velocity.norm();
+  if (angle > 0) {
+    const Quaterniond turn(Eigen::AngleAxisd(angle, state_.angular_velocity.normalized()));
+    state_.orientation = (turn * state_.orientation).normalized();
+  }
+}
+
+}  // namespace nao::sim

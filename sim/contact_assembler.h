@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/constraint_solver.h"
+#include "sim/contact.h"
+#include "sim/moving_bodies.h"
+#include "sim/world_options.h"
+
+namespace nao::sim {
+
+/** Turns contact candidates into the solver's contact blocks, and the solution into forces.
+ *
+ * **Contact law.** Normal: a spring and a damper, both implicit. With gap velocity v at the end of
+ * the step of length h, distance d at its start, and impulse p >= 0,
+ *
+ *     p / h = -k (d + h v) - c v   =>   v + p / (h (h k + c)) + k d / (h k + c) = 0,
+ *
+ * which is a constraint row with softness 1 / (h (h k + c)) and bias k d / (h k + c): a soft
+ * constraint, whose CFM 1 / (h k + c) and ERP h k / (h k + c) are those of the Open Dynamics
+ * Engine's manual. An open gap (d > 0) has bias d / h: it may close within the step, without a
+ * force before. A ball that arrives fast enough rebounds instead (Newton's restitution).
+ *
+ * Tangential: a spring and damper of the same form in Coulomb's cone. The spring's deflection is
+ * kept in the ContactMemory, so that a sticking contact does not creep, and is cut where the spring
+ * alone would exceed the cone. Materials holds the constants. */
+class ContactAssembler {
+ public:
+  /** @param bodies  Must outlive this. */
+  ContactAssembler(MovingBodies& bodies, const WorldOptions& options);
+
+  /** Takes memory. @param num_dofs  Of all bodies. */
+  void reserve(int max_contacts, int num_dofs);
+
+  /** Forgets the last step's contacts. */
+  void clear();
+  /** Starts a step without contacts. */
+  void begin_step(int64_t step_number);
+  /** Adds a candidate's block, started with the impulse of the last step. The candidate must stay
+   * where it is until end_step(). @return false if the solver's memory is used up. */
+  bool add(const ContactCandidate& candidate, ConstraintSolver& solver);
+  /** Reads the solution: contact memories, contact forces, loads on the robots' feet. */
+  void end_step(const ConstraintSolver& solver);
+
+  /** Contacts with a force in the last step, in the order in which they were added. */
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  /** What the springs of the last step's contacts store, J. */
+  double elastic_energy() const { return elastic_energy_; }
+
+ private:
+  struct ActiveContact {
+    const ContactCandidate* candidate;
+    /** Normal and tangents in W, as columns. */
+    Eigen::Matrix3d frame;
+    /** Index of its block in the solver. */
+    int block = -1;
+    /** Bias velocity per deflection of the tangential spring, 1/s: k / (h k + c). */
+    double deflection_to_bias = 0;
+  };
+
+  void set_normal_law(const ContactCandidate& candidate, ContactBlock& block) const;
+  /** @return Number of entries, or -1 if the solver's memory is used up. */
+  int add_entries(const ActiveContact& contact, ConstraintSolver& solver);
+  int add_surface_entries(const Surface& surface, int body, double sign,
+                          const ActiveContact& contact, ConstraintSolver& solver);
+  int add_self_contact_entries(const ActiveContact& contact, ConstraintSolver& solver);
+  double friction_of(const Surface& a, const Surface& b) const;
+  void update_spring(const ActiveContact& contact, const ContactBlock& block);
+
+  MovingBodies& bodies_;
+  const WorldOptions& options_;
+  int64_t step_number_ = 0;
+  std::vector<ActiveContact> active_;
+  std::vector<Contact> contacts_;
+  double elastic_energy_ = 0;
+  /** Workspace: entry of each of a robot's dofs in the block that is built; dofs of two chains. */
+  std::vector<int> position_;
+  std::vector<int> union_dofs_;
+};
+
+}  // namespace nao::sim

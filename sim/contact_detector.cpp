@@ -1,0 +1,279 @@
+#include "sim/contact_detector.h"
+
+#include <algorithm>
+
+namespace nao::sim {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/** Surfaces farther apart than this at the start of a step are not looked at, m: chosen for
+ * approach speeds up to 15 m/s at steps of 2 ms. Faster impacts of robot points on the floor are
+ * found by find_missed_floor_contacts(). */
+constexpr double kReach = 0.03;
+/** A point of a part that rotates within the step is at most this many bounding radii away from
+ * where the part's center will be: 1 + 300 rad/s (the largest rate that a valid state has) times
+ * 2 ms. */
+constexpr double kMaxSweptRadius = 1.6;
+
+template <class Memories>
+void forget(Memories& memories) {
+  std::fill(memories.begin(), memories.end(), ContactMemory());
+}
+
+}  // namespace
+
+ContactDetector::ContactDetector(const SceneFile& scene, const MovingBodies& bodies, double step)
+    : bodies_(bodies), step_(step), statics_(make_goal_shapes(scene)) {
+  if (scene.ball) ball_static_memory_.resize(statics_.size());
+}
+
+void ContactDetector::add_robot() {
+  const int index = bodies_.num_robots() - 1;
+  const CollisionModel& model = bodies_.robots[index]->collisions();
+  const size_t num_parts = model.parts.size();
+  placed_.emplace_back(num_parts);
+  RobotMemory memory;
+  memory.floor.resize(model.points.size());
+  memory.self.resize(model.self_pairs.size());
+  memory.statics.resize(num_parts * statics_.size());
+  memory.ball.resize(num_parts);
+  robot_memory_.push_back(std::move(memory));
+  for (int other = 0; other < index; ++other) {
+    const size_t other_parts = bodies_.robots[other]->collisions().parts.size();
+    pair_memory_.push_back({other, index, std::vector<ContactMemory>(other_parts * num_parts)});
+  }
+}
+
+void ContactDetector::forget_robot(int robot) {
+  forget(robot_memory_[robot].floor);
+  forget(robot_memory_[robot].self);
+}
+
+void ContactDetector::forget_ball() {
+  ball_floor_memory_ = ContactMemory();
+}
+
+void ContactDetector::clear() {
+  num_dropped_ = 0;
+  for (RobotMemory& memory : robot_memory_) {
+    for (auto* memories : {&memory.floor, &memory.self, &memory.statics, &memory.ball}) {
+      forget(*memories);
+    }
+  }
+  for (PairMemory& pair : pair_memory_) forget(pair.parts);
+  forget(ball_static_memory_);
+  forget_ball();
+}
+
+void ContactDetector::place_parts(int index) {
+  const SimRobot& robot = *bodies_.robots[index];
+  const auto& parts = robot.collisions().parts;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    PlacedPart& placed = placed_[index][i];
+    placed.has_rotation = false;
+    placed.shape.center = robot.dynamics().position(parts[i].body) +
+                          robot.dynamics().rotation(parts[i].body) * parts[i].center_in_body;
+  }
+}
+
+const RoundedBox& ContactDetector::part_shape(int robot, int index) {
+  PlacedPart& placed = placed_[robot][index];
+  if (!placed.has_rotation) {
+    const CollisionModel::Part& part = bodies_.robots[robot]->collisions().parts[index];
+    placed.shape.rotation =
+        bodies_.robots[robot]->dynamics().rotation(part.body) * part.rotation_in_body;
+    placed.shape.half = part.half;
+    placed.shape.radius = part.radius;
+    placed.has_rotation = true;
+  }
+  return placed.shape;
+}
+
+void ContactDetector::find(int64_t step_number) {
+  step_number_ = step_number;
+  candidates_.clear();
+  for (int i = 0; i < bodies_.num_robots(); ++i) place_parts(i);
+  for (int i = 0; i < bodies_.num_robots(); ++i) {
+    find_floor_contacts(i);
+    find_self_contacts(i);
+    if (!statics_.empty()) find_goal_contacts(i);
+  }
+  for (PairMemory& pair : pair_memory_) find_robot_contacts(pair);
+  if (bodies_.ball) find_ball_contacts();
+}
+
+Vector3d ContactDetector::velocity_of(const Surface& surface, int body,
+                                      const Vector3d& point) const {
+  switch (surface.kind) {
+    case Surface::Kind::kRobot:
+      return bodies_.robots[surface.robot]->dynamics().velocity_at(body, point);
+    case Surface::Kind::kBall:
+      return bodies_.ball->velocity_at(point);
+    default:
+      return Vector3d::Zero();
+  }
+}
+
+void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int body_b,
+                          const Proximity& proximity, int foot, ContactMemory& memory) {
+  const Vector3d relative =
+      velocity_of(a, body_a, proximity.point) - velocity_of(b, body_b, proximity.point);
+  const double approach_speed = -proximity.normal.dot(relative);
+  if (proximity.distance - step_ * std::max(approach_speed, 0.0) > kMargin) return;
+  if (candidates_.size() == candidates_.capacity()) {
+    // Marked as looked at, so that it is counted once in a step.
+    memory = ContactMemory();
+    memory.last_step = step_number_;
+    ++num_dropped_;
+    return;
+  }
+  candidates_.push_back({a, b, body_a, body_b, foot, proximity, approach_speed, &memory});
+}
+
+void ContactDetector::find_floor_contacts(int index) {
+  const SimRobot& robot = *bodies_.robots[index];
+  const CollisionModel& model = robot.collisions();
+  for (size_t p = 0; p < model.parts.size(); ++p) {
+    const CollisionModel::Part& part = model.parts[p];
+    if (placed_[index][p].shape.center.z() > part.bounding_radius + kReach) continue;
+    const Vector3d& origin = robot.dynamics().position(part.body);
+    const Matrix3d& rotation = robot.dynamics().rotation(part.body);
+    for (int i = part.first_point; i < part.end_point; ++i) {
+      const CollisionModel::Point& point = model.points[i];
+      const Vector3d center = origin + rotation * point.center_in_body;
+      Proximity proximity;
+      proximity.distance = center.z() - point.radius;
+      if (proximity.distance > kReach) continue;
+      proximity.point = {center.x(), center.y(), std::min(proximity.distance, 0.0)};
+      add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1, proximity, point.sole,
+          robot_memory_[index].floor[i]);
+    }
+  }
+}
+
+bool ContactDetector::find_missed_floor_contacts(int index) {
+  const SimRobot& robot = *bodies_.robots[index];
+  const CollisionModel& model = robot.collisions();
+  bool has_missed = false;
+  for (size_t p = 0; p < model.parts.size(); ++p) {
+    const CollisionModel::Part& part = model.parts[p];
+    const Vector3d& origin = robot.dynamics().position(part.body);
+    const Vector3d& part_center = placed_[index][p].shape.center;
+    const double speed = robot.dynamics().velocity_at(part.body, part_center).z();
+    if (part_center.z() + step_ * speed > part.bounding_radius * kMaxSweptRadius) continue;
+    const Matrix3d& rotation = robot.dynamics().rotation(part.body);
+    for (int i = part.first_point; i < part.end_point; ++i) {
+      ContactMemory& memory = robot_memory_[index].floor[i];
+      if (memory.last_step == step_number_) continue;  // A constraint of this step already.
+      const CollisionModel::Point& point = model.points[i];
+      const Vector3d center = origin + rotation * point.center_in_body;
+      const double distance = center.z() - point.radius;
+      const Vector3d lowest(center.x(), center.y(), std::min(distance, 0.0));
+      const double next = distance + step_ * robot.dynamics().velocity_at(part.body, lowest).z();
+      if (next >= -kMargin) continue;
+      // It had no force in the last step.
+      memory = ContactMemory();
+      add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1,
+          {distance, Vector3d::UnitZ(), lowest}, point.sole, memory);
+      has_missed = true;
+    }
+  }
+  return has_missed;
+}
+
+void ContactDetector::find_self_contacts(int index) {
+  const CollisionModel& model = bodies_.robots[index]->collisions();
+  for (size_t i = 0; i < model.self_pairs.size(); ++i) {
+    const auto [a, b] = model.self_pairs[i];
+    const CollisionModel::Part& part_a = model.parts[a];
+    const CollisionModel::Part& part_b = model.parts[b];
+    const double reach = part_a.bounding_radius + part_b.bounding_radius + kMargin;
+    const Vector3d offset = placed_[index][a].shape.center - placed_[index][b].shape.center;
+    if (offset.squaredNorm() > reach * reach) continue;
+    const Proximity proximity = closest_points(part_shape(index, a), part_shape(index, b));
+    if (proximity.distance > kReach) continue;
+    add({Surface::Kind::kRobot, index, part_a.link}, part_a.body,
+        {Surface::Kind::kRobot, index, part_b.link}, part_b.body, proximity, -1,
+        robot_memory_[index].self[i]);
+  }
+}
+
+void ContactDetector::find_robot_contacts(PairMemory& pair) {
+  const SimRobot& robot_a = *bodies_.robots[pair.a];
+  const SimRobot& robot_b = *bodies_.robots[pair.b];
+  const double far = robot_a.collisions().reach + robot_b.collisions().reach + kReach;
+  if ((robot_a.state().position - robot_b.state().position).squaredNorm() > far * far) return;
+  const auto& parts_a = robot_a.collisions().parts;
+  const auto& parts_b = robot_b.collisions().parts;
+  for (size_t i = 0; i < parts_a.size(); ++i) {
+    for (size_t j = 0; j < parts_b.size(); ++j) {
+      const double reach = parts_a[i].bounding_radius + parts_b[j].bounding_radius + kMargin;
+      const Vector3d offset = placed_[pair.a][i].shape.center - placed_[pair.b][j].shape.center;
+      if (offset.squaredNorm() > reach * reach) continue;
+      const Proximity proximity = closest_points(part_shape(pair.a, static_cast<int>(i)),
+                                                 part_shape(pair.b, static_cast<int>(j)));
+      if (proximity.distance > kReach) continue;
+      add({Surface::Kind::kRobot, pair.a, parts_a[i].link}, parts_a[i].body,
+          {Surface::Kind::kRobot, pair.b, parts_b[j].link}, parts_b[j].body, proximity, -1,
+          pair.parts[i * parts_b.size() + j]);
+    }
+  }
+}
+
+void ContactDetector::find_goal_contacts(int index) {
+  const CollisionModel& model = bodies_.robots[index]->collisions();
+  const auto& parts = model.parts;
+  const Vector3d& center = bodies_.robots[index]->state().position;
+  for (size_t s = 0; s < statics_.size(); ++s) {
+    const RoundedBox& fixed = statics_[s].shape;
+    const double far = model.reach + kReach + fixed.half.norm() + fixed.radius;
+    if (statics_[s].is_net || (center - fixed.center).squaredNorm() > far * far) continue;
+    for (size_t p = 0; p < parts.size(); ++p) {
+      const double reach = parts[p].bounding_radius + fixed.half.norm() + fixed.radius + kMargin;
+      if ((placed_[index][p].shape.center - fixed.center).squaredNorm() > reach * reach) continue;
+      const Proximity proximity = closest_points(part_shape(index, static_cast<int>(p)), fixed);
+      if (proximity.distance > kReach) continue;
+      add({Surface::Kind::kRobot, index, parts[p].link}, parts[p].body, {Surface::Kind::kGoal}, -1,
+          proximity, -1, robot_memory_[index].statics[s * parts.size() + p]);
+    }
+  }
+}
+
+void ContactDetector::find_ball_contacts() {
+  RoundedBox ball;
+  ball.center = bodies_.ball->state().position;
+  ball.radius = bodies_.ball->radius();
+  Proximity on_floor;
+  on_floor.distance = ball.center.z() - ball.radius;
+  if (on_floor.distance < kReach) {
+    on_floor.point = {ball.center.x(), ball.center.y(), std::min(on_floor.distance, 0.0)};
+    add({Surface::Kind::kBall}, -1, {}, -1, on_floor, -1, ball_floor_memory_);
+  }
+  for (size_t s = 0; s < statics_.size(); ++s) {
+    const RoundedBox& fixed = statics_[s].shape;
+    const double reach = ball.radius + fixed.half.norm() + fixed.radius + kReach;
+    if ((ball.center - fixed.center).squaredNorm() > reach * reach) continue;
+    const Proximity proximity = closest_points(ball, fixed);
+    if (proximity.distance > kReach) continue;
+    const Surface surface{statics_[s].is_net ? Surface::Kind::kNet : Surface::Kind::kGoal};
+    add({Surface::Kind::kBall}, -1, surface, -1, proximity, -1, ball_static_memory_[s]);
+  }
+  for (int r = 0; r < bodies_.num_robots(); ++r) {
+    const SimRobot& robot = *bodies_.robots[r];
+    const double far = robot.collisions().reach + ball.radius + kReach;
+    if ((robot.state().position - ball.center).squaredNorm() > far * far) continue;
+    const auto& parts = robot.collisions().parts;
+    for (size_t p = 0; p < parts.size(); ++p) {
+      const double reach = ball.radius + parts[p].bounding_radius + kReach;
+      if ((ball.center - placed_[r][p].shape.center).squaredNorm() > reach * reach) continue;
+      const Proximity proximity = closest_points(ball, part_shape(r, static_cast<int>(p)));
+      if (proximity.distance > kReach) continue;
+      add({Surface::Kind::kBall}, -1, {Surface::Kind::kRobot, r, parts[p].link}, parts[p].body,
+          proximity, -1, robot_memory_[r].ball[p]);
+    }
+  }
+}
+
+}  // namespace nao::sim

@@ -1,0 +1,284 @@
+#include "sim/joint_drives.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace nao::sim {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/** A motor whose servo demands more than this fraction of its limit at the step's start gets a
+ * torque bound at once; others when the solution turns out to exceed the limit. Chosen: rows cost
+ * time, and a round of missed bounds costs more. */
+constexpr double kBoundFraction = 0.8;
+/** Fraction of the limit by which a torque may exceed it without a new round of the solver. */
+constexpr double kBoundTolerance = 1e-3;
+/** A joint this near to its stop, rad, has the stop's row at any speed. Chosen: a row for nothing
+ * only costs time. */
+constexpr double kStopMargin = 0.01;
+/** Time constant with which an opening follows its target, s. Assumed. */
+constexpr double kOpeningTime = 0.1;
+
+std::array<Drive::Row*, 4> rows_of(Drive& drive) {
+  return {&drive.stop, &drive.friction, &drive.upper_bound, &drive.lower_bound};
+}
+
+}  // namespace
+
+JointDrives::JointDrives(const RobotModel& model, const Tree& tree, const RobotOptions& options)
+    : tree_(tree) {
+  const int num_motors = model.num_motors();
+  for (int i = 0; i < num_motors; ++i) {
+    Drive drive;
+    drive.motor = model.motor(i);
+    drive.motor.peak_torque *= options.torque_scale;
+    drive.motor.continuous_torque *= options.torque_scale;
+    const Joint& joint = model.motor_joint(i);
+    drive.lower = joint.lower;
+    drive.upper = joint.upper;
+    drive.max_velocity = joint.max_velocity;
+    for (int body = 1; body < tree_.num_bodies(); ++body) {
+      if (tree_.bodies()[body].joint == model.motors()[i]) drive.dof = tree_.bodies()[body].dof;
+    }
+    drives_.push_back(drive);
+  }
+  last_target_ = Eigen::VectorXd::Zero(num_motors);
+  torque_ = Eigen::VectorXd::Zero(num_motors);
+  entry_of_dof_.assign(tree_.num_dofs(), -1);
+  position_in_chain_.assign(tree_.num_dofs(), -1);
+}
+
+double JointDrives::position(int motor, const TreeState& state) const {
+  const Drive& drive = drives_[motor];
+  return drive.dof < 0 ? drive.opening : state.coordinate[drive.dof];
+}
+
+double JointDrives::speed(int motor, const TreeState& state) const {
+  const Drive& drive = drives_[motor];
+  return drive.dof < 0 ? 0 : state.velocity[drive.dof];
+}
+
+double JointDrives::energy(const TreeState& state) const {
+  double sum = 0;
+  for (const Drive& drive : drives_) {
+    if (drive.dof < 0) continue;
+    const double speed = state.velocity[drive.dof];
+    const double angle = state.coordinate[drive.dof];
+    const double bent = std::max({0.0, drive.lower - angle, angle - drive.upper});
+    sum += 0.5 * drive.motor.reflected_inertia * speed * speed + 0.5 * kStopStiffness * bent * bent;
+  }
+  return sum;
+}
+
+void JointDrives::place(const std::vector<double>& position) {
+  for (size_t i = 0; i < drives_.size(); ++i) {
+    Drive& drive = drives_[i];
+    drive.opening = position[i];
+    for (Drive::Row* row : rows_of(drive)) row->impulse = 0;
+    last_target_[static_cast<long>(i)] = position[i];
+  }
+  torque_.setZero();
+}
+
+void JointDrives::switch_on() {
+  for (Drive& drive : drives_) drive.heat = 0;
+}
+
+void JointDrives::begin_step(double h, const MotorTargets& targets, TreeIntegrator& integrator) {
+  const TreeState& state = integrator.state();
+  for (size_t i = 0; i < drives_.size(); ++i) {
+    Drive& drive = drives_[i];
+    if (drive.dof < 0) continue;
+    const auto k = static_cast<long>(i);
+    const double speed = state.velocity[drive.dof];
+    // Leapfrog: a velocity belongs to the middle between two steps, so that half of this step's
+    // torque acts before a target that is new in it.
+    const double target = (last_target_[k] + targets.position[k]) / 2;
+    drive.plan_step(h, targets.stiffness[k], target - state.coordinate[drive.dof], speed);
+    for (Drive::Row* row : rows_of(drive)) row->index = -1;
+    const double inertia = drive.motor.reflected_inertia;
+    integrator.add_joint_impulse(
+        drive.dof, inertia * speed + h * (drive.plan.demand - drive.plan.emf - drive.plan.drag),
+        inertia + h * (drive.plan.slope + drive.plan.line + drive.plan.viscosity));
+  }
+  last_target_ = targets.position;
+  std::fill(entry_of_dof_.begin(), entry_of_dof_.end(), -1);
+}
+
+int JointDrives::add_dof_entries(int dof, const TreeDynamics& dynamics, int first_dof,
+                                 ConstraintSolver& solver) {
+  if (entry_of_dof_[dof] >= 0) return entry_of_dof_[dof];
+  const int count = num_entries(dof);
+  const int first = solver.add_entries(count);
+  if (first < 0) return -1;
+  const std::vector<int>& chain = tree_.bodies()[tree_.body_of_dof(dof)].chain;
+  for (int k = 0; k < count; ++k) {
+    solver.dof(first + k) = first_dof + chain[k];
+    solver.entry(first + k) = RowEntry();
+    position_in_chain_[chain[k]] = k;
+  }
+  solver.entry(first + count - 1).row[0] = 1;
+  dynamics.solve_upper(chain.data(), count, position_in_chain_.data(), &solver.entry(first));
+  entry_of_dof_[dof] = first;
+  return first;
+}
+
+void JointDrives::add_friction_row(double h, Drive& drive, int first_entry,
+                                   ConstraintSolver& solver) const {
+  // Holds the joint still with an impulse up to h times the dry friction.
+  JointRow row;
+  row.first_entry = first_entry;
+  row.num_entries = num_entries(drive.dof);
+  row.upper = h * drive.motor.dry_friction;
+  row.lower = -row.upper;
+  row.impulse = drive.friction.impulse;
+  drive.friction.index = solver.add_row(row);
+}
+
+void JointDrives::add_stop_row(double h, const TreeState& state, Drive& drive,
+                               const TreeDynamics& dynamics, int first_dof,
+                               ConstraintSolver& solver) {
+  const double angle = state.coordinate[drive.dof];
+  const double speed = state.velocity[drive.dof];
+  const double to_lower = angle - drive.lower;
+  const double to_upper = drive.upper - angle;
+  const bool is_low = to_lower < to_upper;
+  const double distance = is_low ? to_lower : to_upper;
+  const double approach_speed = is_low ? -speed : speed;
+  if (!(distance < kStopMargin + 2 * h * approach_speed)) {
+    drive.stop.impulse = 0;
+    return;
+  }
+  const int first = add_dof_entries(drive.dof, dynamics, first_dof, solver);
+  if (first < 0) return;
+  // Spring and damper, implicit; the same law as a contact's, see ContactAssembler.
+  const double strength = h * kStopStiffness + kStopDamping;
+  JointRow row;
+  row.first_entry = first;
+  row.num_entries = num_entries(drive.dof);
+  row.apply = row.measure = is_low ? 1 : -1;
+  row.softness = 1 / (h * strength);
+  row.bias = distance > 0 ? distance / h : kStopStiffness * distance / strength;
+  row.upper = kInfinity;
+  row.impulse = drive.stop.impulse;
+  drive.stop.index = solver.add_row(row);
+}
+
+void JointDrives::add_torque_bound(double h, Drive& drive, bool is_upper, bool is_braking,
+                                   const TreeDynamics& dynamics, int first_dof,
+                                   ConstraintSolver& solver) {
+  const int first = add_dof_entries(drive.dof, dynamics, first_dof, solver);
+  if (first < 0) return;
+  // The bounded torque is demand - slope * v': the servo's demand u, less back-EMF when braking.
+  // The row's impulse p >= 0 takes from it what exceeds the limit: demand - slope * v' - p / h =
+  // limit  =>  v' + p / (h slope) + (limit - demand) / slope = 0, and the mirror image for the
+  // lower bound.
+  const double slope = drive.plan.slope + (is_braking ? drive.plan.line : 0);
+  const double demand = drive.plan.demand - (is_braking ? drive.plan.emf : 0);
+  JointRow row;
+  row.first_entry = first;
+  row.num_entries = num_entries(drive.dof);
+  row.apply = is_upper ? -1 : 1;
+  row.measure = is_upper ? 1 : -1;
+  row.softness = 1 / (h * slope);
+  row.bias = (is_upper ? drive.plan.limit - demand : drive.plan.limit + demand) / slope;
+  row.upper = kInfinity;
+  Drive::Row& bound = is_upper ? drive.upper_bound : drive.lower_bound;
+  row.impulse = bound.impulse;
+  if (bound.index < 0) {
+    bound.index = solver.add_row(row);
+  } else {
+    solver.replace_row(bound.index, row);
+  }
+  bound.is_braking = is_braking;
+}
+
+void JointDrives::add_rows(double h, const TreeState& state, const TreeDynamics& dynamics,
+                           int first_dof, ConstraintSolver& solver) {
+  for (Drive& drive : drives_) {
+    if (drive.dof < 0) continue;
+    if (drive.motor.dry_friction > 0) {
+      const int first = add_dof_entries(drive.dof, dynamics, first_dof, solver);
+      if (first >= 0) add_friction_row(h, drive, first, solver);
+    }
+    add_stop_row(h, state, drive, dynamics, first_dof, solver);
+    // Without a slope the servo is off, or has no gain at all.
+    if (!(drive.plan.slope > 0)) continue;
+    const double speed = state.velocity[drive.dof];
+    const double demanded = drive.plan.demand - drive.plan.slope * speed;
+    const double threshold = kBoundFraction * drive.plan.limit;
+    if (demanded > threshold || drive.upper_bound.impulse > 0) {
+      add_torque_bound(h, drive, true, speed < 0, dynamics, first_dof, solver);
+    }
+    if (demanded < -threshold || drive.lower_bound.impulse > 0) {
+      add_torque_bound(h, drive, false, speed > 0, dynamics, first_dof, solver);
+    }
+  }
+}
+
+bool JointDrives::add_missed_bounds(double h, const Eigen::VectorXd& velocity,
+                                    const TreeDynamics& dynamics, int first_dof,
+                                    ConstraintSolver& solver) {
+  bool has_changed = false;
+  const auto impulse_of = [&](const Drive::Row& row) {
+    return row.index < 0 ? 0.0 : solver.rows()[row.index].impulse;
+  };
+  for (Drive& drive : drives_) {
+    if (drive.dof < 0 || drive.plan.slope == 0) continue;
+    const double speed = velocity[drive.dof];
+    const double driven = drive.plan.demand - drive.plan.slope * speed +
+                          (impulse_of(drive.lower_bound) - impulse_of(drive.upper_bound)) / h;
+    const double allowed = drive.plan.limit * (1 + kBoundTolerance);
+    const double back_emf = drive.plan.emf + drive.plan.line * speed;
+    for (const bool is_upper : {true, false}) {
+      // A driving motor's servo torque is bounded, a braking one's servo torque less back-EMF.
+      const bool is_braking = is_upper ? back_emf < 0 : back_emf > 0;
+      const double bounded = driven - (is_braking ? back_emf : 0);
+      if (is_upper ? bounded <= allowed : bounded >= -allowed) continue;
+      Drive::Row& bound = is_upper ? drive.upper_bound : drive.lower_bound;
+      // With this bound, the excess is the solver's tolerance.
+      if (bound.index >= 0 && bound.is_braking == is_braking) continue;
+      // Rows that are added after the warm start begin without an impulse.
+      if (bound.index < 0) bound.impulse = 0;
+      add_torque_bound(h, drive, is_upper, is_braking, dynamics, first_dof, solver);
+      has_changed = true;
+    }
+  }
+  return has_changed;
+}
+
+void JointDrives::end_step(double h, const Eigen::VectorXd& velocity,
+                           const ConstraintSolver& solver) {
+  for (size_t i = 0; i < drives_.size(); ++i) {
+    Drive& drive = drives_[i];
+    if (drive.dof < 0) continue;
+    const double speed = velocity[drive.dof];
+    for (Drive::Row* row : rows_of(drive)) {
+      row->impulse = row->index < 0 ? 0 : solver.rows()[row->index].impulse;
+    }
+    torque_[static_cast<long>(i)] = drive.plan.demand - drive.plan.emf -
+                                    (drive.plan.slope + drive.plan.line) * speed +
+                                    (drive.lower_bound.impulse - drive.upper_bound.impulse) / h;
+  }
+}
+
+void JointDrives::end_tick(const Eigen::VectorXd& torque_impulse, const MotorTargets& targets,
+                           double period) {
+  for (size_t i = 0; i < drives_.size(); ++i) {
+    Drive& drive = drives_[i];
+    const auto k = static_cast<long>(i);
+    if (drive.dof >= 0) {
+      drive.warm_up(torque_impulse[k] / period, period);
+    } else if (targets.stiffness[k] > 0) {
+      const double error =
+          std::clamp(targets.position[k], drive.lower, drive.upper) - drive.opening;
+      const double speed =
+          std::clamp(error / kOpeningTime, -drive.max_velocity, drive.max_velocity);
+      drive.opening += speed * period;
+    }
+  }
+}
+
+}  // namespace nao::sim

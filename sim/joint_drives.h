@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "robot_model/robot_model.h"
+#include "sim/constraint_solver.h"
+#include "sim/motor.h"
+#include "sim/motor_targets.h"
+#include "sim/tree.h"
+#include "sim/tree_dynamics.h"
+#include "sim/tree_integrator.h"
+#include "sim/world_options.h"
+
+namespace nao::sim {
+
+/** All motors of one robot: servo torques, and the joints' constraint rows (stops, dry friction,
+ * torque bounds) in a step. Lists are in motor order. */
+class JointDrives {
+ public:
+  /** @param tree  Must outlive this. */
+  JointDrives(const RobotModel& model, const Tree& tree, const RobotOptions& options);
+
+  /** True angles (hands: openings) and torques of the last step, (num_motors). */
+  double position(int motor, const TreeState& state) const;
+  const Eigen::VectorXd& torque() const { return torque_; }
+  /** Whether the motor moves no body of the physics, only an opening. */
+  bool is_opening(int motor) const { return drives_[motor].dof < 0; }
+  /** Degree of freedom of a motor's joint; -1 for an opening. */
+  int dof(int motor) const { return drives_[motor].dof; }
+  double speed(int motor, const TreeState& state) const;
+  /** Kinetic energy of the rotors and elastic energy of the joint stops, J. */
+  double energy(const TreeState& state) const;
+
+  /** Motors at rest at these angles, rad, (num_motors). */
+  void place(const std::vector<double>& position);
+  /** Windings at ambient temperature. */
+  void switch_on();
+
+  // A step of h seconds, in this order.
+
+  /** Plans the torques and adds them to the momentum. */
+  void begin_step(double h, const MotorTargets& targets, TreeIntegrator& integrator);
+  /** Adds the rows that the state at the step's start asks for.
+   * @param first_dof  Of the robot in the solver's vector. */
+  void add_rows(double h, const TreeState& state, const TreeDynamics& dynamics, int first_dof,
+                ConstraintSolver& solver);
+  /** Adds bounds for motors that exceed their torque at a velocity.
+   * @param velocity  Of the solver's present solution, (num_dofs). @return Whether there were any.
+   */
+  bool add_missed_bounds(double h, const Eigen::VectorXd& velocity, const TreeDynamics& dynamics,
+                         int first_dof, ConstraintSolver& solver);
+  /** Reads the solution. @param velocity  At the step's end, (num_dofs). */
+  void end_step(double h, const Eigen::VectorXd& velocity, const ConstraintSolver& solver);
+
+  /** Heats the windings and moves the openings. @param torque_impulse  Torques integrated over the
+   * tick, N m s, (num_motors). @param period  Length of the tick, s. */
+  void end_tick(const Eigen::VectorXd& torque_impulse, const MotorTargets& targets, double period);
+
+ private:
+  /** Entries of a row on one degree of freedom, L^-T e_dof; shared by all rows of the dof. @return
+   * The first entry's index, or -1 if the solver's memory is used up. */
+  int add_dof_entries(int dof, const TreeDynamics& dynamics, int first_dof,
+                      ConstraintSolver& solver);
+  int num_entries(int dof) const { return static_cast<int>(tree_.dof_ancestors(dof).size()) + 1; }
+  void add_friction_row(double h, Drive& drive, int first_entry, ConstraintSolver& solver) const;
+  void add_stop_row(double h, const TreeState& state, Drive& drive, const TreeDynamics& dynamics,
+                    int first_dof, ConstraintSolver& solver);
+  void add_torque_bound(double h, Drive& drive, bool is_upper, bool is_braking,
+                        const TreeDynamics& dynamics, int first_dof, ConstraintSolver& solver);
+
+  const Tree& tree_;
+  std::vector<Drive> drives_;
+  /** Targets' positions in the last step, rad. */
+  Eigen::VectorXd last_target_;
+  /** N m. */
+  Eigen::VectorXd torque_;
+  /** First entry in the solver of each dof's rows in this step, -1 if there is none. */
+  std::vector<int> entry_of_dof_;
+  /** Workspace: position of each dof in the chain that add_dof_entries() works on. */
+  std::vector<int> position_in_chain_;
+};
+
+}  // namespace nao::sim

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <naolcm/joint_command_t.hpp>
+#include <naolcm/sensor_state_t.hpp>
+#include <naolcm/world_command_t.hpp>
+#include <naolcm/world_truth_t.hpp>
+
+#include "sim/joint_command.h"
+#include "sim/sim_core.h"
+#include "sim/world_command.h"
+
+namespace nao::sim {
+
+/** Joints, positions and stiffness; other fields are not simulated. */
+JointCommand to_core(const naolcm::joint_command_t& message);
+WorldCommand to_core(const naolcm::world_command_t& message);
+
+/** What a robot measures, and the targets that its servos hold. */
+naolcm::sensor_state_t sensor_state_of(const World& world, int robot);
+
+/** The true state of the world and its robots. */
+naolcm::world_truth_t world_truth_of(const SimCore& core, double real_time_factor);
+
+}  // namespace nao::sim

@@ -1,0 +1,212 @@
+#include "sim/sim_core.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/data_path.h"
+#include "common/error.h"
+
+namespace nao::sim {
+namespace {
+
+/** World commands that are remembered, to ignore repetitions. Chosen: far more than are repeated at
+ * the same time. */
+constexpr size_t kNumRemembered = 64;
+/** Range of the control period, ms. Chosen: a robot's servos get new targets at 10 to 500 Hz. */
+constexpr int kMaxTickMs = 100;
+/** Upper limits of world commands. Chosen: beyond the field, and beyond what a robot survives. */
+constexpr double kMaxPace = 1000;
+/** N s. */
+constexpr double kMaxImpulse = 100;
+/** m, and m/s. */
+constexpr double kMaxPosition = 100;
+/** Distance of further robots to the left and right of the first, m: arms do not meet. */
+constexpr double kRobotSpacing = 0.8;
+
+WorldOptions world_options(const SimOptions& options) {
+  WorldOptions result;
+  result.seed = options.seed;
+  const int step_ms = static_cast<int>(std::lround(1e3 * result.step));
+  if (options.tick_ms < step_ms || options.tick_ms > kMaxTickMs || options.tick_ms % step_ms != 0) {
+    throw ConfigError(fmt::format("control period {} ms is not a multiple of {} ms from {} to {}",
+                                  options.tick_ms, step_ms, step_ms, kMaxTickMs));
+  }
+  result.steps_per_tick = options.tick_ms / step_ms;
+  return result;
+}
+
+void add_robots(const SimOptions& options, World& world) {
+  const auto model =
+      std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / options.model));
+  for (size_t i = 0; i < options.robots.size(); ++i) {
+    RobotOptions robot;
+    robot.name = options.robots[i];
+    robot.posture = options.posture;
+    robot.ideal_sensors = options.ideal_sensors;
+    robot.command_latency_ticks = options.command_latency_ticks;
+    const size_t rank = (i + 1) / 2;
+    robot.position.y() = (i % 2 == 0 ? -kRobotSpacing : kRobotSpacing) * static_cast<double>(rank);
+    world.add_robot(model, robot);
+  }
+}
+
+bool is_within(const Eigen::Vector3d& v, double limit) {
+  return v.allFinite() && v.cwiseAbs().maxCoeff() <= limit;
+}
+
+std::string to_text(const Eigen::Vector3d& v) {
+  return fmt::format("({}, {}, {})", v.x(), v.y(), v.z());
+}
+
+}  // namespace
+
+SimCore::SimCore(const SimOptions& options)
+    : options_(options),
+      world_(SceneFile::find(options.scene), world_options(options)),
+      scheduler_(static_cast<int>(options.robots.size()), world_.options().period(),
+                 options.lock_step, options.pace) {
+  add_robots(options_, world_);
+  for (int i = 0; i < world_.num_robots(); ++i) targets_.push_back(world_.targets(i));
+}
+
+std::optional<std::string> SimCore::take_joint_command(int robot, const JointCommand& command,
+                                                       double now) {
+  // Such a command was sent before a reset.
+  if (command.tick > world_.tick()) {
+    return fmt::format("it answers tick {}, and the world is at tick {}", command.tick,
+                       world_.tick());
+  }
+  if (auto reason = merge_joint_command(world_.robot(robot).model(), command, targets_[robot])) {
+    return reason;
+  }
+  world_.set_targets(robot, targets_[robot]);
+  scheduler_.note_command(robot, command.tick, now);
+  return std::nullopt;
+}
+
+bool SimCore::take_world_command(const WorldCommand& command, double now) {
+  const std::pair<std::string, int64_t> key{command.source, command.id};
+  if (std::find(executed_.begin(), executed_.end(), key) != executed_.end()) return false;
+  executed_.push_back(key);
+  if (executed_.size() > kNumRemembered) executed_.pop_front();
+  outcome_ = {command.source, command.id, execute(command, now)};
+  return true;
+}
+
+std::string SimCore::execute(const WorldCommand& command, double now) {
+  const std::string& name = command.name;
+  if (name == "pause") {
+    scheduler_.pause();
+    return "";
+  }
+  if (name == "resume") {
+    scheduler_.resume(now);
+    return "";
+  }
+  if (name == "step") return step(command, now);
+  if (name == "reset") return reset(now);
+  if (name == "set-pace") return set_pace(command, now);
+  if (name == "place-robot") return place_robot(command);
+  if (name == "place-ball") return place_ball(command);
+  if (name == "push") return push(command);
+  if (name == "drag" || name == "add-robot" || name == "remove-robot") {
+    return fmt::format("world command \"{}\" is not supported by this simulator", name);
+  }
+  return fmt::format("unknown world command \"{}\"", name);
+}
+
+std::string SimCore::step(const WorldCommand& command, double now) {
+  if (command.num_ticks < 1) {
+    return fmt::format("number of ticks {} must be 1 or more", command.num_ticks);
+  }
+  scheduler_.step(command.num_ticks, now);
+  return "";
+}
+
+std::string SimCore::reset(double now) {
+  world_.reset();
+  for (int i = 0; i < world_.num_robots(); ++i) targets_[i] = world_.targets(i);
+  scheduler_.reset(now);
+  return "";
+}
+
+std::string SimCore::set_pace(const WorldCommand& command, double now) {
+  if (!(command.pace >= 0 && command.pace <= kMaxPace)) {
+    return fmt::format("pace {} is outside [0, {}]", command.pace, kMaxPace);
+  }
+  if (options_.lock_step) return "the pace cannot be set in lock-step";
+  scheduler_.set_pace(command.pace, now);
+  return "";
+}
+
+std::string SimCore::place_robot(const WorldCommand& command) {
+  const int robot = find_robot(command.robot);
+  if (robot < 0) return fmt::format("there is no robot \"{}\"", command.robot);
+  if (!is_within(command.position, kMaxPosition) || command.position.z() < 0) {
+    return fmt::format("position {} must be finite, within {} m, and not below the floor",
+                       to_text(command.position), kMaxPosition);
+  }
+  const Posture* posture = nullptr;
+  if (!command.posture.empty()) {
+    posture = world_.robot(robot).model().find_posture(command.posture);
+    if (posture == nullptr) return fmt::format("there is no posture \"{}\"", command.posture);
+  }
+  const Eigen::Vector4d& q = command.orientation;
+  const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
+  const double norm = orientation.norm();
+  // Senders of rounded numbers are accepted.
+  if (norm != 0 && !(std::abs(norm - 1) < 0.01)) {
+    return fmt::format("orientation has the norm {} and must be a unit quaternion", norm);
+  }
+  world_.place_robot(robot, posture, command.position, norm != 0 ? &orientation : nullptr);
+  targets_[robot] = world_.targets(robot);
+  return "";
+}
+
+std::string SimCore::place_ball(const WorldCommand& command) {
+  if (!world_.has_ball()) return fmt::format("scene {} has no ball", options_.scene);
+  if (!is_within(command.position, kMaxPosition) || command.position.z() < 0) {
+    return fmt::format("position {} must be finite, within {} m, and not below the floor",
+                       to_text(command.position), kMaxPosition);
+  }
+  if (!is_within(command.velocity, kMaxPosition)) {
+    return fmt::format("velocity {} must be finite and within {} m/s", to_text(command.velocity),
+                       kMaxPosition);
+  }
+  world_.place_ball(command.position, command.velocity);
+  return "";
+}
+
+std::string SimCore::push(const WorldCommand& command) {
+  if (!is_within(command.impulse, kMaxImpulse)) {
+    return fmt::format("impulse {} must be finite and within {} N s", to_text(command.impulse),
+                       kMaxImpulse);
+  }
+  if (command.link == "ball") {
+    if (!world_.has_ball()) return fmt::format("scene {} has no ball", options_.scene);
+    world_.push_ball(command.impulse);
+    return "";
+  }
+  const int robot = find_robot(command.robot);
+  if (robot < 0) return fmt::format("there is no robot \"{}\"", command.robot);
+  const int link = world_.robot(robot).model().find_link(command.link);
+  if (link < 0) return fmt::format("there is no link \"{}\"", command.link);
+  world_.push(robot, link, command.impulse);
+  return "";
+}
+
+int SimCore::find_robot(const std::string& name) const {
+  if (name.empty()) return 0;
+  const auto found = std::find(options_.robots.begin(), options_.robots.end(), name);
+  return found == options_.robots.end() ? -1 : static_cast<int>(found - options_.robots.begin());
+}
+
+double SimCore::run_tick(double now) {
+  const double delay = scheduler_.begin_tick(world_.tick(), now);
+  world_.step_tick();
+  return delay;
+}
+
+}  // namespace nao::sim

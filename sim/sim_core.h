@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/joint_command.h"
+#include "sim/sim_options.h"
+#include "sim/tick_scheduler.h"
+#include "sim/world.h"
+#include "sim/world_command.h"
+
+namespace nao::sim {
+
+/** The simulator without bus and clock: a World, its commands, and the schedule of its ticks. Times
+ * are arguments: s of a monotonic clock. */
+class SimCore {
+ public:
+  /** Loads scene and robots.
+   * @throws ConfigError, ModelError */
+  explicit SimCore(const SimOptions& options);
+  /** Starts the clock: the first tick is due one period from now. */
+  void start(double now) { scheduler_.restart(now); }
+
+  const SimOptions& options() const { return options_; }
+  const World& world() const { return world_; }
+  const TickScheduler& scheduler() const { return scheduler_; }
+  /** Of the last world command; id 0 if there was none. */
+  const WorldCommandOutcome& last_world_command() const { return outcome_; }
+
+  /** Sets a robot's targets. @return Nothing, or why the command is rejected: see
+   * merge_joint_command(), or it answers a tick that is still to come. */
+  [[nodiscard]] std::optional<std::string> take_joint_command(int robot,
+                                                              const JointCommand& command,
+                                                              double now);
+  /** Executes a world command; last_world_command() is its outcome.
+   * @return false if the command was executed before: senders repeat them. */
+  bool take_world_command(const WorldCommand& command, double now);
+
+  /** Whether the next tick may be run, as far as pause and lock-step decide. */
+  bool may_tick() const { return scheduler_.may_run(world_.tick()); }
+  /** When to run the next tick, if it may be run; not after `now` means at once. */
+  double next_tick(double now) const { return scheduler_.next_time(world_.tick(), now); }
+  /** Runs the next tick. @return Its delay behind its due time, s. */
+  double run_tick(double now);
+
+ private:
+  /** @return Why a command is rejected; empty if it was executed. */
+  std::string execute(const WorldCommand& command, double now);
+  std::string step(const WorldCommand& command, double now);
+  std::string reset(double now);
+  std::string set_pace(const WorldCommand& command, double now);
+  std::string place_robot(const WorldCommand& command);
+  std::string place_ball(const WorldCommand& command);
+  std::string push(const WorldCommand& command);
+  /** Index; -1 if there is no robot of that name. The empty name is the first robot's. */
+  int find_robot(const std::string& name) const;
+
+  SimOptions options_;
+  World world_;
+  TickScheduler scheduler_;
+  /** Targets of each robot that partial commands are merged into. */
+  std::vector<MotorTargets> targets_;
+  /** Senders and numbers of the last world commands. */
+  std::deque<std::pair<std::string, int64_t>> executed_;
+  WorldCommandOutcome outcome_;
+};
+
+}  // namespace nao::sim

@@ -1,0 +1,85 @@
+#include "sim/tick_scheduler.h"
+
+#include <algorithm>
+
+namespace nao::sim {
+namespace {
+
+/** Delay from which on a tick counts as late, s; world_truth_t has the same number. */
+constexpr double kLateTick = 0.002;
+/** A robot without a command for this time has no controller, s; joint_command_t has the same
+ * number. */
+constexpr double kSilence = 0.5;
+/** Control periods after the last tick that a tick waits for a missing answer. Chosen: commands may
+ * be one or two ticks late without a fall. */
+constexpr double kMaxWaitPeriods = 3;
+/** The controller must have answered within this time for a tick to wait for it, s. Chosen: longer
+ * than any wait, shorter than kSilence. */
+constexpr double kActive = 0.1;
+
+}  // namespace
+
+TickScheduler::TickScheduler(int num_robots, double period, bool is_lock_step, double pace)
+    : period_(period), is_lock_step_(is_lock_step), pacer_(period), commands_(num_robots) {
+  pacer_.set_pace(is_lock_step ? 0 : pace, 0);
+}
+
+void TickScheduler::resume(double now) {
+  is_paused_ = false;
+  ticks_to_step_ = 0;
+  restart(now);
+}
+
+void TickScheduler::step(int64_t num_ticks, double now) {
+  is_paused_ = true;
+  ticks_to_step_ += num_ticks;
+  restart(now);
+}
+
+void TickScheduler::reset(double now) {
+  ticks_to_step_ = 0;
+  for (Commands& commands : commands_) commands.answered_tick = -1;
+  restart(now);
+}
+
+void TickScheduler::note_command(int robot, int64_t answered_tick, double now) {
+  Commands& commands = commands_[robot];
+  commands.answered_tick = std::max(commands.answered_tick, answered_tick);
+  commands.time = now;
+  commands.has_any = true;
+  commands.latency.note_answer(answered_tick, now);
+}
+
+bool TickScheduler::may_run(int64_t tick) const {
+  if (is_stopped()) return false;
+  if (!is_lock_step_) return true;
+  return std::all_of(commands_.begin(), commands_.end(),
+                     [tick](const Commands& commands) { return commands.answered_tick == tick; });
+}
+
+double TickScheduler::next_time(int64_t tick, double now) const {
+  const double due = pacer_.next(now);
+  if (is_lock_step_ || pacer_.pace() == 0) return due;
+  const bool is_awaited =
+      std::any_of(commands_.begin(), commands_.end(), [&](const Commands& commands) {
+        return commands.has_any && commands.answered_tick < tick && now - commands.time < kActive &&
+               commands.latency.least() < period_;
+      });
+  return is_awaited ? std::max(due, last_tick_time_ + kMaxWaitPeriods * period_) : due;
+}
+
+double TickScheduler::begin_tick(int64_t tick, double now) {
+  const double delay = pacer_.delay(now);
+  if (delay > kLateTick) ++num_late_ticks_;
+  for (Commands& commands : commands_) {
+    const bool is_active = commands.has_any && now - commands.time < kSilence;
+    if (is_active && commands.answered_tick < tick) ++num_late_commands_;
+    commands.latency.note_tick(tick + 1, now);
+  }
+  pacer_.tick(now);
+  last_tick_time_ = now;
+  if (ticks_to_step_ > 0) --ticks_to_step_;
+  return delay;
+}
+
+}  // namespace nao::sim

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/answer_latency.h"
+#include "sim/pacer.h"
+
+namespace nao::sim {
+
+/** Decides when the next control tick is run: pace, pause and single steps, and the joint commands
+ * that answer the ticks. Times: s of a monotonic clock that the caller reads.
+ *
+ * In lock-step a tick is run as soon as all robots' commands for the one before are there.
+ * Otherwise it is run when it is due by the wall clock; if a robot's controller is nearby (it has
+ * answered within a period lately) and its answer is missing, the tick waits for it, up to three
+ * periods after the last tick: on a busy machine a world that is a little late is better than a
+ * robot that falls. Controllers at the far end of a slow network are not waited for, which would
+ * slow the world down for good. */
+class TickScheduler {
+ public:
+  /** The clock begins at 0. @param period  Control period, s. @param pace  As set_pace(); ignored
+   * in lock-step. */
+  TickScheduler(int num_robots, double period, bool is_lock_step, double pace);
+
+  /** The next tick is due one period from now. */
+  void restart(double now) { pacer_.restart(now); }
+
+  bool is_lock_step() const { return is_lock_step_; }
+  /** Simulated seconds per wall second, 0 for as fast as possible. */
+  double pace() const { return pacer_.pace(); }
+  void set_pace(double pace, double now) { pacer_.set_pace(pace, now); }
+  bool is_paused() const { return is_paused_; }
+  /** Paused, with no single steps left to run. */
+  bool is_stopped() const { return is_paused_ && ticks_to_step_ == 0; }
+  void pause() { is_paused_ = true; }
+  void resume(double now);
+  /** Runs so many ticks, after those asked for before, and pauses. */
+  void step(int64_t num_ticks, double now);
+  /** The world was reset to tick 0. */
+  void reset(double now);
+
+  /** A robot's joint command was received. @param answered_tick  Of the sensor state. */
+  void note_command(int robot, int64_t answered_tick, double now);
+
+  /** Whether the tick after `tick` may be run, as far as pause and lock-step decide. */
+  bool may_run(int64_t tick) const;
+  /** When to run it, if it may be run; not after `now` means at once. */
+  double next_time(int64_t tick, double now) const;
+  /** The tick after `tick` begins. @return Its delay behind its due time, s. */
+  double begin_tick(int64_t tick, double now);
+
+  /** Ticks that began more than 2 ms after they were due. */
+  int64_t num_late_ticks() const { return num_late_ticks_; }
+  /** Ticks that began without the answer of a robot whose controller was active. */
+  int64_t num_late_commands() const { return num_late_commands_; }
+
+ private:
+  /** Joint commands of one robot. */
+  struct Commands {
+    /** Newest tick that was answered; -1 if none. */
+    int64_t answered_tick = -1;
+    /** When the last command was received. */
+    double time = 0;
+    bool has_any = false;
+    AnswerLatency latency{};
+  };
+
+  double period_;
+  bool is_lock_step_;
+  Pacer pacer_;
+  std::vector<Commands> commands_;
+  bool is_paused_ = false;
+  int64_t ticks_to_step_ = 0;
+  double last_tick_time_ = 0;
+  int64_t num_late_ticks_ = 0;
+  int64_t num_late_commands_ = 0;
+};
+
+}  // namespace nao::sim

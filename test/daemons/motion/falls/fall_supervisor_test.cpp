@@ -1,0 +1,103 @@
+#include "daemons/motion/falls/fall_supervisor.h"
+
+#include <gtest/gtest.h>
+
+namespace nao::motion {
+namespace {
+
+using Action = FallSupervisor::Action;
+
+/** A robot whose torso is pitched forward, rad, and that high, m. */
+RobotState pitched(double pitch, double height = 0.3) {
+  RobotState state;
+  state.torso_in_odometry.linear() =
+      Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  state.torso_in_odometry.translation().z() = height;
+  return state;
+}
+
+const RobotState kStanding = pitched(0);
+const RobotState kLying = pitched(1.5, 0.06);
+const FallSupervisor::Activity kIdle = {false, true, false};
+const FallSupervisor::Activity kWalking = {true, true, true};
+const FallSupervisor::Activity kPlayingTransition = {true, false, false};
+
+class FallSupervisorTest : public ::testing::Test {
+ protected:
+  FallSupervisorTest() { falls_.begin(kStanding); }
+
+  Action update(const RobotState& state, const FallSupervisor::Activity& activity) {
+    return falls_.update(state, activity, 0.01);
+  }
+  /** Steps while nothing runs. @return The first action, if there is one in 10 s. */
+  Action wait_idle(const RobotState& state) {
+    for (int i = 0; i < 1000; ++i) {
+      if (const Action action = update(state, kIdle); action != Action::kNone) return action;
+    }
+    return Action::kNone;
+  }
+
+  MotionOptions options_;
+  FallSupervisor falls_{options_};
+};
+
+TEST_F(FallSupervisorTest, ProtectsAWalkThatFallsAndGetsUpAfterwards) {
+  EXPECT_EQ(update(pitched(0.2), kWalking), Action::kNone);
+  EXPECT_EQ(update(pitched(0.5), kWalking), Action::kProtect);
+  EXPECT_TRUE(falls_.has_fallen());
+  falls_.note_end(true, true, kLying);
+  EXPECT_TRUE(falls_.has_fallen());
+  EXPECT_EQ(wait_idle(kLying), Action::kGetUp);
+  falls_.note_end(true, false, kStanding);
+  EXPECT_FALSE(falls_.has_fallen());
+}
+
+TEST_F(FallSupervisorTest, ATransitionMayLeaveTheFeet) {
+  EXPECT_EQ(update(pitched(1.2), kPlayingTransition), Action::kNone);
+  EXPECT_FALSE(falls_.has_fallen());
+}
+
+TEST_F(FallSupervisorTest, ARobotThatAMotionLaidDownHasNotFallen) {
+  falls_.note_end(true, false, kLying);
+  EXPECT_EQ(wait_idle(kLying), Action::kNone);
+  EXPECT_FALSE(falls_.has_fallen());
+}
+
+TEST_F(FallSupervisorTest, ASittingRobotThatIsKnockedOverHasFallen) {
+  // Below the height of a stand falls are not predicted.
+  EXPECT_EQ(update(pitched(0.1, 0.12), kIdle), Action::kNone);
+  EXPECT_EQ(wait_idle(kLying), Action::kGetUp);
+  EXPECT_TRUE(falls_.has_fallen());
+}
+
+TEST_F(FallSupervisorTest, NeedsHelpAfterTheLastTryUntilItIsLifted) {
+  update(pitched(0.5), kWalking);
+  falls_.note_end(true, true, kLying);
+  ASSERT_EQ(wait_idle(kLying), Action::kGetUp);
+  falls_.note_end(false, false, kLying);
+  EXPECT_TRUE(falls_.needs_help());
+  EXPECT_EQ(wait_idle(kLying), Action::kNone);
+  EXPECT_TRUE(falls_.needs_help());
+  update(kStanding, kIdle);
+  EXPECT_FALSE(falls_.needs_help());
+}
+
+TEST_F(FallSupervisorTest, WithoutGettingUpItStaysDown) {
+  options_.gets_up = false;
+  update(pitched(0.5), kWalking);
+  falls_.note_end(true, true, kLying);
+  EXPECT_EQ(wait_idle(kLying), Action::kNone);
+  EXPECT_TRUE(falls_.has_fallen());
+  EXPECT_FALSE(falls_.needs_help());
+}
+
+TEST_F(FallSupervisorTest, AnotherRobotNeedsNoHelp) {
+  update(pitched(0.5), kWalking);
+  falls_.note_end(false, false, kLying);
+  ASSERT_TRUE(falls_.needs_help());
+  falls_.reset();
+  EXPECT_FALSE(falls_.needs_help());
+}
+
+}  // namespace
+}  // namespace nao::motion

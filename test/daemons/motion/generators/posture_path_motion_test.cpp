@@ -1,0 +1,145 @@
+#include "daemons/motion/generators/posture_path_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "daemons/motion/transitions/transition_graph.h"
+#include "test/daemons/motion/robot_at_rest.h"
+
+namespace nao::motion {
+namespace {
+
+using Phase = MotionGenerator::Phase;
+
+constexpr const char* kTransitions = R"(
+transitions:
+  - {name: up, from: belly, to: on-feet, keyframes: [{duration: 0.5, joints: {HeadYaw: 0.3}}]}
+  - {name: up-again, from: belly, to: on-feet, keyframes: [{duration: 0.5, joints: {HeadYaw: -0.3}}]}
+  - {name: feet-together, from: on-feet, to: on-feet, keyframes: [{duration: 0.2}]}
+)";
+
+/** A robot whose joints follow their targets at once, and that lies or stands as the test sets it.
+ */
+class PosturePathMotionTest : public ::testing::Test {
+ protected:
+  void start(const char* goal) {
+    motion_.emplace(graph_, *nao_model().find_posture(goal), 0.5);
+    motion_->start(robot_.context(), robot_.targets());
+  }
+  Phase step() {
+    const Phase phase = motion_->step(robot_.context(0.01), robot_.targets());
+    if (follows_) robot_.sensors().position = robot_.targets().position;
+    robot_.measure();
+    if (is_lying_) robot_.lay_down({-1, 0, 0});
+    return phase;
+  }
+  void lie() {
+    is_lying_ = true;
+    robot_.lay_down({-1, 0, 0});
+  }
+  void stand() {
+    is_lying_ = false;
+    robot_.sensors().accelerometer_torso = {0, 0, kGravity};
+    robot_.measure();
+  }
+  /** @return The phase in which it ended, kRunning after so many s. */
+  Phase run(double seconds) {
+    Phase phase = Phase::kRunning;
+    for (double time = 0; time < seconds && phase == Phase::kRunning; time += 0.01) phase = step();
+    return phase;
+  }
+
+  const TransitionGraph graph_ = TransitionGraph::parse(nao_model(), kTransitions);
+  RobotAtRest robot_;
+  std::optional<PosturePathMotion> motion_;
+  bool is_lying_ = false;
+  bool follows_ = true;
+};
+
+TEST_F(PosturePathMotionTest, BetweenStandingPosturesTheJointsMoveOnALine) {
+  start("Crouch");
+  EXPECT_EQ(motion_->mode(), Mode::kMoving);
+  step();
+  EXPECT_TRUE(motion_->must_stay_upright());
+  EXPECT_EQ(run(10), Phase::kDone);
+  EXPECT_EQ(robot_.targets().position, nao_posture("Crouch"));
+  EXPECT_DOUBLE_EQ(motion_->progress(), 1);
+}
+
+TEST_F(PosturePathMotionTest, LimpMotorsBecomeStiffFirst) {
+  robot_.targets().stiffness.assign(nao_model().num_motors(), 0.0);
+  start("Crouch");
+  const std::vector<double> before = robot_.targets().position;
+  double last = 0;
+  for (int i = 0; i < 49; ++i) {
+    step();
+    EXPECT_GT(robot_.targets().stiffness[0], last);
+    EXPECT_EQ(robot_.targets().position, before);
+    last = robot_.targets().stiffness[0];
+  }
+  EXPECT_EQ(run(10), Phase::kDone);
+  EXPECT_DOUBLE_EQ(robot_.targets().stiffness[0], 1);
+}
+
+TEST_F(PosturePathMotionTest, GetsUpAlongATransitionAndContinuesOnALine) {
+  lie();
+  start("StandInit");
+  while (motion_->mode() != Mode::kGettingUp) ASSERT_EQ(step(), Phase::kRunning);
+  EXPECT_FALSE(motion_->must_stay_upright());
+  EXPECT_FALSE(motion_->can_be_replaced());
+  for (int i = 0; i < 30; ++i) step();
+  stand();
+  EXPECT_EQ(run(10), Phase::kDone);
+  MotionState state;
+  motion_->describe(state);
+  EXPECT_EQ(state.num_tries, 1);
+}
+
+TEST_F(PosturePathMotionTest, TriesAnotherTransitionAfterAFailure) {
+  const int head = nao_motor("HeadYaw");
+  lie();
+  start("StandInit");
+  double greatest = 0;
+  double least = 0;
+  for (int i = 0; i < 200; ++i) {
+    step();
+    greatest = std::max(greatest, robot_.targets().position[head]);
+    least = std::min(least, robot_.targets().position[head]);
+  }
+  EXPECT_NEAR(greatest, 0.3, 1e-9);
+  EXPECT_NEAR(least, -0.3, 1e-9);
+}
+
+TEST_F(PosturePathMotionTest, GivesUpAfterSixTries) {
+  lie();
+  start("StandInit");
+  EXPECT_EQ(run(60), Phase::kFailed);
+  EXPECT_EQ(motion_->reason(), Reason("get-up-failed", {"6"}));
+}
+
+TEST_F(PosturePathMotionTest, FailsWithoutAPath) {
+  start("Sit");
+  EXPECT_EQ(run(5), Phase::kFailed);
+  EXPECT_EQ(motion_->reason(), Reason("no-path", {"on-feet", "Sit"}));
+}
+
+TEST_F(PosturePathMotionTest, ABlockedJointBringsTheFeetTogetherBeforeItFails) {
+  follows_ = false;
+  start("Crouch");
+  EXPECT_EQ(run(60), Phase::kFailed);
+  EXPECT_EQ(motion_->reason().code, "posture-not-reached");
+}
+
+TEST_F(PosturePathMotionTest, EndsBetweenTwoSegmentsWhenAskedTo) {
+  lie();
+  start("StandInit");
+  while (motion_->mode() != Mode::kGettingUp) ASSERT_EQ(step(), Phase::kRunning);
+  motion_->finish();
+  EXPECT_FALSE(motion_->can_be_replaced());
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(step(), Phase::kRunning);
+  EXPECT_TRUE(motion_->can_be_replaced());
+}
+
+}  // namespace
+}  // namespace nao::motion

@@ -1,0 +1,39 @@
+#include "daemons/motion/transitions/transition_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "test/daemons/motion/nao_model.h"
+
+namespace nao::motion {
+namespace {
+
+constexpr const char* kTransitions = R"(
+transitions:
+  - {name: up, from: back, to: on-feet, keyframes: [{duration: 2}]}
+  - {name: roll, from: back, to: belly, keyframes: [{duration: 1}]}
+  - {name: push, from: belly, to: on-feet, keyframes: [{duration: 4}]}
+)";
+
+std::vector<std::string> names(const std::vector<const KeyframeSequence*>& path) {
+  std::vector<std::string> result;
+  for (const KeyframeSequence* sequence : path) result.push_back(sequence->name);
+  return result;
+}
+
+TEST(TransitionGraph, FindsThePathOfLeastDuration) {
+  const auto graph = TransitionGraph::parse(nao_model(), kTransitions);
+  EXPECT_EQ(names(graph.find_path("back", "on-feet")), std::vector<std::string>{"up"});
+}
+
+TEST(TransitionGraph, AvoidsExcludedTransitions) {
+  const auto graph = TransitionGraph::parse(nao_model(), kTransitions);
+  EXPECT_EQ(names(graph.find_path("back", "on-feet", {graph.find("up")})),
+            (std::vector<std::string>{"roll", "push"}));
+  EXPECT_TRUE(graph.find_path("back", "on-feet", {graph.find("up"), graph.find("push")}).empty());
+}
+
+}  // namespace
+}  // namespace nao::motion

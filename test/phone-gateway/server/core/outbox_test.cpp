@@ -1,0 +1,44 @@
+#include "phone-gateway/server/core/outbox.h"
+
+#include <gtest/gtest.h>
+
+namespace nao::gateway {
+namespace {
+
+TEST(Outbox, SendsOneStateBeforeAnImage) {
+  Outbox outbox;
+  outbox.request_state();
+  EXPECT_EQ(outbox.next(), Outbox::Next::kState);
+  outbox.take_state();
+  outbox.request_image();
+  outbox.request_state();
+  EXPECT_EQ(outbox.next(), Outbox::Next::kState);
+  outbox.take_state();
+  // A client so slow that a new state is due whenever it can take a message still gets its image.
+  outbox.request_state();
+  EXPECT_EQ(outbox.next(), Outbox::Next::kImage);
+  outbox.take_image();
+  EXPECT_EQ(outbox.next(), Outbox::Next::kState);
+  outbox.take_state();
+  EXPECT_EQ(outbox.next(), Outbox::Next::kNothing);
+}
+
+TEST(Outbox, InsertsAMessageBeforeLaterOnes) {
+  Outbox outbox;
+  const auto message = [](const char* text) { return std::make_shared<const std::string>(text); };
+  outbox.push(message("first"));
+  const size_t position = outbox.num_messages();
+  outbox.push(message("third"));
+  outbox.insert(position, message("second"));
+  for (const char* text : {"first", "second", "third"}) EXPECT_EQ(*outbox.take_message(), text);
+}
+
+TEST(Outbox, CountsStatesAndImagesThatWereNotSentInTime) {
+  Outbox outbox;
+  for (int i = 0; i < 3; ++i) outbox.request_state();
+  outbox.request_image();
+  EXPECT_EQ(outbox.num_skipped(), 2u);
+}
+
+}  // namespace
+}  // namespace nao::gateway

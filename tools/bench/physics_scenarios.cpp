@@ -1,0 +1,55 @@
+#include "tools/bench/physics_scenarios.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "closed_loop/closed_loop.h"
+#include "common/data_path.h"
+
+namespace nao {
+
+std::shared_ptr<const RobotModel> nao_model() {
+  static const auto model =
+      std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots/nao"));
+  return model;
+}
+
+PhysicsScenario walking() {
+  PhysicsScenario scenario;
+  scenario.name = "walking";
+  ClosedLoopOptions options;
+  options.model = nao_model();
+  options.is_ideal = true;
+  ClosedLoop trial(options, 1);
+  trial.on_tick([&] {
+    const std::vector<double>& targets = trial.targets();
+    scenario.targets.emplace_back(
+        Eigen::Map<const Eigen::VectorXd>(targets.data(), static_cast<long>(targets.size())));
+  });
+  trial.run(1);
+  trial.hold_walk({0.1, 0, 0});
+  trial.run(9);
+  std::fprintf(stderr, "physics: recorded a walk of %.2f m\n",
+               trial.torso_in_world().translation().x());
+  return scenario;
+}
+
+PhysicsScenario falling() {
+  PhysicsScenario scenario;
+  scenario.name = "falling";
+  scenario.height = 10;
+  const Posture& start = *nao_model()->find_posture("StandInit");
+  for (int tick = 0; tick < 100; ++tick) {
+    Eigen::VectorXd targets(nao_model()->num_motors());
+    for (int i = 0; i < targets.size(); ++i) {
+      targets[i] = start.position[static_cast<size_t>(i)] +
+                   0.3 * std::sin(kControlPeriod * tick * (3 + 0.3 * i));
+    }
+    targets[nao_model()->find_motor("LHipRoll")] += 0.25;
+    targets[nao_model()->find_motor("RHipRoll")] -= 0.25;
+    scenario.targets.push_back(targets);
+  }
+  return scenario;
+}
+
+}  // namespace nao
