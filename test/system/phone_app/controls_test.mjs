@@ -113,9 +113,9 @@ test("a tap on the image enlarges it, another makes it small; the other camera i
   await until("a large image comes", async () => (await phone.look("state.image.width")) === 640);
   assert.ok((await phone.middleOf(".image-main")).radius > 1.5 * small.radius, "it is no larger");
   await phone.tap(".image-camera");
-  await until("the bottom camera's image comes", async () => (await phone.look("state.image.camera")) === 1);
+  await until("the bottom camera's image comes", async () => (await phone.look("state.image.camera")) === "bottom");
   await phone.tap(".image-camera");
-  await until("the top camera's image comes", async () => (await phone.look("state.image.camera")) === 0);
+  await until("the top camera's image comes", async () => (await phone.look("state.image.camera")) === "top");
   await phone.tap(".image-main");
   await until("a small image comes", async () => (await phone.look("state.image.width")) === 320);
 });
