@@ -29,8 +29,8 @@ float direct_fraction(vec3 position) {
 #endif
 }
 
-// Light that a surface sends to the eye, by the model of Blinn, "Models of light reflection for
-// computer synthesized pictures" (SIGGRAPH 1977), with hemispherical ambient light.
+// Light that a surface sends to the eye: the reflection model of J. Blinn (SIGGRAPH 1977) with
+// hemispherical ambient light.
 vec3 lit(vec3 albedo, vec3 normal, vec3 position, float gloss) {
   // The shadow is looked up 4 mm outside of the surface: on it, the coarse map would shadow it.
   float fraction = direct_fraction(position + 0.004 * normal);
