@@ -1,6 +1,7 @@
 #include "common/bus.h"
 
 #include "common/error.h"
+#include "common/logger.h"
 #include "common/wall_clock.h"
 
 namespace nao {
@@ -33,7 +34,7 @@ void Bus::count_sent(const std::string& channel, bool sent) {
 void Bus::drop(const std::string& channel, const std::string& why) {
   ++counters_.num_dropped;
   if (const auto num_suppressed = warnings_.allow(monotonic_seconds())) {
-    spdlog::warn("{}: message dropped: {} ({} similar warnings suppressed)", channel, why,
+    logger::warn("{}: message dropped: {} ({} similar warnings suppressed)", channel, why,
                  *num_suppressed);
   }
 }

@@ -1,12 +1,10 @@
 #include "common/program.h"
 
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
-
 #include <exception>
 #include <string>
 
 #include "common/command_line.h"
+#include "common/logger.h"
 
 #ifndef NAO_REMOTE_VERSION
 #error "NAO_REMOTE_VERSION comes from the build"
@@ -53,14 +51,11 @@ int run_program(CommandLine& app, const CommonOptions& common, int argc, char** 
 int run_program_with_status(CommandLine& app, const CommonOptions& common, int argc, char** argv,
                             const std::function<int()>& body) {
   if (const auto status = app.parse(argc, argv)) return *status;
-  auto logger = spdlog::stderr_color_mt(app.name());
-  logger->set_pattern("%Y-%m-%d %H:%M:%S.%e %^%l%$ %n: %v");
-  logger->set_level(spdlog::level::from_str(common.log_level));
-  spdlog::set_default_logger(logger);
+  logger::set_up(app.name(), common.log_level);
   try {
     return body();
   } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
+    logger::error("{}", error.what());
     return 1;
   }
 }

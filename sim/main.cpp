@@ -1,10 +1,9 @@
-#include <spdlog/spdlog.h>
-
 #include <string>
 
 #include "common/bus.h"
 #include "common/command_line.h"
 #include "common/event_loop.h"
+#include "common/logger.h"
 #include "common/program.h"
 #include "common/scheduling.h"
 #include "sim/sim_daemon.h"
@@ -45,17 +44,17 @@ int main(int argc, char** argv) {
     options.robots.insert(options.robots.end(), more_robots.begin(), more_robots.end());
     const bool is_in_real_time = !options.lock_step && options.pace > 0;
     if (is_in_real_time && nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
-      spdlog::info("uses real-time scheduling (SCHED_RR)");
+      nao::logger::info("uses real-time scheduling (SCHED_RR)");
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);
     const nao::sim::SimDaemon daemon(bus, loop, options);
-    spdlog::info(
+    nao::logger::info(
         "version {}, bus {}, channels {}_* and WORLD_*, model {}, scene {}, control period {} ms, "
         "{}",
         nao::version(), common.lcm_url, common.robot, options.model, options.scene, options.tick_ms,
         options.lock_step ? std::string("lock-step") : "pace " + std::to_string(options.pace));
     const std::string reason = loop.run();
-    spdlog::info(
+    nao::logger::info(
         "stopped by {} at tick {}; {} late ticks, {} late commands; {} messages in, {} "
         "out, {} dropped",
         reason, daemon.core().world().tick(), daemon.core().scheduler().num_late_ticks(),

@@ -1,6 +1,5 @@
 #include "sim/sim_daemon.h"
 
-#include <spdlog/spdlog.h>
 #include <sys/timerfd.h>
 #include <unistd.h>
 
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/logger.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "sim/message_conversion.h"
@@ -87,9 +87,9 @@ void SimDaemon::take_world_command(const naolcm::world_command_t& message) {
   if (!core_.take_world_command(to_core(message), monotonic_seconds())) return;
   const std::string& error = core_.last_world_command().error;
   if (!error.empty()) {
-    spdlog::warn("world command {} from {} rejected: {}", message.command, message.source, error);
+    logger::warn("world command {} from {} rejected: {}", message.command, message.source, error);
   } else {
-    spdlog::info("world command {} from {}", message.command, message.source);
+    logger::info("world command {} from {}", message.command, message.source);
     if (message.command == "reset") publish_sensors();
     if (message.command == "set-pace") {
       // A simulator that never waits must not run at real-time priority.
@@ -150,14 +150,14 @@ void SimDaemon::warn_of_failures(double now) {
   // Both counters go back to 0 with a reset.
   const int64_t num_bad_states = std::exchange(num_bad_states_, world.num_bad_states());
   if (num_bad_states_ > num_bad_states && bad_state_warnings_.allow(now)) {
-    spdlog::error(
+    logger::error(
         "a robot or the ball left all physical bounds at tick {} and was put back to its "
         "start ({} so far)",
         world.tick(), num_bad_states_);
   }
   const int64_t num_dropped = std::exchange(num_dropped_contacts_, world.num_dropped_contacts());
   if (num_dropped_contacts_ > num_dropped && dropped_contact_warnings_.allow(now)) {
-    spdlog::warn(
+    logger::warn(
         "more contacts than memory was taken for at tick {}: bodies may pass through each "
         "other ({} contacts left out so far)",
         world.tick(), num_dropped_contacts_);

@@ -1,8 +1,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
-#include <spdlog/spdlog.h>
-
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,6 +10,7 @@
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/event_loop.h"
+#include "common/logger.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
 #include "rendering/egl_context.h"
@@ -64,7 +63,7 @@ void save(const ViewerOptions& options, unsigned framebuffer, int width, int hei
   gl::read_pixels(framebuffer, width, height, pixels);
   write_png(options.screenshot,
             downsampled(image_from_bgrx(width, height, pixels), options.supersample));
-  spdlog::info("wrote {}", options.screenshot);
+  nao::logger::info("wrote {}", options.screenshot);
 }
 
 /** Calls `draw(now)` at the frame rate until it returns false, and handles messages in between. */
@@ -75,20 +74,20 @@ void run_loop(EventLoop& loop, Bus* bus, const std::function<bool(double)>& draw
   });
   const double start = monotonic_seconds();
   const std::string reason = loop.run();
-  spdlog::info("{} after {:.1f} s", reason, monotonic_seconds() - start);
+  nao::logger::info("{} after {:.1f} s", reason, monotonic_seconds() - start);
 }
 
 void report_rate(int64_t num_frames, double seconds) {
   if (seconds > 0) {
-    spdlog::info("{} frames, {:.1f} a second", num_frames,
-                 static_cast<double>(num_frames) / seconds);
+    nao::logger::info("{} frames, {:.1f} a second", num_frames,
+                      static_cast<double>(num_frames) / seconds);
   }
 }
 
 void run_offscreen(EventLoop& loop, Bus* bus, const RobotModel& model,
                    const ViewerOptions& options) {
   const EglContext context;
-  spdlog::info("rendering with {}", SceneRenderer::driver());
+  nao::logger::info("rendering with {}", SceneRenderer::driver());
   const ImGuiContextOwner imgui;
   const int width = options.width * options.supersample;
   const int height = options.height * options.supersample;
@@ -108,7 +107,7 @@ void run_offscreen(EventLoop& loop, Bus* bus, const RobotModel& model,
 
 void run_window(EventLoop& loop, Bus* bus, const RobotModel& model, const ViewerOptions& options) {
   const Window window(options.width, options.height);
-  spdlog::info("rendering with {}", SceneRenderer::driver());
+  nao::logger::info("rendering with {}", SceneRenderer::driver());
   const ImGuiContextOwner imgui;
   ImGui_ImplGlfw_InitForOpenGL(window.get(), true);
   {
@@ -147,9 +146,9 @@ int run(int argc, char** argv) {
     std::optional<Bus> bus;
     if (options.log_file.empty()) bus.emplace(common.lcm_url);
     const auto model = RobotModel::load(data_path() / "robots" / "nao");
-    spdlog::info("version {}, {}, robot {} from {}", version(),
-                 bus ? "bus " + common.lcm_url : "log " + options.log_file, options.robot,
-                 model.folder().string());
+    nao::logger::info("version {}, {}, robot {} from {}", version(),
+                      bus ? "bus " + common.lcm_url : "log " + options.log_file, options.robot,
+                      model.folder().string());
     Bus* bus_or_none = bus ? &*bus : nullptr;
     if (options.is_offscreen) {
       run_offscreen(loop, bus_or_none, model, options);

@@ -1,7 +1,5 @@
 #include "daemons/head-camera/head_camera_daemon.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <naolcm/camera_command_t.hpp>
 #include <naolcm/image_t.hpp>
@@ -12,6 +10,7 @@
 #include "common/bus.h"
 #include "common/error.h"
 #include "common/event_loop.h"
+#include "common/logger.h"
 #include "common/wall_clock.h"
 #include "daemons/head-camera/image_message.h"
 #include "rendering/decode_state.h"
@@ -57,7 +56,7 @@ HeadCameraDaemon::HeadCameraDaemon(Bus& bus, const RobotModel& model,
       channels_(options.robot),
       status_(bus, kProgram),
       camera_(model, options) {
-  spdlog::info("rendering with {}", camera_.driver());
+  logger::info("rendering with {}", camera_.driver());
   for (const CameraModel& camera : model.cameras()) {
     camera_.take(default_world(model, options.robot), camera.name, kFullWidth / 4);
   }
@@ -83,7 +82,7 @@ void HeadCameraDaemon::receive_truth(const naolcm::world_truth_t& truth) {
   }
   WorldState world = decode_truth(model_, truth);
   if (world_ && world.utime < world_->utime) {
-    spdlog::info("the simulation was restarted");
+    logger::info("the simulation was restarted");
     sent_.clear();
     world_.reset();
   }
@@ -126,7 +125,7 @@ void HeadCameraDaemon::step(double now) {
     for (const std::string& camera : cameras) send_images(camera, due, now);
   } catch (const std::exception& error) {
     if (const auto num_suppressed = warnings_.allow(now)) {
-      spdlog::warn("no image: {} ({} more such warnings)", error.what(), *num_suppressed);
+      logger::warn("no image: {} ({} more such warnings)", error.what(), *num_suppressed);
     }
   }
   report_problems();
@@ -155,7 +154,7 @@ void HeadCameraDaemon::send_images(const std::string& camera, const std::vector<
 }
 
 void HeadCameraDaemon::report_problems() {
-  for (const std::string& problem : camera_.take_problems()) spdlog::warn("{}", problem);
+  for (const std::string& problem : camera_.take_problems()) logger::warn("{}", problem);
 }
 
 std::string HeadCameraDaemon::missing_input(double now) const {
@@ -175,7 +174,7 @@ void HeadCameraDaemon::update_state(double now, bool has_requests) {
   if (state + detail == last_state_) return;
   last_state_ = state + detail;
   status_.set_state(state, detail);
-  spdlog::info("{}{}", state, detail.empty() ? "" : ": " + detail);
+  logger::info("{}{}", state, detail.empty() ? "" : ": " + detail);
   publish_status();  // at once, since other programs wait for the change
 }
 

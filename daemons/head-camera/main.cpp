@@ -1,5 +1,3 @@
-#include <spdlog/spdlog.h>
-
 #include <string>
 #include <vector>
 
@@ -7,6 +5,7 @@
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/event_loop.h"
+#include "common/logger.h"
 #include "common/program.h"
 #include "daemons/head-camera/head_camera_daemon.h"
 #include "daemons/head-camera/head_camera_options.h"
@@ -84,13 +83,13 @@ int main(int argc, char** argv) {
     options.validate(model);
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);
-    spdlog::info("version {}, bus {}, robot {} from {}", nao::version(), common.lcm_url,
-                 options.robot, model.folder().string());
+    nao::logger::info("version {}, bus {}, robot {} from {}", nao::version(), common.lcm_url,
+                      options.robot, model.folder().string());
     nao::camera::HeadCameraDaemon daemon(bus, model, options);
     daemon.attach(loop);
     const std::string reason = loop.run();
-    spdlog::info("{}: {} images rendered, {} messages in, {} out, {} dropped", reason,
-                 daemon.num_frames(), bus.counters().num_in, bus.counters().num_out,
-                 bus.counters().num_dropped);
+    nao::logger::info("{}: {} images rendered, {} messages in, {} out, {} dropped", reason,
+                      daemon.num_frames(), bus.counters().num_in, bus.counters().num_out,
+                      bus.counters().num_dropped);
   });
 }

@@ -1,5 +1,3 @@
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cctype>
 #include <string>
@@ -8,6 +6,7 @@
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/event_loop.h"
+#include "common/logger.h"
 #include "common/program.h"
 #include "common/scheduling.h"
 #include "daemons/motion/motion_daemon.h"
@@ -30,19 +29,19 @@ int main(int argc, char** argv) {
   return nao::run_program(app, common, argc, argv, [&] {
     const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
     if (nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
-      spdlog::info("real-time scheduling granted");
+      nao::logger::info("real-time scheduling granted");
     if (model.foot_sensors().empty()) {
-      spdlog::warn("{} has no foot force sensors: it cannot detect contact with the ground",
-                   model.name());
+      nao::logger::warn("{} has no foot force sensors: it cannot detect contact with the ground",
+                        model.name());
     }
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);
     const nao::motion::MotionDaemon daemon(bus, loop, model, options, common.robot);
-    spdlog::info("version {}, bus {}, channels {}_*, model {}", nao::version(), common.lcm_url,
-                 common.robot, model.folder().string());
+    nao::logger::info("version {}, bus {}, channels {}_*, model {}", nao::version(), common.lcm_url,
+                      common.robot, model.folder().string());
     const std::string reason = loop.run();
-    spdlog::info("stopped by {} after {} steps; {} messages in, {} out, {} dropped", reason,
-                 daemon.num_steps(), bus.counters().num_in, bus.counters().num_out,
-                 bus.counters().num_dropped);
+    nao::logger::info("stopped by {} after {} steps; {} messages in, {} out, {} dropped", reason,
+                      daemon.num_steps(), bus.counters().num_in, bus.counters().num_out,
+                      bus.counters().num_dropped);
   });
 }

@@ -1,11 +1,10 @@
 #include "daemons/motion/motion_daemon.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "common/error.h"
+#include "common/logger.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "daemons/motion/message_conversion.h"
@@ -100,7 +99,7 @@ void MotionDaemon::step(std::optional<Sensors> sensors, double dt) {
   publish(output);
   for (const CommandResult& result : reminder_.due(dt)) publish(result);
   for (const CommandResult& result : output.results) {
-    spdlog::info("{} {} of {}: {}{}{}", to_string(result.kind), result.id, quoted(result.source),
+    logger::info("{} {} of {}: {}{}{}", to_string(result.kind), result.id, quoted(result.source),
                  to_string(result.status), result.reason.empty() ? "" : ": ",
                  to_sentence(result.reason));
     publish(result);

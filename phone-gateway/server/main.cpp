@@ -1,7 +1,5 @@
 // nao-phone-gateway: lets phones drive the robot. See README.md.
 #include <google/protobuf/stubs/logging.h>
-#include <spdlog/spdlog.h>
-
 #include <fstream>
 #include <iostream>
 
@@ -9,6 +7,7 @@
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/error.h"
+#include "common/logger.h"
 #include "common/program.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
@@ -94,7 +93,7 @@ void prepare_tls(GatewayOptions& options) {
     network.certificate_file = files.certificate;
     network.key_file = files.key;
   }
-  spdlog::info("https with {}, SHA-256 {}", network.certificate_file,
+  logger::info("https with {}, SHA-256 {}", network.certificate_file,
                certificate_fingerprint(network.certificate_file));
 }
 
@@ -133,7 +132,7 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   prepare_tls(options);
   const std::filesystem::path folder = data_path() / "robots" / options.model;
   if (request_realtime_scheduling(RealtimePriority::kServing))
-    spdlog::info("uses real-time scheduling (SCHED_RR)");
+    logger::info("uses real-time scheduling (SCHED_RR)");
   Bus bus(common.lcm_url);
   GatewayDaemon daemon(bus, describe_robot(common.robot, RobotModel::load(folder)), options.limits,
                        options.token, options.audit_file);
@@ -143,12 +142,12 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   network.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
   network.every(kStepPeriod, [&daemon] { daemon.step(monotonic_seconds()); });
   network.every(kStatusPeriod, [&daemon] { daemon.publish_status(monotonic_seconds()); });
-  spdlog::info("version {}, bus {}, robot {} from {}", version(), common.lcm_url, common.robot,
+  logger::info("version {}, bus {}, robot {} from {}", version(), common.lcm_url, common.robot,
                folder.string());
-  spdlog::info("HTTP and WebSocket on {}:{}, TCP on {}:{}", options.network.bind,
+  logger::info("HTTP and WebSocket on {}:{}, TCP on {}:{}", options.network.bind,
                network.http_port(), options.network.bind, network.tcp_port());
   const std::vector<std::string> urls = phone_urls(options, network.http_port());
-  for (const std::string& url : urls) spdlog::info("phones: {}", url);
+  for (const std::string& url : urls) logger::info("phones: {}", url);
   show_qr_code(options, urls.front());
   pages.add_page("/metrics", {"text/plain; version=0.0.4", true, [&daemon, &network] {
                                 return daemon.metrics_text(network.metrics());
@@ -162,7 +161,7 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   daemon.shut_down(monotonic_seconds());
   network.drain(kDrainTime);
   const NetworkCounters& counters = network.counters();
-  spdlog::info("stopped: {}; {} connections, {} web requests, {} violations, {} messages dropped",
+  logger::info("stopped: {}; {} connections, {} web requests, {} violations, {} messages dropped",
                reason, counters.num_accepted, counters.num_http_requests, counters.num_violations,
                bus.counters().num_dropped);
 }

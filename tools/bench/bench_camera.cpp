@@ -2,7 +2,6 @@
 // that every renderer needs: clear, read back, resize, compress. Both run alternately, so that
 // other load on the machine affects both.
 
-#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/event_loop.h"
+#include "common/logger.h"
 #include "common/wall_clock.h"
 #include "daemons/head-camera/half_size.h"
 #include "daemons/head-camera/head_camera.h"
@@ -199,7 +199,7 @@ std::vector<Figure> run(int num_rounds) {
         HeadCameraOptions options;
         options.shadow_size = shadow_size;
         HeadCamera camera(model, options);
-        if (block == 0 && shadow_size > 0) spdlog::info("drawing with {}", camera.driver());
+        if (block == 0 && shadow_size > 0) logger::info("drawing with {}", camera.driver());
         for (int i = 0; i < 3; ++i) take_and_encode(camera, world, encoder);
         // The baseline compresses the same images, so that it does the same work there.
         const CameraFrame frame = camera.frame();
@@ -263,7 +263,7 @@ int main(int argc, char** argv) {
   try {
     nao::report(run(num_rounds), json_file);
   } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
+    nao::logger::error("{}", error.what());
     return 1;
   }
   return 0;

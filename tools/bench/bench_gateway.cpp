@@ -5,7 +5,6 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
-#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -32,6 +31,7 @@
 #include "common/channels.h"
 #include "common/child_process.h"
 #include "common/command_line.h"
+#include "common/logger.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "tools/bench/disturbing_clients.h"
@@ -582,13 +582,13 @@ int main(int argc, char** argv) {
       ->range(2.0, 3600.0)
       ->show_default();
   if (const auto status = app.parse(argc, argv)) return *status;
-  spdlog::set_level(spdlog::level::warn);
+  nao::logger::set_up("nao-bench-gateway", "warning");
   // Phones are machines of their own: what they see must not wait for a turn on this one.
   nao::request_realtime_scheduling(nao::RealtimePriority::kControl);
   try {
     nao::report(run(num_rounds, time), json_file);
   } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
+    nao::logger::error("{}", error.what());
     return 1;
   }
   return 0;

@@ -1,6 +1,6 @@
 #include "tools/nao/text_table.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

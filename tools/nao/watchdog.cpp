@@ -1,5 +1,4 @@
 #include <signal.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "common/channels.h"
 #include "common/command_line.h"
 #include "common/event_loop.h"
+#include "common/logger.h"
 #include "common/status_reporter.h"
 #include "common/wall_clock.h"
 #include "tools/nao/hang_detector.h"
@@ -65,7 +65,7 @@ int run_watchdog(const CommonOptions& common) {
       if (!is_of_own_stack(process_id)) detector.forget(process_id);
     }
     for (const HangDetector::Hung& hung : detector.step(now)) {
-      spdlog::warn("{} (process {}) has published no status for {:.1f} s: killing it", hung.program,
+      logger::warn("{} (process {}) has published no status for {:.1f} s: killing it", hung.program,
                    hung.process_id, hung.silence);
       kill(hung.process_id, SIGKILL);
     }
@@ -73,8 +73,8 @@ int run_watchdog(const CommonOptions& common) {
   reporter.set_state("ready");
   loop.every(kHeartbeatPeriod, [&reporter] { reporter.publish(); });
   reporter.publish();
-  spdlog::info("watching the programs on {}", common.lcm_url);
-  spdlog::info("ended by {}", loop.run());
+  logger::info("watching the programs on {}", common.lcm_url);
+  logger::info("ended by {}", loop.run());
   return 0;
 }
 

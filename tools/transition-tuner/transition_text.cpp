@@ -1,6 +1,6 @@
 #include "tools/transition-tuner/transition_text.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "tools/walk-tuner/gait_file.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/core.h>
 
 #include <sstream>
 

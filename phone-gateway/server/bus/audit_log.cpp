@@ -1,10 +1,9 @@
 #include "phone-gateway/server/bus/audit_log.h"
 
-#include <spdlog/spdlog.h>
-
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
+#include "common/logger.h"
 
 namespace nao::gateway {
 namespace {
@@ -37,7 +36,7 @@ void AuditLog::write(const AuditEvent& event, double now, int64_t wall_utime) {
   const auto num_kept_back = allow(event, now);
   if (!num_kept_back) return;
   const std::string json = to_json(event, wall_utime, *num_kept_back);
-  spdlog::info("audit {}", json);
+  logger::info("audit {}", json);
   if (file_.is_open()) file_ << json << std::endl;
 }
 
