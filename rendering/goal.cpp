@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "common/rotation.h"
 #include "rendering/primitives.h"
 
 namespace nao {
@@ -33,7 +34,7 @@ struct GoalFrame {
 Mesh make_bar(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float radius,
               const Color& color, int num_sides) {
   const Eigen::Vector3f along = to - from;
-  const auto rotation = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), along);
+  const auto rotation = rotation_between(Eigen::Vector3f::UnitZ(), along);
   Mesh bar = make_cylinder(radius, along.norm(), color, num_sides);
   for (Vertex& vertex : bar.vertices) {
     vertex.position = (from + to) / 2 + rotation * vertex.position;

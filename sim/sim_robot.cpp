@@ -3,6 +3,7 @@
 #include <string>
 
 #include "common/error.h"
+#include "common/rotation.h"
 #include "sim/placement.h"
 
 namespace nao::sim {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/constants.h"
+#include "common/rotation.h"
 
 namespace nao::motion {
 namespace {
@@ -69,7 +70,7 @@ void OrientationFilter::update(const Eigen::Vector3d& gyroscope,
 void OrientationFilter::start(const Eigen::Vector3d& gyroscope,
                               const Eigen::Vector3d& accelerometer) {
   if (measures_gravity(accelerometer)) {
-    orientation_ = Eigen::Quaterniond::FromTwoVectors(accelerometer, Eigen::Vector3d::UnitZ());
+    orientation_ = rotation_between(accelerometer, Eigen::Vector3d::UnitZ());
   }
   // The shortest rotation to upright has a small heading; the heading starts at 0.
   const Eigen::Matrix3d R = orientation_.toRotationMatrix();
@@ -85,7 +86,7 @@ void OrientationFilter::recover(const Eigen::Vector3d& accelerometer) {
   if (accelerometer.dot(up_before) >= accelerometer.norm() * std::cos(kLostTilt)) return;
   // Nothing rotated, and yet up is elsewhere: the robot was placed anew.
   const Eigen::Quaterniond correction =
-      Eigen::Quaterniond::FromTwoVectors(orientation_ * accelerometer, Eigen::Vector3d::UnitZ());
+      rotation_between(orientation_ * accelerometer, Eigen::Vector3d::UnitZ());
   orientation_ = correction * orientation_;
 }
 
