@@ -1,0 +1,12 @@
+#!/bin/sh
+# Usage: identify.sh FILE
+#
+# Writes what ccache knows precompiled headers by: their sources and the packages that these include.
+# The precompiled header itself names the build folder, so objects would be found again only there.
+
+{
+    cat "$(dirname "$0")"/*.h
+    dpkg-query --show g++-12 libstdc++-12-dev libc6-dev libeigen3-dev libgtest-dev libgmock-dev
+} >"$1" 2>&1
+# What is not installed is named too; without dpkg-query nothing is known.
+command -v dpkg-query >/dev/null || rm -f "$1"
