@@ -9,6 +9,10 @@ RUN_DIR=${NAO_REMOTE_RUN_DIR:-$ROOT/run}
 # shellcheck disable=SC2034
 PROGRAMS=(nao-sim nao-motion nao-head-camera nao-phone-gateway)
 
+# Targets that scripts/start builds beside them.
+# shellcheck disable=SC2034
+COMPANIONS=(nao nao_robot_files scenes nao_phone_app)
+
 # set_run_dir DIR: stores it as an absolute path.
 set_run_dir() { RUN_DIR=$(realpath --canonicalize-missing "$1"); }
 
@@ -71,7 +75,7 @@ bus_url() { setting lcm_url "${LCM_DEFAULT_URL:-udpm://239.255.76.67:7667?ttl=0}
 # tool NAME: path of one of the project's command-line programs.
 tool() {
     local dir
-    for dir in "$(setting bin_dir "$ROOT/build/release/bin")" "$ROOT/build/release/bin" "$ROOT/build/dev/bin"; do
+    for dir in "$(setting bin_dir "$ROOT/build/dev/bin")" "$ROOT/build/dev/bin"; do
         if [ -x "$dir/$1" ]; then
             printf '%s' "$dir/$1"
             return

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "common/rotation.h"
+
 namespace nao::sim {
 namespace {
 
@@ -70,7 +72,7 @@ Quaterniond resting_orientation(const RobotModel& model, const Tree& tree,
   // The torso leans so that the left sole is level.
   const Matrix3d sole = model.link_poses(posture->position)[model.left_sole()].linear();
   const Vector3d up_in_torso = sole.col(2);
-  return Quaterniond::FromTwoVectors(up_in_torso, Vector3d::UnitZ());
+  return rotation_between(up_in_torso, Vector3d::UnitZ());
 }
 
 double lowest_point(const CollisionModel& collisions, const TreeDynamics& dynamics) {

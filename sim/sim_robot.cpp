@@ -3,7 +3,6 @@
 #include <string>
 
 #include "common/error.h"
-#include "common/rotation.h"
 #include "sim/placement.h"
 
 namespace nao::sim {

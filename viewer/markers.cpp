@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/rotation.h"
 #include "rendering/primitives.h"
 #include "rendering/scene_renderer.h"
 
@@ -31,7 +32,7 @@ void Markers::add_arrow(Scene& scene, const Eigen::Vector3d& from, const Eigen::
   arrow.mesh = arrow_;
   arrow.pose_in_world.translate(from.cast<float>());
   arrow.pose_in_world.rotate(
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), along).cast<float>());
+      rotation_between(Eigen::Vector3d::UnitZ(), along).cast<float>());
   const auto length = static_cast<float>(along.norm());
   const float width = std::min(length, kMaxArrowWidth);
   arrow.scale = {width, width, length};

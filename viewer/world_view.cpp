@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/error.h"
-#include "common/rotation.h"
 #include "rendering/decode_state.h"
 #include "viewer/message_store.h"
 

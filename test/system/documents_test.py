@@ -32,7 +32,7 @@ class Documents(unittest.TestCase):
                            "LCM_DEFAULT_URL": stack.lcm_url}
             for command in found:
                 with self.subTest(command=command):
-                    here = command.replace("build/release/bin", str(BIN_DIR))
+                    here = command.replace("build/dev/bin", str(BIN_DIR))
                     result = subprocess.run(here, shell=True, cwd=ROOT, env=environment, stdin=subprocess.DEVNULL,
                                             capture_output=True, text=True, timeout=DEADLINE, check=False)
                     self.assertEqual(result.returncode, 0, result.stdout + result.stderr + stack.logs())
