@@ -10,9 +10,9 @@ Reason gateway_reason(GatewayReasonCode code, std::vector<std::string> arguments
 }
 
 std::string describe_reason(const Reason& reason) {
-  const ReasonEntry* entry = find_gateway_reason(reason.code);
-  if (entry == nullptr) return to_sentence(reason);
-  return fill_in_arguments(entry->sentence, reason.arguments);
+  const size_t index = find_gateway_reason(reason.code);
+  if (index == kGatewayReasons.size()) return to_sentence(reason);
+  return fill_in_arguments(kGatewayReasons[index].sentence, reason.arguments);
 }
 
 }  // namespace nao::gateway

@@ -74,12 +74,12 @@ inline constexpr auto kGatewayReasons = std::to_array<ReasonEntry>({
 });
 // clang-format on
 
-/** @return The entry of kGatewayReasons; nullptr if there is no such code. */
-constexpr const ReasonEntry* find_gateway_reason(std::string_view code) {
-  for (const ReasonEntry& entry : kGatewayReasons) {
-    if (entry.code == code) return &entry;
+/** @return Index in kGatewayReasons; its size if there is no such code. */
+constexpr size_t find_gateway_reason(std::string_view code) {
+  for (size_t i = 0; i < kGatewayReasons.size(); ++i) {
+    if (kGatewayReasons[i].code == code) return i;
   }
-  return nullptr;
+  return kGatewayReasons.size();
 }
 
 /** A code of kGatewayReasons. Any other text does not compile. */
@@ -87,7 +87,7 @@ class GatewayReasonCode {
  public:
   // NOLINTNEXTLINE(google-explicit-constructor): written as gateway_reason("not-connected").
   consteval GatewayReasonCode(const char* code) : code_(code) {
-    if (find_gateway_reason(code) == nullptr) throw "no such code in kGatewayReasons";
+    if (find_gateway_reason(code) == kGatewayReasons.size()) throw "no such code in kGatewayReasons";
   }
   std::string text() const { return std::string(code_); }
 
