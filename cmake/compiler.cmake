@@ -20,7 +20,7 @@ set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")
 add_compile_options(-ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Where headers are precompiled, GCC 12 reports the small buffer of std::string as too short.
-  add_compile_options(-fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow)
+  add_compile_options(-fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 
 option(NAO_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
