@@ -1,18 +1,22 @@
-# Precompiled headers: one for programs and libraries, one for tests. Every source reads the same
-# standard, Eigen and GoogleTest headers, which cost more than most of the sources themselves.
+# Precompiled headers. Every source reads the same standard, Eigen and GoogleTest headers, which cost
+# more than most of the sources themselves; those of the gateway also protobuf and Boost.
 
+# nao_add_precompiled(NAME HEADER [LIBRARIES ...] [IDENTIFIED_BY FILE...])
+# IDENTIFIED_BY: sources of what the header includes and cmake/precompiled does not hold.
 function(nao_add_precompiled name header)
+  cmake_parse_arguments(arg "" "" "LIBRARIES;IDENTIFIED_BY" ${ARGN})
   add_library(${name} STATIC ${CMAKE_SOURCE_DIR}/cmake/precompiled/empty.cpp)
-  target_precompile_headers(${name} PRIVATE ${header})
-  target_link_libraries(${name} PRIVATE Eigen3::Eigen ${ARGN})
+  target_precompile_headers(${name} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/precompiled/${header})
+  target_link_libraries(${name} PRIVATE Eigen3::Eigen ${arg_LIBRARIES})
   if(CCACHE_PROGRAM AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     set(sum ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${name}.dir/cmake_pch.hxx.gch.sum)
     add_custom_command(TARGET ${name} POST_BUILD
-      COMMAND ${CMAKE_SOURCE_DIR}/cmake/precompiled/identify.sh ${sum} VERBATIM)
+      COMMAND ${CMAKE_SOURCE_DIR}/cmake/precompiled/identify.sh ${sum} ${arg_IDENTIFIED_BY} VERBATIM)
   endif()
 endfunction()
 
-# Lets every target that compiles the same C++ read them.
+# Lets every target that compiles the same C++ read them: those that the target's property
+# NAO_PRECOMPILED names, or the one for tests, or the standard one.
 function(nao_use_precompiled)
   nao_targets_below(${CMAKE_SOURCE_DIR} targets)
   foreach(target IN LISTS targets)
@@ -23,16 +27,25 @@ function(nao_use_precompiled)
       continue()
     endif()
     get_target_property(libraries ${target} LINK_LIBRARIES)
-    if(libraries MATCHES "GTest::")
-      target_precompile_headers(${target} REUSE_FROM nao_precompiled_test)
-    else()
-      target_precompile_headers(${target} REUSE_FROM nao_precompiled)
+    get_target_property(precompiled ${target} NAO_PRECOMPILED)
+    if(NOT precompiled)
+      set(precompiled nao_precompiled)
+      if(libraries MATCHES "GTest::")
+        set(precompiled nao_precompiled_test)
+      endif()
     endif()
+    target_precompile_headers(${target} REUSE_FROM ${precompiled})
   endforeach()
 endfunction()
 
-nao_add_precompiled(nao_precompiled ${CMAKE_SOURCE_DIR}/cmake/precompiled/standard.h)
+nao_add_precompiled(nao_precompiled standard.h)
 if(GTest_FOUND)
-  nao_add_precompiled(nao_precompiled_test ${CMAKE_SOURCE_DIR}/cmake/precompiled/test.h GTest::gmock)
+  nao_add_precompiled(nao_precompiled_test test.h LIBRARIES GTest::gmock)
+endif()
+if(TARGET nao_phone_protocol)
+  nao_add_precompiled(nao_precompiled_protocol protocol.h
+    LIBRARIES nao_phone_protocol IDENTIFIED_BY ${CMAKE_SOURCE_DIR}/phone-gateway/protocol/remote.proto)
+  nao_add_precompiled(nao_precompiled_network network.h
+    LIBRARIES nao_phone_protocol nao_boost IDENTIFIED_BY ${CMAKE_SOURCE_DIR}/phone-gateway/protocol/remote.proto)
 endif()
 nao_use_precompiled()

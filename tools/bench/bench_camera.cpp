@@ -199,7 +199,7 @@ std::vector<Figure> run(int num_rounds) {
         HeadCameraOptions options;
         options.shadow_size = shadow_size;
         HeadCamera camera(model, options);
-        if (block == 0 && shadow_size > 0) logger::info("drawing with {}", camera.driver());
+        if (block == 0 && shadow_size > 0) nao::logger::info("drawing with {}", camera.driver());
         for (int i = 0; i < 3; ++i) take_and_encode(camera, world, encoder);
         // The baseline compresses the same images, so that it does the same work there.
         const CameraFrame frame = camera.frame();

@@ -1,4 +1,4 @@
-#include "phone-gateway/server/network/beast_streams.h"
+#include "phone-gateway/server/network/websocket_connection.h"
 //
 #include <boost/beast/core/detect_ssl.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -15,8 +15,6 @@
 namespace nao::gateway {
 namespace {
 
-using boost::system::error_code;
-
 /** Time for the TLS handshake and the first request, as for Connect, and for the next request.
  * Chosen: a browser fetches a page's files within a second, and opens a new connection later. */
 constexpr std::chrono::seconds kRequestTimeout{5};
@@ -30,13 +28,6 @@ constexpr const char* kNoRequest = "No request within 5 s.";
 
 std::string_view view(beast::string_view text) {
   return {text.data(), text.size()};
-}
-
-PlainStream& lowest(PlainStream& stream) {
-  return stream;
-}
-PlainStream& lowest(SecureStream& stream) {
-  return stream.next_layer();
 }
 
 /** An entry of the handshake limiter, for as long as this lives. */
@@ -59,44 +50,43 @@ class HandshakeGuard {
 };
 
 /** An HTTP connection: answers one request after the other, until one asks for a WebSocket. */
-template <class Stream>
-class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream>> {
+class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(ConnectionContext& context, Stream stream, beast::flat_buffer buffer)
+  HttpConnection(ConnectionContext& context, WebStream stream, beast::flat_buffer buffer)
       : context_(context), stream_(std::move(stream)), buffer_(std::move(buffer)) {}
 
   void start() {
-    endpoint_ = make_endpoint(lowest(stream_).socket(), "websocket");
-    const auto weak = this->weak_from_this();
+    endpoint_ = make_endpoint(stream_.next_layer().socket(), "websocket");
+    const auto weak = weak_from_this();
     handshake_.emplace(context_, endpoint_.address, [weak] {
       // Operations in progress end with an error, which ends the connection.
-      if (const auto self = weak.lock()) lowest(self->stream_).cancel();
+      if (const auto self = weak.lock()) self->stream_.next_layer().cancel();
     });
-    if constexpr (std::is_same_v<Stream, SecureStream>) {
-      lowest(stream_).expires_after(kRequestTimeout);
-      stream_.async_handshake(asio::ssl::stream_base::server, buffer_.data(),
-                              [self = this->shared_from_this()](const error_code& error, size_t n) {
-                                if (error) {
-                                  self->note_refusal("TLS: " + error.message());
-                                  return;
-                                }
-                                self->buffer_.consume(n);
-                                self->read(kRequestTimeout);
-                              });
-    } else {
+    if (!stream_.is_secure()) {
       read(kRequestTimeout);
+      return;
     }
+    stream_.next_layer().expires_after(kRequestTimeout);
+    stream_.handshake(buffer_.data(),
+                      Completion(
+                          [self = shared_from_this()](const error_code& error, size_t n) {
+                            if (error) {
+                              self->note_refusal("TLS: " + error.message());
+                              return;
+                            }
+                            self->buffer_.consume(n);
+                            self->read(kRequestTimeout);
+                          },
+                          stream_.get_executor()));
   }
 
  private:
-  static constexpr bool kIsSecure = std::is_same_v<Stream, SecureStream>;
-
   void read(std::chrono::seconds time) {
     parser_.emplace();
     parser_->header_limit(kMaxHeaderBytes);
-    lowest(stream_).expires_after(time);
+    stream_.next_layer().expires_after(time);
     http::async_read(stream_, buffer_, *parser_,
-                     [self = this->shared_from_this()](const error_code& error, size_t) {
+                     [self = shared_from_this()](const error_code& error, size_t) {
                        if (error) {
                          self->on_bad_request(error);
                        } else {
@@ -159,7 +149,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
       send(std::move(response));
       return;
     }
-    if (!context_.rules.is_known_origin(view(request[http::field::origin]), host, kIsSecure)) {
+    if (!context_.rules.is_known_origin(view(request[http::field::origin]), host,
+                                        stream_.is_secure())) {
       ++context_.counters.num_refused_origins;
       note_refusal("Origin header: another site.");
       send(refusal(403, "Pages of other sites may not connect."));
@@ -194,8 +185,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
       response_->body() = beast::span<const char>(page_.body->data(), page_.body->size());
     }
     serializer_.emplace(*response_);
-    lowest(stream_).expires_after(kResponseTimeout);
-    const auto on_sent = [self = this->shared_from_this()](const error_code& error, size_t) {
+    stream_.next_layer().expires_after(kResponseTimeout);
+    const auto on_sent = [self = shared_from_this()](const error_code& error, size_t) {
       if (error) return;
       if (self->keeps_alive_) {
         self->read(kKeepAliveTimeout);
@@ -212,13 +203,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
 
   void close() {
     error_code ignored;
-    lowest(stream_).socket().shutdown(Tcp::socket::shutdown_send, ignored);
+    stream_.next_layer().socket().shutdown(Tcp::socket::shutdown_send, ignored);
   }
 
   using Response = http::response<http::span_body<const char>>;
 
   ConnectionContext& context_;
-  Stream stream_;
+  WebStream stream_;
   beast::flat_buffer buffer_;
   Endpoint endpoint_;
   std::optional<HandshakeGuard> handshake_;
@@ -256,20 +247,14 @@ class TlsDetector : public std::enable_shared_from_this<TlsDetector> {
  private:
   void serve(bool is_tls) {
     handshake_.reset();
-    if (is_tls) {
-      std::make_shared<HttpConnection<SecureStream>>(
-          context_, SecureStream(std::move(stream_), *context_.tls), std::move(buffer_))
-          ->start();
-    } else {
-      std::make_shared<HttpConnection<PlainStream>>(context_, std::move(stream_),
-                                                    std::move(buffer_))
-          ->start();
-    }
+    WebStream stream =
+        is_tls ? WebStream(std::move(stream_), *context_.tls) : WebStream(std::move(stream_));
+    std::make_shared<HttpConnection>(context_, std::move(stream), std::move(buffer_))->start();
   }
 
   ConnectionContext& context_;
   std::string address_;
-  PlainStream stream_;
+  beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<HandshakeGuard> handshake_;
 };
@@ -280,8 +265,8 @@ void serve_http(ConnectionContext& context, Tcp::socket socket) {
   if (context.tls) {
     std::make_shared<TlsDetector>(context, std::move(socket))->start();
   } else {
-    std::make_shared<HttpConnection<PlainStream>>(context, PlainStream(std::move(socket)),
-                                                  beast::flat_buffer())
+    std::make_shared<HttpConnection>(context, WebStream(beast::tcp_stream(std::move(socket))),
+                                     beast::flat_buffer())
         ->start();
   }
 }

@@ -1,8 +1,7 @@
-#include "phone-gateway/server/network/beast_streams.h"
+#include "phone-gateway/server/network/websocket_connection.h"
 //
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
-#include <boost/beast/websocket/ssl.hpp>
 
 #include "common/program.h"
 #include "phone-gateway/protocol/framing.h"
@@ -12,16 +11,14 @@ namespace nao::gateway {
 namespace {
 
 namespace websocket = beast::websocket;
-using boost::system::error_code;
 
 /** Time for the opening and for the closing handshake, as for Connect. */
 constexpr std::chrono::seconds kHandshakeTimeout{5};
 
 /** A client's WebSocket: one message is one binary message. */
-template <class Stream>
 class WebSocketConnection : public ClientConnection {
  public:
-  WebSocketConnection(ConnectionContext& context, Stream stream)
+  WebSocketConnection(ConnectionContext& context, WebStream stream)
       : ClientConnection(context), socket_(std::move(stream)) {}
 
   void start(WebRequest request) {
@@ -101,7 +98,7 @@ class WebSocketConnection : public ClientConnection {
 
   void close_socket() override { beast::get_lowest_layer(socket_).close(); }
 
-  websocket::stream<Stream> socket_;
+  websocket::stream<WebStream> socket_;
   WebRequest request_;
   beast::flat_buffer buffer_;
   MessageBytes outgoing_;
@@ -110,14 +107,8 @@ class WebSocketConnection : public ClientConnection {
 
 }  // namespace
 
-void serve_websocket(ConnectionContext& context, PlainStream stream, WebRequest request) {
-  std::make_shared<WebSocketConnection<PlainStream>>(context, std::move(stream))
-      ->start(std::move(request));
-}
-
-void serve_websocket(ConnectionContext& context, SecureStream stream, WebRequest request) {
-  std::make_shared<WebSocketConnection<SecureStream>>(context, std::move(stream))
-      ->start(std::move(request));
+void serve_websocket(ConnectionContext& context, WebStream stream, WebRequest request) {
+  std::make_shared<WebSocketConnection>(context, std::move(stream))->start(std::move(request));
 }
 
 }  // namespace nao::gateway

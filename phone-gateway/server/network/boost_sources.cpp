@@ -1,0 +1,7 @@
+// The parts of Boost.Asio and Boost.Beast that are no templates, compiled once: see
+// BOOST_ASIO_SEPARATE_COMPILATION and BOOST_BEAST_SEPARATE_COMPILATION.
+#include <utility>
+//
+#include <boost/asio/impl/src.hpp>
+#include <boost/asio/ssl/impl/src.hpp>
+#include <boost/beast/src.hpp>

@@ -1,0 +1,140 @@
+#pragma once
+
+#include "phone-gateway/server/network/connection_context.h"
+//
+#include <array>
+#include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/associated_executor.hpp>
+#include <boost/beast/core/role.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace nao::gateway {
+
+namespace beast = boost::beast;
+using boost::system::error_code;
+
+/** A completion handler of any type: called once with the result and the number of bytes. */
+class Completion {
+ public:
+  using executor_type = asio::any_io_executor;
+
+  /** @param handler  Takes (error_code, size_t) or (error_code). @param executor  Where it is
+   * called unless it names an executor itself. */
+  template <class Handler>
+  Completion(Handler&& handler, const executor_type& executor)
+      : executor_(asio::get_associated_executor(handler, executor)),
+        target_(std::make_unique<Target<std::decay_t<Handler>>>(std::forward<Handler>(handler))) {}
+
+  void operator()(const error_code& error, size_t num_bytes = 0) {
+    // The handler may start the next operation, and destroy this object.
+    const std::unique_ptr<TargetBase> target = std::move(target_);
+    target->call(error, num_bytes);
+  }
+  executor_type get_executor() const { return executor_; }
+
+ private:
+  struct TargetBase {
+    virtual ~TargetBase() = default;
+    virtual void call(const error_code& error, size_t num_bytes) = 0;
+  };
+  template <class Handler>
+  struct Target : TargetBase {
+    template <class Source>
+    explicit Target(Source&& source) : handler(std::forward<Source>(source)) {}
+    void call(const error_code& error, size_t num_bytes) override {
+      // Moved out first: the memory of an operation is released before its handler is called.
+      Handler last = std::move(handler);
+      if constexpr (std::is_invocable_v<Handler&, error_code, size_t>) {
+        last(error, num_bytes);
+      } else {
+        last(error);
+      }
+    }
+    Handler handler;
+  };
+
+  executor_type executor_;
+  std::unique_ptr<TargetBase> target_;
+};
+
+/** Up to 16 buffers of one operation; an operation on more transfers the first 16. */
+template <class Buffer>
+class BufferList {
+ public:
+  using value_type = Buffer;
+  using const_iterator = const Buffer*;
+
+  template <class Sequence>
+  explicit BufferList(const Sequence& buffers) {
+    auto buffer = asio::buffer_sequence_begin(buffers);
+    const auto last = asio::buffer_sequence_end(buffers);
+    for (; buffer != last && size_ < buffers_.size(); ++buffer) buffers_[size_++] = Buffer(*buffer);
+  }
+  const_iterator begin() const { return buffers_.data(); }
+  const_iterator end() const { return buffers_.data() + size_; }
+
+ private:
+  std::array<Buffer, 16> buffers_;
+  size_t size_ = 0;
+};
+
+/** A TCP stream with or without TLS, as one type.
+ *
+ * HTTP and WebSocket of Boost.Beast are templates of their stream: with one type they are compiled
+ * once, and TLS is compiled for one type of handler. */
+class WebStream {
+ public:
+  using executor_type = beast::tcp_stream::executor_type;
+  using next_layer_type = beast::tcp_stream;
+
+  explicit WebStream(beast::tcp_stream stream);
+  /** With TLS: handshake() comes first. */
+  WebStream(beast::tcp_stream stream, asio::ssl::context& tls);
+  ~WebStream();
+  WebStream(WebStream&&) noexcept;
+  WebStream& operator=(WebStream&&) noexcept;
+
+  bool is_secure() const { return secure_ != nullptr; }
+  executor_type get_executor() { return next_layer().get_executor(); }
+  /** The TCP stream. */
+  next_layer_type& next_layer();
+  const next_layer_type& next_layer() const;
+
+  /** The TLS handshake of a server. @param received  Bytes of it that have been read already; the
+   * handler's second argument is how many of them it took. */
+  void handshake(asio::const_buffer received, Completion completion);
+
+  template <class Buffers, class Handler>
+  void async_read_some(const Buffers& buffers, Handler&& handler) {
+    read_some(BufferList<asio::mutable_buffer>(buffers), erase(std::forward<Handler>(handler)));
+  }
+  template <class Buffers, class Handler>
+  void async_write_some(const Buffers& buffers, Handler&& handler) {
+    write_some(BufferList<asio::const_buffer>(buffers), erase(std::forward<Handler>(handler)));
+  }
+  /** Ends a WebSocket's connection in the way of its stream; found by Boost.Beast. */
+  template <class Handler>
+  friend void async_teardown(beast::role_type role, WebStream& stream, Handler&& handler) {
+    stream.tear_down(role, stream.erase(std::forward<Handler>(handler)));
+  }
+
+ private:
+  struct Secure;
+
+  template <class Handler>
+  Completion erase(Handler&& handler) {
+    return Completion(std::forward<Handler>(handler), get_executor());
+  }
+  void read_some(const BufferList<asio::mutable_buffer>& buffers, Completion completion);
+  void write_some(const BufferList<asio::const_buffer>& buffers, Completion completion);
+  void tear_down(beast::role_type role, Completion completion);
+
+  /** Exactly one of them. */
+  std::unique_ptr<beast::tcp_stream> plain_;
+  std::unique_ptr<Secure> secure_;
+};
+
+}  // namespace nao::gateway
