@@ -31,8 +31,7 @@ void Markers::add_arrow(Scene& scene, const Eigen::Vector3d& from, const Eigen::
   MeshInstance arrow;
   arrow.mesh = arrow_;
   arrow.pose_in_world.translate(from.cast<float>());
-  arrow.pose_in_world.rotate(
-      rotation_between(Eigen::Vector3d::UnitZ(), along).cast<float>());
+  arrow.pose_in_world.rotate(rotation_between(Eigen::Vector3d::UnitZ(), along).cast<float>());
   const auto length = static_cast<float>(along.norm());
   const float width = std::min(length, kMaxArrowWidth);
   arrow.scale = {width, width, length};

@@ -87,7 +87,8 @@ class GatewayReasonCode {
  public:
   // NOLINTNEXTLINE(google-explicit-constructor): written as gateway_reason("not-connected").
   consteval GatewayReasonCode(const char* code) : code_(code) {
-    if (find_gateway_reason(code) == kGatewayReasons.size()) throw "no such code in kGatewayReasons";
+    if (find_gateway_reason(code) == kGatewayReasons.size())
+      throw "no such code in kGatewayReasons";
   }
   std::string text() const { return std::string(code_); }
 
