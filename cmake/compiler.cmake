@@ -31,6 +31,7 @@ if(NAO_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif()
 if(NAO_SANITIZE)
+  # Instrumented code gives GCC false reports: warnings are errors in the other builds only.
   # Not vptr: it stops at every message, inside LCM's own header, on an object that is sound.
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
                       -fno-sanitize=vptr -fno-omit-frame-pointer)
