@@ -14,22 +14,25 @@ Eigen::Vector2d pair_of(const YamlEntry& entry) {
 
 Kick Kick::load(const std::filesystem::path& file) {
   const YamlEntry root = YamlEntry::load(file);
-  root.allow_only({"ball", "ball_reach", "strike_duration", "strength", "balance_gain", "phases"});
+  root.allow_only({"ball", "ball_reach", "ball_contact", "strike_duration", "strength",
+                   "balance_gain", "zmp_reach", "phases"});
   Kick kick;
   kick.ball = pair_of(root.at("ball"));
   kick.ball_reach = pair_of(root.at("ball_reach"));
+  kick.ball_contact = root.at("ball_contact").number();
   const std::vector<double> strike = root.at("strike_duration").numbers(2);
   if (strike[0] <= 0 || strike[1] <= 0) root.at("strike_duration").fail("must be above 0");
   kick.strike_duration = {strike[0], strike[1]};
   kick.strength = root.at("strength").number();
   kick.balance_gain = root.at("balance_gain").number();
+  kick.zmp_reach = pair_of(root.at("zmp_reach"));
   for (const YamlEntry& item : root.at("phases").items()) {
-    item.allow_only({"name", "duration", "mass", "foot", "pitch"});
+    item.allow_only({"name", "duration", "com", "foot", "pitch"});
     Phase phase;
     phase.name = item.at("name").text();
     phase.duration = item.at("duration").number();
     if (phase.duration <= 0) item.at("duration").fail("must be above 0");
-    phase.mass = pair_of(item.at("mass"));
+    phase.com = pair_of(item.at("com"));
     const std::vector<double> foot = item.at("foot").numbers(3);
     phase.foot = {foot[0], foot[1], foot[2]};
     phase.pitch = item.at("pitch").number();

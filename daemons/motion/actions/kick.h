@@ -14,17 +14,19 @@ struct Kick {
   struct Phase {
     std::string name;
     double duration = 0;
-    Eigen::Vector2d mass = Eigen::Vector2d::Zero();
+    Eigen::Vector2d com = Eigen::Vector2d::Zero();
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();
     double pitch = 0;
   };
 
   Eigen::Vector2d ball = Eigen::Vector2d::Zero();
   Eigen::Vector2d ball_reach = Eigen::Vector2d::Zero();
+  double ball_contact = 0;
   /** At strength 0 and 1. */
   std::array<double, 2> strike_duration{};
   double strength = 0;
   double balance_gain = 0;
+  Eigen::Vector2d zmp_reach = Eigen::Vector2d::Zero();
   std::vector<Phase> phases;
 
   /** @throws ModelError  naming the line and what is wrong with it. */

@@ -1,27 +1,32 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "daemons/motion/actions/kick.h"
+#include "daemons/motion/generators/kick_pose.h"
+#include "daemons/motion/generators/kick_trajectory.h"
 #include "daemons/motion/generators/motion_generator.h"
 #include "daemons/motion/walk/gait.h"
 #include "daemons/motion/walk/servo_feedforward.h"
-#include "kinematics/leg_kinematics.h"
+#include "kinematics/pose2.h"
 
 namespace nao::motion {
 
 /** Kicks from a stand: the CoM moves over the support foot, the other foot strikes, and both come
- * back. Balance by the centre of mass, the standing ankle's torque and the gyroscope.
+ * back. Balance by the ZMP under the support foot and by the gyroscope at its ankle.
  *
- * Frame S is the standing sole, levelled, as the joints have it. For a kick with the right foot the
- * data's y is mirrored. */
+ * Frame S: origin at the support sole, z up; x is the torso's heading at the start, and that is the
+ * direction in which the ball is to go. S slides and yaws with the support sole; the foot's path is
+ * corrected for that (hold_path_over_ground()), and the torso turns such that the foot points along
+ * its path (KickPose). */
 class KickMotion : public MotionGenerator {
  public:
-  /** @param kick, gait    Must outlive this; of the gait the balance at the ankles is taken.
-   * @param stand_up      Way to the stand that a kick begins in, taken if the robot does not stand.
+  /** @param kick, gait    Must outlive this; the kick uses the gait's gains at the ankles.
+   * @param stand_up      Motion to the stand that a kick begins in, used if the robot does not
+   *                      stand.
    * @param ball          On the ground, seen from the middle between the soles, m; NaN: where the
    *                      kick has it best. @param strength  0..1; NaN: as the kick says. */
   KickMotion(const RobotModel& model, const Kick& kick, const Gait& gait,
@@ -41,20 +46,18 @@ class KickMotion : public MotionGenerator {
   Reason reason() const override { return reason_; }
 
  private:
-  /** What the body does at a moment, in S. */
-  struct Reference {
-    Eigen::Vector2d mass = Eigen::Vector2d::Zero();
-    Eigen::Vector3d foot = Eigen::Vector3d::Zero();
-    double pitch = 0;
-  };
-
-  void start_kick(const JointTargets& targets);
-  Reference reference_at(double time) const;
-  std::vector<double> solve(const Reference& reference, const Eigen::Isometry3d& torso,
-                            const std::vector<double>& position) const;
-  Eigen::Isometry3d torso_for(const Reference& reference) const;
-  void follow(const MotionContext& context, const Reference& reference, JointTargets& targets);
-  double side() const { return is_left_ ? 1 : -1; }
+  void start_kick(const MotionContext& context, const JointTargets& targets);
+  /** S in the odometry frame. */
+  Pose2 support_in_odometry(const RobotState& state) const;
+  void follow(const MotionContext& context, const KickReference& planned, JointTargets& targets);
+  /** From the reference of the CoM to the ZMP, m, in S, that corrects the measured DCM. */
+  Eigen::Vector2d calc_zmp_offset(const RobotState& state, const KickReference& reference) const;
+  /** Forces of the ground on the left and the right foot, in the torso frame. */
+  std::array<FootLoad, 2> calc_loads(const KickReference& reference, const Eigen::Isometry3d& torso,
+                                     const Eigen::Vector2d& zmp_offset) const;
+  /** @param torque, velocity  Of all motors, N m and rad/s: what the servos' offsets are for. */
+  void write_targets(const std::vector<double>& torque, const std::vector<double>& velocity,
+                     JointTargets& targets) const;
 
   const RobotModel* model_;
   const Kick* kick_;
@@ -63,21 +66,18 @@ class KickMotion : public MotionGenerator {
   bool is_standing_up_ = false;
   bool is_finishing_ = false;
   bool is_left_;
-  double strength_;
-  LegKinematics legs_;
+  KickTrajectory trajectory_;
+  KickPose pose_;
   ServoFeedforward feedforward_;
   Kinematics kinematics_;
 
-  std::vector<Kick::Phase> phases_;
-  double duration_ = 0;
+  /** s since the start of the kick. */
   double time_ = 0;
-  Reference start_reference_;
-  /** Torso in S at the start: its height and orientation are kept. */
-  Eigen::Isometry3d start_torso_ = Eigen::Isometry3d::Identity();
-  double kick_heading_ = 0;
+  /** S at the start. */
+  Pose2 start_in_odometry_;
+  /** Of all motors, rad, without what balance and feedforward add. */
   std::vector<double> reference_position_;
-  Eigen::Vector3d com_in_torso_ = Eigen::Vector3d::Zero();
-  double height_ = 0.26;
+  /** Filtered angular velocity of the torso, rad/s. */
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
   Reason reason_;
 };
