@@ -6,6 +6,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from stack import COMPANIONS, PROGRAMS
+
 # Included by most sources of the programs.
 TOUCHED_HEADER = "robot_model/robot_model.h"
 
@@ -22,8 +24,8 @@ def copy_sources(root, folder):
 
 
 def processor_time(folder, command):
-    """User and system time of a command of scripts/lib.sh and scripts/stack.sh and of all its children, s."""
-    script = f". '{folder}/scripts/lib.sh'; . '{folder}/scripts/stack.sh'; {command}"
+    """User and system time of a command of scripts/lib.sh and of all its children, s."""
+    script = f". '{folder}/scripts/lib.sh'; {command}"
     before = os.times()
     subprocess.run(["bash", "-c", script], check=True, stdout=subprocess.DEVNULL,
                    env={**os.environ, "CCACHE_DISABLE": "1"})
@@ -36,7 +38,7 @@ def measure(root):
     with tempfile.TemporaryDirectory(prefix="nao-bench-build-") as name:
         folder = Path(name)
         copy_sources(root, folder)
-        start_command = 'build_preset dev "${PROGRAMS[@]}" "${COMPANIONS[@]}"'
+        start_command = " ".join(["build_preset", "dev", *PROGRAMS, *COMPANIONS])
         start = processor_time(folder, start_command)
         with open(folder / TOUCHED_HEADER, "a", encoding="utf-8") as header:
             header.write("// One more line.\n")

@@ -15,6 +15,8 @@ struct GatewayOptions {
   std::string model = "nao";
   /** Pairing token; empty: a new one at each start. */
   std::string token;
+  /** File of the token if `token` is empty, created if it does not exist; empty: none. */
+  std::string token_file;
   /** Names of this host that browsers may use, in addition to its own name, localhost and IP
    * addresses. */
   std::vector<std::string> host_names;
@@ -29,6 +31,8 @@ struct GatewayOptions {
   std::string tls_folder;
   /** Print the address for phones as a QR code. */
   bool prints_qr = false;
+  /** Print the addresses for phones, and end. */
+  bool prints_addresses = false;
   /** File for the QR code, PNG; empty: none. */
   std::string qr_file;
   GatewayLimits limits;

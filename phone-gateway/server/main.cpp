@@ -19,7 +19,9 @@
 #include "phone-gateway/server/network/network.h"
 #include "phone-gateway/server/pairing/certificate.h"
 #include "phone-gateway/server/pairing/own_addresses.h"
+#include "phone-gateway/server/pairing/phone_urls.h"
 #include "phone-gateway/server/pairing/qr_code.h"
+#include "phone-gateway/server/pairing/token_file.h"
 
 namespace nao::gateway {
 namespace {
@@ -45,6 +47,8 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
       ->show_default();
   app.add_option("--token", options.token,
                  "Pairing token that clients must send; default: a new one at each start");
+  app.add_option("--token-file", options.token_file,
+                 "File of the pairing token; created with a new one if it does not exist");
   app.add_option("--host-name", options.host_names,
                  "Another name of this host that browsers may use (repeatable)");
   app.add_option(
@@ -65,6 +69,8 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
   app.add_option("--audit-log", options.audit_file,
                  "File to which connections, drivers and refusals are appended as JSON lines");
   app.add_flag("--print-qr", options.prints_qr, "Print the address for phones as a QR code");
+  app.add_flag("--print-addresses", options.prints_addresses,
+               "Print the addresses for phones that these options give, one a line, and end");
   app.add_option("--qr-png", options.qr_file, "Write the QR code to this file, PNG");
 }
 
@@ -98,20 +104,17 @@ void prepare_tls(GatewayOptions& options) {
 }
 
 /** The addresses to open in a phone's browser. */
-std::vector<std::string> phone_urls(const GatewayOptions& options, uint16_t port) {
-  std::vector<std::string> addresses = {options.network.bind};
-  if (options.network.bind == "0.0.0.0" || options.network.bind == "::") {
-    addresses = own_addresses();
-    if (addresses.empty()) addresses = {"localhost"};
-  }
-  const std::string scheme = options.uses_tls ? "https://" : "http://";
-  std::vector<std::string> urls;
-  for (const std::string& address : addresses) {
-    const bool is_v6 = address.find(':') != std::string::npos;
-    urls.push_back(scheme + (is_v6 ? "[" + address + "]" : address) + ":" + std::to_string(port) +
-                   "/#token=" + options.token);
-  }
-  return urls;
+std::vector<std::string> addresses_for_phones(const GatewayOptions& options, uint16_t port) {
+  return phone_urls({options.network.bind, port, options.uses_tls, options.token}, own_addresses());
+}
+
+/** Prints the addresses, one a line; if requested, then an empty line and the first as a QR code.
+ */
+void print_addresses(const GatewayOptions& options) {
+  const std::vector<std::string> urls = addresses_for_phones(options, options.network.http_port);
+  for (const std::string& url : urls) std::cout << url << "\n";
+  if (options.prints_qr) std::cout << "\n" << draw_on_terminal(make_qr_code(urls.front()));
+  std::cout.flush();
 }
 
 /** Prints and writes the QR code of an address, as the options request. */
@@ -128,7 +131,13 @@ void show_qr_code(const GatewayOptions& options, const std::string& url) {
 void run_gateway(const CommonOptions& common, GatewayOptions options) {
   // The library prints a line for every message that it cannot parse: any host could fill the log.
   google::protobuf::SetLogHandler(nullptr);
-  if (options.token.empty()) options.token = make_token();
+  if (options.token.empty()) {
+    options.token = options.token_file.empty() ? make_token() : token_from_file(options.token_file);
+  }
+  if (options.prints_addresses) {
+    print_addresses(options);
+    return;
+  }
   prepare_tls(options);
   const std::filesystem::path folder = data_path() / "robots" / options.model;
   if (request_realtime_scheduling(RealtimePriority::kServing))
@@ -146,7 +155,7 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
                folder.string());
   logger::info("HTTP and WebSocket on {}:{}, TCP on {}:{}", options.network.bind,
                network.http_port(), options.network.bind, network.tcp_port());
-  const std::vector<std::string> urls = phone_urls(options, network.http_port());
+  const std::vector<std::string> urls = addresses_for_phones(options, network.http_port());
   for (const std::string& url : urls) logger::info("phones: {}", url);
   show_qr_code(options, urls.front());
   pages.add_page("/metrics", {"text/plain; version=0.0.4", true, [&daemon, &network] {

@@ -9,6 +9,7 @@ import socket
 import time
 import unittest
 import urllib.request
+from pathlib import Path
 
 from stack import DEADLINE, ROOT, Stack, run
 
@@ -31,6 +32,16 @@ class Start(unittest.TestCase):
             self.assertEqual(stopped.returncode, 0, stopped.stderr)
             self.assertEqual(stack.pids(), {})
             self.assertIn("Nothing was running", stack.stop().stdout)
+
+    def test_the_token_is_only_in_a_file_of_its_owner(self):
+        with Stack() as stack:
+            stack.start_or_fail("--only", "sim,motion,phone-gateway")
+            file = stack.run_dir / "token"
+            self.assertEqual(file.read_text(), f"{stack.token}\n")
+            self.assertEqual(file.stat().st_mode & 0o777, 0o600)
+            # Every user of this machine may read command lines.
+            for pid in stack.pids().values():
+                self.assertNotIn(stack.token.encode(), Path(f"/proc/{pid}/cmdline").read_bytes())
 
     def test_twice_says_so_and_gives_the_same_address(self):
         with Stack() as stack:
@@ -100,7 +111,6 @@ class Start(unittest.TestCase):
             self.assertIn("nao-sim does not start", result.stderr)
             self.assertIn("no-such-scene", result.stderr)
             self.assertEqual(stack.pids(), {})
-
 
     def test_a_program_that_crashes_again_and_again_stays_down_and_status_says_so(self):
         with Stack() as stack:
