@@ -17,7 +17,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 COPY = ROOT / "build/broken"
-TARGETS = ["playback_test", "picture_playback_test", "nao-head-camera", "nao-phone-gateway", "nao-phone", "nao"]
+TARGETS = ["playback_test", "image_playback_test", "nao-head-camera", "nao-phone-gateway", "nao-phone", "nao"]
 
 # Daemon, file, original text, replacement.
 FLIPS = [
@@ -27,8 +27,8 @@ FLIPS = [
      "WalkCommand{message.vx, message.vy, message.wz}", "WalkCommand{message.vx, message.vy, -message.wz}"),
     ("nao-head-camera", "rendering/pinhole_camera.cpp",
      "matrix(1, 1) = 2 * camera.fy", "matrix(1, 1) = -2 * camera.fy"),
-    ("nao-phone-gateway", "phone-gateway/server/bus_messages.cpp",
-     'finite(message.joint_position[i], "joint_position")', '-finite(message.joint_position[i], "joint_position")'),
+    ("nao-phone-gateway", "phone-gateway/server/core/robot_mirror.cpp",
+     "add_joint_position(static_cast<float>(position))", "add_joint_position(-static_cast<float>(position))"),
 ]
 
 

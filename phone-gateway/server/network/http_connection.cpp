@@ -19,7 +19,7 @@ namespace {
  * Chosen: a browser fetches a page's files within a second, and opens a new connection later. */
 constexpr std::chrono::seconds kRequestTimeout{5};
 constexpr std::chrono::seconds kKeepAliveTimeout{15};
-/** Time in which one response must be sent: chosen: 1 MB at 34 kB/s. */
+/** Time in which one response must be sent. Chosen: 1 MB at 34 kB/s. */
 constexpr std::chrono::seconds kResponseTimeout{30};
 /** As common web servers allow (nginx: 4 buffers of 8 kB, Apache: 8 kB a line). */
 constexpr uint32_t kMaxHeaderBytes = 8192;

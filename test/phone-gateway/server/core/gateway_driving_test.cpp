@@ -240,6 +240,23 @@ TEST_F(GatewayCommands, AreRepeatedUntilAnsweredAndTheirResultsReported) {
   EXPECT_FALSE(results[1].message().empty());
 }
 
+TEST_F(GatewayCommands, HaveTheReasonsOfNaoMotionInTheirResults) {
+  Client ana = connect_driver("Ana");
+  go_to(ana, "Crouch");
+  CommandResult result;
+  result.source = sent_.back().source;
+  result.id = sent_.back().id;
+  result.status = ResultStatus::kRefused;
+  result.reason = Reason("no-path", {"Sit", "Crouch"});
+  core_->handle_result(result, now_);
+  const auto results = notices(ana, Notice::COMMAND_RESULT);
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0].reason_code(), "no-path");
+  ASSERT_EQ(results[0].reason_arguments_size(), 2);
+  EXPECT_EQ(results[0].reason_arguments(0), "Sit");
+  EXPECT_EQ(results[0].message(), to_sentence(result.reason));
+}
+
 TEST_F(GatewayCommands, ThatAreNotAnsweredFail) {
   Client ana = connect_driver("Ana");
   go_to(ana, "Crouch");

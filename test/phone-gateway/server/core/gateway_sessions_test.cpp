@@ -139,6 +139,19 @@ TEST_F(GatewayRequests, ThatAreMalformedAreRefusedAndFinallyCloseTheConnection) 
   EXPECT_TRUE(core_->is_closing(client.id));
 }
 
+TEST_F(GatewayRequests, AreAnsweredBeforeTheNoticesThatTheyCause) {
+  Client ana = connect("Ana");
+  take_control(ana);
+  ASSERT_GE(ana.received.size(), 2u);
+  EXPECT_TRUE(ana.received[ana.received.size() - 2].has_response());
+  EXPECT_EQ(ana.received.back().notice().kind(), Notice::CONTROL_CHANGED);
+  Client refused = open();
+  ask(refused, make_connect("", 2));
+  ASSERT_EQ(refused.received.size(), 2u);
+  EXPECT_EQ(refused.received[0].response().reason_code(), "protocol-version-unsupported");
+  EXPECT_EQ(refused.received[1].notice().kind(), Notice::CLOSING);
+}
+
 TEST_F(GatewayRequests, WithoutAUseCaseAreInvalid) {
   Client client = connect("Ana");
   EXPECT_EQ(ask(client, naoremote::Request()).error(), naoremote::INVALID_REQUEST);

@@ -10,8 +10,6 @@
 namespace nao::gateway {
 namespace {
 
-using naoremote::Notice;
-
 // ---- States and images ------------------------------------------------------------------------
 
 using GatewayStreams = GatewayFixture;
