@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "common/random.h"
@@ -63,16 +66,38 @@ TEST_P(SensorLayout, KeepsTheCenterOfPressureWithinTheSensorsHull) {
   }
 }
 
+/** Distance of a point from the convex hull of positions outside of which it lies, m. The nearest
+ * point of the hull is on an edge, and every line between two positions is within the hull. */
+double distance_to_hull(const std::vector<Vector2d>& positions, const Vector2d& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector2d& a : positions) {
+    for (const Vector2d& b : positions) {
+      const Vector2d along = b - a;
+      const double length_squared = along.squaredNorm();
+      const double t =
+          length_squared > 0 ? std::clamp((point - a).dot(along) / length_squared, 0.0, 1.0) : 0;
+      least = std::min(least, (a + t * along - point).norm());
+    }
+  }
+  return least;
+}
+
+// It need not be the foremost sensor: of three with a slanted front edge both front ones are
+// loaded.
 TEST_P(SensorLayout, PutsTheCenterNearestToAPointBeyondTheSensors) {
-  FootLoad load(GetParam());
-  for (const double x : {-0.2, 0.2}) {
-    const Vector2d point(x, 0);
+  const std::vector<Vector2d>& positions = GetParam();
+  FootLoad load(positions);
+  constexpr int kNumDirections = 72;
+  // All layouts are within 0.08 m of the frame's origin.
+  constexpr double kBeyond = 0.2;
+  for (int i = 0; i < kNumDirections; ++i) {
+    const double angle = i * 2 * M_PI / kNumDirections;
+    const Vector2d point = kBeyond * Vector2d(std::cos(angle), std::sin(angle));
     const std::vector<double> fractions = load.distribute(point);
     expect_valid(fractions);
-    const double distance = (center_of(GetParam(), fractions) - point).norm();
-    for (const Vector2d& position : GetParam()) {
-      EXPECT_LE(distance, (position - point).norm() + 1e-9);
-    }
+    EXPECT_NEAR((center_of(positions, fractions) - point).norm(),
+                distance_to_hull(positions, point), 1e-9)
+        << "angle " << angle;
   }
 }
 

@@ -109,7 +109,8 @@ inline std::shared_ptr<const RobotModel> make_biped_with_three_sensors() {
       {"LSole", "RSole", "[LToe, LHeelOut, LHeelIn, RMiddle]"});
 }
 
-/** A block on so many spheres of 1 cm in a square grid: each touches the floor. */
+/** A block on so many spheres of 1 cm in a square grid. Each touches the floor but the first two:
+ * there the soles are, whose outlines at the height of the spheres' centers are their points. */
 inline std::shared_ptr<const RobotModel> make_bed_of_spheres(int spheres_a_side) {
   std::string urdf = R"(<robot name="bed"><link name="torso">
     <inertial><mass value="1"/>
