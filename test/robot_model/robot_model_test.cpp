@@ -2,65 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
-#include "common/data_path.h"
-#include "robot_model/collision_shape.h"
+#include "test/robot_model/nao_robot.h"
 
 namespace nao {
 namespace {
-
-/** Tolerance of lengths that the vendor publishes in tenths of a millimeter, m. */
-constexpr double kExact = 1e-9;
-
-const RobotModel& nao_robot() {
-  static const RobotModel robot = RobotModel::load(data_path() / "robots" / "nao");
-  return robot;
-}
-
-std::vector<double> zero_posture() {
-  return std::vector<double>(nao_robot().num_motors(), 0.0);
-}
-
-std::vector<double> posture(const std::string& name) {
-  return nao_robot().find_posture(name)->position;
-}
-
-Eigen::Isometry3d pose_of(const std::string& link, const std::vector<double>& position) {
-  return nao_robot().link_poses(position)[nao_robot().find_link(link)];
-}
-
-/** Name of the mirrored link or joint: "LFoot" for "RFoot"; the same name if it has no side. */
-std::string counterpart(std::string name) {
-  if (name.size() > 1 && std::isupper(name[1]) != 0) {
-    if (name[0] == 'L' || name[0] == 'R') {
-      name[0] = name[0] == 'L' ? 'R' : 'L';
-    }
-  }
-  for (const auto& [from, to] : {std::pair{"Left", "Right"}, std::pair{"Right", "Left"}}) {
-    const size_t at = name.find(from);
-    if (at != std::string::npos) {
-      return name.replace(at, std::string(from).size(), to);
-    }
-  }
-  // Foot sensors: outer ones mirror outer ones.
-  if (name.find("Fsr") != std::string::npos) {
-    name.replace(5, 1, name[5] == 'L' ? "R" : "L");
-  }
-  return name;
-}
-
-const Eigen::DiagonalMatrix<double, 3> kMirror(1, -1, 1);
-
-Eigen::Isometry3d mirrored(const Eigen::Isometry3d& pose) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.translation() = kMirror * pose.translation();
-  result.linear() = kMirror * pose.linear() * kMirror;
-  return result;
-}
 
 TEST(RobotModel, WeighsWhatTheVendorPublishes) {
   EXPECT_NEAR(nao_robot().total_mass(), 5.30535, 1e-8);
@@ -249,71 +198,6 @@ TEST(RobotModel, LiftsTheFingersWhenAHandOpens) {
   EXPECT_GT((change * Eigen::Vector3d::UnitX()).z(), 0.5);
 }
 
-TEST(RobotModel, HasTheEightPostures) {
-  std::vector<std::pair<std::string, std::string>> postures;
-  for (const Posture& each : nao_robot().postures()) {
-    postures.emplace_back(each.name, each.family);
-  }
-  using testing::Pair;
-  EXPECT_THAT(postures, testing::ElementsAre(
-                            Pair("StandZero", "standing"), Pair("StandInit", "standing"),
-                            Pair("Stand", "standing"), Pair("Crouch", "crouching"),
-                            Pair("Sit", "sitting"), Pair("SitRelax", "sitting"),
-                            Pair("LyingBack", "lying-back"), Pair("LyingBelly", "lying-belly")));
-  EXPECT_EQ(nao_robot().find_posture("Moonwalk"), nullptr);
-}
-
-TEST(RobotModel, KeepsEveryPostureInsideItsOwnAndCoupledLimits) {
-  const RobotModel& robot = nao_robot();
-  for (const Posture& each : robot.postures()) {
-    const std::vector<double> angles = robot.joint_positions(each.position);
-    for (size_t i = 0; i < angles.size(); ++i) {
-      const Joint& joint = robot.joints()[i];
-      EXPECT_GE(angles[i], joint.lower) << each.name << " " << joint.name;
-      EXPECT_LE(angles[i], joint.upper) << each.name << " " << joint.name;
-    }
-    for (const CoupledLimit& limit : robot.coupled_limits()) {
-      const double angle = each.position[limit.motor];
-      EXPECT_EQ(robot.clip_to_limits(limit.motor, angle, each.position), angle) << each.name;
-    }
-  }
-}
-
-TEST(RobotModel, HasSymmetricPostures) {
-  const RobotModel& robot = nao_robot();
-  for (const Posture& each : robot.postures()) {
-    const auto poses = robot.link_poses(each.position);
-    for (const char* pair : {"Sole", "HandEffector", "Thigh", "ForeArm"}) {
-      const Eigen::Isometry3d& left = poses[robot.find_link(std::string("L") + pair)];
-      const Eigen::Isometry3d right = mirrored(poses[robot.find_link(std::string("R") + pair)]);
-      EXPECT_LT((left.matrix() - right.matrix()).norm(), 1e-3) << each.name << " " << pair;
-    }
-  }
-}
-
-TEST(RobotModel, StandsOnFlatSolesInEveryUprightPosture) {
-  for (const char* name : {"StandZero", "StandInit", "Stand", "Crouch"}) {
-    // The robot leans by the angle between torso and sole; both soles share one plane.
-    const Eigen::Isometry3d left = pose_of("LSole", posture(name));
-    const Eigen::Isometry3d right = pose_of("RSole", posture(name));
-    const double tilt = std::acos(std::min(1.0, left.linear().col(2).dot(right.linear().col(2))));
-    EXPECT_LT(tilt, 0.01) << name << ": soles parallel";
-    EXPECT_NEAR((left.inverse() * right).translation().z(), 0, 0.5e-3) << name;
-  }
-}
-
-/** Height of the torso's frame over the left sole. */
-double torso_height(const std::string& name) {
-  return pose_of("LSole", posture(name)).inverse().translation().z();
-}
-
-TEST(RobotModel, HasThePublishedTorsoHeights) {
-  EXPECT_NEAR(torso_height("StandZero"), 0.333, 0.5e-3);
-  EXPECT_NEAR(torso_height("StandInit"), 0.320, 0.5e-3);
-  EXPECT_NEAR(torso_height("Stand"), 0.3315, 0.5e-3);
-  EXPECT_NEAR(torso_height("Crouch"), 0.229, 0.5e-3);
-}
-
 TEST(RobotModel, ClipsToTheCoupledLimits) {
   const RobotModel& robot = nao_robot();
   const int yaw = robot.find_motor("HeadYaw");
@@ -384,54 +268,6 @@ TEST(RobotModel, AllowsContactOfNeighborsOnly) {
   EXPECT_FALSE(is_allowed("LWrist", "LThigh"));
   EXPECT_FALSE(is_allowed("LWrist", "LBicep"));
   EXPECT_FALSE(is_allowed("LTibia", "RTibia"));
-}
-
-/** Self-collisions in a posture: pairs of links, and their overlap, m. */
-std::map<std::string, double> overlaps_in(const std::string& name) {
-  const RobotModel& robot = nao_robot();
-  const auto poses = robot.link_poses(posture(name));
-  const auto& allowed = robot.allowed_contacts();
-  const auto place = [&](int link, const Shape& shape) {
-    // The real shells have radii of 4 mm or more.
-    RoundedBox box = rounded_box_in_link(robot.links()[link], shape, 0.004);
-    box.center = poses[link] * box.center;
-    box.rotation = poses[link].linear() * box.rotation;
-    return box;
-  };
-  std::map<std::string, double> overlaps;
-  const int num_links = static_cast<int>(robot.links().size());
-  for (int a = 0; a < num_links; ++a) {
-    for (int b = a + 1; b < num_links; ++b) {
-      if (std::find(allowed.begin(), allowed.end(), std::pair(a, b)) != allowed.end()) {
-        continue;
-      }
-      for (const Shape& shape : robot.links()[a].collisions) {
-        for (const Shape& other : robot.links()[b].collisions) {
-          const double distance = closest_points(place(a, shape), place(b, other)).distance;
-          if (distance < 0) {
-            double& overlap = overlaps[robot.links()[a].name + " " + robot.links()[b].name];
-            overlap = std::max(overlap, -distance);
-          }
-        }
-      }
-    }
-  }
-  return overlaps;
-}
-
-TEST(RobotModel, HasPosturesWithoutSelfCollision) {
-  for (const char* name :
-       {"StandZero", "StandInit", "Stand", "Crouch", "SitRelax", "LyingBack", "LyingBelly"}) {
-    EXPECT_THAT(overlaps_in(name), testing::IsEmpty()) << name;
-  }
-}
-
-TEST(RobotModel, RestsItsHandsOnItsLegsWhenItSits) {
-  // Where the real shells are soft or hollow, the primitives overlap by less than a centimeter.
-  for (const auto& [pair, overlap] : overlaps_in("Sit")) {
-    EXPECT_THAT(pair, testing::AnyOf(testing::HasSubstr("Wrist"), testing::HasSubstr("ForeArm")));
-    EXPECT_LT(overlap, 0.010) << pair;
-  }
 }
 
 TEST(RobotModel, RejectsANumberOfPositionsThatIsNotItsOwn) {
