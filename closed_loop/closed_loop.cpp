@@ -57,6 +57,7 @@ ClosedLoop::ClosedLoop(const ClosedLoopOptions& options, uint64_t seed)
     robot.command_latency_ticks = 0;
   } else {
     // Floor friction 0.5 to 1.0.
+    // The order of these calls is part of what a seed means: a new one goes to the end.
     robot.friction_scale = random(0.5, 1.0) / world_.options().materials.floor_friction;
     robot.mass_scale = random(0.97, 1.03);
     robot.command_latency_ticks = random(0, 1) < 0.5 ? 1 : 2;
@@ -97,6 +98,7 @@ int64_t ClosedLoop::hold_walk(const Eigen::Vector3d& velocity) {
 }
 
 int ClosedLoop::ticks_per_walk_command() const {
+  // By time, not ticks: the command expires after a time, whatever the control period.
   return static_cast<int>(std::lround(kWalkCommandPeriod / period()));
 }
 

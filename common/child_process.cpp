@@ -29,6 +29,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, Output outpu
   arguments.push_back(nullptr);
   pid_ = fork();
   if (pid_ == 0) {
+    // Between fork() and execv() only calls that change this process: the child has no other thread
+    // of the parent.
     use_normal_scheduling();
     // The parent's EventLoop may have blocked SIGTERM; the mask survives execv().
     sigset_t none;
@@ -39,6 +41,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, Output outpu
       dup2(file, STDERR_FILENO);
     }
     execv(arguments[0], arguments.data());
+    // As a shell reports a program that it cannot start.
     _exit(127);
   }
   if (file >= 0) close(file);
@@ -54,6 +57,7 @@ ChildProcess::~ChildProcess() {
       if (steady_clock::now() < deadline) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       } else {
+        // A program that hangs must not make its parent wait for ever.
         kill(pid_, SIGKILL);
       }
     }
@@ -71,6 +75,7 @@ int ChildProcess::wait() {
   int status = 0;
   waitpid(pid_, &status, 0);
   pid_ = -1;
+  // Negative: the signal that ended it.
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
@@ -92,6 +97,7 @@ double ChildProcess::rss_mib() const {
   std::ifstream file("/proc/" + std::to_string(pid_) + "/statm");
   double total_pages = 0;
   double resident_pages = 0;
+  // Source: proc(5), statm: total program size, resident set, in pages.
   file >> total_pages >> resident_pages;
   return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024 * 1024);
 }

@@ -21,6 +21,7 @@ std::function<void()> with_usage_errors(std::function<void()> act) {
     try {
       act();
     } catch (const UsageError& error) {
+      // CLI11 reports its own exceptions with the usage and status 2.
       throw CLI::ValidationError(error.option, error.what());
     }
   };
@@ -116,6 +117,7 @@ std::string CommandLine::name() const {
 }
 
 CommandLine::Option* CommandLine::keep(CLI::Option* option) {
+  // A deque: addresses of its elements stay valid.
   return &parts_->options.emplace_back(*option);
 }
 

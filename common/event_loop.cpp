@@ -30,6 +30,8 @@ EventLoop::EventLoop() {
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
+  // Blocked signals are read from a descriptor like any other event: no handler interrupts a step,
+  // and no signal is lost between a check and poll().
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   signal_descriptor_ = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
   if (signal_descriptor_ < 0) {
@@ -50,6 +52,7 @@ void EventLoop::on_readable(int descriptor, std::function<void()> handler) {
 
 void EventLoop::every(double period, std::function<void()> handler) {
   const int descriptor = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+  // The kernel repeats the timer: a late handler does not shift the later ones.
   const itimerspec timing{to_timespec(period), to_timespec(period)};
   if (descriptor < 0 || timerfd_settime(descriptor, 0, &timing, nullptr) != 0) {
     throw Error(std::string("cannot create a timer: ") + std::strerror(errno));
@@ -79,11 +82,14 @@ std::string EventLoop::run() {
       if (polled[i].revents == 0) continue;
       if (sources_[i - 1].is_timer) {
         uint64_t expirations = 0;
+        // Periods that have passed meanwhile are one event: a loop that was held up does not catch
+        // up with a burst.
         if (read(sources_[i - 1].descriptor, &expirations, sizeof expirations) < 0) continue;
       }
       sources_[i - 1].handler();
     }
   }
+  // run() may be called again.
   is_stopped_ = false;
   return reason_;
 }

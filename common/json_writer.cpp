@@ -67,7 +67,7 @@ void JsonWriter::add_null(const std::string& key) {
 }
 
 std::string JsonWriter::text() const {
-  constexpr int kOneLine = -1;
+  constexpr int kOneLine = -1;  // an indent of the JSON library
   return document_->root.dump(kOneLine, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -10,6 +10,8 @@
 namespace nao {
 namespace {
 
+// Layout of an event, from LCM's eventlog.c: sync word, event number (8 bytes), time in us (8),
+// length of the channel's name (4), length of the data (4), all most significant byte first.
 constexpr uint32_t kSync = 0xEDA1DA01;
 constexpr int kHeaderSize = 28;
 // Maximum length of a channel name, characters (LCM_MAX_CHANNEL_NAME_LENGTH).

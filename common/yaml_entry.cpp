@@ -64,7 +64,9 @@ std::vector<std::pair<std::string, YamlEntry>> YamlEntry::entries() const {
       fail("has a key that is not a word");
     }
     const std::string& name = pair.first.Scalar();
+    // Path from the root, such as "motors.HeadYaw": error messages name it.
     const YamlEntry entry(pair.second, source_, where_.empty() ? name : where_ + "." + name);
+    // YAML forbids equal keys, but the parser accepts them.
     if (!names.insert(name).second) {
       entry.fail("appears twice");
     }
@@ -96,6 +98,7 @@ double YamlEntry::number() const {
   if (!node_.IsScalar() || !YAML::convert<double>::decode(node_, value)) {
     fail("must be a number");
   }
+  // YAML knows .nan and .inf: in a model they would reach the motors.
   if (!std::isfinite(value)) {
     fail("must be finite");
   }
@@ -131,6 +134,7 @@ std::vector<double> YamlEntry::numbers(size_t count) const {
 
 void YamlEntry::fail(const std::string& what) const {
   const YAML::Mark mark = node_.Mark();
+  // Marks count lines from 0, editors from 1.
   const std::string line = mark.is_null() ? "" : ":" + std::to_string(mark.line + 1);
   source_->thrower(source_->file + line + ": " + (where_.empty() ? "the file" : where_) + " " +
                    what);

@@ -8,6 +8,7 @@
 namespace nao {
 namespace {
 
+// Bytes at the beginning of a message: hash of its type (LCM).
 constexpr size_t kFingerprintSize = 8;
 
 /** Reads LCM's wire format: big-endian numbers; strings as a 32-bit length, the characters and a

@@ -3,6 +3,8 @@
 namespace nao {
 namespace {
 
+// Limits of a command's description, characters and joints: it goes into one line of a log or of an
+// app. Chosen.
 constexpr size_t kMaxQuotedLength = 40;
 constexpr size_t kMaxNamesListed = 4;
 

@@ -21,6 +21,7 @@ std::string failure(const char* function) {
 
 bool has_extension(const char* extensions, const char* name) {
   if (extensions == nullptr) return false;
+  // With spaces around it: one extension's name may be the beginning of another's.
   const std::string padded = std::string(" ") + extensions + " ";
   return padded.find(std::string(" ") + name + " ") != std::string::npos;
 }
@@ -66,6 +67,8 @@ EGLDisplay surfaceless_display() {
 
 std::vector<EglContext::Candidate> EglContext::candidates(Platform platform) {
   std::vector<Candidate> found;
+  // In the order of preference: a graphics card, software without a screen, whatever the system
+  // has.
   const bool any = platform == Platform::kAuto;
   if (any || platform == Platform::kDevice) {
     for (const EGLDisplay display : device_displays()) found.push_back({"device", display});

@@ -47,6 +47,7 @@ ShaderProgram::ShaderProgram(const std::string& name, const std::string& vertex_
   glAttachShader(id_, vertex);
   glAttachShader(id_, fragment);
   glLinkProgram(id_);
+  // The program keeps what it needs; shaders that are attached are deleted with it.
   glDeleteShader(vertex);
   glDeleteShader(fragment);
   int linked = 0;
@@ -92,6 +93,7 @@ void ShaderProgram::set(const char* name, const Eigen::Vector4f& value) const {
 }
 
 void ShaderProgram::set(const char* name, const Eigen::Matrix4f& value) const {
+  // Eigen and OpenGL both store matrices by columns: no transposition.
   glUniformMatrix4fv(location(name), 1, GL_FALSE, value.data());
 }
 
@@ -115,6 +117,7 @@ MeshBuffer::MeshBuffer(const Mesh& mesh) : num_indices_(static_cast<int>(mesh.in
   glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, kStride,
                         reinterpret_cast<const void*>(offsetof(Vertex, normal)));
   glEnableVertexAttribArray(2);
+  // Normalized: bytes 0 to 255 reach the shader as 0 to 1.
   glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
                         reinterpret_cast<const void*>(offsetof(Vertex, encoded_color)));
   glBindVertexArray(0);
@@ -164,6 +167,8 @@ void StreamBuffer::draw(unsigned mode, const std::vector<Vertex>& vertices) cons
   glBindVertexArray(vertex_array_);
   glBindBuffer(GL_ARRAY_BUFFER, vertices_);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
+               // A new store for each call: the driver need not wait until the last drawing has
+               // read the old one.
                vertices.data(), GL_STREAM_DRAW);
   glDrawArrays(mode, 0, static_cast<int>(vertices.size()));
 }
@@ -221,11 +226,14 @@ ShadowMap::ShadowMap(int size) : size_(size) {
   // Outside of the map the depth is the greatest one, so nothing there is in shadow.
   constexpr std::array<float, 4> kFar{1, 1, 1, 1};
   glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, kFar.data());
+  // A lookup compares depths and returns the lit fraction; the linear filter averages four
+  // comparisons (percentage-closer filtering).
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
   glGenFramebuffers(1, &framebuffer_);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture_, 0);
+  // Depth only: there is no color buffer to write.
   glDrawBuffer(GL_NONE);
   glReadBuffer(GL_NONE);
   require_complete("shadow map");
@@ -239,6 +247,7 @@ ShadowMap::~ShadowMap() {
 void read_pixels(unsigned framebuffer, int width, int height, std::vector<uint8_t>& pixels) {
   pixels.resize(static_cast<size_t>(4) * width * height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  // Rows come bottom up, as OpenGL has them.
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glReadPixels(0, 0, width, height, GL_BGRA, GL_UNSIGNED_BYTE, pixels.data());
 }

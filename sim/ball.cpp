@@ -10,10 +10,12 @@ using Eigen::Vector3d;
 
 Ball::Ball(const BallDescription& description)
     : description_(description),
+      // Moment of inertia of a solid sphere: 2/5 m r^2.
       inertia_(0.4 * description.mass * description.radius * description.radius) {}
 
 double Ball::energy(const Vector3d& gravity) const {
   const double mass = description_.mass;
+  // m v^2 / 2 + I w^2 / 2 - m g . p
   return 0.5 * mass * state_.velocity.squaredNorm() +
          0.5 * inertia_ * state_.angular_velocity.squaredNorm() -
          mass * gravity.dot(state_.position);
@@ -41,6 +43,9 @@ void Ball::place(const Vector3d& position, const Vector3d& velocity) {
 
 void Ball::begin_step(double h, const Vector3d& gravity, Eigen::VectorXd& scaled_velocity) {
   const double mass = description_.mass;
+  // Scaled velocity u = M^(1/2) v: in it the mass matrix is the identity, see ConstraintSolver. A
+  // sphere's inertia is I times the identity in every orientation, so that there is no gyroscopic
+  // torque. Gravity and pushes act over the step: v + h g + impulse / m.
   scaled_velocity.segment<3>(first_dof_) = std::sqrt(inertia_) * state_.angular_velocity;
   scaled_velocity.segment<3>(first_dof_ + 3) =
       std::sqrt(mass) * (state_.velocity + h * gravity + impulse_ / mass);
@@ -51,6 +56,8 @@ int Ball::add_contact_entries(double sign, const Vector3d& point, const Matrix3d
                               ConstraintSolver& solver) const {
   const int first = solver.add_entries(6);
   if (first < 0) return -1;
+  // Velocity of the contact point along axis k of the frame: n_k . (v + w x arm) = n_k . v + (arm x
+  // n_k) . w; in scaled velocities each part is divided by the root of its inertia.
   const Vector3d arm = point - state_.position;
   const double by_inertia = sign / std::sqrt(inertia_);
   const double by_mass = sign / std::sqrt(description_.mass);
@@ -88,11 +95,14 @@ void Ball::add_rolling_resistance(const Matrix3d& frame, double deceleration, do
 }
 
 void Ball::end_step(double h, const Eigen::VectorXd& scaled_velocity) {
+  // Semi-implicit Euler: the pose moves with the velocity after the step.
   state_.angular_velocity = scaled_velocity.segment<3>(first_dof_) / std::sqrt(inertia_);
   state_.velocity = scaled_velocity.segment<3>(first_dof_ + 3) / std::sqrt(description_.mass);
   state_.position += h * state_.velocity;
   const double angle = h * state_.angular_velocity.norm();
   if (angle > 0) {
+    // Exponential map of h w, in W: exact for a constant angular velocity. Normalized against
+    // rounding.
     const Quaterniond turn(Eigen::AngleAxisd(angle, state_.angular_velocity.normalized()));
     state_.orientation = (turn * state_.orientation).normalized();
   }

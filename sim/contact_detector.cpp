@@ -121,6 +121,8 @@ void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int bo
   const Vector3d relative =
       velocity_of(a, body_a, proximity.point) - velocity_of(b, body_b, proximity.point);
   const double approach_speed = -proximity.normal.dot(relative);
+  // Distance after the step if nothing stops the surfaces. A separating velocity is not used: an
+  // impulse of the step may reverse it.
   if (proximity.distance - step_ * std::max(approach_speed, 0.0) > kMargin) return;
   if (candidates_.size() == candidates_.capacity()) {
     // Marked as looked at, so that it is counted once in a step.
@@ -146,6 +148,8 @@ void ContactDetector::find_floor_contacts(int index) {
       Proximity proximity;
       proximity.distance = center.z() - point.radius;
       if (proximity.distance > kReach) continue;
+      // The floor is z = 0: distance and normal need no search. The point of a penetrating sphere
+      // is its lowest.
       proximity.point = {center.x(), center.y(), std::min(proximity.distance, 0.0)};
       add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1, proximity, point.sole,
           robot_memory_[index].floor[i]);
@@ -171,6 +175,7 @@ bool ContactDetector::find_missed_floor_contacts(int index) {
       const Vector3d center = origin + rotation * point.center_in_body;
       const double distance = center.z() - point.radius;
       const Vector3d lowest(center.x(), center.y(), std::min(distance, 0.0));
+      // Height after the step with the velocities that the solver has found so far.
       const double next = distance + step_ * robot.dynamics().velocity_at(part.body, lowest).z();
       if (next >= -kMargin) continue;
       // It had no force in the last step.
@@ -191,6 +196,7 @@ void ContactDetector::find_self_contacts(int index) {
     const CollisionModel::Part& part_b = model.parts[b];
     const double reach = part_a.bounding_radius + part_b.bounding_radius + kMargin;
     const Vector3d offset = placed_[index][a].shape.center - placed_[index][b].shape.center;
+    // Broad phase: bounding spheres that are apart have no closest points to look for.
     if (offset.squaredNorm() > reach * reach) continue;
     const Proximity proximity = closest_points(part_shape(index, a), part_shape(index, b));
     if (proximity.distance > kReach) continue;
@@ -203,6 +209,7 @@ void ContactDetector::find_self_contacts(int index) {
 void ContactDetector::find_robot_contacts(PairMemory& pair) {
   const SimRobot& robot_a = *bodies_.robots[pair.a];
   const SimRobot& robot_b = *bodies_.robots[pair.b];
+  // No part of a robot is farther from its root than reach: one test for all pairs of parts.
   const double far = robot_a.collisions().reach + robot_b.collisions().reach + kReach;
   if ((robot_a.state().position - robot_b.state().position).squaredNorm() > far * far) return;
   const auto& parts_a = robot_a.collisions().parts;
@@ -229,6 +236,7 @@ void ContactDetector::find_goal_contacts(int index) {
   for (size_t s = 0; s < statics_.size(); ++s) {
     const RoundedBox& fixed = statics_[s].shape;
     const double far = model.reach + kReach + fixed.half.norm() + fixed.radius;
+    // Nets stop the ball only.
     if (statics_[s].is_net || (center - fixed.center).squaredNorm() > far * far) continue;
     for (size_t p = 0; p < parts.size(); ++p) {
       const double reach = parts[p].bounding_radius + fixed.half.norm() + fixed.radius + kMargin;

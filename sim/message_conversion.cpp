@@ -11,6 +11,7 @@ void copy(const Vector& from, double (&to)[N]) {
 }
 
 void copy(const Eigen::Quaterniond& from, double (&to)[4]) {
+  // Messages have w first; Eigen stores it last.
   to[0] = from.w();
   to[1] = from.x();
   to[2] = from.y();
@@ -53,6 +54,7 @@ naolcm::robot_truth_t robot_truth_of(const SimRobot& robot) {
   truth.model = robot.model().folder().filename().string();
   copy(state.position, truth.position_torso_in_world);
   copy(state.orientation, truth.orientation_torso_in_world);
+  // A tree's velocity begins with the root's angular, then its linear one.
   copy(state.velocity.segment<3>(3), truth.velocity_torso_in_world);
   copy(state.velocity.head<3>(), truth.angular_velocity_torso_in_world);
   copy(robot.dynamics().center_of_mass(), truth.center_of_mass_in_world);

@@ -46,6 +46,7 @@ void add_robots(const SimOptions& options, World& world) {
     robot.posture = options.posture;
     robot.ideal_sensors = options.ideal_sensors;
     robot.command_latency_ticks = options.command_latency_ticks;
+    // Alternating: 0, left, right, farther left, farther right ...
     const size_t rank = (i + 1) / 2;
     robot.position.y() = (i % 2 == 0 ? -kRobotSpacing : kRobotSpacing) * static_cast<double>(rank);
     world.add_robot(model, robot);
@@ -81,6 +82,7 @@ std::optional<std::string> SimCore::take_joint_command(int robot, const JointCom
   if (auto reason = merge_joint_command(world_.robot(robot).model(), command, targets_[robot])) {
     return reason;
   }
+  // Merged, as a command may name some joints only.
   world_.set_targets(robot, targets_[robot]);
   scheduler_.note_command(robot, command.tick, now);
   return std::nullopt;
@@ -88,6 +90,8 @@ std::optional<std::string> SimCore::take_joint_command(int robot, const JointCom
 
 bool SimCore::take_world_command(const WorldCommand& command, double now) {
   const std::pair<std::string, int64_t> key{command.source, command.id};
+  // Senders repeat a command until world_truth_t reports its number: "step" or "push" must act
+  // once.
   if (std::find(executed_.begin(), executed_.end(), key) != executed_.end()) return false;
   executed_.push_back(key);
   if (executed_.size() > kNumRemembered) executed_.pop_front();
@@ -133,6 +137,7 @@ std::string SimCore::reset(double now) {
 }
 
 std::string SimCore::set_pace(const WorldCommand& command, double now) {
+  // Written so that NaN fails, too.
   if (!(command.pace >= 0 && command.pace <= kMaxPace)) {
     return fmt::format("pace {} is outside [0, {}]", command.pace, kMaxPace);
   }

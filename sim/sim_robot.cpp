@@ -45,10 +45,12 @@ SimRobot::SimRobot(std::shared_ptr<const RobotModel> model, const RobotOptions& 
 }
 
 Eigen::Isometry3d SimRobot::link_pose(int link) const {
+  // Links behind fixed joints are parts of one body of the tree.
   Eigen::Isometry3d pose = dynamics().pose(tree_.body_of_link(link)) * tree_.pose_in_body(link);
   const int joint = model_->links()[link].parent_joint;
   if (joint < 0) return pose;
   for (int motor = 0; motor < model_->num_motors(); ++motor) {
+    // Motors that open a hand have no degree of freedom in the tree: their angle is added here.
     if (!drives_.is_opening(motor) || model_->motors()[motor] != joint) continue;
     const double opening = drives_.position(motor, state());
     pose = pose * Eigen::AngleAxisd(opening, model_->joints()[joint].axis);
@@ -58,6 +60,7 @@ Eigen::Isometry3d SimRobot::link_pose(int link) const {
 
 double SimRobot::energy() const {
   const double potential =
+      // -m g . c, with gravity as a vector.
       tree_.total_mass() * -integrator_.gravity().dot(dynamics().center_of_mass());
   return dynamics().kinetic_energy() + potential + drives_.energy(state());
 }
@@ -78,6 +81,7 @@ void SimRobot::place_joints(const std::vector<double>& position, const Vector3d&
                          ground_position.z() - lowest_point(collisions_, dynamics())});
   update_motor_state();
   accumulator_.begin_tick(dynamics());
+  // Sensor readings are means over a tick; none may contain motion from before the jump.
   sensors_.jump(true_motion());
 }
 
@@ -160,6 +164,8 @@ void SimRobot::add_foot_load(int foot, const Vector3d& point, const Vector3d& im
 }
 
 void SimRobot::end_step(double h, const ConstraintSolver& solver) {
+  // First the torques, from the impulses of the joints' rows; the accumulator needs them together
+  // with the state that they led to.
   drives_.end_step(h, state().velocity, solver);
   integrator_.integrate(h, is_in_contact_);
   accumulator_.add_step(h, state(), dynamics(), drives_.torque());

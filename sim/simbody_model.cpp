@@ -20,6 +20,8 @@ SimTK::Transform to_simbody(const Eigen::Isometry3d& pose) {
 SimTK::MassProperties mass_of(const Link& link, const Eigen::Isometry3d& pose_in_body,
                               double scale) {
   const Eigen::Vector3d com = pose_in_body * link.center_of_mass;
+  // Inertia in the body's axes: R I R^T, about the link's center of mass; then by the parallel axis
+  // theorem about the body's origin.
   const Eigen::Matrix3d i =
       pose_in_body.linear() * link.inertia * pose_in_body.linear().transpose() * scale;
   const double mass = link.mass * scale;
@@ -29,6 +31,7 @@ SimTK::MassProperties mass_of(const Link& link, const Eigen::Isometry3d& pose_in
 
 SimTK::MassProperties sum(const SimTK::MassProperties& a, const SimTK::MassProperties& b) {
   const double mass = a.getMass() + b.getMass();
+  // Both about the same origin: masses, first moments and inertias add up.
   return {mass, (a.getMass() * a.getMassCenter() + b.getMass() * b.getMassCenter()) / mass,
           a.calcInertia() + b.calcInertia()};
 }
@@ -85,6 +88,8 @@ void SimbodyModel::collect_fixed(int link, int body, const Eigen::Isometry3d& po
   link_pose_[link] = pose_in_body;
   for (const Joint& joint : robot_.joints()) {
     if (joint.parent_link != link) continue;
+    // Branches without mass, such as frames of sensors, could not be accelerated: they are parts of
+    // their parents' bodies, as behind fixed joints.
     if (is_fixed(joint) || subtree_mass(joint.child_link) == 0) {
       collect_fixed(joint.child_link, body, pose_in_body * joint.pose_in_parent);
     }
@@ -113,6 +118,8 @@ void SimbodyModel::add_body(int link, int parent, int joint_index, double mass_s
   } else {
     const Joint& joint = robot_.joints()[joint_index];
     const Eigen::Isometry3d joint_in_body = link_pose_[joint.parent_link] * joint.pose_in_parent;
+    // A pin joint turns about its z axis: both of its frames are rotated by the same amount, so
+    // that angle 0 is the URDF's.
     const SimTK::Rotation axis_to_z(SimTK::UnitVec3(to_simbody(joint.axis)), SimTK::ZAxis);
     body.mobilized =
         SimTK::MobilizedBody::Pin(matter_.updMobilizedBody(bodies_[parent].mobilized),
@@ -134,6 +141,8 @@ void SimbodyModel::add_body(int link, int parent, int joint_index, double mass_s
 void SimbodyModel::set_state(const Tree& tree, const TreeState& from, SimTK::State& state) const {
   const Eigen::Quaterniond& r = from.orientation;
   SimTK::Vector q(7), u(6);
+  // Simbody's order: quaternion (w first), then position; of velocities angular, then linear, as in
+  // TreeState.
   const double root_q[] = {
       r.w(), r.x(), r.y(), r.z(), from.position.x(), from.position.y(), from.position.z()};
   for (int i = 0; i < 7; ++i) q[i] = root_q[i];

@@ -59,6 +59,7 @@ int World::add_robot(std::shared_ptr<const RobotModel> model, const RobotOptions
 }
 
 double World::time() const {
+  // Product instead of a running sum: no rounding error grows with time.
   return static_cast<double>(stepper_.num_steps()) * options_.step;
 }
 
@@ -72,6 +73,8 @@ void World::set_targets(int robot, const MotorTargets& targets) {
 }
 
 void World::step_tick() {
+  // Motors get new targets and sensors are read once a control period; the physics takes several
+  // steps in between.
   for (const auto& robot : bodies_.robots) robot->begin_tick();
   for (int i = 0; i < options_.steps_per_tick; ++i) step();
   ++tick_;
@@ -81,6 +84,8 @@ void World::step_tick() {
 
 void World::check_states() {
   for (int i = 0; i < num_robots(); ++i) {
+    // A diverged state would spread through contacts to other bodies. Its robot starts again, the
+    // others go on.
     if (robot(i).is_within_bounds()) continue;
     ++num_bad_states_;
     return_to_start(i);
@@ -93,6 +98,8 @@ void World::check_states() {
 }
 
 void World::return_to_start(int robot) {
+  // Impulses that are kept for a warm start belong to contacts of the old pose: in the new one they
+  // would push.
   bodies_.robots[robot]->return_to_start();
   stepper_.forget_contacts_of_robot(robot);
 }
@@ -129,6 +136,7 @@ void World::push_ball(const Vector3d& impulse) {
 }
 
 double World::energy() const {
+  // Kinetic and potential energy, and that stored in compliant contacts.
   double sum = stepper_.elastic_energy();
   for (const auto& robot : bodies_.robots) sum += robot->energy();
   if (bodies_.ball) sum += bodies_.ball->energy(options_.gravity);

@@ -43,7 +43,7 @@ Lens::Lens(const PinholeCamera& camera, const Distortion& distortion) : source_(
   source_.fx /= factor;
   source_.fy /= factor;
 
-  constexpr double kOne = 256;
+  constexpr double kOne = 256;  // weights are fractions of 8 bits
   table_.reserve(static_cast<size_t>(camera.width) * camera.height);
   for (int row = 0; row < camera.height; ++row) {
     for (int u = 0; u < camera.width; ++u) {

@@ -73,6 +73,7 @@ void read_foot_sensors(const RobotModel& model, const naolcm::sensor_state_t& me
     if (is_listed[index]) throw Error("foot sensor " + name + " is listed twice");
     is_listed[index] = true;
     require_finite(&message.foot_force[i], 1, "force of a foot sensor");
+    // Noise may make the reading of an unloaded sensor negative; forces on the ground only push.
     sensors.foot_force[index] = std::max(0.0, message.foot_force[i]);
   }
   for (size_t index = 0; index < num_sensors; ++index) {
@@ -96,6 +97,7 @@ Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& messag
   Sensors sensors;
   sensors.utime = message.utime;
   sensors.tick = message.tick;
+  // Written so that NaN fails, too.
   if (!(message.period >= kMinPeriod && message.period <= kMaxPeriod)) {
     throw Error("period " + to_argument(message.period) + " s is outside [" +
                 to_argument(kMinPeriod) + ", " + to_argument(kMaxPeriod) + "]");
@@ -153,6 +155,7 @@ naolcm::joint_command_t to_message(const JointTargets& targets, const RobotState
   message.num_joints = static_cast<int>(names.size());
   message.joint_names = names;
   message.joint_position = targets.position;
+  // NaN: the servo's own gains, and no velocity target (joint_command_t).
   message.joint_velocity.assign(names.size(), kNan);
   message.joint_torque.assign(names.size(), 0.0);
   message.joint_kp.assign(names.size(), kNan);

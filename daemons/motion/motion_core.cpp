@@ -40,6 +40,7 @@ Output MotionCore::step(const Input& input, double dt) {
   } else {
     wait_for_sensors(dt);
   }
+  // Commands are received without a robot, too: they are refused with the reason "no-robot".
   receive(input.commands);
   Output output;
   if (input.sensors) {
@@ -56,6 +57,7 @@ Output MotionCore::step(const Input& input, double dt) {
 void MotionCore::take_sensors(const Sensors& sensors, double dt) {
   switch (presence_.take(sensors, dt)) {
     case RobotPresence::Change::kAppeared:
+      // Running servos hold their targets: going on from them, the robot does not move.
       take_over(false);
       break;
     case RobotPresence::Change::kPlaced:
@@ -105,6 +107,7 @@ void MotionCore::choose_first_motion(double dt) {
   has_first_motion_ = true;
   const RobotState& state = estimator_.state();
   falls_.begin(state);
+  // A command has come already, or the motors are off and the robot must stay limp.
   if (!arbiter_.is_idle() || is_relaxed()) return;
   const Posture* posture =
       find_present_posture(*model_, presence_.sensors().position, state, options_.lying_tilt);
@@ -147,8 +150,12 @@ void MotionCore::run_motions(double dt) {
 }
 
 void MotionCore::limit_targets(const JointTargets& last, double dt) {
+  // The last step for every motion: no target leaves a joint's range or changes faster than its
+  // motor turns.
   limiter_.limit(last.position, dt, targets_.position);
   for (size_t i = 0; i < last.position.size(); ++i) {
+    // Of the limited targets, so that a motion that starts now continues what the servos really
+    // get.
     targets_.velocity[i] = dt > 0 ? (targets_.position[i] - last.position[i]) / dt : 0.0;
   }
 }
@@ -158,6 +165,7 @@ MotionContext MotionCore::context(double dt) const {
 }
 
 Mode MotionCore::mode() const {
+  // The first that holds, most urgent first.
   if (!presence_.has_robot()) return Mode::kNoRobot;
   if (arbiter_.running() != nullptr) return arbiter_.running()->generator->mode();
   if (falls_.has_fallen()) return Mode::kFallen;

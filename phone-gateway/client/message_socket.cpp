@@ -36,6 +36,8 @@ int connect_to(const addrinfo& address, double timeout) {
   int error = 0;
   if (connect(descriptor, address.ai_addr, address.ai_addrlen) != 0) {
     error = errno;
+    // Not blocking, so that an unreachable address fails after this timeout instead of the kernel's
+    // minutes; SO_ERROR then has the outcome (connect(2)).
     if (error == EINPROGRESS) {
       socklen_t size = sizeof error;
       if (!wait_for(descriptor, POLLOUT, timeout)) {
@@ -62,6 +64,7 @@ MessageSocket::MessageSocket(const std::string& host, uint16_t port, double time
   const int status = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found);
   if (status != 0) throw ConnectionError("no such host: " + host + ": " + gai_strerror(status));
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> addresses(found, freeaddrinfo);
+  // A name may have IPv6 and IPv4 addresses: the first that answers.
   for (const addrinfo* address = found; address != nullptr; address = address->ai_next) {
     descriptor_ = connect_to(*address, timeout);
     if (descriptor_ >= 0) break;
@@ -70,6 +73,7 @@ MessageSocket::MessageSocket(const std::string& host, uint16_t port, double time
     throw ConnectionError("no gateway at " + where + ": " + std::strerror(errno));
   }
   const int on = 1;
+  // Commands are small: Nagle's algorithm would hold them back until the last one is acknowledged.
   setsockopt(descriptor_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
 }
 
@@ -83,6 +87,7 @@ void MessageSocket::send(std::string_view message) {
 
 void MessageSocket::send_raw(std::string_view bytes) {
   while (!bytes.empty()) {
+    // MSG_NOSIGNAL: a lost connection is an error, not a SIGPIPE that ends the program.
     const ssize_t size = ::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (size >= 0) {
       bytes.remove_prefix(static_cast<size_t>(size));

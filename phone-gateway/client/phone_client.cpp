@@ -199,7 +199,7 @@ Response PhoneClient::ping() {
 
 Response operate(const std::string& host, uint16_t port, naoremote::Operate::Operation operation,
                  uint32_t client_id) {
-  constexpr double kTimeout = 5;
+  constexpr double kTimeout = 5;  // s, chosen: the gateway on this host answers in milliseconds
   MessageSocket socket(host, port, kTimeout);
   Request request;
   request.set_request_id(1);

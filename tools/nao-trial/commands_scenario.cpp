@@ -10,9 +10,9 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kTick = 0.01;
+constexpr double kTick = 0.01;  // s, control period of ClosedLoopOptions
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr int kNumCommands = 100;
+constexpr int kNumCommands = 100;       // of a run
 constexpr double kPushShare = 0.03;     // of the commands, with a push that throws the robot over
 constexpr double kRestartShare = 0.02;  // fraction of the commands after which the core restarts
 constexpr double kTimeToEnd = 150;      // s for the last command, six tries to get up included

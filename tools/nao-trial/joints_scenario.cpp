@@ -8,7 +8,7 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kTick = 0.01;
+constexpr double kTick = 0.01;     // s, control period of ClosedLoopOptions
 constexpr double kDeepest = 0.01;  // s of self-contact force that a brush may last
 
 /** A command for one to three random joints, valid or invalid. */

@@ -19,6 +19,7 @@ std::vector<uint64_t> parse_seeds(const std::string& text) {
   unsigned long first = 0;
   unsigned long last = 0;
   char rest = 0;
+  // %c matches only if something follows the number: "1-10x" is no range.
   const int num_read = std::sscanf(text.c_str(), "%lu-%lu%c", &first, &last, &rest);
   if (num_read == 1 && text.find_first_not_of("0123456789") == std::string::npos) last = first;
   const bool is_range = num_read == 2 && last >= first && last - first < 1000000;
@@ -47,6 +48,7 @@ Summary run_all(const Scenario& scenario, const ScenarioOptions& options,
     for (RunResult& run : scenario.run(options, seed)) {
       if (is_verbose) print(run, seed);
       summary.runs.push_back(std::move(run));
+      // One entry for each run: a scenario may have several for a seed.
       summary.seeds.push_back(seed);
     }
   }

@@ -8,8 +8,9 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kSpeed = 0.5;
+constexpr double kSpeed = 0.5;   // fraction of the fastest motion
 constexpr double kTimeout = 60;  // s for one way, getting up and trying again included
+// Greatest difference of a joint from the posture, rad.
 constexpr double kTolerance = 3 * M_PI / 180;
 constexpr double kLyingTolerance = 8 * M_PI / 180;
 

@@ -15,9 +15,9 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kLeast = 0.2;     // N s
-constexpr double kGreatest = 4.0;  // N s
-constexpr int kNumHalvings = 6;
+constexpr double kLeast = 0.2;      // N s
+constexpr double kGreatest = 4.0;   // N s
+constexpr int kNumHalvings = 6;     // bisection: to (4.0 - 0.2) / 2^6 = 0.06 N s
 constexpr int kNumDirections = 24;  // in the plot
 constexpr double kWatch = 2.5;      // s after the push
 

@@ -16,7 +16,7 @@ using Eigen::Rotation2Dd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kTick = 0.01;
+constexpr double kTick = 0.01;  // s, control period of ClosedLoopOptions
 // Time before the first command in which the state estimate converges, s.
 constexpr double kStand = 1;
 // Time from the command until the gait has reached its velocity, s.
@@ -100,7 +100,7 @@ class VelocityMean {
   Vector3d mean() const { return sum_ / std::max(time_, kTick); }
 
  private:
-  static constexpr int kTicks = 100;
+  static constexpr int kTicks = 100;  // 1 s
   GroundPose last_;
   Vector3d sum_ = Vector3d::Zero();
   double time_ = 0;

@@ -44,11 +44,14 @@ std::string date_text(int64_t utime) {
 
 double LoggedChannel::rate() const {
   const auto span = static_cast<double>(last_utime - first_utime) * 1e-6;
+  // n messages have n - 1 intervals between them.
   return span > 0 ? static_cast<double>(num_messages - 1) / span : 0.0;
 }
 
 int64_t LoggedChannel::num_missing_ticks() const {
   if (ticks.empty()) return 0;
+  // Ticks rise by 1: the numbers between the first and the last one that did not arrive are
+  // missing. A set counts repeated ones once.
   return *ticks.rbegin() - *ticks.begin() + 1 - static_cast<int64_t>(ticks.size());
 }
 

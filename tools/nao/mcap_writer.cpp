@@ -23,6 +23,7 @@ constexpr uint8_t kStatistics = 0x0B;
 constexpr uint8_t kSummaryOffset = 0x0E;
 constexpr uint8_t kDataEnd = 0x0F;
 
+// Beginning and end of a file (MCAP specification).
 constexpr std::array<uint8_t, 8> kMagic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 // Uncompressed size at which a chunk is closed, bytes. Readers load one chunk at a time; the value
 // is of the order of the MCAP library's default (768 KiB).

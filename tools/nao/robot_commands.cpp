@@ -99,7 +99,7 @@ class Conversation {
   /** Sends walk commands for `duration` s or until Ctrl-C, then lets the robot come to a stand.
    * @return The exit status. */
   int run_walk(naolcm::walk_command_t command, double duration) {
-    constexpr double kSendPeriod = 0.1;
+    constexpr double kSendPeriod = 0.1;  // s, as the gateway's; a walk command expires after 0.5 s
     const double start = monotonic_seconds();
     double end = start + duration;
     double last_sent = -kNever;

@@ -12,10 +12,10 @@
 namespace nao {
 namespace {
 
-constexpr double kShortest = 0.03;  // s
-constexpr double kLongest = 3;      // s
-constexpr double kLongestPause = 1;
-constexpr double kLeastStiffness = 0.1;
+constexpr double kShortest = 0.03;       // s
+constexpr double kLongest = 3;           // s
+constexpr double kLongestPause = 1;      // s
+constexpr double kLeastStiffness = 0.1;  // fraction
 
 /** Motor of a joint; of the left joint if the name has no side. */
 int find_motor(const RobotModel& model, const std::string& name) {

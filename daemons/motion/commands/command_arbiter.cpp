@@ -37,6 +37,7 @@ void CommandArbiter::receive(const Command& command, const MotionContext& contex
         {command.source, command.id, kind_of(command), ResultStatus::kRefused, *fault});
     return;
   }
+  // A sender repeats a command until it is answered: the second time it must not act again.
   if (const CommandResult* known = ledger_.find(command.source, command.id)) {
     repeat_result(command, *known);
     return;
@@ -49,6 +50,7 @@ void CommandArbiter::receive(const Command& command, const MotionContext& contex
     answer(command, ResultStatus::kRefused, *obstacle);
     return;
   }
+  // Commands that a running motion can take in need no new motion.
   if (adopt_walk(command) || adopt_kick(command) || overlay_walk(command, context, targets)) {
     return;
   }
@@ -73,6 +75,8 @@ void CommandArbiter::repeat_result(const Command& command, const CommandResult& 
 bool CommandArbiter::adopt_walk(const Command& command) {
   const auto* walk = std::get_if<WalkCommand>(&command.request);
   if (walk == nullptr || waiting_) return false;
+  // A walk at velocity zero asks for nothing unless the robot walks: the standing robot has done it
+  // already.
   const bool runs_walk =
       running_ && running_->command && kind_of(*running_->command) == CommandKind::kWalk;
   if (!runs_walk) {
@@ -127,6 +131,7 @@ bool CommandArbiter::overlay_walk(const Command& command, const MotionContext& c
 }
 
 void CommandArbiter::assign(Assignment assignment) {
+  // At most one motion waits: the newest command counts.
   end_waiting(ResultStatus::kInterrupted, {"replaced-before-start"});
   waiting_ = std::move(assignment);
 }
@@ -149,6 +154,7 @@ void CommandArbiter::start(Assignment assignment, const MotionContext& context,
 void CommandArbiter::start_waiting(const MotionContext& context, const JointTargets& targets) {
   if (!waiting_) return;
   if (running_ && !running_->generator->can_be_replaced()) {
+    // A motion that cannot be left at once (a step, a get-up) comes to its next safe posture first.
     running_->generator->finish();
     waiting_->has_waited = true;
     return;
@@ -166,6 +172,7 @@ void CommandArbiter::start_waiting(const MotionContext& context, const JointTarg
 
 std::optional<Reason> CommandArbiter::find_new_danger(const MotionContext& context,
                                                       const JointTargets& targets) {
+  // What was safe when the command came may not be after the motion that it waited for.
   if (!waiting_->has_waited || !waiting_->command) return std::nullopt;
   const auto* change = std::get_if<JointChangeCommand>(&waiting_->command->request);
   return change == nullptr ? std::nullopt : guard_->find_danger(*change, context, targets);
@@ -213,6 +220,8 @@ void CommandArbiter::watch_kick() {
 void CommandArbiter::step_overlay(const MotionContext& context, const JointTargets& last,
                                   JointTargets& targets) {
   if (const auto remark = overlay_.step(context, last)) end_overlay(ResultStatus::kDone, *remark);
+  // The overlay's joints keep their angles until the walk ends: then the next motion starts from
+  // them.
   if (!has_overlay() && !is_walking()) overlay_.release();
   overlay_.write(targets.position);
 }

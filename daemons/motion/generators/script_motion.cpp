@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "common/constants.h"
 #include "daemons/motion/falls/fall_monitor.h"
 #include "daemons/motion/generators/walk_motion.h"
 
 namespace nao::motion {
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr double kRateTimeConstant = 0.015;  // s, of the gyroscope
 // Farthest that the weight may be steered on the soles, m: their half length less a margin, and as
 // far inwards as their round inner edge is flat.

@@ -178,6 +178,7 @@ std::vector<const KeyframeSequence*> TransitionGraph::find_path(
       if (it->second.is_settled) continue;
       if (nearest == reached.end() || it->second.duration < nearest->second.duration) nearest = it;
     }
+    // Durations are not negative: no later node can shorten the path to the nearest one.
     if (nearest == reached.end() || nearest->first == to) break;
     nearest->second.is_settled = true;
     for (const KeyframeSequence& sequence : sequences_) {

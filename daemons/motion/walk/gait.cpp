@@ -80,6 +80,7 @@ const std::vector<Gait::Parameter>& all_parameters() {
 #undef NAO_GAIT_PARAMETER
 
 Gait::Parameter read_parameter(const std::string& name, const YamlEntry& entry, Gait& gait) {
+  // An unknown name is an error: a misspelled parameter would silently keep its default.
   const auto known =
       std::find_if(all_parameters().begin(), all_parameters().end(),
                    [&](const Gait::Parameter& parameter) { return parameter.name == name; });
@@ -87,6 +88,7 @@ Gait::Parameter read_parameter(const std::string& name, const YamlEntry& entry, 
   entry.allow_only({"value", "range"});
   const double value = entry.at("value").number();
   const std::vector<double> range = entry.at("range").numbers(2);
+  // Written so that NaN fails, too.
   if (!(range[0] <= value && value <= range[1])) entry.fail("has a value outside its range");
   known->in(gait) = value;
   return {name, known->in, range[0], range[1]};

@@ -29,7 +29,10 @@ namespace nao::motion {
  *
  * The support frame S is the ground under the support foot: origin and heading of its sole, z up.
  *
- * No clock, bus or log; equal inputs give equal outputs. */
+ * No clock, bus or log; equal inputs give equal outputs.
+ *
+ * It has more than 25 methods since each stage of the gait has a beginning and a step of its own,
+ * and all of them share the state of the gait. */
 class WalkEngine {
  public:
   enum class Stage {

@@ -37,6 +37,7 @@ void RequestHandler::handle(ClientSession& session, const Request& request, Resp
   if (!refusal) return;
   response.set_error(refusal->error);
   write_reason(refusal->reason, response);
+  // So that the app can say who drives.
   if (refusal->error == naoremote::CONTROL_TAKEN) {
     *response.mutable_control() = objects_.driving.describe_control(session);
   }
@@ -44,6 +45,7 @@ void RequestHandler::handle(ClientSession& session, const Request& request, Resp
 
 std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Request& request,
                                                Response& response, double now) {
+  // The operator's console on the gateway's host needs no token.
   const bool is_console = request.has_operate() && session.endpoint.is_local;
   if (!session.is_connected && !request.has_connect() && !is_console &&
       request.use_case_case() != Request::USE_CASE_NOT_SET) {
@@ -100,6 +102,7 @@ std::optional<Refusal> RequestHandler::connect(ClientSession& session,
   if (session.is_connected)
     return Refusal{naoremote::INVALID_ARGUMENT, gateway_reason("already-connected")};
   if (auto refusal = admission_.check(session.endpoint, request, objects_.sessions, now)) {
+    // The answer with the reason is sent before the connection closes.
     objects_.sessions.refuse(session, request, refusal->reason, now);
     return refusal;
   }
@@ -112,6 +115,7 @@ std::optional<Refusal> RequestHandler::connect(ClientSession& session,
   *connected.mutable_robot() = robot_;
   *connected.mutable_control() = objects_.driving.describe_control(session);
   for (const Component component : kComponents) {
+    // A new client is told once what is missing; later changes come as notices to all.
     if (!objects_.components.is_available(component)) {
       session.send(make_component_notice({component, false}));
     }
@@ -145,6 +149,7 @@ std::optional<Refusal> RequestHandler::subscribe(ClientSession& session,
 
 void RequestHandler::ping(const naoremote::Ping& request, naoremote::Pong& pong, double now) const {
   pong.set_client_utime(request.client_utime());
+  // With the round-trip time a client computes the age of states without a common clock.
   pong.set_robot_utime(static_cast<uint64_t>(objects_.streams.calc_robot_utime(now)));
   pong.set_num_clients(static_cast<uint32_t>(objects_.sessions.num_connected()));
 }

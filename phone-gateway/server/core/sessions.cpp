@@ -18,6 +18,7 @@ void add(ClientCounters& sum, const ClientCounters& counters) {
 }  // namespace
 
 uint32_t Sessions::open(Endpoint endpoint, std::function<void()> wake, double now) {
+  // Numbers are not used again: a late event of an old connection finds nothing.
   const uint32_t id = ++last_id_;
   sessions_[id] = std::make_unique<ClientSession>(id, std::move(endpoint), std::move(wake),
                                                   limits_.max_request_rate, now);
@@ -61,6 +62,7 @@ void Sessions::remove(uint32_t id, const std::string& why, double now) {
   ClientSession* session = find(id);
   if (session == nullptr) return;
   disconnect(*session, why, now);
+  // Totals must not fall when a client leaves.
   add(past_counters_, session->calc_counters());
   sessions_.erase(id);
 }
@@ -73,6 +75,7 @@ void Sessions::disconnect(ClientSession& session, const std::string& why, double
 }
 
 void Sessions::broadcast(const naoremote::ServerMessage& message) const {
+  // Encoded once for all clients.
   const MessageBytes bytes = encode(message);
   for (const auto& [id, session] : sessions_) {
     if (session->is_connected) session->send(bytes);
@@ -129,6 +132,7 @@ std::string Sessions::make_unique_name(const std::string& requested, uint32_t id
            });
   };
   std::string name = base;
+  // Ends: every number is tried, and there are fewer clients than numbers.
   for (int i = 2; is_taken(name); ++i) name = base + " " + std::to_string(i);
   return name;
 }

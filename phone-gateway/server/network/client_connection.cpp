@@ -36,6 +36,8 @@ void ClientConnection::open(const Endpoint& endpoint) {
   }
   const auto wake = [weak] {
     const auto self = weak.lock();
+    // One flush for all messages of an event. Posted, as the core may call this while it goes
+    // through its sessions.
     if (!self || std::exchange(self->is_flush_posted_, true)) return;
     asio::post(self->context_.io, [self] {
       self->is_flush_posted_ = false;
@@ -50,6 +52,8 @@ bool ClientConnection::receive(std::string_view message) {
   context_.core.set_round_trip_time(id_, measure_round_trip_time(socket()));
   if (is_in_handshake_ && context_.core.is_connected(id_)) end_handshake();
   if (pause <= 0) return true;
+  // A client above its request rate is not read until its budget has recovered: TCP's flow control
+  // then slows the sender.
   pause_.expires_after(std::chrono::microseconds(static_cast<int64_t>(pause * 1e6)));
   pause_.async_wait([self = shared_from_this()](const error_code& error) {
     if (!error) self->resume_reading();
@@ -63,6 +67,8 @@ void ClientConnection::reject(const Reason& reason) {
 }
 
 void ClientConnection::flush_in_turn() {
+  // Images wait in a queue for their turn (FairQueue): a client with large ones must not delay the
+  // states of others.
   if (is_writing_ || !context_.core.is_image_next(id_)) {
     flush();
   } else if (!std::exchange(is_image_queued_, true)) {
@@ -99,6 +105,8 @@ void ClientConnection::on_written(bool has_failed) {
 }
 
 void ClientConnection::set_deadline(std::chrono::seconds time) {
+  // The timer is not restarted for each message, which would cost two system calls: when it expires
+  // early, it waits again for the deadline of that moment.
   deadline_ = asio::steady_timer::clock_type::now() + time;
   if (!is_deadline_timer_running_ || deadline_timer_.expiry() > *deadline_) wait_for_deadline();
 }
@@ -132,6 +140,7 @@ void ClientConnection::end_handshake() {
 }
 
 void ClientConnection::finish(const std::string& why) {
+  // Several failures of one connection are reported to the core once.
   if (std::exchange(is_finished_, true) || id_ == 0) return;
   if (is_in_handshake_) end_handshake();
   context_.core.closed(id_, why, monotonic_seconds());
