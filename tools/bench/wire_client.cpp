@@ -30,25 +30,10 @@ namespace beast = boost::beast;
 /** Above every message of the gateway, which are below 100 kB. */
 constexpr size_t kMaxMessageBytes = 1 << 20;
 
-int connect_socket(uint16_t port) {
-  const int descriptor = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (connect(descriptor, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
-    close(descriptor);
-    throw std::runtime_error("no gateway on port " + std::to_string(port));
-  }
-  const int on = 1;
-  setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  return descriptor;
-}
-
 /** A client over raw TCP. */
 class TcpClient : public WireClient {
  public:
-  explicit TcpClient(uint16_t port) : descriptor_(connect_socket(port)) {}
+  explicit TcpClient(uint16_t port) : descriptor_(connect_to_own_host(port)) {}
   ~TcpClient() override { close(descriptor_); }
   TcpClient(const TcpClient&) = delete;
   TcpClient& operator=(const TcpClient&) = delete;
@@ -131,6 +116,21 @@ class WebSocketClient : public WireClient {
 };
 
 }  // namespace
+
+int connect_to_own_host(uint16_t port) {
+  const int descriptor = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (connect(descriptor, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
+    close(descriptor);
+    throw std::runtime_error("nothing listens on port " + std::to_string(port));
+  }
+  const int on = 1;
+  setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  return descriptor;
+}
 
 std::vector<naoremote::ServerMessage> WireClient::take_messages() {
   std::vector<naoremote::ServerMessage> decoded(messages_.size());

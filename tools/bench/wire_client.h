@@ -41,4 +41,8 @@ class WireClient {
 std::unique_ptr<WireClient> connect_tcp(uint16_t port);
 std::unique_ptr<WireClient> connect_websocket(uint16_t port);
 
+/** Connects to a port of this host. @return The socket, which the caller closes.
+ * @throws std::runtime_error  if nothing listens there. */
+int connect_to_own_host(uint16_t port);
+
 }  // namespace nao

@@ -1,0 +1,155 @@
+#include "tools/bench/gateway_streams.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <regex>
+#include <stdexcept>
+#include <thread>
+
+#include "common/wall_clock.h"
+#include "tools/bench/disturbing_clients.h"
+
+namespace nao::bench {
+namespace {
+
+/** Chosen: the most clients that the gateway admits (GatewayLimits). */
+constexpr int kNumClients = 32;
+
+/** What the clients saw in some seconds. */
+struct Watching {
+  std::vector<double> state_age_ms;
+  std::vector<double> image_age_ms;
+  double num_states = 0;
+  double num_images = 0;
+  double state_bytes = 0;
+  double image_bytes = 0;
+  double cpu_percent = 0;
+  double rss_mib = 0;
+};
+
+/** Lets clients watch, half of them over WebSocket. Ages: from when the state that is shown was on
+ * the bus to when it is here. */
+Watching watch(GatewayStack& stack, int num_clients, double state_rate, double image_rate,
+               double time) {
+  std::vector<std::unique_ptr<WireClient>> clients;
+  Watching seen;
+  for (int i = 0; i < num_clients; ++i) {
+    clients.push_back(i % 2 == 0 ? connect_tcp(stack.tcp_port())
+                                 : connect_websocket(stack.http_port()));
+    clients.back()->send(connect_request("bench " + std::to_string(i)));
+    naoremote::Request request;
+    request.mutable_subscribe()->set_state_rate(state_rate);
+    request.mutable_subscribe()->set_image_rate(image_rate);
+    clients.back()->send(request);
+    stack.watch(clients.back().get(), [&](const naoremote::ServerMessage& message, double now) {
+      if (message.has_state()) {
+        if (const auto then = stack.time_of_state(message.state().utime())) {
+          seen.state_age_ms.push_back((now - *then) * 1e3);
+        }
+        ++seen.num_states;
+        seen.state_bytes += static_cast<double>(message.ByteSizeLong());
+      } else if (message.has_image()) {
+        if (const auto then = stack.time_of_state(message.image().utime())) {
+          seen.image_age_ms.push_back((now - *then) * 1e3);
+        }
+        ++seen.num_images;
+        seen.image_bytes += static_cast<double>(message.ByteSizeLong());
+      }
+    });
+  }
+  const auto run_alive = [&](double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds); ++i) {
+      naoremote::Request ping;
+      ping.mutable_ping();
+      for (const auto& client : clients) client->send(ping);
+      stack.run_for(1);
+    }
+  };
+  run_alive(2);
+  seen = {};
+  const double cpu_before = stack.gateway().cpu_seconds();
+  const double start = monotonic_seconds();
+  run_alive(time);
+  const double elapsed = monotonic_seconds() - start;
+  seen.cpu_percent = (stack.gateway().cpu_seconds() - cpu_before) / elapsed * 100;
+  seen.rss_mib = stack.gateway().rss_mib();
+  stack.forget_clients();
+  return seen;
+}
+
+/** Processor time of a bare Asio loop that sends as many bytes as often, percent of a core. */
+double measure_bare_sender(const Watching& seen, double state_rate, double image_rate,
+                           double time) {
+  const auto bytes = [](double sum, double number) {
+    return std::to_string(static_cast<int>(number > 0 ? sum / number : 0) + 4);
+  };
+  const ChildProcess sender({program_folder() + "/nao-bare-sender", std::to_string(state_rate),
+                             bytes(seen.state_bytes, seen.num_states), std::to_string(image_rate),
+                             bytes(seen.image_bytes, seen.num_images)});
+  std::smatch port;
+  std::string output;
+  for (int i = 0; i < 100 && !std::regex_search(output, port, std::regex("port (\\d+)")); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    output = sender.output();
+  }
+  if (port.empty()) throw std::runtime_error("the bare sender does not start");
+  std::vector<pollfd> polled;
+  for (int i = 0; i < kNumClients; ++i) {
+    polled.push_back({connect_to_own_host(static_cast<uint16_t>(std::stoi(port[1]))), POLLIN, 0});
+  }
+  const double cpu_before = sender.cpu_seconds();
+  const double start = monotonic_seconds();
+  std::vector<char> part(65536);
+  while (monotonic_seconds() < start + time) {
+    poll(polled.data(), polled.size(), 100);
+    for (const pollfd& one : polled) {
+      if (one.revents != 0 && recv(one.fd, part.data(), part.size(), 0) <= 0) {
+        throw std::runtime_error("the bare sender ended");
+      }
+    }
+  }
+  const double percent = (sender.cpu_seconds() - cpu_before) / (monotonic_seconds() - start) * 100;
+  for (const pollfd& one : polled) close(one.fd);
+  return percent;
+}
+
+}  // namespace
+
+void measure_streams(GatewayStack& stack, double time, std::vector<Figure>& figures) {
+  const Watching one = watch(stack, 1, 60, 30, time);
+  figures.push_back({"gateway.state_age_ms.p99", percentile(one.state_age_ms, 0.99), "ms", "", 0});
+  figures.push_back({"gateway.image_age_ms.p95", percentile(one.image_age_ms, 0.95), "ms", "", 0});
+  figures.push_back({"gateway.state_rate_hz", one.num_states / time, "1/s", "asked for", 60});
+  figures.push_back({"gateway.image_rate_hz", one.num_images / time, "1/s", "asked for", 30});
+
+  const Watching few = watch(stack, 1, 30, 15, time);
+  const Watching many = watch(stack, kNumClients, 30, 15, time);
+  figures.push_back({"gateway.clients32_cpu_percent", many.cpu_percent, "%", "bare Asio loop",
+                     measure_bare_sender(many, 30, 15, time)});
+  for (const auto& [share, word] : {std::pair{0.5, "p50"}, {0.9, "p90"}, {0.99, "p99"}}) {
+    figures.push_back({std::string("gateway.clients32_state_age_ms.") + word,
+                       percentile(many.state_age_ms, share), "ms", "one client",
+                       percentile(few.state_age_ms, share)});
+  }
+  figures.push_back(
+      {"gateway.clients32_rate_hz", many.num_states / time / kNumClients, "1/s", "asked for", 30});
+  figures.push_back({"gateway.clients32_rss_mib", many.rss_mib, "MiB", "one client", few.rss_mib});
+
+  const DisturbingClients disturbing(stack.tcp_port());
+  const Watching disturbed = watch(stack, kNumClients - 3, 30, 15, time);
+  const double good_clients = kNumClients - 3;
+  figures.push_back({"gateway.disturbed_cpu_percent", disturbed.cpu_percent, "%", "undisturbed",
+                     many.cpu_percent});
+  figures.push_back({"gateway.disturbed_state_age_ms.p99", percentile(disturbed.state_age_ms, 0.99),
+                     "ms", "undisturbed", percentile(many.state_age_ms, 0.99)});
+  figures.push_back({"gateway.disturbed_image_age_ms.p95", percentile(disturbed.image_age_ms, 0.95),
+                     "ms", "undisturbed", percentile(many.image_age_ms, 0.95)});
+  figures.push_back({"gateway.disturbed_rate_hz", disturbed.num_states / time / good_clients, "1/s",
+                     "undisturbed", many.num_states / time / kNumClients});
+  figures.push_back(
+      {"gateway.disturbed_rss_mib", disturbed.rss_mib, "MiB", "undisturbed", many.rss_mib});
+}
+
+}  // namespace nao::bench
