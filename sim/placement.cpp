@@ -14,8 +14,6 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /** A rigid body rests on a floor where the height of its center of mass over its lowest point has a
  * minimum (least potential energy): found by trying all pitch angles. */
 Quaterniond sitting_orientation(const RobotModel& model, const Tree& tree,
@@ -41,10 +39,10 @@ Quaterniond sitting_orientation(const RobotModel& model, const Tree& tree,
   }
   com /= model.total_mass();
   Quaterniond best = Quaterniond::Identity();
-  double least = kInfinity;
+  double least = std::numeric_limits<double>::infinity();
   for (double pitch = -kMaxPitch; pitch <= kMaxPitch; pitch += kPitchStep) {
     const Quaterniond orientation(Eigen::AngleAxisd(pitch, Vector3d::UnitY()));
-    double lowest = kInfinity;
+    double lowest = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < points.size(); ++i) {
       lowest = std::min(lowest, (orientation * points[i]).z() - radii[i]);
     }
@@ -76,7 +74,7 @@ Quaterniond resting_orientation(const RobotModel& model, const Tree& tree,
 }
 
 double lowest_point(const CollisionModel& collisions, const TreeDynamics& dynamics) {
-  double lowest = kInfinity;
+  double lowest = std::numeric_limits<double>::infinity();
   for (const CollisionModel::Part& part : collisions.parts) {
     for (int i = part.first_point; i < part.end_point; ++i) {
       const CollisionModel::Point& point = collisions.points[i];

@@ -23,9 +23,6 @@
 namespace nao {
 namespace {
 
-/** Time to wait for both states, s. Chosen: many times their periods. */
-constexpr double kAnswerTimeout = 3.0;
-
 struct RobotReport {
   std::optional<naolcm::robot_state_t> robot;
   std::optional<naolcm::motion_state_t> motion;
@@ -133,7 +130,10 @@ int run_state(const CommonOptions& common, bool as_json, bool watches) {
     if (report.is_complete()) {
       last_complete = now;
       if (watches && !as_json) clear_terminal();
-      std::fputs((as_json ? to_json : to_text)(*report.robot, *report.motion).c_str(), stdout);
+      std::fputs((as_json ? to_json(*report.robot, *report.motion)
+                          : to_text(*report.robot, *report.motion))
+                     .c_str(),
+                 stdout);
       std::fflush(stdout);
       report = {};
       if (!watches) loop.stop("end");

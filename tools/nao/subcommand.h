@@ -9,6 +9,10 @@ namespace nao {
 
 class CommandLine;
 
+/** Time without an answer after which a program is reported as unavailable, s. Chosen: many times
+ * the period of its messages, and 30 transmissions of a command. */
+constexpr double kAnswerTimeout = 3.0;
+
 /** Action selected on the command line; set by the subcommand. */
 struct Invocation {
   CommonOptions common;

@@ -18,9 +18,6 @@
 namespace nao {
 namespace {
 
-/** Time to wait for WORLD_TRUTH, s. Chosen: many times its period. */
-constexpr double kAnswerTimeout = 3.0;
-
 /** Angle between the torso's z axis and the vertical, rad, from a unit quaternion (w, x, y, z). */
 double tilt_of(const double* q) {
   return std::acos(std::clamp(1 - 2 * (q[1] * q[1] + q[2] * q[2]), -1.0, 1.0));
@@ -94,7 +91,7 @@ int run_show(const CommonOptions& common, bool as_json) {
                  common.lcm_url.c_str());
     return 1;
   }
-  std::fputs((as_json ? to_json : to_text)(*truth).c_str(), stdout);
+  std::fputs((as_json ? to_json(*truth) : to_text(*truth)).c_str(), stdout);
   return 0;
 }
 

@@ -21,8 +21,6 @@ namespace {
 
 /** Between two transmissions of an unacknowledged command, s. */
 constexpr double kRepeatPeriod = 0.1;
-/** Time after which nao-sim is reported as unavailable, s: 30 transmissions. */
-constexpr double kAnswerTimeout = 3.0;
 
 /** Sends a world command until WORLD_TRUTH acknowledges it. @return The exit status. */
 int run_world(const CommonOptions& common, naolcm::world_command_t command) {
