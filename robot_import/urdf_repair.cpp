@@ -7,12 +7,12 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <optional>
 #include <set>
 #include <sstream>
 
 #include "common/error.h"
 #include "robot_import/mesh_import.h"
+#include "robot_import/urdf_values.h"
 
 namespace nao {
 namespace {
@@ -27,68 +27,6 @@ constexpr double kTorquePerMass = 1.5;
 // Density of a sphere that stands for a link whose inertia is impossible, kg/m^3. Chosen: about
 // that of water, as motors in plastic shells.
 constexpr double kDensity = 1000;
-
-/** Numbers of an attribute such as "0 0 1". @return Nothing unless they are `count` finite ones. */
-std::optional<std::vector<double>> read_numbers(const TiXmlElement& element, const char* name,
-                                                size_t count) {
-  const char* text = element.Attribute(name);
-  if (text == nullptr) return std::nullopt;
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  std::vector<double> numbers;
-  for (double number = 0; stream >> number;) numbers.push_back(number);
-  const bool is_right = stream.eof() && numbers.size() == count &&
-                        std::all_of(numbers.begin(), numbers.end(),
-                                    [](double number) { return std::isfinite(number); });
-  return is_right ? std::optional(numbers) : std::nullopt;
-}
-
-double read_number(const TiXmlElement& element, const char* name, double otherwise) {
-  const auto numbers = read_numbers(element, name, 1);
-  return numbers ? numbers->front() : otherwise;
-}
-
-std::string to_text(double number) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(12);
-  text << number;
-  return text.str();
-}
-
-std::string to_text(const Eigen::Vector3d& vector) {
-  return to_text(vector.x()) + " " + to_text(vector.y()) + " " + to_text(vector.z());
-}
-
-Eigen::Isometry3d read_origin(const TiXmlElement& parent) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  const TiXmlElement* origin = parent.FirstChildElement("origin");
-  if (origin == nullptr) return pose;
-  if (const auto xyz = read_numbers(*origin, "xyz", 3)) {
-    pose.translation() = Eigen::Vector3d(xyz->data());
-  }
-  if (const auto rpy = read_numbers(*origin, "rpy", 3)) {
-    pose.linear() = (Eigen::AngleAxisd((*rpy)[2], Eigen::Vector3d::UnitZ()) *
-                     Eigen::AngleAxisd((*rpy)[1], Eigen::Vector3d::UnitY()) *
-                     Eigen::AngleAxisd((*rpy)[0], Eigen::Vector3d::UnitX()))
-                        .toRotationMatrix();
-  }
-  return pose;
-}
-
-void write_origin(TiXmlElement& parent, const Eigen::Isometry3d& pose) {
-  TiXmlElement* origin = parent.FirstChildElement("origin");
-  if (origin == nullptr) {
-    parent.LinkEndChild(new TiXmlElement("origin"));
-    origin = parent.FirstChildElement("origin");
-  }
-  const Eigen::Matrix3d& r = pose.linear();
-  const Eigen::Vector3d rpy(std::atan2(r(2, 1), r(2, 2)),
-                            std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))),
-                            std::atan2(r(1, 0), r(0, 0)));
-  origin->SetAttribute("xyz", to_text(Eigen::Vector3d(pose.translation())).c_str());
-  origin->SetAttribute("rpy", to_text(rpy).c_str());
-}
 
 class UrdfRepair {
  public:
@@ -121,6 +59,7 @@ class UrdfRepair {
   /** @return false if the shape must go. */
   bool repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool is_collision,
                    const std::string& element);
+  void repair_cylinder(TiXmlElement& shape, TiXmlElement& geometry, const std::string& element);
   fs::path find_mesh(const std::string& name) const;
 
   fs::path file_;
@@ -348,6 +287,30 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
   }
 }
 
+void UrdfRepair::repair_cylinder(TiXmlElement& shape, TiXmlElement& geometry,
+                                 const std::string& element) {
+  TiXmlElement& cylinder = *geometry.FirstChildElement("cylinder");
+  const std::string name = shape.Attribute("name") == nullptr ? "" : shape.Attribute("name");
+  const double radius = read_number(cylinder, "radius", 0);
+  const double length = read_number(cylinder, "length", 0);
+  if (name.ends_with("_capsule") || !(radius > 0) || !(length > 0)) return;
+  // The physics has no cylinders. A long one becomes the capsule of its length, a short one a box
+  // with a square of the same area.
+  const bool is_long = length > 2 * radius;
+  if (is_long) {
+    cylinder.SetAttribute("length", to_text(length - 2 * radius).c_str());
+    shape.SetAttribute("name", (name + "_capsule").c_str());
+  } else {
+    const double edge = std::sqrt(M_PI) * radius;
+    TiXmlElement box("box");
+    box.SetAttribute("size", to_text(Eigen::Vector3d(edge, edge, length)).c_str());
+    geometry.RemoveChild(&cylinder);
+    geometry.InsertEndChild(box);
+  }
+  note(Severity::kNote, shape, element, "collides by a cylinder",
+       std::string("a ") + (is_long ? "capsule" : "box") + " of its size takes its place");
+}
+
 void UrdfRepair::repair_shapes(TiXmlElement& link, const char* kind, const std::string& element) {
   const bool is_collision = std::string(kind) == "collision";
   for (TiXmlElement* shape = link.FirstChildElement(kind); shape != nullptr;) {
@@ -359,6 +322,8 @@ void UrdfRepair::repair_shapes(TiXmlElement& link, const char* kind, const std::
            "it is left out");
     } else if (geometry->FirstChildElement("mesh") != nullptr) {
       stays = repair_mesh(*shape, *geometry, is_collision, element);
+    } else if (is_collision && geometry->FirstChildElement("cylinder") != nullptr) {
+      repair_cylinder(*shape, *geometry, element);
     }
     if (!stays) link.RemoveChild(shape);
     shape = next;

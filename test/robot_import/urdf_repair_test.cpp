@@ -123,6 +123,22 @@ TEST_F(ImportedUrdf, FindsMeshesOfAPackageAndScalesThem) {
   EXPECT_THAT(lines_, Contains(HasSubstr("a box about it takes its place")));
 }
 
+TEST_F(ImportedUrdf, CollidesByCapsulesInThePlaceOfCylinders) {
+  const std::string tail = "\"/></geometry></collision>";
+  replace("<link name=\"trunk\">", "<link name=\"trunk\">",
+          "<link name=\"trunk\"><collision name=\"long\"><geometry><cylinder radius=\"0.02\" "
+          "length=\"0.1" +
+              tail + "<collision name=\"flat\"><geometry><cylinder radius=\"0.1\" length=\"0.05" +
+              tail);
+  const RobotModel model = import();
+  const auto& shapes = model.links().front().collisions;
+  ASSERT_EQ(shapes.size(), 2u);
+  EXPECT_EQ(shapes[0].kind, Shape::Kind::kCapsule);
+  EXPECT_NEAR(shapes[0].length, 0.06, 1e-9);
+  EXPECT_EQ(shapes[1].kind, Shape::Kind::kBox);
+  EXPECT_NEAR(shapes[1].size.z(), 0.05, 1e-9);
+}
+
 TEST_F(ImportedUrdf, SaysWhichMeshIsMissing) {
   replace(
       "<link name=\"trunk\">", "<link name=\"trunk\">",
