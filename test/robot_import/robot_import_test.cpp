@@ -7,6 +7,7 @@
 #include <random>
 
 #include "closed_loop/closed_loop.h"
+#include "common/data_path.h"
 #include "kinematics/leg_kinematics.h"
 #include "test/support/test_biped.h"
 
@@ -70,6 +71,23 @@ TEST(RobotImport, TenHumanoidsOfRandomDimensionsStand) {
     const double height = model->references().heights.standing;
     EXPECT_LT(trial.torso_tilt(), 0.1) << "robot " << i << ", " << dimensions.mass << " kg";
     EXPECT_GT(trial.torso_height(), 0.95 * height) << "robot " << i;
+  }
+}
+
+TEST(RobotT1, Stands) {
+  const auto model =
+      std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / "t1"));
+  EXPECT_NEAR(model->total_mass(), 31.7, 0.1);
+  // Its hip axes do not meet.
+  EXPECT_EQ(LegKinematics(*model).method(), LegKinematics::Method::kNumeric);
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    ClosedLoopOptions options;
+    options.model = model;
+    ClosedLoop trial(options, seed);
+    trial.run(20);
+    EXPECT_LT(trial.torso_tilt(), 0.1) << "seed " << seed;
+    EXPECT_GT(trial.torso_height(), 0.95 * model->references().heights.standing);
+    EXPECT_LT(trial.torso_in_world().translation().head<2>().norm(), 0.1) << "seed " << seed;
   }
 }
 
