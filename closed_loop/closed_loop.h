@@ -30,8 +30,8 @@ struct ClosedLoopOptions {
   int command_latency_ticks = 0;
   /** Control period, ms: a multiple of the physics step of 2 ms. */
   int tick_ms = 10;
-  /** Posture that the robot starts in. */
-  std::string posture = "StandInit";
+  /** Posture that the robot starts in; empty: its ready posture. */
+  std::string posture{};
   motion::MotionOptions motion;
 };
 

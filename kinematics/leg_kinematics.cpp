@@ -37,35 +37,52 @@ double knee_angle(double thigh, double tibia, double distance, bool& is_reachabl
 }  // namespace
 
 LegKinematics::LegKinematics(const RobotModel& model)
-    : left_(read_chain(model, "L", model.left_sole())),
-      right_(read_chain(model, "R", model.right_sole())) {}
+    : chains_{LegChain::read(model, Leg::kLeft), LegChain::read(model, Leg::kRight)} {
+  choose_method(model);
+}
 
-LegKinematics::Chain LegKinematics::read_chain(const RobotModel& model, const char* prefix,
-                                               int sole) {
-  const std::array<const char*, 6> names = {"HipYawPitch", "HipRoll",    "HipPitch",
-                                            "KneePitch",   "AnklePitch", "AnkleRoll"};
+void LegKinematics::choose_method(const RobotModel& model) {
+  if (chains_[0].motors[0] == chains_[1].motors[0]) {
+    method_ = Method::kCoupled;
+    for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
+      coupled_[index(leg)] = read_coupled(model, leg);
+      hips_[index(leg)] = coupled_[index(leg)].hip;
+    }
+    reach_ = coupled_[0].thigh + coupled_[0].tibia;
+    return;
+  }
+  for (int i = 0; i < 2; ++i) analytic_[i] = AnalyticLegSolver::make(chains_[i]);
+  if (analytic_[0] && analytic_[1]) method_ = Method::kAnalytic;
+  const Posture* ready = model.find_posture(model.references().ready);
+  for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
+    const LegChain& c = chain(leg);
+    const LegAngles start = ready != nullptr ? read(leg, ready->position) : LegAngles{};
+    numeric_[index(leg)].emplace(c, start);
+    hips_[index(leg)] =
+        method_ == Method::kAnalytic ? analytic_[index(leg)]->hip() : c.point[c.roles.hip_pitch];
+  }
+  const LegChain& left = chains_[0];
+  const Eigen::Vector3d& knee = left.point[left.roles.knee];
+  reach_ = (hips_[0] - knee).norm() + (knee - left.point[left.roles.ankle_pitch]).norm();
+}
+
+LegKinematics::CoupledLeg LegKinematics::read_coupled(const RobotModel& model, Leg leg) {
+  const LegDescription& description = model.legs()[index(leg)];
   const auto require = [&](bool holds, const std::string& what) {
     if (!holds) {
-      throw ModelError("leg " + std::string(prefix) + " of " + model.name() +
-                       " has no inverse kinematics: " + what);
+      throw ModelError(std::string(leg == Leg::kLeft ? "the left" : "the right") + " leg of " +
+                       model.name() + " has no inverse kinematics for its coupled hip: " + what);
     }
   };
-  Chain chain{};
+  require(description.joints.size() == 6, "other joints lead to it");
   std::array<const Joint*, 6> joints{};
   int parent = 0;
-  for (size_t i = 0; i < names.size(); ++i) {
-    const std::string name = prefix + std::string(names[i]);
-    const int joint = model.find_joint(name);
-    require(joint >= 0, "no joint " + name);
-    joints[i] = &model.joints()[joint];
-    require(joints[i]->parent_link == parent, name + " is not where it belongs");
+  for (size_t i = 0; i < joints.size(); ++i) {
+    joints[i] = &model.joints()[description.joints[i]];
+    require(joints[i]->parent_link == parent, joints[i]->name + " is not where it belongs");
     require(joints[i]->pose_in_parent.linear().isIdentity(kTolerance),
-            name + " has a turned frame");
+            joints[i]->name + " has a turned frame");
     parent = joints[i]->child_link;
-    const int driver = joints[i]->mimic_joint;
-    chain.motors[i] = model.find_motor(driver >= 0 ? model.joints()[driver].name : name);
-    require(driver < 0 || (joints[i]->mimic_multiplier == 1 && joints[i]->mimic_offset == 0),
-            name + " does not follow its motor one to one");
   }
   const auto is_axis = [&](int i, const Eigen::Vector3d& axis) {
     return joints[i]->axis.isApprox(axis, kTolerance);
@@ -82,23 +99,36 @@ LegKinematics::Chain LegKinematics::read_chain(const RobotModel& model, const ch
   require(origin(5).norm() < kTolerance, "its ankle axes do not meet");
   require(origin(3).head<2>().norm() < kTolerance && origin(4).head<2>().norm() < kTolerance,
           "its knee or ankle is off the line of the leg");
-  const Joint& sole_joint = model.joints()[model.links()[sole].parent_joint];
+  const Joint& sole_joint = model.joints()[model.links()[description.sole].parent_joint];
   require(sole_joint.parent_link == parent && sole_joint.kind == Joint::Kind::kFixed &&
               sole_joint.pose_in_parent.linear().isIdentity(kTolerance),
           "its sole is not fixed to the foot");
 
-  chain.hip = origin(0);
-  chain.thigh = -origin(3).z();
-  chain.tibia = -origin(4).z();
-  chain.sole_offset = sole_joint.pose_in_parent.translation();
+  CoupledLeg result{};
+  result.hip = origin(0);
+  result.thigh = -origin(3).z();
+  result.tibia = -origin(4).z();
+  result.sole_offset = sole_joint.pose_in_parent.translation();
   const Eigen::Vector3d axis = joints[0]->axis;
-  chain.sign = axis.z() < 0 ? -1 : 1;
-  chain.tilt = std::atan2(-chain.sign * axis.y(), chain.sign * axis.z());
-  return chain;
+  result.sign = axis.z() < 0 ? -1 : 1;
+  result.tilt = std::atan2(-result.sign * axis.y(), result.sign * axis.z());
+  return result;
 }
 
 LegSolution LegKinematics::solve(Leg leg, const Eigen::Isometry3d& sole_in_torso) const {
-  const Chain& c = chain(leg);
+  switch (method_) {
+    case Method::kCoupled:
+      return solve_coupled(coupled_[index(leg)], sole_in_torso);
+    case Method::kAnalytic:
+      return analytic_[index(leg)]->solve(sole_in_torso);
+    case Method::kNumeric:
+      break;
+  }
+  return numeric_[index(leg)]->solve(sole_in_torso);
+}
+
+LegSolution LegKinematics::solve_coupled(const CoupledLeg& c,
+                                         const Eigen::Isometry3d& sole_in_torso) const {
   LegSolution solution;
   const Eigen::Matrix3d& R_TF = sole_in_torso.linear();
   const Eigen::Vector3d p_hip_ankle =
@@ -127,7 +157,7 @@ LegSolution LegKinematics::solve(Leg leg, const Eigen::Isometry3d& sole_in_torso
 
 LegSolution LegKinematics::solve_with_hip_yaw_pitch(Leg leg, const Eigen::Isometry3d& sole_in_torso,
                                                     double hip_yaw_pitch) const {
-  const Chain& c = chain(leg);
+  const CoupledLeg& c = coupled_[index(leg)];
   LegSolution solution;
   const Eigen::Matrix3d& R_TF = sole_in_torso.linear();
   const Eigen::Matrix3d R_TP =
@@ -155,6 +185,11 @@ LegSolution LegKinematics::solve_with_hip_yaw_pitch(Leg leg, const Eigen::Isomet
 LegsSolution LegKinematics::solve_both(const Eigen::Isometry3d& left_sole_in_torso,
                                        const Eigen::Isometry3d& right_sole_in_torso,
                                        double left_weight) const {
+  if (method_ != Method::kCoupled) {
+    const LegSolution left = solve(Leg::kLeft, left_sole_in_torso);
+    const LegSolution right = solve(Leg::kRight, right_sole_in_torso);
+    return {left.angles, right.angles, left.is_reachable && right.is_reachable};
+  }
   const double hip_yaw_pitch =
       left_weight * solve(Leg::kLeft, left_sole_in_torso).angles[0] +
       (1 - left_weight) * solve(Leg::kRight, right_sole_in_torso).angles[0];
@@ -165,9 +200,9 @@ LegsSolution LegKinematics::solve_both(const Eigen::Isometry3d& left_sole_in_tor
 }
 
 void LegKinematics::write(Leg leg, const LegAngles& angles, std::vector<double>& position) const {
-  const Chain& c = chain(leg);
-  for (size_t i = leg == Leg::kLeft ? 0 : 1; i < angles.size(); ++i) {
-    position[c.motors[i]] = angles[i];
+  const bool has_own_first = leg == Leg::kLeft || method_ != Method::kCoupled;
+  for (size_t i = has_own_first ? 0 : 1; i < angles.size(); ++i) {
+    position[motors(leg)[i]] = angles[i];
   }
 }
 

@@ -1,110 +1,47 @@
 #include "robot_model/robot_model.h"
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "common/error.h"
 #include "robot_model/robot_model_reader.h"
 
 namespace nao {
 namespace {
 
-template <class Items>
-int find_named(const Items& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&name](const auto& item) { return item.name == name; });
-  return found == items.end() ? -1 : static_cast<int>(found - items.begin());
-}
-
-/** Piecewise linear interpolation, constant beyond the first and last point. @param x  Rising. */
-double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const size_t next = std::upper_bound(x.begin(), x.end(), at) - x.begin();
-  if (next == 0) {
-    return y.front();
-  }
-  if (next == x.size()) {
-    return y.back();
-  }
-  const double fraction = (at - x[next - 1]) / (x[next] - x[next - 1]);
-  return y[next - 1] + fraction * (y[next] - y[next - 1]);
+/** @return nullptr if no item fulfils the condition. */
+template <class Item, class Condition>
+const Item* find_item(const std::vector<Item>& items, Condition condition) {
+  const auto found = std::find_if(items.begin(), items.end(), condition);
+  return found == items.end() ? nullptr : &*found;
 }
 
 }  // namespace
+
+const JointPair* Symmetry::find_pair(const std::string& name) const {
+  return find_item(pairs, [&](const JointPair& pair) { return pair.name == name; });
+}
 
 RobotModel RobotModel::load(const std::filesystem::path& folder) {
   return RobotModelReader::read(folder);
 }
 
-int RobotModel::find_link(const std::string& name) const {
-  return find_named(links_, name);
-}
-
-int RobotModel::find_joint(const std::string& name) const {
-  return find_named(joints_, name);
-}
-
-int RobotModel::find_motor(const std::string& name) const {
-  for (int motor = 0; motor < num_motors(); ++motor) {
-    if (motor_joint(motor).name == name) {
-      return motor;
-    }
-  }
-  return -1;
-}
-
 const Posture* RobotModel::find_posture(const std::string& name) const {
-  const int index = find_named(postures_, name);
-  return index < 0 ? nullptr : &postures_[index];
+  return find_item(postures_, [&](const Posture& posture) { return posture.name == name; });
 }
 
-double RobotModel::total_mass() const {
-  double mass = 0;
-  for (const Link& link : links_) {
-    mass += link.mass;
-  }
-  return mass;
+const Posture& RobotModel::ready_posture() const {
+  const Posture* posture = find_posture(references_.ready);
+  if (posture == nullptr) throw ModelError(name_ + " has no ready posture");
+  return *posture;
 }
 
-std::vector<double> RobotModel::joint_positions(const std::vector<double>& position) const {
-  if (position.size() != motor_joints_.size()) {
-    throw std::invalid_argument(std::to_string(position.size()) + " motor positions instead of " +
-                                std::to_string(motor_joints_.size()));
-  }
-  std::vector<double> angles(joints_.size(), 0.0);
-  for (size_t motor = 0; motor < motor_joints_.size(); ++motor) {
-    angles[motor_joints_[motor]] = position[motor];
-  }
-  for (size_t i = 0; i < joints_.size(); ++i) {
-    if (joints_[i].mimic_joint >= 0) {
-      angles[i] =
-          joints_[i].mimic_multiplier * angles[joints_[i].mimic_joint] + joints_[i].mimic_offset;
-    }
-  }
-  return angles;
+const Action* RobotModel::find_action(const std::string& name) const {
+  return find_item(actions_, [&](const Action& action) { return action.name == name; });
 }
 
-std::vector<Eigen::Isometry3d> RobotModel::link_poses(const std::vector<double>& position) const {
-  const std::vector<double> angles = joint_positions(position);
-  std::vector<Eigen::Isometry3d> poses(links_.size(), Eigen::Isometry3d::Identity());
-  for (size_t i = 0; i < joints_.size(); ++i) {
-    const Joint& joint = joints_[i];
-    poses[joint.child_link] =
-        poses[joint.parent_link] * joint.pose_in_parent * Eigen::AngleAxisd(angles[i], joint.axis);
-  }
-  return poses;
-}
-
-double RobotModel::clip_to_limits(int motor, double angle,
-                                  const std::vector<double>& position) const {
-  double lower = motor_joint(motor).lower;
-  double upper = motor_joint(motor).upper;
-  for (const CoupledLimit& limit : coupled_limits_) {
-    if (limit.motor == motor) {
-      const double other = position[limit.other_motor];
-      lower = std::max(lower, interpolate(limit.other_position, limit.lower, other));
-      upper = std::min(upper, interpolate(limit.other_position, limit.upper, other));
-    }
-  }
-  return std::clamp(angle, lower, upper);
+const Action* RobotModel::find_action(Action::Kind kind, Side side) const {
+  return find_item(
+      actions_, [&](const Action& action) { return action.kind == kind && action.side == side; });
 }
 
 }  // namespace nao

@@ -9,13 +9,6 @@
 namespace nao {
 namespace {
 
-/** Adds a name. @throws ModelError  if it is known already. */
-void add_unique(std::set<std::string>& names, const YamlEntry& entry) {
-  if (!names.insert(entry.text()).second) {
-    entry.fail("\"" + entry.text() + "\" appears twice");
-  }
-}
-
 Motor read_motor_type(const YamlEntry& entry) {
   entry.allow_only({"continuous_torque", "no_load_velocity", "reflected_inertia", "dry_friction",
                     "viscous_friction", "stiffness_gain", "damping_gain"});
@@ -30,33 +23,16 @@ Motor read_motor_type(const YamlEntry& entry) {
   return motor;
 }
 
-/** @throws ModelError  unless the points are the corners of a convex polygon, counter-clockwise. */
-std::vector<Eigen::Vector2d> read_outline(const YamlEntry& list) {
-  std::vector<Eigen::Vector2d> outline;
-  for (const YamlEntry& item : list.items()) {
-    const std::vector<double> point = item.numbers(2);
-    outline.emplace_back(point[0], point[1]);
+/** Links at the ends of limbs, and the ranks of the limbs in order_joints(). */
+std::map<std::string, int> find_limbs(const YamlEntry& robot) {
+  std::map<std::string, int> limbs;
+  if (robot.has("hands")) {
+    limbs[robot.at("hands").at("left").text()] = 1;
+    limbs[robot.at("hands").at("right").text()] = 4;
   }
-  if (outline.size() < 3) {
-    list.fail("has fewer than three points");
-  }
-  const size_t count = outline.size();
-  // All exterior angles of a convex polygon have one sign; their sum is a full turn.
-  double sum = 0;
-  for (size_t i = 0; i < count; ++i) {
-    const Eigen::Vector2d before = outline[(i + 1) % count] - outline[i];
-    const Eigen::Vector2d after = outline[(i + 2) % count] - outline[(i + 1) % count];
-    const double turn =
-        std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
-    if (turn <= 0) {
-      list.fail("is not convex and counter-clockwise at point " + std::to_string((i + 1) % count));
-    }
-    sum += turn;
-  }
-  if (sum > 2 * std::numbers::pi + 1e-6) {
-    list.fail("goes around more than once");
-  }
-  return outline;
+  limbs[robot.at("soles").at("left").at("link").text()] = 2;
+  limbs[robot.at("soles").at("right").at("link").text()] = 3;
+  return limbs;
 }
 
 }  // namespace
@@ -68,31 +44,59 @@ RobotModelReader::RobotModelReader(const std::filesystem::path& folder) {
 RobotModel RobotModelReader::read(const std::filesystem::path& folder) {
   RobotModelReader reader(folder);
   const YamlEntry robot = YamlEntry::load(reader.model_.folder_ / "robot.yaml");
-  robot.allow_only({"urdf", "motor_types", "motors", "coupled_limits", "joint_groups", "cameras",
-                    "inertial_unit", "foot_sensors", "soles", "contact_clusters", "walk_limits",
+  robot.allow_only({"urdf",
+                    "motor_types",
+                    "motors",
+                    "coupled_limits",
+                    "joint_groups",
+                    "cameras",
+                    "inertial_unit",
+                    "foot_sensors",
+                    "soles",
+                    "hands",
+                    "mirrored_joints",
+                    "motor_defaults",
+                    "contact_clusters",
+                    "walk_limits",
+                    "reference_postures",
+                    "heights",
+                    "walking_stance",
+                    "walking_arms",
+                    "fall_poses",
                     "actions"});
   const std::string urdf = robot.at("urdf").text();
   if (std::filesystem::path(urdf).filename() != urdf) {
     robot.at("urdf").fail("must be a file in this folder");
   }
   reader.model_.urdf_file_ = reader.model_.folder_ / urdf;
-  reader.read_urdf(reader.model_.urdf_file_);
-  reader.read_motors(robot.at("motor_types"), robot.at("motors"));
-  reader.read_coupled_limits(robot.at("coupled_limits"));
-  reader.read_joint_groups(robot.at("joint_groups"));
-  reader.read_cameras(robot.at("cameras"));
+  reader.read_urdf(reader.model_.urdf_file_, find_limbs(robot));
+  if (robot.has("motors")) {
+    reader.read_motors(robot.at("motor_types"), robot.at("motors"));
+  } else {
+    reader.estimate_motors(robot);
+  }
+  if (robot.has("coupled_limits")) reader.read_coupled_limits(robot.at("coupled_limits"));
+  if (robot.has("cameras")) reader.read_cameras(robot.at("cameras"));
   reader.read_inertial_unit(robot.at("inertial_unit"));
-  reader.read_foot_sensors(robot.at("foot_sensors"));
-  reader.read_soles(robot.at("soles"));
-  reader.assign_foot_sensors(robot.at("foot_sensors"));
-  reader.read_contact_clusters(robot.at("contact_clusters"));
-  reader.read_walk_limits(robot.at("walk_limits"));
-  reader.read_actions(robot.at("actions"));
+  reader.read_limbs(robot);
+  reader.read_symmetry(robot);
+  if (robot.has("joint_groups")) reader.read_joint_groups(robot.at("joint_groups"));
+  reader.read_contact_clusters(robot);
+  if (robot.has("actions")) reader.read_actions(robot.at("actions"));
 
   const YamlEntry postures = YamlEntry::load(reader.model_.folder_ / "postures.yaml");
   postures.allow_only({"postures"});
   reader.read_postures(postures.at("postures"));
+  reader.read_references(robot);
+  const std::filesystem::path labels = reader.model_.folder_ / "labels.yaml";
+  if (std::filesystem::exists(labels)) reader.read_labels(YamlEntry::load(labels));
   return reader.model_;
+}
+
+void RobotModelReader::add_unique(std::set<std::string>& names, const YamlEntry& entry) {
+  if (!names.insert(entry.text()).second) {
+    entry.fail("\"" + entry.text() + "\" appears twice");
+  }
 }
 
 int RobotModelReader::motor_named(const YamlEntry& entry) const {
@@ -141,6 +145,37 @@ void RobotModelReader::read_motors(const YamlEntry& types, const YamlEntry& moto
   }
 }
 
+void RobotModelReader::estimate_motors(const YamlEntry& robot) {
+  // Chosen: the ratios of the NAO's leg motors and of published models of humanoids of 30 kg. A
+  // motor holds half of its peak torque for long, has lost its torque at 1.2 times the URDF's
+  // velocity, rubs with 1.5 % of its peak torque, and its servo reaches the peak torque at an error
+  // of 0.1 rad.
+  double armature_per_torque = 1e-3;
+  double peak_error = 0.1;
+  if (robot.has("motor_defaults")) {
+    const YamlEntry defaults = robot.at("motor_defaults");
+    defaults.allow_only({"armature_per_torque", "peak_error"});
+    if (defaults.has("armature_per_torque")) {
+      armature_per_torque = defaults.at("armature_per_torque").positive();
+    }
+    if (defaults.has("peak_error")) peak_error = defaults.at("peak_error").positive();
+  }
+  for (int i = 0; i < model_.num_motors(); ++i) {
+    const Joint& joint = model_.motor_joint(i);
+    Motor motor;
+    motor.peak_torque = joint.max_torque;
+    motor.continuous_torque = 0.5 * joint.max_torque;
+    motor.no_load_velocity = 1.2 * joint.max_velocity;
+    motor.reflected_inertia = armature_per_torque * joint.max_torque;
+    motor.dry_friction = 0.015 * joint.max_torque;
+    motor.viscous_friction = 0.01 * joint.max_torque / motor.no_load_velocity;
+    motor.stiffness_gain = joint.max_torque / peak_error;
+    // Nearly critical damping of the rotor alone.
+    motor.damping_gain = 1.8 * std::sqrt(motor.stiffness_gain * motor.reflected_inertia);
+    model_.motors_.push_back(motor);
+  }
+}
+
 void RobotModelReader::read_coupled_limits(const YamlEntry& list) {
   std::set<std::string> names;
   for (const YamlEntry& item : list.items()) {
@@ -175,26 +210,6 @@ void RobotModelReader::read_coupled_limits(const YamlEntry& list) {
   }
 }
 
-void RobotModelReader::read_joint_groups(const YamlEntry& list) {
-  std::set<std::string> names;
-  for (const YamlEntry& item : list.items()) {
-    item.allow_only({"name", "yaw", "pitch", "roll"});
-    add_unique(names, item.at("name"));
-    JointGroup group;
-    group.name = item.at("name").text();
-    const auto motor_of = [this, &item](const char* axis) {
-      return item.has(axis) ? motor_named(item.at(axis)) : -1;
-    };
-    group.yaw_motor = motor_of("yaw");
-    group.pitch_motor = motor_of("pitch");
-    group.roll_motor = motor_of("roll");
-    if (std::max({group.yaw_motor, group.pitch_motor, group.roll_motor}) < 0) {
-      item.fail("has no joint");
-    }
-    model_.joint_groups_.push_back(group);
-  }
-}
-
 void RobotModelReader::read_cameras(const YamlEntry& list) {
   std::set<std::string> names;
   for (const YamlEntry& item : list.items()) {
@@ -222,49 +237,14 @@ void RobotModelReader::read_inertial_unit(const YamlEntry& entry) {
   model_.gyroscope_ = link_named(entry.at("gyroscope"));
 }
 
-void RobotModelReader::read_foot_sensors(const YamlEntry& list) {
-  std::set<std::string> names;
-  for (const YamlEntry& item : list.items()) {
-    add_unique(names, item);
-    model_.foot_sensors_.push_back(link_named(item));
-  }
-}
-
-void RobotModelReader::read_soles(const YamlEntry& entry) {
-  entry.allow_only({"left", "right"});
-  const auto read_sole = [this](const YamlEntry& sole, int& link,
-                                std::vector<Eigen::Vector2d>& outline) {
-    sole.allow_only({"link", "outline"});
-    link = link_named(sole.at("link"));
-    outline = read_outline(sole.at("outline"));
-  };
-  read_sole(entry.at("left"), model_.feet_[0].sole, model_.feet_[0].outline);
-  read_sole(entry.at("right"), model_.feet_[1].sole, model_.feet_[1].outline);
-}
-
-void RobotModelReader::assign_foot_sensors(const YamlEntry& list) {
-  // The first link of the rigid body that a link belongs to.
-  const auto body_of = [this](int link) {
-    int joint = model_.links_[link].parent_joint;
-    while (joint >= 0 && model_.joints_[joint].kind == Joint::Kind::kFixed) {
-      link = model_.joints_[joint].parent_link;
-      joint = model_.links_[link].parent_joint;
+void RobotModelReader::read_contact_clusters(const YamlEntry& robot) {
+  if (!robot.has("contact_clusters")) {
+    for (const Joint& joint : model_.joints_) {
+      model_.allowed_contacts_.emplace_back(std::minmax(joint.parent_link, joint.child_link));
     }
-    return link;
-  };
-  for (size_t i = 0; i < model_.foot_sensors_.size(); ++i) {
-    const int body = body_of(model_.foot_sensors_[i]);
-    const auto foot =
-        std::find_if(model_.feet_.begin(), model_.feet_.end(),
-                     [&](const Foot& candidate) { return body_of(candidate.sole) == body; });
-    if (foot == model_.feet_.end()) {
-      list.items()[i].fail("is not fixed to the link of a sole");
-    }
-    foot->sensors.push_back(static_cast<int>(i));
+    return;
   }
-}
-
-void RobotModelReader::read_contact_clusters(const YamlEntry& list) {
+  const YamlEntry list = robot.at("contact_clusters");
   constexpr int kNone = -1;
   std::vector<int> cluster_of(model_.links_.size(), kNone);
   int num_clusters = 0;
@@ -294,60 +274,6 @@ void RobotModelReader::read_contact_clusters(const YamlEntry& list) {
         model_.allowed_contacts_.emplace_back(a, b);
       }
     }
-  }
-}
-
-void RobotModelReader::read_walk_limits(const YamlEntry& entry) {
-  entry.allow_only({"forward", "backward", "sideways", "turning"});
-  model_.walk_limits_.forward = entry.at("forward").not_negative();
-  model_.walk_limits_.backward = entry.at("backward").not_negative();
-  model_.walk_limits_.sideways = entry.at("sideways").not_negative();
-  model_.walk_limits_.turning = entry.at("turning").not_negative();
-}
-
-void RobotModelReader::read_actions(const YamlEntry& list) {
-  std::set<std::string> names;
-  for (const YamlEntry& item : list.items()) {
-    add_unique(names, item);
-    model_.actions_.push_back(item.text());
-  }
-}
-
-void RobotModelReader::read_postures(const YamlEntry& list) {
-  std::set<std::string> names;
-  for (const YamlEntry& item : list.items()) {
-    item.allow_only({"name", "family", "source", "joints"});
-    add_unique(names, item.at("name"));
-    Posture posture;
-    posture.name = item.at("name").text();
-    posture.family = item.at("family").text();
-    item.at("source").text();
-    const std::set<std::string> families = {"standing", "crouching", "sitting", "lying-back",
-                                            "lying-belly"};
-    if (families.count(posture.family) == 0) {
-      item.at("family").fail("\"" + posture.family + "\" is unknown");
-    }
-    posture.position.assign(model_.motor_joints_.size(), std::nan(""));
-    const YamlEntry joints = item.at("joints");
-    for (const auto& [joint, angle] : joints.entries()) {
-      const int motor = model_.find_motor(joint);
-      if (motor < 0) {
-        angle.fail("is not a joint with a motor in the URDF");
-      }
-      posture.position[motor] = angle.number();
-    }
-    for (int motor = 0; motor < model_.num_motors(); ++motor) {
-      if (std::isnan(posture.position[motor])) {
-        joints.fail("lacks \"" + model_.motor_joint(motor).name + "\"");
-      }
-    }
-    for (int motor = 0; motor < model_.num_motors(); ++motor) {
-      const double angle = posture.position[motor];
-      if (model_.clip_to_limits(motor, angle, posture.position) != angle) {
-        joints.at(model_.motor_joint(motor).name).fail("is outside the joint's limits");
-      }
-    }
-    model_.postures_.push_back(posture);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "robot_model/joint_order.h"
 #include "robot_model/robot_model_reader.h"
 
 namespace nao {
@@ -40,17 +41,12 @@ class UrdfdomMessages : public console_bridge::OutputHandler {
   std::string errors_;
 };
 
-/** The kinematic tree in the file's order, which urdfdom does not keep: joints are listed from the
- * root outwards, and no name appears twice. urdfdom itself accepts two parents of a link, and leaks
+/** The kinematic tree of a URDF, checked: urdfdom itself accepts two parents of a link, and leaks
  * the memory of a cycle. */
 struct UrdfTree {
-  struct Edge {
-    std::string joint;
-    std::string parent;
-    std::string child;
-  };
   std::string root;
-  std::vector<Edge> edges;
+  /** In the file's order; only the names are set. */
+  std::vector<UrdfEdge> edges;
 };
 
 /** One URDF file: converts urdfdom's structures, and reports errors with the element's name. */
@@ -59,6 +55,8 @@ class UrdfFile {
   explicit UrdfFile(const std::filesystem::path& file) : file_(file), folder_(file.parent_path()) {}
 
   UrdfTree tree() const;
+  /** Sets what order_joints() needs. */
+  void describe(const urdf::ModelInterface& urdf, UrdfEdge& edge) const;
   /** @return urdfdom's model. @throws ModelError  if urdfdom reported any error. */
   urdf::ModelInterfaceSharedPtr parse() const;
   Link convert(const urdf::Link& link) const;
@@ -124,6 +122,17 @@ std::string UrdfFile::attribute(const TiXmlElement* xml, const char* name,
   return value;
 }
 
+void UrdfFile::describe(const urdf::ModelInterface& urdf, UrdfEdge& edge) const {
+  const urdf::JointConstSharedPtr joint = urdf.getJoint(edge.joint);
+  const urdf::LinkConstSharedPtr child = urdf.getLink(edge.child);
+  if (joint == nullptr || child == nullptr) fail("joint " + edge.joint, "is missing");
+  edge.is_body = joint->type != urdf::Joint::FIXED || child->inertial != nullptr ||
+                 !child->collision_array.empty();
+  const urdf::Pose& pose = joint->parent_to_joint_origin_transform;
+  edge.place = {pose.position.x, pose.position.y, pose.position.z, pose.rotation.x, pose.rotation.y,
+                pose.rotation.z, pose.rotation.w, joint->axis.x,   joint->axis.y,   joint->axis.z};
+}
+
 UrdfTree UrdfFile::tree() const {
   TiXmlDocument document;
   document.Parse(text().c_str());
@@ -151,7 +160,11 @@ UrdfTree UrdfFile::tree() const {
     require(links.count(child) > 0, element, "its child \"" + child + "\" is not a link");
     const auto [known, is_new] = joint_of_child.try_emplace(child, name);
     require(is_new, element, "its child \"" + child + "\" is also the child of " + known->second);
-    tree.edges.push_back({name, parent, child});
+    UrdfEdge edge;
+    edge.joint = name;
+    edge.parent = parent;
+    edge.child = child;
+    tree.edges.push_back(edge);
   }
 
   for (const std::string& link : links) {
@@ -162,14 +175,18 @@ UrdfTree UrdfFile::tree() const {
     }
   }
   require(!tree.root.empty(), "robot", "has no root link");
-  std::set<std::string> reached = {tree.root};
-  for (const UrdfTree::Edge& edge : tree.edges) {
-    require(
-        reached.count(edge.parent) > 0, "joint " + edge.joint,
-        "its parent \"" + edge.parent +
-            "\" is neither the root nor an earlier joint's child: list the joints from the root "
-            "outwards, without a cycle");
-    reached.insert(edge.child);
+  // Every link has one parent: what a walk from the root does not reach is on a cycle.
+  std::map<std::string, std::vector<std::string>> children;
+  for (const UrdfEdge& edge : tree.edges) children[edge.parent].push_back(edge.child);
+  std::vector<std::string> reached = {tree.root};
+  for (size_t i = 0; i < reached.size(); ++i) {
+    for (const std::string& child : children[reached[i]]) reached.push_back(child);
+  }
+  for (const UrdfEdge& edge : tree.edges) {
+    require(std::find(reached.begin(), reached.end(), edge.child) != reached.end(),
+            "joint " + edge.joint,
+            "is on a cycle or beyond one: no chain of joints leads from the root " + tree.root +
+                " to its parent \"" + edge.parent + "\"");
   }
   return tree;
 }
@@ -309,9 +326,10 @@ Joint UrdfFile::convert(const urdf::Joint& source) const {
 
 }  // namespace
 
-void RobotModelReader::read_urdf(const std::filesystem::path& file_path) {
+void RobotModelReader::read_urdf(const std::filesystem::path& file_path,
+                                 const std::map<std::string, int>& limb_of_link) {
   const UrdfFile file(file_path);
-  const UrdfTree tree = file.tree();
+  UrdfTree tree = file.tree();
   const urdf::ModelInterfaceSharedPtr urdf = file.parse();
   model_.name_ = urdf->getName();
 
@@ -325,11 +343,9 @@ void RobotModelReader::read_urdf(const std::filesystem::path& file_path) {
     model_.links_.push_back(link);
   };
   add_link(tree.root, -1);
-  for (const UrdfTree::Edge& edge : tree.edges) {
+  for (UrdfEdge& edge : tree.edges) file.describe(*urdf, edge);
+  for (const UrdfEdge& edge : order_joints(tree.root, tree.edges, limb_of_link)) {
     const urdf::JointConstSharedPtr source = urdf->getJoint(edge.joint);
-    if (source == nullptr) {
-      file.fail("joint " + edge.joint, "is missing");
-    }
     Joint joint = file.convert(*source);
     const int index = static_cast<int>(model_.joints_.size());
     joint.parent_link = model_.find_link(edge.parent);

@@ -13,7 +13,7 @@ SensorAccumulator::SensorAccumulator(const RobotModel& model, const Tree& tree,
     accelerometer_in_body_ = tree.pose_in_body(model.accelerometer());
   }
   for (size_t side = 0; side < soles_.size(); ++side) {
-    const int link = model.feet()[side].sole;
+    const int link = model.legs()[side].sole;
     if (link < 0) continue;
     soles_[side] = {tree.body_of_link(link), tree.pose_in_body(link)};
   }

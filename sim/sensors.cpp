@@ -38,7 +38,7 @@ Sensors::Sensors(const RobotModel& model, const SensorOptions& options, uint64_t
   // Sensor and sole belong to the same foot: their relative pose is that of any posture.
   const std::vector<double> zero(num_motors, 0.0);
   const std::vector<Eigen::Isometry3d> poses = model.link_poses(zero);
-  for (const Foot& foot : model.feet()) {
+  for (const LegDescription& foot : model.legs()) {
     std::vector<Vector2d> positions;
     for (const int sensor : foot.sensors) {
       const Vector3d position =

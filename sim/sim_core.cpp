@@ -196,7 +196,8 @@ std::string SimCore::push(const WorldCommand& command) {
   }
   const int robot = find_robot(command.robot);
   if (robot < 0) return fmt::format("there is no robot \"{}\"", command.robot);
-  const int link = world_.robot(robot).model().find_link(command.link);
+  const RobotModel& model = world_.robot(robot).model();
+  const int link = command.link.empty() ? 0 : model.find_link(command.link);
   if (link < 0) return fmt::format("there is no link \"{}\"", command.link);
   world_.push(robot, link, command.impulse);
   return "";

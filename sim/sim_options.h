@@ -15,7 +15,7 @@ struct SimOptions {
   /** Names of the robots, with which their channels begin; the first is at the origin. */
   std::vector<std::string> robots{"NAO"};
   /** Posture that the robots start in. */
-  std::string posture = "StandInit";
+  std::string posture{};
   /** Simulated seconds per wall second, 0 for as fast as possible. */
   double pace = 1;
   /** Compute a tick only when every robot's command for the one before was received. */

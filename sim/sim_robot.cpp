@@ -97,9 +97,11 @@ void SimRobot::place(const Posture* posture, const Vector3d& ground_position,
 }
 
 void SimRobot::return_to_start() {
-  const Posture* posture = model_->find_posture(options_.posture);
+  const std::string& name =
+      options_.posture.empty() ? model_->references().ready : options_.posture;
+  const Posture* posture = model_->find_posture(name);
   if (posture == nullptr) {
-    throw ConfigError("robot " + model_->name() + " has no posture \"" + options_.posture + "\"");
+    throw ConfigError("robot " + model_->name() + " has no posture \"" + name + "\"");
   }
   const Quaterniond heading(Eigen::AngleAxisd(options_.heading, Vector3d::UnitZ()));
   place_joints(posture->position, {options_.position.x(), options_.position.y(), options_.height},

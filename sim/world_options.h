@@ -56,7 +56,7 @@ struct RobotOptions {
   /** Part of the seed of the robot's noise. */
   std::string name = "NAO";
   /** Posture that it starts in, and that its servos hold until targets are set. */
-  std::string posture = "StandInit";
+  std::string posture{};
   /** Of the torso over the ground, m, and heading, rad. */
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double heading = 0;

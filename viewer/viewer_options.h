@@ -34,7 +34,7 @@ struct ViewerOptions {
   /** Curves at the start: CHANNEL:FIELD. */
   std::vector<std::string> plots;
   /** Posture shown before a state is received. */
-  std::string waiting_posture = "StandInit";
+  std::string waiting_posture{};
   /** The view follows the robot. */
   bool follow = true;
   /** Draw no markings: forces, center of mass, footsteps and so on. */

@@ -72,7 +72,8 @@ void WorldView::update(const MessageStore& store, const ViewChoice& choice) {
 }
 
 void WorldView::add_waiting_robot() {
-  const Posture* posture = model_.find_posture(waiting_posture_);
+  const Posture* posture =
+      model_.find_posture(waiting_posture_.empty() ? model_.references().ready : waiting_posture_);
   const std::vector<double> position =
       posture != nullptr ? posture->position : std::vector<double>(model_.num_motors(), 0.0);
   const auto in_torso = model_.link_poses(position);

@@ -30,7 +30,7 @@ MotionCore::MotionCore(const RobotModel& model, const MotionOptions& options)
       guard_(model),
       factory_(model, options_, guard_),
       arbiter_(model, factory_, guard_),
-      falls_(options_),
+      falls_(model, options_),
       limiter_(model),
       reporter_(options.motion_state_period) {}
 

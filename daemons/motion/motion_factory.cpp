@@ -1,8 +1,8 @@
 #include "daemons/motion/motion_factory.h"
 
 #include <filesystem>
+#include <utility>
 
-#include "common/error.h"
 #include "daemons/motion/generators/joint_change_motion.h"
 #include "daemons/motion/generators/kick_motion.h"
 #include "daemons/motion/generators/posture_path_motion.h"
@@ -15,8 +15,6 @@
 namespace nao::motion {
 namespace {
 
-constexpr const char* kStandPosture = "StandInit";
-constexpr const char* kRestPosture = "Crouch";
 constexpr const char* kTransitionFile = "transitions.yaml";
 constexpr const char* kGaitFile = "gait.yaml";
 constexpr const char* kKickFile = "actions/kick.yaml";
@@ -25,12 +23,6 @@ constexpr const char* kScriptFile = "actions/keeper.yaml";
 TransitionGraph load_graph(const RobotModel& model, const MotionOptions& options) {
   if (options.transitions) return *options.transitions;
   return TransitionGraph::load(model, model.folder() / kTransitionFile);
-}
-
-const Posture& require_posture(const RobotModel& model, const char* name) {
-  const Posture* posture = model.find_posture(name);
-  if (posture == nullptr) throw ModelError(model.name() + " has no posture " + name);
-  return *posture;
 }
 
 /** A state of the body as an argument of a reason. */
@@ -47,7 +39,7 @@ MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& optio
       guard_(&guard),
       graph_(load_graph(model, options)),
       gait_(options.gait),
-      stand_(&require_posture(model, kStandPosture)) {
+      stand_(&model.ready_posture()) {
   const std::filesystem::path& folder = model.folder();
   if (!gait_ && std::filesystem::exists(folder / kGaitFile)) gait_ = Gait::load(folder / kGaitFile);
   if (std::filesystem::exists(folder / kKickFile)) kick_ = Kick::load(folder / kKickFile);
@@ -58,41 +50,46 @@ MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& optio
 }
 
 std::map<std::string, MotionFactory::ActionPlanner> MotionFactory::make_action_table() {
-  const auto stand_up = [this](const ActionCommand&, const Situation&) -> MotionPlan {
-    return make_stand_path();
-  };
-  std::map<std::string, ActionPlanner> table = {
-      {"get-up", stand_up},
-      {"wake-up", stand_up},
-      {"rest",
-       [this](const ActionCommand&, const Situation&) -> MotionPlan {
-         return std::make_unique<RestMotion>(graph_, require_posture(*model_, kRestPosture),
-                                             options_->default_speed);
-       }},
-      {"kick-left",
-       [this](const ActionCommand& action, const Situation& situation) {
-         return plan_kick(action, situation, true);
-       }},
-      {"kick-right",
-       [this](const ActionCommand& action, const Situation& situation) {
-         return plan_kick(action, situation, false);
-       }},
-  };
-  for (const ActionScript& script : scripts_) {
-    table.try_emplace(script.sequence.name,
-                      [this, &script](const ActionCommand&, const Situation& situation) {
-                        return plan_script(script, situation);
-                      });
-  }
-  // Actions that are keyframe sequences of the transition graph.
-  for (const std::string& name : model_->actions()) {
-    const KeyframeSequence* sequence = graph_.find(name);
-    if (sequence == nullptr) continue;
-    table.try_emplace(name, [this, sequence](const ActionCommand&, const Situation& situation) {
-      return plan_sequence(*sequence, situation);
-    });
+  std::map<std::string, ActionPlanner> table;
+  for (const Action& action : model_->actions()) {
+    if (ActionPlanner planner = make_planner(action)) table[action.name] = std::move(planner);
   }
   return table;
+}
+
+MotionFactory::ActionPlanner MotionFactory::make_planner(const Action& action) {
+  switch (action.kind) {
+    case Action::Kind::kStandUp:
+      return [this](const ActionCommand&, const Situation&) -> MotionPlan {
+        return make_stand_path();
+      };
+    case Action::Kind::kRest:
+      return [this](const ActionCommand&, const Situation&) -> MotionPlan {
+        return std::make_unique<RestMotion>(
+            graph_, *model_->find_posture(model_->references().rest), options_->default_speed);
+      };
+    case Action::Kind::kKick:
+      return [this, is_left = action.side == Side::kLeft](const ActionCommand& command,
+                                                          const Situation& situation) {
+        return plan_kick(command, situation, is_left);
+      };
+    default:
+      return make_keyframe_planner(action.keyframes);
+  }
+}
+
+MotionFactory::ActionPlanner MotionFactory::make_keyframe_planner(const std::string& keyframes) {
+  for (const ActionScript& script : scripts_) {
+    if (script.sequence.name != keyframes) continue;
+    return [this, &script](const ActionCommand&, const Situation& situation) {
+      return plan_script(script, situation);
+    };
+  }
+  const KeyframeSequence* sequence = graph_.find(keyframes);
+  if (sequence == nullptr) return nullptr;
+  return [this, sequence](const ActionCommand&, const Situation& situation) {
+    return plan_sequence(*sequence, situation);
+  };
 }
 
 MotionPlan MotionFactory::plan(const Command& command, const MotionContext& context,

@@ -27,12 +27,12 @@ using MotionPlan = std::variant<std::unique_ptr<MotionGenerator>, Reason>;
 /** Makes the motion that executes a command, or refuses it.
  *
  * Owns the motion data of the robot: gait, kick, keyframe actions, transition graph. Actions are a
- * table from name to planner; a new action is a new row of it, or an entry of a data file. */
+ * table from name to planner, made from robot.yaml's `actions`. */
 class MotionFactory {
  public:
   /** Reads the robot's motion data.
    * @param model, options, guard  Must outlive this.
-   * @throws ModelError  if a file is wrong, or the robot has no posture StandInit. */
+   * @throws ModelError  if a file is wrong, or the robot has no posture. */
   MotionFactory(const RobotModel& model, const MotionOptions& options, JointChangeGuard& guard);
 
   // The motions hold pointers to the data.
@@ -63,6 +63,10 @@ class MotionFactory {
   using ActionPlanner = std::function<MotionPlan(const ActionCommand&, const Situation&)>;
 
   std::map<std::string, ActionPlanner> make_action_table();
+  /** Empty if the robot has no motion for the action. */
+  ActionPlanner make_planner(const Action& action);
+  /** @param keyframes  Name of an action script or of a transition. */
+  ActionPlanner make_keyframe_planner(const std::string& keyframes);
 
   MotionPlan plan_request(const WalkCommand& walk, const Situation& situation);
   MotionPlan plan_request(const MoveToCommand& move_to, const Situation& situation);

@@ -154,8 +154,48 @@ TEST(RobotModel, HasMirroredSolesWithTheFootSensorsInside) {
 }
 
 TEST(RobotModel, AssignsTheForceSensorsToTheirFeet) {
-  EXPECT_THAT(nao_robot().feet()[0].sensors, testing::ElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(nao_robot().feet()[1].sensors, testing::ElementsAre(4, 5, 6, 7));
+  EXPECT_THAT(nao_robot().legs()[0].sensors, testing::ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(nao_robot().legs()[1].sensors, testing::ElementsAre(4, 5, 6, 7));
+}
+
+/** Names of joints. */
+std::vector<std::string> names_of(const std::vector<int>& joints) {
+  std::vector<std::string> names;
+  for (const int joint : joints) names.push_back(nao_robot().joints()[joint].name);
+  return names;
+}
+
+TEST(RobotModel, FindsLegsAndArmsAsChainsFromTheRoot) {
+  EXPECT_THAT(names_of(nao_robot().legs()[1].joints),
+              testing::ElementsAre("RHipYawPitch", "RHipRoll", "RHipPitch", "RKneePitch",
+                                   "RAnklePitch", "RAnkleRoll"));
+  ASSERT_EQ(nao_robot().arms().size(), 2u);
+  EXPECT_THAT(names_of(nao_robot().arms()[0].joints),
+              testing::ElementsAre("LShoulderPitch", "LShoulderRoll", "LElbowYaw", "LElbowRoll",
+                                   "LWristYaw"));
+  // The mimic joint has the motor that it follows.
+  EXPECT_EQ(nao_robot().motor_of(nao_robot().legs()[1].joints[0]),
+            nao_robot().find_motor("LHipYawPitch"));
+}
+
+TEST(RobotModel, NamesBothJointsOfAMirroredPair) {
+  const Symmetry& symmetry = nao_robot().symmetry();
+  const JointPair* roll = symmetry.find_pair("HipRoll");
+  ASSERT_NE(roll, nullptr);
+  EXPECT_EQ(roll->left, nao_robot().find_motor("LHipRoll"));
+  EXPECT_EQ(roll->right, nao_robot().find_motor("RHipRoll"));
+  EXPECT_EQ(symmetry.mirrors[roll->left].motor, roll->right);
+  EXPECT_EQ(symmetry.mirrors[roll->right].motor, roll->left);
+  EXPECT_EQ(symmetry.mirrors[roll->left].sign, -1);
+  EXPECT_EQ(symmetry.find_pair("LHipRoll"), nullptr);
+}
+
+TEST(RobotModel, HasReferencePosturesAndActions) {
+  EXPECT_EQ(nao_robot().ready_posture().name, "StandInit");
+  EXPECT_EQ(nao_robot().references().rest, "Crouch");
+  EXPECT_EQ(nao_robot().find_action(Action::Kind::kKick, Side::kRight)->name, "kick-right");
+  EXPECT_EQ(nao_robot().find_action(Action::Kind::kKick), nullptr);
+  EXPECT_EQ(nao_robot().find_action("wave")->kind, Action::Kind::kGesture);
 }
 
 TEST(RobotModel, MovesBothHipsWithOneMotor) {

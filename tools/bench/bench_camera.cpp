@@ -68,13 +68,13 @@ class Stages {
 naolcm::world_truth_t soccer_truth(const nao::RobotModel& model) {
   naolcm::robot_truth_t robot{};
   robot.robot = "NAO";
-  robot.position_torso_in_world[2] = 0.32;
+  robot.position_torso_in_world[2] = model.references().heights.standing;
   robot.orientation_torso_in_world[0] = 1;
   robot.num_joints = model.num_motors();
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     robot.joint_names.push_back(model.motor_joint(motor).name);
   }
-  robot.joint_position = model.find_posture("StandInit")->position;
+  robot.joint_position = model.ready_posture().position;
   robot.joint_velocity.assign(model.num_motors(), 0);
   robot.joint_torque.assign(model.num_motors(), 0);
   naolcm::world_truth_t truth{};

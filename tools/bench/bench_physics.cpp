@@ -306,7 +306,9 @@ void measure(int rounds, const std::string& json_file) {
   standing.name = "standing";
   PhysicsScenario lying;
   lying.name = "lying";
-  lying.posture = "LyingBack";
+  for (const Posture& posture : nao_model()->postures()) {
+    if (posture.family == "lying-back") lying.posture = posture.name;
+  }
   lying.is_limp = true;
   const PhysicsScenario walk = walking();
   const PhysicsScenario fall = falling();

@@ -1,5 +1,6 @@
 #include "tools/bench/physics_scenarios.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -38,15 +39,20 @@ PhysicsScenario falling() {
   PhysicsScenario scenario;
   scenario.name = "falling";
   scenario.height = 10;
-  const Posture& start = *nao_model()->find_posture("StandInit");
+  const Posture& start = nao_model()->ready_posture();
+  // The second joints of the legs, which spread them: the feet do not touch each other.
+  const auto& legs = nao_model()->legs();
+  const std::array<int, 2> hip_rolls = {nao_model()->motor_of(legs[0].joints[1]),
+                                        nao_model()->motor_of(legs[1].joints[1])};
   for (int tick = 0; tick < 100; ++tick) {
     Eigen::VectorXd targets(nao_model()->num_motors());
     for (int i = 0; i < targets.size(); ++i) {
       targets[i] = start.position[static_cast<size_t>(i)] +
                    0.3 * std::sin(kControlPeriod * tick * (3 + 0.3 * i));
     }
-    targets[nao_model()->find_motor("LHipRoll")] += 0.25;
-    targets[nao_model()->find_motor("RHipRoll")] -= 0.25;
+    for (const int motor : hip_rolls) {
+      targets[motor] += motor == hip_rolls.front() ? 0.25 : -0.25;
+    }
     scenario.targets.push_back(targets);
   }
   return scenario;

@@ -18,7 +18,7 @@ std::shared_ptr<const RobotModel> nao_model();
 /** Motion of the robot, in both simulators. */
 struct PhysicsScenario {
   std::string name;
-  std::string posture = "StandInit";
+  std::string posture{};
   /** Height of the start above the standing one, m. */
   double height = 0;
   /** Zero joint stiffness. */

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "tools/nao-trial/scenarios.h"
 
@@ -11,7 +11,10 @@ constexpr double kDuration = 600;  // s
 
 /** A random command that keeps the robot on its feet for a few seconds. */
 void do_something(ClosedLoop& trial) {
-  constexpr std::array<const char*, 4> kPostures = {"StandInit", "StandZero", "Stand", "Crouch"};
+  std::vector<const Posture*> postures;
+  for (const Posture& posture : trial.model().postures()) {
+    if (posture.family == "standing" || posture.family == "crouching") postures.push_back(&posture);
+  }
   const double kind = trial.random(0, 3);
   if (kind < 1) {
     trial.hold_walk({trial.random(-0.1, 0.2), trial.random(-0.1, 0.1), trial.random(-0.5, 0.5)});
@@ -19,8 +22,8 @@ void do_something(ClosedLoop& trial) {
     trial.release_walk();
     trial.run(2);
   } else if (kind < 2) {
-    const auto index = static_cast<size_t>(trial.random(0, kPostures.size()));
-    trial.await_end(trial.send_posture(kPostures[index], trial.random(0.2, 1)), 10);
+    const auto index = static_cast<size_t>(trial.random(0, static_cast<double>(postures.size())));
+    trial.await_end(trial.send_posture(postures[index]->name, trial.random(0.2, 1)), 10);
   } else {
     const int motor = static_cast<int>(trial.random(0, trial.model().num_motors()));
     JointChangeCommand change;

@@ -8,11 +8,12 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kAsked = 1.0;       // s until stance or ground
-constexpr double kTimeout = 60;      // s, getting up included
-constexpr double kLowHeight = 0.28;  // m, of the torso in the stance; it stands at 0.32
-constexpr double kWide = 0.17;       // m between the soles; they stand 0.1 m apart
-constexpr double kLyingTilt = 1.2;   // rad
+constexpr double kAsked = 1.0;        // s until stance or ground
+constexpr double kTimeout = 60;       // s, getting up included
+constexpr double kLow = 0.875;        // of the standing height, of the torso in the stance
+constexpr double kWide = 1.7;         // of the distance of the soles when it stands
+constexpr double kUpright = 0.90625;  // of the standing height, when it stands again
+constexpr double kLyingTilt = 1.2;    // rad
 
 /** Time at which a condition first held, s since the start. */
 class FirstTime {
@@ -34,10 +35,12 @@ double stance_width(ClosedLoop& trial) {
   return (sole(trial.model().left_sole()) - sole(trial.model().right_sole())).head<2>().norm();
 }
 
-RunResult act(const ScenarioOptions& options, uint64_t seed, const std::string& action) {
+RunResult act(const ScenarioOptions& options, uint64_t seed, const Action& action) {
   ClosedLoop trial(options.trial, seed);
   trial.run(1);
-  const bool dives = action != "block";
+  const bool dives = action.kind == Action::Kind::kDive;
+  const double standing = trial.model().references().heights.standing;
+  const double stance = stance_width(trial);
   const double start = trial.time();
   const Eigen::Isometry3d start_torso = trial.torso_in_world();
   FirstTime reached;
@@ -46,7 +49,8 @@ RunResult act(const ScenarioOptions& options, uint64_t seed, const std::string& 
   bool fell = false;
   trial.on_tick([&] {
     const double tilt = trial.torso_tilt();
-    const bool is_low_and_wide = trial.torso_height() < kLowHeight && stance_width(trial) > kWide;
+    const bool is_low_and_wide =
+        trial.torso_height() < kLow * standing && stance_width(trial) > kWide * stance;
     reached.look(dives ? tilt > kLyingTilt : is_low_and_wide, trial.time() - start);
     if (trial.time() - start < 3) {
       width = std::max(width, stance_width(trial));
@@ -55,12 +59,12 @@ RunResult act(const ScenarioOptions& options, uint64_t seed, const std::string& 
     }
     fell = fell || (!dives && tilt > 0.8);
   });
-  const int64_t id = trial.send_action(action);
+  const int64_t id = trial.send_action(action.name);
   const auto end = trial.await_end(id, kTimeout);
   trial.run(0.5);
   RunResult result;
-  result.label = action;
-  const bool stands = trial.torso_tilt() < 0.3 && trial.torso_height() > 0.29;
+  result.label = action.name;
+  const bool stands = trial.torso_tilt() < 0.3 && trial.torso_height() > kUpright * standing;
   if (fell) {
     result.failure = "fell";
   } else if (!end || end->status != ResultStatus::kDone) {
@@ -83,8 +87,9 @@ RunResult act(const ScenarioOptions& options, uint64_t seed, const std::string& 
 
 std::vector<RunResult> BlockScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   std::vector<RunResult> results;
-  for (const char* action : {"block", "dive-left", "dive-right"}) {
-    results.push_back(act(options, seed, action));
+  for (const Action& action : options.trial.model->actions()) {
+    const bool guards = action.kind == Action::Kind::kBlock || action.kind == Action::Kind::kDive;
+    if (guards) results.push_back(act(options, seed, action));
   }
   return results;
 }

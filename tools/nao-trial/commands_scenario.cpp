@@ -45,7 +45,7 @@ Command random_command(ClosedLoop& trial) {
   }
   if (kind < 6) {
     const auto index = static_cast<size_t>(trial.random(0, static_cast<double>(actions.size())));
-    return {"", 0, ActionCommand{actions[index], kNan, kNan, kNan}};
+    return {"", 0, ActionCommand{actions[index].name, kNan, kNan, kNan}};
   }
   if (kind < 7) return {"", 0, StopCommand{}};
   return random_joint_change(trial);

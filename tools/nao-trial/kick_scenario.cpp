@@ -4,7 +4,22 @@
 #include <cmath>
 #include <limits>
 
+#include "common/error.h"
+
 namespace nao::trial {
+namespace {
+
+// Fraction of the standing height above which the robot stands after a kick.
+constexpr double kUpright = 0.875;
+
+/** The kick with one foot. */
+ActionCommand make_kick(const RobotModel& model, bool is_left, double ball_x, double ball_y) {
+  const Action* kick = model.find_action(Action::Kind::kKick, is_left ? Side::kLeft : Side::kRight);
+  if (kick == nullptr) throw ConfigError(model.name() + " has no kick");
+  return {kick->name, ball_x, ball_y, std::numeric_limits<double>::quiet_NaN()};
+}
+
+}  // namespace
 
 std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   constexpr double kLeastWay = 2.5;  // m, of the ball
@@ -26,13 +41,14 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   double speed = 0;
   trial.on_tick([&] { speed = std::max(speed, trial.world().ball().velocity.norm()); });
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const int64_t id =
-      trial.send({"", 0, ActionCommand{is_left ? "kick-left" : "kick-right", nan, nan, nan}});
+  const int64_t id = trial.send({"", 0, make_kick(trial.model(), is_left, nan, nan)});
   const auto end = trial.await_end(id, 10);
   // Until the ball lies still.
   trial.run_until([&] { return trial.world().ball().velocity.norm() < 0.01; }, 20);
   const Eigen::Vector3d way = trial.world().ball().position - start;
-  const bool is_upright = trial.torso_tilt() < 0.3 && trial.torso_height() > 0.28;
+  const bool is_upright =
+      trial.torso_tilt() < 0.3 &&
+      trial.torso_height() > kUpright * trial.model().references().heights.standing;
   RunResult result;
   const double distance = way.head<2>().norm();
   result.is_success =
@@ -73,9 +89,7 @@ std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uin
                                Eigen::Rotation2Dd(heading) * lies;
   trial.world().place_ball({ball.x(), ball.y(), 0}, Eigen::Vector3d::Zero());
   const Eigen::Vector3d start = trial.world().ball().position;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const int64_t id = trial.send(
-      {"", 0, ActionCommand{is_left ? "kick-left" : "kick-right", seen.x(), seen.y(), nan}});
+  const int64_t id = trial.send({"", 0, make_kick(trial.model(), is_left, seen.x(), seen.y())});
   bool walks_on = true;
   trial.on_tick([&] { walks_on = walks_on && trial.core().motion_state().mode == Mode::kWalking; });
   const auto end = trial.await_end(id, 12);

@@ -10,6 +10,8 @@ constexpr double kTick = 0.01;          // s
 constexpr double kStillVelocity = 0.1;  // rad/s
 constexpr int kNumStill = 10;           // ticks
 constexpr double kLongestWait = 3;      // s
+// Fraction of the standing height above which the robot has got up.
+constexpr double kUpright = 0.90625;
 
 }  // namespace
 
@@ -20,7 +22,7 @@ bool knock_over(ClosedLoop& trial, double direction) {
 }
 
 void lay_down(ClosedLoop& trial, double side) {
-  Posture posture = *trial.model().find_posture("StandInit");
+  Posture posture = trial.model().ready_posture();
   for (int motor = 0; motor < trial.model().num_motors(); ++motor) {
     const Joint& joint = trial.model().motor_joint(motor);
     const double angle = posture.position[motor] + trial.random(-0.5, 0.5);
@@ -56,8 +58,9 @@ LyingStill wait_until_still(ClosedLoop& trial) {
 }
 
 bool has_got_up(ClosedLoop& trial) {
-  return trial.core().motion_state().posture == "StandInit" && trial.torso_tilt() < 0.3 &&
-         trial.torso_height() > 0.29;
+  const MotionReferences& references = trial.model().references();
+  return trial.core().motion_state().posture == references.ready && trial.torso_tilt() < 0.3 &&
+         trial.torso_height() > kUpright * references.heights.standing;
 }
 
 }  // namespace nao::trial

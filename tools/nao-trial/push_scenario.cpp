@@ -38,7 +38,8 @@ Outcome push(const ScenarioOptions& options, uint64_t seed, double direction, do
   trial.on_tick([&] { fall.look(trial); });
   trial.run(kWatch);
   Outcome outcome;
-  outcome.stands = !fall.has_touched() && trial.torso_tilt() < 0.3 && trial.torso_height() > 0.28;
+  outcome.stands = !fall.has_touched() && trial.torso_tilt() < 0.3 &&
+                   trial.torso_height() > 0.875 * trial.model().references().heights.standing;
   outcome.warning = fall.warning();
   return outcome;
 }

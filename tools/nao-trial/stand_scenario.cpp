@@ -17,7 +17,8 @@ std::vector<RunResult> StandScenario::run(const ScenarioOptions& options, uint64
   });
   trial.run(duration);
   RunResult result;
-  result.is_success = tilt < 0.3 && trial.torso_height() > 0.3;
+  result.is_success =
+      tilt < 0.3 && trial.torso_height() > 0.9375 * trial.model().references().heights.standing;
   if (!result.is_success) result.failure = "fell";
   result.metrics = {{"drift_mm", drift * 1e3}, {"torso_height_m", trial.torso_height()}};
   return {result};

@@ -21,8 +21,8 @@ constexpr double kTick = 0.01;  // s, control period of ClosedLoopOptions
 constexpr double kStand = 1;
 // Time from the command until the gait has reached its velocity, s.
 constexpr double kSpeedUp = 2.5;
-constexpr double kFallenHeight = 0.2;  // m, of the torso
-constexpr double kFallenTilt = 1.0;    // rad
+constexpr double kFallenHeight = 0.625;  // of the standing height, of the torso
+constexpr double kFallenTilt = 1.0;      // rad
 
 /** Position and heading (yaw) on the ground. */
 struct GroundPose {
@@ -43,7 +43,8 @@ double wrapped(double angle) {
 }
 
 bool has_fallen(const ClosedLoop& trial) {
-  return trial.torso_height() < kFallenHeight || trial.torso_tilt() > kFallenTilt;
+  return trial.torso_height() < kFallenHeight * trial.model().references().heights.standing ||
+         trial.torso_tilt() > kFallenTilt;
 }
 
 GroundPose true_pose(const ClosedLoop& trial) {

@@ -266,10 +266,8 @@ void add_action(CommandLine& app, Invocation& invocation) {
   command->ball_x = command->ball_y = command->strength = std::nan("");
   auto ball = std::make_shared<std::vector<double>>();
   auto wait = std::make_shared<WaitOptions>();
-  CommandLine* action = app.add_subcommand("action",
-                                           "Execute an action: kick-left, kick-right, block, "
-                                           "dive-left, dive-right, wave, get-up, wake-up, "
-                                           "rest");
+  CommandLine* action =
+      app.add_subcommand("action", "Execute an action of the robot's robot.yaml, such as get-up");
   action->add_option("name", command->action, "Name of the action")->required();
   action->add_option("--ball", *ball, "For kicks: where the ball lies, ahead and to the left, m")
       ->count(2)

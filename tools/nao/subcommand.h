@@ -50,6 +50,9 @@ void add_record_command(CommandLine& app, Invocation& invocation);
 /** Adds log and its own subcommands. */
 void add_log_command(CommandLine& app, Invocation& invocation);
 
+/** Adds robot and its own subcommands. */
+void add_robot_files_command(CommandLine& app, Invocation& invocation);
+
 /** Adds bus. */
 void add_bus_command(CommandLine& app, Invocation& invocation);
 

@@ -102,12 +102,12 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
 
   const auto [push, push_command] =
       add_world_command(*world, invocation, "push", "Apply an impulse to the robot or the ball");
-  push_command->link = "torso";
   push->add_option("x", push_command->impulse_in_world[0], "Impulse along the field, N s")
       ->required();
   push->add_option("y", push_command->impulse_in_world[1], "To the left of it, N s")->required();
   push->add_option("z", push_command->impulse_in_world[2], "Upwards, N s")->required();
-  push->add_option("--link", push_command->link, "Link as in the URDF, or ball")->show_default();
+  push->add_option("--link", push_command->link,
+                   "Link as in the URDF, or ball (default: the root, the torso)");
 
   auto ball_velocity = std::make_shared<std::vector<double>>();
   const auto [ball, ball_command] =

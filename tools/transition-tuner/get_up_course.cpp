@@ -9,9 +9,8 @@
 namespace nao {
 namespace {
 
-constexpr double kTimeout = 14;     // s for one try
-constexpr double kSpread = 0.6;     // rad, either side of how it shall lie
-constexpr double kStanding = 0.32;  // m, torso
+constexpr double kTimeout = 14;  // s for one try
+constexpr double kSpread = 0.6;  // rad, either side of how it shall lie
 // Cost of a failed try, s, above kTimeout; and its reduction at full torso height, s, so that a
 // failed try always costs as much as a success at the timeout.
 constexpr double kFailed = 20;
@@ -39,6 +38,7 @@ GetUpResult GetUpCourse::run(const motion::TransitionGraph& transitions, uint64_
   options.scene = scene_;
   options.motion.transitions = transitions;
   ClosedLoop trial(options, seed);
+  const double standing = model_->references().heights.standing;
   const double spread = start_ == Start::kAny ? M_PI : kSpread;
   const double direction = direction_of(start_) + trial.random(-spread, spread);
   trial.run(0.5);
@@ -60,7 +60,7 @@ GetUpResult GetUpCourse::run(const motion::TransitionGraph& transitions, uint64_
       kTimeout);
   result.time = trial.time() - start;
   result.cost = result.is_up ? result.time
-                             : kFailed - kHeightCounts * std::clamp(highest / kStanding, 0.0, 1.0);
+                             : kFailed - kHeightCounts * std::clamp(highest / standing, 0.0, 1.0);
   return result;
 }
 

@@ -22,7 +22,7 @@ struct TunerOptions {
       .output = "transitions.yaml", .generations = 60, .population = 16, .sigma = 0.04};
   std::string file;
   std::vector<std::string> sequences;
-  std::vector<std::string> fixed = {"HeadYaw", "WristYaw", "Hand"};
+  std::vector<std::string> fixed;
   std::vector<int> keyframes = {0, 1000};
   std::string start = "any";
   int trials = 12;

@@ -50,10 +50,6 @@ const std::vector<std::string> kNotTuned = {
     "kick.ball_distance",
     "kick.swing_reach",
     "kick.swing_lift",
-    "arms.shoulder_pitch",
-    "arms.shoulder_roll",
-    "arms.elbow_yaw",
-    "arms.elbow_roll",
 };
 // Weight of the squared distance of a candidate outside the ranges, in units of the ranges. Chosen:
 // a tenth of a range outside costs as much as 10 % of velocity error.

@@ -19,7 +19,7 @@ constexpr double kJoystickDuration = 15;  // s of random velocities
 constexpr double kStopDuration = 2;       // s to come to a stand
 constexpr double kPush = 0.8;             // N s
 // A walk has ended in a fall below this height of the torso, m, or above this tilt, rad.
-constexpr double kFallenHeight = 0.2;
+constexpr double kFallenHeight = 0.625;
 constexpr double kFallenTilt = 1.0;
 // Velocity errors: 1 rad/s counts as 0.15 m/s, about half the robot's width.
 const Vector3d kVelocityScale(1, 1, 0.15);
@@ -84,7 +84,9 @@ class EvaluatedWalk {
       squared_load_ += load * load;
     }
     ++num_ticks_;
-    has_fallen_ = trial_.torso_height() < kFallenHeight || trial_.torso_tilt() > kFallenTilt;
+    has_fallen_ =
+        trial_.torso_height() < kFallenHeight * trial_.model().references().heights.standing ||
+        trial_.torso_tilt() > kFallenTilt;
   }
 
   ClosedLoop trial_;

@@ -47,10 +47,10 @@ void show_posture_buttons(const RobotModel& model, CommandSender& commands, Pane
 
 void show_action_buttons(const RobotModel& model, CommandSender& commands) {
   bool is_first = true;
-  for (const std::string& action : model.actions()) {
-    if (!is_first) same_line_if_fits(action.c_str());
+  for (const Action& action : model.actions()) {
+    if (!is_first) same_line_if_fits(action.name.c_str());
     is_first = false;
-    if (button(action.c_str(), "Executes this action.")) commands.start_action(action);
+    if (button(action.name.c_str(), "Executes this action.")) commands.start_action(action.name);
   }
 }
 

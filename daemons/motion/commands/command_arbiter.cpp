@@ -96,7 +96,8 @@ bool CommandArbiter::adopt_walk(const Command& command) {
 bool CommandArbiter::adopt_kick(const Command& command) {
   const auto* action = std::get_if<ActionCommand>(&command.request);
   if (action == nullptr || waiting_ || !running_) return false;
-  const bool is_kick = action->action == "kick-left" || action->action == "kick-right";
+  const Action* known = model_->find_action(action->action);
+  const bool is_kick = known != nullptr && known->kind == Action::Kind::kKick;
   // A strength that is not given is NaN, for which the comparison is false.
   if (!is_kick || action->strength > kMaxWalkKickStrength) return false;
   if (!running_->generator->adopt(command)) return false;

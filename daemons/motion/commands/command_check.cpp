@@ -1,6 +1,5 @@
 #include "daemons/motion/commands/command_check.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "messages/named_joints.h"
@@ -79,11 +78,10 @@ Fault find_fault_in(const RobotModel& model, const JointChangeCommand& change) {
 }
 
 Fault find_fault_in(const RobotModel& model, const ActionCommand& action) {
-  const auto& actions = model.actions();
-  if (std::find(actions.begin(), actions.end(), action.action) == actions.end()) {
+  if (model.find_action(action.action) == nullptr) {
     return Reason("action-unknown",
                   {quoted(action.action),
-                   list_names(actions, [](const std::string& known) { return known; })});
+                   list_names(model.actions(), [](const Action& known) { return known.name; })});
   }
   if (std::isinf(action.ball_x) || std::isinf(action.ball_y)) return Reason("ball-not-finite");
   if (!std::isnan(action.strength) && !(action.strength > 0 && action.strength <= 1)) {

@@ -3,6 +3,7 @@
 #include "daemons/motion/falls/fall_monitor.h"
 #include "daemons/motion/motion_options.h"
 #include "daemons/motion/robot_state.h"
+#include "robot_model/robot_model.h"
 
 namespace nao::motion {
 
@@ -14,9 +15,9 @@ namespace nao::motion {
  * help, and tries no more until it is lifted or commanded. */
 class FallSupervisor {
  public:
-  /** @param options  Must outlive this. */
-  explicit FallSupervisor(const MotionOptions& options)
-      : options_(&options), monitor_(options.lying_tilt) {}
+  /** @param model, options  Must outlive this. */
+  FallSupervisor(const RobotModel& model, const MotionOptions& options)
+      : model_(&model), options_(&options), monitor_(options.lying_tilt) {}
 
   /** Activity of the motions in this step. */
   struct Activity {
@@ -58,6 +59,7 @@ class FallSupervisor {
   bool predict_fall(const RobotState& state, const Activity& activity, double dt);
   bool is_lying_now(const RobotState& state) const;
 
+  const RobotModel* model_;
   const MotionOptions* options_;
   FallMonitor monitor_;
   bool has_fallen_ = false;

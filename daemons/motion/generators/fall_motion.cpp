@@ -1,10 +1,7 @@
 #include "daemons/motion/generators/fall_motion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string>
-#include <string_view>
 
 namespace nao::motion {
 namespace {
@@ -22,50 +19,10 @@ constexpr double kStillTime = 0.1;
 // about the time from the prediction of a fall to the impact.
 constexpr double kPredictionTime = 0.3;
 
-struct JointAngle {
-  /** Without the side: "HipPitch". */
-  std::string_view joint;
-  /** Of the left side, rad. */
-  double angle;
-};
-
-// Bent knees lower the center of mass and with it the energy of the impact; the head turns away
-// from the ground; the arms are between ground and body. Angles found in simulated falls.
-constexpr auto kForward = std::to_array<JointAngle>({{"HeadPitch", -0.6},
-                                                     {"ShoulderPitch", 0.3},
-                                                     {"ShoulderRoll", 0.3},
-                                                     {"ElbowRoll", -0.6},
-                                                     {"HipPitch", -0.3},
-                                                     {"KneePitch", 0.8},
-                                                     {"AnklePitch", -0.3}});
-constexpr auto kBackward = std::to_array<JointAngle>({{"HeadPitch", 0.4},
-                                                      {"ShoulderPitch", 1.2},
-                                                      {"ShoulderRoll", 0.3},
-                                                      {"ElbowRoll", -0.6},
-                                                      {"HipPitch", -0.9},
-                                                      {"KneePitch", 0.9},
-                                                      {"AnklePitch", 0}});
-constexpr auto kSideways = std::to_array<JointAngle>({{"HeadPitch", 0},
-                                                      {"ShoulderPitch", 1.4},
-                                                      {"ShoulderRoll", 0.2},
-                                                      {"ElbowRoll", -0.6},
-                                                      {"HipPitch", -0.5},
-                                                      {"KneePitch", 0.9},
-                                                      {"AnklePitch", -0.4}});
-
-/** Writes a pose for the head and both sides; rolls of the right side change their sign. */
-template <size_t N>
-void write_pose(const RobotModel& model, const std::array<JointAngle, N>& pose,
-                std::vector<double>& position) {
-  const auto set = [&](const std::string& name, double angle) {
-    const int motor = model.find_motor(name);
-    if (motor >= 0) position[motor] = angle;
-  };
-  for (const auto& [name, angle] : pose) {
-    const std::string joint(name);
-    set(joint, angle);
-    set("L" + joint, angle);
-    set("R" + joint, joint.ends_with("Roll") ? -angle : angle);
+/** Writes the angles of the joints that a pose names. */
+void write_pose(const std::vector<double>& pose, std::vector<double>& position) {
+  for (size_t i = 0; i < pose.size(); ++i) {
+    if (!std::isnan(pose[i])) position[i] = pose[i];
   }
 }
 
@@ -79,12 +36,13 @@ void FallMotion::start(const MotionContext& context, const JointTargets& targets
   const Eigen::Vector3d up = context.state.torso_in_odometry.linear().row(2);
   const Eigen::Vector3d later =
       up - kPredictionTime * context.state.angular_velocity_torso.cross(up);
+  const FallPoses& poses = context.model.references().fall;
   if (std::abs(later.y()) > std::abs(later.x())) {
-    write_pose(context.model, kSideways, pose_);
+    write_pose(poses.sideways, pose_);
   } else if (later.x() < 0) {
-    write_pose(context.model, kForward, pose_);
+    write_pose(poses.forward, pose_);
   } else {
-    write_pose(context.model, kBackward, pose_);
+    write_pose(poses.backward, pose_);
   }
 }
 

@@ -87,14 +87,17 @@ void ScriptMotion::balance(const MotionContext& context, JointTargets& targets) 
         (script_->balance_gain * (Eigen::Rotation2Dd(-sole.heading) * error))
             .cwiseMax(-reach)
             .cwiseMin(reach);
-    const auto& motors = legs_.motors(leg);
+    const LegRoles& roles = legs_.roles(leg);
+    const auto add = [&](int role, double torque, double angle) {
+      const int motor = legs_.motors(leg)[role];
+      const double sign = roles.sign[role];
+      targets.position[motor] +=
+          share * (feedforward_.calc_offset(motor, sign * torque, 0, 0) + sign * angle);
+    };
     // Toes pressed down move the weight ahead; a sole rolled to its left moves it to its left.
-    targets.position[motors[4]] +=
-        share * (feedforward_.calc_offset(motors[4], half_weight * steer.x(), 0, 0) +
-                 gait_->orientation.gyro_ankle_pitch * rate_.y());
-    targets.position[motors[5]] +=
-        share * (feedforward_.calc_offset(motors[5], -half_weight * steer.y(), 0, 0) +
-                 gait_->orientation.gyro_ankle_roll * rate_.x());
+    add(roles.ankle_pitch, half_weight * steer.x(),
+        gait_->orientation.gyro_ankle_pitch * rate_.y());
+    add(roles.ankle_roll, -half_weight * steer.y(), gait_->orientation.gyro_ankle_roll * rate_.x());
   }
 }
 

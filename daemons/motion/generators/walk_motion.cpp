@@ -11,8 +11,6 @@
 namespace nao::motion {
 namespace {
 
-constexpr const char* kStandingPosture = "StandInit";
-
 // Least stiffness of the legs: the vendor's walk refuses at 0.6 or less.
 constexpr double kLeastStiffness = 0.6;
 // A walk command is valid for this long, s.
@@ -22,15 +20,11 @@ constexpr double kFallingTilt = 0.6;
 // s without weight on any foot after which the robot has been lifted: longer than any hop.
 constexpr double kLiftedTime = 0.2;
 
-// A stance that a walk can begin in: soles level within rad, at one height within m, at most m and
-// rad from each other, hips at least m above the ground.
+// A stance that a walk can begin in, besides the robot's WalkingStance: soles level within rad, at
+// one height within m, turned at most by rad from each other.
 constexpr double kLevel = 0.06;
 constexpr double kSameHeight = 0.01;
-constexpr double kFarthestApart = 0.2;
-constexpr double kNearest = 0.085;
-constexpr double kGreatestLead = 0.08;
 constexpr double kGreatestTurn = 0.7;
-constexpr double kLowestHips = 0.19;
 
 // Move-to: velocity per distance left, 1/s; it has arrived within m and rad.
 constexpr double kApproach = 1.2;
@@ -78,17 +72,19 @@ bool is_walking_stance(const RobotModel& model, const std::vector<double>& posit
   const LegKinematics legs(model);
   const Eigen::Vector3d hips = 0.5 * (legs.hip(Leg::kLeft) + legs.hip(Leg::kRight));
   const double height = (kinematics.left_sole().inverse() * hips).z();
+  const WalkingStance& bounds = model.references().walking_stance;
   const double apart = -right.translation().y();
   const double turn = std::atan2(right.linear()(1, 0), right.linear()(0, 0));
   return right.linear()(2, 2) > std::cos(kLevel) &&
-         std::abs(right.translation().z()) < kSameHeight && apart > kNearest &&
-         apart < kFarthestApart && std::abs(right.translation().x()) < kGreatestLead &&
-         std::abs(turn) < kGreatestTurn && height > kLowestHips;
+         std::abs(right.translation().z()) < kSameHeight && apart > bounds.least_width &&
+         apart < bounds.greatest_width &&
+         std::abs(right.translation().x()) < bounds.greatest_lead &&
+         std::abs(turn) < kGreatestTurn && height > bounds.least_hip_height;
 }
 
 WalkingMotion::WalkingMotion(const RobotModel& model, const Gait& gait,
                              std::unique_ptr<MotionGenerator> stand_up)
-    : engine_(model, gait, *model.find_posture(kStandingPosture)), stand_up_(std::move(stand_up)) {}
+    : engine_(model, gait, model.ready_posture()), stand_up_(std::move(stand_up)) {}
 
 void WalkingMotion::start(const MotionContext& context, const JointTargets& targets) {
   is_standing_up_ = !is_walking_stance(context.model, targets.position);
@@ -181,16 +177,18 @@ void WalkingMotion::describe(MotionState& state) const {
 
 WalkMotion::WalkMotion(const RobotModel& model, const Gait& gait,
                        std::unique_ptr<MotionGenerator> stand_up, const WalkCommand& command)
-    : WalkingMotion(model, gait, std::move(stand_up)), command_(command) {}
+    : WalkingMotion(model, gait, std::move(stand_up)), model_(&model), command_(command) {}
 
 bool WalkMotion::adopt(const Command& command) {
   if (const auto* action = std::get_if<ActionCommand>(&command.request)) {
+    const Action* known = model_->find_action(action->action);
+    const Side side = known != nullptr ? known->side : Side::kNone;
     if (engine().stage() != WalkEngine::Stage::kStepping) return false;
     std::optional<Eigen::Vector2d> ball;
     if (!std::isnan(action->ball_x) && !std::isnan(action->ball_y)) {
       ball = engine().midpoint_in_odometry() * Eigen::Vector2d(action->ball_x, action->ball_y);
     }
-    engine().kick().request(action->action == "kick-left", ball);
+    engine().kick().request(side == Side::kLeft, ball);
     return true;
   }
   const auto* walk = std::get_if<WalkCommand>(&command.request);

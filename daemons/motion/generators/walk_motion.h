@@ -87,6 +87,7 @@ class WalkMotion : public WalkingMotion {
   bool conclude(const MotionContext& context, Reason& reason) override;
 
  private:
+  const RobotModel* model_;
   WalkCommand command_;
   /** s since the command came. */
   double age_ = 0;

@@ -9,9 +9,6 @@
 namespace nao::motion {
 namespace {
 
-// Torso height above which an upright robot is on its feet and not on its seat, m. Chosen between
-// the seat (0.12) and the crouch (0.229: facts sheet, table of standing postures).
-constexpr double kSeatHeight = 0.19;
 // Greatest difference of a measured angle to the posture that the robot is in, rad (5 degrees): the
 // servos' tracking error under load and the encoders' resolution.
 constexpr double kInPostureTolerance = 0.09;
@@ -25,7 +22,7 @@ std::string find_body_state(const RobotModel& model, const RobotState& state, do
     if (std::abs(up.y()) > std::abs(up.x())) return up.y() < 0 ? "left" : "right";
     return up.x() < 0 ? "belly" : "back";
   }
-  if (is_above_seat(state)) {
+  if (is_above_seat(model, state)) {
     return state.left_foot_carries || state.right_foot_carries ? kOnFeet : "";
   }
   std::string nearest;
@@ -45,8 +42,8 @@ bool is_lying(const RobotState& state, double lying_tilt) {
   return state.torso_in_odometry.linear()(2, 2) < std::cos(lying_tilt);
 }
 
-bool is_above_seat(const RobotState& state) {
-  return state.torso_in_odometry.translation().z() > kSeatHeight;
+bool is_above_seat(const RobotModel& model, const RobotState& state) {
+  return state.torso_in_odometry.translation().z() > model.references().heights.on_feet;
 }
 
 bool is_sitting(const RobotModel& model, const std::string& body_state) {

@@ -22,7 +22,7 @@ std::string find_body_state(const RobotModel& model, const RobotState& state, do
 bool is_lying(const RobotState& state, double lying_tilt);
 
 /** Whether the torso of an upright robot is higher than that of a robot on its seat. */
-bool is_above_seat(const RobotState& state);
+bool is_above_seat(const RobotModel& model, const RobotState& state);
 
 /** Whether a state of the body is a sitting posture. */
 bool is_sitting(const RobotModel& model, const std::string& body_state);

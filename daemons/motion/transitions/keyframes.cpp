@@ -11,24 +11,6 @@ namespace {
 // clips that peak, and the targets catch up towards the end of the stage.
 constexpr double kMinDurationRatio = 1.15;
 
-/** Motor on the other side, and the sign of its angle there. Facts sheet: rolls and yaws change
- * their sign; pitches, the hip's yaw-pitch and the hands do not. */
-struct Mirror {
-  int motor;
-  double sign;
-};
-
-Mirror mirror_of(const RobotModel& model, int motor) {
-  std::string name = model.motor_joint(motor).name;
-  const bool changes_sign = name.ends_with("Roll") || name.ends_with("Yaw");
-  if (name[0] == 'L' || name[0] == 'R') {
-    name[0] = name[0] == 'L' ? 'R' : 'L';
-    const int other = model.find_motor(name);
-    if (other >= 0) return {other, changes_sign ? -1.0 : 1.0};
-  }
-  return {motor, changes_sign ? -1.0 : 1.0};
-}
-
 }  // namespace
 
 double KeyframeSequence::duration() const {
@@ -40,7 +22,7 @@ double KeyframeSequence::duration() const {
 std::vector<double> mirrored(const RobotModel& model, const std::vector<double>& position) {
   std::vector<double> result = position;
   for (int motor = 0; motor < model.num_motors(); ++motor) {
-    const Mirror mirror = mirror_of(model, motor);
+    const MirrorMotor& mirror = model.symmetry().mirrors[motor];
     result[mirror.motor] = mirror.sign * position[motor];
   }
   return result;
@@ -52,7 +34,7 @@ KeyframeSequence mirrored(const RobotModel& model, const KeyframeSequence& seque
     keyframe.position = mirrored(model, keyframe.position);
     const std::vector<double> stiffness = keyframe.stiffness;
     for (int motor = 0; motor < model.num_motors(); ++motor) {
-      keyframe.stiffness[mirror_of(model, motor).motor] = stiffness[motor];
+      keyframe.stiffness[model.symmetry().mirrors[motor].motor] = stiffness[motor];
     }
     std::swap(keyframe.up[1].least, keyframe.up[1].greatest);
     keyframe.up[1].least *= -1;

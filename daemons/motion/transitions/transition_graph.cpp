@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
 #include "common/error.h"
@@ -14,8 +13,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/** Motors of a name: one joint, or both sides of a joint that is named without its side. -1: none.
- */
+/** Motors of a name: one joint, or both joints of a mirrored pair. -1: none. */
 struct Motors {
   int left = -1;
   int right = -1;
@@ -24,7 +22,8 @@ struct Motors {
 Motors find_motors(const RobotModel& model, const std::string& name) {
   const int motor = model.find_motor(name);
   if (motor >= 0) return {motor, -1};
-  return {model.find_motor("L" + name), model.find_motor("R" + name)};
+  const JointPair* pair = model.symmetry().find_pair(name);
+  return pair != nullptr ? Motors{pair->left, pair->right} : Motors{};
 }
 
 void read_joints(const RobotModel& model, const YamlEntry& joints, std::vector<double>& position) {
@@ -167,37 +166,46 @@ std::vector<const KeyframeSequence*> TransitionGraph::find_path(
     const std::vector<const KeyframeSequence*>& excluded) const {
   // Dijkstra's algorithm with a linear search for the nearest node: the graph has a dozen nodes.
   struct Reached {
+    std::string state;
     double duration = 0;
     const KeyframeSequence* last = nullptr;
     bool is_settled = false;
   };
-  std::map<std::string, Reached> reached = {{from, Reached{}}};
+  // In the order in which they are reached: it decides between paths of one duration.
+  std::vector<Reached> reached = {{from}};
+  const auto find_reached = [&](const std::string& state) {
+    return std::find_if(reached.begin(), reached.end(),
+                        [&](const Reached& node) { return node.state == state; });
+  };
   for (;;) {
     auto nearest = reached.end();
     for (auto it = reached.begin(); it != reached.end(); ++it) {
-      if (it->second.is_settled) continue;
-      if (nearest == reached.end() || it->second.duration < nearest->second.duration) nearest = it;
+      if (it->is_settled) continue;
+      if (nearest == reached.end() || it->duration < nearest->duration) nearest = it;
     }
     // Durations are not negative: no later node can shorten the path to the nearest one.
-    if (nearest == reached.end() || nearest->first == to) break;
-    nearest->second.is_settled = true;
+    if (nearest == reached.end() || nearest->state == to) break;
+    nearest->is_settled = true;
+    const Reached node = *nearest;
     for (const KeyframeSequence& sequence : sequences_) {
-      if (sequence.from != nearest->first) continue;
+      if (sequence.from != node.state) continue;
       if (std::find(excluded.begin(), excluded.end(), &sequence) != excluded.end()) continue;
-      const double duration = nearest->second.duration + sequence.duration();
-      const auto [other, is_new] = reached.try_emplace(sequence.to);
-      if (is_new || duration < other->second.duration) {
-        other->second.duration = duration;
-        other->second.last = &sequence;
+      const double duration = node.duration + sequence.duration();
+      const auto other = find_reached(sequence.to);
+      if (other == reached.end()) {
+        reached.push_back({sequence.to, duration, &sequence});
+      } else if (duration < other->duration) {
+        other->duration = duration;
+        other->last = &sequence;
       }
     }
   }
   // Back from the goal along the last transitions.
   std::vector<const KeyframeSequence*> path;
-  auto node = reached.find(to);
-  while (node != reached.end() && node->second.last != nullptr) {
-    path.push_back(node->second.last);
-    node = reached.find(node->second.last->from);
+  auto node = find_reached(to);
+  while (node != reached.end() && node->last != nullptr) {
+    path.push_back(node->last);
+    node = find_reached(node->last->from);
   }
   std::reverse(path.begin(), path.end());
   return path;

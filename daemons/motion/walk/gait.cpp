@@ -68,10 +68,6 @@ const std::vector<Gait::Parameter>& all_parameters() {
       NAO_GAIT_PARAMETER(kick, ball_distance),
       NAO_GAIT_PARAMETER(kick, swing_reach),
       NAO_GAIT_PARAMETER(kick, swing_lift),
-      NAO_GAIT_PARAMETER(arms, shoulder_pitch),
-      NAO_GAIT_PARAMETER(arms, shoulder_roll),
-      NAO_GAIT_PARAMETER(arms, elbow_yaw),
-      NAO_GAIT_PARAMETER(arms, elbow_roll),
       NAO_GAIT_PARAMETER(arms, swing_gain),
   };
   return parameters;

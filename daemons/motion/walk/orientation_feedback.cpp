@@ -15,12 +15,14 @@ void add_orientation_feedback(const Gait::Orientation& gains, const LegKinematic
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     const bool is_support = (leg == Leg::kLeft) == support_is_left;
     if (!is_support && !is_double_support) continue;
-    // In the order of LegAngles: HipRoll, HipPitch, AnklePitch, AnkleRoll.
-    const auto& motors = legs.motors(leg);
-    offset[motors[1]] += gains.gyro_hip_roll * rate.x();
-    offset[motors[2]] += gains.gyro_hip_pitch * rate.y();
-    offset[motors[4]] += ankle_pitch;
-    offset[motors[5]] += ankle_roll;
+    const LegRoles& roles = legs.roles(leg);
+    const auto add = [&](int role, double angle) {
+      offset[legs.motors(leg)[role]] += roles.sign[role] * angle;
+    };
+    add(roles.hip_roll, gains.gyro_hip_roll * rate.x());
+    add(roles.hip_pitch, gains.gyro_hip_pitch * rate.y());
+    add(roles.ankle_pitch, ankle_pitch);
+    add(roles.ankle_roll, ankle_roll);
   }
 }
 

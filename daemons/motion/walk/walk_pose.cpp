@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "common/smooth_step.h"
 
@@ -26,7 +25,9 @@ constexpr double kMaxSlope = 1.875;
 
 WalkPose::WalkPose(const RobotModel& model, const Gait& gait)
     : gait_(&gait), legs_(model), kinematics_(model) {
-  for (const bool is_left : {true, false}) add_arm(model, gait.arms, is_left);
+  for (const WalkingArmJoint& joint : model.references().walking_arms) {
+    arms_.push_back({joint.motor, joint.angle, joint.swing * gait.arms.swing_gain});
+  }
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     for (const int motor : legs_.motors(leg)) {
       // HipYawPitch is one motor for both legs.
@@ -36,18 +37,6 @@ WalkPose::WalkPose(const RobotModel& model, const Gait& gait)
     }
   }
   for (const ArmJoint& joint : arms_) motors_.push_back(joint.motor);
-}
-
-void WalkPose::add_arm(const RobotModel& model, const Gait::Arms& arms, bool is_left) {
-  const double side = is_left ? 1 : -1;
-  const auto add = [&](const char* joint, double angle, double swing_gain) {
-    const int motor = model.find_motor(std::string(is_left ? "L" : "R") + joint);
-    if (motor >= 0) arms_.push_back({motor, angle, swing_gain});
-  };
-  add("ShoulderPitch", arms.shoulder_pitch, -side * arms.swing_gain);
-  add("ShoulderRoll", side * arms.shoulder_roll, 0);
-  add("ElbowYaw", side * arms.elbow_yaw, 0);
-  add("ElbowRoll", side * arms.elbow_roll, 0);
 }
 
 void WalkPose::start(const std::vector<double>& position) {

@@ -60,8 +60,6 @@ class WalkPose {
     double swing_gain;
   };
 
-  void add_arm(const RobotModel& model, const Gait::Arms& arms, bool is_left);
-
   const Gait* gait_;
   LegKinematics legs_;
   Kinematics kinematics_;

@@ -44,9 +44,6 @@ const kSoftware = "nao-phone-app 0.1.0";
 const kStateRateHz = 60;
 const kImageRateHz = 15;
 
-/** Group that the image's drag turns, and posture that "reset" goes to. */
-const kHeadGroup = "head";
-const kResetPosture = "StandInit";
 /** Felt: a tap that did something, the end of a joint's range, a refusal; ms on, off, on. */
 const kTapPattern = 12;
 const kLimitPattern = 30;
@@ -62,7 +59,7 @@ export class App {
   private readonly walk: WalkSender;
   private readonly stage: Stage;
   private readonly image = new ImageView(() => this.subscribe(), (yaw, pitch) =>
-      this.commander.stream(useCases.changeJoints({group: kHeadGroup, yaw, pitch, roll: 0})));
+      this.turnCamera(yaw, pitch));
   private readonly jointDriver = new JointDriver((change) =>
       this.commander.stream(useCases.changeJoints(change)));
   private readonly tilt = new TiltSensor();
@@ -112,7 +109,7 @@ export class App {
       retryNow: () => this.connection.retryNow(),
     });
     const joints = new JointsPanel(this.store, this.jointDriver, {
-      reset: () => void this.commander.command(useCases.goToPosture(kResetPosture)),
+      reset: () => this.goToPosture(this.store.get().robot?.readyPosture),
       select: (selectedGroup) => this.store.set({selectedGroup}),
       atLimit: () => vibrate(kLimitPattern),
     });
@@ -322,12 +319,28 @@ export class App {
     switch (button) {
       case "stop": return this.stop();
       case "lock": return this.setJointsMode(!this.store.get().isJointsMode);
-      case "ready": return void this.commander.command(useCases.goToPosture("StandInit"));
-      case "stand": return void this.commander.command(useCases.goToPosture("Stand"));
-      case "crouch": return void this.commander.command(useCases.goToPosture("Crouch"));
-      case "kick-left":
-      case "kick-right": return void this.commander.command(useCases.doAction(button));
+      case "ready": return this.goToPosture(this.store.get().robot?.readyPosture);
+      case "stand": return this.goToPosture(this.store.get().robot?.standPosture);
+      case "crouch": return this.goToPosture(this.store.get().robot?.restPosture);
+      case "kick-left": return this.kick("left");
+      case "kick-right": return this.kick("right");
     }
+  }
+
+  private goToPosture(posture: string | undefined): void {
+    if (posture) void this.commander.command(useCases.goToPosture(posture));
+  }
+
+  private kick(side: "left" | "right"): void {
+    const roles = this.store.get().robot?.actionRoles ?? [];
+    const action = roles.find((role) => role.kind === "kick" && role.side === side);
+    if (action) void this.commander.command(useCases.doAction(action.name));
+  }
+
+  /** Turns what carries the camera. */
+  private turnCamera(yaw: number, pitch: number): void {
+    const group = this.store.get().robot?.cameraGroup;
+    if (group) this.commander.stream(useCases.changeJoints({group, yaw, pitch, roll: 0}));
   }
 
   private openMenu(): void {

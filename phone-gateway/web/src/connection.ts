@@ -6,6 +6,7 @@ import {ErrorCode} from "./protocol/generated/remote_pb";
 import type {Connected, Notice, Image, Response, State} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import type {Problem, Store} from "./store";
+import {setLabels} from "./text/texts";
 import type {Transport} from "./transport";
 
 /** Silence after which the link counts as lost, both here and in the gateway. */
@@ -120,6 +121,7 @@ export class Connection {
   private welcome(connected: Connected): void {
     this.stopTimers();
     this.latencySamples.length = 0;
+    setLabels(connected.robot?.labels ?? []);
     this.store.set({
       phase: "connected", problem: null, problemDetail: "", attempts: 0,
       clientId: connected.clientId, clientName: connected.clientName,

@@ -32,9 +32,11 @@ export interface FakeGatewayOptions {
   dataDir: string;
   token: string;
   joints: {name: string; lower: number; upper: number}[];
-  jointGroups: {name: string; yawJoint?: string; pitchJoint?: string; rollJoint?: string}[];
+  jointGroups: {name: string; yawJoint?: string; pitchJoint?: string; rollJoint?: string;
+                isOpening?: boolean}[];
   postures: Record<string, FakePosture>;
-  actions: string[];
+  actionRoles: {name: string; kind: string; side: string}[];
+  labels: {kind: string; name: string; language: string; text: string}[];
   /** JPEG of the head image for a time in s; without it no images are sent. */
   image?: (time: number) => Uint8Array;
 }
@@ -221,11 +223,14 @@ export class FakeGateway {
     if (token !== this.options.token) return answer(pb.ErrorCode.WRONG_TOKEN, "");
     phone.name = clientName || `Phone ${phone.id}`;
     phone.isConnected = true;
-    const {joints, jointGroups, postures, actions} = this.options;
+    const {joints, jointGroups, postures, actionRoles, labels} = this.options;
+    const [readyPosture, standPosture, restPosture] = ["StandInit", "Stand", "Crouch"];
     answer(pb.ErrorCode.OK, "", {case: "connected", value: create(pb.ConnectedSchema, {
       protocolVersion: 1, serverVersion: "fake", clientId: phone.id, clientName: phone.name,
       control: this.control(phone),
-      robot: {name: "NAO", urdfPath: "/robots/nao/nao.urdf", joints, jointGroups, actions,
+      robot: {name: "NAO", urdfPath: "/robots/nao/nao.urdf", joints, jointGroups, actionRoles,
+              labels, actions: actionRoles.map(({name}) => name), readyPosture, standPosture,
+              restPosture, cameraGroup: jointGroups[0]?.name ?? "",
               postures: Object.keys(postures), maxVx: 0.2, minVx: -0.2, maxVy: 0.15, maxWz: 1,
               model: "nao", cameras: ["top", "bottom"]},
     })});

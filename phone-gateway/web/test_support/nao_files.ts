@@ -29,8 +29,9 @@ export function readJointGroups(folder: string): FakeGatewayOptions["jointGroups
   return [...section.matchAll(/\{name: ([^,}]+)([^}]*)\}/g)].map((match) => ({
     name: match[1]!,
     yawJoint: /yaw: (\w+)/.exec(match[2]!)?.[1] ?? "",
-    pitchJoint: /pitch: (\w+)/.exec(match[2]!)?.[1] ?? "",
+    pitchJoint: /(?:pitch|opening): (\w+)/.exec(match[2]!)?.[1] ?? "",
     rollJoint: /roll: (\w+)/.exec(match[2]!)?.[1] ?? "",
+    isOpening: /opening:/.test(match[2]!),
   }));
 }
 
@@ -55,8 +56,30 @@ export function readPostures(folder: string): Record<string, FakePosture> {
   return postures;
 }
 
-/** Names in "actions: [kick-left, ...]" of robot.yaml. */
+/** Actions: lines like "- {name: kick-left, does: kick, side: left}" in robot.yaml. */
+export function readActionRoles(folder: string): {name: string; kind: string; side: string}[] {
+  const text = readFileSync(join(folder, "robot.yaml"), "utf8");
+  return [...text.matchAll(/\{name: ([\w-]+), does: ([\w-]+)(?:, side: (\w+))?/g)]
+      .map((match) => ({name: match[1]!, kind: match[2]!, side: match[3] ?? ""}));
+}
+
+/** Names of the actions in robot.yaml. */
 export function readActions(folder: string): string[] {
-  const list = /^actions: \[([^\]]*)\]/m.exec(readFileSync(join(folder, "robot.yaml"), "utf8"));
-  return list?.[1]?.split(",").map((name) => name.trim()) ?? [];
+  return readActionRoles(folder).map(({name}) => name);
+}
+
+/** Words of labels.yaml: lines like "Crouch: {en: Crouch, pt: Agachar, de: Hocken}" below "postures:". */
+export function readLabels(folder: string): {kind: string; name: string; language: string; text: string}[] {
+  const labels = [];
+  let kind = "";
+  for (const line of readFileSync(join(folder, "labels.yaml"), "utf8").split("\n")) {
+    const section = /^(\w+)s:$/.exec(line);
+    if (section) kind = section[1]!;
+    const entry = /^ {2}([^:]+): \{(.*)\}$/.exec(line);
+    for (const word of entry?.[2]?.split(", ") ?? []) {
+      const [language, text] = word.split(": ");
+      labels.push({kind, name: entry![1]!, language: language!, text: text!.replaceAll('"', "")});
+    }
+  }
+  return labels;
 }

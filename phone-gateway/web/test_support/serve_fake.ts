@@ -3,7 +3,7 @@
 import {readFileSync} from "node:fs";
 import {join} from "node:path";
 import {FakeGateway} from "./fake_gateway";
-import {readActions, readJointGroups, readJoints, readPostures} from "./nao_files";
+import {readActionRoles, readJointGroups, readJoints, readLabels, readPostures} from "./nao_files";
 
 const [dataDir, port] = process.argv.slice(2);
 if (!dataDir) throw new Error("usage: npm run fake -- DATA_DIR [PORT]");
@@ -12,7 +12,7 @@ const imageFile = process.env["NAO_IMAGE"];
 const image = imageFile ? readFileSync(imageFile) : null;
 const gateway = new FakeGateway({
   dataDir, token: "fake", joints: readJoints(robot), jointGroups: readJointGroups(robot),
-  postures: readPostures(robot), actions: readActions(robot),
+  postures: readPostures(robot), actionRoles: readActionRoles(robot), labels: readLabels(robot),
   ...(image ? {image: () => image} : {}),
 });
 console.log(await gateway.start(Number(port ?? 0)));

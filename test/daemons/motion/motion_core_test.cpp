@@ -347,7 +347,8 @@ TEST_F(MotionCoreTest, ThousandsOfRandomCommandsEachGetExactlyOneFinalResult) {
         command = {"test", id, MoveToCommand{angle(random), 0, 0}};
         break;
       case 4:
-        command = {"test", id, ActionCommand{actions[random() % actions.size()], kNan, kNan, kNan}};
+        command = {"test", id,
+                   ActionCommand{actions[random() % actions.size()].name, kNan, kNan, kNan}};
         break;
       case 5:
         command = {"test", id, StopCommand{}};

@@ -32,8 +32,8 @@ class MotionFactoryTest : public ::testing::Test {
 };
 
 TEST_F(MotionFactoryTest, HasAMotionForEveryActionOfTheRobot) {
-  for (const std::string& action : nao_model().actions()) {
-    EXPECT_EQ(plan_action(action), Reason()) << action;
+  for (const Action& action : nao_model().actions()) {
+    EXPECT_EQ(plan_action(action.name), Reason()) << action.name;
   }
 }
 

@@ -13,12 +13,11 @@ const kHandRate = 1;
  * seen from the front. Hands open upwards. */
 export function changeFromStick(group: JointGroup, stick: StickValue, isInFront: boolean,
                                 dt: number): JointChange {
-  const isHand = group.pitchJoint.endsWith("Hand");
   const side = isInFront ? 1 : -1;
   return {
     group: group.name,
     yaw: group.yawJoint ? side * stick.right * kJointRate * dt : 0,
-    pitch: !group.pitchJoint ? 0 : isHand ? stick.up * kHandRate * dt : -stick.up * kJointRate * dt,
+    pitch: !group.pitchJoint ? 0 : group.isOpening ? stick.up * kHandRate * dt : -stick.up * kJointRate * dt,
     roll: 0,
   };
 }

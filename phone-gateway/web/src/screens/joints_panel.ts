@@ -103,7 +103,7 @@ export class JointsPanel {
       const row = this.angles.querySelector(`.axis-${axis}`);
       const isAtLimit = angle < joint.lower + kAtLimit || angle > joint.upper - kAtLimit;
       row?.classList.toggle("at-limit", isAtLimit);
-      const text = angleText(joint, angle) + (isAtLimit ? ` · ${say("joints.limit")}` : "");
+      const text = angleText(isOpening(group, axis), angle) + (isAtLimit ? ` · ${say("joints.limit")}` : "");
       const value = row?.querySelector("dd");
       if (value && value.textContent !== text) value.textContent = text;
       if (isAtLimit) limit += axis;
@@ -145,11 +145,15 @@ function paint(axis: Axis, element: HTMLElement): HTMLElement {
 }
 
 function axisLabel(group: JointGroup, axis: Axis): string {
-  return say(group.pitchJoint.endsWith("Hand") ? "joints.opening" : `joints.${axis}`);
+  return say(isOpening(group, axis) ? "joints.opening" : `joints.${axis}`);
 }
 
-/** Degrees, as people know them; hands in percent. */
-function angleText(joint: Joint, angle: number): string {
-  return joint.name.endsWith("Hand") ? `${Math.round(angle * 100)} %`
-      : `${Math.round(angle * 180 / Math.PI)}°`;
+/** True for an axis that opens and closes, as a hand does. */
+function isOpening(group: JointGroup, axis: Axis): boolean {
+  return group.isOpening && axis === "pitch";
+}
+
+/** Degrees, as people know them; openings in percent. */
+function angleText(isOpen: boolean, angle: number): string {
+  return isOpen ? `${Math.round(angle * 100)} %` : `${Math.round(angle * 180 / Math.PI)}°`;
 }

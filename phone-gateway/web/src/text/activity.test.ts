@@ -2,13 +2,15 @@ import {create} from "@bufbuild/protobuf";
 import {describe, expect, it} from "vitest";
 import {ActivitySchema, CommandKind, Mode} from "../protocol/generated/remote_pb";
 import {activityInWords, kModeNames, modeInWords} from "./activity";
-import {isText, setLanguage} from "./texts";
+import {readLabels} from "../../test_support/nao_files";
+import {isText, setLabels, setLanguage} from "./texts";
 
 const inWords = (kind: CommandKind, name = "", needsHelp = false): string =>
     activityInWords(create(ActivitySchema, {kind, name, needsHelp}));
 
 describe("activityInWords", () => {
   it("names postures and actions as their buttons do", () => {
+    setLabels(readLabels(new URL("../../../../robots/nao", import.meta.url).pathname));
     setLanguage("de");
     expect(inWords(CommandKind.POSTURE, "StandInit")).toBe("Startklar");
     expect(inWords(CommandKind.ACTION, "kick-left")).toBe("Schuss links");

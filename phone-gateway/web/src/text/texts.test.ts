@@ -1,6 +1,6 @@
 import {describe, expect, it} from "vitest";
-import {readActions, readJointGroups, readPostures} from "../../test_support/nao_files";
-import {chooseLanguage, isText, kAllTexts, kLanguages, say, sayName, setLanguage} from "./texts";
+import {readActions, readJointGroups, readLabels, readPostures} from "../../test_support/nao_files";
+import {chooseLanguage, kAllTexts, kLanguages, say, sayName, setLabels, setLanguage} from "./texts";
 
 describe("texts", () => {
   it.each(Object.entries(kAllTexts))("%s is said in every language, with the same values", (_, row) => {
@@ -23,13 +23,23 @@ describe("texts", () => {
     expect(say("control.other", {name: "Ana"})).toBe("Ana drives");
   });
 
-  it("have a row for all that the robot does and for each of its joint groups", () => {
+  it("call all that the robot does and each of its joint groups as the robot says, in every language", () => {
     const folder = new URL("../../../../robots/nao", import.meta.url).pathname;
-    const keys = [...Object.keys(readPostures(folder)).map((name) => `posture.${name}`),
-                  ...readActions(folder).map((name) => `action.${name}`),
-                  ...readJointGroups(folder).map(({name}) => `group.${name}`)];
+    const labels = readLabels(folder);
+    const keys = [...Object.keys(readPostures(folder)).map((name) => `posture ${name}`),
+                  ...readActions(folder).map((name) => `action ${name}`),
+                  ...readJointGroups(folder).map(({name}) => `group ${name}`)];
     expect(keys.length).toBeGreaterThan(30);
-    expect(keys.filter((key) => !isText(key))).toEqual([]);
+    for (const language of kLanguages) {
+      const known = labels.filter((label) => label.language === language)
+          .map(({kind, name}) => `${kind} ${name}`);
+      expect(keys.filter((key) => !known.includes(key)), language).toEqual([]);
+    }
+    setLabels(labels);
+    setLanguage("pt");
+    expect(sayName("posture", "Crouch")).toBe("Agachar");
+    setLanguage("en");
+    setLabels([]);
   });
 
   it("show a name without translation as it is", () => {

@@ -117,9 +117,6 @@ const kTexts = {
   "drive.enlarge": ["Enlarge the picture", "Ampliar a imagem", "Bild vergrößern"],
   "drive.shrink": ["Make the picture small", "Reduzir a imagem", "Bild verkleinern"],
   "drive.camera": ["Other camera", "Outra câmara", "Andere Kamera"],
-  "camera.top": ["Top", "Cima", "Oben"],
-  "camera.head": ["Head", "Cabeça", "Kopf"],
-  "camera.bottom": ["Bottom", "Baixo", "Unten"],
   "drive.link": ["Delay {latency} ms, picture {image} ms old",
                  "Atraso {latency} ms, imagem com {image} ms",
                  "Verzögerung {latency} ms, Bild {image} ms alt"],
@@ -150,21 +147,6 @@ const kTexts = {
   "joints.both": ["Both sides", "Ambos os lados", "Beide Seiten"],
   "joints.reset": ["Reset pose", "Repor pose", "Grundhaltung"],
   "joints.limit": ["End of its range", "Fim do curso", "Anschlag"],
-  "group.head": ["Head", "Cabeça", "Kopf"],
-  "group.left shoulder": ["Left shoulder", "Ombro esquerdo", "Linke Schulter"],
-  "group.left elbow": ["Left elbow", "Cotovelo esquerdo", "Linker Ellbogen"],
-  "group.left wrist": ["Left wrist", "Pulso esquerdo", "Linkes Handgelenk"],
-  "group.left hand": ["Left hand", "Mão esquerda", "Linke Hand"],
-  "group.left hip": ["Left hip", "Anca esquerda", "Linke Hüfte"],
-  "group.left knee": ["Left knee", "Joelho esquerdo", "Linkes Knie"],
-  "group.left ankle": ["Left ankle", "Tornozelo esquerdo", "Linker Knöchel"],
-  "group.right shoulder": ["Right shoulder", "Ombro direito", "Rechte Schulter"],
-  "group.right elbow": ["Right elbow", "Cotovelo direito", "Rechter Ellbogen"],
-  "group.right wrist": ["Right wrist", "Pulso direito", "Rechtes Handgelenk"],
-  "group.right hand": ["Right hand", "Mão direita", "Rechte Hand"],
-  "group.right hip": ["Right hip", "Anca direita", "Rechte Hüfte"],
-  "group.right knee": ["Right knee", "Joelho direito", "Rechtes Knie"],
-  "group.right ankle": ["Right ankle", "Tornozelo direito", "Rechter Knöchel"],
   // Menu.
   "menu.title": ["Settings and help", "Definições e ajuda", "Einstellungen und Hilfe"],
   "menu.close": ["Close", "Fechar", "Schließen"],
@@ -198,24 +180,6 @@ const kTexts = {
                    "Gamepad: manípulos andam e viram, A pronto, B parar, X agachar, Y de pé, L/R chutam.",
                    "Gamepad: Sticks gehen und drehen, A startklar, B Stopp, X hocken, Y stehen, Schultertasten schießen."],
   "result.failed": ["That did not work.", "Não resultou.", "Das hat nicht geklappt."],
-  // Postures and actions; what has no row is shown by its own name.
-  "posture.StandZero": ["Zero", "Zero", "Null"],
-  "posture.StandInit": ["Ready", "Pronto", "Startklar"],
-  "posture.Stand": ["Stand", "De pé", "Stehen"],
-  "posture.Crouch": ["Crouch", "Agachar", "Hocken"],
-  "posture.Sit": ["Sit", "Sentar", "Sitzen"],
-  "posture.SitRelax": ["Sit back", "Recostar", "Zurücklehnen"],
-  "posture.LyingBack": ["Lie back", "De costas", "Rückenlage"],
-  "posture.LyingBelly": ["Lie front", "De bruços", "Bauchlage"],
-  "action.kick-left": ["Kick left", "Chuto esquerdo", "Schuss links"],
-  "action.kick-right": ["Kick right", "Chuto direito", "Schuss rechts"],
-  "action.block": ["Block", "Defender", "Block"],
-  "action.dive-left": ["Dive left", "Mergulho esq.", "Hecht links"],
-  "action.dive-right": ["Dive right", "Mergulho dir.", "Hecht rechts"],
-  "action.wave": ["Wave", "Acenar", "Winken"],
-  "action.get-up": ["Get up", "Levantar", "Aufstehen"],
-  "action.wake-up": ["Wake up", "Acordar", "Aufwachen"],
-  "action.rest": ["Rest", "Descansar", "Ausruhen"],
 } as const satisfies Record<string, Row>;
 
 export type TextKey = keyof typeof kTexts;
@@ -251,10 +215,24 @@ export function isText(key: string): key is TextKey {
   return key in kTexts;
 }
 
+/** What the connected robot calls its postures, actions, joint groups and cameras: by "posture.Crouch",
+ * then by language. */
+let labels: ReadonlyMap<string, ReadonlyMap<string, string>> = new Map();
+
+/** @param list  RobotDescription.labels of the connected robot. */
+export function setLabels(list: readonly {kind: string; name: string; language: string; text: string}[]): void {
+  const all = new Map<string, Map<string, string>>();
+  for (const {kind, name, language: tag, text} of list) {
+    const key = `${kind}.${name}`;
+    all.set(key, (all.get(key) ?? new Map<string, string>()).set(tag, text));
+  }
+  labels = all;
+}
+
 /** A name from the robot ("posture", "Crouch") as a person says it; unknown names as they are. */
-export function sayName(family: "posture" | "action" | "mode" | "group" | "camera", name: string): string {
-  const key = `${family}.${name}`;
-  return isText(key) ? say(key) : name.replace(/[-_]/g, " ");
+export function sayName(family: "posture" | "action" | "group" | "camera", name: string): string {
+  const known = labels.get(`${family}.${name}`);
+  return known?.get(language) ?? known?.get("en") ?? name.replace(/[-_]/g, " ");
 }
 
 /** For tests: every row. */

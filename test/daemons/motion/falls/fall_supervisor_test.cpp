@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "test/daemons/motion/nao_model.h"
+
 namespace nao::motion {
 namespace {
 
@@ -38,7 +40,7 @@ class FallSupervisorTest : public ::testing::Test {
   }
 
   MotionOptions options_;
-  FallSupervisor falls_{options_};
+  FallSupervisor falls_{nao_model(), options_};
 };
 
 TEST_F(FallSupervisorTest, ProtectsAWalkThatFallsAndGetsUpAfterwards) {

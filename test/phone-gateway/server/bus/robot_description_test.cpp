@@ -45,5 +45,29 @@ TEST_F(RobotDescriptionTest, HasCamerasAndLimitsOfTheWalk) {
   EXPECT_EQ(robot.joints_size(), model.num_motors());
 }
 
+TEST_F(RobotDescriptionTest, SaysWhatTheRobotsNamesMean) {
+  const auto robot = describe_robot("NAO", RobotModel::load(folder_));
+  EXPECT_EQ(robot.ready_posture(), "StandInit");
+  EXPECT_EQ(robot.rest_posture(), "Crouch");
+  EXPECT_EQ(robot.camera_group(), "head");
+  ASSERT_EQ(robot.action_roles_size(), robot.actions_size());
+  EXPECT_EQ(robot.action_roles(0).name(), robot.actions(0));
+  EXPECT_EQ(robot.action_roles(0).kind(), "kick");
+  EXPECT_EQ(robot.action_roles(0).side(), "left");
+  for (const naoremote::JointGroup& group : robot.joint_groups()) {
+    EXPECT_EQ(group.is_opening(), group.name().ends_with("hand")) << group.name();
+  }
+}
+
+TEST_F(RobotDescriptionTest, HasTheWordsOfLabelsYaml) {
+  write_text(folder_ / "labels.yaml", "postures:\n  Crouch: {en: Crouch, de: Hocken}\n");
+  const auto robot = describe_robot("NAO", RobotModel::load(folder_));
+  ASSERT_EQ(robot.labels_size(), 2);
+  EXPECT_EQ(robot.labels(0).kind(), "posture");
+  EXPECT_EQ(robot.labels(0).name(), "Crouch");
+  EXPECT_EQ(robot.labels(0).language(), "de");
+  EXPECT_EQ(robot.labels(0).text(), "Hocken");
+}
+
 }  // namespace
 }  // namespace nao::gateway

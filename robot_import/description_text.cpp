@@ -1,0 +1,280 @@
+#include "robot_import/description_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "common/constants.h"
+#include "common/error.h"
+#include "kinematics/kinematics.h"
+#include "kinematics/leg_kinematics.h"
+
+namespace nao {
+namespace {
+
+// How far the hips are below those of stretched legs, fraction of the leg's length.
+constexpr double kReadyBend = 0.05;
+constexpr double kCrouchBend = 0.2;
+// Froude number v^2 / (g l) of the walk limits' forward velocity. Chosen: v / sqrt(g l) = 0.15, a
+// slow walk that every biped of these proportions should reach.
+constexpr double kFroudeVelocity = 0.15;
+
+std::ostringstream make_stream() {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(9);
+  return text;
+}
+
+/** A name in YAML: quoted, for names may contain anything. */
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
+  }
+  return text + "\"";
+}
+
+/** Name of a sole's link that is new in the robot. */
+std::string make_sole_name(const RobotModel& model, int side) {
+  std::string name = side == 0 ? "left_sole" : "right_sole";
+  while (model.find_link(name) >= 0 || model.find_joint(name + "_mount") >= 0) name += "_";
+  return name;
+}
+
+std::optional<LegKinematics> find_leg_kinematics(const RobotModel& model) {
+  try {
+    return LegKinematics(model);
+  } catch (const ModelError&) {
+    return std::nullopt;
+  }
+}
+
+/** Writes the axes of a group of joints; a group that has two joints of one direction leaves out
+ * the second. */
+std::string make_group(const RobotModel& model, const std::string& name,
+                       const std::vector<int>& motors) {
+  const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
+  std::array<int, 3> of_direction = {-1, -1, -1};
+  for (const int motor : motors) {
+    const Joint& joint = model.motor_joint(motor);
+    Eigen::Index direction = 0;
+    (poses[joint.child_link].linear() * joint.axis).cwiseAbs().maxCoeff(&direction);
+    if (of_direction[direction] < 0) of_direction[direction] = motor;
+  }
+  std::string text = "  - {name: " + quoted(name);
+  const std::array<const char*, 3> keys = {"roll", "pitch", "yaw"};
+  for (size_t i = 0; i < keys.size(); ++i) {
+    if (of_direction[i] < 0) continue;
+    text += std::string(", ") + keys[i] + ": " + quoted(model.motor_joint(of_direction[i]).name);
+  }
+  return text + "}\n";
+}
+
+/** Motors of a chain of joints, without the ones that are known. */
+std::vector<int> new_motors(const RobotModel& model, const std::vector<int>& joints,
+                            std::set<int>& known) {
+  std::vector<int> motors;
+  for (const int joint : joints) {
+    const int motor = model.motor_of(joint);
+    if (motor >= 0 && known.insert(motor).second) motors.push_back(motor);
+  }
+  return motors;
+}
+
+/** Splits an arm or a leg into groups of at most `sizes` joints, with these names. */
+void add_limb_groups(const RobotModel& model, const std::string& side, std::vector<int> motors,
+                     const std::vector<std::pair<std::string, size_t>>& parts, std::string& text) {
+  size_t first = 0;
+  for (const auto& [name, size] : parts) {
+    const size_t end = std::min(motors.size(), first + size);
+    if (first >= end) return;
+    text += make_group(
+        model, side + " " + name,
+        {motors.begin() + static_cast<long>(first), motors.begin() + static_cast<long>(end)});
+    first = end;
+  }
+}
+
+std::string make_groups(const RobotModel& model) {
+  std::string text = "joint_groups:\n";
+  std::set<int> known;
+  std::vector<int> waist;
+  for (const int joint : model.legs()[0].joints) {
+    const auto& right = model.legs()[1].joints;
+    if (std::find(right.begin(), right.end(), joint) != right.end()) waist.push_back(joint);
+  }
+  const std::vector<int> waist_motors = new_motors(model, waist, known);
+  std::string limbs;
+  for (int side = 0; side < 2; ++side) {
+    const std::string name = side == 0 ? "left" : "right";
+    if (!model.arms().empty()) {
+      add_limb_groups(model, name, new_motors(model, model.arms()[side].joints, known),
+                      {{"shoulder", 2}, {"elbow", 2}, {"wrist", 3}}, limbs);
+    }
+    add_limb_groups(model, name, new_motors(model, model.legs()[side].joints, known),
+                    {{"hip", 3}, {"knee", 1}, {"ankle", 2}}, limbs);
+  }
+  std::vector<int> head;
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    if (known.count(motor) == 0) head.push_back(motor);
+  }
+  if (!head.empty()) text += make_group(model, "head", head);
+  if (!waist_motors.empty()) text += make_group(model, "waist", waist_motors);
+  return text + limbs;
+}
+
+/** Angles that bend the knees and put the center of mass over the soles; nothing if the legs do not
+ * reach. */
+std::optional<std::vector<double>> find_stance(const RobotModel& model, double bend) {
+  const auto legs = find_leg_kinematics(model);
+  if (!legs) return std::nullopt;
+  std::vector<double> position(model.num_motors(), 0.0);
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    position[motor] = model.clip_to_limits(motor, 0, position);
+  }
+  Kinematics kinematics(model);
+  kinematics.update(std::vector<double>(model.num_motors(), 0.0));
+  const std::array<Eigen::Isometry3d, 2> straight = {kinematics.left_sole(),
+                                                     kinematics.right_sole()};
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& corner : model.left_sole_outline()) {
+    center += corner / static_cast<double>(model.left_sole_outline().size());
+  }
+  // The legs' own mass moves with them: a few rounds bring the center of mass over the soles.
+  double ahead = 0;
+  for (int round = 0; round < 6; ++round) {
+    std::array<Eigen::Isometry3d, 2> soles = straight;
+    for (Eigen::Isometry3d& sole : soles) {
+      sole.translation().z() += bend * legs->reach();
+      sole.translation().x() += ahead;
+    }
+    const LegsSolution solution = legs->solve_both(soles[0], soles[1]);
+    if (!solution.is_reachable) return std::nullopt;
+    legs->write(Leg::kLeft, solution.left, position);
+    legs->write(Leg::kRight, solution.right, position);
+    kinematics.update(position);
+    ahead +=
+        kinematics.center_of_mass().x() - (kinematics.left_sole().translation().x() + center.x());
+  }
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    if (model.clip_to_limits(motor, position[motor], position) != position[motor]) {
+      return std::nullopt;
+    }
+  }
+  return position;
+}
+
+void add_posture(const RobotModel& model, const std::string& name, const std::string& family,
+                 const std::vector<double>& position, std::ostringstream& text) {
+  text << "  - name: " << name << "\n    family: " << family
+       << "\n    source: found by nao robot import\n    joints:\n";
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    text << "      " << quoted(model.motor_joint(motor).name) << ": " << position[motor] << "\n";
+  }
+}
+
+}  // namespace
+
+std::string make_structure_text(const RobotModel& model, const RobotStructure& structure,
+                                const std::string& urdf) {
+  std::ostringstream text = make_stream();
+  const std::string root = quoted(model.links().front().name);
+  text << "urdf: " << urdf << "\n\n"
+       << "# Frames of the inertial unit.\n"
+       << "inertial_unit: {accelerometer: " << root << ", gyroscope: " << root << "}\n\n"
+       << "# Convex outlines of the soles, counter-clockwise from above, in the sole's "
+          "frame.\nsoles:\n";
+  for (int side = 0; side < 2; ++side) {
+    text << (side == 0 ? "  left:\n" : "  right:\n") << "    link: " << make_sole_name(model, side)
+         << "\n"
+         << "    outline:\n";
+    for (const Eigen::Vector2d& corner : structure.soles[side].outline) {
+      text << "      - [" << corner.x() << ", " << corner.y() << "]\n";
+    }
+  }
+  if (!structure.hands.empty()) {
+    text << "\n# Links of the hands; the arms are the joints from the root to them.\nhands: {left: "
+         << quoted(model.links()[structure.hands[0]].name)
+         << ", right: " << quoted(model.links()[structure.hands[1]].name) << "}\n";
+  }
+  return text.str();
+}
+
+std::string make_sole_links(const RobotModel& model, const RobotStructure& structure) {
+  std::ostringstream text = make_stream();
+  text.precision(12);
+  for (int side = 0; side < 2; ++side) {
+    const FoundSole& sole = structure.soles[side];
+    const std::string name = make_sole_name(model, side);
+    const Eigen::Vector3d xyz = sole.pose_in_foot.translation();
+    const Eigen::Matrix3d& r = sole.pose_in_foot.linear();
+    text << "<link name=\"" << name << "\"/>\n<joint name=\"" << name
+         << "_mount\" type=\"fixed\">\n  <parent link=\"" << model.links()[sole.foot].name
+         << "\"/>\n  <child link=\"" << name << "\"/>\n  <origin xyz=\"" << xyz.x() << " "
+         << xyz.y() << " " << xyz.z() << "\" rpy=\"" << std::atan2(r(2, 1), r(2, 2)) << " "
+         << std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))) << " "
+         << std::atan2(r(1, 0), r(0, 0)) << "\"/>\n</joint>\n";
+  }
+  return text.str();
+}
+
+std::string make_description_text(const RobotModel& model) {
+  std::ostringstream text = make_stream();
+  const Symmetry symmetry = find_symmetry(model);
+  text << "\n# Mirror images of the joints: poses and keyframes name both joints of a pair by "
+          "`name`.\n"
+       << "mirrored_joints:\n";
+  for (const JointPair& pair : symmetry.pairs) {
+    text << "  - {name: " << quoted(pair.name)
+         << ", left: " << quoted(model.motor_joint(pair.left).name);
+    if (pair.right >= 0) text << ", right: " << quoted(model.motor_joint(pair.right).name);
+    text << ", sign: " << symmetry.mirrors[pair.left].sign << "}\n";
+  }
+  text << "\n# Joints as a person sees them.\n" << make_groups(model);
+  const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
+  const double height = -poses[model.left_sole()].translation().z();
+  const double width =
+      poses[model.left_sole()].translation().y() - poses[model.right_sole()].translation().y();
+  const auto legs = find_leg_kinematics(model);
+  const double length = legs ? legs->reach() : height;
+  const double speed = kFroudeVelocity * std::sqrt(kGravity * length);
+  text << "\nreference_postures: {ready: ready, stand: zero, rest: crouch}\n"
+       << "\n# Bounds of a stance in which a walk can begin, m.\nwalking_stance: {width: ["
+       << 0.7 * width << ", " << 1.8 * width << "], greatest_lead: " << 0.25 * length
+       << ", least_hip_height: " << 0.6 * length << "}\n"
+       << "\n# Slow: v / sqrt(g * leg length) = " << kFroudeVelocity
+       << ". nao-walk-tuner finds what the robot holds.\nwalk_limits: {forward: " << speed
+       << ", backward: " << 0.6 * speed << ", sideways: " << 0.5 * speed << ", turning: 0.5}\n"
+       << "\nactions:\n  - {name: get-up, does: stand-up}\n  - {name: rest, does: rest}\n";
+  return text.str();
+}
+
+std::string make_postures_text(const RobotModel& model, Findings& findings) {
+  std::ostringstream text = make_stream();
+  text.precision(12);
+  std::vector<double> zero(model.num_motors(), 0.0);
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    zero[motor] = model.clip_to_limits(motor, 0, zero);
+  }
+  text << "# Angles of the motors, rad.\npostures:\n";
+  const auto add = [&](const std::string& name, const std::string& family, double bend) {
+    const auto stance = find_stance(model, bend);
+    if (!stance) {
+      findings.push_back({Finding::Severity::kMissing, "postures.yaml", 0, "posture " + name,
+                          "the legs do not reach it",
+                          "the zero posture takes its place: write its angles by hand"});
+    }
+    add_posture(model, name, family, stance ? *stance : zero, text);
+  };
+  add("ready", "standing", kReadyBend);
+  add_posture(model, "zero", "standing", zero, text);
+  add("crouch", "crouching", kCrouchBend);
+  return text.str();
+}
+
+}  // namespace nao

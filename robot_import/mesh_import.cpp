@@ -1,0 +1,92 @@
+#include "robot_import/mesh_import.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <cmath>
+
+#include "common/error.h"
+
+namespace nao {
+namespace {
+
+// Least edge of a box, m: a flat mesh still has a volume.
+constexpr double kLeastEdge = 1e-3;
+// A part is a capsule if it is this much longer than wide, and about as wide as deep.
+constexpr double kLongRatio = 1.6;
+constexpr double kRoundRatio = 1.5;
+
+const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::path& file,
+                          const Eigen::Vector3d& scale) {
+  const aiScene* scene = importer.ReadFile(
+      file.string(), aiProcess_Triangulate | aiProcess_GenNormals | aiProcess_PreTransformVertices |
+                         aiProcess_JoinIdenticalVertices);
+  if (scene == nullptr || scene->mNumMeshes == 0) {
+    throw ModelError(file.string() + ": is not a mesh: " + importer.GetErrorString());
+  }
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+    aiMesh& mesh = *scene->mMeshes[i];
+    for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
+      aiVector3D& point = mesh.mVertices[k];
+      point = aiVector3D(static_cast<ai_real>(point.x * scale.x()),
+                         static_cast<ai_real>(point.y * scale.y()),
+                         static_cast<ai_real>(point.z * scale.z()));
+      if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
+        throw ModelError(file.string() + ": has a corner that is not finite");
+      }
+    }
+  }
+  return *scene;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> read_mesh_points(const std::filesystem::path& file,
+                                              const Eigen::Vector3d& scale) {
+  Assimp::Importer importer;
+  const aiScene& scene = read_scene(importer, file, scale);
+  std::vector<Eigen::Vector3d> points;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[i];
+    for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
+      points.emplace_back(mesh.mVertices[k].x, mesh.mVertices[k].y, mesh.mVertices[k].z);
+    }
+  }
+  return points;
+}
+
+void convert_mesh(const std::filesystem::path& source, const Eigen::Vector3d& scale,
+                  const std::filesystem::path& target) {
+  Assimp::Importer importer;
+  const aiScene& scene = read_scene(importer, source, scale);
+  Assimp::Exporter exporter;
+  if (exporter.Export(&scene, "glb2", target.string()) != AI_SUCCESS) {
+    throw ModelError(target.string() + ": cannot be written: " + exporter.GetErrorString());
+  }
+}
+
+FittedShape fit_shape(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points) box.extend(point);
+  FittedShape shape;
+  shape.pose.translation() = box.center();
+  shape.size = box.sizes().cwiseMax(kLeastEdge);
+  Eigen::Index axis = 0;
+  const double longest = shape.size.maxCoeff(&axis);
+  const double a = shape.size[(axis + 1) % 3];
+  const double b = shape.size[(axis + 2) % 3];
+  const bool is_round = std::max(a, b) < kRoundRatio * std::min(a, b);
+  if (!is_round || longest < kLongRatio * 0.5 * (a + b)) return shape;
+  shape.is_capsule = true;
+  shape.radius = 0.25 * (a + b);
+  shape.length = longest - 2 * shape.radius;
+  shape.pose.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(axis))
+          .toRotationMatrix();
+  return shape;
+}
+
+}  // namespace nao

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nao {
+
+/** Corners of a mesh file (STL, OBJ, DAE, GLB and what else assimp reads), all parts in one frame.
+ * @param scale  Factors along x, y, z. @return m.
+ * @throws ModelError  if the file cannot be read or has no triangle. */
+std::vector<Eigen::Vector3d> read_mesh_points(const std::filesystem::path& file,
+                                              const Eigen::Vector3d& scale);
+
+/** Writes a mesh in metres as GLB. @throws ModelError  as above, or if the file cannot be written.
+ */
+void convert_mesh(const std::filesystem::path& source, const Eigen::Vector3d& scale,
+                  const std::filesystem::path& target);
+
+/** A primitive about points: a capsule along the longest edge of their box where its length is at
+ * least 1.6 times the others' mean and these differ by less than a half, else the box itself. */
+struct FittedShape {
+  bool is_capsule = false;
+  /** Frame of the shape; a capsule stands along its z axis. */
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  /** Box: edge lengths, m. */
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+  /** Capsule: m; the length is that between the centers of its ends. */
+  double radius = 0;
+  double length = 0;
+};
+
+/** @param points  At least one, m. */
+FittedShape fit_shape(const std::vector<Eigen::Vector3d>& points);
+
+}  // namespace nao

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "robot_import/finding.h"
+#include "robot_model/robot_model.h"
+
+namespace nao {
+
+/** A sole that was found below a foot. */
+struct FoundSole {
+  /** Link of the foot. */
+  int foot = -1;
+  /** Below the last joint's origin, on the foot's lowest points, with the root's axes at the angle
+   * 0 of all joints. */
+  Eigen::Isometry3d pose_in_foot = Eigen::Isometry3d::Identity();
+  /** Convex, counter-clockwise, m, in the sole's frame. */
+  std::vector<Eigen::Vector2d> outline;
+};
+
+/** What the structure of a robot says about its body. Left, right each. */
+struct RobotStructure {
+  std::array<FoundSole, 2> soles;
+  /** Links; empty if there are no arms. */
+  std::vector<int> hands;
+};
+
+/** Finds legs and arms of a humanoid in its tree: mirrored pairs of chains, the legs reach lowest.
+ *
+ * x is ahead, y to the left, z up, in the root's frame at the angle 0 of all joints.
+ * @param findings  Receives what was assumed.
+ * @throws ModelError  if there are no two legs. */
+RobotStructure find_structure(const RobotModel& model, Findings& findings);
+
+/** Mirror images of the joints: a joint's image has its axis and place reflected in the plane of x
+ * and z. A joint without an image is its own, with the sign 1. */
+Symmetry find_symmetry(const RobotModel& model);
+
+}  // namespace nao

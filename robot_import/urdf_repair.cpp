@@ -1,0 +1,373 @@
+#include "robot_import/urdf_repair.h"
+
+#include <tinyxml.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "common/error.h"
+#include "robot_import/mesh_import.h"
+#include "robot_import/urdf_values.h"
+
+namespace nao {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Assumed where a URDF says nothing: range, rad; velocity, rad/s; torque, N m for each kg of the
+// robot. Chosen: a joint of a NAO's leg has 6.4 rad/s and 9 N m at 5.3 kg.
+constexpr double kRange = 3.14;
+constexpr double kVelocity = 6;
+constexpr double kTorquePerMass = 1.5;
+// Density of a sphere that stands for a link whose inertia is impossible, kg/m^3. Chosen: about
+// that of water, as motors in plastic shells.
+constexpr double kDensity = 1000;
+
+class UrdfRepair {
+ public:
+  UrdfRepair(const fs::path& file, const fs::path& folder) : file_(file), folder_(folder) {}
+
+  RepairedUrdf run();
+
+ private:
+  using Severity = Finding::Severity;
+
+  [[noreturn]] void fail(const TiXmlNode* node, const std::string& problem,
+                         const std::string& remedy) const {
+    throw ModelError(to_line({Severity::kMissing, file_.filename().string(),
+                              node == nullptr ? 0 : node->Row(), "", problem, remedy}));
+  }
+  void note(Severity severity, const TiXmlNode& node, const std::string& element,
+            const std::string& problem, const std::string& remedy) {
+    result_.findings.push_back(
+        {severity, file_.filename().string(), node.Row(), element, problem, remedy});
+  }
+
+  void load();
+  void find_root();
+  void measure_mass();
+  void repair_joint(TiXmlElement& joint);
+  void repair_limit(TiXmlElement& joint, const std::string& element, bool is_continuous);
+  void hold(TiXmlElement& joint, const std::string& element);
+  void repair_inertial(TiXmlElement& link, const std::string& element);
+  void repair_shapes(TiXmlElement& link, const char* kind, const std::string& element);
+  /** @return false if the shape must go. */
+  bool repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool is_collision,
+                   const std::string& element);
+  void repair_cylinder(TiXmlElement& shape, TiXmlElement& geometry, const std::string& element);
+  fs::path find_mesh(const std::string& name) const;
+
+  fs::path file_;
+  fs::path folder_;
+  TiXmlDocument document_;
+  TiXmlElement* robot_ = nullptr;
+  double mass_ = 0;
+  int num_meshes_ = 0;
+  std::set<std::string> held_joints_;
+  RepairedUrdf result_;
+};
+
+void UrdfRepair::load() {
+  std::ifstream stream(file_, std::ios::binary);
+  if (!stream) fail(nullptr, "the file cannot be read", "check its path");
+  std::stringstream text;
+  text << stream.rdbuf();
+  document_.Parse(text.str().c_str());
+  robot_ = document_.FirstChildElement("robot");
+  if (document_.Error() || robot_ == nullptr) {
+    throw ModelError(
+        file_.filename().string() + ":" + std::to_string(document_.ErrorRow()) +
+        ": is not a URDF: " + (document_.Error() ? document_.ErrorDesc() : "no <robot> element"));
+  }
+  if (text.str().find("<xacro:") != std::string::npos ||
+      text.str().find("${") != std::string::npos) {
+    fail(robot_, "is the input of xacro", "run `xacro FILE.xacro > FILE.urdf` and import that");
+  }
+}
+
+void UrdfRepair::find_root() {
+  std::set<std::string> children;
+  for (const TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    const TiXmlElement* child = joint->FirstChildElement("child");
+    if (child != nullptr && child->Attribute("link") != nullptr) {
+      children.insert(child->Attribute("link"));
+    }
+  }
+  for (const TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    if (link->Attribute("name") == nullptr) fail(link, "a link has no name", "give it one");
+    if (children.count(link->Attribute("name")) > 0) continue;
+    if (!result_.root.empty()) {
+      fail(link,
+           "\"" + std::string(link->Attribute("name")) + "\" is a second root besides \"" +
+               result_.root + "\"",
+           "connect the two by a joint");
+    }
+    result_.root = link->Attribute("name");
+  }
+  if (result_.root.empty()) fail(robot_, "has no root link", "remove the cycle of joints");
+}
+
+void UrdfRepair::measure_mass() {
+  for (const TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    const TiXmlElement* inertial = link->FirstChildElement("inertial");
+    const TiXmlElement* mass = inertial ? inertial->FirstChildElement("mass") : nullptr;
+    if (mass != nullptr) mass_ += std::max(0.0, read_number(*mass, "value", 0));
+  }
+  if (mass_ <= 0) {
+    fail(robot_, "no link has a mass",
+         "export the URDF with <inertial> elements, or write them by hand");
+  }
+}
+
+void UrdfRepair::hold(TiXmlElement& joint, const std::string& element) {
+  note(Severity::kRepaired, joint, element, std::string("is ") + joint.Attribute("type"),
+       "it is held at 0 (fixed)");
+  joint.SetAttribute("type", "fixed");
+  held_joints_.insert(joint.Attribute("name"));
+  for (const char* part : {"limit", "mimic", "axis", "dynamics"}) {
+    if (TiXmlElement* found = joint.FirstChildElement(part)) joint.RemoveChild(found);
+  }
+}
+
+void UrdfRepair::repair_limit(TiXmlElement& joint, const std::string& element, bool is_continuous) {
+  TiXmlElement* limit = joint.FirstChildElement("limit");
+  if (limit == nullptr) {
+    joint.LinkEndChild(new TiXmlElement("limit"));
+    limit = joint.FirstChildElement("limit");
+  }
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const double lower = read_number(*limit, "lower", none);
+  const double upper = read_number(*limit, "upper", none);
+  if (is_continuous || !(lower < upper)) {
+    limit->SetAttribute("lower", to_text(-kRange).c_str());
+    limit->SetAttribute("upper", to_text(kRange).c_str());
+    note(Severity::kRepaired, joint, element,
+         is_continuous ? "is continuous" : "has no range of angles",
+         "-3.14 to 3.14 rad are assumed: write the real range into <limit lower= upper=>");
+  }
+  if (!(read_number(*limit, "velocity", 0) > 0)) {
+    limit->SetAttribute("velocity", to_text(kVelocity).c_str());
+    note(Severity::kRepaired, joint, element, "has no velocity limit",
+         to_text(kVelocity) + " rad/s are assumed: write <limit velocity=>");
+  }
+  if (!(read_number(*limit, "effort", 0) > 0)) {
+    const double torque = kTorquePerMass * mass_;
+    limit->SetAttribute("effort", to_text(torque).c_str());
+    note(Severity::kRepaired, joint, element, "has no effort limit",
+         to_text(torque) + " N m are assumed: write <limit effort=>");
+  }
+}
+
+void UrdfRepair::repair_joint(TiXmlElement& joint) {
+  const char* name = joint.Attribute("name");
+  const char* type = joint.Attribute("type");
+  if (name == nullptr || type == nullptr) {
+    fail(&joint, "a joint has no name or no type", "give it both");
+  }
+  const std::string element = std::string("joint ") + name;
+  const std::string kind = type;
+  if (kind == "fixed") return;
+  if (kind == "prismatic" || kind == "floating" || kind == "planar") return hold(joint, element);
+  if (kind != "revolute" && kind != "continuous") {
+    fail(&joint, element + " has the unknown type \"" + kind + "\"",
+         "use revolute, continuous, prismatic or fixed");
+  }
+  joint.SetAttribute("type", "revolute");
+  repair_limit(joint, element, kind == "continuous");
+}
+
+void UrdfRepair::repair_inertial(TiXmlElement& link, const std::string& element) {
+  TiXmlElement* inertial = link.FirstChildElement("inertial");
+  if (inertial == nullptr) return;
+  TiXmlElement* mass = inertial->FirstChildElement("mass");
+  const double kg = mass == nullptr ? 0 : read_number(*mass, "value", 0);
+  if (!(kg > 0)) {
+    note(Severity::kRepaired, *inertial, element, "has no mass above 0",
+         "it is a frame without mass");
+    link.RemoveChild(inertial);
+    return;
+  }
+  TiXmlElement* inertia = inertial->FirstChildElement("inertia");
+  if (inertia == nullptr) {
+    inertial->LinkEndChild(new TiXmlElement("inertia"));
+    inertia = inertial->FirstChildElement("inertia");
+  }
+  const auto of = [&](const char* name) { return read_number(*inertia, name, 0); };
+  Eigen::Matrix3d matrix;
+  matrix << of("ixx"), of("ixy"), of("ixz"), of("ixy"), of("iyy"), of("iyz"), of("ixz"), of("iyz"),
+      of("izz");
+  const Eigen::Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+  if (moments(0) > 0 && moments(2) <= (moments(0) + moments(1)) * (1 + 1e-9)) return;
+  // A solid sphere: 2/5 m r^2, with the radius of its mass at kDensity.
+  const double radius = std::cbrt(3 * kg / (4 * M_PI * kDensity));
+  const std::string moment = to_text(0.4 * kg * radius * radius);
+  for (const char* name : {"ixx", "iyy", "izz"}) inertia->SetAttribute(name, moment.c_str());
+  for (const char* name : {"ixy", "ixz", "iyz"}) inertia->SetAttribute(name, "0");
+  note(Severity::kRepaired, *inertia, element,
+       "the inertia is not physical (moments above 0, none larger than the sum of the others)",
+       "that of a sphere of its mass is assumed, " + moment + " kg m^2: export it anew");
+}
+
+fs::path UrdfRepair::find_mesh(const std::string& name) const {
+  std::string path = name;
+  for (const char* scheme : {"package://", "model://", "file://"}) {
+    if (path.rfind(scheme, 0) == 0) path = path.substr(std::string(scheme).size());
+  }
+  // package://NAME/meshes/x.stl: NAME is the URDF's folder or one above it, or lies in one of them.
+  std::vector<fs::path> endings = {path};
+  const size_t slash = path.find('/');
+  if (slash != std::string::npos) endings.emplace_back(path.substr(slash + 1));
+  const fs::path start = fs::absolute(file_).parent_path();
+  fs::path base = start;
+  for (int level = 0; level < 4; ++level) {
+    for (const fs::path& ending : endings) {
+      std::error_code ignored;
+      if (fs::is_regular_file(base / ending, ignored)) return base / ending;
+    }
+    if (base == base.parent_path()) break;
+    base = base.parent_path();
+  }
+  return {};
+}
+
+bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool is_collision,
+                             const std::string& element) {
+  TiXmlElement& mesh = *geometry.FirstChildElement("mesh");
+  const std::string name = mesh.Attribute("filename") == nullptr ? "" : mesh.Attribute("filename");
+  const fs::path source = find_mesh(name);
+  if (source.empty()) {
+    note(is_collision ? Severity::kMissing : Severity::kRepaired, mesh, element,
+         "mesh \"" + name + "\" is neither beside the URDF nor in the folders above it",
+         is_collision ? "the link collides with nothing: put the file there and import again"
+                      : "it is left out: put the file there and import again");
+    return false;
+  }
+  const auto factors = read_numbers(mesh, "scale", 3);
+  const Eigen::Vector3d scale =
+      factors ? Eigen::Vector3d(factors->data()) : Eigen::Vector3d::Ones();
+  try {
+    if (!is_collision) {
+      const std::string target =
+          "meshes/" + std::to_string(num_meshes_++) + "_" + source.stem().string() + ".glb";
+      fs::create_directories(folder_ / "meshes");
+      convert_mesh(source, scale, folder_ / target);
+      mesh.SetAttribute("filename", target.c_str());
+      mesh.RemoveAttribute("scale");
+      return true;
+    }
+    const FittedShape fitted = fit_shape(read_mesh_points(source, scale));
+    geometry.RemoveChild(&mesh);
+    TiXmlElement primitive(fitted.is_capsule ? "cylinder" : "box");
+    if (fitted.is_capsule) {
+      primitive.SetAttribute("radius", to_text(fitted.radius).c_str());
+      primitive.SetAttribute("length", to_text(fitted.length).c_str());
+    } else {
+      primitive.SetAttribute("size", to_text(fitted.size).c_str());
+    }
+    geometry.InsertEndChild(primitive);
+    write_origin(shape, read_origin(shape) * fitted.pose);
+    shape.SetAttribute("name",
+                       (source.stem().string() + (fitted.is_capsule ? "_capsule" : "")).c_str());
+    note(Severity::kNote, shape, element, "collides by a mesh",
+         std::string("a ") + (fitted.is_capsule ? "capsule" : "box") + " about it takes its place");
+    return true;
+  } catch (const ModelError& error) {
+    note(is_collision ? Severity::kMissing : Severity::kRepaired, shape, element, error.what(),
+         "the shape is left out");
+    return false;
+  }
+}
+
+void UrdfRepair::repair_cylinder(TiXmlElement& shape, TiXmlElement& geometry,
+                                 const std::string& element) {
+  TiXmlElement& cylinder = *geometry.FirstChildElement("cylinder");
+  const std::string name = shape.Attribute("name") == nullptr ? "" : shape.Attribute("name");
+  const double radius = read_number(cylinder, "radius", 0);
+  const double length = read_number(cylinder, "length", 0);
+  if (name.ends_with("_capsule") || !(radius > 0) || !(length > 0)) return;
+  // The physics has no cylinders. A long one becomes the capsule of its length, a short one a box
+  // with a square of the same area.
+  const bool is_long = length > 2 * radius;
+  if (is_long) {
+    cylinder.SetAttribute("length", to_text(length - 2 * radius).c_str());
+    shape.SetAttribute("name", (name + "_capsule").c_str());
+  } else {
+    const double edge = std::sqrt(M_PI) * radius;
+    TiXmlElement box("box");
+    box.SetAttribute("size", to_text(Eigen::Vector3d(edge, edge, length)).c_str());
+    geometry.RemoveChild(&cylinder);
+    geometry.InsertEndChild(box);
+  }
+  note(Severity::kNote, shape, element, "collides by a cylinder",
+       std::string("a ") + (is_long ? "capsule" : "box") + " of its size takes its place");
+}
+
+void UrdfRepair::repair_shapes(TiXmlElement& link, const char* kind, const std::string& element) {
+  const bool is_collision = std::string(kind) == "collision";
+  for (TiXmlElement* shape = link.FirstChildElement(kind); shape != nullptr;) {
+    TiXmlElement* next = shape->NextSiblingElement(kind);
+    TiXmlElement* geometry = shape->FirstChildElement("geometry");
+    bool stays = geometry != nullptr && geometry->FirstChildElement() != nullptr;
+    if (!stays) {
+      note(Severity::kRepaired, *shape, element, std::string("a ") + kind + " has no geometry",
+           "it is left out");
+    } else if (geometry->FirstChildElement("mesh") != nullptr) {
+      stays = repair_mesh(*shape, *geometry, is_collision, element);
+    } else if (is_collision && geometry->FirstChildElement("cylinder") != nullptr) {
+      repair_cylinder(*shape, *geometry, element);
+    }
+    if (!stays) link.RemoveChild(shape);
+    shape = next;
+  }
+}
+
+RepairedUrdf UrdfRepair::run() {
+  load();
+  find_root();
+  measure_mass();
+  for (TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    repair_joint(*joint);
+  }
+  // What mimics a joint that is held is held, too.
+  for (TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    const TiXmlElement* mimic = joint->FirstChildElement("mimic");
+    const char* driver = mimic == nullptr ? nullptr : mimic->Attribute("joint");
+    if (driver != nullptr && held_joints_.count(driver) > 0) {
+      hold(*joint, std::string("joint ") + joint->Attribute("name"));
+    }
+  }
+  for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    const std::string element = std::string("link ") + link->Attribute("name");
+    repair_inertial(*link, element);
+    repair_shapes(*link, "visual", element);
+    repair_shapes(*link, "collision", element);
+  }
+  for (const char* kind : {"transmission", "gazebo", "ros2_control", "sensor"}) {
+    while (TiXmlElement* extension = robot_->FirstChildElement(kind))
+      robot_->RemoveChild(extension);
+  }
+  TiXmlPrinter printer;
+  document_.Accept(&printer);
+  result_.text = printer.CStr();
+  return result_;
+}
+
+}  // namespace
+
+RepairedUrdf repair_urdf(const fs::path& file, const fs::path& folder) {
+  return UrdfRepair(file, folder).run();
+}
+
+}  // namespace nao

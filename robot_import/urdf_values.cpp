@@ -1,0 +1,73 @@
+#include "robot_import/urdf_values.h"
+
+#include <tinyxml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+namespace nao {
+
+std::optional<std::vector<double>> read_numbers(const TiXmlElement& element, const char* name,
+                                                size_t count) {
+  const char* text = element.Attribute(name);
+  if (text == nullptr) return std::nullopt;
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  std::vector<double> numbers;
+  for (double number = 0; stream >> number;) numbers.push_back(number);
+  const bool is_right = stream.eof() && numbers.size() == count &&
+                        std::all_of(numbers.begin(), numbers.end(),
+                                    [](double number) { return std::isfinite(number); });
+  return is_right ? std::optional(numbers) : std::nullopt;
+}
+
+double read_number(const TiXmlElement& element, const char* name, double otherwise) {
+  const auto numbers = read_numbers(element, name, 1);
+  return numbers ? numbers->front() : otherwise;
+}
+
+std::string to_text(double number) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(12);
+  text << number;
+  return text.str();
+}
+
+std::string to_text(const Eigen::Vector3d& vector) {
+  return to_text(vector.x()) + " " + to_text(vector.y()) + " " + to_text(vector.z());
+}
+
+Eigen::Isometry3d read_origin(const TiXmlElement& parent) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const TiXmlElement* origin = parent.FirstChildElement("origin");
+  if (origin == nullptr) return pose;
+  if (const auto xyz = read_numbers(*origin, "xyz", 3)) {
+    pose.translation() = Eigen::Vector3d(xyz->data());
+  }
+  if (const auto rpy = read_numbers(*origin, "rpy", 3)) {
+    pose.linear() = (Eigen::AngleAxisd((*rpy)[2], Eigen::Vector3d::UnitZ()) *
+                     Eigen::AngleAxisd((*rpy)[1], Eigen::Vector3d::UnitY()) *
+                     Eigen::AngleAxisd((*rpy)[0], Eigen::Vector3d::UnitX()))
+                        .toRotationMatrix();
+  }
+  return pose;
+}
+
+void write_origin(TiXmlElement& parent, const Eigen::Isometry3d& pose) {
+  TiXmlElement* origin = parent.FirstChildElement("origin");
+  if (origin == nullptr) {
+    parent.LinkEndChild(new TiXmlElement("origin"));
+    origin = parent.FirstChildElement("origin");
+  }
+  const Eigen::Matrix3d& r = pose.linear();
+  const Eigen::Vector3d rpy(std::atan2(r(2, 1), r(2, 2)),
+                            std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))),
+                            std::atan2(r(1, 0), r(0, 0)));
+  origin->SetAttribute("xyz", to_text(Eigen::Vector3d(pose.translation())).c_str());
+  origin->SetAttribute("rpy", to_text(rpy).c_str());
+}
+
+}  // namespace nao

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+class TiXmlElement;
+
+namespace nao {
+
+/** Numbers of an attribute such as "0 0 1". @return Nothing unless they are `count` finite ones. */
+std::optional<std::vector<double>> read_numbers(const TiXmlElement& element, const char* name,
+                                                size_t count);
+double read_number(const TiXmlElement& element, const char* name, double otherwise);
+
+/** The `origin` of an element; the identity if it has none. */
+Eigen::Isometry3d read_origin(const TiXmlElement& parent);
+void write_origin(TiXmlElement& parent, const Eigen::Isometry3d& pose);
+
+/** Twelve digits. */
+std::string to_text(double number);
+std::string to_text(const Eigen::Vector3d& vector);
+
+}  // namespace nao

@@ -1,0 +1,95 @@
+// Humanoids of random dimensions are imported, and stand.
+
+#include "robot_import/robot_import.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "closed_loop/closed_loop.h"
+#include "common/data_path.h"
+#include "kinematics/leg_kinematics.h"
+#include "test/support/test_biped.h"
+
+namespace nao {
+namespace {
+
+std::shared_ptr<const RobotModel> import(const std::filesystem::path& folder,
+                                         const TestBiped& dimensions) {
+  write_text(folder / "biped.urdf", make_biped_urdf(dimensions));
+  import_robot(folder / "biped.urdf", folder / "biped");
+  return std::make_shared<const RobotModel>(RobotModel::load(folder / "biped"));
+}
+
+TEST(RobotImport, FindsLegsArmsSolesAndMirrorImages) {
+  const TemporaryFolder folder;
+  TestBiped dimensions;
+  dimensions.has_waist = true;
+  const auto model = import(folder.path(), dimensions);
+  EXPECT_EQ(model->legs()[0].joints.size(), 7u) << "the waist and six joints";
+  ASSERT_EQ(model->arms().size(), 2u);
+  EXPECT_EQ(model->links()[model->arms()[1].hand].name, "right_forearm");
+  EXPECT_NEAR(model->link_poses(std::vector<double>(model->num_motors(), 0))[model->left_sole()]
+                  .translation()
+                  .z(),
+              -0.02 - 0.02 - 0.2 - 0.2 - 0.05, 1e-9);
+  const Symmetry& symmetry = model->symmetry();
+  const auto mirror = [&](const char* name) { return symmetry.mirrors[model->find_motor(name)]; };
+  EXPECT_EQ(mirror("left_knee").motor, model->find_motor("right_knee"));
+  EXPECT_EQ(mirror("left_knee").sign, 1);
+  EXPECT_EQ(mirror("left_hip_roll").sign, -1);
+  EXPECT_EQ(mirror("waist").motor, model->find_motor("waist"));
+  EXPECT_EQ(mirror("waist").sign, -1);
+  std::vector<std::string> groups;
+  for (const JointGroup& group : model->joint_groups()) groups.push_back(group.name);
+  EXPECT_THAT(groups, testing::IsSupersetOf({"waist", "left hip", "left knee", "right ankle",
+                                             "left shoulder", "right elbow"}));
+}
+
+TEST(RobotImport, ListsWhatIsMissing) {
+  const TemporaryFolder folder;
+  import(folder.path(), TestBiped{});
+  std::vector<std::string> lines;
+  for (const Finding& finding : check_robot(folder.path() / "biped")) {
+    lines.push_back(to_line(finding));
+  }
+  EXPECT_THAT(lines, testing::Contains(testing::HasSubstr("walking: there is no gait")));
+  EXPECT_THAT(lines, testing::Contains(testing::HasSubstr("kicks")));
+  EXPECT_THAT(lines, testing::Not(testing::Contains(testing::HasSubstr("standing:"))));
+}
+
+TEST(RobotImport, TenHumanoidsOfRandomDimensionsStand) {
+  std::mt19937 random(10);
+  for (int i = 0; i < 10; ++i) {
+    const TemporaryFolder folder;
+    const TestBiped dimensions = random_biped(random);
+    const auto model = import(folder.path(), dimensions);
+    ClosedLoopOptions options;
+    options.model = model;
+    ClosedLoop trial(options, 1);
+    trial.run(5);
+    const double height = model->references().heights.standing;
+    EXPECT_LT(trial.torso_tilt(), 0.1) << "robot " << i << ", " << dimensions.mass << " kg";
+    EXPECT_GT(trial.torso_height(), 0.95 * height) << "robot " << i;
+  }
+}
+
+TEST(RobotT1, Stands) {
+  const auto model =
+      std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / "t1"));
+  EXPECT_NEAR(model->total_mass(), 31.7, 0.1);
+  // Its hip axes do not meet.
+  EXPECT_EQ(LegKinematics(*model).method(), LegKinematics::Method::kNumeric);
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    ClosedLoopOptions options;
+    options.model = model;
+    ClosedLoop trial(options, seed);
+    trial.run(20);
+    EXPECT_LT(trial.torso_tilt(), 0.1) << "seed " << seed;
+    EXPECT_GT(trial.torso_height(), 0.95 * model->references().heights.standing);
+    EXPECT_LT(trial.torso_in_world().translation().head<2>().norm(), 0.1) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace nao

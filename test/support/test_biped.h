@@ -1,0 +1,173 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <random>
+#include <sstream>
+#include <string>
+
+#include "robot_model/robot_model.h"
+#include "test/support/temporary_folder.h"
+
+namespace nao {
+
+/** Dimensions of a humanoid that a test makes up: m, kg. */
+struct TestBiped {
+  /** Axes of the hip from the root: "yxz" is pitch, roll, yaw. */
+  std::string hip = "zxy";
+  double thigh = 0.2;
+  double shank = 0.2;
+  double foot_height = 0.05;
+  double hip_width = 0.1;
+  double mass = 10;
+  /** Offsets that keep the leg from a closed form: between the hip's axes, of the knee ahead of the
+   * leg's line, between the ankle's axes. */
+  double hip_offset = 0;
+  double knee_offset = 0;
+  double ankle_offset = 0;
+  bool has_waist = false;
+  bool has_arms = true;
+};
+
+namespace biped {
+
+inline std::string link(const std::string& name, double mass, double com_z, double size) {
+  const double inertia = mass * size * size / 6;
+  std::ostringstream text;
+  text.precision(17);
+  text << "<link name=\"" << name << "\"><inertial><origin xyz=\"0 0 " << com_z
+       << "\"/><mass value=\"" << mass << "\"/><inertia ixx=\"" << inertia << "\" iyy=\"" << inertia
+       << "\" izz=\"" << inertia << "\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n";
+  return text.str();
+}
+
+inline std::string joint(const std::string& name, const std::string& parent,
+                         const std::string& child, const std::array<double, 3>& origin,
+                         char direction, double lower, double upper, double effort) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "<joint name=\"" << name << "\" type=\"revolute\"><parent link=\"" << parent
+       << "\"/><child link=\"" << child << "\"/><origin xyz=\"" << origin[0] << " " << origin[1]
+       << " " << origin[2] << "\"/><axis xyz=\""
+       << (direction == 'x'   ? "1 0 0"
+           : direction == 'y' ? "0 1 0"
+                              : "0 0 1")
+       << "\"/><limit lower=\"" << lower << "\" upper=\"" << upper << "\" effort=\"" << effort
+       << "\" velocity=\"12\"/></joint>\n";
+  return text.str();
+}
+
+}  // namespace biped
+
+/** The URDF of a humanoid: root "trunk", soles "left_sole" and "right_sole", hands "left_hand" and
+ * "right_hand", joints "left_knee" and so on. */
+inline std::string make_biped_urdf(const TestBiped& dimensions) {
+  using biped::joint;
+  using biped::link;
+  const double size = dimensions.thigh;
+  const double torque = 6 * dimensions.mass * (dimensions.thigh + dimensions.shank);
+  std::ostringstream text;
+  text.precision(17);
+  text << "<robot name=\"biped\">\n" << link("trunk", 0.5 * dimensions.mass, 0.5 * size, size);
+  const std::string pelvis = dimensions.has_waist ? "pelvis" : "trunk";
+  if (dimensions.has_waist) {
+    text << joint("waist", "trunk", "pelvis", {0, 0, -0.1 * size}, 'z', -1.5, 1.5, torque)
+         << link("pelvis", 0.05 * dimensions.mass, 0, 0.5 * size);
+  }
+  for (const std::string side : {"left", "right"}) {
+    const double sign = side == "left" ? 1 : -1;
+    const auto name = [&](const std::string& part) { return side + "_" + part; };
+    std::string parent = pelvis;
+    std::array<double, 3> origin = {0, sign * dimensions.hip_width / 2, -0.1 * size};
+    for (const char axis : dimensions.hip) {
+      const std::string part = axis == 'x' ? "hip_roll" : axis == 'y' ? "hip_pitch" : "hip_yaw";
+      text << joint(name(part), parent, name(part + "_link"), origin, axis, axis == 'y' ? -2 : -1,
+                    axis == 'y' ? 1.5 : 1, torque)
+           << link(name(part + "_link"), 0.02 * dimensions.mass, -0.05 * size, 0.3 * size);
+      parent = name(part + "_link");
+      origin = {0, 0, -dimensions.hip_offset};
+    }
+    origin = {dimensions.knee_offset, 0, -dimensions.thigh};
+    text << joint(name("knee"), parent, name("shank"), origin, 'y', 0, 2.3, torque)
+         << link(name("shank"), 0.06 * dimensions.mass, -0.5 * dimensions.shank, size)
+         << joint(name("ankle_pitch"), name("shank"), name("ankle"),
+                  {-dimensions.knee_offset, 0, -dimensions.shank}, 'y', -1.2, 1, torque)
+         << link(name("ankle"), 0.01 * dimensions.mass, 0, 0.2 * size)
+         << joint(name("ankle_roll"), name("ankle"), name("foot"), {0, 0, -dimensions.ankle_offset},
+                  'x', -0.7, 0.7, torque);
+    std::ostringstream foot;
+    foot.precision(17);
+    foot << "<origin xyz=\"" << 0.1 * size << " 0 " << -0.75 * dimensions.foot_height
+         << "\"/><geometry><box size=\"" << 0.6 * size << " " << 0.3 * size << " "
+         << 0.5 * dimensions.foot_height << "\"/></geometry>";
+    const std::string body =
+        link(name("foot"), 0.02 * dimensions.mass, -0.5 * dimensions.foot_height, 0.4 * size);
+    text << body.substr(0, body.find("</link>")) << "<collision name=\"sole\">" << foot.str()
+         << "</collision></link>\n<joint name=\"" << name("sole_mount")
+         << "\" type=\"fixed\"><parent link=\"" << name("foot") << "\"/><child link=\""
+         << name("sole") << "\"/><origin xyz=\"0 0 " << -dimensions.foot_height
+         << "\"/></joint>\n<link name=\"" << name("sole") << "\"/>\n";
+    if (!dimensions.has_arms) continue;
+    text << joint(name("shoulder_pitch"), "trunk", name("shoulder"),
+                  {0, sign * 0.8 * dimensions.hip_width, size}, 'y', -2, 2, 0.2 * torque)
+         << link(name("shoulder"), 0.01 * dimensions.mass, 0, 0.2 * size)
+         << joint(name("shoulder_roll"), name("shoulder"), name("upper_arm"),
+                  {0, sign * 0.1 * size, 0}, 'x', sign > 0 ? -0.3 : -1.5, sign > 0 ? 1.5 : 0.3,
+                  0.2 * torque)
+         << link(name("upper_arm"), 0.02 * dimensions.mass, -0.3 * size, 0.3 * size)
+         << joint(name("elbow"), name("upper_arm"), name("forearm"), {0, 0, -0.6 * size}, 'y', -2,
+                  0.1, 0.2 * torque)
+         << link(name("forearm"), 0.02 * dimensions.mass, -0.3 * size, 0.3 * size)
+         << "<joint name=\"" << name("hand_mount") << "\" type=\"fixed\"><parent link=\""
+         << name("forearm") << "\"/><child link=\"" << name("hand") << "\"/><origin xyz=\"0 0 "
+         << -0.6 * size << "\"/></joint>\n<link name=\"" << name("hand") << "\"/>\n";
+  }
+  text << "</robot>\n";
+  return text.str();
+}
+
+/** Reads the humanoid from files with no more than a robot needs. */
+inline RobotModel make_biped(const TestBiped& dimensions) {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "biped.urdf", make_biped_urdf(dimensions));
+  std::ostringstream outline;
+  const double ahead = 0.4 * dimensions.thigh;
+  const double aside = 0.15 * dimensions.thigh;
+  outline << "[[" << -0.5 * ahead << ", " << -aside << "], [" << ahead << ", " << -aside << "], ["
+          << ahead << ", " << aside << "], [" << -0.5 * ahead << ", " << aside << "]]";
+  write_text(folder.path() / "robot.yaml",
+             "urdf: biped.urdf\ninertial_unit: {accelerometer: trunk, gyroscope: trunk}\nsoles:\n"
+             "  left: {link: left_sole, outline: " +
+                 outline.str() +
+                 "}\n"
+                 "  right: {link: right_sole, outline: " +
+                 outline.str() + "}\n");
+  write_text(folder.path() / "postures.yaml", "postures: []\n");
+  return RobotModel::load(folder.path());
+}
+
+/** A humanoid of random dimensions: leg length 0.2 to 0.9 m, 3 to 50 kg, either order of the hip's
+ * axes, with a waist or without, with a leg that has a closed form or not. */
+inline TestBiped random_biped(std::mt19937& random) {
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const auto toss = [&] { return uniform(0, 1) < 0.5; };
+  TestBiped biped;
+  const double length = uniform(0.2, 0.9);
+  biped.thigh = uniform(0.4, 0.5) * length;
+  biped.shank = uniform(0.4, 0.45) * length;
+  biped.foot_height = 0.1 * length;
+  biped.hip_width = uniform(0.25, 0.4) * length;
+  biped.mass = uniform(3, 50);
+  biped.hip = toss() ? "yxz" : "zxy";
+  biped.has_waist = toss();
+  if (toss()) {
+    biped.hip_offset = uniform(0.02, 0.1) * length;
+    biped.knee_offset = uniform(-0.04, 0.04) * length;
+    biped.ankle_offset = uniform(0, 0.03) * length;
+  }
+  return biped;
+}
+
+}  // namespace nao
