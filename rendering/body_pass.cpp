@@ -31,7 +31,7 @@ void BodyPass::set_surroundings(const SceneFile& scene) {
 void BodyPass::select(const Scene& scene, const RenderView& view, ShadowPass& shadows) {
   opaque_.clear();
   translucent_.clear();
-  shadows.clear();
+  shadows.clear(view.appearance.light_direction);
   const auto is_visible = [&](const MeshInstance& instance) {
     const BoundingSphere sphere = meshes_.sphere_in_world(instance);
     return view.frustum.may_see(sphere.center, sphere.radius);

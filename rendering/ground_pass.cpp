@@ -61,7 +61,13 @@ void GroundPass::draw_boxes(const gl::ShaderProgram& program, const std::vector<
                             RenderStatistics& statistics) {
   use_lit(program, view, shadows);
   program.set("reach", reach_);
-  if (field_dimensions_) set_field(program, *field_dimensions_);
+  if (field_dimensions_) {
+    set_field(program, *field_dimensions_);
+    program.set("carpet_color", view.appearance.carpet);
+    program.set("line_color", view.appearance.line);
+    program.set("line_wear", view.appearance.line_wear);
+    program.set("carpet_texture", view.appearance.carpet_texture);
+  }
   for (const PixelBox& box : boxes) {
     if (box.is_empty()) continue;
     glScissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);

@@ -55,6 +55,23 @@ uniform vec2 goal_area;     // length, half width
 uniform vec2 penalty_area;  // length, half width
 uniform vec2 penalty_mark;  // distance from the center, half size
 uniform vec2 center;        // radius of the circle, half length of the mark
+// As in SceneAppearance.
+uniform vec3 carpet_color;
+uniform vec3 line_color;
+uniform float line_wear;
+uniform float carpet_texture;
+
+// Value noise in 0 to 1 with cells of 1 m.
+float hash(vec2 cell) {
+  return fract(sin(dot(cell, vec2(12.9898, 78.233))) * 43758.547);
+}
+float noise(vec2 x) {
+  vec2 cell = floor(x);
+  vec2 t = fract(x);
+  t = t * t * (3.0 - 2.0 * t);
+  return mix(mix(hash(cell), hash(cell + vec2(1, 0)), t.x),
+             mix(hash(cell + vec2(0, 1)), hash(cell + vec2(1, 1)), t.x), t.y);
+}
 
 // Outline of the rectangle between low and high.
 float frame(vec2 low, vec2 high, vec2 x, vec2 f) {
@@ -86,12 +103,17 @@ void main() {
   float carpet = rectangle(-half_carpet, half_carpet, q, f);
   // Faint variation of the color over meters, as a carpet has; no measured source.
   vec3 wave = abs(fract(vec3(0.33 * p.x, 0.27 * p.y, 0.71 * p.x + 0.47 * p.y)) - 0.5);
-  vec3 green = vec3(0.055, 0.235, 0.075) * (0.96 + 0.32 * wave.x * wave.y + 0.05 * wave.z);
+  vec3 green = carpet_color * (0.96 + 0.32 * wave.x * wave.y + 0.05 * wave.z);
+  if (carpet_texture > 0.0) {
+    float grain = 0.6 * noise(p * 60.0) * clamp(0.02 / max(f.x, f.y), 0.0, 1.0) + 0.4 * noise(p * 3.0);
+    green *= 1.0 + 2.0 * carpet_texture * (grain - 0.5);
+  }
+  if (line_wear > 0.0) line *= 1.0 - line_wear * smoothstep(0.35, 0.75, noise(p * 7.0));
   vec3 hall = vec3(0.46, 0.47, 0.49);
-  vec3 albedo = mix(hall, mix(green, vec3(0.80), line), carpet);
+  vec3 albedo = mix(hall, mix(green, line_color, line), carpet);
 
   float fraction = direct_fraction(position_in_world);
-  vec3 light = albedo * (kSkyLight + fraction * light_direction.z * kDirectLight);
+  vec3 light = albedo * (ambient_light * kSkyLight + fraction * light_direction.z * direct_light);
   screen = vec4(encoded(with_haze(light, position_in_world)), 1.0);
 }
 )";
@@ -109,7 +131,7 @@ void main() {
   float tone = 0.40 + 0.05 * (checker - 0.5) * blur;
   vec3 albedo = mix(vec3(tone), vec3(0.22), 0.6 * max(joint.x, joint.y));
   float fraction = direct_fraction(position_in_world);
-  vec3 light = albedo * (kSkyLight + fraction * light_direction.z * kDirectLight);
+  vec3 light = albedo * (ambient_light * kSkyLight + fraction * light_direction.z * direct_light);
   screen = vec4(encoded(with_haze(light, position_in_world)), 1.0);
 }
 )";

@@ -1,6 +1,5 @@
 #include "rendering/mesh_programs.h"
 
-#include "rendering/light.h"
 #include "rendering/shadow_pass.h"
 
 namespace nao {
@@ -37,7 +36,12 @@ void use_lit(const gl::ShaderProgram& program, const RenderView& view, const Sha
   program.use();
   program.set("clip_from_world", view.clip_from_world);
   program.set("eye_position", view.eye);
-  program.set("light_direction", kLightDirection);
+  const SceneAppearance& look = view.appearance;
+  program.set("light_direction", look.light_direction);
+  program.set("direct_light", look.direct_light);
+  program.set("ambient_light", look.ambient_light);
+  program.set("shade", look.shade);
+  program.set("shade_depth", look.shade_depth);
   shadows.set_uniforms(program);
 }
 

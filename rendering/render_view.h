@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "rendering/pinhole_camera.h"
+#include "rendering/scene_appearance.h"
 
 namespace nao {
 
@@ -16,13 +17,15 @@ inline constexpr double kFarPlane = 120;
 /** The camera of the image that is being drawn, in OpenGL's terms. */
 struct RenderView {
   /** @param pose_camera_in_world  Camera axes: x along the view, y left, z up. */
-  RenderView(const PinholeCamera& camera, const Eigen::Isometry3d& pose_camera_in_world)
+  RenderView(const PinholeCamera& camera, const Eigen::Isometry3d& pose_camera_in_world,
+             const SceneAppearance& look = {})
       : width(camera.width),
         height(camera.height),
         clip_from_world(projection_matrix(camera, kNearPlane, kFarPlane) *
                         view_matrix(pose_camera_in_world)),
         eye(pose_camera_in_world.translation().cast<float>()),
-        frustum(clip_from_world) {}
+        frustum(clip_from_world),
+        appearance(look) {}
 
   /** Image size, pixels. */
   int width;
@@ -32,6 +35,8 @@ struct RenderView {
   Eigen::Vector3f eye;
   /** The visible part of space. */
   Frustum frustum;
+  /** Light and materials. */
+  SceneAppearance appearance;
 };
 
 }  // namespace nao

@@ -127,7 +127,8 @@ void SceneRenderer::set_surroundings(const SceneFile& scene) {
 RenderStatistics SceneRenderer::render(const Scene& scene, const PinholeCamera& camera,
                                        const Eigen::Isometry3d& pose_camera_in_world,
                                        unsigned framebuffer, const std::vector<PixelBox>& covered) {
-  return passes_->render(scene, RenderView(camera, pose_camera_in_world), framebuffer, covered);
+  return passes_->render(scene, RenderView(camera, pose_camera_in_world, appearance_), framebuffer,
+                         covered);
 }
 
 std::string SceneRenderer::driver() {

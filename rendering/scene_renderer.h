@@ -8,6 +8,7 @@
 #include "rendering/pixel_box.h"
 #include "rendering/render_statistics.h"
 #include "rendering/scene.h"
+#include "rendering/scene_appearance.h"
 #include "robot_model/scene_file.h"
 
 namespace nao {
@@ -38,6 +39,9 @@ class SceneRenderer {
   /** Sets the ground, its lines and the goals of the following images. */
   void set_surroundings(const SceneFile& scene);
 
+  /** Sets light and materials of the following images. */
+  void set_appearance(const SceneAppearance& appearance) { appearance_ = appearance; }
+
   /** Draws one image.
    * @param pose_camera_in_world  Camera axes: x along the view, y left, z up.
    * @param framebuffer  OpenGL's number of the target; its lower left corner is used.
@@ -53,6 +57,7 @@ class SceneRenderer {
  private:
   class Passes;
   std::unique_ptr<Passes> passes_;
+  SceneAppearance appearance_;
 };
 
 }  // namespace nao

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "rendering/gl.h"
-#include "rendering/light.h"
 
 namespace nao {
 namespace {
@@ -22,22 +21,23 @@ constexpr float kOffsetFactor = 2.0f;
 constexpr float kOffsetUnits = 4.0f;
 
 /** Rotation into the axes of the light: z points to the light. */
-Eigen::Matrix3f light_from_world() {
+Eigen::Matrix3f light_from_world(const Eigen::Vector3f& light) {
   Eigen::Matrix3f rotation;
-  rotation.row(2) = kLightDirection;
-  rotation.row(0) = Eigen::Vector3f::UnitX().cross(kLightDirection).normalized();
+  rotation.row(2) = light;
+  rotation.row(0) = Eigen::Vector3f::UnitX().cross(light).normalized();
   rotation.row(1) = rotation.row(2).cross(rotation.row(0));
   return rotation;
 }
 
 /** Orthographic projection along the light of everything inside a box.
- * @param box  m, in the axes of the light. @return Clip coordinates from world coordinates. */
-Eigen::Matrix4f light_projection(const Eigen::AlignedBox3f& box) {
+ * @param box  m, in the axes of the light. @param light  Unit vector towards it. @return Clip
+ * coordinates from world coordinates. */
+Eigen::Matrix4f light_projection(const Eigen::AlignedBox3f& box, const Eigen::Vector3f& light) {
   const Eigen::Vector3f lower = (box.min() / kBoxStep).array().floor() * kBoxStep;
   const Eigen::Vector3f upper = (box.max() / kBoxStep).array().ceil() * kBoxStep;
   const Eigen::Vector3f scale = 2 * (upper - lower).cwiseInverse();
   Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
-  matrix.topLeftCorner<3, 3>() = scale.asDiagonal() * light_from_world();
+  matrix.topLeftCorner<3, 3>() = scale.asDiagonal() * light_from_world(light);
   matrix.topRightCorner<3, 1>() = -scale.cwiseProduct((lower + upper) / 2);
   matrix.row(2) *= -1;  // depth grows away from the light
   return matrix;
@@ -57,7 +57,8 @@ ShadowPass::ShadowPass(int size, const MeshStore& meshes, const DepthProgram& de
   if (size > 0) map_.emplace(size);
 }
 
-void ShadowPass::clear() {
+void ShadowPass::clear(const Eigen::Vector3f& light) {
+  light_ = light;
   casters_.clear();
   casters_box_.setEmpty();
 }
@@ -66,13 +67,12 @@ void ShadowPass::add_caster(const MeshInstance& instance, const RenderView& view
   if (!map_) return;
   const BoundingSphere sphere = meshes_.sphere_in_world(instance);
   // The body and its shadow lie on the segment from the body along the light to the ground z = 0.
-  const float distance = std::max(0.0f, sphere.center.z() / kLightDirection.z());
-  if (!view.frustum.may_see(sphere.center, sphere.center - distance * kLightDirection,
-                            sphere.radius)) {
+  const float distance = std::max(0.0f, sphere.center.z() / light_.z());
+  if (!view.frustum.may_see(sphere.center, sphere.center - distance * light_, sphere.radius)) {
     return;
   }
   casters_.push_back(instance);
-  const Eigen::Vector3f center = light_from_world() * sphere.center;
+  const Eigen::Vector3f center = light_from_world(light_) * sphere.center;
   casters_box_.extend(Eigen::Vector3f(center.array() - sphere.radius));
   casters_box_.extend(Eigen::Vector3f(center.array() + sphere.radius));
 }
@@ -88,7 +88,7 @@ void ShadowPass::draw(RenderStatistics& statistics) {
     shadow_from_world_.col(3) << 2, 2, 0, 1;
     return;
   }
-  const Eigen::Matrix4f clip_from_world = light_projection(casters_box_);
+  const Eigen::Matrix4f clip_from_world = light_projection(casters_box_, light_);
   shadow_from_world_ = texture_from_clip() * clip_from_world;
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(kOffsetFactor, kOffsetUnits);
@@ -115,7 +115,7 @@ PixelBox ShadowPass::shadowed_pixels(const RenderView& view) const {
   Eigen::Vector2f upper = -lower;
   for (const auto& [x, y] : {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}, {1.0f, 1.0f}}) {
     const Eigen::Vector3f on_ray = (world_from_map * Eigen::Vector4f(x, y, 0, 1)).head<3>();
-    const Eigen::Vector3f ground = on_ray - kLightDirection * (on_ray.z() / kLightDirection.z());
+    const Eigen::Vector3f ground = on_ray - light_ * (on_ray.z() / light_.z());
     const Eigen::Vector4f clip = view.clip_from_world * ground.homogeneous();
     // A corner behind the camera has no place in the image: no bound can be given.
     if (clip.w() < static_cast<float>(kNearPlane)) return {0, 0, view.width, view.height};

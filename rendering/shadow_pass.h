@@ -22,8 +22,8 @@ class ShadowPass {
    * @param meshes, depth  Must outlive this. */
   ShadowPass(int size, const MeshStore& meshes, const DepthProgram& depth);
 
-  /** Starts the next image. */
-  void clear();
+  /** Starts the next image. @param light  Unit vector towards the light, in the world. */
+  void clear(const Eigen::Vector3f& light);
 
   /** Adds a body, unless neither it nor its shadow on the ground can be visible. */
   void add_caster(const MeshInstance& instance, const RenderView& view);
@@ -41,6 +41,7 @@ class ShadowPass {
   const MeshStore& meshes_;
   const DepthProgram& depth_;
   std::optional<gl::ShadowMap> map_;
+  Eigen::Vector3f light_ = Eigen::Vector3f::UnitZ();
   std::vector<MeshInstance> casters_;
   /** Box of the casters in the axes of the light, m. */
   Eigen::AlignedBox3f casters_box_;

@@ -1,0 +1,123 @@
+#include "daemons/vision/ball_candidates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace nao::vision {
+namespace {
+
+/** Most hints of one image. Chosen: each costs 0.05 ms to fit. */
+constexpr size_t kMostHints = 32;
+/** Radii that are tried without a pose, pixels of the half-size image: each 1.4 times the last. */
+constexpr std::array<float, 9> kRadii = {2.5f, 3.5f, 5, 7, 10, 14, 20, 28, 38};
+/** Smallest radius, pixels of the half-size image: a ball at 5 m has 3. */
+constexpr float kLeastRadius = 1.8f;
+/** Levels of FieldView::other. Inside mostly other, at least two sides mostly field. */
+constexpr float kInside = 115;
+constexpr float kSide = 90;
+constexpr float kLeastScore = 60;
+/** Distance between columns for which the expected radius is computed, pixels of the half-size
+ * image. */
+constexpr int kColumns = 40;
+
+class Search {
+ public:
+  explicit Search(const FieldView& view) : view_(view) { cv::integral(view.other, sum_, CV_32S); }
+
+  void add(int x, int y, float r) {
+    if (y < view_.other.rows && view_.other(y, x) < kSide) return;
+    const float inside = mean(x - 0.6f * r, y - 0.6f * r, x + 0.6f * r, y + 0.6f * r);
+    if (inside < kInside) return;
+    const std::array<float, 3> sides = {
+        mean(x - 1.9f * r - 1, y - 0.5f * r, x - 1.3f * r - 0.5f, y + 0.5f * r),
+        mean(x + 1.3f * r + 0.5f, y - 0.5f * r, x + 1.9f * r + 1, y + 0.5f * r),
+        mean(x - 0.5f * r, y + 1.25f * r + 0.5f, x + 0.5f * r, y + 1.8f * r + 1)};
+    // A line or another robot may touch the ball on one side.
+    const float worst = std::max({sides[0], sides[1], sides[2]});
+    const float outside = (sides[0] + sides[1] + sides[2] - worst) / 2;
+    const auto num_field =
+        std::count_if(sides.begin(), sides.end(), [](float side) { return side < kSide; });
+    if (num_field < 2 || inside - outside < kLeastScore) return;
+    hints_.push_back({{2 * static_cast<float>(x) + 0.5f, 2 * static_cast<float>(y) + 0.5f},
+                      2 * r,
+                      inside - outside});
+  }
+
+  /** Best ones; of overlapping ones of similar size the best. */
+  std::vector<BallHint> best() {
+    std::sort(hints_.begin(), hints_.end(),
+              [](const BallHint& a, const BallHint& b) { return a.score > b.score; });
+    std::vector<BallHint> kept;
+    for (const BallHint& hint : hints_) {
+      const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const BallHint& other) {
+        const float ratio = hint.radius / other.radius;
+        return cv::norm(hint.center - other.center) < std::max(hint.radius, other.radius) &&
+               ratio > 0.6f && ratio < 1.7f;
+      });
+      if (is_new) kept.push_back(hint);
+      if (kept.size() == kMostHints) break;
+    }
+    return kept;
+  }
+
+ private:
+  /** Mean over a box, the part in the image; what is outside of it counts as field. */
+  float mean(float left, float top, float right, float bottom) const {
+    const int x0 = std::clamp(static_cast<int>(std::lround(left)), 0, view_.other.cols);
+    const int x1 = std::clamp(static_cast<int>(std::lround(right)) + 1, 0, view_.other.cols);
+    const int y0 = std::clamp(static_cast<int>(std::lround(top)), 0, view_.other.rows);
+    const int y1 = std::clamp(static_cast<int>(std::lround(bottom)) + 1, 0, view_.other.rows);
+    const int area = (x1 - x0) * (y1 - y0);
+    if (area <= 0) return 0;
+    const int sum = sum_(y1, x1) - sum_(y0, x1) - sum_(y1, x0) + sum_(y0, x0);
+    return static_cast<float>(sum) / static_cast<float>(area);
+  }
+
+  const FieldView& view_;
+  cv::Mat_<int> sum_;
+  std::vector<BallHint> hints_;
+};
+
+}  // namespace
+
+std::vector<BallHint> find_ball_hints(const FieldView& view, const CameraGeometry& geometry,
+                                      double ball_radius) {
+  Search search(view);
+  const int width = view.other.cols;
+  const int height = view.other.rows;
+  if (!geometry.has_pose()) {
+    for (const float r : kRadii) {
+      const int step = std::max(2, static_cast<int>(0.35f * r));
+      for (int y = 0; y < height + static_cast<int>(0.4f * r); y += step) {
+        for (int x = 0; x < width; x += step) {
+          if (view.top[x] <= y) search.add(x, y, r);
+        }
+      }
+    }
+    return search.best();
+  }
+  for (int left = 0; left < width; left += kColumns) {
+    float r = 0;
+    int computed = -100;
+    for (int y = 0; y < height + height / 12; y += std::max(1, static_cast<int>(0.25f * r))) {
+      if (view.top[std::min(left + kColumns / 2, width - 1)] > y + 3 * kColumns) continue;
+      if (y - computed >= 4) {
+        const cv::Point2f pixel(2 * static_cast<float>(left + kColumns / 2),
+                                2 * static_cast<float>(y));
+        const auto radius = geometry.sphere_radius_px(pixel, ball_radius);
+        r = radius ? static_cast<float>(*radius / 2) : 0;
+        computed = y;
+      }
+      if (r < kLeastRadius || r > static_cast<float>(height)) continue;
+      const int step = std::max(1, static_cast<int>(0.25f * r));
+      for (int x = left; x < std::min(left + kColumns, width); x += step) {
+        if (view.top[x] <= y + static_cast<int>(0.8f * r)) search.add(x, y, r);
+      }
+    }
+  }
+  return search.best();
+}
+
+}  // namespace nao::vision

@@ -1,0 +1,108 @@
+#include "daemons/vision/ball_filter.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace nao::vision {
+namespace {
+
+/** Deceleration of a ball that rolls on carpet, m/s^2 (B-Human Code Release 2025). */
+constexpr double kRollingDeceleration = 0.3;
+/** Spectral density of random acceleration, m^2/s^3: 0.3 m/s after 1 s. Chosen: kicks restart the
+ * filter, so that only the carpet's unevenness and the odometry's drift remain. */
+constexpr double kAccelerationDensity = 0.09;
+/** Standard deviation of a new ball's velocity, m/s: kicks reach 2 m/s. */
+constexpr double kVelocitySigma = 1.0;
+/** 99.9 % of the chi-square distribution with two degrees of freedom. */
+constexpr double kGate = 13.8;
+/** Measurements in succession that do not fit, and agree within this distance (m), restart it. */
+constexpr int kRestart = 3;
+constexpr double kAgreement = 0.4;
+/** A ball that was not seen for this long is unknown, microseconds. */
+constexpr int64_t kForgetTime = 5000000;
+/** Rolling: faster than this, m/s, and by this many standard deviations. At rest again below half
+ * of the speed. */
+constexpr double kRollingSpeed = 0.15;
+constexpr double kRollingSigmas = 2.5;
+
+}  // namespace
+
+void BallFilter::predict(int64_t utime) {
+  const int64_t elapsed = utime - utime_;
+  utime_ = utime;
+  if (!estimate_.is_known) return;
+  if (elapsed < 0 || utime - estimate_.seen_utime > kForgetTime) {
+    estimate_ = {};
+    num_rejected_ = 0;
+    return;
+  }
+  const double dt = 1e-6 * static_cast<double>(elapsed);
+  Eigen::Matrix4d transition = Eigen::Matrix4d::Identity();
+  transition(0, 2) = transition(1, 3) = dt;
+  Eigen::Vector4d& state = estimate_.state;
+  const double speed = state.tail<2>().norm();
+  if (speed > 0) {
+    // Exact for constant deceleration until it stops.
+    const double time = std::min(dt, speed / kRollingDeceleration);
+    const Eigen::Vector2d direction = state.tail<2>() / speed;
+    state.head<2>() += direction * (speed * time - 0.5 * kRollingDeceleration * time * time);
+    state.tail<2>() = direction * std::max(0.0, speed - kRollingDeceleration * dt);
+  }
+  Eigen::Matrix4d& P = estimate_.covariance;
+  P = (transition * P * transition.transpose()).eval();
+  // White acceleration noise, integrated over the step.
+  for (int axis = 0; axis < 2; ++axis) {
+    P(axis, axis) += kAccelerationDensity * dt * dt * dt / 3;
+    P(axis, axis + 2) += kAccelerationDensity * dt * dt / 2;
+    P(axis + 2, axis) += kAccelerationDensity * dt * dt / 2;
+    P(axis + 2, axis + 2) += kAccelerationDensity * dt;
+  }
+}
+
+void BallFilter::start(const Eigen::Vector2d& position, const Eigen::Matrix2d& covariance) {
+  estimate_ = {};
+  estimate_.is_known = true;
+  estimate_.seen_utime = utime_;
+  estimate_.state << position, 0, 0;
+  estimate_.covariance.topLeftCorner<2, 2>() = covariance;
+  estimate_.covariance.bottomRightCorner<2, 2>() =
+      Eigen::Matrix2d::Identity() * kVelocitySigma * kVelocitySigma;
+  num_rejected_ = 0;
+}
+
+void BallFilter::update(const Eigen::Vector2d& position, const Eigen::Matrix2d& covariance) {
+  if (!position.allFinite() || !covariance.allFinite()) return;
+  if (!estimate_.is_known) {
+    start(position, covariance);
+    return;
+  }
+  const Eigen::Matrix4d P = estimate_.covariance;
+  const Eigen::Matrix2d S = P.topLeftCorner<2, 2>() + covariance;
+  const Eigen::Vector2d innovation = position - estimate_.state.head<2>();
+  if (innovation.dot(S.inverse() * innovation) > kGate) {
+    const bool agrees = num_rejected_ > 0 && (position - rejected_).norm() < kAgreement;
+    num_rejected_ = agrees ? num_rejected_ + 1 : 1;
+    rejected_ = position;
+    if (num_rejected_ >= kRestart) start(position, covariance);
+    return;
+  }
+  num_rejected_ = 0;
+  const Eigen::Matrix<double, 4, 2> gain = P.leftCols<2>() * S.inverse();
+  estimate_.state += gain * innovation;
+  // Joseph form: stays symmetric and positive definite.
+  Eigen::Matrix4d factor = Eigen::Matrix4d::Identity();
+  factor.leftCols<2>() -= gain;
+  estimate_.covariance = factor * P * factor.transpose() + gain * covariance * gain.transpose();
+  estimate_.seen_utime = utime_;
+
+  const double speed = estimate_.state.tail<2>().norm();
+  const double sigma = std::sqrt(std::max(estimate_.covariance(2, 2), estimate_.covariance(3, 3)));
+  if (estimate_.is_rolling) {
+    estimate_.is_rolling = speed > 0.5 * kRollingSpeed;
+  } else {
+    estimate_.is_rolling = speed > kRollingSpeed && speed > kRollingSigmas * sigma;
+  }
+}
+
+}  // namespace nao::vision

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace nao::vision {
+
+/** The ball as tracked over time, in the odometry frame O. */
+struct BallEstimate {
+  bool is_known = false;
+  /** Robot time at which it was last seen, microseconds. */
+  int64_t seen_utime = 0;
+  /** x, y, m; vx, vy, m/s. */
+  Eigen::Vector4d state = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  bool is_rolling = false;
+};
+
+/** Kalman filter of the ball's position and velocity.
+ *
+ * A rolling ball decelerates by a constant friction; random accelerations stand for kicks and for
+ * the drift of the odometry. A measurement that does not fit is ignored, unless several in
+ * succession agree with each other: the ball was moved, and the filter starts anew. */
+class BallFilter {
+ public:
+  /** Advances the estimate to a time. A step back in time, or one longer than 5 s, resets it.
+   * @param utime  Microseconds. */
+  void predict(int64_t utime);
+
+  /** Takes a position measured at the time of the last predict().
+   * @param position  In O, m. @param covariance  m^2. */
+  void update(const Eigen::Vector2d& position, const Eigen::Matrix2d& covariance);
+
+  const BallEstimate& estimate() const { return estimate_; }
+  void reset() { *this = {}; }
+
+ private:
+  void start(const Eigen::Vector2d& position, const Eigen::Matrix2d& covariance);
+
+  BallEstimate estimate_;
+  int64_t utime_ = 0;
+  int num_rejected_ = 0;
+  Eigen::Vector2d rejected_ = Eigen::Vector2d::Zero();
+};
+
+}  // namespace nao::vision

@@ -1,0 +1,143 @@
+#include "daemons/vision/camera_geometry.h"
+
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+
+namespace nao::vision {
+namespace {
+
+/** Points farther away than this are not on any field, m. */
+constexpr double kReach = 30;
+/** Points nearer to the plane of the camera are not projected, m. */
+constexpr double kNear = 0.02;
+/** Steps of numerical derivatives: pixels, rad and m. */
+constexpr double kPixelStep = 0.25;
+constexpr double kAngleStep = 1e-4;
+constexpr double kHeightStep = 1e-4;
+
+}  // namespace
+
+bool CameraCalibration::is_valid() const {
+  for (const double coefficient : distortion) {
+    if (!std::isfinite(coefficient) || std::abs(coefficient) > 10) return false;
+  }
+  return std::isfinite(fx) && std::isfinite(fy) && fx > 1 && fy > 1 && std::isfinite(cx) &&
+         std::isfinite(cy);
+}
+
+CameraCalibration CameraCalibration::guess(int width, int height) {
+  CameraCalibration calibration;
+  calibration.fx = calibration.fy = 0.5 * width / std::tan(0.5 * 60.9 * M_PI / 180);
+  calibration.cx = 0.5 * (width - 1);
+  calibration.cy = 0.5 * (height - 1);
+  return calibration;
+}
+
+CameraGeometry::CameraGeometry(const CameraCalibration& calibration,
+                               const std::optional<Eigen::Isometry3d>& pose_camera_in_heading,
+                               const ProjectionNoise& noise)
+    : calibration_(calibration), pose_(pose_camera_in_heading), noise_(noise) {}
+
+std::vector<cv::Point2f> CameraGeometry::undistorted(const std::vector<cv::Point2f>& pixels) const {
+  if (pixels.empty() || !calibration_.has_distortion()) return pixels;
+  const CameraCalibration& c = calibration_;
+  const cv::Matx33d matrix(c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1);
+  const cv::Vec<double, 5> coefficients(c.distortion.data());
+  std::vector<cv::Point2f> ideal;
+  cv::undistortPoints(pixels, ideal, matrix, coefficients, cv::noArray(), matrix);
+  return ideal;
+}
+
+cv::Point2f CameraGeometry::undistorted(const cv::Point2f& pixel) const {
+  return undistorted(std::vector<cv::Point2f>{pixel})[0];
+}
+
+cv::Point2f CameraGeometry::distorted(const cv::Point2f& ideal) const {
+  const CameraCalibration& c = calibration_;
+  const double x = (ideal.x - c.cx) / c.fx;
+  const double y = (ideal.y - c.cy) / c.fy;
+  const auto& [k1, k2, p1, p2, k3] = c.distortion;
+  const double r2 = x * x + y * y;
+  const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  return {static_cast<float>(c.cx + c.fx * (x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x))),
+          static_cast<float>(c.cy + c.fy * (y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y))};
+}
+
+Eigen::Vector3d CameraGeometry::ray(const cv::Point2f& ideal) const {
+  return {1, -(ideal.x - calibration_.cx) / calibration_.fx,
+          -(ideal.y - calibration_.cy) / calibration_.fy};
+}
+
+std::optional<Eigen::Vector2d> CameraGeometry::intersect(const Eigen::Isometry3d& pose,
+                                                         const Eigen::Vector3d& ray,
+                                                         double height) {
+  const Eigen::Vector3d direction = pose.linear() * ray;
+  const Eigen::Vector3d origin = pose.translation();
+  const double distance = (height - origin.z()) / direction.z();
+  if (!std::isfinite(distance) || distance <= 0) return std::nullopt;
+  const Eigen::Vector2d point = origin.head<2>() + distance * direction.head<2>();
+  if (point.norm() > kReach) return std::nullopt;
+  return point;
+}
+
+std::optional<Eigen::Vector2d> CameraGeometry::at_height(const cv::Point2f& ideal,
+                                                         double height) const {
+  if (!pose_) return std::nullopt;
+  return intersect(*pose_, ray(ideal), height);
+}
+
+std::optional<GroundPoint> CameraGeometry::locate(const cv::Point2f& ideal, double height) const {
+  const auto position = at_height(ideal, height);
+  if (!position) return std::nullopt;
+  GroundPoint point{*position, Eigen::Matrix2d::Zero()};
+  // First-order propagation of independent errors: sum of (sigma d/dx)(sigma d/dx)^T.
+  const auto add = [&](const std::optional<Eigen::Vector2d>& moved, double step, double sigma) {
+    if (!moved) return;
+    const Eigen::Vector2d slope = (*moved - *position) * (sigma / step);
+    point.covariance += slope * slope.transpose();
+  };
+  const auto step = static_cast<float>(kPixelStep);
+  // Downwards, where the ray meets the ground nearer to the camera.
+  add(at_height(ideal + cv::Point2f(step, 0), height), kPixelStep, noise_.pixel);
+  add(at_height(ideal + cv::Point2f(0, step), height), kPixelStep, noise_.pixel);
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Isometry3d turned = *pose_;
+    turned.linear() = Eigen::AngleAxisd(kAngleStep, Eigen::Vector3d::Unit(axis)) * pose_->linear();
+    add(intersect(turned, ray(ideal), height), kAngleStep, noise_.angle);
+  }
+  Eigen::Isometry3d lifted = *pose_;
+  lifted.translation().z() += kHeightStep;
+  add(intersect(lifted, ray(ideal), height), kHeightStep, noise_.height);
+  return point;
+}
+
+std::optional<cv::Point2f> CameraGeometry::project(const Eigen::Vector3d& point_in_heading) const {
+  if (!pose_) return std::nullopt;
+  const Eigen::Vector3d point = pose_->inverse() * point_in_heading;
+  if (point.x() < kNear) return std::nullopt;
+  const CameraCalibration& c = calibration_;
+  return distorted({static_cast<float>(c.cx - c.fx * point.y() / point.x()),
+                    static_cast<float>(c.cy - c.fy * point.z() / point.x())});
+}
+
+std::optional<double> CameraGeometry::sphere_radius_px(const cv::Point2f& pixel,
+                                                       double radius) const {
+  const cv::Point2f ideal = undistorted(pixel);
+  const auto center = at_height(ideal, radius);
+  if (!center) return std::nullopt;
+  const Eigen::Vector3d point(center->x(), center->y(), radius);
+  const double depth = (pose_->inverse() * point).x();
+  if (depth < kNear) return std::nullopt;
+  return calibration_.fx * radius / depth;
+}
+
+std::optional<double> CameraGeometry::horizon_row(double column) const {
+  if (!pose_) return std::nullopt;
+  // A ray (1, a, b) is level if its z in H, R(2,0) + a R(2,1) + b R(2,2), is 0.
+  const Eigen::RowVector3d z = pose_->linear().row(2);
+  if (std::abs(z.z()) < 0.1) return std::nullopt;
+  const double a = -(column - calibration_.cx) / calibration_.fx;
+  return calibration_.cy + calibration_.fy * (z.x() + a * z.y()) / z.z();
+}
+
+}  // namespace nao::vision

@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+
+#include "common/random.h"
+#include "daemons/vision/landmarks.h"
+
+namespace nao::vision {
+namespace {
+
+constexpr int kNumSamples = 150;
+/** Points this near to the circle are on it: m, and per m of their distance. */
+constexpr double kTolerance = 0.03;
+constexpr double kToleranceOfDistance = 0.015;
+/** Points farther away are too uncertain to be on a circle, m. */
+constexpr double kReach = 5.0;
+/** Least number of points, and of sectors of 10 degrees that have one. Tuned on rendered images:
+ * rectangles of lines reach 9 sectors. */
+constexpr size_t kLeastPoints = 16;
+constexpr size_t kLeastSectors = 12;
+/** Least number of such sectors in succession, and greatest root mean square of the residuals, as a
+ * fraction of the tolerance: rectangles touch a circle in separate places. */
+constexpr int kLeastRun = 9;
+constexpr double kMostResidual = 0.45;
+constexpr int kNumSectors = 36;
+
+double tolerance(const Eigen::Vector2d& point) {
+  return kTolerance + kToleranceOfDistance * point.norm();
+}
+
+/** Longest succession of sectors, around the circle. */
+int longest_run(const std::bitset<kNumSectors>& sectors) {
+  int longest = 0;
+  int run = 0;
+  for (int i = 0; i < 2 * kNumSectors; ++i) {
+    run = sectors[i % kNumSectors] ? run + 1 : 0;
+    longest = std::max(longest, std::min(run, kNumSectors));
+  }
+  return longest;
+}
+
+}  // namespace
+
+std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& points,
+                                                      std::vector<cv::Point2f>& ideal,
+                                                      const CameraGeometry& geometry) const {
+  if (!geometry.has_pose()) return std::nullopt;
+  std::vector<Eigen::Vector2d> ground;
+  std::vector<size_t> index;
+  for (size_t i = 0; i < ideal.size(); ++i) {
+    const auto point = geometry.at_height(ideal[i], 0);
+    if (!point || point->norm() > kReach) continue;
+    ground.push_back(*point);
+    index.push_back(i);
+  }
+  if (ground.size() < kLeastPoints) return std::nullopt;
+
+  Random random(2);
+  size_t best_sectors = 0;
+  std::vector<size_t> best;
+  Eigen::Vector2d best_center = Eigen::Vector2d::Zero();
+  for (int sample = 0; sample < kNumSamples; ++sample) {
+    const Eigen::Vector2d& a = ground[random.next() % ground.size()];
+    const Eigen::Vector2d& b = ground[random.next() % ground.size()];
+    const Eigen::Vector2d chord = b - a;
+    const double half = 0.5 * chord.norm();
+    if (half < 0.2 * radius_ || half >= radius_) continue;
+    const Eigen::Vector2d normal = Eigen::Vector2d(-chord.y(), chord.x()).normalized();
+    for (const double side : {-1.0, 1.0}) {
+      const Eigen::Vector2d center =
+          0.5 * (a + b) + side * std::sqrt(radius_ * radius_ - half * half) * normal;
+      std::bitset<kNumSectors> sectors;
+      std::vector<size_t> on_circle;
+      for (size_t i = 0; i < ground.size(); ++i) {
+        const Eigen::Vector2d d = ground[i] - center;
+        if (std::abs(d.norm() - radius_) > tolerance(ground[i])) continue;
+        on_circle.push_back(i);
+        const double turn = std::atan2(d.y(), d.x()) / (2 * M_PI) + 0.5;
+        sectors.set(std::min(kNumSectors - 1, static_cast<int>(turn * kNumSectors)));
+      }
+      if (sectors.count() * on_circle.size() <= best_sectors * best.size()) continue;
+      best_sectors = sectors.count();
+      best = std::move(on_circle);
+      best_center = center;
+    }
+  }
+  if (best.size() < kLeastPoints || best_sectors < kLeastSectors) return std::nullopt;
+
+  // Gauss-Newton on the distances from the circle.
+  for (int step = 0; step < 3; ++step) {
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() * 1e-6;
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    for (const size_t i : best) {
+      const Eigen::Vector2d d = ground[i] - best_center;
+      const double weight = 1 / (tolerance(ground[i]) * tolerance(ground[i]));
+      const Eigen::Vector2d direction = d.normalized();
+      normal += weight * direction * direction.transpose();
+      right += weight * (d.norm() - radius_) * direction;
+    }
+    best_center += normal.inverse() * right;
+  }
+
+  std::bitset<kNumSectors> sectors;
+  double residual = 0;
+  for (const size_t i : best) {
+    const Eigen::Vector2d d = ground[i] - best_center;
+    const double turn = std::atan2(d.y(), d.x()) / (2 * M_PI) + 0.5;
+    sectors.set(std::min(kNumSectors - 1, static_cast<int>(turn * kNumSectors)));
+    residual += std::pow((d.norm() - radius_) / tolerance(ground[i]), 2);
+  }
+  residual = std::sqrt(residual / static_cast<double>(best.size()));
+  if (longest_run(sectors) < kLeastRun || residual > kMostResidual) return std::nullopt;
+
+  Detection detection;
+  detection.kind = Kind::kCenterCircle;
+  detection.position = best_center;
+  detection.confidence = std::min(1.0, static_cast<double>(best_sectors) / 24);
+  Eigen::Vector4d box(1e9, 1e9, -1e9, -1e9);
+  for (const size_t i : best) {
+    const cv::Point2f& pixel = points[index[i]].pixel;
+    box = {std::min<double>(box[0], pixel.x), std::min<double>(box[1], pixel.y),
+           std::max<double>(box[2], pixel.x), std::max<double>(box[3], pixel.y)};
+  }
+  detection.box_px = box;
+  // The orientation of the camera moves the circle as it moves the points on it.
+  const cv::Point2f middle(static_cast<float>((box[0] + box[2]) / 2),
+                           static_cast<float>((box[1] + box[3]) / 2));
+  if (const auto located = geometry.locate(geometry.undistorted(middle))) {
+    detection.covariance = located->covariance;
+  }
+  for (auto i = best.rbegin(); i != best.rend(); ++i) {
+    points.erase(points.begin() + static_cast<std::ptrdiff_t>(index[*i]));
+    ideal.erase(ideal.begin() + static_cast<std::ptrdiff_t>(index[*i]));
+  }
+  return detection;
+}
+
+}  // namespace nao::vision

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <cmath>
+
+#include "daemons/vision/landmarks.h"
+
+namespace nao::vision {
+namespace {
+
+/** Least angle between two lines that cross, rad; on the ground, where they cross at a right angle,
+ * and in the image, where perspective changes it. */
+constexpr double kLeastGroundAngle = 1.1;
+constexpr double kLeastImageAngle = 0.35;
+
+/** How far beyond its end a segment may reach the crossing, and how far inside of its end a
+ * crossing still counts as its end, pixels; in line widths where that is more. */
+constexpr float kReach = 22;
+constexpr float kInside = 14;
+constexpr float kReachInWidths = 1.6f;
+
+struct Meeting {
+  /** Pixels beyond the nearer end (positive) or inside of it (negative). */
+  float beyond = 0;
+  float limit = 0;
+  float inside = 0;
+  bool is_reached() const { return beyond < limit; }
+  bool is_end() const { return beyond > -inside; }
+};
+
+Meeting meeting_of(const LineSegment& segment, const cv::Point2f& point, float other_width) {
+  const cv::Point2f direction = (segment.to - segment.from) * (1 / segment.length());
+  const float along = (point - segment.from).dot(direction);
+  const float width = kReachInWidths * std::max(other_width, segment.width);
+  return {std::max(-along, along - segment.length()), std::max(kReach, width),
+          std::max(kInside, width)};
+}
+
+double ground_angle(const LineSegment& a, const LineSegment& b, const CameraGeometry& geometry) {
+  const auto p = geometry.at_height(a.from, 0);
+  const auto q = geometry.at_height(a.to, 0);
+  const auto r = geometry.at_height(b.from, 0);
+  const auto s = geometry.at_height(b.to, 0);
+  if (!p || !q || !r || !s) return 0;
+  const double cosine = std::abs((*q - *p).normalized().dot((*s - *r).normalized()));
+  return std::acos(std::min(1.0, cosine));
+}
+
+}  // namespace
+
+Detections CrossingDetector::detect(const std::vector<LineSegment>& segments, const FieldView& view,
+                                    const CameraGeometry& geometry) const {
+  Detections crossings;
+  for (size_t i = 0; i < segments.size(); ++i) {
+    for (size_t j = i + 1; j < segments.size(); ++j) {
+      const LineSegment& a = segments[i];
+      const LineSegment& b = segments[j];
+      const cv::Point2f d = a.to - a.from;
+      const cv::Point2f e = b.to - b.from;
+      const float cross = d.x * e.y - d.y * e.x;
+      if (std::abs(cross) < std::sin(kLeastImageAngle) * a.length() * b.length()) continue;
+      if (geometry.has_pose() && ground_angle(a, b, geometry) < kLeastGroundAngle) continue;
+      const cv::Point2f f = b.from - a.from;
+      const cv::Point2f point = a.from + d * ((f.x * e.y - f.y * e.x) / cross);
+      const cv::Point2f pixel = geometry.distorted(point);
+      if (pixel.x < 0 || pixel.y < 0 || pixel.x >= static_cast<float>(view.smooth.cols) ||
+          pixel.y >= static_cast<float>(view.smooth.rows)) {
+        continue;
+      }
+      const Meeting on_a = meeting_of(a, point, b.width);
+      const Meeting on_b = meeting_of(b, point, a.width);
+      if (!on_a.is_reached() || !on_b.is_reached()) continue;
+      const int num_ends = (on_a.is_end() ? 1 : 0) + (on_b.is_end() ? 1 : 0);
+      Detection detection;
+      detection.kind = num_ends == 2   ? Kind::kCrossingL
+                       : num_ends == 1 ? Kind::kCrossingT
+                                       : Kind::kCrossingX;
+      const double half = std::max({8.0f, a.width, b.width});
+      detection.box_px = {pixel.x - half, pixel.y - half, pixel.x + half, pixel.y + half};
+      if (const auto ground = geometry.locate(point)) {
+        detection.position = ground->position;
+        detection.covariance = ground->covariance;
+      }
+      detection.confidence = std::min(1.0, 0.4 + 0.03 * std::min(a.num_points, b.num_points));
+      crossings.push_back(detection);
+    }
+  }
+  return crossings;
+}
+
+}  // namespace nao::vision

@@ -1,0 +1,48 @@
+#include "daemons/vision/jpeg_decoder.h"
+
+#include <turbojpeg.h>
+
+#include "common/error.h"
+
+namespace nao::vision {
+namespace {
+
+/** The largest image of a NAO V5's cameras, pixels. */
+constexpr int kMostWidth = 1280;
+constexpr int kMostHeight = 960;
+constexpr int kLeastWidth = 64;
+constexpr int kLeastHeight = 48;
+
+}  // namespace
+
+JpegDecoder::JpegDecoder() : handle_(tjInitDecompress()) {
+  if (handle_ == nullptr) throw Error(std::string("libturbojpeg: ") + tjGetErrorStr2(nullptr));
+}
+
+JpegDecoder::~JpegDecoder() {
+  tjDestroy(handle_);
+}
+
+std::string JpegDecoder::decode(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
+  if (num_bytes == 0) return "the image is empty";
+  int width = 0;
+  int height = 0;
+  int subsampling = 0;
+  int colorspace = 0;
+  if (tjDecompressHeader3(handle_, data, num_bytes, &width, &height, &subsampling, &colorspace) !=
+      0) {
+    return std::string("no JPEG image: ") + tjGetErrorStr2(handle_);
+  }
+  if (width < kLeastWidth || width > kMostWidth || height < kLeastHeight || height > kMostHeight) {
+    return "the image has " + std::to_string(width) + "x" + std::to_string(height) +
+           " pixels; from 64x48 to 1280x960 are allowed";
+  }
+  bgr.create(height, width, CV_8UC3);
+  if (tjDecompress2(handle_, data, num_bytes, bgr.data, width, static_cast<int>(bgr.step), height,
+                    TJPF_BGR, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0) {
+    return std::string("damaged JPEG image: ") + tjGetErrorStr2(handle_);
+  }
+  return "";
+}
+
+}  // namespace nao::vision

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "daemons/vision/camera_geometry.h"
+#include "daemons/vision/detection.h"
+#include "daemons/vision/field_detector.h"
+#include "daemons/vision/line_detector.h"
+
+namespace nao::vision {
+
+/** Finds where lines meet: L where two end, T where one does, X where none does. */
+class CrossingDetector {
+ public:
+  Detections detect(const std::vector<LineSegment>& segments, const FieldView& view,
+                    const CameraGeometry& geometry) const;
+};
+
+/** Finds the center circle among the points of lines; needs the camera's pose.
+ *
+ * RANSAC on the ground with the known radius: two points give two centers. */
+class CenterCircleDetector {
+ public:
+  /** @param radius  m. */
+  explicit CenterCircleDetector(double radius = 0.75) : radius_(radius) {}
+
+  /** @param points, ideal  Points that lie on the circle are removed. */
+  std::optional<Detection> detect(std::vector<LinePoint>& points, std::vector<cv::Point2f>& ideal,
+                                  const CameraGeometry& geometry) const;
+
+ private:
+  double radius_;
+};
+
+/** Finds the feet of goal posts: white, vertical, as wide as a post at the place where it meets
+ * the field, and as high. Needs the camera's pose. */
+class GoalPostDetector {
+ public:
+  Detections detect(const FieldView& view, const CameraGeometry& geometry) const;
+};
+
+/** Finds other robots as obstacles that stand on the field: wide and high enough, and not green.
+ * Needs the camera's pose. */
+class RobotDetector {
+ public:
+  /** @param posts, ball  Are not robots. */
+  Detections detect(const FieldView& view, const CameraGeometry& geometry, const Detections& posts,
+                    const std::optional<Detection>& ball) const;
+};
+
+}  // namespace nao::vision

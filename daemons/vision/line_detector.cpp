@@ -1,0 +1,179 @@
+#include "daemons/vision/line_detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/random.h"
+
+namespace nao::vision {
+namespace {
+
+/** Samples of one segment. Chosen: more find no further segments in rendered images. */
+constexpr int kNumSamples = 120;
+/** Distance of the two points of a sample, pixels. */
+constexpr float kLeastBase = 12;
+constexpr float kMostBase = 140;
+/** Points this near to the line belong to it, pixels; wider lines have noisier points. */
+constexpr float kTolerance = 1.6f;
+constexpr float kToleranceOfWidth = 0.06f;
+/** Largest gap between neighboring points of a segment, pixels: three scan lines. */
+constexpr float kGap = 34;
+constexpr int kLeastPoints = 5;
+constexpr float kLeastLength = 26;
+constexpr int kMostSegments = 24;
+/** Limits of a line's width on the ground, m; lines are 0.05 wide. */
+constexpr double kLeastGroundWidth = 0.018;
+constexpr double kMostGroundWidth = 0.11;
+
+struct Line {
+  cv::Point2f origin;
+  cv::Point2f direction;
+
+  float along(const cv::Point2f& p) const { return (p - origin).dot(direction); }
+  float distance(const cv::Point2f& p) const {
+    const cv::Point2f d = p - origin;
+    return std::abs(d.x * direction.y - d.y * direction.x);
+  }
+};
+
+float extent(const LinePoint& point) {
+  return static_cast<float>(cv::norm(point.last - point.first));
+}
+
+/** Indices of the longest run of inliers without a gap, in order along the line. */
+std::vector<int> longest_run(const Line& line, const std::vector<LinePoint>& points,
+                             const std::vector<cv::Point2f>& ideal) {
+  std::vector<std::pair<float, int>> inliers;
+  for (size_t i = 0; i < ideal.size(); ++i) {
+    const float tolerance = kTolerance + kToleranceOfWidth * std::min(extent(points[i]), 40.0f);
+    if (line.distance(ideal[i]) > tolerance) continue;
+    inliers.push_back({line.along(ideal[i]), static_cast<int>(i)});
+  }
+  std::sort(inliers.begin(), inliers.end());
+  size_t best_first = 0;
+  size_t best_count = 0;
+  size_t first = 0;
+  for (size_t i = 0; i < inliers.size(); ++i) {
+    if (i > 0 && inliers[i].first - inliers[i - 1].first > kGap) first = i;
+    if (i + 1 - first > best_count) {
+      best_count = i + 1 - first;
+      best_first = first;
+    }
+  }
+  std::vector<int> run;
+  for (size_t i = best_first; i < best_first + best_count; ++i) run.push_back(inliers[i].second);
+  return run;
+}
+
+/** Total least squares: the direction of the greatest variance. */
+Line fit(const std::vector<int>& run, const std::vector<cv::Point2f>& ideal) {
+  cv::Point2f mean(0, 0);
+  for (const int i : run) mean += ideal[i] * (1.0f / static_cast<float>(run.size()));
+  float xx = 0;
+  float xy = 0;
+  float yy = 0;
+  for (const int i : run) {
+    const cv::Point2f d = ideal[i] - mean;
+    xx += d.x * d.x;
+    xy += d.x * d.y;
+    yy += d.y * d.y;
+  }
+  const float angle = 0.5f * std::atan2(2 * xy, xx - yy);
+  return {mean, {std::cos(angle), std::sin(angle)}};
+}
+
+/** Median width across the line: a scan line at an angle sees it longer. */
+float median_width(const std::vector<int>& run, const Line& line,
+                   const std::vector<LinePoint>& points) {
+  std::vector<float> widths;
+  for (const int i : run) {
+    const cv::Point2f d = points[i].last - points[i].first;
+    widths.push_back(std::abs(d.x * line.direction.y - d.y * line.direction.x));
+  }
+  std::nth_element(widths.begin(), widths.begin() + widths.size() / 2, widths.end());
+  return widths[widths.size() / 2];
+}
+
+/** The width fits a field line, where that is known. */
+bool has_fitting_width(const LineSegment& segment, const Line& line,
+                       const CameraGeometry& geometry) {
+  // Longer than wide in any case.
+  if (segment.length() < 1.3f * segment.width) return false;
+  const cv::Point2f middle = 0.5f * (segment.from + segment.to);
+  const cv::Point2f across(-line.direction.y, line.direction.x);
+  const auto a = geometry.at_height(middle - 0.5f * segment.width * across, 0);
+  const auto b = geometry.at_height(middle + 0.5f * segment.width * across, 0);
+  if (!geometry.has_pose()) return true;
+  if (!a || !b) return false;
+  const auto c = geometry.at_height(middle + 2.0f * line.direction, 0);
+  const auto d = geometry.at_height(middle - 2.0f * line.direction, 0);
+  if (!c || !d) return false;
+  const Eigen::Vector2d along = (*c - *d).normalized();
+  const Eigen::Vector2d step = *b - *a;
+  const double width = std::abs(step.x() * along.y() - step.y() * along.x());
+  // One pixel may be more than a line's width far away.
+  const double pixel = width / std::max(1.0f, segment.width);
+  return width > kLeastGroundWidth - pixel && width < kMostGroundWidth + 2 * pixel;
+}
+
+}  // namespace
+
+std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
+                                              std::vector<cv::Point2f>& ideal,
+                                              const CameraGeometry& geometry) const {
+  std::vector<LineSegment> segments;
+  Random random(1);
+  for (int round = 0; round < kMostSegments && points.size() >= kLeastPoints; ++round) {
+    std::vector<int> best;
+    for (int sample = 0; sample < kNumSamples; ++sample) {
+      const size_t i = random.next() % ideal.size();
+      const size_t j = random.next() % ideal.size();
+      const cv::Point2f step = ideal[j] - ideal[i];
+      const auto base = static_cast<float>(cv::norm(step));
+      if (base < kLeastBase || base > kMostBase) continue;
+      std::vector<int> run = longest_run({ideal[i], step * (1 / base)}, points, ideal);
+      if (run.size() > best.size()) best = std::move(run);
+    }
+    if (best.size() < kLeastPoints) break;
+    const Line line = fit(best, ideal);
+    std::vector<int> run = longest_run(line, points, ideal);
+    if (run.size() < best.size()) run = best;
+    const float first = line.along(ideal[run.front()]);
+    const float last = line.along(ideal[run.back()]);
+    LineSegment segment{line.origin + std::min(first, last) * line.direction,
+                        line.origin + std::max(first, last) * line.direction,
+                        static_cast<int>(run.size()), median_width(run, line, points)};
+    if (segment.length() >= kLeastLength && has_fitting_width(segment, line, geometry)) {
+      segments.push_back(segment);
+    }
+    std::sort(run.begin(), run.end(), std::greater<>());
+    for (const int i : run) {
+      points.erase(points.begin() + i);
+      ideal.erase(ideal.begin() + i);
+    }
+  }
+  return segments;
+}
+
+Detection line_detection(const LineSegment& segment, const CameraGeometry& geometry) {
+  Detection detection;
+  detection.kind = Kind::kLine;
+  const cv::Point2f a = geometry.distorted(segment.from);
+  const cv::Point2f b = geometry.distorted(segment.to);
+  detection.line_px = {a.x, a.y, b.x, b.y};
+  const double margin = 0.5 * segment.width;
+  detection.box_px = {std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin,
+                      std::max(a.x, b.x) + margin, std::max(a.y, b.y) + margin};
+  const auto from = geometry.locate(segment.from);
+  const auto to = geometry.locate(segment.to);
+  if (from && to) {
+    detection.position = from->position;
+    detection.covariance = from->covariance;
+    detection.end = to->position;
+  }
+  // A segment of 20 points is certain; chosen.
+  detection.confidence = std::min(1.0, 0.3 + 0.7 * segment.num_points / 20.0);
+  return detection;
+}
+
+}  // namespace nao::vision

@@ -1,0 +1,136 @@
+#include "daemons/vision/line_points.h"
+
+#include <cmath>
+
+namespace nao::vision {
+namespace {
+
+/** Distance between scan lines, pixels. */
+constexpr int kSpacing = 8;
+/** Widest crossing, pixels: a line one foot length ahead of the robot seen at a flat angle. */
+constexpr int kMostWidth = 110;
+/** A line is brighter than the field beside it by this many levels at least. Tuned on real images:
+ * carpet texture stays below after smoothing, distant lines reach 15. */
+constexpr float kContrast = 13;
+/** A line's green index is below this fraction of the field's. Tuned on real images: 0.45 for a
+ * line in green light, 0.75 where a distant line fills half a pixel. */
+constexpr float kIndexFraction = 0.78f;
+/** Green pixels before and after a crossing. */
+constexpr int kMargin = 3;
+/** Mixed pixels, neither line nor field, that may lie at the edges of a crossing. */
+constexpr int kMixed = 8;
+/** Weight of a new pixel in the mean of the field's level; small, so that the blurred edge of a
+ * line does not raise it. */
+constexpr float kWeight = 0.08f;
+
+/** One scan line. */
+class Scan {
+ public:
+  Scan(const FieldView& view, cv::Point start, cv::Point step, int length,
+       std::vector<LinePoint>& points)
+      : view_(view), start_(start), step_(step), length_(length), points_(points) {}
+
+  void run() {
+    for (int i = 0; i < length_; ++i) {
+      const cv::Vec3b& color = at(i);
+      const float index = green_index(color);
+      const float white = whiteness(color);
+      const bool is_line = num_green_ >= kMargin && white > level_ + kContrast &&
+                           index < kIndexFraction * level_index_;
+      if (first_ >= 0) {
+        follow(i, is_line, index > view_.threshold);
+      } else if (is_line) {
+        first_ = i;
+        num_mixed_ = 0;
+      } else if (index > view_.threshold) {
+        num_mixed_ = 0;
+        const float weight = num_green_ == 0 ? 1 : std::max(kWeight, 1.0f / (num_green_ + 1.0f));
+        level_ += weight * (white - level_);
+        level_index_ += weight * (index - level_index_);
+        ++num_green_;
+      } else if (++num_mixed_ > kMixed) {
+        num_green_ = 0;
+      }
+    }
+  }
+
+ private:
+  const cv::Vec3b& at(int i) const { return view_.smooth(start_ + i * step_); }
+
+  void follow(int i, bool is_line, bool is_green) {
+    if (is_line) {
+      num_mixed_ = 0;
+      if (i - first_ > kMostWidth) abandon();
+    } else if (is_green) {
+      close(i - num_mixed_);
+      // What follows is a new stretch of field, perhaps in another light.
+      abandon();
+    } else if (++num_mixed_ > kMixed) {
+      abandon();
+    }
+  }
+
+  void abandon() {
+    first_ = -1;
+    num_green_ = 0;
+  }
+
+  void close(int end) {
+    if (end + kMargin + num_mixed_ >= length_) return;
+    float after = 0;
+    for (int i = end + num_mixed_; i < end + num_mixed_ + kMargin; ++i) {
+      if (green_index(at(i)) < view_.threshold) return;
+      after += whiteness(at(i)) / kMargin;
+    }
+    float peak = 0;
+    for (int i = first_; i < end; ++i) peak = std::max(peak, whiteness(at(i)));
+    const float base = std::max(level_, after);
+    if (peak < base + kContrast) return;
+    // Centroid of the brightness above the field.
+    float sum = 0;
+    float moment = 0;
+    for (int i = std::max(0, first_ - 1); i <= std::min(end, length_ - 1); ++i) {
+      const float weight = std::max(0.0f, whiteness(at(i)) - base);
+      sum += weight;
+      moment += weight * static_cast<float>(i);
+    }
+    const auto point = [&](float i) {
+      return cv::Point2f(static_cast<float>(start_.x) + i * static_cast<float>(step_.x),
+                         static_cast<float>(start_.y) + i * static_cast<float>(step_.y));
+    };
+    const LinePoint found{point(moment / sum), point(static_cast<float>(first_) - 0.5f),
+                          point(static_cast<float>(end) - 0.5f)};
+    if (view_.is_inside(found.pixel.x, found.pixel.y)) points_.push_back(found);
+  }
+
+  const FieldView& view_;
+  cv::Point start_;
+  cv::Point step_;
+  int length_;
+  std::vector<LinePoint>& points_;
+  /** Mean whiteness and green index of the field before this pixel. */
+  float level_ = 0;
+  float level_index_ = 0;
+  int num_green_ = 0;
+  /** Beginning of the crossing; -1 outside of one. */
+  int first_ = -1;
+  int num_mixed_ = 0;
+};
+
+}  // namespace
+
+std::vector<LinePoint> find_line_points(const FieldView& view) {
+  std::vector<LinePoint> points;
+  const int width = view.smooth.cols;
+  const int height = view.smooth.rows;
+  for (int y = kSpacing / 2; y < height; y += kSpacing) {
+    Scan(view, {0, y}, {1, 0}, width, points).run();
+  }
+  for (int x = kSpacing / 2; x < width; x += kSpacing) {
+    const int top = std::max(0, 2 * view.top[std::min(x / 2, view.other.cols - 1)] - kSpacing);
+    if (top < height) Scan(view, {x, top}, {0, 1}, height - top, points).run();
+  }
+  return points;
+}
+
+}  // namespace nao::vision

@@ -1,0 +1,95 @@
+#include "daemons/vision/vision_core.h"
+
+#include "common/error.h"
+
+namespace nao::vision {
+namespace {
+
+/** Images with less field than this show no objects on it. */
+constexpr double kLeastField = 0.03;
+
+}  // namespace
+
+const char* kind_name(Kind kind) {
+  switch (kind) {
+    case Kind::kBall:
+      return "ball";
+    case Kind::kLine:
+      return "line";
+    case Kind::kCrossingL:
+      return "crossing-l";
+    case Kind::kCrossingT:
+      return "crossing-t";
+    case Kind::kCrossingX:
+      return "crossing-x";
+    case Kind::kCenterCircle:
+      return "center-circle";
+    case Kind::kGoalPost:
+      return "goal-post";
+    case Kind::kRobot:
+      return "robot";
+    case Kind::kPenaltyMark:
+      return "penalty-mark";
+  }
+  return "";
+}
+
+void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometry,
+                            VisionResult& result) {
+  std::vector<LinePoint> points = find_line_points(view);
+  std::vector<cv::Point2f> pixels;
+  for (const LinePoint& point : points) pixels.push_back(point.pixel);
+  std::vector<cv::Point2f> ideal = geometry.undistorted(pixels);
+  finish_stage("line points");
+  const auto circle = circle_.detect(points, ideal, geometry);
+  if (circle) result.detections.push_back(*circle);
+  finish_stage("center circle");
+  const std::vector<LineSegment> segments = lines_.detect(points, ideal, geometry);
+  for (const LineSegment& segment : segments) {
+    result.detections.push_back(line_detection(segment, geometry));
+  }
+  for (const Detection& crossing : crossings_.detect(segments, view, geometry)) {
+    result.detections.push_back(crossing);
+  }
+  finish_stage("lines");
+}
+
+VisionResult VisionCore::process(const VisionInput& input) {
+  if (input.bgr.type() != CV_8UC3 || input.bgr.cols < 64 || input.bgr.rows < 48) {
+    throw Error("the image has " + std::to_string(input.bgr.cols) + "x" +
+                std::to_string(input.bgr.rows) + " pixels in OpenCV's format " +
+                std::to_string(input.bgr.type()) + "; 64x48 pixels of 3 bytes are needed");
+  }
+  VisionResult result;
+  result.image_status = status_.check(input.bgr, input.camera, input.utime, input.is_moving);
+  finish_stage("image status");
+  ball_filter_.predict(input.utime);
+  result.ball = ball_filter_.estimate();
+  if (result.image_status != ImageStatus::kOk) return result;
+
+  const CameraGeometry geometry(input.calibration, input.pose_camera_in_heading);
+  const FieldView view = field_.detect(input.bgr, geometry);
+  finish_stage("field");
+  if (view.fraction < kLeastField) return result;
+  const auto ball = ball_.detect(view, geometry);
+  if (ball) result.detections.push_back(*ball);
+  finish_stage("ball");
+  find_lines(view, geometry, result);
+  const Detections posts = posts_.detect(view, geometry);
+  result.detections.insert(result.detections.end(), posts.begin(), posts.end());
+  finish_stage("goal posts");
+  for (const Detection& robot : robots_.detect(view, geometry, posts, ball)) {
+    result.detections.push_back(robot);
+  }
+  finish_stage("robots");
+
+  if (ball && ball->has_position() && input.heading_in_odometry) {
+    const Pose2& pose = *input.heading_in_odometry;
+    const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.heading).toRotationMatrix();
+    ball_filter_.update(pose * ball->position, R * ball->covariance * R.transpose());
+    result.ball = ball_filter_.estimate();
+  }
+  return result;
+}
+
+}  // namespace nao::vision

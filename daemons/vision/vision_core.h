@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <functional>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+#include "daemons/vision/ball_detector.h"
+#include "daemons/vision/ball_filter.h"
+#include "daemons/vision/camera_geometry.h"
+#include "daemons/vision/detection.h"
+#include "daemons/vision/image_status.h"
+#include "daemons/vision/landmarks.h"
+#include "kinematics/pose2.h"
+
+namespace nao::vision {
+
+/** One image, and what is known about the camera when it was taken. */
+struct VisionInput {
+  /** 8 bits a color, blue first, at least 64x48 pixels. */
+  cv::Mat bgr;
+  /** Robot time at mid exposure, microseconds. */
+  int64_t utime = 0;
+  /** Camera name from the robot's description. */
+  std::string camera;
+  CameraCalibration calibration;
+  /** Camera axes (x along the view, y left, z up) in the heading frame H. Nothing: detections have
+   * no positions, and only ball, lines and crossings are found. */
+  std::optional<Eigen::Isometry3d> pose_camera_in_heading;
+  /** H in the odometry frame. Nothing: the ball is not tracked. */
+  std::optional<Pose2> heading_in_odometry;
+  /** The camera has moved since its last image. */
+  bool is_moving = false;
+};
+
+/** What one image shows. */
+struct VisionResult {
+  ImageStatus image_status = ImageStatus::kOk;
+  Detections detections;
+  BallEstimate ball;
+};
+
+/** Perception of one robot: finds field, lines, crossings, the center circle, posts, robots and the
+ * ball in images, and tracks the ball. It uses neither a clock nor the bus. */
+class VisionCore {
+ public:
+  /** @throws Error  if the image has another format or is too small. */
+  VisionResult process(const VisionInput& input);
+
+  /** Called with the stage's name after each stage; for measuring them. */
+  void on_stage(std::function<void(const char*)> callback) { on_stage_ = std::move(callback); }
+
+ private:
+  void finish_stage(const char* name) const {
+    if (on_stage_) on_stage_(name);
+  }
+  void find_lines(const FieldView& view, const CameraGeometry& geometry, VisionResult& result);
+
+  ImageStatusMonitor status_;
+  FieldDetector field_;
+  LineDetector lines_;
+  CrossingDetector crossings_;
+  CenterCircleDetector circle_;
+  GoalPostDetector posts_;
+  BallDetector ball_;
+  RobotDetector robots_;
+  BallFilter ball_filter_;
+  std::function<void(const char*)> on_stage_;
+};
+
+}  // namespace nao::vision

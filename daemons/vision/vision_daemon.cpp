@@ -1,0 +1,110 @@
+#include "daemons/vision/vision_daemon.h"
+
+#include <naolcm/camera_command_t.hpp>
+
+#include "common/bus.h"
+#include "common/error.h"
+#include "common/event_loop.h"
+#include "common/wall_clock.h"
+#include "daemons/vision/vision_messages.h"
+
+namespace nao::vision {
+namespace {
+
+const char* const kProgram = "nao-vision";
+/** s. */
+constexpr double kStatusPeriod = 1;
+constexpr double kRequestPeriod = 1;
+/** Without an image for this long the program reports that it waits, s. */
+constexpr double kImageValidity = 2;
+/** Width of requested images, pixels. */
+constexpr int kWidth = 640;
+/** Least width that is processed: in smaller images a ball at 2 m has two pixels. */
+constexpr int kLeastWidth = 320;
+/** Images that are older than the last one by less than this were overtaken, microseconds; by more:
+ * the simulation was restarted. */
+constexpr int64_t kRestartThreshold = 1000000;
+
+}  // namespace
+
+VisionDaemon::VisionDaemon(Bus& bus, const RobotModel& model, const VisionOptions& options)
+    : bus_(bus),
+      model_(model),
+      options_(options),
+      channels_(options.robot),
+      status_(bus, kProgram),
+      poses_(model) {
+  bus_.subscribe<naolcm::robot_state_t>(
+      channels_.robot_state, Bus::Queue::kAll,
+      [this](const naolcm::robot_state_t& state) { poses_.add(decode_posture(model_, state)); });
+  bus_.subscribe<naolcm::image_t>(channels_.head_camera_image, Bus::Queue::kLatest,
+                                  [this](const naolcm::image_t& image) { receive_image(image); });
+  publish_status(monotonic_seconds());
+}
+
+void VisionDaemon::attach(EventLoop& loop) {
+  loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
+  loop.every(kStatusPeriod, [this] { publish_status(monotonic_seconds()); });
+  if (!options_.request_camera.empty()) {
+    request_images();
+    loop.every(kRequestPeriod, [this] { request_images(); });
+  }
+}
+
+void VisionDaemon::request_images() {
+  naolcm::camera_command_t command{};
+  command.source = kProgram;
+  command.camera = options_.request_camera;
+  command.width = kWidth;
+  command.rate = options_.rate;
+  bus_.publish(channels_.head_camera_command, command);
+}
+
+void VisionDaemon::receive_image(const naolcm::image_t& image) {
+  if (image.width < kLeastWidth) return;
+  const auto last = last_image_.find(image.camera);
+  if (last != last_image_.end() && image.utime <= last->second &&
+      last->second - image.utime < kRestartThreshold) {
+    return;
+  }
+  const double start = monotonic_seconds();
+  if (image.format != "jpeg") throw Error("the image's format is not jpeg");
+  VisionInput input;
+  input.calibration = decode_calibration(image);
+  const std::string problem = decoder_.decode(image.data.data(), image.data.size(), bgr_);
+  if (!problem.empty()) throw Error(problem);
+  if (bgr_.cols != image.width || bgr_.rows != image.height) {
+    throw Error("the image has another size than its message says");
+  }
+  last_image_[image.camera] = image.utime;
+  input.bgr = bgr_;
+  input.utime = image.utime;
+  input.camera = image.camera;
+  if (const auto pose = poses_.find(image.camera, image.utime)) {
+    input.pose_camera_in_heading = pose->pose_camera_in_heading;
+    input.heading_in_odometry = pose->heading_in_odometry;
+    input.is_moving = pose->is_moving;
+  }
+  bus_.publish(channels_.vision_state,
+               encode_result(core_.process(input), image.utime, image.camera));
+  last_image_time_ = monotonic_seconds();
+  processing_time_ += last_image_time_ - start;
+  ++num_new_images_;
+  ++num_images_;
+}
+
+void VisionDaemon::publish_status(double now) {
+  status_.tick(now);
+  const bool has_images = now - last_image_time_ < kImageValidity;
+  // Nobody may be watching: without images the program is ready, not faulty.
+  status_.set_state("ready", has_images ? "" : "no images");
+  const double period = now - last_status_;
+  status_.publish(
+      {{"images_hz", last_status_ > 0 ? num_new_images_ / period : 0},
+       {"processing_ms", num_new_images_ > 0 ? 1e3 * processing_time_ / num_new_images_ : 0}});
+  last_status_ = now;
+  num_new_images_ = 0;
+  processing_time_ = 0;
+}
+
+}  // namespace nao::vision

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "common/channels.h"
+#include "common/status_reporter.h"
+#include "daemons/vision/jpeg_decoder.h"
+#include "daemons/vision/pose_history.h"
+#include "daemons/vision/vision_core.h"
+
+namespace naolcm {
+class image_t;
+class robot_state_t;
+}  // namespace naolcm
+
+namespace nao {
+class Bus;
+class EventLoop;
+}  // namespace nao
+
+namespace nao::vision {
+
+struct VisionOptions {
+  /** Prefix of the channels. */
+  std::string robot = "NAO";
+  /** Camera whose images are requested; empty: only images that others request are processed. */
+  std::string request_camera;
+  /** Images a second that are requested. */
+  double rate = 15;
+};
+
+/** Connects VisionCore to the bus: receives NAO_HEAD_CAMERA_IMAGE and NAO_ROBOT_STATE, publishes
+ * NAO_VISION_STATE with each image. Of several images of one camera and time only the first is
+ * processed. */
+class VisionDaemon {
+ public:
+  /** @param bus, model  Must outlive this. */
+  VisionDaemon(Bus& bus, const RobotModel& model, const VisionOptions& options);
+
+  /** Registers message handling, requests and status with the loop. */
+  void attach(EventLoop& loop);
+
+  /** Publishes the status, with the figures since the last call. @param now  s, monotonic. */
+  void publish_status(double now);
+
+  int64_t num_images() const { return num_images_; }
+
+ private:
+  void receive_image(const naolcm::image_t& image);
+  void request_images();
+
+  Bus& bus_;
+  const RobotModel& model_;
+  VisionOptions options_;
+  RobotChannels channels_;
+  StatusReporter status_;
+  JpegDecoder decoder_;
+  PoseHistory poses_;
+  VisionCore core_;
+  cv::Mat bgr_;
+  /** Robot time of the last image of each camera. */
+  std::map<std::string, int64_t> last_image_;
+  double last_image_time_ = -1e9;
+  int64_t num_images_ = 0;
+  // Since the last status.
+  int num_new_images_ = 0;
+  double processing_time_ = 0;
+  double last_status_ = 0;
+};
+
+}  // namespace nao::vision

@@ -1,0 +1,55 @@
+#include "tools/vision-dataset/image_effects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace nao::vision {
+
+ImageEffects ImageEffects::of_place(Random& random) {
+  ImageEffects effects;
+  for (double& gain : effects.gain) gain = random.uniform(0.88, 1.12);
+  effects.saturation = random.uniform(0.6, 1.25);
+  if (random.uniform() < 0.4) effects.veil = random.uniform(0, 30);
+  effects.noise = random.uniform(0.5, 7);
+  return effects;
+}
+
+void ImageEffects::vary(Random& random) {
+  const double exposure = std::exp(0.22 * random.normal());
+  for (double& factor : gain) factor *= exposure;
+  blur = random.uniform() < 0.5 ? random.uniform(0, 3) : random.uniform(0, 14);
+  blur_angle = random.uniform(0, M_PI);
+  quality = static_cast<int>(random.uniform(55, 95));
+  noise_seed = random.next();
+}
+
+void ImageEffects::apply(cv::Mat& bgr) const {
+  if (blur > 1) {
+    const int size = 2 * static_cast<int>(std::ceil(blur / 2)) + 1;
+    cv::Mat kernel = cv::Mat::zeros(size, size, CV_32F);
+    const double c = (size - 1) / 2.0;
+    const cv::Point2d step(0.5 * blur * std::cos(blur_angle), 0.5 * blur * std::sin(blur_angle));
+    cv::line(kernel, cv::Point2d(c - step.x, c - step.y), cv::Point2d(c + step.x, c + step.y), 1);
+    kernel /= cv::sum(kernel)[0];
+    cv::filter2D(bgr, bgr, -1, kernel);
+  }
+  Random random(noise_seed);
+  std::array<float, 4096> samples;
+  for (float& sample : samples) sample = static_cast<float>(noise * random.normal());
+  for (int y = 0; y < bgr.rows; ++y) {
+    for (int x = 0; x < bgr.cols; ++x) {
+      cv::Vec3b& pixel = bgr.at<cv::Vec3b>(y, x);
+      const auto grey = static_cast<float>(pixel[0] + pixel[1] + pixel[2]) / 3;
+      const uint64_t bits = random.next();
+      for (int i = 0; i < 3; ++i) {
+        const float color = grey + static_cast<float>(saturation) * (pixel[i] - grey);
+        const float value = static_cast<float>(gain[i]) * (color + static_cast<float>(veil)) +
+                            samples[(bits >> (12 * i)) % samples.size()];
+        pixel[i] = static_cast<uint8_t>(std::clamp(value, 0.0f, 255.0f));
+      }
+    }
+  }
+}
+
+}  // namespace nao::vision

@@ -1,0 +1,78 @@
+// Writes rendered images of a soccer field with exact labels.
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/command_line.h"
+#include "common/data_path.h"
+#include "common/error.h"
+#include "common/program.h"
+#include "robot_model/robot_model.h"
+#include "robot_model/scene_file.h"
+#include "tools/vision-dataset/dataset_renderer.h"
+
+namespace {
+
+struct DatasetOptions {
+  std::string folder;
+  std::string model = "nao";
+  int num_images = 100;
+  uint64_t seed = 1;
+  int num_places = 20;
+  uint64_t first_place = 0;
+  nao::vision::SceneOptions scene;
+};
+
+void write_dataset(const DatasetOptions& options) {
+  const auto model = nao::RobotModel::load(nao::data_path() / "robots" / options.model);
+  const nao::SceneFile field = nao::SceneFile::find("soccer");
+  std::filesystem::create_directories(options.folder);
+  nao::vision::DatasetRenderer renderer(model, field);
+  std::vector<nao::vision::LabelledImage> images;
+  for (int i = 0; i < options.num_images; ++i) {
+    const uint64_t place = options.first_place + static_cast<uint64_t>(i % options.num_places);
+    const auto scene = nao::vision::make_scene(model, field, options.scene, place,
+                                               1000000 * options.seed + static_cast<uint64_t>(i));
+    nao::vision::LabelledImage& image = images.emplace_back();
+    image.file = std::filesystem::path(options.folder) / fmt::format("{:06}.jpg", i);
+    image.place = fmt::format("place-{}", place);
+    const cv::Mat bgr = renderer.render(scene, image);
+    if (!cv::imwrite(image.file.string(), bgr, {cv::IMWRITE_JPEG_QUALITY, scene.effects.quality})) {
+      throw nao::Error("cannot write " + image.file.string());
+    }
+  }
+  nao::vision::write_labels(options.folder, images);
+  fmt::print("{} images and {} in {}\n", images.size(), nao::vision::kLabelFile, options.folder);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  nao::CommandLine app("Writes rendered images of a soccer field with exact labels",
+                       "nao-vision-dataset");
+  nao::CommonOptions common;
+  DatasetOptions options;
+  app.add_version_flag("--version", nao::version());
+  app.add_option("folder", options.folder, "Where to write the images and labels.json (COCO)")
+      ->required();
+  app.add_option("--images", options.num_images, "Number of images")
+      ->show_default()
+      ->range(1, 1000000);
+  app.add_option("--seed", options.seed, "Equal seeds give equal images")->show_default();
+  app.add_option("--places", options.num_places,
+                 "Number of places: light, carpet, surroundings and camera differ between them")
+      ->show_default()
+      ->range(1, 100000);
+  app.add_option("--first-place", options.first_place, "Number of the first place")->show_default();
+  app.add_option("--balls", options.scene.ball_fraction, "Fraction of images with a ball")
+      ->show_default()
+      ->range(0.0, 1.0);
+  app.add_option("--robots", options.scene.most_robots, "Most other robots in an image")
+      ->show_default()
+      ->range(0, 3);
+  app.add_option("--model", options.model, "Folder of robots/ that describes the robots")
+      ->show_default();
+  return nao::run_program(app, common, argc, argv, [&] { write_dataset(options); });
+}

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/random.h"
+#include "daemons/head-camera/distortion.h"
+#include "kinematics/pose2.h"
+#include "rendering/scene_appearance.h"
+#include "robot_model/robot_model.h"
+#include "robot_model/scene_file.h"
+#include "tools/vision-dataset/image_effects.h"
+
+namespace nao::vision {
+
+/** Another robot in the image. */
+struct PlacedRobot {
+  Eigen::Isometry3d pose_torso_in_world = Eigen::Isometry3d::Identity();
+  /** rad, motor order. */
+  std::vector<double> position;
+  /** Ground below the torso, m. */
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();
+};
+
+/** A box, cylinder or sphere that is neither ball nor robot: banner, leg of a person, shoe. */
+struct Distractor {
+  enum class Kind { kBox, kCylinder, kSphere };
+  Kind kind = Kind::kBox;
+  Eigen::Isometry3d pose_in_world = Eigen::Isometry3d::Identity();
+  /** Full sizes, m. */
+  Eigen::Vector3d size = Eigen::Vector3d::Ones();
+  /** Linear red, green, blue. */
+  Eigen::Vector3f color = Eigen::Vector3f::Ones();
+};
+
+/** Everything that one image of the dataset shows, and how the camera shows it. */
+struct RandomScene {
+  std::string camera;
+  Eigen::Isometry3d pose_camera_in_world = Eigen::Isometry3d::Identity();
+  /** Heading frame of the robot that carries the camera. */
+  Pose2 heading_in_world;
+  camera::Distortion distortion;
+  SceneAppearance appearance;
+  std::optional<Eigen::Isometry3d> pose_ball_in_world;
+  std::vector<PlacedRobot> robots;
+  std::vector<Distractor> distractors;
+  ImageEffects effects;
+};
+
+/** Ranges of the random scenes. */
+struct SceneOptions {
+  /** Images that have a ball, 0 to 1. */
+  double ball_fraction = 0.8;
+  /** Other robots within 5 m, at most 3. */
+  int most_robots = 3;
+};
+
+/** Draws a scene: light, carpet, wear and surroundings from the place's number, the rest from the
+ * image's number.
+ *
+ * The ranges are chosen so that images look like those of real matches: pale to dark carpets,
+ * halls and windows with hard shadows, blur while walking, poor white balance. */
+RandomScene make_scene(const RobotModel& model, const SceneFile& field, const SceneOptions& options,
+                       uint64_t place, uint64_t image);
+
+}  // namespace nao::vision

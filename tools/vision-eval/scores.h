@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "daemons/vision/camera_geometry.h"
+#include "daemons/vision/detection.h"
+#include "tools/vision-eval/image_labels.h"
+
+namespace nao::vision {
+
+/** Comparison of detections with labels, by kind and distance.
+ *
+ * An object less visible than kLeastVisible is neither required nor an error. Lines are counted by
+ * length: of a label the part near a detection (recall), of a detection the part near a label
+ * (precision). A crossing of another type than its label is an error of the type only. */
+class Scores {
+ public:
+  static constexpr double kLeastVisible = 0.6;
+
+  void add(const LabelledImage& image, const Detections& detections);
+
+  /** One row for each kind and range of distance. */
+  std::string table() const;
+
+ private:
+  /** Counts of objects, or of lengths of lines in pixels. */
+  struct Row {
+    double num_labels = 0;
+    double num_found = 0;
+    double num_detections = 0;
+    double num_false = 0;
+    /** Of those found: rad, and fraction of the distance. */
+    std::vector<double> bearing_errors;
+    std::vector<double> distance_errors;
+  };
+
+  void add_objects(Kind kind, const LabelledImage& image, const Detections& detections);
+  void add_lines(const LabelledImage& image, const Detections& detections);
+
+  /** By kind and range. */
+  std::map<std::pair<std::string, int>, Row> rows_;
+};
+
+}  // namespace nao::vision
