@@ -8,10 +8,18 @@ function(nao_add_precompiled name header)
   add_library(${name} STATIC ${CMAKE_SOURCE_DIR}/cmake/precompiled/empty.cpp)
   target_precompile_headers(${name} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/precompiled/${header})
   target_link_libraries(${name} PRIVATE Eigen3::Eigen ${arg_LIBRARIES})
+  # Not through ccache: where a precompiled header exists already, it takes that one's sum for the sources.
+  set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER "")
   if(CCACHE_PROGRAM AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Before the header is compiled, and so before anything that uses it.
     set(sum ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${name}.dir/cmake_pch.hxx.gch.sum)
-    add_custom_command(TARGET ${name} POST_BUILD
-      COMMAND ${CMAKE_SOURCE_DIR}/cmake/precompiled/identify.sh ${sum} ${arg_IDENTIFIED_BY} VERBATIM)
+    set(identify ${CMAKE_SOURCE_DIR}/cmake/precompiled/identify.sh)
+    file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/cmake/precompiled/*.h)
+    add_custom_command(OUTPUT ${sum}
+      COMMAND ${identify} ${sum} ${arg_IDENTIFIED_BY}
+      DEPENDS ${identify} ${headers} ${arg_IDENTIFIED_BY} VERBATIM)
+    add_custom_target(${name}_sum DEPENDS ${sum})
+    add_dependencies(${name} ${name}_sum)
   endif()
 endfunction()
 

@@ -7,7 +7,7 @@
 sum=$1
 shift
 {
-    cat "$(dirname "$0")"/*.h "$@"
+    cat "$0" "$(dirname "$0")"/*.h "$@"
     dpkg-query --show g++-12 libstdc++-12-dev libc6-dev libeigen3-dev libgtest-dev libgmock-dev \
         libprotobuf-dev libboost1.74-dev libssl-dev
 } >"$sum" 2>&1
