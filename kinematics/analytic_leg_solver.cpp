@@ -5,16 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinematics/leg_tolerances.h"
+
 namespace nao {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-// Tolerance of axes (unit vectors) and positions, m: a URDF's numbers are rounded.
-constexpr double kTolerance = 1e-6;
-// Slack of a cosine at the ends of the leg's reach: rounding only.
-constexpr double kRounding = 1e-12;
 
 /** A point that three lines share. @return false if they do not meet. */
 bool find_intersection(const LegChain& chain, Vector3d& point) {
@@ -28,13 +25,13 @@ bool find_intersection(const LegChain& chain, Vector3d& point) {
   }
   point = sum.inverse() * moment;
   for (int i = 0; i < 3; ++i) {
-    if ((point - chain.point[i]).cross(chain.axis[i]).norm() > kTolerance) return false;
+    if ((point - chain.point[i]).cross(chain.axis[i]).norm() > kLegTolerance) return false;
   }
   return true;
 }
 
 bool are_perpendicular(const Vector3d& a, const Vector3d& b) {
-  return std::abs(a.dot(b)) < kTolerance;
+  return std::abs(a.dot(b)) < kLegTolerance;
 }
 
 double wrapped(double angle) {
@@ -48,25 +45,26 @@ std::optional<AnalyticLegSolver> AnalyticLegSolver::make(const LegChain& chain) 
   const bool is_hip = are_perpendicular(axis[0], axis[1]) && are_perpendicular(axis[1], axis[2]) &&
                       are_perpendicular(axis[0], axis[2]);
   const bool is_leg =
-      axis[3].cross(axis[4]).norm() < kTolerance && are_perpendicular(axis[4], axis[5]);
+      axis[3].cross(axis[4]).norm() < kLegTolerance && are_perpendicular(axis[4], axis[5]);
   AnalyticLegSolver solver(chain);
   if (!is_hip || !is_leg || !find_intersection(chain, solver.hip_)) return std::nullopt;
 
   // The ankle: where the roll axis meets the pitch axis.
   const Vector3d normal = axis[4].cross(axis[5]);
   const Vector3d between = chain.point[5] - chain.point[4];
-  if (std::abs(between.dot(normal)) > kTolerance) return std::nullopt;
+  if (std::abs(between.dot(normal)) > kLegTolerance) return std::nullopt;
   solver.ankle_ = chain.point[4] + between.dot(axis[4]) * axis[4];
   solver.ankle_in_sole_ = chain.sole.inverse() * solver.ankle_;
 
   solver.leg_axes_ << axis[5], axis[3], axis[5].cross(axis[3]);
   solver.hip_axes_ << axis[0], axis[1], axis[0].cross(axis[1]);
   const Vector3d& knee = chain.point[3];
-  if (std::abs((solver.hip_ - solver.ankle_).dot(axis[3])) > kTolerance) return std::nullopt;
+  if (std::abs((solver.hip_ - solver.ankle_).dot(axis[3])) > kLegTolerance) return std::nullopt;
   const Matrix3d in_plane = Matrix3d::Identity() - axis[3] * axis[3].transpose();
   solver.thigh_ = in_plane * (solver.hip_ - knee);
   solver.tibia_ = in_plane * (knee - solver.ankle_);
-  if (solver.thigh_.norm() < kTolerance || solver.tibia_.norm() < kTolerance) return std::nullopt;
+  if (solver.thigh_.norm() < kLegTolerance || solver.tibia_.norm() < kLegTolerance)
+    return std::nullopt;
   return solver;
 }
 
@@ -78,7 +76,7 @@ double AnalyticLegSolver::solve_knee(double distance, bool& is_reachable) const 
   const double a = thigh_.norm();
   const double b = tibia_.norm();
   const double cosine = (distance * distance - a * a - b * b) / (2 * a * b);
-  is_reachable = cosine <= 1 + kRounding && cosine >= -1 - kRounding;
+  is_reachable = cosine <= 1 + kCosineTolerance && cosine >= -1 - kCosineTolerance;
   const double bend = std::acos(std::clamp(cosine, -1.0, 1.0));
   const double straight = angle_in_plane(thigh_) - angle_in_plane(tibia_);
   // Of the two solutions the one that is nearer to the middle of the knee's range.

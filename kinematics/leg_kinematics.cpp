@@ -5,14 +5,10 @@
 #include <string>
 
 #include "common/error.h"
+#include "kinematics/leg_tolerances.h"
 
 namespace nao {
 namespace {
-
-// Tolerance of axes (unit vectors) and positions, m: the URDF has nine digits.
-constexpr double kTolerance = 1e-6;
-// Slack of a cosine at the ends of the leg's reach: rounding only.
-constexpr double kRounding = 1e-12;
 
 Eigen::Matrix3d rotation_x(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
@@ -30,7 +26,7 @@ Eigen::Matrix3d rotation_z(double angle) {
  * fully bent beyond reach. */
 double knee_angle(double thigh, double tibia, double distance, bool& is_reachable) {
   const double cosine = (distance * distance - thigh * thigh - tibia * tibia) / (2 * thigh * tibia);
-  is_reachable = cosine <= 1 + kRounding && cosine >= -1 - kRounding;
+  is_reachable = cosine <= 1 + kCosineTolerance && cosine >= -1 - kCosineTolerance;
   return std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
@@ -80,28 +76,28 @@ LegKinematics::CoupledLeg LegKinematics::read_coupled(const RobotModel& model, L
   for (size_t i = 0; i < joints.size(); ++i) {
     joints[i] = &model.joints()[description.joints[i]];
     require(joints[i]->parent_link == parent, joints[i]->name + " is not where it belongs");
-    require(joints[i]->pose_in_parent.linear().isIdentity(kTolerance),
+    require(joints[i]->pose_in_parent.linear().isIdentity(kLegTolerance),
             joints[i]->name + " has a turned frame");
     parent = joints[i]->child_link;
   }
   const auto is_axis = [&](int i, const Eigen::Vector3d& axis) {
-    return joints[i]->axis.isApprox(axis, kTolerance);
+    return joints[i]->axis.isApprox(axis, kLegTolerance);
   };
   const auto origin = [&](int i) -> Eigen::Vector3d {
     return joints[i]->pose_in_parent.translation();
   };
-  require(std::abs(joints[0]->axis.x()) < kTolerance && is_axis(1, Eigen::Vector3d::UnitX()) &&
+  require(std::abs(joints[0]->axis.x()) < kLegTolerance && is_axis(1, Eigen::Vector3d::UnitX()) &&
               is_axis(2, Eigen::Vector3d::UnitY()) && is_axis(3, Eigen::Vector3d::UnitY()) &&
               is_axis(4, Eigen::Vector3d::UnitY()) && is_axis(5, Eigen::Vector3d::UnitX()),
           "its axes are other than yaw-pitch, x, y, y, y, x");
-  require(origin(1).norm() < kTolerance && origin(2).norm() < kTolerance,
+  require(origin(1).norm() < kLegTolerance && origin(2).norm() < kLegTolerance,
           "its hip axes do not meet");
-  require(origin(5).norm() < kTolerance, "its ankle axes do not meet");
-  require(origin(3).head<2>().norm() < kTolerance && origin(4).head<2>().norm() < kTolerance,
+  require(origin(5).norm() < kLegTolerance, "its ankle axes do not meet");
+  require(origin(3).head<2>().norm() < kLegTolerance && origin(4).head<2>().norm() < kLegTolerance,
           "its knee or ankle is off the line of the leg");
   const Joint& sole_joint = model.joints()[model.links()[description.sole].parent_joint];
   require(sole_joint.parent_link == parent && sole_joint.kind == Joint::Kind::kFixed &&
-              sole_joint.pose_in_parent.linear().isIdentity(kTolerance),
+              sole_joint.pose_in_parent.linear().isIdentity(kLegTolerance),
           "its sole is not fixed to the foot");
 
   CoupledLeg result{};
