@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "sim/disturbance_draw.h"
 
 namespace nao {
 namespace {
@@ -13,9 +14,19 @@ namespace {
 /** Interval at which hold_walk() repeats its command, s: that of the phone app's joysticks. */
 constexpr double kWalkCommandPeriod = 0.2;
 
+const sim::DisturbanceSet& disturbances_of(const ClosedLoopOptions& options) {
+  static const sim::DisturbanceSet none;
+  static const sim::DisturbanceSet by_default = sim::DisturbanceSet::find("default");
+  if (options.is_ideal) return none;
+  return options.disturbances != nullptr ? *options.disturbances : by_default;
+}
+
 sim::WorldOptions world_options(const ClosedLoopOptions& options, uint64_t seed) {
   sim::WorldOptions result;
+  result.engine = options.engine;
   result.seed = seed;
+  draw_world(disturbances_of(options), seed, result);
+  if (options.tick_ms == 0) return result;
   const int step_ms = static_cast<int>(std::lround(1e3 * result.step));
   if (options.tick_ms < step_ms || options.tick_ms % step_ms != 0) {
     throw ConfigError("control period " + std::to_string(options.tick_ms) +
@@ -52,15 +63,11 @@ ClosedLoop::ClosedLoop(const ClosedLoopOptions& options, uint64_t seed)
     : options_(options), world_(options.scene, world_options(options, seed)), random_(seed) {
   sim::RobotOptions robot;
   robot.posture = options.posture;
-  if (options.is_ideal) {
-    robot.ideal_sensors = true;
-    robot.command_latency_ticks = 0;
-  } else {
-    // Floor friction 0.5 to 1.0.
-    // The order of these calls is part of what a seed means: a new one goes to the end.
-    robot.friction_scale = random(0.5, 1.0) / world_.options().materials.floor_friction;
-    robot.mass_scale = random(0.97, 1.03);
-    robot.command_latency_ticks = random(0, 1) < 0.5 ? 1 : 2;
+  const sim::DisturbanceSet& disturbances = disturbances_of(options);
+  draw_robot(disturbances, seed, 0, *options.model, world_.options(), robot);
+  if (!disturbances.is_none()) {
+    // The disturbances have taken the first numbers of the same sequence.
+    for (int i = 0; i < sim::kNumSharedDraws; ++i) random_.next();
     if (options.command_latency_ticks > 0) {
       robot.command_latency_ticks = options.command_latency_ticks;
     }
@@ -120,8 +127,8 @@ void ClosedLoop::step() {
   if (probability > 0 && ticks_to_miss_ == 0 && random(0, 1) < probability) {
     ticks_to_miss_ = 1 + static_cast<int>(random(0, 4));
   }
-  if (ticks_to_miss_ > 0) {
-    --ticks_to_miss_;
+  if (ticks_to_miss_ > 0 || world_.are_readings_lost(0)) {
+    ticks_to_miss_ = std::max(0, ticks_to_miss_ - 1);
     ++missed_ticks_;
   } else if (!is_core_crashed_) {
     motion::Input input;

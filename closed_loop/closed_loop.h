@@ -11,6 +11,7 @@
 #include "daemons/motion/motion_core.h"
 #include "robot_model/robot_model.h"
 #include "robot_model/scene_file.h"
+#include "sim/disturbances.h"
 #include "sim/world.h"
 
 namespace nao {
@@ -19,17 +20,22 @@ namespace nao {
 struct ClosedLoopOptions {
   std::shared_ptr<const RobotModel> model;
   SceneFile scene;
-  /** Without randomization, noise and latency. */
+  /** Physics engine, see sim::WorldOptions::engine. */
+  std::string engine = "fast";
+  /** What is drawn for each seed; nullptr: disturbances/default.yaml. */
+  std::shared_ptr<const sim::DisturbanceSet> disturbances;
+  /** Without disturbances, noise and latency; `disturbances` is ignored. */
   bool is_ideal = false;
   /** Probability in each tick that the motion core misses it and up to three more, as on a busy
    * machine: the servos hold their targets, and the core goes on with the newest sensor readings.
    */
   double missed_tick_probability = 0;
-  /** Ticks between a joint command and the motors' following it, as over a slow network; 0: 1 or 2
-   * at random. */
+  /** Ticks between a joint command and the motors' following it, as over a slow network; 0: as the
+   * disturbances say. */
   int command_latency_ticks = 0;
-  /** Control period, ms: a multiple of the physics step of 2 ms. */
-  int tick_ms = 10;
+  /** Control period, ms: a multiple of the physics step of 2 ms. 0: as the disturbances say, or 10.
+   */
+  int tick_ms = 0;
   /** Posture that the robot starts in; empty: its ready posture. */
   std::string posture{};
   motion::MotionOptions motion;
@@ -38,8 +44,8 @@ struct ClosedLoopOptions {
 /** One simulated robot and the motion core that controls it, in lock-step in one process, without a
  * bus.
  *
- * The seed determines everything random: floor friction 0.5 to 1.0, mass +-3 %, command latency 1
- * or 2 ticks, sensor noise and bias. The same seed on the same build gives the same bits.
+ * The seed determines everything random: disturbances, sensor noise and bias. The same seed on the
+ * same build gives the same bits.
  *
  * It has more than 25 methods: it is the interface of all trials, tuners and physics tests. */
 class ClosedLoop {

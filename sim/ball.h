@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <utility>
 
 #include "robot_model/scene_file.h"
 #include "sim/constraint_solver.h"
@@ -40,6 +41,12 @@ class Ball {
   void place(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity);
   /** Impulse at the center in the next step, N s, in W. */
   void push(const Eigen::Vector3d& impulse) { impulse_ += impulse; }
+
+  const BallDescription& description() const { return description_; }
+  /** For other engines than the fast one: takes the pushes since the last step, N s, in W, and sets
+   * the state at the end of a step. */
+  Eigen::Vector3d take_impulse() { return std::exchange(impulse_, Eigen::Vector3d::Zero()); }
+  void set_state(const BallState& state) { state_ = state; }
 
   /** Index of its first degree of freedom in the solver's vector. */
   int first_dof() const { return first_dof_; }

@@ -63,7 +63,40 @@ std::vector<Eigen::Vector2d> simplify_outline(std::vector<Eigen::Vector2d> outli
   return outline;
 }
 
-CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int num_sole_points) {
+std::vector<Eigen::Vector2d> inner_points(const std::vector<Eigen::Vector2d>& outline,
+                                          double spacing) {
+  std::vector<Eigen::Vector2d> points;
+  if (outline.size() < 3) return points;
+  Eigen::Vector2d low = outline[0];
+  Eigen::Vector2d high = outline[0];
+  double area = 0;
+  for (size_t i = 0; i < outline.size(); ++i) {
+    const Eigen::Vector2d& a = outline[i];
+    const Eigen::Vector2d& b = outline[(i + 1) % outline.size()];
+    low = low.cwiseMin(a);
+    high = high.cwiseMax(a);
+    area += a.x() * b.y() - a.y() * b.x();
+  }
+  const double turn = area > 0 ? 1 : -1;
+  const Eigen::Vector2d center = (low + high) / 2;
+  const Eigen::Vector2i count = ((high - low) / (2 * spacing)).array().floor().cast<int>();
+  for (int i = -count.x(); i <= count.x(); ++i) {
+    for (int k = -count.y(); k <= count.y(); ++k) {
+      const Eigen::Vector2d point = center + spacing * Eigen::Vector2d(i, k);
+      bool is_inside = true;
+      for (size_t c = 0; c < outline.size(); ++c) {
+        const Eigen::Vector2d edge = outline[(c + 1) % outline.size()] - outline[c];
+        const Eigen::Vector2d from = point - outline[c];
+        is_inside &= turn * (edge.x() * from.y() - edge.y() * from.x()) > 0;
+      }
+      if (is_inside) points.push_back(point);
+    }
+  }
+  return points;
+}
+
+CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int num_sole_points,
+                               double spacing) {
   const int sole_links[] = {model.left_sole(), model.right_sole()};
   const std::vector<Eigen::Vector2d> outlines[] = {
       simplify_outline(model.left_sole_outline(), num_sole_points),
@@ -89,7 +122,12 @@ CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int nu
         has_sole[sole] = true;
         const Eigen::Isometry3d& pose = tree.pose_in_body(sole_links[sole]);
         sole_height = pose.translation().z();
-        for (const Eigen::Vector2d& corner : outlines[sole]) {
+        std::vector<Eigen::Vector2d> contacts = outlines[sole];
+        if (spacing > 0) {
+          const std::vector<Eigen::Vector2d> inner = inner_points(outlines[sole], spacing);
+          contacts.insert(contacts.end(), inner.begin(), inner.end());
+        }
+        for (const Eigen::Vector2d& corner : contacts) {
           const Vector3d in_body = pose * Vector3d(corner.x(), corner.y(), 0);
           points.push_back({in_body, 0, sole});
           const double to_corner = (in_body - part.center_in_body).norm();

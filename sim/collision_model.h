@@ -43,9 +43,16 @@ struct CollisionModel {
   double reach = 0;
 
   /** @param num_sole_points  Corners that each sole keeps of its outline, 3 or more.
+   * @param spacing  Distance between further points of the soles within the outline, m; 0: none.
    * @throws ModelError  for a collision shape that is not a box, sphere or capsule. */
-  CollisionModel(const RobotModel& model, const Tree& tree, int num_sole_points);
+  CollisionModel(const RobotModel& model, const Tree& tree, int num_sole_points, double spacing);
 };
+
+/** Points of a square grid that lie within a convex outline, m. @param spacing  Of the grid, above
+ * 0.
+ */
+std::vector<Eigen::Vector2d> inner_points(const std::vector<Eigen::Vector2d>& outline,
+                                          double spacing);
 
 /** Removes corners from a convex outline until `count` are left, each time the one whose removal
  * loses the least area (Visvalingam and Whyatt, Line Generalisation by Repeated Elimination of

@@ -51,11 +51,11 @@ void ContactAssembler::begin_step(int64_t step_number) {
   active_.clear();
 }
 
-double ContactAssembler::friction_of(const Surface& a, const Surface& b) const {
-  const Materials& materials = options_.materials;
+double friction_between(const Surface& a, const Surface& b, const MovingBodies& bodies,
+                        const Materials& materials) {
   if (a.kind == Surface::Kind::kBall) return materials.ball_friction;
   if (b.kind != Surface::Kind::kFloor) return materials.robot_friction;
-  return materials.floor_friction * bodies_.robots[a.robot]->options().friction_scale;
+  return materials.floor_friction * bodies.robots[a.robot]->options().friction_scale;
 }
 
 void ContactAssembler::set_normal_law(const ContactCandidate& candidate,
@@ -84,13 +84,14 @@ bool ContactAssembler::add(const ContactCandidate& candidate, ConstraintSolver& 
   const double h = options_.step;
   ActiveContact contact;
   contact.candidate = &candidate;
-  contact.frame = candidate.b.kind == Surface::Kind::kFloor ? kFloorFrame
-                                                            : frame_of(candidate.proximity.normal);
+  const Vector3d& normal = candidate.proximity.normal;
+  const bool is_level = candidate.b.kind == Surface::Kind::kFloor && normal.z() == 1;
+  contact.frame = is_level ? kFloorFrame : frame_of(normal);
   ContactBlock block;
   block.first_entry = solver.add_entries(0);
   block.num_entries = add_entries(contact, solver);
   if (block.num_entries < 0) return false;
-  block.friction = friction_of(candidate.a, candidate.b);
+  block.friction = friction_between(candidate.a, candidate.b, bodies_, options_.materials);
   set_normal_law(candidate, block);
 
   ContactMemory& memory = *candidate.memory;

@@ -10,6 +10,10 @@
 
 namespace nao::sim {
 
+/** Coefficient of Coulomb friction between two surfaces. */
+double friction_between(const Surface& a, const Surface& b, const MovingBodies& bodies,
+                        const Materials& materials);
+
 /** Turns contact candidates into the solver's contact blocks, and the solution into forces.
  *
  * **Contact law.** Normal: a spring and a damper, both implicit. With gap velocity v at the end of
@@ -65,7 +69,6 @@ class ContactAssembler {
   int add_surface_entries(const Surface& surface, int body, double sign,
                           const ActiveContact& contact, ConstraintSolver& solver);
   int add_self_contact_entries(const ActiveContact& contact, ConstraintSolver& solver);
-  double friction_of(const Surface& a, const Surface& b) const;
   void update_spring(const ActiveContact& contact, const ContactBlock& block);
 
   MovingBodies& bodies_;

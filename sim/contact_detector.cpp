@@ -24,8 +24,9 @@ void forget(Memories& memories) {
 
 }  // namespace
 
-ContactDetector::ContactDetector(const SceneFile& scene, const MovingBodies& bodies, double step)
-    : bodies_(bodies), step_(step), statics_(make_goal_shapes(scene)) {
+ContactDetector::ContactDetector(const SceneFile& scene, const MovingBodies& bodies,
+                                 const Floor& floor, double step)
+    : bodies_(bodies), floor_(floor), step_(step), statics_(make_goal_shapes(scene)) {
   if (scene.ball) ball_static_memory_.resize(statics_.size());
 }
 
@@ -134,23 +135,35 @@ void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int bo
   candidates_.push_back({a, b, body_a, body_b, foot, proximity, approach_speed, &memory});
 }
 
+Proximity ContactDetector::to_floor(const Vector3d& center, double radius) const {
+  Proximity proximity;
+  if (floor_.is_flat()) {
+    proximity.distance = center.z() - radius;
+    proximity.point = {center.x(), center.y(), std::min(proximity.distance, 0.0)};
+    return proximity;
+  }
+  // The plane of the triangle below the center: bumps are far flatter than they are wide.
+  const Floor::Plane plane = floor_.at(center.x(), center.y());
+  proximity.normal = plane.normal;
+  proximity.distance = plane.normal.z() * (center.z() - plane.height) - radius;
+  proximity.point = center - (radius + std::max(proximity.distance, 0.0)) * plane.normal;
+  return proximity;
+}
+
 void ContactDetector::find_floor_contacts(int index) {
   const SimRobot& robot = *bodies_.robots[index];
   const CollisionModel& model = robot.collisions();
   for (size_t p = 0; p < model.parts.size(); ++p) {
     const CollisionModel::Part& part = model.parts[p];
-    if (placed_[index][p].shape.center.z() > part.bounding_radius + kReach) continue;
+    const double height = placed_[index][p].shape.center.z() - floor_.max_height();
+    if (height > part.bounding_radius + kReach) continue;
     const Vector3d& origin = robot.dynamics().position(part.body);
     const Matrix3d& rotation = robot.dynamics().rotation(part.body);
     for (int i = part.first_point; i < part.end_point; ++i) {
       const CollisionModel::Point& point = model.points[i];
       const Vector3d center = origin + rotation * point.center_in_body;
-      Proximity proximity;
-      proximity.distance = center.z() - point.radius;
+      const Proximity proximity = to_floor(center, point.radius);
       if (proximity.distance > kReach) continue;
-      // The floor is z = 0: distance and normal need no search. The point of a penetrating sphere
-      // is its lowest.
-      proximity.point = {center.x(), center.y(), std::min(proximity.distance, 0.0)};
       add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1, proximity, point.sole,
           robot_memory_[index].floor[i]);
     }
@@ -166,22 +179,22 @@ bool ContactDetector::find_missed_floor_contacts(int index) {
     const Vector3d& origin = robot.dynamics().position(part.body);
     const Vector3d& part_center = placed_[index][p].shape.center;
     const double speed = robot.dynamics().velocity_at(part.body, part_center).z();
-    if (part_center.z() + step_ * speed > part.bounding_radius * kMaxSweptRadius) continue;
+    const double height = part_center.z() - floor_.max_height();
+    if (height + step_ * speed > part.bounding_radius * kMaxSweptRadius) continue;
     const Matrix3d& rotation = robot.dynamics().rotation(part.body);
     for (int i = part.first_point; i < part.end_point; ++i) {
       ContactMemory& memory = robot_memory_[index].floor[i];
       if (memory.last_step == step_number_) continue;  // A constraint of this step already.
       const CollisionModel::Point& point = model.points[i];
       const Vector3d center = origin + rotation * point.center_in_body;
-      const double distance = center.z() - point.radius;
-      const Vector3d lowest(center.x(), center.y(), std::min(distance, 0.0));
-      // Height after the step with the velocities that the solver has found so far.
-      const double next = distance + step_ * robot.dynamics().velocity_at(part.body, lowest).z();
+      const Proximity proximity = to_floor(center, point.radius);
+      const Vector3d velocity = robot.dynamics().velocity_at(part.body, proximity.point);
+      const double next = proximity.distance + step_ * proximity.normal.dot(velocity);
       if (next >= -kMargin) continue;
       // It had no force in the last step.
       memory = ContactMemory();
-      add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1,
-          {distance, Vector3d::UnitZ(), lowest}, point.sole, memory);
+      add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1, proximity, point.sole,
+          memory);
       has_missed = true;
     }
   }
@@ -253,10 +266,8 @@ void ContactDetector::find_ball_contacts() {
   RoundedBox ball;
   ball.center = bodies_.ball->state().position;
   ball.radius = bodies_.ball->radius();
-  Proximity on_floor;
-  on_floor.distance = ball.center.z() - ball.radius;
+  const Proximity on_floor = to_floor(ball.center, ball.radius);
   if (on_floor.distance < kReach) {
-    on_floor.point = {ball.center.x(), ball.center.y(), std::min(on_floor.distance, 0.0)};
     add({Surface::Kind::kBall}, -1, {}, -1, on_floor, -1, ball_floor_memory_);
   }
   for (size_t s = 0; s < statics_.size(); ++s) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/contact.h"
+#include "sim/floor.h"
 #include "sim/goal_shapes.h"
 #include "sim/moving_bodies.h"
 
@@ -23,7 +24,8 @@ class ContactDetector {
   static constexpr double kMargin = 0.0005;
 
   /** @param bodies  Must outlive this. @param step  Length of a step, s. */
-  ContactDetector(const SceneFile& scene, const MovingBodies& bodies, double step);
+  ContactDetector(const SceneFile& scene, const MovingBodies& bodies, const Floor& floor,
+                  double step);
 
   /** Makes room for the robot that was added last. */
   void add_robot();
@@ -73,6 +75,8 @@ class ContactDetector {
 
   void place_parts(int robot);
   const RoundedBox& part_shape(int robot, int part);
+  /** Distance and normal between a sphere and the floor. @param center  In W, m. */
+  Proximity to_floor(const Eigen::Vector3d& center, double radius) const;
   void find_floor_contacts(int robot);
   void find_self_contacts(int robot);
   void find_goal_contacts(int robot);
@@ -84,6 +88,7 @@ class ContactDetector {
   Eigen::Vector3d velocity_of(const Surface& surface, int body, const Eigen::Vector3d& point) const;
 
   const MovingBodies& bodies_;
+  Floor floor_;
   double step_;
   std::vector<StaticShape> statics_;
   int64_t step_number_ = 0;

@@ -39,6 +39,9 @@ JointDrives::JointDrives(const RobotModel& model, const Tree& tree, const RobotO
     drive.lower = joint.lower;
     drive.upper = joint.upper;
     drive.max_velocity = joint.max_velocity;
+    const RobotErrors& errors = options.errors;
+    if (errors.joint_zero.size() > 0) drive.zero = errors.joint_zero[i];
+    if (errors.backlash.size() > 0) drive.gear.half_play = errors.backlash[i] / 2;
     for (int body = 1; body < tree_.num_bodies(); ++body) {
       if (tree_.bodies()[body].joint == model.motors()[i]) drive.dof = tree_.bodies()[body].dof;
     }
@@ -55,6 +58,12 @@ double JointDrives::position(int motor, const TreeState& state) const {
   return drive.dof < 0 ? drive.opening : state.coordinate[drive.dof];
 }
 
+double JointDrives::encoder_position(int motor, const TreeState& state) const {
+  const Drive& drive = drives_[motor];
+  if (drive.dof < 0) return drive.opening;
+  return state.coordinate[drive.dof] + drive.gear.offset + drive.zero;
+}
+
 double JointDrives::speed(int motor, const TreeState& state) const {
   const Drive& drive = drives_[motor];
   return drive.dof < 0 ? 0 : state.velocity[drive.dof];
@@ -64,7 +73,8 @@ double JointDrives::energy(const TreeState& state) const {
   double sum = 0;
   for (const Drive& drive : drives_) {
     if (drive.dof < 0) continue;
-    const double speed = state.velocity[drive.dof];
+    const double speed =
+        drive.gear.has_play() ? drive.gear.motor_velocity : state.velocity[drive.dof];
     const double angle = state.coordinate[drive.dof];
     const double bent = std::max({0.0, drive.lower - angle, angle - drive.upper});
     sum += 0.5 * drive.motor.reflected_inertia * speed * speed + 0.5 * kStopStiffness * bent * bent;
@@ -76,6 +86,7 @@ void JointDrives::place(const std::vector<double>& position) {
   for (size_t i = 0; i < drives_.size(); ++i) {
     Drive& drive = drives_[i];
     drive.opening = position[i];
+    drive.gear.reset();
     for (Drive::Row* row : rows_of(drive)) row->impulse = 0;
     last_target_[static_cast<long>(i)] = position[i];
   }
@@ -92,12 +103,18 @@ void JointDrives::begin_step(double h, const MotorTargets& targets, TreeIntegrat
     Drive& drive = drives_[i];
     if (drive.dof < 0) continue;
     const auto k = static_cast<long>(i);
-    const double speed = state.velocity[drive.dof];
+    const Backlash& gear = drive.gear;
+    const double speed = gear.has_play() ? gear.motor_velocity : state.velocity[drive.dof];
     // Leapfrog: a velocity belongs to the middle between two steps, so that half of this step's
     // torque acts before a target that is new in it.
     const double target = (last_target_[k] + targets.position[k]) / 2;
-    drive.plan_step(h, targets.stiffness[k], target - state.coordinate[drive.dof], speed);
+    const double measured = state.coordinate[drive.dof] + gear.offset + drive.zero;
+    drive.plan_step(h, targets.stiffness[k], target - measured, speed);
     for (Drive::Row* row : rows_of(drive)) row->index = -1;
+    if (!gear.is_engaged()) {
+      plan_free_motor(h, i);
+      continue;
+    }
     const double inertia = drive.motor.reflected_inertia;
     integrator.add_joint_impulse(
         drive.dof, inertia * speed + h * (drive.plan.demand - drive.plan.emf - drive.plan.drag),
@@ -105,6 +122,12 @@ void JointDrives::begin_step(double h, const MotorTargets& targets, TreeIntegrat
   }
   last_target_ = targets.position;
   std::fill(entry_of_dof_.begin(), entry_of_dof_.end(), -1);
+}
+
+void JointDrives::plan_free_motor(double h, size_t motor) {
+  Drive& drive = drives_[motor];
+  drive.planned_free_velocity =
+      drive.free_velocity(h, drive.gear.motor_velocity, torque_[static_cast<long>(motor)]);
 }
 
 int JointDrives::add_dof_entries(int dof, const TreeDynamics& dynamics, int first_dof,
@@ -199,13 +222,14 @@ void JointDrives::add_rows(double h, const TreeState& state, const TreeDynamics&
                            int first_dof, ConstraintSolver& solver) {
   for (Drive& drive : drives_) {
     if (drive.dof < 0) continue;
-    if (drive.motor.dry_friction > 0) {
+    const bool is_engaged = drive.gear.is_engaged();
+    if (is_engaged && drive.motor.dry_friction > 0) {
       const int first = add_dof_entries(drive.dof, dynamics, first_dof, solver);
       if (first >= 0) add_friction_row(h, drive, first, solver);
     }
     add_stop_row(h, state, drive, dynamics, first_dof, solver);
     // Without a slope the servo is off, or has no gain at all.
-    if (!(drive.plan.slope > 0)) continue;
+    if (!is_engaged || !(drive.plan.slope > 0)) continue;
     const double speed = state.velocity[drive.dof];
     const double demanded = drive.plan.demand - drive.plan.slope * speed;
     const double threshold = kBoundFraction * drive.plan.limit;
@@ -226,7 +250,7 @@ bool JointDrives::add_missed_bounds(double h, const Eigen::VectorXd& velocity,
     return row.index < 0 ? 0.0 : solver.rows()[row.index].impulse;
   };
   for (Drive& drive : drives_) {
-    if (drive.dof < 0 || drive.plan.slope == 0) continue;
+    if (drive.dof < 0 || drive.plan.slope == 0 || !drive.gear.is_engaged()) continue;
     const double speed = velocity[drive.dof];
     const double driven = drive.plan.demand - drive.plan.slope * speed +
                           (impulse_of(drive.lower_bound) - impulse_of(drive.upper_bound)) / h;
@@ -258,10 +282,26 @@ void JointDrives::end_step(double h, const Eigen::VectorXd& velocity,
     for (Drive::Row* row : rows_of(drive)) {
       row->impulse = row->index < 0 ? 0 : solver.rows()[row->index].impulse;
     }
-    torque_[static_cast<long>(i)] = drive.plan.demand - drive.plan.emf -
-                                    (drive.plan.slope + drive.plan.line) * speed +
-                                    (drive.lower_bound.impulse - drive.upper_bound.impulse) / h;
+    double& torque = torque_[static_cast<long>(i)];
+    if (drive.gear.is_engaged()) {
+      torque = drive.plan.demand - drive.plan.emf - (drive.plan.slope + drive.plan.line) * speed +
+               (drive.lower_bound.impulse - drive.upper_bound.impulse) / h;
+    }
+    if (drive.gear.has_play()) end_gear_step(h, torque, speed, drive);
   }
+}
+
+void JointDrives::end_gear_step(double h, double torque, double speed, Drive& drive) const {
+  Backlash& gear = drive.gear;
+  if (!gear.is_engaged()) {
+    gear.end_free_step(h, drive.planned_free_velocity, speed);
+    return;
+  }
+  // What remains of the motor's torque after its friction and the acceleration of its rotor.
+  const double friction =
+      drive.plan.drag + drive.plan.viscosity * speed - drive.friction.impulse / h;
+  const double acceleration = (speed - gear.motor_velocity) / h;
+  gear.end_engaged_step(speed, torque - friction - drive.motor.reflected_inertia * acceleration);
 }
 
 void JointDrives::end_tick(const Eigen::VectorXd& torque_impulse, const MotorTargets& targets,

@@ -14,6 +14,20 @@
 
 namespace nao::sim {
 
+/** What a motor does to its joint in a step of an engine that takes forces from the state at the
+ * step's start. All 0 but `dof` where the motor is free in its gear's play. */
+struct JointForce {
+  /** Our degree of freedom. */
+  int dof = -1;
+  /** N m. */
+  double torque = 0;
+  /** Reflected inertia of the rotor, kg m^2. */
+  double inertia = 0;
+  /** N m s/rad, and N m. */
+  double viscous_friction = 0;
+  double dry_friction = 0;
+};
+
 /** All motors of one robot: servo torques, and the joints' constraint rows (stops, dry friction,
  * torque bounds) in a step. Lists are in motor order. */
 class JointDrives {
@@ -23,6 +37,9 @@ class JointDrives {
 
   /** True angles (hands: openings) and torques of the last step, (num_motors). */
   double position(int motor, const TreeState& state) const;
+  /** What the motor's encoder would read without quantization: the motor's angle, on its side of
+   * the gear's play, with the error of its zero, rad. */
+  double encoder_position(int motor, const TreeState& state) const;
   const Eigen::VectorXd& torque() const { return torque_; }
   /** Whether the motor moves no body of the physics, only an opening. */
   bool is_opening(int motor) const { return drives_[motor].dof < 0; }
@@ -53,6 +70,14 @@ class JointDrives {
   /** Reads the solution. @param velocity  At the step's end, (num_dofs). */
   void end_step(double h, const Eigen::VectorXd& velocity, const ConstraintSolver& solver);
 
+  // A step of h seconds in another engine than the fast one, in this order.
+
+  /** Forces from a state; valid until the next call. */
+  const std::vector<JointForce>& begin_explicit_step(double h, const MotorTargets& targets,
+                                                     const TreeState& state);
+  /** Moves the motors in their gears' play. @param state  At the step's end. */
+  void end_explicit_step(double h, const TreeState& state);
+
   /** Heats the windings and moves the openings. @param torque_impulse  Torques integrated over the
    * tick, N m s, (num_motors). @param period  Length of the tick, s. */
   void end_tick(const Eigen::VectorXd& torque_impulse, const MotorTargets& targets, double period);
@@ -63,6 +88,8 @@ class JointDrives {
   int add_dof_entries(int dof, const TreeDynamics& dynamics, int first_dof,
                       ConstraintSolver& solver);
   int num_entries(int dof) const { return static_cast<int>(tree_.dof_ancestors(dof).size()) + 1; }
+  void plan_free_motor(double h, size_t motor);
+  void end_gear_step(double h, double torque, double speed, Drive& drive) const;
   void add_friction_row(double h, Drive& drive, int first_entry, ConstraintSolver& solver) const;
   void add_stop_row(double h, const TreeState& state, Drive& drive, const TreeDynamics& dynamics,
                     int first_dof, ConstraintSolver& solver);
@@ -71,6 +98,7 @@ class JointDrives {
 
   const Tree& tree_;
   std::vector<Drive> drives_;
+  std::vector<JointForce> joint_forces_;
   /** Targets' positions in the last step, rad. */
   Eigen::VectorXd last_target_;
   /** N m. */

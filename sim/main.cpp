@@ -30,15 +30,21 @@ int main(int argc, char** argv) {
                "Compute a tick only after the joint command for the one before was received");
   app.add_flag("--ideal-sensors", options.ideal_sensors,
                "Sensors without quantization, noise, bias, range or drift");
-  app.add_option("--seed", options.seed, "Seed of all noise")->show_default();
+  app.add_option("--engine", options.engine,
+                 "Physics engine: fast, simbody, or mujoco where it was built")
+      ->show_default();
+  app.add_option("--disturbances", options.disturbances,
+                 "How robot and floor differ from their models: none, default, moderate, real, or "
+                 "entries of real such as backlash,floor_slope (empty: sensor noise only)");
+  app.add_option("--seed", options.seed, "Seed of noise and disturbances")->show_default();
   app.add_option("--tick-ms", options.tick_ms,
-                 "Control period, ms: a multiple of the physics step of 2 ms")
-      ->range(2, 100)
-      ->show_default();
+                 "Control period, ms: a multiple of the physics step of 2 ms (default: as the "
+                 "disturbances say, or 10)")
+      ->range(2, 100);
   app.add_option("--command-latency-ticks", options.command_latency_ticks,
-                 "Control ticks between a joint command and the motors' following it")
-      ->range(0, 10)
-      ->show_default();
+                 "Control ticks between a joint command and the motors' following it (default: as "
+                 "the disturbances say, or 1)")
+      ->range(0, 10);
   return nao::run_program(app, common, argc, argv, [&] {
     options.robots = {common.robot};
     options.robots.insert(options.robots.end(), more_robots.begin(), more_robots.end());
@@ -49,9 +55,10 @@ int main(int argc, char** argv) {
     nao::Bus bus(common.lcm_url);
     const nao::sim::SimDaemon daemon(bus, loop, options);
     nao::logger::info(
-        "version {}, bus {}, channels {}_* and WORLD_*, model {}, scene {}, control period {} ms, "
-        "{}",
-        nao::version(), common.lcm_url, common.robot, options.model, options.scene, options.tick_ms,
+        "version {}, bus {}, channels {}_* and WORLD_*, model {}, scene {}, disturbances \"{}\", "
+        "control period {} ms, {}",
+        nao::version(), common.lcm_url, common.robot, options.model, options.scene,
+        options.disturbances, 1e3 * daemon.core().world().options().period(),
         options.lock_step ? std::string("lock-step") : "pace " + std::to_string(options.pace));
     const std::string reason = loop.run();
     nao::logger::info(

@@ -104,9 +104,9 @@ naolcm::sensor_state_t sensor_state_of(const World& world, int index) {
   message.joint_target_position = to_vector(world.targets(index).position);
   message.joint_stiffness = to_vector(world.targets(index).stiffness);
   copy(sensed.accelerometer, message.accelerometer_torso);
-  message.is_accelerometer_new = 1;
+  message.is_accelerometer_new = sensed.is_accelerometer_new ? 1 : 0;
   copy(sensed.gyroscope, message.gyroscope_torso);
-  message.is_gyroscope_new = 1;
+  message.is_gyroscope_new = sensed.is_gyroscope_new ? 1 : 0;
   copy(sensed.orientation, message.orientation_torso_in_world);
   for (const int link : model.foot_sensors()) {
     message.foot_sensor_names.push_back(model.links()[link].name);
@@ -124,10 +124,10 @@ naolcm::world_truth_t world_truth_of(const SimCore& core, double real_time_facto
   message.utime = utime_of(world, 0);
   message.tick = world.tick();
   message.scene = options.scene;
-  message.engine = "fast";
-  message.disturbances = options.ideal_sensors ? "none" : "default";
+  message.engine = world.options().engine;
+  message.disturbances = options.disturbances;
   message.seed = static_cast<int64_t>(options.seed);
-  message.floor_seed = 0;
+  message.floor_seed = static_cast<int64_t>(world.options().floor.seed);
   copy(world.options().gravity, message.gravity_in_world);
   message.is_paused = scheduler.is_stopped() ? 1 : 0;
   message.real_time_factor = real_time_factor;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "robot_model/robot_model.h"
+#include "sim/backlash.h"
 
 namespace nao::sim {
 
@@ -30,6 +32,9 @@ struct Drive {
   double lower = 0;
   double upper = 0;
   double max_velocity = 0;
+  /** What the encoder, on the motor's side, reads at the motor's angle 0, rad. */
+  double zero = 0;
+  Backlash gear;
 
   /** Angle of an opening (of others: in TreeState). */
   double opening = 0;
@@ -50,6 +55,8 @@ struct Drive {
     double viscosity = 0;
   };
   Plan plan;
+  /** Of a motor that is free of its link in this step: speed at its end, rad/s. */
+  double planned_free_velocity = 0;
 
   /** A row in the solver. */
   struct Row {
@@ -116,6 +123,26 @@ struct Drive {
     plan.emf = full_line * past;
     plan.viscosity = end * motor.viscous_friction;
     plan.drag = motor.viscous_friction * past;
+  }
+
+  /** Speed of the motor at the end of the planned step, with the link free of it, rad/s.
+   * @param speed  At its start, rad/s. @param torque  Receives the motor's torque, N m. */
+  double free_velocity(double h, double speed, double& torque) const {
+    const double inertia = motor.reflected_inertia;
+    double damping = plan.slope + plan.line + plan.viscosity;
+    double velocity =
+        (inertia * speed + h * (plan.demand - plan.emf - plan.drag)) / (inertia + h * damping);
+    double demand = plan.demand - plan.slope * velocity;
+    if (std::abs(demand) > plan.limit) {
+      demand = std::copysign(plan.limit, demand);
+      damping = plan.line + plan.viscosity;
+      velocity = (inertia * speed + h * (demand - plan.emf - plan.drag)) / (inertia + h * damping);
+    }
+    // Dry friction slows the motor down, and holds it.
+    const double held = h * motor.dry_friction / (inertia + h * damping);
+    velocity = std::copysign(std::max(0.0, std::abs(velocity) - held), velocity);
+    torque = demand - plan.emf - plan.line * velocity;
+    return velocity;
   }
 
   /** Heats or cools the winding: a first-order lag of the squared torque.

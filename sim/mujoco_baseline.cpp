@@ -1,184 +1,27 @@
 #include "sim/mujoco_baseline.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
-#include <iomanip>
-#include <set>
-#include <sstream>
-
-#include "common/error.h"
 
 namespace nao::sim {
-namespace {
-
-using Eigen::Vector3d;
-
-std::string numbers(const Vector3d& v) {
-  std::ostringstream text;
-  text << std::setprecision(17) << v.x() << ' ' << v.y() << ' ' << v.z();
-  return text.str();
-}
-
-std::string numbers(const Eigen::Quaterniond& q) {
-  std::ostringstream text;
-  text << std::setprecision(17) << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z();
-  return text.str();
-}
-
-std::string body_name(int body) {
-  return "body" + std::to_string(body);
-}
-std::string joint_name(int body) {
-  return "joint" + std::to_string(body);
-}
-
-/** Motor of a body's joint; -1 for the root and for mimic joints. */
-int motor_of_body(const SimRobot& robot, int body) {
-  const RobotModel& model = robot.model();
-  for (int motor = 0; motor < model.num_motors(); ++motor) {
-    if (model.motors()[motor] == robot.tree().bodies()[body].joint) return motor;
-  }
-  return -1;
-}
-
-/** Writes a body with its joint, inertia, shapes and descendants. */
-void write_body(std::ostream& out, const SimRobot& robot, int index,
-                const BaselineOptions& options) {
-  const TreeBody& body = robot.tree().bodies()[index];
-  const RobotModel& model = robot.model();
-  out << "<body name=\"" << body_name(index) << "\" pos=\"" << numbers(body.origin_in_parent)
-      << "\" quat=\"" << numbers(Eigen::Quaterniond(body.rotation_in_parent)) << "\">\n";
-  if (body.parent < 0) {
-    out << "<freejoint/>\n";
-  } else {
-    const Joint& joint = model.joints()[body.joint];
-    const int motor = motor_of_body(robot, index);
-    out << "<joint name=\"" << joint_name(index) << "\" axis=\"" << numbers(body.axis)
-        << "\" limited=\"true\" range=\"" << joint.lower << ' ' << joint.upper << '"';
-    if (motor >= 0) {
-      const Motor& drive = model.motor(motor);
-      out << " armature=\"" << drive.reflected_inertia << "\" frictionloss=\"" << drive.dry_friction
-          << "\" damping=\""
-          << drive.viscous_friction +
-                 (options.is_limp ? 0 : drive.peak_torque / drive.no_load_velocity)
-          << '"';
-    }
-    out << "/>\n";
-  }
-  const Eigen::Matrix3d& i = body.inertia;
-  out << "<inertial pos=\"" << numbers(body.center_of_mass) << "\" mass=\"" << body.mass
-      << "\" fullinertia=\"" << i(0, 0) << ' ' << i(1, 1) << ' ' << i(2, 2) << ' ' << i(0, 1) << ' '
-      << i(0, 2) << ' ' << i(1, 2) << "\"/>\n";
-
-  const CollisionModel& shapes = robot.collisions();
-  for (const CollisionModel::Part& part : shapes.parts) {
-    if (part.body != index) continue;
-    const bool has_sole =
-        part.first_point < part.end_point && shapes.points[part.first_point].sole >= 0;
-    // Where points collide with the floor, the shape itself collides with other parts only.
-    const bool is_off_floor = options.feet == BaselineFeet::kPoints &&
-                              (has_sole || options.laws == BaselineLaws::kMatched);
-    const Vector3d& half = part.half;
-    out << "<geom contype=\"1\" conaffinity=\"" << (is_off_floor ? 1 : 3) << "\" pos=\""
-        << numbers(part.center_in_body) << "\" quat=\""
-        << numbers(Eigen::Quaterniond(part.rotation_in_body)) << '"';
-    if (half.x() > 0) {
-      out << " type=\"box\" size=\"" << numbers(half + Vector3d::Constant(part.radius)) << '"';
-    } else if (half.z() > 0) {
-      out << " type=\"capsule\" size=\"" << part.radius << ' ' << half.z() << '"';
-    } else {
-      out << " type=\"sphere\" size=\"" << part.radius << '"';
-    }
-    out << "/>\n";
-    for (int p = part.first_point; is_off_floor && p < part.end_point; ++p) {
-      const CollisionModel::Point& point = shapes.points[p];
-      const double radius = std::max(point.radius, 1e-3);
-      const Vector3d raised(0, 0, radius - point.radius);
-      out << "<geom contype=\"0\" conaffinity=\"2\" type=\"sphere\" size=\"" << radius
-          << "\" pos=\"" << numbers(point.center_in_body + raised) << "\"/>\n";
-    }
-  }
-  for (int child = index + 1; child < robot.tree().num_bodies(); ++child) {
-    if (robot.tree().bodies()[child].parent == index) write_body(out, robot, child, options);
-  }
-  out << "</body>\n";
-}
-
-}  // namespace
-
-std::string to_mjcf(const SimRobot& robot, const WorldOptions& world,
-                    const BaselineOptions& options) {
-  std::ostringstream out;
-  out << std::setprecision(17);
-  out << "<mujoco><compiler angle=\"radian\"/>\n<option timestep=\"" << world.step
-      << "\" gravity=\"" << numbers(world.gravity) << "\" solver=\"Newton\" cone=\"pyramidal\"/>\n"
-      << "<size njmax=\"1000\" nconmax=\"200\"/>\n<default><geom condim=\"3\" friction=\""
-      << world.materials.floor_friction << " 0.005 0.0001\"/></default>\n<worldbody>\n"
-      << "<geom type=\"plane\" size=\"20 20 1\" contype=\"2\" conaffinity=\"0\"/>\n";
-  write_body(out, robot, 0, options);
-  out << "</worldbody>\n<contact>\n";
-  // Pairs of bodies without self-collision.
-  const CollisionModel& shapes = robot.collisions();
-  std::set<std::pair<int, int>> touching;
-  std::set<int> with_shapes;
-  for (const auto& [a, b] : shapes.self_pairs) {
-    touching.insert(std::minmax(shapes.parts[a].body, shapes.parts[b].body));
-  }
-  for (const CollisionModel::Part& part : shapes.parts) with_shapes.insert(part.body);
-  for (const int a : with_shapes) {
-    for (const int b : with_shapes) {
-      if (a >= b || touching.count({a, b}) > 0) continue;
-      out << "<exclude body1=\"" << body_name(a) << "\" body2=\"" << body_name(b) << "\"/>\n";
-    }
-  }
-  out << "</contact>\n<equality>\n";
-  const std::vector<TreeBody>& bodies = robot.tree().bodies();
-  for (size_t i = 1; i < bodies.size(); ++i) {
-    const int leader = robot.tree().body_of_dof(bodies[i].dof);
-    if (leader == static_cast<int>(i)) continue;
-    out << "<joint joint1=\"" << joint_name(static_cast<int>(i)) << "\" joint2=\""
-        << joint_name(leader) << "\" polycoef=\"" << bodies[i].offset << ' ' << bodies[i].ratio
-        << " 0 0 0\"/>\n";
-  }
-  out << "</equality>\n<actuator>\n";
-  for (size_t i = 1; i < bodies.size(); ++i) {
-    const int motor = motor_of_body(robot, static_cast<int>(i));
-    if (motor < 0 || options.is_limp) continue;
-    const Motor& drive = robot.model().motor(motor);
-    // The limit applies to spring and damping together, as in Drive: clipping the spring alone
-    // changes the distance of a walk (docs/performance.md).
-    out << "<general joint=\"" << joint_name(static_cast<int>(i))
-        << "\" biastype=\"affine\" gainprm=\"" << drive.stiffness_gain << "\" biasprm=\"0 "
-        << -drive.stiffness_gain << ' ' << -drive.damping_gain
-        << "\" forcelimited=\"true\" forcerange=\"" << -drive.peak_torque << ' '
-        << drive.peak_torque << "\"/>\n";
-  }
-  out << "</actuator></mujoco>\n";
-  return out.str();
-}
 
 MujocoBaseline::MujocoBaseline(const SimRobot& robot, const WorldOptions& world,
                                const BaselineOptions& options)
     : has_matched_laws_(options.laws == BaselineLaws::kMatched) {
-  const std::string text = to_mjcf(robot, world, options);
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), "robot.xml", static_cast<int>(text.size()));
-  std::memcpy(files->filedata[files->nfile - 1], text.data(), text.size());
-  std::array<char, 1000> error{};
-  model_ = mj_loadXML("robot.xml", files.get(), error.data(), error.size());
-  mj_deleteVFS(files.get());
-  if (model_ == nullptr) throw Error(std::string("MuJoCo: ") + error.data());
+  MujocoScene scene;
+  scene.robots = {&robot};
+  MujocoModelOptions how;
+  how.has_sole_points = options.feet == BaselineFeet::kPoints;
+  how.has_points_only = how.has_sole_points && has_matched_laws_;
+  how.has_servos = !options.is_limp;
+  model_ = load_mjcf(to_mjcf(scene, world, how));
   if (has_matched_laws_) match_laws(world);
-  data_ = mj_makeData(model_);
+  data_.reset(mj_makeData(model_.get()));
+  robot_.emplace(*model_, robot, 0);
 
   const Tree& tree = robot.tree();
-  joint_of_body_.assign(tree.num_bodies(), -1);
   actuator_of_motor_.assign(robot.model().num_motors(), -1);
   int actuator = 0;
   for (int i = 1; i < tree.num_bodies(); ++i) {
-    joint_of_body_[i] = mj_name2id(model_, mjOBJ_JOINT, joint_name(i).c_str());
     const int motor = motor_of_body(robot, i);
     if (motor < 0 || options.is_limp) continue;
     actuator_of_motor_[motor] = actuator++;
@@ -187,11 +30,6 @@ MujocoBaseline::MujocoBaseline(const SimRobot& robot, const WorldOptions& world,
   }
   set_state(tree, robot.state());
   set_targets(robot.motor_position());
-}
-
-MujocoBaseline::~MujocoBaseline() {
-  mj_deleteData(data_);
-  mj_deleteModel(model_);
 }
 
 void MujocoBaseline::match_laws(const WorldOptions& world) {
@@ -243,39 +81,14 @@ void MujocoBaseline::match_laws(const WorldOptions& world) {
 }
 
 void MujocoBaseline::set_state(const Tree& tree, const TreeState& state) {
-  mj_resetData(model_, data_);
-  const Eigen::Quaterniond& q = state.orientation;
-  const double orientation[] = {q.w(), q.x(), q.y(), q.z()};
-  // MuJoCo's angular velocity of a free joint is in the body's own axes.
-  const Vector3d turning = q.conjugate() * Vector3d(state.velocity.head<3>());
-  for (int k = 0; k < 3; ++k) {
-    data_->qpos[k] = state.position[k];
-    data_->qvel[k] = state.velocity[3 + k];
-    data_->qvel[3 + k] = turning[k];
-  }
-  for (int k = 0; k < 4; ++k) data_->qpos[3 + k] = orientation[k];
-  for (int i = 1; i < tree.num_bodies(); ++i) {
-    const TreeBody& body = tree.bodies()[i];
-    data_->qpos[model_->jnt_qposadr[joint_of_body_[i]]] =
-        body.ratio * state.coordinate[body.dof] + body.offset;
-    data_->qvel[model_->jnt_dofadr[joint_of_body_[i]]] = body.ratio * state.velocity[body.dof];
-  }
-  mj_forward(model_, data_);
+  mj_resetData(model_.get(), data_.get());
+  robot_->write(tree, state, *model_, *data_);
+  mj_forward(model_.get(), data_.get());
 }
 
 TreeState MujocoBaseline::state(const Tree& tree) const {
   TreeState state(tree.num_dofs());
-  state.position = {data_->qpos[0], data_->qpos[1], data_->qpos[2]};
-  state.orientation =
-      Eigen::Quaterniond(data_->qpos[3], data_->qpos[4], data_->qpos[5], data_->qpos[6]);
-  for (int k = 0; k < 3; ++k) state.velocity[3 + k] = data_->qvel[k];
-  state.velocity.head<3>() =
-      state.orientation * Vector3d(data_->qvel[3], data_->qvel[4], data_->qvel[5]);
-  for (int dof = 6; dof < tree.num_dofs(); ++dof) {
-    const int joint = joint_of_body_[tree.body_of_dof(dof)];
-    state.coordinate[dof] = data_->qpos[model_->jnt_qposadr[joint]];
-    state.velocity[dof] = data_->qvel[model_->jnt_dofadr[joint]];
-  }
+  robot_->read(tree, *data_, state);
   return state;
 }
 
@@ -296,7 +109,7 @@ void MujocoBaseline::limit_braking_torque() {
 
 void MujocoBaseline::step() {
   if (has_matched_laws_) limit_braking_torque();
-  mj_step(model_, data_);
+  mj_step(model_.get(), data_.get());
 }
 
 void MujocoBaseline::set_targets(const Eigen::VectorXd& position) {

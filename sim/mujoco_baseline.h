@@ -1,12 +1,9 @@
 #pragma once
 
-#include <mujoco/mujoco.h>
-
-#include <Eigen/Geometry>
-#include <memory>
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "sim/mujoco_model.h"
 #include "sim/sim_robot.h"
 #include "sim/tree.h"
 
@@ -39,12 +36,6 @@ struct BaselineOptions {
   bool is_limp = false;
 };
 
-/** MJCF text of a robot with the same bodies, masses, joints, motors (armature, friction, servo
- * whose whole demand is clipped to the largest torque, back-EMF as damping) and collision
- * primitives as in our physics, on the same floor. */
-std::string to_mjcf(const SimRobot& robot, const WorldOptions& world,
-                    const BaselineOptions& options);
-
 /** A robot in MuJoCo, the baseline of benchmarks and cross-checks. Built only where MuJoCo is
  * installed. */
 class MujocoBaseline {
@@ -52,9 +43,6 @@ class MujocoBaseline {
   /** @throws Error  if MuJoCo does not accept the model. */
   MujocoBaseline(const SimRobot& robot, const WorldOptions& world,
                  const BaselineOptions& options = {});
-  ~MujocoBaseline();
-  MujocoBaseline(const MujocoBaseline&) = delete;
-  MujocoBaseline& operator=(const MujocoBaseline&) = delete;
 
   const mjModel& model() const { return *model_; }
   mjData& data() { return *data_; }
@@ -74,9 +62,9 @@ class MujocoBaseline {
   void limit_braking_torque();
 
   bool has_matched_laws_;
-  mjModel* model_ = nullptr;
-  mjData* data_ = nullptr;
-  std::vector<int> joint_of_body_;
+  MujocoModelPointer model_;
+  MujocoDataPointer data_;
+  std::optional<MujocoRobot> robot_;
   std::vector<int> actuator_of_motor_;
   /** Of each actuator, N m s/rad. */
   std::vector<double> back_emf_;

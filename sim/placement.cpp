@@ -73,14 +73,16 @@ Quaterniond resting_orientation(const RobotModel& model, const Tree& tree,
   return rotation_between(up_in_torso, Vector3d::UnitZ());
 }
 
-double lowest_point(const CollisionModel& collisions, const TreeDynamics& dynamics) {
+double lowest_point(const CollisionModel& collisions, const TreeDynamics& dynamics,
+                    const Floor& floor) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const CollisionModel::Part& part : collisions.parts) {
     for (int i = part.first_point; i < part.end_point; ++i) {
       const CollisionModel::Point& point = collisions.points[i];
       const Vector3d in_world =
           dynamics.position(part.body) + dynamics.rotation(part.body) * point.center_in_body;
-      lowest = std::min(lowest, in_world.z() - point.radius);
+      const double ground = floor.is_flat() ? 0 : floor.at(in_world.x(), in_world.y()).height;
+      lowest = std::min(lowest, in_world.z() - point.radius - ground);
     }
   }
   return std::isfinite(lowest) ? lowest : 0;

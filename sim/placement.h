@@ -4,6 +4,7 @@
 
 #include "robot_model/robot_model.h"
 #include "sim/collision_model.h"
+#include "sim/floor.h"
 #include "sim/tree.h"
 #include "sim/tree_dynamics.h"
 
@@ -15,8 +16,8 @@ namespace nao::sim {
 Eigen::Quaterniond resting_orientation(const RobotModel& model, const Tree& tree,
                                        const CollisionModel& collisions, const Posture* posture);
 
-/** Height of the lowest point of a robot's collision shapes in W, m; 0 for a robot without shapes.
- */
-double lowest_point(const CollisionModel& collisions, const TreeDynamics& dynamics);
+/** Least height of a robot's collision shapes over the floor, m; 0 for a robot without shapes. */
+double lowest_point(const CollisionModel& collisions, const TreeDynamics& dynamics,
+                    const Floor& floor);
 
 }  // namespace nao::sim

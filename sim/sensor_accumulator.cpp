@@ -1,5 +1,7 @@
 #include "sim/sensor_accumulator.h"
 
+#include "common/rotation.h"
+
 namespace nao::sim {
 
 using Eigen::Matrix3d;
@@ -7,7 +9,11 @@ using Eigen::Vector3d;
 
 SensorAccumulator::SensorAccumulator(const RobotModel& model, const Tree& tree,
                                      const Vector3d& gravity)
-    : gravity_(gravity), torque_impulse_(Eigen::VectorXd::Zero(model.num_motors())) {
+    : gravity_(gravity),
+      level_from_world_(
+          rotation_between(Vector3d(-gravity.normalized()), Vector3d(Vector3d::UnitZ()))),
+      is_floor_level_(gravity.head<2>().isZero(0)),
+      torque_impulse_(Eigen::VectorXd::Zero(model.num_motors())) {
   if (model.accelerometer() >= 0) {
     accelerometer_body_ = tree.body_of_link(model.accelerometer());
     accelerometer_in_body_ = tree.pose_in_body(model.accelerometer());
@@ -66,7 +72,7 @@ const TrueMotion& SensorAccumulator::means(const Eigen::VectorXd& position,
                                            const TreeDynamics& dynamics) {
   means_.position = position;
   means_.torque = torque;
-  means_.orientation = state.orientation;
+  means_.orientation = is_floor_level_ ? state.orientation : level_from_world_ * state.orientation;
   means_.specific_force = -(dynamics.rotation(0).transpose() * gravity_);
   means_.angular_velocity.setZero();
   means_.feet = {};

@@ -42,6 +42,9 @@ class SensorAccumulator {
   };
 
   Eigen::Vector3d gravity_;
+  /** Frame whose z axis is against gravity, from W; the identity on a level floor. */
+  Eigen::Quaterniond level_from_world_;
+  bool is_floor_level_;
   /** Body that carries the accelerometer, and where, m; body -1 if the robot has none. */
   int accelerometer_body_ = -1;
   Eigen::Isometry3d accelerometer_in_body_ = Eigen::Isometry3d::Identity();

@@ -28,7 +28,9 @@ Vector3d clipped(const Vector3d& v, double range) {
 }  // namespace
 
 Sensors::Sensors(const RobotModel& model, const SensorOptions& options, uint64_t seed)
-    : options_(options), random_(seed) {
+    : options_(options),
+      unit_from_torso_(rotation_of(options.errors.imu_mount).conjugate().toRotationMatrix()),
+      random_(seed) {
   const int num_motors = model.num_motors();
   readings_.position = Eigen::VectorXd::Zero(num_motors);
   readings_.velocity = readings_.position;
@@ -68,6 +70,9 @@ void Sensors::reset(const TrueMotion& truth) {
 
 void Sensors::jump(const TrueMotion& truth) {
   readings_.orientation = truth.orientation;
+  if (!options_.is_ideal && !options_.errors.imu_mount.isZero(0)) {
+    readings_.orientation = truth.orientation * rotation_of(options_.errors.imu_mount);
+  }
   for (int i = 0; i < readings_.position.size(); ++i) {
     readings_.position[i] = quantized(truth.position[i]);
   }
@@ -100,13 +105,15 @@ void Sensors::measure_joints(const TrueMotion& truth, double period) {
   readings_.torque = truth.torque;
 }
 
-void Sensors::measure_inertia(const TrueMotion& truth, double period) {
-  readings_.accelerometer = truth.specific_force;
-  readings_.gyroscope = truth.angular_velocity;
-  if (options_.is_ideal) {
-    readings_.orientation = truth.orientation;
-    return;
+void Sensors::add_inertial_errors() {
+  const RobotErrors& errors = options_.errors;
+  if (!errors.imu_mount.isZero(0)) {
+    readings_.accelerometer = unit_from_torso_ * readings_.accelerometer;
+    readings_.gyroscope = unit_from_torso_ * readings_.gyroscope;
   }
+  readings_.accelerometer = readings_.accelerometer.cwiseProduct(errors.accelerometer_scale);
+  readings_.gyroscope =
+      readings_.gyroscope.cwiseProduct(errors.gyroscope_scale) + errors.gyroscope_offset;
   for (int k = 0; k < 3; ++k) {
     readings_.accelerometer[k] +=
         accelerometer_bias_[k] + options_.accelerometer_noise * random_.normal();
@@ -114,6 +121,24 @@ void Sensors::measure_inertia(const TrueMotion& truth, double period) {
   }
   readings_.accelerometer = clipped(readings_.accelerometer, options_.accelerometer_range);
   readings_.gyroscope = clipped(readings_.gyroscope, options_.gyroscope_range);
+}
+
+void Sensors::measure_inertia(const TrueMotion& truth, double period) {
+  const Vector3d last_accelerometer = readings_.accelerometer;
+  const Vector3d last_gyroscope = readings_.gyroscope;
+  readings_.accelerometer = truth.specific_force;
+  readings_.gyroscope = truth.angular_velocity;
+  if (options_.is_ideal) {
+    readings_.orientation = truth.orientation;
+    return;
+  }
+  add_inertial_errors();
+  // At rest before the first tick both are read.
+  const bool alternates = options_.errors.imu_alternates && period > 0;
+  readings_.is_accelerometer_new = !alternates || readings_.tick % 2 == 0;
+  readings_.is_gyroscope_new = !alternates || readings_.tick % 2 == 1;
+  if (!readings_.is_accelerometer_new) readings_.accelerometer = last_accelerometer;
+  if (!readings_.is_gyroscope_new) readings_.gyroscope = last_gyroscope;
 
   // Mahony's filter: the gyroscope is integrated, and a rotation from the estimated to the measured
   // vertical is added at tilt_gain, the less the more the specific force differs from gravity.
@@ -138,6 +163,8 @@ void Sensors::measure_feet(const TrueMotion& truth) {
     for (size_t i = 0; i < foot.sensors.size(); ++i) {
       double force = (is_loaded ? (*fractions)[i] : 0.0) * load.force;
       if (!options_.is_ideal) {
+        const Eigen::VectorXd& scale = options_.errors.foot_sensor_scale;
+        if (scale.size() > 0) force *= scale[foot.sensors[i]];
         force *= 1 + options_.foot_force_noise * random_.normal();
         force = std::round(force / options_.foot_force_step) * options_.foot_force_step;
         force = std::clamp(force, 0.0, options_.foot_force_range);

@@ -9,6 +9,7 @@
 #include "common/random.h"
 #include "robot_model/robot_model.h"
 #include "sim/foot_load.h"
+#include "sim/robot_errors.h"
 
 namespace nao::sim {
 
@@ -26,6 +27,9 @@ struct SensorReadings {
    * frame, means over the tick. */
   Eigen::Vector3d accelerometer = Eigen::Vector3d::Zero();
   Eigen::Vector3d gyroscope = Eigen::Vector3d::Zero();
+  /** Whether they were read in this tick; the last reading is repeated otherwise. */
+  bool is_accelerometer_new = true;
+  bool is_gyroscope_new = true;
   /** Torso in W as the inertial unit estimates it. */
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   /** N, in the order of RobotModel::foot_sensors(), means over the tick. */
@@ -34,10 +38,12 @@ struct SensorReadings {
 
 /** The true values at the end of a control tick, and over it; as SensorReadings otherwise. */
 struct TrueMotion {
+  /** Of the motors, whose encoders read them. */
   Eigen::VectorXd position;
   Eigen::VectorXd torque;
   Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  /** Torso in a frame whose z axis is against gravity; on a level floor that is W. */
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   struct FootLoad {
     /** Force of the floor along the sole's normal, N, and its moment: force times its point of
@@ -71,12 +77,14 @@ struct SensorOptions {
   double foot_force_noise = 0.02;
   double foot_force_step = 0.05;
   double foot_force_range = 25;
+  /** Those of this robot's inertial unit and feet. */
+  RobotErrors errors;
 };
 
 /** The robot's sensors: readings from true values.
  *
- * reading = clip(quantize(true value + bias + white noise)), as far as each sensor has them:
- * encoders quantize, the inertial unit has bias, noise and range, the foot sensors noise
+ * reading = clip(quantize(scale * true value + bias + white noise)), as far as each sensor has
+ * them: encoders quantize, the inertial unit has bias, noise and range, the foot sensors noise
  * proportional to the force, resolution and range. The estimated orientation is a complementary
  * filter of the unit's own readings (R. Mahony, T. Hamel, J.-M. Pflimlin, Nonlinear Complementary
  * Filters on the Special Orthogonal Group, IEEE TAC 53(5), 2008); its heading drifts. */
@@ -97,10 +105,13 @@ class Sensors {
  private:
   void measure_joints(const TrueMotion& truth, double period);
   void measure_inertia(const TrueMotion& truth, double period);
+  void add_inertial_errors();
   void measure_feet(const TrueMotion& truth);
   double quantized(double position) const;
 
   SensorOptions options_;
+  /** Re-expresses in the inertial unit's axes a vector given in the torso's. */
+  Eigen::Matrix3d unit_from_torso_;
   Random random_;
   SensorReadings readings_;
   Eigen::Vector3d accelerometer_bias_ = Eigen::Vector3d::Zero();

@@ -7,6 +7,7 @@
 
 #include "common/data_path.h"
 #include "common/error.h"
+#include "sim/disturbance_draw.h"
 
 namespace nao::sim {
 namespace {
@@ -25,9 +26,20 @@ constexpr double kMaxPosition = 100;
 /** Distance of further robots to the left and right of the first, m: arms do not meet. */
 constexpr double kRobotSpacing = 0.8;
 
+/** Nothing if none were asked for. */
+std::optional<DisturbanceSet> find_disturbances(const SimOptions& options) {
+  if (options.disturbances.empty()) return std::nullopt;
+  return DisturbanceSet::find(options.disturbances);
+}
+
 WorldOptions world_options(const SimOptions& options) {
   WorldOptions result;
+  result.engine = options.engine;
   result.seed = options.seed;
+  if (const auto disturbances = find_disturbances(options)) {
+    draw_world(*disturbances, options.seed, result);
+  }
+  if (options.tick_ms == -1) return result;
   const int step_ms = static_cast<int>(std::lround(1e3 * result.step));
   if (options.tick_ms < step_ms || options.tick_ms > kMaxTickMs || options.tick_ms % step_ms != 0) {
     throw ConfigError(fmt::format("control period {} ms is not a multiple of {} ms from {} to {}",
@@ -38,6 +50,7 @@ WorldOptions world_options(const SimOptions& options) {
 }
 
 void add_robots(const SimOptions& options, World& world) {
+  const auto disturbances = find_disturbances(options);
   const auto model =
       std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / options.model));
   for (size_t i = 0; i < options.robots.size(); ++i) {
@@ -45,7 +58,12 @@ void add_robots(const SimOptions& options, World& world) {
     robot.name = options.robots[i];
     robot.posture = options.posture;
     robot.ideal_sensors = options.ideal_sensors;
-    robot.command_latency_ticks = options.command_latency_ticks;
+    if (disturbances) {
+      draw_robot(*disturbances, options.seed, static_cast<int>(i), *model, world.options(), robot);
+    }
+    if (options.command_latency_ticks >= 0) {
+      robot.command_latency_ticks = options.command_latency_ticks;
+    }
     // Alternating: 0, left, right, farther left, farther right ...
     const size_t rank = (i + 1) / 2;
     robot.position.y() = (i % 2 == 0 ? -kRobotSpacing : kRobotSpacing) * static_cast<double>(rank);
@@ -212,6 +230,10 @@ int SimCore::find_robot(const std::string& name) const {
 double SimCore::run_tick(double now) {
   const double delay = scheduler_.begin_tick(world_.tick(), now);
   world_.step_tick();
+  // Lost readings are never answered: in lock-step the next tick must not wait for it.
+  for (int i = 0; scheduler_.is_lock_step() && i < world_.num_robots(); ++i) {
+    if (world_.are_readings_lost(i)) scheduler_.note_command(i, world_.tick(), now);
+  }
   return delay;
 }
 

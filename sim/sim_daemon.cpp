@@ -166,7 +166,9 @@ void SimDaemon::warn_of_failures(double now) {
 
 void SimDaemon::publish_sensors() {
   for (size_t i = 0; i < channels_.size(); ++i) {
-    bus_.publish(channels_[i].sensor_state, sensor_state_of(core_.world(), static_cast<int>(i)));
+    const int robot = static_cast<int>(i);
+    if (core_.world().are_readings_lost(robot)) continue;
+    bus_.publish(channels_[i].sensor_state, sensor_state_of(core_.world(), robot));
   }
   last_publish_time_ = monotonic_seconds();
 }

@@ -16,15 +16,22 @@ struct SimOptions {
   std::vector<std::string> robots{"NAO"};
   /** Posture that the robots start in. */
   std::string posture{};
+  /** See WorldOptions::engine. */
+  std::string engine = "fast";
   /** Simulated seconds per wall second, 0 for as fast as possible. */
   double pace = 1;
   /** Compute a tick only when every robot's command for the one before was received. */
   bool lock_step = false;
   bool ideal_sensors = false;
+  /** Disturbances: name or list, see DisturbanceSet::find(). Empty: the robot as its model says,
+   * with the noise of its sensors. */
+  std::string disturbances;
   uint64_t seed = 1;
-  /** Control period, ms: a multiple of the physics step of 2 ms, 2 to 100. */
-  int tick_ms = 10;
-  int command_latency_ticks = 1;
+  /** Control period, ms: a multiple of the physics step of 2 ms, 2 to 100. -1: as the
+   * disturbances say, or 10. */
+  int tick_ms = -1;
+  /** -1: as the disturbances say, or 1. */
+  int command_latency_ticks = -1;
 };
 
 }  // namespace nao::sim

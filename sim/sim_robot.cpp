@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 SensorOptions sensor_options(const RobotOptions& options) {
   SensorOptions result;
   result.is_ideal = options.ideal_sensors;
+  result.errors = options.errors;
   return result;
 }
 
@@ -31,15 +32,19 @@ SimRobot::SimRobot(std::shared_ptr<const RobotModel> model, const RobotOptions& 
                    const WorldOptions& world)
     : model_(std::move(model)),
       options_(options),
-      tree_(*model_, options.mass_scale),
-      collisions_(*model_, tree_, world.num_sole_points),
+      tree_(*model_, options.mass_scale, options.errors.torso_com),
+      collisions_(*model_, tree_, world.num_sole_points,
+                  Floor(world.floor).is_flat() ? 0 : world.sole_point_spacing),
       integrator_(tree_, options.is_on_stand, world.gravity),
       drives_(*model_, tree_, options),
       targets_(model_->num_motors(), options.command_latency_ticks),
       accumulator_(*model_, tree_, world.gravity),
       sensors_(*model_, sensor_options(options), seed_of(world, options.name)),
+      floor_(world.floor),
+      random_(~seed_of(world, options.name)),
       motor_position_(Eigen::VectorXd::Zero(model_->num_motors())),
-      motor_velocity_(Eigen::VectorXd::Zero(model_->num_motors())) {
+      motor_velocity_(Eigen::VectorXd::Zero(model_->num_motors())),
+      encoder_position_(Eigen::VectorXd::Zero(model_->num_motors())) {
   return_to_start();
   switch_on();
 }
@@ -78,7 +83,7 @@ void SimRobot::place_joints(const std::vector<double>& position, const Vector3d&
   // First with the root on the ground, to see how far the lowest point is from it.
   integrator_.place(coordinate, {ground_position.x(), ground_position.y(), 0}, orientation);
   integrator_.move_root({ground_position.x(), ground_position.y(),
-                         ground_position.z() - lowest_point(collisions_, dynamics())});
+                         ground_position.z() - lowest_point(collisions_, dynamics(), floor_)});
   update_motor_state();
   accumulator_.begin_tick(dynamics());
   // Sensor readings are means over a tick; none may contain motion from before the jump.
@@ -124,11 +129,12 @@ void SimRobot::update_motor_state() {
   for (int i = 0; i < model_->num_motors(); ++i) {
     motor_position_[i] = drives_.position(i, state());
     motor_velocity_[i] = drives_.speed(i, state());
+    encoder_position_[i] = drives_.encoder_position(i, state());
   }
 }
 
 const TrueMotion& SimRobot::true_motion() {
-  return accumulator_.means(motor_position_, drives_.torque(), state(), dynamics());
+  return accumulator_.means(encoder_position_, drives_.torque(), state(), dynamics());
 }
 
 void SimRobot::begin_tick() {
@@ -141,6 +147,13 @@ void SimRobot::end_tick(double period) {
   targets_.end_tick();
   update_motor_state();
   sensors_.update(true_motion(), period);
+  draw_losses();
+}
+
+void SimRobot::draw_losses() {
+  const RobotErrors& errors = options_.errors;
+  if (errors.sensor_loss > 0) are_readings_lost_ = random_.uniform() < errors.sensor_loss;
+  if (errors.command_loss > 0) are_targets_lost_ = random_.uniform() < errors.command_loss;
 }
 
 void SimRobot::begin_step(double h, Eigen::Ref<Eigen::VectorXd> scaled_velocity) {
@@ -163,6 +176,12 @@ bool SimRobot::add_missed_bounds(double h, const Eigen::VectorXd& scaled_velocit
 
 void SimRobot::add_foot_load(int foot, const Vector3d& point, const Vector3d& impulse) {
   accumulator_.add_foot_impulse(foot, point, impulse, dynamics());
+}
+
+void SimRobot::end_explicit_step(double h, const TreeState& state) {
+  integrator_.set_state(state);
+  drives_.end_explicit_step(h, state);
+  accumulator_.add_step(h, state, dynamics(), drives_.torque());
 }
 
 void SimRobot::end_step(double h, const ConstraintSolver& solver) {

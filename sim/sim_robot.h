@@ -41,6 +41,8 @@ class SimRobot {
   const CollisionModel& collisions() const { return collisions_; }
   /** As set last. */
   const MotorTargets& targets() const { return targets_.newest(); }
+  /** Whether the readings of this tick do not arrive, see RobotErrors::sensor_loss. */
+  bool are_readings_lost() const { return are_readings_lost_; }
 
   /** Pose of a link in W; fingers turn with the opening. */
   Eigen::Isometry3d link_pose(int link) const;
@@ -60,8 +62,10 @@ class SimRobot {
   int first_dof() const { return first_dof_; }
   void set_first_dof(int dof) { first_dof_ = dof; }
 
-  /** Sets the targets that the next tick sends on their way. */
-  void set_targets(const MotorTargets& targets) { targets_.set(targets); }
+  /** Sets the targets that the next tick sends on their way, unless they are lost. */
+  void set_targets(const MotorTargets& targets) {
+    if (!are_targets_lost_) targets_.set(targets);
+  }
   /** See World::place_robot(). */
   void place(const Posture* posture, const Eigen::Vector3d& ground_position,
              const Eigen::Quaterniond* orientation);
@@ -95,10 +99,23 @@ class SimRobot {
   /** Reads the solution and moves on. */
   void end_step(double h, const ConstraintSolver& solver);
 
+  // A step of h seconds in another engine than the fast one: its joint forces and pushes, the
+  // floor's impulses on the soles (add_foot_load()), then its end.
+
+  const std::vector<JointForce>& begin_explicit_step(double h) {
+    return drives_.begin_explicit_step(h, targets_.current(), state());
+  }
+  /** See TreeIntegrator::take_impulses(). */
+  Eigen::VectorXd take_impulses() { return integrator_.take_impulses(); }
+  /** Within a step: what forces are computed from. */
+  void set_state(const TreeState& state) { integrator_.set_state(state); }
+  void end_explicit_step(double h, const TreeState& state);
+
  private:
   void place_joints(const std::vector<double>& position, const Eigen::Vector3d& ground_position,
                     const Eigen::Quaterniond& orientation);
   void update_motor_state();
+  void draw_losses();
   const TrueMotion& true_motion();
 
   std::shared_ptr<const RobotModel> model_;
@@ -110,10 +127,16 @@ class SimRobot {
   DelayedTargets targets_;
   SensorAccumulator accumulator_;
   Sensors sensors_;
+  Floor floor_;
+  /** Of what is lost. */
+  Random random_;
+  bool are_readings_lost_ = false;
+  bool are_targets_lost_ = false;
   int first_dof_ = 0;
   bool is_in_contact_ = false;
   Eigen::VectorXd motor_position_;
   Eigen::VectorXd motor_velocity_;
+  Eigen::VectorXd encoder_position_;
 };
 
 }  // namespace nao::sim

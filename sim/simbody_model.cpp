@@ -17,9 +17,9 @@ SimTK::Transform to_simbody(const Eigen::Isometry3d& pose) {
 }
 
 /** Mass properties about a body's origin, as Simbody defines them. */
-SimTK::MassProperties mass_of(const Link& link, const Eigen::Isometry3d& pose_in_body,
-                              double scale) {
-  const Eigen::Vector3d com = pose_in_body * link.center_of_mass;
+SimTK::MassProperties mass_of(const Link& link, const Eigen::Isometry3d& pose_in_body, double scale,
+                              const Eigen::Vector3d& displacement) {
+  const Eigen::Vector3d com = pose_in_body * (link.center_of_mass + displacement);
   // Inertia in the body's axes: R I R^T, about the link's center of mass; then by the parallel axis
   // theorem about the body's origin.
   const Eigen::Matrix3d i =
@@ -43,8 +43,10 @@ bool is_fixed(const Joint& joint) {
 
 }  // namespace
 
-SimbodyModel::SimbodyModel(const RobotModel& model, double mass_scale)
+SimbodyModel::SimbodyModel(const RobotModel& model, double mass_scale,
+                           const Eigen::Vector3d& torso_com)
     : robot_(model),
+      torso_com_(torso_com),
       matter_(system_),
       link_body_(model.links().size(), -1),
       link_pose_(model.links().size(), Eigen::Isometry3d::Identity()) {
@@ -103,7 +105,8 @@ void SimbodyModel::add_body(int link, int parent, int joint_index, double mass_s
   for (size_t i = 0; i < link_body_.size(); ++i) {
     const Link& part = robot_.links()[i];
     if (link_body_[i] != index || part.mass == 0) continue;
-    const SimTK::MassProperties part_mass = mass_of(part, link_pose_[i], mass_scale);
+    const SimTK::MassProperties part_mass =
+        mass_of(part, link_pose_[i], mass_scale, i == 0 ? torso_com_ : Eigen::Vector3d::Zero());
     mass = mass.getMass() == 0 ? part_mass : sum(mass, part_mass);
   }
   if (mass.getMass() <= 0) {

@@ -36,9 +36,11 @@ class SimbodyModel {
   };
 
   /** @param model  Must outlive this. @param mass_scale  Factor on every mass and inertia, above 0.
+   * @param torso_com  Displacement of the root link's center of mass, m, in its frame.
    * @throws ModelError  if a mimic joint and the joint it follows have different parent links, or a
    * body has no mass. */
-  explicit SimbodyModel(const RobotModel& model, double mass_scale = 1);
+  explicit SimbodyModel(const RobotModel& model, double mass_scale = 1,
+                        const Eigen::Vector3d& torso_com = Eigen::Vector3d::Zero());
   SimbodyModel(const SimbodyModel&) = delete;
   SimbodyModel& operator=(const SimbodyModel&) = delete;
 
@@ -51,6 +53,8 @@ class SimbodyModel {
   const Eigen::Isometry3d& pose_in_body(int link) const { return link_pose_[link]; }
 
   const SimTK::MultibodySystem& system() const { return system_; }
+  /** To add forces; realize its topology again afterwards. */
+  SimTK::MultibodySystem& system() { return system_; }
   const SimTK::SimbodyMatterSubsystem& matter() const { return matter_; }
   const SimTK::MobilizedBody& mobilized(int body) const {
     return matter_.getMobilizedBody(bodies_[body].mobilized);
@@ -67,6 +71,7 @@ class SimbodyModel {
   double subtree_mass(int link) const;
 
   const RobotModel& robot_;
+  Eigen::Vector3d torso_com_;
   SimTK::MultibodySystem system_;
   SimTK::SimbodyMatterSubsystem matter_;
   std::vector<Body> bodies_;

@@ -21,7 +21,7 @@ constexpr int kMaxRounds = 4;
 Stepper::Stepper(const SceneFile& scene, const WorldOptions& options, MovingBodies& bodies)
     : options_(options),
       bodies_(bodies),
-      detector_(scene, bodies, options.step),
+      detector_(scene, bodies, Floor(options.floor), options.step),
       assembler_(bodies, options) {
   reserve();
 }

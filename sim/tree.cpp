@@ -30,7 +30,8 @@ double cleaned(double x) {
 
 }  // namespace
 
-Tree::Tree(const RobotModel& robot, double mass_scale) : Tree(SimbodyModel(robot, mass_scale)) {}
+Tree::Tree(const RobotModel& robot, double mass_scale, const Eigen::Vector3d& torso_com)
+    : Tree(SimbodyModel(robot, mass_scale, torso_com)) {}
 
 Tree::Tree(const SimbodyModel& model) {
   for (size_t link = 0; link < model.robot().links().size(); ++link) {

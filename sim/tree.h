@@ -47,9 +47,10 @@ struct TreeBody {
 class Tree {
  public:
   /** Builds the robot's Simbody system and reads frames, axes and mass properties from it.
-   * @param mass_scale  Factor on every mass and inertia, above 0.
+   * @param mass_scale, torso_com  As SimbodyModel's.
    * @throws ModelError  as SimbodyModel does. */
-  explicit Tree(const RobotModel& robot, double mass_scale = 1);
+  explicit Tree(const RobotModel& robot, double mass_scale = 1,
+                const Eigen::Vector3d& torso_com = Eigen::Vector3d::Zero());
   explicit Tree(const SimbodyModel& model);
 
   const std::vector<TreeBody>& bodies() const { return bodies_; }

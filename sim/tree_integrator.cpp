@@ -69,6 +69,17 @@ void TreeIntegrator::add_impulse(int body, const Vector3d& impulse) {
   }
 }
 
+Eigen::VectorXd TreeIntegrator::take_impulses() {
+  Eigen::VectorXd impulses = external_impulse_;
+  external_impulse_.setZero();
+  return impulses;
+}
+
+void TreeIntegrator::set_state(const TreeState& state) {
+  state_ = state;
+  dynamics_.update_kinematics(state_);
+}
+
 void TreeIntegrator::begin_step(double h) {
   dynamics_.update_mass_matrix();
   dynamics_.calc_bias(gravity_, bias_);

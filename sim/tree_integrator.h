@@ -33,6 +33,12 @@ class TreeIntegrator {
   /** Impulse at a body's center of mass in the next step, N s, in W. */
   void add_impulse(int body, const Eigen::Vector3d& impulse);
 
+  /** Generalized impulses of the pushes since the last step, N m s and N s, (num_dofs), for other
+   * engines; they are taken out. */
+  Eigen::VectorXd take_impulses();
+  /** Takes over a state that another engine has computed. */
+  void set_state(const TreeState& state);
+
   // A step of h seconds, in this order.
 
   /** Computes mass matrix and momentum, without joint forces. */

@@ -10,9 +10,6 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/** Chosen: more than the latencies that the walk was tested with (nao-trial --latency). */
-constexpr int kMaxCommandLatencyTicks = 10;
-
 void check(bool is_valid, const std::string& name, double value, const std::string& range) {
   if (is_valid) return;
   throw ConfigError(name + " is " + std::to_string(value) + " and must be " + range);
@@ -23,6 +20,9 @@ WorldOptions checked(const WorldOptions& options) {
   check(options.steps_per_tick >= 1, "steps per tick", options.steps_per_tick, "1 or more");
   check(options.num_sole_points >= 3, "number of sole points", options.num_sole_points,
         "3 or more");
+  check(options.floor.bump_height >= 0, "height of bumps", options.floor.bump_height,
+        "0 m or more");
+  check(options.floor.bump_grid > 0, "distance of bumps", options.floor.bump_grid, "above 0 m");
   return options;
 }
 
@@ -46,21 +46,22 @@ MovingBodies bodies_of(const SceneFile& scene) {
 World::World(const SceneFile& scene, const WorldOptions& options)
     : scene_(scene),
       options_(checked(options)),
+      floor_(options.floor),
       bodies_(bodies_of(scene)),
-      stepper_(scene_, options_, bodies_) {
+      engine_(make_engine(scene_, options_, bodies_)) {
   reset();
 }
 
 int World::add_robot(std::shared_ptr<const RobotModel> model, const RobotOptions& options) {
   check(options);
   bodies_.robots.push_back(std::make_unique<SimRobot>(std::move(model), options, options_));
-  stepper_.add_robot();
+  engine_->add_robot();
   return num_robots() - 1;
 }
 
 double World::time() const {
   // Product instead of a running sum: no rounding error grows with time.
-  return static_cast<double>(stepper_.num_steps()) * options_.step;
+  return static_cast<double>(engine_->num_steps()) * options_.step;
 }
 
 const BallState& World::ball() const {
@@ -92,8 +93,8 @@ void World::check_states() {
   }
   if (bodies_.ball && !bodies_.ball->is_within_bounds()) {
     ++num_bad_states_;
-    bodies_.ball->reset();
-    stepper_.forget_contacts_of_ball();
+    return_ball_to_start();
+    engine_->forget_contacts_of_ball();
   }
 }
 
@@ -101,7 +102,7 @@ void World::return_to_start(int robot) {
   // Impulses that are kept for a warm start belong to contacts of the old pose: in the new one they
   // would push.
   bodies_.robots[robot]->return_to_start();
-  stepper_.forget_contacts_of_robot(robot);
+  engine_->forget_contacts_of_robot(robot);
 }
 
 void World::reset() {
@@ -111,20 +112,27 @@ void World::reset() {
     return_to_start(i);
     bodies_.robots[i]->switch_on();
   }
-  if (bodies_.ball) bodies_.ball->reset();
-  stepper_.reset();
+  if (bodies_.ball) return_ball_to_start();
+  engine_->reset();
+}
+
+void World::return_ball_to_start() {
+  bodies_.ball->reset();
+  const Vector3d& at = bodies_.ball->state().position;
+  if (!floor_.is_flat()) place_ball({at.x(), at.y(), 0}, Vector3d::Zero());
 }
 
 void World::place_robot(int index, const Posture* posture, const Vector3d& position,
                         const Quaterniond* orientation) {
   bodies_.robots[index]->place(posture, position, orientation);
-  stepper_.forget_contacts_of_robot(index);
+  engine_->forget_contacts_of_robot(index);
 }
 
 void World::place_ball(const Vector3d& position, const Vector3d& velocity) {
   if (!bodies_.ball) return;
-  bodies_.ball->place(position, velocity);
-  stepper_.forget_contacts_of_ball();
+  const double ground = floor_.at(position.x(), position.y()).height;
+  bodies_.ball->place(position + Vector3d(0, 0, ground), velocity);
+  engine_->forget_contacts_of_ball();
 }
 
 void World::push(int robot, int link, const Vector3d& impulse) {
@@ -137,7 +145,7 @@ void World::push_ball(const Vector3d& impulse) {
 
 double World::energy() const {
   // Kinetic and potential energy, and that stored in compliant contacts.
-  double sum = stepper_.elastic_energy();
+  double sum = engine_->elastic_energy();
   for (const auto& robot : bodies_.robots) sum += robot->energy();
   if (bodies_.ball) sum += bodies_.ball->energy(options_.gravity);
   return sum;

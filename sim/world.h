@@ -8,10 +8,10 @@
 #include "robot_model/robot_model.h"
 #include "robot_model/scene_file.h"
 #include "sim/contact.h"
+#include "sim/engine.h"
 #include "sim/moving_bodies.h"
 #include "sim/sensors.h"
 #include "sim/sim_robot.h"
-#include "sim/stepper.h"
 #include "sim/world_options.h"
 
 namespace nao::sim {
@@ -20,7 +20,7 @@ namespace nao::sim {
  *
  * Frame W: x along the field, y left, z up, origin on the ground at the center of the field.
  * SI units and rad. The same calls on the same build give the same bits: no clock, thread, file or
- * log is used here. step_tick() allocates nothing.
+ * log is used here. step_tick() allocates nothing with the fast engine.
  *
  *     World world(SceneFile::find("soccer"));
  *     const int robot = world.add_robot(model);
@@ -31,10 +31,10 @@ namespace nao::sim {
  *     }
  *
  * It has more than 25 methods since it is the whole interface of the physics: users change robots
- * and ball through it only (robot() is const). The work is done by Stepper, SimRobot and Ball. */
+ * and ball through it only (robot() is const). The work is done by Engine, SimRobot and Ball. */
 class World {
  public:
-  using Stage = Stepper::Stage;
+  using Stage = Engine::Stage;
 
   /** @throws ConfigError  if an option is outside its range. */
   explicit World(const SceneFile& scene, const WorldOptions& options = {});
@@ -50,6 +50,7 @@ class World {
   const SimRobot& robot(int index) const { return *bodies_.robots[index]; }
   const SceneFile& scene() const { return scene_; }
   const WorldOptions& options() const { return options_; }
+  const Floor& floor() const { return floor_; }
 
   /** Sets the targets of all motors from the next tick on (later by the robot's command latency).
    * Positions beyond a joint's range press the joint against its stop.
@@ -60,7 +61,7 @@ class World {
   /** One control tick: steps_per_tick steps, then new sensor readings. */
   void step_tick();
   /** One physics step, without sensors, for benchmarks and tests. */
-  void step() { stepper_.step(); }
+  void step() { engine_->step(); }
 
   int64_t tick() const { return tick_; }
   /** Simulated time since the start or reset, s. */
@@ -69,20 +70,25 @@ class World {
     return bodies_.robots[robot]->sensors().readings();
   }
 
+  /** Whether this tick's readings do not arrive (RobotErrors::sensor_loss); so do targets that are
+   * set in some ticks (command_loss). */
+  bool are_readings_lost(int robot) const { return bodies_.robots[robot]->are_readings_lost(); }
+
   bool has_ball() const { return bodies_.ball.has_value(); }
   /** At rest at the origin in a scene without a ball. */
   const BallState& ball() const;
   /** Contact points with a force in the last step. A pair of bodies may have several. */
-  const std::vector<Contact>& contacts() const { return stepper_.contacts(); }
+  const std::vector<Contact>& contacts() const { return engine_->contacts(); }
 
   /** Everything as at the start, at tick 0. Only the sensors' noise goes on. */
   void reset();
   /** Places a robot at rest. @param posture  Angles of all motors, or nullptr to keep them.
-   * @param position  x, y of the torso, and height of the robot's lowest point; m.
+   * @param position  x, y of the torso, and least height of the robot over the floor; m.
    * @param orientation  Of the torso. nullptr: as the posture rests, facing along x. */
   void place_robot(int robot, const Posture* posture, const Eigen::Vector3d& position,
                    const Eigen::Quaterniond* orientation = nullptr);
-  /** @param position  x, y, and height of the ball's lowest point; m. Without a ball: no effect. */
+  /** @param position  x, y, and height of the ball's lowest point over the floor; m. Without a
+   * ball: no effect. */
   void place_ball(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity);
   /** Impulse at a link's center of mass in the next step, N s, in W. */
   void push(int robot, int link, const Eigen::Vector3d& impulse);
@@ -94,26 +100,28 @@ class World {
   int64_t num_bad_states() const { return num_bad_states_; }
   /** Contacts since reset() that carried no force, because a step had more than memory was taken
    * for (64, and 96 for each robot). */
-  int64_t num_dropped_contacts() const { return stepper_.num_dropped_contacts(); }
+  int64_t num_dropped_contacts() const { return engine_->num_dropped_contacts(); }
   /** Kinetic (with rotors) and potential energy of robots and ball, and what the springs of
    * contacts and joint stops store, J. */
   double energy() const;
   /** Calls `probe(stage, user)` after each stage of every step; for measurements. */
-  void set_stage_probe(void (*probe)(Stage, void*), void* user) {
-    stepper_.set_stage_probe(probe, user);
+  void set_stage_probe(Engine::StageProbe probe, void* user) {
+    engine_->set_stage_probe(probe, user);
   }
   /** Iterations of the constraint solver in the last step. */
-  int last_iterations() const { return stepper_.last_iterations(); }
+  int last_iterations() const { return engine_->last_iterations(); }
 
  private:
   /** Puts back what has left all physical bounds. */
   void check_states();
   void return_to_start(int robot);
+  void return_ball_to_start();
 
   SceneFile scene_;
   WorldOptions options_;
+  Floor floor_;
   MovingBodies bodies_;
-  Stepper stepper_;
+  std::unique_ptr<Engine> engine_;
   int64_t tick_ = 0;
   int64_t num_bad_states_ = 0;
 };

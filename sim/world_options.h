@@ -5,8 +5,14 @@
 #include <string>
 
 #include "common/constants.h"
+#include "sim/floor.h"
+#include "sim/robot_errors.h"
 
 namespace nao::sim {
+
+/** Largest command latency, control ticks. Chosen: more than the latencies that the walk was tested
+ * with (nao-trial --latency). */
+inline constexpr int kMaxCommandLatencyTicks = 10;
 
 /** Properties of surfaces. Coefficients of Coulomb friction are dimensionless. */
 struct Materials {
@@ -32,20 +38,26 @@ struct Materials {
 
 /** Time step, solver and surroundings of a world. */
 struct WorldOptions {
+  /** Physics engine, see engine_names(): "fast", "simbody", or "mujoco" where it was built. */
+  std::string engine = "fast";
   /** Length of a physics step, s, and steps per control tick. */
   double step = 0.002;
   int steps_per_tick = 5;
-  /** m/s^2, in W. Tilted, it makes an incline of the floor. */
+  /** m/s^2, in W. Tilted, it makes an incline of the floor (`floor_slope`). */
   Eigen::Vector3d gravity{0, 0, -kGravity};
   /** Seed of all noise. */
   uint64_t seed = 1;
   Materials materials;
+  FloorOptions floor;
   /** Constraint solver: largest number of iterations, and the change of velocity, m/s or rad/s,
    * below which it has converged. */
   int max_iterations = 50;
   double tolerance = 1e-5;
   /** Corners of each sole's outline that collide with the floor. */
   int num_sole_points = 8;
+  /** Distance between further points within the outline, m, which collide with a floor that is not
+   * flat. Chosen: a third of the usual distance of bumps. */
+  double sole_point_spacing = 0.03;
 
   /** Control period, s. */
   double period() const { return step * steps_per_tick; }
@@ -74,6 +86,8 @@ struct RobotOptions {
   double height = 0;
   /** Sensors without quantization, noise, bias, range or drift. */
   bool ideal_sensors = false;
+  /** Differences of joints, sensors and links from the model. */
+  RobotErrors errors;
 };
 
 }  // namespace nao::sim

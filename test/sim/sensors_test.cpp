@@ -108,5 +108,76 @@ TEST(Sensors, EstimateRollAndPitchWhileTheHeadingDrifts) {
   EXPECT_GT(heading, 0.01);
 }
 
+TEST(InertialUnit, MeasuresInItsOwnAxesWhereItIsMountedTilted) {
+  World world{SceneFile{}};
+  RobotOptions options;
+  options.errors.imu_mount = {0.1, 0, 0};
+  options.errors.accelerometer_scale = {1, 1, 2};
+  options.errors.gyroscope_offset = {0, 0, 0.5};
+  const int robot = world.add_robot(nao_model(), options);
+  settled(world, 1);
+  // Turned about x by 0.1 rad, the unit sees the vertical turned back.
+  const Vector3d up(0, std::sin(0.1), std::cos(0.1));
+  const Vector3d leaning = world.robot(robot).state().orientation.conjugate() * Vector3d::UnitZ();
+  const Vector3d expected = (up + leaning - Vector3d::UnitZ()).cwiseProduct(Vector3d(1, 1, 2));
+  EXPECT_NEAR((world.sensors(robot).accelerometer / 9.81 - expected).norm(), 0, 0.06);
+  EXPECT_NEAR(world.sensors(robot).gyroscope.z(), 0.5, 0.05);
+}
+
+TEST(InertialUnit, RefreshesItsHalvesInTurns) {
+  World world{SceneFile{}};
+  RobotOptions options;
+  options.errors.imu_alternates = true;
+  const int robot = world.add_robot(nao_model(), options);
+  SensorReadings last = world.sensors(robot);
+  EXPECT_TRUE(last.is_accelerometer_new && last.is_gyroscope_new);
+  for (int i = 0; i < 20; ++i) {
+    world.step_tick();
+    const SensorReadings& now = world.sensors(robot);
+    EXPECT_NE(now.is_accelerometer_new, now.is_gyroscope_new);
+    EXPECT_EQ(now.is_accelerometer_new, now.accelerometer != last.accelerometer);
+    EXPECT_EQ(now.is_gyroscope_new, now.gyroscope != last.gyroscope);
+    EXPECT_TRUE(i == 0 || now.is_gyroscope_new != last.is_gyroscope_new);
+    last = now;
+  }
+}
+
+TEST(FootSensors, MayBeDeadOrOfAnotherScale) {
+  World world{SceneFile{}};
+  const int ideal_robot = world.add_robot(nao_model(), ideal());
+  World other{SceneFile{}};
+  RobotOptions options;
+  options.errors.foot_sensor_scale = Eigen::VectorXd::Constant(8, 0.7);
+  options.errors.foot_sensor_scale[2] = 0;
+  const int robot = other.add_robot(nao_model(), options);
+  settled(world, 1);
+  settled(other, 1);
+  const Eigen::VectorXd& force = other.sensors(robot).foot_force;
+  EXPECT_EQ(force[2], 0);
+  EXPECT_NEAR(force[0], 0.7 * world.sensors(ideal_robot).foot_force[0], 0.5);
+}
+
+TEST(Losses, AreAsFrequentAsTheOptionsSayAndALostCommandChangesNothing) {
+  World world{SceneFile{}};
+  RobotOptions options;
+  options.errors.sensor_loss = 0.2;
+  options.errors.command_loss = 0.1;
+  const int robot = world.add_robot(nao_model(), options);
+  MotorTargets targets = world.targets(robot);
+  int num_lost_readings = 0;
+  int num_lost_targets = 0;
+  constexpr int kTicks = 2000;
+  for (int i = 0; i < kTicks; ++i) {
+    world.step_tick();
+    num_lost_readings += world.are_readings_lost(robot) ? 1 : 0;
+    targets.position[0] = 1e-6 * i;
+    world.set_targets(robot, targets);
+    num_lost_targets += world.targets(robot).position[0] == targets.position[0] ? 0 : 1;
+  }
+  // Four standard deviations of the binomial distribution.
+  EXPECT_NEAR(num_lost_readings, 0.2 * kTicks, 72);
+  EXPECT_NEAR(num_lost_targets, 0.1 * kTicks, 54);
+}
+
 }  // namespace
 }  // namespace nao::sim

@@ -10,7 +10,6 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kTick = 0.01;  // s, control period of ClosedLoopOptions
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr int kNumCommands = 100;       // of a run
 constexpr double kPushShare = 0.03;     // of the commands, with a push that throws the robot over
@@ -84,7 +83,7 @@ class Watch {
     for (int motor = 0; motor < trial_.model().num_motors(); ++motor) {
       const Joint& joint = trial_.model().motor_joint(motor);
       const double change = std::abs(targets[motor] - last_[motor]);
-      if (change > joint.max_velocity * kTick * (1 + 1e-9)) fail(joint.name + " jumped");
+      if (change > joint.max_velocity * trial_.period() * (1 + 1e-9)) fail(joint.name + " jumped");
     }
     last_ = targets;
     for (; next_ < trial_.results().size(); ++next_) take(trial_.results()[next_]);

@@ -8,7 +8,6 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kTick = 0.01;     // s, control period of ClosedLoopOptions
 constexpr double kDeepest = 0.01;  // s of self-contact force that a brush may last
 
 /** A command for one to three random joints, valid or invalid. */
@@ -51,7 +50,8 @@ std::vector<RunResult> JointsScenario::run(const ScenarioOptions& options, uint6
     const std::vector<double>& targets = trial.targets();
     for (int motor = 0; motor < trial.model().num_motors(); ++motor) {
       const Joint& joint = trial.model().motor_joint(motor);
-      if (std::abs(targets[motor] - last[motor]) > joint.max_velocity * kTick * (1 + 1e-9)) {
+      if (std::abs(targets[motor] - last[motor]) >
+          joint.max_velocity * trial.period() * (1 + 1e-9)) {
         fail(joint.name + " jumped");
       }
       const double clipped = trial.model().clip_to_limits(motor, targets[motor], targets);
@@ -63,7 +63,7 @@ std::vector<RunResult> JointsScenario::run(const ScenarioOptions& options, uint6
           contact.b.kind != sim::Surface::Kind::kRobot) {
         continue;
       }
-      self_contact_time += kTick;
+      self_contact_time += trial.period();
       if (self_contact_time <= kDeepest) continue;
       fail(fmt::format("{} touched {}", trial.model().links()[contact.a.link].name,
                        trial.model().links()[contact.b.link].name));

@@ -6,7 +6,6 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kTick = 0.01;          // s
 constexpr double kStillVelocity = 0.1;  // rad/s
 constexpr int kNumStill = 10;           // ticks
 constexpr double kLongestWait = 3;      // s
@@ -40,7 +39,7 @@ LyingStill wait_until_still(ClosedLoop& trial) {
   trial.run_until(
       [&] {
         const Eigen::Vector3d now = trial.torso_in_world().linear().row(2);
-        const bool is_still = (now - up).norm() / kTick < kStillVelocity;
+        const bool is_still = (now - up).norm() / trial.period() < kStillVelocity;
         up = now;
         num_still = is_still ? num_still + 1 : 0;
         const bool gets_up = trial.core().motion_state().mode == Mode::kGettingUp;
@@ -48,7 +47,7 @@ LyingStill wait_until_still(ClosedLoop& trial) {
       },
       kLongestWait);
   LyingStill lying;
-  lying.since = trial.time() - std::max(0, num_still) * kTick;
+  lying.since = trial.time() - std::max(0, num_still) * trial.period();
   if (std::abs(up.x()) > std::abs(up.y())) {
     lying.side = up.x() < 0 ? "belly" : "back";
   } else {

@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
   std::string plot_file;
   std::string model_name = "nao";
   bool is_verbose = false;
+  std::string disturbances = "default";
   ScenarioOptions options;
   std::string chosen;
   for (const auto& scenario : scenarios()) {
@@ -103,12 +104,22 @@ int main(int argc, char** argv) {
     command
         ->add_option(
             "--latency", options.trial.command_latency_ticks,
-            "Latency from a joint command to the motors in ticks of 10 ms (0: random, 1 or 2)")
+            "Control ticks from a joint command to the motors (0: as the disturbances say)")
         ->range(0, 10)
         ->show_default();
     command->add_option("--trace", options.trace_file,
                         "walk: write true and estimated pose to this file, CSV");
-    command->add_flag("--ideal", options.trial.is_ideal, "No randomization, noise or latency");
+    command
+        ->add_option("--engine", options.trial.engine,
+                     "Physics engine: fast, simbody, or mujoco where it was built")
+        ->show_default();
+    command
+        ->add_option("--disturbances", disturbances,
+                     "What is drawn for each seed: none, default, moderate, real, or entries of "
+                     "real such as backlash,floor_slope")
+        ->show_default();
+    command->add_flag("--ideal", options.trial.is_ideal,
+                      "No noise or latency either: --disturbances none");
     command->add_flag("--verbose", is_verbose, "Print a line for each run");
     command->on_parsed([&chosen, &scenario] { chosen = scenario->name(); });
   }
@@ -117,9 +128,15 @@ int main(int argc, char** argv) {
       if (chosen != scenario->name()) continue;
       options.trial.model = std::make_shared<nao::RobotModel>(
           nao::RobotModel::load(nao::data_path() / "robots" / model_name));
+      if (options.trial.is_ideal) disturbances = "none";
+      options.trial.disturbances =
+          std::make_shared<nao::sim::DisturbanceSet>(nao::sim::DisturbanceSet::find(disturbances));
       options.trial.scene = nao::SceneFile::find(scenario->scene());
       options.is_for_plot = !plot_file.empty();
-      const Summary summary = run_all(*scenario, options, parse_seeds(seeds), is_verbose);
+      Summary summary = run_all(*scenario, options, parse_seeds(seeds), is_verbose);
+      summary.engine = options.trial.engine;
+      summary.disturbances = disturbances;
+      summary.model = model_name;
       std::fputs(to_table(summary).c_str(), stdout);
       if (!json_file.empty()) write_file(json_file, to_json(summary));
       if (!plot_file.empty()) {

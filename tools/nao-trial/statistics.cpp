@@ -94,6 +94,9 @@ std::string to_json(const Summary& summary) {
   JsonWriter json;
   json.begin_object();
   json.add("scenario", summary.scenario);
+  json.add("engine", summary.engine);
+  json.add("disturbances", summary.disturbances);
+  json.add("model", summary.model);
   json.add("runs", num_runs);
   json.add("successes", summary.num_successes());
   json.add("rate", num_runs > 0 ? static_cast<double>(summary.num_successes()) / num_runs : 0.0);

@@ -12,6 +12,10 @@ namespace nao::trial {
 /** All runs of a scenario. */
 struct Summary {
   std::string scenario;
+  /** Physics engine, disturbances and robot model of all runs. */
+  std::string engine;
+  std::string disturbances;
+  std::string model;
   std::vector<RunResult> runs;
   /** Seed of each run. */
   std::vector<uint64_t> seeds;
@@ -34,7 +38,7 @@ MetricStatistics calc_statistics(const std::string& name, std::vector<double> va
 
 /** Text table: successes, metrics, and each cause of failure with its seeds. */
 std::string to_table(const Summary& summary);
-/** One line of JSON: scenario, runs, successes, rate, metrics. */
+/** One line of JSON: scenario, engine, disturbances, model, runs, successes, rate, metrics. */
 std::string to_json(const Summary& summary);
 
 }  // namespace nao::trial

@@ -16,7 +16,6 @@ using Eigen::Rotation2Dd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kTick = 0.01;  // s, control period of ClosedLoopOptions
 // Time before the first command in which the state estimate converges, s.
 constexpr double kStand = 1;
 // Time from the command until the gait has reached its velocity, s.
@@ -81,9 +80,12 @@ bool run_upright(ClosedLoop& trial, double duration) {
  * robot from its pose at the beginning to its pose at the end. */
 class VelocityMean {
  public:
-  explicit VelocityMean(const ClosedLoop& trial) : last_(true_pose(trial)) {}
+  explicit VelocityMean(const ClosedLoop& trial)
+      : ticks_per_second_(static_cast<int>(std::lround(1 / trial.period()))),
+        period_(trial.period()),
+        last_(true_pose(trial)) {}
   void add(const ClosedLoop& trial) {
-    if (++ticks_ < kTicks) return;
+    if (++ticks_ < ticks_per_second_) return;
     ticks_ = 0;
     const GroundPose now = true_pose(trial);
     const double turn = wrapped(now.heading - last_.heading);
@@ -95,13 +97,14 @@ class VelocityMean {
     inverse << stretch, half, -half, stretch;
     const Vector2d way = inverse * last_.from_here(now.position);
     sum_ += Vector3d(way.x(), way.y(), turn);
-    time_ += kTicks * kTick;
+    time_ += ticks_per_second_ * period_;
     last_ = now;
   }
-  Vector3d mean() const { return sum_ / std::max(time_, kTick); }
+  Vector3d mean() const { return sum_ / std::max(time_, period_); }
 
  private:
-  static constexpr int kTicks = 100;  // 1 s
+  int ticks_per_second_;
+  double period_;
   GroundPose last_;
   Vector3d sum_ = Vector3d::Zero();
   double time_ = 0;
@@ -143,10 +146,11 @@ class StandstillDetector {
       : start_(trial.time()), last_(trial.torso_in_world()), place_(true_pose(trial)) {}
   void look(const ClosedLoop& trial) {
     const Eigen::Isometry3d now = trial.torso_in_world();
-    const double speed = (now.translation() - last_.translation()).norm() / kTick;
+    const double speed = (now.translation() - last_.translation()).norm() / trial.period();
     const double turning = Eigen::AngleAxisd(last_.linear().transpose() * now.linear()).angle();
     last_ = now;
-    if (speed > kStillSpeed || turning / kTick > kStillTurning) still_since_ = trial.time();
+    if (speed > kStillSpeed || turning / trial.period() > kStillTurning)
+      still_since_ = trial.time();
   }
   /** Time from the construction until the robot stood still, s. */
   double duration() const { return std::max(0.0, still_since_ - start_); }

@@ -1,0 +1,427 @@
+// Compiled as C++17: Simbody's headers are not valid C++20.
+#include "sim/simbody_engine.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+
+#include "sim/contact_assembler.h"
+#include "sim/simbody_model.h"
+
+namespace nao::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+/** Longest step of the integrator, s: explicit contacts of 2e4 N/m are stable up to it (measured:
+ * 0.5 ms with rotors; docs/decisions/physics-solver.md). */
+constexpr double kMaxStep = 0.0005;
+/** Of the coupled joints, rad; chosen: a tenth of an encoder's step. */
+constexpr double kConstraintTolerance = 1e-4;
+/** Hunt and Crossley's dissipation, s/m, of robots and of the ball. Robots: measured as above;
+ * ball: it rebounds with about half of its speed at 1 m/s. */
+constexpr double kDissipation = 2;
+constexpr double kBallDissipation = 0.5;
+/** Sliding speed at which friction has 71 % of Coulomb's, m/s; below, contacts creep. */
+constexpr double kSlidingSpeed = 0.01;
+/** Contact candidates of the scene, and of each robot. Chosen as for the fast engine. */
+constexpr int kMaxCandidates = 96;
+
+SimTK::Vec3 to_simbody(const Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/** A force element that asks its owner. */
+template <class Owner>
+class OwnersForce : public SimTK::Force::Custom::Implementation {
+ public:
+  explicit OwnersForce(Owner& owner) : owner_(owner) {}
+  void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                 SimTK::Vector_<SimTK::Vec3>& /*particle_forces*/,
+                 SimTK::Vector& mobility_forces) const override {
+    owner_.calc_forces(state, body_forces, mobility_forces);
+  }
+  SimTK::Real calcPotentialEnergy(const SimTK::State& /*state*/) const override { return 0; }
+
+ private:
+  Owner& owner_;
+};
+
+void integrate(const SimTK::MultibodySystem& system, SimTK::Integrator& integrator,
+               double duration) {
+  // The step begins with the accelerations of its first state, under the new forces.
+  SimTK::State& start = integrator.updAdvancedState();
+  start.invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
+  system.realize(start, SimTK::Stage::Acceleration);
+  const double end = integrator.getTime() + duration;
+  // The first call after a start returns at once.
+  while (integrator.getTime() < end - 1e-9) integrator.stepTo(end, end);
+}
+
+std::unique_ptr<SimTK::Integrator> make_integrator(const SimTK::MultibodySystem& system,
+                                                   double step) {
+  const double substep = step / std::ceil(step / kMaxStep - 1e-9);
+  auto integrator = std::make_unique<SimTK::SemiExplicitEulerIntegrator>(system, substep);
+  integrator->setConstraintTolerance(kConstraintTolerance);
+  integrator->setAllowInterpolation(false);
+  return integrator;
+}
+
+/** Velocity of a surface's point, m/s; both in W. */
+Vector3d velocity_of(const MovingBodies& bodies, const Surface& surface, int body,
+                     const Vector3d& point) {
+  if (surface.kind == Surface::Kind::kRobot) {
+    return bodies.robots[surface.robot]->dynamics().velocity_at(body, point);
+  }
+  if (surface.kind == Surface::Kind::kBall) return bodies.ball->velocity_at(point);
+  return Vector3d::Zero();
+}
+
+/** Force on surface a of a contact, N, in W: Hunt and Crossley's normal law with a linear spring,
+ * k x (1 + 3/2 c x'), and Coulomb's friction with a continuous direction. */
+Vector3d force_on_a(const ContactCandidate& contact, const MovingBodies& bodies,
+                    const WorldOptions& options) {
+  const double depth = -contact.proximity.distance;
+  if (!(depth > 0)) return Vector3d::Zero();
+  const Vector3d& normal = contact.proximity.normal;
+  const Vector3d& point = contact.proximity.point;
+  const Vector3d relative = velocity_of(bodies, contact.a, contact.body_a, point) -
+                            velocity_of(bodies, contact.b, contact.body_b, point);
+  const double opening = normal.dot(relative);
+  const bool is_ball = contact.a.kind == Surface::Kind::kBall;
+  const double dissipation = is_ball ? kBallDissipation : kDissipation;
+  const double pressing =
+      options.materials.contact_stiffness * depth * std::max(0.0, 1 - 1.5 * dissipation * opening);
+  const Vector3d sliding = relative - opening * normal;
+  const double speed = std::hypot(sliding.norm(), kSlidingSpeed);
+  const double friction = friction_between(contact.a, contact.b, bodies, options.materials);
+  return pressing * (normal - friction / speed * sliding);
+}
+
+}  // namespace
+
+/** One robot as a Simbody system. */
+class SimbodyEngine::RobotSystem {
+ public:
+  RobotSystem(SimbodyEngine& engine, int index)
+      : engine_(engine),
+        index_(index),
+        robot_(*engine.bodies_.robots[index]),
+        model_(robot_.model(), robot_.options().mass_scale, robot_.options().errors.torso_com),
+        forces_(model_.system()),
+        state_(robot_.state()),
+        impulses_(Eigen::VectorXd::Zero(robot_.tree().num_dofs())) {
+    new SimTK::Force::Custom(forces_, new OwnersForce<RobotSystem>(*this));
+    model_.system().realizeTopology();
+    for (int body = 0; body < robot_.tree().num_bodies(); ++body) {
+      first_u_.push_back(model_.mobilized(body).getFirstUIndex(model_.default_state()));
+    }
+    start();
+  }
+
+  /** Takes over the robot's state. */
+  void start() {
+    SimTK::State state = model_.default_state();
+    model_.set_state(robot_.tree(), robot_.state(), state);
+    if (robot_.options().is_on_stand) model_.mobilized(0).lock(state);
+    state_ = robot_.state();
+    motors_.clear();
+    impulses_.setZero();
+    integrator_ = make_integrator(model_.system(), engine_.options_.step);
+    integrator_->initialize(state);
+  }
+
+  void step(double h) {
+    motors_ = robot_.begin_explicit_step(h);
+    impulses_ = robot_.take_impulses();
+    try {
+      integrate(model_.system(), *integrator_, h);
+      read(integrator_->getState());
+    } catch (const std::exception&) {
+      // Simbody rejects a state that is not finite. The world is told by such a state, and puts the
+      // robot back to its start.
+      state_.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    robot_.set_state(state_);
+  }
+  /** Ends the step after contacts were collected. */
+  void end_step(double h) { robot_.end_explicit_step(h, state_); }
+
+  void calc_forces(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                   SimTK::Vector& mobility_forces) {
+    read(state);
+    robot_.set_state(state_);
+    add_weight(body_forces);
+    add_contacts(body_forces);
+    add_motors(mobility_forces);
+    add_rotors(state, body_forces, mobility_forces);
+  }
+
+ private:
+  int u_of_dof(int dof) const {
+    return dof < 6 ? first_u_[0] + dof : first_u_[robot_.tree().body_of_dof(dof)];
+  }
+
+  void read(const SimTK::State& state) {
+    const SimTK::Vector q = model_.mobilized(0).getQAsVector(state);
+    const SimTK::Vector u = model_.mobilized(0).getUAsVector(state);
+    if (!robot_.options().is_on_stand) {
+      state_.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+      state_.position = {q[4], q[5], q[6]};
+      for (int i = 0; i < 6; ++i) state_.velocity[i] = u[i];
+    }
+    for (int dof = 6; dof < robot_.tree().num_dofs(); ++dof) {
+      const int body = robot_.tree().body_of_dof(dof);
+      state_.coordinate[dof] = model_.mobilized(body).getOneQ(state, 0);
+      state_.velocity[dof] = model_.mobilized(body).getOneU(state, 0);
+    }
+  }
+
+  void add_force(int body, const Vector3d& point, const Vector3d& force,
+                 SimTK::Vector_<SimTK::SpatialVec>& body_forces) const {
+    const Vector3d moment = (point - robot_.dynamics().position(body)).cross(force);
+    body_forces[model_.bodies()[body].mobilized] +=
+        SimTK::SpatialVec(to_simbody(moment), to_simbody(force));
+  }
+
+  void add_weight(SimTK::Vector_<SimTK::SpatialVec>& body_forces) const {
+    for (int body = 0; body < robot_.tree().num_bodies(); ++body) {
+      add_force(body, robot_.dynamics().body_center_of_mass(body),
+                robot_.tree().bodies()[body].mass * engine_.options_.gravity, body_forces);
+    }
+  }
+
+  void add_contacts(SimTK::Vector_<SimTK::SpatialVec>& body_forces) const {
+    engine_.detector_.find(engine_.num_steps_);
+    for (const ContactCandidate& contact : engine_.detector_.candidates()) {
+      const bool is_a = contact.a.kind == Surface::Kind::kRobot && contact.a.robot == index_;
+      const bool is_b = contact.b.kind == Surface::Kind::kRobot && contact.b.robot == index_;
+      if (!is_a && !is_b) continue;
+      const Vector3d force = force_on_a(contact, engine_.bodies_, engine_.options_);
+      if (is_a) add_force(contact.body_a, contact.proximity.point, force, body_forces);
+      if (is_b) add_force(contact.body_b, contact.proximity.point, -force, body_forces);
+    }
+  }
+
+  void add_motors(SimTK::Vector& mobility_forces) const {
+    const double h = engine_.options_.step;
+    for (int dof = 0; dof < robot_.tree().num_dofs(); ++dof) {
+      mobility_forces[u_of_dof(dof)] += impulses_[dof] / h;
+    }
+    for (const JointForce& motor : motors_) {
+      const double speed = state_.velocity[motor.dof];
+      // Dry friction is blurred below the speed that it would stop within a step.
+      const double blur = std::max(0.01, kMaxStep * motor.dry_friction / motor_inertia(motor));
+      mobility_forces[u_of_dof(motor.dof)] += motor.torque - motor.viscous_friction * speed -
+                                              motor.dry_friction * std::tanh(speed / blur) +
+                                              stop_torque(motor);
+    }
+  }
+
+  static double motor_inertia(const JointForce& motor) { return std::max(motor.inertia, 1e-5); }
+
+  double stop_torque(const JointForce& motor) const {
+    const Joint& joint =
+        robot_.model().joints()[robot_.tree().bodies()[robot_.tree().body_of_dof(motor.dof)].joint];
+    const double angle = state_.coordinate[motor.dof];
+    const double bent = std::max(0.0, angle - joint.upper) + std::min(0.0, angle - joint.lower);
+    if (bent == 0) return 0;
+    // As stiff and as damped as an explicit step allows.
+    const double inertia = motor_inertia(motor);
+    const double stiffness = std::min(kStopStiffness, 0.2 * inertia / (kMaxStep * kMaxStep));
+    const double damping = std::min(kStopDamping, 0.3 * inertia / kMaxStep);
+    return -stiffness * bent - damping * state_.velocity[motor.dof];
+  }
+
+  /** Adds the torques of the rotors' inertia J to all other forces f: -J u' with (M + J) u' = f, in
+   * the degrees of freedom of the tree, where coupled joints are one. */
+  void add_rotors(const SimTK::State& state, const SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                  SimTK::Vector& mobility_forces) {
+    const SimTK::SimbodyMatterSubsystem& matter = model_.matter();
+    const int num_u = matter.getNumMobilities();
+    SimTK::Vector residual;
+    const SimTK::Vector no_acceleration(num_u, 0.0);
+    matter.calcResidualForceIgnoringConstraints(state, mobility_forces, body_forces,
+                                                no_acceleration, residual);
+    SimTK::Matrix mass;
+    matter.calcM(state, mass);
+    const Tree& tree = robot_.tree();
+    const int first = robot_.options().is_on_stand ? 6 : 0;
+    // Simbody's velocities are T times ours.
+    Eigen::MatrixXd to_u = Eigen::MatrixXd::Zero(num_u, tree.num_dofs());
+    for (int i = 0; i < 6; ++i) to_u(first_u_[0] + i, i) = 1;
+    for (int body = 1; body < tree.num_bodies(); ++body) {
+      to_u(first_u_[body], tree.bodies()[body].dof) = tree.bodies()[body].ratio;
+    }
+    Eigen::MatrixXd full(num_u, num_u);
+    Eigen::VectorXd force(num_u);
+    for (int i = 0; i < num_u; ++i) {
+      force[i] = -residual[i];
+      for (int k = 0; k < num_u; ++k) full(i, k) = mass(i, k);
+    }
+    Eigen::MatrixXd reduced = to_u.transpose() * full * to_u;
+    Eigen::VectorXd right = to_u.transpose() * force;
+    for (const JointForce& motor : motors_) reduced(motor.dof, motor.dof) += motor.inertia;
+    const long count = tree.num_dofs() - first;
+    const Eigen::VectorXd acceleration =
+        reduced.bottomRightCorner(count, count).llt().solve(right.tail(count));
+    for (const JointForce& motor : motors_) {
+      mobility_forces[u_of_dof(motor.dof)] -= motor.inertia * acceleration[motor.dof - first];
+    }
+  }
+
+  SimbodyEngine& engine_;
+  int index_;
+  SimRobot& robot_;
+  SimbodyModel model_;
+  SimTK::GeneralForceSubsystem forces_;
+  std::unique_ptr<SimTK::Integrator> integrator_;
+  std::vector<int> first_u_;
+  /** As computed last. */
+  TreeState state_;
+  std::vector<JointForce> motors_;
+  Eigen::VectorXd impulses_;
+};
+
+/** The ball as a Simbody system. */
+class SimbodyEngine::BallSystem {
+ public:
+  explicit BallSystem(SimbodyEngine& engine)
+      : engine_(engine), ball_(*engine.bodies_.ball), matter_(system_), forces_(system_) {
+    const BallDescription& ball = ball_.description();
+    const SimTK::Body::Rigid body(
+        {ball.mass, SimTK::Vec3(0), ball.mass * SimTK::UnitInertia::sphere(ball.radius)});
+    body_ =
+        SimTK::MobilizedBody::Free(matter_.Ground(), SimTK::Transform(), body, SimTK::Transform());
+    new SimTK::Force::Custom(forces_, new OwnersForce<BallSystem>(*this));
+    system_.realizeTopology();
+    start();
+  }
+
+  void start() {
+    SimTK::State state = system_.getDefaultState();
+    const BallState& from = ball_.state();
+    const Eigen::Quaterniond& r = from.orientation;
+    const double q[] = {
+        r.w(), r.x(), r.y(), r.z(), from.position.x(), from.position.y(), from.position.z()};
+    for (int i = 0; i < 7; ++i) body_.setOneQ(state, i, q[i]);
+    for (int i = 0; i < 3; ++i) {
+      body_.setOneU(state, i, from.angular_velocity[i]);
+      body_.setOneU(state, 3 + i, from.velocity[i]);
+    }
+    impulse_.setZero();
+    integrator_ = make_integrator(system_, engine_.options_.step);
+    integrator_->initialize(state);
+  }
+
+  void step(double h) {
+    impulse_ = ball_.take_impulse();
+    integrate(system_, *integrator_, h);
+    read(integrator_->getState());
+  }
+
+  void calc_forces(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                   SimTK::Vector& /*mobility_forces*/) {
+    read(state);
+    const BallState& now = ball_.state();
+    Vector3d force =
+        ball_.description().mass * engine_.options_.gravity + impulse_ / engine_.options_.step;
+    Vector3d moment = Vector3d::Zero();
+    engine_.detector_.find(engine_.num_steps_);
+    for (const ContactCandidate& contact : engine_.detector_.candidates()) {
+      if (contact.a.kind != Surface::Kind::kBall) continue;
+      const Vector3d pressing = force_on_a(contact, engine_.bodies_, engine_.options_);
+      force += pressing;
+      moment += (contact.proximity.point - now.position).cross(pressing);
+      if (contact.b.kind != Surface::Kind::kFloor) continue;
+      // Rolling resistance: a torque of 7/5 r a / g N slows a solid sphere down by a.
+      const double arm = 1.4 * ball_.radius() *
+                         engine_.options_.materials.ball_rolling_deceleration /
+                         engine_.options_.gravity.norm();
+      const double rate = std::hypot(now.angular_velocity.norm(), kSlidingSpeed / ball_.radius());
+      moment -= arm * contact.proximity.normal.dot(pressing) / rate * now.angular_velocity;
+    }
+    body_forces[body_.getMobilizedBodyIndex()] +=
+        SimTK::SpatialVec(to_simbody(moment), to_simbody(force));
+  }
+
+ private:
+  void read(const SimTK::State& state) {
+    BallState ball;
+    const SimTK::Vector q = body_.getQAsVector(state);
+    const SimTK::Vector u = body_.getUAsVector(state);
+    ball.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+    ball.position = {q[4], q[5], q[6]};
+    ball.angular_velocity = {u[0], u[1], u[2]};
+    ball.velocity = {u[3], u[4], u[5]};
+    ball_.set_state(ball);
+  }
+
+  SimbodyEngine& engine_;
+  Ball& ball_;
+  SimTK::MultibodySystem system_;
+  SimTK::SimbodyMatterSubsystem matter_;
+  SimTK::GeneralForceSubsystem forces_;
+  SimTK::MobilizedBody body_;
+  std::unique_ptr<SimTK::Integrator> integrator_;
+  Vector3d impulse_ = Vector3d::Zero();
+};
+
+SimbodyEngine::SimbodyEngine(const SceneFile& scene, const WorldOptions& options,
+                             MovingBodies& bodies)
+    : options_(options),
+      bodies_(bodies),
+      detector_(scene, bodies, Floor(options.floor), options.step) {
+  detector_.reserve(kMaxCandidates);
+  if (bodies_.ball) ball_ = std::make_unique<BallSystem>(*this);
+}
+
+SimbodyEngine::~SimbodyEngine() = default;
+
+void SimbodyEngine::add_robot() {
+  detector_.add_robot();
+  detector_.reserve(kMaxCandidates * (1 + bodies_.num_robots()));
+  robots_.push_back(std::make_unique<RobotSystem>(*this, bodies_.num_robots() - 1));
+}
+
+void SimbodyEngine::reset() {
+  num_steps_ = 0;
+  detector_.clear();
+  contacts_.clear();
+  for (const auto& robot : robots_) robot->start();
+  if (ball_ != nullptr) ball_->start();
+}
+
+void SimbodyEngine::forget_contacts_of_robot(int robot) {
+  if (robot < static_cast<int>(robots_.size())) robots_[robot]->start();
+}
+
+void SimbodyEngine::forget_contacts_of_ball() {
+  if (ball_ != nullptr) ball_->start();
+}
+
+void SimbodyEngine::step() {
+  for (const auto& robot : robots_) robot->step(options_.step);
+  if (ball_ != nullptr) ball_->step(options_.step);
+  ++num_steps_;
+  collect_contacts();
+  for (const auto& robot : robots_) robot->end_step(options_.step);
+}
+
+void SimbodyEngine::collect_contacts() {
+  contacts_.clear();
+  detector_.find(num_steps_);
+  for (const ContactCandidate& contact : detector_.candidates()) {
+    const Vector3d force = force_on_a(contact, bodies_, options_);
+    if (force.isZero(0)) continue;
+    const Vector3d& point = contact.proximity.point;
+    contacts_.push_back({contact.a, contact.b, point, force});
+    if (contact.foot >= 0) {
+      bodies_.robots[contact.a.robot]->add_foot_load(contact.foot, point, options_.step * force);
+    }
+  }
+}
+
+}  // namespace nao::sim

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sim/contact_detector.h"
+#include "sim/engine.h"
+
+namespace nao::sim {
+
+/** Simbody's multibody dynamics, constraint solver and integrator (semi-explicit Euler at a fixed
+ * step), with explicit compliant contacts of Hunt and Crossley's form, for comparisons.
+ *
+ * The rotors' reflected inertia, which Simbody's joints do not have, is exact: the acceleration
+ * that M + J gives, with Simbody's mass matrix M, is computed first, and the rotors' torques -J u'
+ * are applied to Simbody's system, whose own accelerations then are u'. */
+class SimbodyEngine : public Engine {
+ public:
+  /** @param options, bodies  Must outlive this. */
+  SimbodyEngine(const SceneFile& scene, const WorldOptions& options, MovingBodies& bodies);
+  ~SimbodyEngine() override;
+
+  const char* name() const override { return "simbody"; }
+  void add_robot() override;
+  void step() override;
+  void reset() override;
+  void forget_contacts_of_robot(int robot) override;
+  void forget_contacts_of_ball() override;
+
+  int64_t num_steps() const override { return num_steps_; }
+  const std::vector<Contact>& contacts() const override { return contacts_; }
+  int64_t num_dropped_contacts() const override { return detector_.num_dropped(); }
+
+ private:
+  class RobotSystem;
+  class BallSystem;
+
+  void collect_contacts();
+
+  const WorldOptions& options_;
+  MovingBodies& bodies_;
+  ContactDetector detector_;
+  std::vector<std::unique_ptr<RobotSystem>> robots_;
+  std::unique_ptr<BallSystem> ball_;
+  std::vector<Contact> contacts_;
+  int64_t num_steps_ = 0;
+};
+
+}  // namespace nao::sim

@@ -1,0 +1,196 @@
+#include "sim/engine.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "closed_loop/closed_loop.h"
+#include "common/constants.h"
+#include "common/error.h"
+#include "sim/world.h"
+#include "test/sim/sim_fixture.h"
+
+namespace nao::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+/** What holds in every engine of this build. */
+class EngineTest : public testing::TestWithParam<std::string> {
+ protected:
+  static WorldOptions options() {
+    WorldOptions options;
+    options.engine = GetParam();
+    return options;
+  }
+  static RobotOptions ideal() {
+    RobotOptions options;
+    options.ideal_sensors = true;
+    options.command_latency_ticks = 0;
+    return options;
+  }
+  static SceneFile with_ball() {
+    BallDescription ball;
+    ball.radius = 0.05;
+    ball.mass = 0.045;
+    ball.position = {1, 0};
+    SceneFile scene;
+    scene.ball = ball;
+    return scene;
+  }
+};
+
+TEST_P(EngineTest, FallsFreely) {
+  World world(SceneFile{}, options());
+  RobotOptions robot = ideal();
+  robot.height = 10;
+  world.add_robot(nao_model(), robot);
+  const double start = world.robot(0).dynamics().center_of_mass().z();
+  for (int i = 0; i < 100; ++i) world.step_tick();
+  const double fallen = start - world.robot(0).dynamics().center_of_mass().z();
+  // Semi-implicit Euler is wrong by g h t / 2 = 1 cm.
+  EXPECT_NEAR(fallen, kGravity / 2, 0.012);
+  EXPECT_LT(world.sensors(0).accelerometer.norm(), 0.1);
+}
+
+TEST_P(EngineTest, StandsOnItsFeetWhichCarryTheWeight) {
+  World world(SceneFile{}, options());
+  world.add_robot(nao_model(), ideal());
+  const Vector3d start = world.robot(0).state().position;
+  for (int i = 0; i < 300; ++i) world.step_tick();
+  double force = 0;
+  for (const Contact& contact : world.contacts()) force += contact.force_on_a.z();
+  const double weight = kGravity * world.robot(0).tree().total_mass();
+  // Three seconds after the start Simbody's robot still sways by this much.
+  EXPECT_NEAR(force / weight, 1, 3e-3);
+  EXPECT_NEAR(world.sensors(0).foot_force.sum() / weight, 1, 0.02);
+  EXPECT_LT((world.robot(0).state().position - start).norm(), 0.01);
+  EXPECT_NEAR(world.sensors(0).accelerometer.norm(), kGravity, 0.02);
+}
+
+TEST_P(EngineTest, GivesAPushedRobotTheMomentum) {
+  World world(SceneFile{}, options());
+  RobotOptions robot = ideal();
+  robot.height = 10;
+  world.add_robot(nao_model(), robot);
+  world.push(0, 0, {0.3, -0.2, 0.1});
+  world.step();
+  world.step();
+  const Vector3d momentum = world.robot(0).dynamics().linear_momentum();
+  const double weight = kGravity * world.robot(0).tree().total_mass();
+  const Vector3d expected(0.3, -0.2, 0.1 - 2 * weight * world.options().step);
+  // In MuJoCo and Simbody the joint rates of the step belong to the new configuration already.
+  EXPECT_LT((momentum - expected).norm(), 5e-3);
+}
+
+TEST_P(EngineTest, RollsABallThatSlowsDown) {
+  World world(with_ball(), options());
+  world.place_ball({0, 0, 0}, {1, 0, 0});
+  for (int i = 0; i < 100; ++i) world.step_tick();
+  // Sliding ends at 5/7 of the speed; rolling resistance takes 0.3 m/s each second.
+  const double speed = world.ball().velocity.x();
+  EXPECT_NEAR(speed, 5.0 / 7 - 0.3, 0.08);
+  // MuJoCo's friction is soft: its ball slips by 5 cm/s.
+  EXPECT_NEAR(world.ball().angular_velocity.y() * 0.05, speed, 0.06);
+  EXPECT_NEAR(world.ball().position.z(), 0.05, 0.002);
+}
+
+TEST_P(EngineTest, HoldsAStandingRobotOnAStand) {
+  World world(SceneFile{}, options());
+  RobotOptions robot = ideal();
+  robot.is_on_stand = true;
+  robot.height = 0.5;
+  world.add_robot(nao_model(), robot);
+  const Vector3d start = world.robot(0).state().position;
+  MotorTargets targets = world.targets(0);
+  const int elbow = nao_model()->find_motor("LElbowYaw");
+  targets.position[elbow] += 0.5;
+  world.set_targets(0, targets);
+  for (int i = 0; i < 200; ++i) world.step_tick();
+  EXPECT_EQ(world.robot(0).state().position, start);
+  EXPECT_NEAR(world.robot(0).motor_position()[elbow], targets.position[elbow], 0.02);
+}
+
+TEST_P(EngineTest, StandsWithAllRealDisturbances) {
+  ClosedLoopOptions trial;
+  trial.model = nao_model();
+  trial.engine = GetParam();
+  trial.disturbances = std::make_shared<DisturbanceSet>(DisturbanceSet::find("real"));
+  ClosedLoop loop(trial, 1);
+  EXPECT_EQ(loop.period(), 0.012);
+  loop.run(3);
+  EXPECT_GT(loop.torso_height(), 0.28);
+  EXPECT_EQ(loop.world().num_bad_states(), 0);
+  EXPECT_EQ(loop.world().num_dropped_contacts(), 0);
+  for (int i = 0; i < nao_model()->num_motors(); ++i) {
+    if (loop.world().robot(0).is_opening(i)) continue;
+    const RobotErrors& errors = loop.world().robot(0).options().errors;
+    const double offset = loop.world().sensors(0).position[i] - errors.joint_zero[i] -
+                          loop.world().robot(0).motor_position()[i];
+    // Half of an encoder's step beside half of the play.
+    EXPECT_LE(std::abs(offset), errors.backlash[i] / 2 + M_PI / 4096 + 1e-9);
+  }
+}
+
+TEST_P(EngineTest, GivesTheSameBitsAgain) {
+  ClosedLoopOptions trial;
+  trial.model = nao_model();
+  trial.engine = GetParam();
+  const auto run = [&] {
+    ClosedLoop loop(trial, 4);
+    loop.run(0.5);
+    loop.hold_walk({0.2, 0, 0});
+    loop.run(1.5);
+    return loop.world().robot(0).state();
+  };
+  const TreeState a = run();
+  const TreeState b = run();
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.coordinate, b.coordinate);
+  EXPECT_EQ(a.velocity, b.velocity);
+}
+
+TEST_P(EngineTest, WalksAtTheCommandedSpeed) {
+  ClosedLoopOptions trial;
+  trial.model = nao_model();
+  trial.engine = GetParam();
+  trial.is_ideal = true;
+  ClosedLoop loop(trial, 1);
+  loop.run(1);
+  loop.hold_walk({0.2, 0, 0});
+  loop.run(2.5);
+  const double start = loop.torso_in_world().translation().x();
+  loop.run(5);
+  EXPECT_NEAR((loop.torso_in_world().translation().x() - start) / 5, 0.2, 0.02);
+  EXPECT_LT(loop.torso_tilt(), 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EngineTest, testing::ValuesIn(engine_names()),
+                         [](const auto& info) { return info.param; });
+
+TEST(Engines, RejectAnUnknownName) {
+  WorldOptions options;
+  options.engine = "quick";
+  try {
+    World world(SceneFile{}, options);
+    ADD_FAILURE();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("quick"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("fast"));
+  }
+}
+
+TEST(Engines, SayHowToGetMujocoWhereItIsMissing) {
+  WorldOptions options;
+  options.engine = "mujoco";
+  try {
+    World world(SceneFile{}, options);
+    EXPECT_THAT(engine_names(), testing::Contains("mujoco"));
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("libmujoco-dev"));
+  }
+}
+
+}  // namespace
+}  // namespace nao::sim
