@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Milliseconds, ControlPeriod, testing::Values(10, 12),
 
 TEST(ClosedLoop, RejectsAControlPeriodBetweenPhysicsSteps) {
   EXPECT_THROW(ClosedLoop(options_with_tick(11), 1), ConfigError);
-  EXPECT_THROW(ClosedLoop(options_with_tick(0), 1), ConfigError);
+  EXPECT_THROW(ClosedLoop(options_with_tick(-2), 1), ConfigError);
 }
 
 TEST(ClosedLoop, DrawsTheSameNumbersForASeed) {
