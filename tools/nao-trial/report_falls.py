@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 def parse_arguments():
     parser = argparse.ArgumentParser(
-        description=__doc__, epilog="Further options are nao-trial's: --vx 0.2 --duration 12")
+        description=__doc__, epilog="Further options are nao-trial's: --vx 0.2 --duration 12, --distance 3")
     parser.add_argument("scenario", nargs="?", default="sprint", help="scenario of nao-trial")
     parser.add_argument("--seeds", default="1-40", help="first and last seed (%(default)s)")
     parser.add_argument("--files", default="default,moderate,real",
