@@ -113,7 +113,7 @@ class SimbodyEngine::RobotSystem {
         forces_(model_.system()),
         state_(robot_.state()),
         impulses_(Eigen::VectorXd::Zero(robot_.tree().num_dofs())) {
-    new SimTK::Force::Custom(forces_, new OwnersForce<RobotSystem>(*this));
+    SimTK::Force::Custom(forces_, new OwnersForce<RobotSystem>(*this));
     model_.system().realizeTopology();
     for (int body = 0; body < robot_.tree().num_bodies(); ++body) {
       first_u_.push_back(model_.mobilized(body).getFirstUIndex(model_.default_state()));
@@ -295,7 +295,7 @@ class SimbodyEngine::BallSystem {
         {ball.mass, SimTK::Vec3(0), ball.mass * SimTK::UnitInertia::sphere(ball.radius)});
     body_ =
         SimTK::MobilizedBody::Free(matter_.Ground(), SimTK::Transform(), body, SimTK::Transform());
-    new SimTK::Force::Custom(forces_, new OwnersForce<BallSystem>(*this));
+    SimTK::Force::Custom(forces_, new OwnersForce<BallSystem>(*this));
     system_.realizeTopology();
     start();
   }
