@@ -3,9 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "kinematics/knee_bend.h"
 #include "kinematics/leg_tolerances.h"
+#include "kinematics/pose2.h"
 
 namespace nao {
 namespace {
@@ -32,10 +33,6 @@ bool find_intersection(const LegChain& chain, Vector3d& point) {
 
 bool are_perpendicular(const Vector3d& a, const Vector3d& b) {
   return std::abs(a.dot(b)) < kLegTolerance;
-}
-
-double wrapped(double angle) {
-  return std::remainder(angle, 2 * std::numbers::pi);
 }
 
 }  // namespace
@@ -73,11 +70,7 @@ double AnalyticLegSolver::angle_in_plane(const Vector3d& vector) const {
 }
 
 double AnalyticLegSolver::solve_knee(double distance, bool& is_reachable) const {
-  const double a = thigh_.norm();
-  const double b = tibia_.norm();
-  const double cosine = (distance * distance - a * a - b * b) / (2 * a * b);
-  is_reachable = cosine <= 1 + kCosineTolerance && cosine >= -1 - kCosineTolerance;
-  const double bend = std::acos(std::clamp(cosine, -1.0, 1.0));
+  const double bend = knee_bend(thigh_.norm(), tibia_.norm(), distance, is_reachable);
   const double straight = angle_in_plane(thigh_) - angle_in_plane(tibia_);
   // Of the two solutions the one that is nearer to the middle of the knee's range.
   const double middle = 0.5 * (chain_.lower[3] + chain_.upper[3]);

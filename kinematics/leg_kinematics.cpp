@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/error.h"
+#include "kinematics/knee_bend.h"
 #include "kinematics/leg_tolerances.h"
 
 namespace nao {
@@ -20,14 +21,6 @@ Eigen::Matrix3d rotation_y(double angle) {
 
 Eigen::Matrix3d rotation_z(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-}
-
-/** Knee angle of two links whose ends are `distance` apart, by the law of cosines; stretched or
- * fully bent beyond reach. */
-double knee_angle(double thigh, double tibia, double distance, bool& is_reachable) {
-  const double cosine = (distance * distance - thigh * thigh - tibia * tibia) / (2 * thigh * tibia);
-  is_reachable = cosine <= 1 + kCosineTolerance && cosine >= -1 - kCosineTolerance;
-  return std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
 }  // namespace
@@ -129,7 +122,7 @@ LegSolution LegKinematics::solve_coupled(const CoupledLeg& c,
   const Eigen::Matrix3d& R_TF = sole_in_torso.linear();
   const Eigen::Vector3d p_hip_ankle =
       sole_in_torso.translation() - R_TF * c.sole_offset - c.hip;  // in T
-  const double knee = knee_angle(c.thigh, c.tibia, p_hip_ankle.norm(), solution.is_reachable);
+  const double knee = knee_bend(c.thigh, c.tibia, p_hip_ankle.norm(), solution.is_reachable);
 
   // The hip seen from the ankle, in the foot's axes: AnkleRoll turns it into the plane of the leg.
   const Eigen::Vector3d q = R_TF.transpose() * -p_hip_ankle;
@@ -160,7 +153,7 @@ LegSolution LegKinematics::solve_with_hip_yaw_pitch(Leg leg, const Eigen::Isomet
       rotation_x(c.tilt) * rotation_z(c.sign * hip_yaw_pitch) * rotation_x(-c.tilt);
   const Eigen::Vector3d p =
       R_TP.transpose() * (sole_in_torso.translation() - R_TF * c.sole_offset - c.hip);
-  const double knee = knee_angle(c.thigh, c.tibia, p.norm(), solution.is_reachable);
+  const double knee = knee_bend(c.thigh, c.tibia, p.norm(), solution.is_reachable);
 
   // HipRoll turns the ankle into the plane of the leg, in which thigh and tibia are two links.
   const double down = std::copysign(std::hypot(p.y(), p.z()), -p.z());

@@ -10,6 +10,11 @@ inline double wrapped(double angle) {
   return std::remainder(angle, 2 * M_PI);
 }
 
+/** Angle of a rotation's x axis about z, rad. */
+inline double heading_of(const Eigen::Matrix3d& rotation) {
+  return std::atan2(rotation(1, 0), rotation(0, 0));
+}
+
 /** A pose on the ground, as a transform between two frames: position, m, and heading, rad. */
 struct Pose2 {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
@@ -30,8 +35,7 @@ struct Pose2 {
 
   /** Ground projection of a pose in space: its origin and the direction of its x axis. */
   static Pose2 from(const Eigen::Isometry3d& pose) {
-    const Eigen::Matrix3d R = pose.linear();
-    return {pose.translation().head<2>(), std::atan2(R(1, 0), R(0, 0))};
+    return {pose.translation().head<2>(), heading_of(pose.linear())};
   }
 };
 

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "common/rotation.h"
 
 namespace nao {
 namespace {
@@ -84,7 +85,7 @@ FittedShape fit_shape(const std::vector<Eigen::Vector3d>& points) {
   shape.radius = 0.25 * (a + b);
   shape.length = longest - 2 * shape.radius;
   shape.pose.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(axis))
+      rotation_between(Eigen::Vector3d::UnitZ().eval(), Eigen::Vector3d::Unit(axis).eval())
           .toRotationMatrix();
   return shape;
 }

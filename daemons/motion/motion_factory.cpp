@@ -42,6 +42,7 @@ MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& optio
       stand_(&model.ready_posture()) {
   const std::filesystem::path& folder = model.folder();
   if (!gait_ && std::filesystem::exists(folder / kGaitFile)) gait_ = Gait::load(folder / kGaitFile);
+  if (gait_) legs_.emplace(model);
   if (std::filesystem::exists(folder / kKickFile)) kick_ = Kick::load(folder / kKickFile);
   if (std::filesystem::exists(folder / kScriptFile)) {
     scripts_ = ActionScript::load(model, folder / kScriptFile);
@@ -186,7 +187,7 @@ std::optional<Reason> MotionFactory::find_walk_obstacle(const Situation& situati
   if (!gait_) return Reason("no-gait", {model_->name()});
   if (!state.has_foot_force_sensors) return Reason("no-foot-force-sensors");
   if (is_lying(state, options_->lying_tilt)) return Reason("robot-fallen");
-  return motion::find_walk_obstacle(LegKinematics(*model_), state, situation.targets.stiffness);
+  return motion::find_walk_obstacle(*legs_, state, situation.targets.stiffness);
 }
 
 std::optional<Reason> MotionFactory::find_obstacle_after_standing_up(
@@ -194,7 +195,7 @@ std::optional<Reason> MotionFactory::find_obstacle_after_standing_up(
   const RobotState& state = situation.context.state;
   const bool sits = is_sitting(*model_, find_body_state(*model_, state, options_->lying_tilt));
   if (!gait_ || !sits) return find_walk_obstacle(situation);
-  return find_soft_leg(LegKinematics(*model_), situation.targets.stiffness);
+  return find_soft_leg(*legs_, situation.targets.stiffness);
 }
 
 }  // namespace nao::motion

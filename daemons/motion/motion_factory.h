@@ -15,6 +15,7 @@
 #include "daemons/motion/motion_options.h"
 #include "daemons/motion/transitions/transition_graph.h"
 #include "daemons/motion/walk/gait.h"
+#include "kinematics/leg_kinematics.h"
 #include "messages/command.h"
 #include "messages/reason.h"
 #include "robot_model/robot_model.h"
@@ -90,6 +91,8 @@ class MotionFactory {
   TransitionGraph graph_;
   /** None for a robot that does not walk, or does not kick. */
   std::optional<Gait> gait_;
+  /** Exists with the gait. */
+  std::optional<LegKinematics> legs_;
   std::optional<Kick> kick_;
   std::vector<ActionScript> scripts_;
   const Posture* stand_;

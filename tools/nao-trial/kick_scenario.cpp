@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/error.h"
+#include "kinematics/pose2.h"
 
 namespace nao::trial {
 namespace {
@@ -84,7 +85,7 @@ std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uin
   const Eigen::Isometry3d left = sole(trial.model().left_sole());
   const Eigen::Isometry3d right = sole(trial.model().right_sole());
   const Eigen::Isometry3d torso = trial.torso_in_world();
-  const double heading = std::atan2(torso.linear()(1, 0), torso.linear()(0, 0));
+  const double heading = heading_of(torso.linear());
   const Eigen::Vector2d ball = 0.5 * (left.translation() + right.translation()).head<2>() +
                                Eigen::Rotation2Dd(heading) * lies;
   trial.world().place_ball({ball.x(), ball.y(), 0}, Eigen::Vector3d::Zero());
@@ -111,7 +112,7 @@ std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uin
   }
   result.metrics = {{"ball_m", way.norm()}};
   if (way.norm() > 0.1) {
-    const double off = std::remainder(std::atan2(way.y(), way.x()) - heading, 2 * M_PI);
+    const double off = wrapped(std::atan2(way.y(), way.x()) - heading);
     result.metrics.emplace_back("direction_error_deg", std::abs(off) * 180 / M_PI);
   }
   return {result};

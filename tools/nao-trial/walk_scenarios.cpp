@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "kinematics/pose2.h"
 #include "tools/nao-trial/fall_warning.h"
 
 namespace nao::trial {
@@ -23,35 +24,17 @@ constexpr double kSpeedUp = 2.5;
 constexpr double kFallenHeight = 0.625;  // of the standing height, of the torso
 constexpr double kFallenTilt = 1.0;      // rad
 
-/** Position and heading (yaw) on the ground. */
-struct GroundPose {
-  Vector2d position = Vector2d::Zero();
-  double heading = 0;
-
-  explicit GroundPose(const Eigen::Isometry3d& pose)
-      : position(pose.translation().head<2>()),
-        heading(std::atan2(pose.linear()(1, 0), pose.linear()(0, 0))) {}
-
-  Vector2d from_here(const Vector2d& point) const {
-    return Rotation2Dd(-heading) * Vector2d(point - position);
-  }
-};
-
-double wrapped(double angle) {
-  return std::remainder(angle, 2 * M_PI);
-}
-
 bool has_fallen(const ClosedLoop& trial) {
   return trial.torso_height() < kFallenHeight * trial.model().references().heights.standing ||
          trial.torso_tilt() > kFallenTilt;
 }
 
-GroundPose true_pose(const ClosedLoop& trial) {
-  return GroundPose(trial.torso_in_world());
+Pose2 true_pose(const ClosedLoop& trial) {
+  return Pose2::from(trial.torso_in_world());
 }
 
-GroundPose estimated_pose(const ClosedLoop& trial) {
-  return GroundPose(trial.estimate().torso_in_odometry);
+Pose2 estimated_pose(const ClosedLoop& trial) {
+  return Pose2::from(trial.estimate().torso_in_odometry);
 }
 
 /** Difference between the displacement by odometry and the true one, m. */
@@ -60,14 +43,14 @@ class OdometryCheck {
   explicit OdometryCheck(const ClosedLoop& trial)
       : truth_(true_pose(trial)), estimate_(estimated_pose(trial)) {}
   double error(const ClosedLoop& trial) const {
-    return (truth_.from_here(true_pose(trial).position) -
-            estimate_.from_here(estimated_pose(trial).position))
+    return (truth_.inverse() * true_pose(trial).position -
+            estimate_.inverse() * estimated_pose(trial).position)
         .norm();
   }
 
  private:
-  GroundPose truth_;
-  GroundPose estimate_;
+  Pose2 truth_;
+  Pose2 estimate_;
 };
 
 /** Runs until a time has passed or the robot fell. @return false if it fell. */
@@ -87,7 +70,7 @@ class VelocityMean {
   void add(const ClosedLoop& trial) {
     if (++ticks_ < ticks_per_second_) return;
     ticks_ = 0;
-    const GroundPose now = true_pose(trial);
+    const Pose2 now = true_pose(trial);
     const double turn = wrapped(now.heading - last_.heading);
     // Inverse of the exponential map of a planar twist: R. Murray, Z. Li, S. Sastry, "A
     // mathematical introduction to robotic manipulation", 1994, eq. 2.36, in the plane.
@@ -95,7 +78,7 @@ class VelocityMean {
     const double stretch = std::abs(half) > 1e-6 ? half / std::tan(half) : 1;
     Eigen::Matrix2d inverse;
     inverse << stretch, half, -half, stretch;
-    const Vector2d way = inverse * last_.from_here(now.position);
+    const Vector2d way = inverse * (last_.inverse() * now.position);
     sum_ += Vector3d(way.x(), way.y(), turn);
     time_ += ticks_per_second_ * period_;
     last_ = now;
@@ -105,7 +88,7 @@ class VelocityMean {
  private:
   int ticks_per_second_;
   double period_;
-  GroundPose last_;
+  Pose2 last_;
   Vector3d sum_ = Vector3d::Zero();
   double time_ = 0;
   int ticks_ = 0;
@@ -118,8 +101,8 @@ class Trace {
       : truth_(true_pose(trial)), estimate_(estimated_pose(trial)), start_(trial.time()) {}
   void add(const ClosedLoop& trial) {
     if (ticks_++ % 10 != 0) return;
-    const Vector2d truth = truth_.from_here(true_pose(trial).position);
-    const Vector2d estimate = estimate_.from_here(estimated_pose(trial).position);
+    const Vector2d truth = truth_.inverse() * true_pose(trial).position;
+    const Vector2d estimate = estimate_.inverse() * estimated_pose(trial).position;
     text_ << trial.time() - start_ << ',' << truth.x() << ',' << truth.y() << ',' << estimate.x()
           << ',' << estimate.y() << '\n';
   }
@@ -131,8 +114,8 @@ class Trace {
   }
 
  private:
-  GroundPose truth_;
-  GroundPose estimate_;
+  Pose2 truth_;
+  Pose2 estimate_;
   double start_;
   int ticks_ = 0;
   std::ostringstream text_;
@@ -166,7 +149,7 @@ class StandstillDetector {
   double start_;
   double still_since_ = 0;
   Eigen::Isometry3d last_;
-  GroundPose place_;
+  Pose2 place_;
 };
 
 RunResult fallen(double time) {
@@ -187,13 +170,13 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   const double duration = options.duration > 0 ? options.duration : 10;
   ClosedLoop trial(options.trial, seed);
   trial.run(kStand);
-  const GroundPose start_pose = true_pose(trial);
+  const Pose2 start_pose = true_pose(trial);
   const int64_t walk = trial.hold_walk(options.velocity);
   const double start = trial.time();
   if (!run_upright(trial, kSpeedUp)) return {fallen(trial.time() - start)};
   VelocityMean velocity(trial);
   const OdometryCheck odometry(trial);
-  const GroundPose way_start = true_pose(trial);
+  const Pose2 way_start = true_pose(trial);
   Trace trace(trial);
   trial.on_tick([&] {
     velocity.add(trial);
@@ -204,7 +187,7 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   if (!options.trace_file.empty()) trace.write(options.trace_file);
   const Vector3d mean = velocity.mean();
   const double odometry_error = odometry.error(trial);
-  const GroundPose way_end = true_pose(trial);
+  const Pose2 way_end = true_pose(trial);
 
   StandstillDetector standstill(trial);
   trial.on_tick([&] { standstill.look(trial); });
@@ -248,7 +231,7 @@ std::vector<RunResult> SprintScenario::run(const ScenarioOptions& options, uint6
   const double distance = options.distance > 0 ? options.distance : 10;
   ClosedLoop trial(options.trial, seed);
   trial.run(kStand);
-  const GroundPose start = true_pose(trial);
+  const Pose2 start = true_pose(trial);
   const OdometryCheck odometry(trial);
   const double start_time = trial.time();
   trial.hold_walk({trial.model().walk_limits().forward, 0, 0});
@@ -265,7 +248,7 @@ std::vector<RunResult> SprintScenario::run(const ScenarioOptions& options, uint6
   result.is_success = way >= distance;
   if (!result.is_success) result.failure = "too slow";
   result.metrics = {{"speed_mps", way / (trial.time() - start_time)},
-                    {"drift_mm", 1e3 * std::abs(start.from_here(true_pose(trial).position).y())},
+                    {"drift_mm", 1e3 * std::abs((start.inverse() * true_pose(trial).position).y())},
                     {"odometry_error", odometry.error(trial) / way}};
   return {result};
 }
@@ -315,8 +298,8 @@ std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint6
   const double direction = trial.random(-M_PI, M_PI);
   const double turn = trial.random(-M_PI, M_PI);
   const Vector2d goal = distance * Vector2d(std::cos(direction), std::sin(direction));
-  const GroundPose start = true_pose(trial);
-  const GroundPose estimated_start = estimated_pose(trial);
+  const Pose2 start = true_pose(trial);
+  const Pose2 estimated_start = estimated_pose(trial);
   const double start_time = trial.time();
   const int64_t id = trial.send({"", 0, MoveToCommand{goal.x(), goal.y(), turn}});
   std::optional<CommandResult> end;
@@ -333,10 +316,10 @@ std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint6
   if (has_fallen(trial)) return {fallen(trial.time() - start_time)};
   const double time = trial.time() - start_time;
   trial.run(0.5);
-  const auto miss = [&](const GroundPose& from, const GroundPose& to) {
-    return (from.from_here(to.position) - goal).norm();
+  const auto miss = [&](const Pose2& from, const Pose2& to) {
+    return (from.inverse() * to.position - goal).norm();
   };
-  const auto turn_miss = [&](const GroundPose& from, const GroundPose& to) {
+  const auto turn_miss = [&](const Pose2& from, const Pose2& to) {
     return std::abs(wrapped(to.heading - from.heading - turn)) * 180 / M_PI;
   };
   const double by_odometry = miss(estimated_start, estimated_pose(trial));

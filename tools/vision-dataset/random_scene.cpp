@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/pose2.h"
+
 namespace nao::vision {
 namespace {
 
@@ -136,7 +138,7 @@ Eigen::Vector2d place_in_view(const RandomScene& scene, double nearest, double f
   const double upper = pitch > 25 * kDegree ? height / std::tan(pitch - 22 * kDegree) : farthest;
   const double distance =
       random.uniform(std::max(nearest, lower), std::max(nearest + 0.1, std::min(farthest, upper)));
-  const double bearing = std::atan2(R(1, 0), R(0, 0)) + random.uniform(-29, 29) * kDegree;
+  const double bearing = heading_of(R) + random.uniform(-29, 29) * kDegree;
   return scene.pose_camera_in_world.translation().head<2>() +
          distance * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
 }

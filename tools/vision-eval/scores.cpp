@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/pose2.h"
+
 namespace nao::vision {
 namespace {
 
@@ -139,7 +141,7 @@ void Scores::add_objects(Kind kind, const LabelledImage& image, const Detections
         const Eigen::Vector2d& p = detections[i].position;
         const Eigen::Vector2d& q = label.object.position;
         const double turn = std::atan2(p.y(), p.x()) - std::atan2(q.y(), q.x());
-        row.bearing_errors.push_back(std::abs(std::remainder(turn, 2 * M_PI)));
+        row.bearing_errors.push_back(std::abs(wrapped(turn)));
         row.distance_errors.push_back(std::abs(p.norm() - q.norm()) / q.norm());
       }
       break;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "closed_loop/closed_loop.h"
+#include "kinematics/pose2.h"
 
 namespace nao::tool {
 namespace {
@@ -32,7 +33,7 @@ class EvaluatedWalk {
   EvaluatedWalk(const ClosedLoopOptions& options, uint64_t seed, double planned_time)
       : trial_(options, seed), planned_time_(planned_time) {
     trial_.run(kStandDuration);
-    last_pose_ = trial_.torso_in_world();
+    last_pose_ = Pose2::from(trial_.torso_in_world());
   }
 
   ClosedLoop& trial() { return trial_; }
@@ -65,13 +66,9 @@ class EvaluatedWalk {
  private:
   /** Since the last tick, m, m, rad, in the torso's heading frame. */
   Vector3d measure_displacement() {
-    const Eigen::Isometry3d pose = trial_.torso_in_world();
-    const auto heading = [](const Eigen::Isometry3d& torso) {
-      return std::atan2(torso.linear()(1, 0), torso.linear()(0, 0));
-    };
-    const Eigen::Vector2d displacement = Eigen::Rotation2Dd(-heading(last_pose_)) *
-                                         (pose.translation() - last_pose_.translation()).head<2>();
-    const double turn = std::remainder(heading(pose) - heading(last_pose_), 2 * M_PI);
+    const Pose2 pose = Pose2::from(trial_.torso_in_world());
+    const Eigen::Vector2d displacement = last_pose_.inverse() * pose.position;
+    const double turn = wrapped(pose.heading - last_pose_.heading);
     last_pose_ = pose;
     return {displacement.x(), displacement.y(), turn};
   }
@@ -91,7 +88,7 @@ class EvaluatedWalk {
 
   ClosedLoop trial_;
   double planned_time_;
-  Eigen::Isometry3d last_pose_;
+  Pose2 last_pose_;
   bool has_fallen_ = false;
   /** s. */
   double time_ = 0;

@@ -5,6 +5,7 @@
 
 #include "common/constants.h"
 #include "common/rotation.h"
+#include "kinematics/pose2.h"
 
 namespace nao::motion {
 namespace {
@@ -74,7 +75,7 @@ void OrientationFilter::start(const Eigen::Vector3d& gyroscope,
   }
   // The shortest rotation to upright has a small heading; the heading starts at 0.
   const Eigen::Matrix3d R = orientation_.toRotationMatrix();
-  const double heading = std::atan2(R(1, 0), R(0, 0));
+  const double heading = heading_of(R);
   orientation_ = Eigen::AngleAxisd(-heading, Eigen::Vector3d::UnitZ()) * orientation_;
   angular_velocity_ = gyroscope - bias_;
   is_started_ = true;

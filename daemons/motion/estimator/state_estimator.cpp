@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "kinematics/pose2.h"
 #include "kinematics/support_polygon.h"
 
 namespace nao::motion {
@@ -153,7 +154,7 @@ void StateEstimator::estimate_velocity(double dt) {
   last_torso_position_ = position;
   last_center_of_mass_ = state_.center_of_mass_in_odometry;
   const Eigen::Matrix3d& R_OT = state_.torso_in_odometry.linear();
-  const double heading = std::atan2(R_OT(1, 0), R_OT(0, 0));
+  const double heading = heading_of(R_OT);
   state_.velocity_torso_in_heading =
       Eigen::AngleAxisd(-heading, Eigen::Vector3d::UnitZ()) * torso_velocity_in_odometry_;
 }

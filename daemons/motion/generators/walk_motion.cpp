@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "kinematics/pose2.h"
 
 namespace nao::motion {
 namespace {
@@ -74,7 +75,7 @@ bool is_walking_stance(const RobotModel& model, const std::vector<double>& posit
   const double height = (kinematics.left_sole().inverse() * hips).z();
   const WalkingStance& bounds = model.references().walking_stance;
   const double apart = -right.translation().y();
-  const double turn = std::atan2(right.linear()(1, 0), right.linear()(0, 0));
+  const double turn = heading_of(right.linear());
   return right.linear()(2, 2) > std::cos(kLevel) &&
          std::abs(right.translation().z()) < kSameHeight && apart > bounds.least_width &&
          apart < bounds.greatest_width &&

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/pose2.h"
+
 namespace nao::motion {
 namespace {
 
@@ -31,7 +33,7 @@ void WalkObserver::update(const RobotState& state, const Vector3d& com_in_torso,
 
   // Roll and pitch of the torso in its heading frame H.
   const Matrix3d& R_OT = state.torso_in_odometry.linear();
-  torso_heading_ = std::atan2(R_OT(1, 0), R_OT(0, 0));
+  torso_heading_ = heading_of(R_OT);
   const Matrix3d R_HT = AngleAxisd(-torso_heading_, Vector3d::UnitZ()).toRotationMatrix() * R_OT;
   tilt_ << std::atan2(R_HT(2, 1), R_HT(2, 2)), std::asin(std::clamp(-R_HT(2, 0), -1.0, 1.0)), 0;
   tilt_.y() -= torso_pitch;
