@@ -10,7 +10,7 @@ from setuptools.command.sdist import sdist
 
 HERE = Path(__file__).resolve().parent
 # In the repository, or beside this file in a source archive.
-PROTOS = ["phone-gateway/protocol/remote.proto"]
+PROTOS = ["phone-gateway/protocol/remote.proto", "tools/simulation-server/simulation.proto"]
 
 
 def find(proto):

@@ -5,7 +5,7 @@
         robot.joints["HeadYaw"].move_by(0.3)
         robot.image().save("view.jpg")
 
-connect() is the blocking face; nao_remote.aio.connect() that for asyncio. The protocol is that of phones:
+simulate() starts a private simulation that is stepped in lock-step. connect() is the blocking face; nao_remote.aio.connect() that for asyncio. The protocol is that of phones:
 phone-gateway/PROTOCOL.md.
 """
 
@@ -15,10 +15,12 @@ from nao_remote.blocking import Command, Joint, Robot, Stream, connect
 from nao_remote.discovery import discover
 from nao_remote.errors import (Closed, CommandFailed, CommandInterrupted, CommandRefused, ConnectionLost, ControlTaken,
                                InvalidArgument, InvalidRequest, NaoError, NoControl, NotAllowed, NotConnected, Refused,
-                               RobotUnavailable, Stopped, Timeout, TooManyClients, TooManyRequests, WrongToken, WrongVersion)
+                               RobotUnavailable, SimulationError, Stopped, Timeout, TooManyClients, TooManyRequests,
+                               WrongToken, WrongVersion)
 from nao_remote.messages import (Action, Activity, Client, CommandKind, CommandResult, CommandStatus, Component,
                                  ComponentChanged, Connected, Control, ControlChanged, Disconnected, Event, Image,
                                  JointDescription, JointGroup, Mode, Pong, RobotDescription, State)
+from nao_remote.simulation import Simulation, SimulationState, simulate, step_together
 
 __version__ = "0.1.0"
 
@@ -27,6 +29,7 @@ __all__ = [
     "CommandRefused", "CommandResult", "CommandStatus", "Component", "ComponentChanged", "Connected", "ConnectionLost",
     "Control", "ControlChanged", "ControlTaken", "Disconnected", "Event", "Image", "InvalidArgument", "InvalidRequest",
     "Joint", "JointDescription", "JointGroup", "Mode", "NaoError", "NoControl", "NotAllowed", "NotConnected", "Pong",
-    "Refused", "Robot", "RobotDescription", "RobotUnavailable", "State", "Stopped", "Stream", "Timeout", "TooManyClients",
-    "TooManyRequests", "WrongToken", "WrongVersion", "aio", "connect", "discover",
+    "Refused", "Robot", "RobotDescription", "RobotUnavailable", "Simulation", "SimulationError", "SimulationState", "State", "Stopped",
+    "Stream", "Timeout", "TooManyClients", "TooManyRequests", "WrongToken", "WrongVersion", "aio", "connect", "discover",
+    "simulate", "step_together",
 ]

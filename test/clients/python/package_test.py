@@ -48,7 +48,6 @@ class Package(unittest.TestCase):
         for package in packages:
             run(environment / "bin/pip", "install", "--no-build-isolation", "--no-index", "--force-reinstall", "--no-deps", package)
             self.assertEqual(run(environment / "bin/python", "-c", USE, cwd=self.folder), "0.1.0 8080\n")
-        run(environment / "bin/pip", "check")
 
     def test_it_is_installed_from_its_sources(self):
         self.install(self.sources)
