@@ -1,0 +1,195 @@
+"""The asyncio face: `async with await nao_remote.aio.connect("nao.local") as robot: await robot.posture("Sit")`."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from typing import Callable
+
+from nao_remote import remote_pb2 as pb
+from nao_remote.address import resolve
+from nao_remote.command import Command
+from nao_remote.connection import Connection
+from nao_remote.core import RobotCore
+from nao_remote.discovery import first_address
+from nao_remote.errors import ConnectionLost, Timeout
+from nao_remote.joints import Joints
+from nao_remote.messages import CommandResult, CommandStatus, Image, State
+from nao_remote.operator import Operator
+from nao_remote.streams import Stream
+from nao_remote.walking import Walk
+
+# Period of asking for an image while the camera begins to render, s. PROTOCOL.md: ten times a second is usual.
+IMAGE_POLL_PERIOD = 0.1
+# Default of timeouts for a motion, s. Chosen: getting up from the belly and sitting down takes half of it.
+MOTION_TIMEOUT = 60.0
+
+
+async def connect(address: str | None = None, *, token: str | None = None,
+                  token_file: str | os.PathLike[str] | None = None, name: str = "Python",
+                  certificate: str | os.PathLike[str] | None = None, timeout: float = 5.0, reconnect: bool = True,
+                  auto_control: bool = True) -> Robot:
+    """Connects to a robot's gateway. The parameters are those of nao_remote.connect()."""
+    resolved = resolve(first_address() if address is None else address, token, token_file)
+    robot = Robot(Connection(resolved, name, certificate, timeout, reconnect), auto_control)
+    await robot._open()
+    return robot
+
+
+class Robot(RobotCore):
+    """A connected robot. Made by connect(); all methods must be called in the event loop that called it.
+
+    Requests raise the exceptions of nao_remote.errors. A method that moves the robot takes control first if no client
+    drives (unless connected with `auto_control=False`).
+    """
+
+    def __init__(self, connection: Connection, auto_control: bool) -> None:
+        super().__init__(connection, auto_control)
+        # The joints by name; the operator's console.
+        self.joints = Joints(self)
+        self.operator = Operator(connection)
+
+    async def __aenter__(self) -> Robot:
+        return self
+
+    # ---- Motion ----
+
+    async def walk(self, vx: float = 0.0, vy: float = 0.0, wz: float = 0.0, duration: float | None = None) -> Command:
+        """Walks at a velocity, clipped to the limits in `description`.
+
+        @param vx, vy, wz  Forward, m/s; to the left, m/s; turning to the left, rad/s. All zero ends a walk.
+        @param duration  s: returns when the robot stands again. None: returns at once, and the walk goes on until the next
+                         walk(), stop(), another motion or the end of the connection.
+        """
+        velocity = pb.WalkTurn(vx=vx, vy=vy, wz=wz)
+        walk = self._walk if self._walk is not None and self._walk.is_running else None
+        if vx == 0 and vy == 0 and wz == 0:
+            return await self._end_walk(walk)
+        if walk is not None:
+            await walk.change(velocity)
+        else:
+            await self._ensure_control()
+            with self._new_command() as command:
+                walk = Walk(command, self._connection.request)
+                await walk.start(velocity)
+            self._walk = walk
+        if duration is not None:
+            await walk.end_after(duration)
+        return walk.command
+
+    async def move_to(self, x: float = 0.0, y: float = 0.0, theta: float = 0.0, *, wait: bool = True,
+                      timeout: float = MOTION_TIMEOUT) -> Command:
+        """Walks to a pose relative to the present one: m forward, m to the left, rad to the left.
+
+        @param wait  False: returns when the robot has accepted it. The same holds for all motions below.
+        """
+        return await self._command(wait, timeout, move_to=pb.MoveTo(x=x, y=y, theta=theta))
+
+    async def posture(self, posture: str, speed: float = 0.0, *, wait: bool = True,
+                      timeout: float = MOTION_TIMEOUT) -> Command:
+        """Goes to a posture of `description.postures`.
+
+        @param speed  Fraction of the maximum, above 0 up to 1; 0: the gateway's default.
+        """
+        return await self._command(wait, timeout, go_to_posture=pb.GoToPosture(posture=posture, speed=speed))
+
+    async def change_joints(self, group: str, *, yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0,
+                            speed: float = 0.0, allow_tipping: bool = False, both_sides: bool = False,
+                            wait: bool = True, timeout: float = MOTION_TIMEOUT) -> Command:
+        """Turns the joints of a group of `description.joint_groups` relative to their present targets.
+
+        @param yaw, pitch, roll  rad (hands: opening, in `pitch`). @param allow_tipping  Also if the robot tips over.
+        @param both_sides  The other side's group makes the mirrored change in the same motion.
+        """
+        return await self._command(wait, timeout, change_joints=pb.ChangeJoints(
+            group=group, yaw=yaw, pitch=pitch, roll=roll, speed=speed, allow_tipping=allow_tipping, both_sides=both_sides))
+
+    async def action(self, action: str, *, ball: tuple[float, float] | None = None, strength: float | None = None,
+                     wait: bool = True, timeout: float = MOTION_TIMEOUT) -> Command:
+        """Performs an action of `description.actions`.
+
+        @param ball  For kicks: its position on the ground, m forward and to the left. @param strength  For kicks: 0 to 1.
+        """
+        request = pb.DoAction(action=action)
+        if ball is not None:
+            request.ball_x, request.ball_y = ball
+        if strength is not None:
+            request.strength = strength
+        return await self._command(wait, timeout, do_action=request)
+
+    async def stop(self) -> None:
+        """Ends any motion, also another client's; needs no control."""
+        walk, self._walk = self._walk, None
+        if walk is not None:
+            walk.abandon()
+        await self._connection.request(stop=pb.Stop())
+
+    async def _end_walk(self, walk: Walk | None) -> Command:
+        self._walk = None
+        if walk is not None:
+            await walk.end()
+            return walk.command
+        # The robot does not walk: nothing will be reported.
+        command = Command(self._connection.session.next_request_id())
+        await self._connection.request(command.request_id, walk_turn=pb.WalkTurn())
+        command.handle(CommandResult("", request_id=command.request_id, status=CommandStatus.DONE))
+        return command
+
+    # ---- States, images, events ----
+
+    async def state(self) -> State:
+        """@return the newest state. @raise RobotUnavailable  before the first one."""
+        response = await self._connection.request(get_state=pb.GetState())
+        return State.from_protocol(response.state_and_image.state, self.description)
+
+    async def wait_until(self, condition: Callable[[State], bool], timeout: float = MOTION_TIMEOUT,
+                         rate: float = 20.0) -> State:
+        """@return the first state for which the condition holds. @raise Timeout"""
+        try:
+            return await asyncio.wait_for(self._first_state(condition, rate), timeout)
+        except asyncio.TimeoutError as error:
+            raise Timeout(f"no state met the condition within {timeout:g} s") from error
+
+    async def image(self, camera: str = "", width: int = 0, quality: int = 0, timeout: float = 5.0) -> Image:
+        """@return an image of a head camera that this client has not received yet.
+
+        @param camera  One of `description.cameras`; empty: the first. @param width  640, 320 or 160 pixels; 0: 320.
+        @param quality  JPEG quality, 1 to 95; 0: the camera's default. @raise Timeout  if the camera sends none.
+        """
+        wanted = pb.ImageRequest(camera=camera, width=width, quality=quality)
+        deadline = asyncio.get_running_loop().time() + timeout
+        while True:
+            response = await self._connection.request(get_state=pb.GetState(with_image=True, image=wanted))
+            if response.state_and_image.HasField("image"):
+                return Image.from_protocol(response.state_and_image.image)
+            if asyncio.get_running_loop().time() > deadline:
+                raise Timeout(f"no image of camera {camera or self.description.cameras[0]!r} within {timeout:g} s")
+            await asyncio.sleep(IMAGE_POLL_PERIOD)
+
+    def states(self, rate: float = 20.0, timeout: float | None = 5.0) -> Stream[State]:
+        """A stream of the newest states: `with robot.states() as states: async for state in states: ...`
+
+        @param rate  A second, up to 60; streams share the highest rate.
+        @param timeout  Longest time between states, for reading, s; None: without end.
+        """
+        stream = Stream[State]("state", 1, timeout, self._subscription.remove)
+        self._subscription.add_states(stream, rate)
+        return stream
+
+    def images(self, rate: float = 15.0, camera: str = "", width: int = 0, quality: int = 0,
+               timeout: float | None = 5.0) -> Stream[Image]:
+        """A stream of the newest images. @param rate  A second, up to 30; others as for image() and states().
+
+        @raise InvalidArgument  if a stream with another camera or size is open: a client has one at a time.
+        """
+        stream = Stream[Image]("image", 1, timeout, self._subscription.remove)
+        wanted = pb.ImageRequest(camera=camera, width=width, quality=quality)
+        self._subscription.add_images(stream, rate, wanted)
+        return stream
+
+    async def _first_state(self, condition: Callable[[State], bool], rate: float) -> State:
+        with self.states(rate, None) as states:
+            async for state in states:
+                if condition(state):
+                    return state
+        raise ConnectionLost("the stream of states ended")

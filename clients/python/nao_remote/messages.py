@@ -1,0 +1,339 @@
+"""What the robot says of itself, as plain immutable objects.
+
+Units are metres, seconds and radians; `utime` is the robot's clock in microseconds. Fields have the names and meanings of
+remote.proto.
+"""
+
+from __future__ import annotations
+
+import enum
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Mapping, Union
+
+from nao_remote import remote_pb2 as pb
+
+
+class Mode(enum.IntEnum):
+    """What the robot does."""
+
+    RELAXED = pb.MODE_RELAXED
+    HOLDING = pb.MODE_HOLDING
+    MOVING = pb.MODE_MOVING
+    WALKING = pb.MODE_WALKING
+    ACTING = pb.MODE_ACTING
+    FALLING = pb.MODE_FALLING
+    FALLEN = pb.MODE_FALLEN
+    GETTING_UP = pb.MODE_GETTING_UP
+    # The motion program or the robot does not answer; the state is the last known one.
+    NO_ROBOT = pb.MODE_NO_ROBOT
+
+
+class CommandKind(enum.IntEnum):
+    """Types of motion commands."""
+
+    NONE = pb.COMMAND_KIND_NONE
+    WALK = pb.COMMAND_KIND_WALK
+    MOVE_TO = pb.COMMAND_KIND_MOVE_TO
+    POSTURE = pb.COMMAND_KIND_POSTURE
+    JOINT_CHANGE = pb.COMMAND_KIND_JOINT_CHANGE
+    ACTION = pb.COMMAND_KIND_ACTION
+    STOP = pb.COMMAND_KIND_STOP
+
+
+class CommandStatus(enum.IntEnum):
+    """How far a motion command is."""
+
+    ACCEPTED = pb.Notice.ACCEPTED
+    REFUSED = pb.Notice.REFUSED
+    DONE = pb.Notice.DONE
+    INTERRUPTED = pb.Notice.INTERRUPTED
+    FAILED = pb.Notice.FAILED
+
+
+class Component(enum.IntEnum):
+    """Programs whose availability the gateway reports."""
+
+    MOTION = pb.Notice.MOTION
+    ROBOT = pb.Notice.ROBOT
+    CAMERA = pb.Notice.CAMERA
+
+
+@dataclass(frozen=True)
+class JointDescription:
+    """A motor. Limits in rad (hands: opening 0 to 1), highest velocity in rad/s (hands: 1/s)."""
+
+    name: str
+    lower: float
+    upper: float
+    max_velocity: float
+
+
+@dataclass(frozen=True)
+class JointGroup:
+    """Joints that a person sees as one. An axis without a joint is empty."""
+
+    name: str
+    yaw_joint: str
+    pitch_joint: str
+    roll_joint: str
+    # Its pitch joint opens and closes (0 to 1), as a hand does.
+    is_opening: bool
+
+    def axis_of(self, joint: str) -> str | None:
+        """@return "yaw", "pitch" or "roll"; None if the joint is not in this group."""
+        axes = {self.yaw_joint: "yaw", self.pitch_joint: "pitch", self.roll_joint: "roll"}
+        return axes.get(joint) if joint else None
+
+
+@dataclass(frozen=True)
+class Action:
+    """An action. `kind`: "stand-up", "rest", "kick", "block", "dive" or "gesture"; `side`: "left", "right" or empty."""
+
+    name: str
+    kind: str
+    side: str
+
+
+@dataclass(frozen=True)
+class RobotDescription:
+    """What a program needs to command the robot."""
+
+    name: str
+    model: str
+    # Path of the URDF on the gateway's HTTP port.
+    urdf_path: str
+    # By name, in the order of the robot.
+    joints: Mapping[str, JointDescription]
+    joint_groups: Mapping[str, JointGroup]
+    postures: tuple[str, ...]
+    actions: Mapping[str, Action]
+    cameras: tuple[str, ...]
+    # Limits of the walk: m/s forward and backward (negative), m/s and rad/s to either side.
+    max_vx: float
+    min_vx: float
+    max_vy: float
+    max_wz: float
+    # Of the postures: where walks and actions begin; upright; without load on the motors. Empty: none.
+    ready_posture: str
+    stand_posture: str
+    rest_posture: str
+    # Group that turns the first camera; empty: none.
+    camera_group: str
+    # Words of people: (kind, name, language) to text; kind is "posture", "action", "group" or "camera".
+    labels: Mapping[tuple[str, str, str], str]
+
+    @staticmethod
+    def from_protocol(message: pb.RobotDescription) -> RobotDescription:
+        roles = {role.name: role for role in message.action_roles}
+        return RobotDescription(
+            name=message.name, model=message.model, urdf_path=message.urdf_path,
+            joints={joint.name: JointDescription(joint.name, joint.lower, joint.upper, joint.max_velocity)
+                    for joint in message.joints},
+            joint_groups={group.name: JointGroup(group.name, group.yaw_joint, group.pitch_joint, group.roll_joint,
+                                                 group.is_opening) for group in message.joint_groups},
+            postures=tuple(message.postures),
+            actions={name: Action(name, roles[name].kind if name in roles else "", roles[name].side if name in roles else "")
+                     for name in message.actions},
+            cameras=tuple(message.cameras), max_vx=message.max_vx, min_vx=message.min_vx, max_vy=message.max_vy,
+            max_wz=message.max_wz, ready_posture=message.ready_posture, stand_posture=message.stand_posture,
+            rest_posture=message.rest_posture, camera_group=message.camera_group,
+            labels={(label.kind, label.name, label.language): label.text for label in message.labels})
+
+
+@dataclass(frozen=True)
+class Activity:
+    """The motion that the robot executes."""
+
+    kind: CommandKind
+    # Its posture, action or joints.
+    name: str
+    # The robot has tried to get up without success.
+    needs_help: bool
+
+
+@dataclass(frozen=True)
+class State:
+    """State of the robot."""
+
+    utime: int
+    # Age when the gateway sent it, ms.
+    age_ms: float
+    # Angles by joint, rad (hands: opening 0 to 1).
+    joint_position: Mapping[str, float]
+    # Torso in the odometry frame: unit quaternion (w, x, y, z); position, m, the third is the height above the ground.
+    torso_orientation: tuple[float, ...]
+    torso_position: tuple[float, ...]
+    mode: Mode
+    # Posture that the robot is in; empty between postures.
+    posture: str
+    activity: Activity | None
+    # Fraction of the activity done; negative where the end is open.
+    progress: float
+    # Walk velocity being executed: m/s, m/s, rad/s.
+    vx: float
+    vy: float
+    wz: float
+    # Mean motor stiffness, 0 to 1.
+    stiffness: float
+
+    @staticmethod
+    def from_protocol(message: pb.State, robot: RobotDescription) -> State:
+        activity = None
+        if message.HasField("activity"):
+            activity = Activity(_member(CommandKind, message.activity.kind, CommandKind.NONE), message.activity.name,
+                                message.activity.needs_help)
+        return State(
+            utime=message.utime, age_ms=message.age_ms,
+            joint_position=dict(zip(robot.joints, message.joint_position)),
+            torso_orientation=tuple(message.torso_orientation), torso_position=tuple(message.torso_position),
+            mode=_member(Mode, message.mode, Mode.MOVING), posture=message.posture, activity=activity,
+            progress=message.progress, vx=message.vx, vy=message.vy, wz=message.wz, stiffness=message.stiffness)
+
+
+@dataclass(frozen=True)
+class Image:
+    """An image of a head camera."""
+
+    # Robot time at mid exposure.
+    utime: int
+    age_ms: float
+    camera: str
+    # Pixels.
+    width: int
+    height: int
+    # A whole JPEG file.
+    jpeg: bytes
+
+    @staticmethod
+    def from_protocol(message: pb.Image) -> Image:
+        return Image(message.utime, message.age_ms, message.camera, message.width, message.height, message.jpeg)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the JPEG file."""
+        Path(path).write_bytes(self.jpeg)
+
+    def to_array(self) -> Any:
+        """@return the pixels as OpenCV has them: a NumPy array of uint8, (height, width, 3), blue, green, red.
+
+        @raise ImportError  without OpenCV (Debian: python3-opencv).
+        """
+        try:
+            import cv2
+            import numpy
+        except ImportError as error:
+            raise ImportError("Image.to_array() needs OpenCV and NumPy (Debian: python3-opencv)") from error
+        return cv2.imdecode(numpy.frombuffer(self.jpeg, numpy.uint8), cv2.IMREAD_COLOR)
+
+
+@dataclass(frozen=True)
+class Pong:
+    """Answer to ping()."""
+
+    # Time from request to answer, s.
+    round_trip: float
+    # 0 while there is no robot.
+    robot_utime: int
+    num_clients: int
+
+
+@dataclass(frozen=True)
+class Control:
+    """Who has control of the robot. `driver_id` 0: no client; 4294967295: the operator."""
+
+    driver_id: int = 0
+    driver_name: str = ""
+    is_mine: bool = False
+
+    @staticmethod
+    def from_protocol(message: pb.Control) -> Control:
+        return Control(message.driver_id, message.driver_name, message.is_mine)
+
+
+@dataclass(frozen=True)
+class Client:
+    """A client of the gateway, for the operator."""
+
+    client_id: int
+    name: str
+    address: str
+    # "websocket" or "tcp".
+    transport: str
+    is_driver: bool
+    # Messages sent; states and images skipped because the client was slow.
+    num_sent: int
+    num_skipped: int
+
+    @staticmethod
+    def from_protocol(message: pb.Clients.Client) -> Client:
+        return Client(message.client_id, message.name, message.address, message.transport, message.is_driver,
+                      message.num_sent, message.num_skipped)
+
+
+@dataclass(frozen=True)
+class Reason:
+    """Why something happened: an English sentence, and the same as a code with its arguments for translation."""
+
+    message: str
+    reason_code: str = ""
+    reason_arguments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class CommandResult(Reason):
+    """A motion command of this client was accepted, refused or has ended."""
+
+    request_id: int = 0
+    status: CommandStatus = CommandStatus.ACCEPTED
+
+
+@dataclass(frozen=True)
+class ControlChanged(Reason):
+    """Control has changed hands."""
+
+    control: Control = Control()
+
+
+@dataclass(frozen=True)
+class ComponentChanged(Reason):
+    """A program has become available or unavailable."""
+
+    component: Component = Component.MOTION
+    is_available: bool = False
+
+
+@dataclass(frozen=True)
+class Connected(Reason):
+    """The client has connected again."""
+
+
+@dataclass(frozen=True)
+class Disconnected(Reason):
+    """The connection was lost. `is_final`: the client does not connect again."""
+
+    is_final: bool = False
+
+
+Event = Union[CommandResult, ControlChanged, ComponentChanged, Connected, Disconnected]
+
+
+def event_from_protocol(notice: pb.Notice) -> Event | None:
+    """@return None for a closing notice, which Disconnected repeats, and for kinds that this version does not know."""
+    reason = (notice.message, notice.reason_code, tuple(notice.reason_arguments))
+    if notice.kind == pb.Notice.COMMAND_RESULT:
+        return CommandResult(*reason, notice.request_id, _member(CommandStatus, notice.status, CommandStatus.FAILED))
+    if notice.kind == pb.Notice.CONTROL_CHANGED:
+        return ControlChanged(*reason, Control.from_protocol(notice.control))
+    component = _member(Component, notice.component, None)
+    if notice.kind == pb.Notice.COMPONENT_CHANGED and component is not None:
+        return ComponentChanged(*reason, component, notice.is_available)
+    return None
+
+
+def _member(kind: Any, value: int, otherwise: Any) -> Any:
+    """@return the enum's member, or `otherwise` for a value of a newer gateway."""
+    try:
+        return kind(value)
+    except ValueError:
+        return otherwise

@@ -1,0 +1,83 @@
+"""Streams with bounded memory: the newest value only, or the last events."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+from typing import AsyncIterator, Callable, Deque, Generic, TypeVar
+
+from nao_remote.errors import Timeout
+
+T = TypeVar("T")
+
+
+class Stream(AsyncIterator[T], Generic[T]):
+    """Values as they arrive. Of values that arrive faster than they are read only the newest `capacity` are kept.
+
+    A stream goes on after the client has connected again. Close it when it is no longer needed, so that the gateway stops
+    sending: `with robot.states() as states:`.
+    """
+
+    def __init__(self, what: str, capacity: int, timeout: float | None, on_close: Callable[[Stream[T]], None]) -> None:
+        """@param what  What it waits for, for the error message. @param timeout  s; None: without end."""
+        self._what = what
+        self._values: Deque[T] = deque(maxlen=capacity)
+        self._timeout = timeout
+        self._on_close = on_close
+        self._changed = asyncio.Event()
+        self._error: Exception | None = None
+        # Values that were replaced before they were read.
+        self.num_skipped = 0
+
+    def __aiter__(self) -> Stream[T]:
+        return self
+
+    async def __anext__(self) -> T:
+        """@raise Timeout  if no value arrives in time. @raise Closed  if the client has given up connecting.
+        @raise StopAsyncIteration  after close()."""
+        return await self.read()
+
+    async def read(self) -> T:
+        """As iterating."""
+        return await self.next(self._timeout)
+
+    async def next(self, timeout: float | None) -> T:
+        """As __anext__, with another timeout."""
+        if not self._values and self._error is None:
+            self._changed.clear()
+            try:
+                await asyncio.wait_for(self._changed.wait(), timeout)
+            except asyncio.TimeoutError as error:
+                raise Timeout(f"no {self._what} within {timeout:g} s") from error
+        if self._values:
+            return self._values.popleft()
+        assert self._error is not None
+        raise self._error
+
+    def __enter__(self) -> Stream[T]:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Ends the stream."""
+        if not isinstance(self._error, StopAsyncIteration):
+            self._error = StopAsyncIteration()
+            self._values.clear()
+            self._changed.set()
+            self._on_close(self)
+
+    def put(self, value: T) -> None:
+        if isinstance(self._error, StopAsyncIteration):
+            return
+        if len(self._values) == self._values.maxlen:
+            self.num_skipped += 1
+        self._values.append(value)
+        self._changed.set()
+
+    def fail(self, error: Exception) -> None:
+        """The values that are left are still read; then the error is raised."""
+        if self._error is None:
+            self._error = error
+            self._changed.set()
