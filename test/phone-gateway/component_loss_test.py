@@ -14,8 +14,8 @@ from walking import STILL_DISTANCE, STILL_TIME, WalkingTest
 
 sys.path.insert(0, str(ROOT / "test/support"))
 
-import phone  # of phone-gateway/examples/python
-from remote_protocol import remote_pb2 as pb
+import phone
+from nao_remote import remote_pb2 as pb
 from stack import BIN_DIR, Stack, run
 
 TIME_TO_NOTIFY = 2.0

@@ -12,9 +12,9 @@ from walking import STILL_DISTANCE, WalkingTest
 
 sys.path.insert(0, str(ROOT / "test/support"))
 
-import phone  # of phone-gateway/examples/python
+import phone
 from faulty_link import FaultyLink
-from remote_protocol import remote_pb2 as pb
+from nao_remote import remote_pb2 as pb
 
 
 class LinkLoss(WalkingTest):

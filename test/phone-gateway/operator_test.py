@@ -7,8 +7,8 @@ import unittest
 
 from programs import BIN_DIR, DEADLINE, Gateway
 
-import phone  # of phone-gateway/examples/python
-from remote_protocol import remote_pb2 as pb
+import phone
+from nao_remote import remote_pb2 as pb
 
 
 class Operator(unittest.TestCase):

@@ -12,9 +12,9 @@ from walking import WalkingTest
 
 sys.path.insert(0, str(ROOT / "test/support"))
 
-import phone  # of phone-gateway/examples/python
+import phone
 from other_host import OtherHost, enter_private_network
-from remote_protocol import remote_pb2 as pb
+from nao_remote import remote_pb2 as pb
 
 TOKEN = "test-token"
 CLIENTS_PER_ADDRESS = 8

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from programs import DEADLINE, Robot, wait_until
 
-import phone  # of phone-gateway/examples/python
-from remote_protocol import remote_pb2 as pb
+import phone
+from nao_remote import remote_pb2 as pb
 
 # robots/nao/postures.yaml: the torso of a crouching NAO is 0.229 m above the floor.
 CROUCH_HEIGHT = 0.229

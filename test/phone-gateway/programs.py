@@ -14,7 +14,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BIN_DIR = Path(os.environ.get("NAO_BIN_DIR", ROOT / "build/dev/bin"))
-sys.path.insert(0, str(ROOT / "phone-gateway/examples/python"))
+# The package nao_remote, with the protocol's classes.
+sys.path.insert(0, str(BIN_DIR.parent / "python"))
 
 # s. Long, since the machine may be busy; nothing here measures time.
 DEADLINE = 60

@@ -14,8 +14,8 @@ from pathlib import Path
 
 from programs import DEADLINE, Gateway, wait_until
 
-import phone  # of phone-gateway/examples/python
-from remote_protocol import remote_pb2 as pb
+import phone
+from nao_remote import remote_pb2 as pb
 
 NUM_TRIES = 20
 NUM_HALF_OPEN = 1000

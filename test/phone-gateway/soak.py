@@ -21,7 +21,7 @@ from pathlib import Path
 
 import websockets
 from programs import Robot
-from remote_protocol import remote_pb2 as pb
+from nao_remote import remote_pb2 as pb
 
 WARM_UP = 180  # s: until every buffer has its largest size
 MAX_STAY = 8  # s, of one client

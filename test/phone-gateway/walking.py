@@ -7,8 +7,8 @@ import unittest
 
 from programs import DEADLINE, Robot, wait_until
 
-import phone  # of phone-gateway/examples/python
-from remote_protocol import remote_pb2 as pb
+import phone
+from nao_remote import remote_pb2 as pb
 
 WALK_PERIOD = 0.1
 # s. From the last command to the end of the walk: 0.5 s until it is stale in the gateway (or in nao-motion, if the gateway

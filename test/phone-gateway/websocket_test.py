@@ -20,7 +20,7 @@ from programs import DEADLINE, Gateway
 from websockets import frames
 from websockets.streams import StreamReader
 
-from remote_protocol import remote_pb2 as pb
+from nao_remote import remote_pb2 as pb
 
 HANDSHAKE = ("GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
              "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n")

@@ -17,7 +17,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 COPY = ROOT / "build/broken"
-TARGETS = ["playback_test", "image_playback_test", "nao-head-camera", "nao-phone-gateway", "nao-phone", "nao"]
+TARGETS = ["playback_test", "image_playback_test", "nao-head-camera", "nao-phone-gateway", "nao-phone", "nao",
+           "nao_python_client"]
 
 # Daemon, file, original text, replacement.
 FLIPS = [

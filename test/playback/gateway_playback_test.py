@@ -13,7 +13,7 @@ from lcm_log import read_log
 from message_fields import read_utime
 from stack import BIN_DIR, ROOT, Stack, run
 
-sys.path.insert(0, str(ROOT / "phone-gateway/examples/python"))
+sys.path[:0] = [str(ROOT / "test/phone-gateway"), str(BIN_DIR.parent / "python")]
 from phone import Phone, pb  # noqa: E402
 
 LOG = Path(__file__).resolve().parent / "sessions/gateway.states.lcmlog"

@@ -26,6 +26,9 @@ from nao_remote.streams import Stream as AsyncStream
 
 T = TypeVar("T")
 
+# Longest time that close() waits for what is still being done, s. Chosen: a cancelled task needs milliseconds.
+CLOSE_TIMEOUT = 2.0
+
 
 def connect(address: str | None = None, *, token: str | None = None, token_file: str | os.PathLike[str] | None = None,
             name: str = "Python", certificate: str | os.PathLike[str] | None = None, timeout: float = 5.0,
@@ -113,10 +116,11 @@ class LoopThread:
 
 
 async def _cancel_other_tasks() -> None:
-    tasks = asyncio.all_tasks() - {asyncio.current_task()}
+    tasks = [task for task in asyncio.all_tasks() if task is not asyncio.current_task()]
     for task in tasks:
         task.cancel()
-    await asyncio.gather(*tasks, return_exceptions=True)
+    if tasks:
+        await asyncio.wait(tasks, timeout=CLOSE_TIMEOUT)
 
 
 class Stream(Generic[T]):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import itertools
 from typing import Any, Awaitable, Callable, Iterator
 
 from google.protobuf.message import DecodeError
@@ -34,6 +33,8 @@ class Session:
         self._now = asyncio.get_running_loop().time
         self._last_sent = self._last_received = self._now()
         self._closing: ConnectionLost | None = None
+        # Besides cancelling tasks: until Python 3.12 wait_for() may swallow a cancellation.
+        self._is_closed = False
 
     async def run(self) -> ConnectionLost:
         """Handles messages until the connection ends, and fails the requests that have no response then.
@@ -49,6 +50,7 @@ class Session:
             # What the gateway said of it explains more than the end of the connection.
             reason = self._closing or error
         finally:
+            self._is_closed = True
             for task in tasks:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
@@ -105,7 +107,7 @@ class Session:
             self._handle(message)
 
     async def _keep_open(self) -> None:
-        for _ in itertools.count():
+        while not self._is_closed:
             await asyncio.sleep(CHECK_PERIOD)
             if self._now() - self._last_received > SILENCE_TIMEOUT:
                 raise ConnectionLost(f"the gateway has sent nothing for {SILENCE_TIMEOUT:g} s")

@@ -22,6 +22,8 @@ class Walk:
         self._request = request
         self._velocity = pb.WalkTurn()
         self._repeating: asyncio.Task[None] | None = None
+        # Besides cancelling the task: until Python 3.12 wait_for() may swallow a cancellation.
+        self._is_abandoned = False
 
     async def start(self, velocity: pb.WalkTurn) -> None:
         """Sends the velocity, and repeats it from then on. @raise NaoError  if the first one is refused."""
@@ -31,7 +33,7 @@ class Walk:
 
     @property
     def is_running(self) -> bool:
-        return self._repeating is not None and not self._repeating.done() and not self.command.is_done
+        return not (self._repeating is None or self._repeating.done() or self._is_abandoned or self.command.is_done)
 
     async def change(self, velocity: pb.WalkTurn) -> None:
         """Goes on with another velocity."""
@@ -45,6 +47,7 @@ class Walk:
 
     def abandon(self) -> None:
         """Sends no more velocities: another command has replaced the walk."""
+        self._is_abandoned = True
         if self._repeating is not None:
             self._repeating.cancel()
 
@@ -61,7 +64,7 @@ class Walk:
         while True:
             await asyncio.sleep(PERIOD)
             # A walk that the robot has ended (a fall, a stop) must not begin again by itself.
-            if self.command.is_done:
+            if self.command.is_done or self._is_abandoned:
                 return
             try:
                 await self._request(walk_turn=self._velocity)

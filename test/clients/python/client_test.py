@@ -2,11 +2,14 @@
 """The package nao_remote against a fake gateway."""
 
 import asyncio
+import gc
 import inspect
 import tempfile
 import threading
 import time
+import tracemalloc
 import unittest
+import warnings
 from pathlib import Path
 from unittest import mock
 
@@ -209,6 +212,9 @@ class Errors(WithGateway):
             self.assertNotIn("k7", str(lost.exception))
 
     def test_other_services_are_no_gateways(self):
+        # protobuf warns of bytes that are no message.
+        self.enterContext(warnings.catch_warnings())
+        warnings.simplefilter("ignore", RuntimeWarning)
         for reply in (b"HTTP/1.1 400 Bad Request\r\n\r\n", b"\xff\xff\xff\xff", b"\0\0\0\5hello", b""):
             server = self.enterContext(self.service(reply))
             for scheme in ("ws", "tcp"):
@@ -502,6 +508,32 @@ class Reconnection(WithGateway):
         self.assertEqual(threading.active_count(), before)
         with self.assertRaises(nao_remote.Closed):
             robot.stop()
+
+
+class Memory(WithGateway):
+    def test_nothing_grows_with_requests_states_and_connections(self):
+        robot = self.connect(reconnect=True)
+        with robot.states(60, timeout=DEADLINE) as states, robot.events(timeout=DEADLINE) as events:
+            def use():
+                for _ in range(100):
+                    robot.posture("Sit")
+                    robot.walk(0.1)
+                    robot.walk().wait(DEADLINE)
+                    self.gateway.send(state=state())
+                    next(states)
+                self.gateway.drop()
+                next(event for event in events if isinstance(event, nao_remote.Connected))
+                self.gateway.requests.clear()
+                gc.collect()
+                return tracemalloc.get_traced_memory()[0]
+            tracemalloc.start()
+            self.addCleanup(tracemalloc.stop)
+            use()
+            before = use()
+            after = [use() for _ in range(4)][-1]
+        # B. Four times 100 rounds with 4 kB each would be 1.6 MB; caches of the interpreter are allowed.
+        self.assertLess(after - before, 100_000)
+        self.assertEqual(robot._robot._commands, {})
 
 
 class Asyncio(WithGateway):

@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 SOURCES = ROOT / "clients/python"
 # What an installed package must do without the repository.
-USE = "import nao_remote, nao_remote.remote_pb2; print(nao_remote.__version__, nao_remote.Address.parse('nao.local').port)"
+USE = "import nao_remote, nao_remote.remote_pb2, nao_remote.simulation; print(nao_remote.__version__, nao_remote.Address.parse('nao.local').port)"
 
 
 def run(*command, **options):
@@ -37,9 +37,9 @@ class Package(unittest.TestCase):
         (self.folder / "repository/clients").mkdir(parents=True)
         self.sources = self.folder / "repository/clients/python"
         shutil.copytree(SOURCES, self.sources, ignore=shutil.ignore_patterns("build", "dist", "*.egg-info", "__pycache__"))
-        for proto in (ROOT / "phone-gateway/protocol").glob("*.proto"):
-            (self.folder / "repository/phone-gateway/protocol").mkdir(parents=True, exist_ok=True)
-            shutil.copy(proto, self.folder / "repository/phone-gateway/protocol")
+        for proto in ("phone-gateway/protocol/remote.proto", "tools/simulation-server/simulation.proto"):
+            (self.folder / "repository" / proto).parent.mkdir(parents=True)
+            shutil.copy(ROOT / proto, self.folder / "repository" / proto)
 
     def install(self, *packages):
         """Installs each into a virtual environment, and uses it there."""

@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 """The package nao_remote with the real gateway, motion and simulator, on a bus and ports of their own."""
 
+import math
+import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -9,7 +12,7 @@ import unittest
 from pathlib import Path
 
 import nao_remote
-from programs import DEADLINE, Gateway, Robot, wait_until
+from programs import BIN_DIR, DEADLINE, Gateway, Robot, wait_until
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLES = ROOT / "clients/python/examples"
@@ -29,9 +32,10 @@ class WithRobot(unittest.TestCase):
     def connect(self, **options):
         return self.enterContext(nao_remote.connect(self.address, **{"timeout": DEADLINE, **options}))
 
-    def example(self, name, *arguments):
-        """Runs an example in a folder of its own. @return its output. Skips the test if it lacks an optional package."""
-        folder = self.enterContext(tempfile.TemporaryDirectory())
+    def example(self, name, *arguments, folder=None):
+        """Runs an example in a folder of its own. @return its output and the folder. Skips the test if it lacks an optional
+        package."""
+        folder = folder or self.enterContext(tempfile.TemporaryDirectory())
         result = subprocess.run([sys.executable, EXAMPLES / f"{name}.py", self.address, *map(str, arguments)], cwd=folder,
                                 stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=5 * DEADLINE, check=False)
         if result.returncode == 77:
@@ -130,10 +134,69 @@ class Driving(WithRobot):
         except nao_remote.NaoError:
             return False
 
+
+class Examples(WithRobot):
     def test_hello(self):
         output, folder = self.example("hello")
         self.assertIn("NAO", output)
         self.assertTrue((folder / "view.jpg").read_bytes().startswith(b"\xff\xd8"))
+
+    def test_square(self):
+        output, _ = self.example("square")
+        corners = re.findall(r"x (-?[\d.]+) m, y (-?[\d.]+) m", output)
+        self.assertEqual(len(corners), 4)
+        begin, across = (tuple(map(float, corners[i])) for i in (3, 1))
+        self.assertGreater(math.dist(begin, across), 0.25, "opposite corners")
+
+    def test_dance(self):
+        output, _ = self.example("dance")
+        self.assertEqual(output.count("beat"), 8)
+
+    def test_follow_ball(self):
+        self.stack.nao("world", "reset")
+        self.stack.stand()
+        self.stack.nao("world", "place-ball", "1.0", "0.3")
+        self.example("follow_ball", 120)
+        truth = self.stack.truth()
+        self.assertLess(math.dist(truth["position_torso_in_world"][:2], (1.0, 0.3)), 0.75)
+
+    def test_teach_and_replay(self):
+        robot = self.connect()
+        robot.posture("Stand", timeout=DEADLINE)
+        recording = subprocess.Popen(
+            [sys.executable, "-u", EXAMPLES / "teach_and_replay.py", self.address, "wave.json", "6"],
+            cwd=self.folder(), stdout=subprocess.PIPE, text=True)
+        self.addCleanup(recording.wait)
+        self.addCleanup(recording.stdout.close)
+        self.assertEqual(recording.stdout.readline(), "recording\n")
+        robot.joints["LShoulderRoll"].move_by(0.4, 0.5, timeout=DEADLINE)
+        robot.joints["HeadYaw"].move_by(0.5, 0.5, timeout=DEADLINE)
+        self.assertEqual(recording.wait(DEADLINE), 0)
+        taught = robot.state().joint_position
+        robot.joints["LShoulderRoll"].move_by(-0.4, timeout=DEADLINE)
+        robot.joints["HeadYaw"].move_by(-0.5, timeout=DEADLINE)
+        robot.release_control()
+        output, _ = self.example("teach_and_replay", "wave.json", folder=self.folder())
+        self.assertIn("HeadYaw", output)
+        replayed = robot.state().joint_position
+        for name in ("LShoulderRoll", "HeadYaw"):
+            self.assertAlmostEqual(replayed[name], taught[name], delta=0.08, msg=name)
+
+    def folder(self):
+        if not hasattr(self, "_folder"):
+            self._folder = self.enterContext(tempfile.TemporaryDirectory())
+        return self._folder
+
+    def test_log_to_pandas(self):
+        output, folder = self.example("log_to_pandas", 2)
+        self.assertIn("states in states.csv", output)
+        self.assertTrue((folder / "states.csv").read_text().startswith("time,mode,x,y,height,"))
+
+    def test_simulate_many(self):
+        result = subprocess.run([sys.executable, EXAMPLES / "simulate_many.py"], capture_output=True, text=True,
+                                timeout=5 * DEADLINE, check=False, env={**os.environ, "NAO_REMOTE_BIN": str(BIN_DIR)})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(len(re.findall(r"seed \d: 1\.", result.stdout)), 4, result.stdout)
 
 
 class Security(unittest.TestCase):

@@ -11,9 +11,9 @@ import struct
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "phone-gateway/examples/python"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "build/dev/python"))
 
-from remote_protocol import remote_pb2 as pb  # noqa: E402
+from nao_remote import remote_pb2 as pb  # noqa: E402
 
 USE_CASES = {
     "connect": dict(connect=pb.Connect(protocol_version=1, token="k", client_name="Ana")),

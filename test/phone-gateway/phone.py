@@ -1,14 +1,14 @@
-"""A client in Python: one connection to nao-phone-gateway over raw TCP.
+"""A client for tests: one connection to nao-phone-gateway over raw TCP.
 
-It implements all that PROTOCOL.md requires of a client: the framing, Connect first, a ping after a
-second without another request, answers separated from states, images and notices.
+It sends what a test tells it, and pings only inside its waiting methods: it falls silent when a test stops calling them, and never
+connects again by itself. Programs use the package nao_remote (clients/python) instead.
 """
 
 import socket
 import struct
 import time
 
-from remote_protocol import remote_pb2 as pb
+from nao_remote import remote_pb2 as pb
 
 PROTOCOL_VERSION = 1
 PING_PERIOD = 1.0  # s, see PROTOCOL.md
@@ -46,7 +46,7 @@ class Phone:
             raise ConnectionLost(f"no gateway at {host} port {port}: {error}") from error
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         hello = pb.Connect(protocol_version=PROTOCOL_VERSION, token=token, client_name=name,
-                           client_software="nao-remote Python example")
+                           client_software="nao-remote test")
         try:
             self.connected = self.ask(connect=hello).connected
         except (ConnectionLost, Refused):
