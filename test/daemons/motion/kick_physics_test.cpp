@@ -17,7 +17,7 @@ std::filesystem::path data() {
   return NAO_TEST_DATA;
 }
 
-ClosedLoop make_trial(uint64_t seed) {
+ClosedLoop make_kick_trial(uint64_t seed) {
   static const auto model =
       std::make_shared<const RobotModel>(RobotModel::load(data() / "robots" / "nao"));
   ClosedLoopOptions options;
@@ -53,7 +53,7 @@ Eigen::Vector2d kick(ClosedLoop& trial, bool is_left, double strength,
 
 TEST(Kick, SendsTheBallMetresAndLeavesTheRobotStanding) {
   for (const bool is_left : {true, false}) {
-    ClosedLoop trial = make_trial(is_left ? 1 : 2);
+    ClosedLoop trial = make_kick_trial(is_left ? 1 : 2);
     const Eigen::Vector2d way = kick(trial, is_left, kNan);
     EXPECT_GT(way.x(), 2);
     EXPECT_LT(std::abs(std::atan2(way.y(), way.x())), 0.2);
@@ -65,7 +65,7 @@ TEST(Kick, SendsTheBallMetresAndLeavesTheRobotStanding) {
 TEST(Kick, SendsTheBallWhereTheRobotLooked) {
   for (const bool is_left : {true, false}) {
     for (const double offset : {-0.01, 0.01}) {
-      ClosedLoop trial = make_trial(is_left ? 11 : 12);
+      ClosedLoop trial = make_kick_trial(is_left ? 11 : 12);
       const Eigen::Vector2d way = kick(trial, is_left, kNan, {offset, offset});
       // rad: 2.5 degrees, 1.5 times the greatest of 100 errors by nao-trial kick.
       EXPECT_LT(std::abs(std::atan2(way.y(), way.x())), 0.044) << is_left << " " << offset;
@@ -74,13 +74,13 @@ TEST(Kick, SendsTheBallWhereTheRobotLooked) {
 }
 
 TEST(Kick, IsGentlerWithLessStrength) {
-  ClosedLoop strong = make_trial(3);
-  ClosedLoop gentle = make_trial(3);
+  ClosedLoop strong = make_kick_trial(3);
+  ClosedLoop gentle = make_kick_trial(3);
   EXPECT_LT(kick(gentle, true, 0.05).norm(), 0.8 * kick(strong, true, 1.0).norm());
 }
 
 TEST(Kick, RefusesABallOutOfReachAndSaysWhereItMayLie) {
-  ClosedLoop trial = make_trial(4);
+  ClosedLoop trial = make_kick_trial(4);
   trial.run(0.5);
   const int64_t id = trial.send({"", 0, ActionCommand{"kick-left", 0.5, 0.05, kNan}});
   const auto end = trial.await_end(id, 1);
@@ -90,7 +90,7 @@ TEST(Kick, RefusesABallOutOfReachAndSaysWhereItMayLie) {
 }
 
 TEST(Kick, APostureWaitsUntilBothFeetStand) {
-  ClosedLoop trial = make_trial(5);
+  ClosedLoop trial = make_kick_trial(5);
   trial.run(0.5);
   const int64_t id = trial.send({"", 0, ActionCommand{"kick-left", kNan, kNan, kNan}});
   trial.run(0.8);
@@ -103,7 +103,7 @@ TEST(Kick, APostureWaitsUntilBothFeetStand) {
 }
 
 TEST(Kick, OutOfTheWalkDoesNotStopIt) {
-  ClosedLoop trial = make_trial(6);
+  ClosedLoop trial = make_kick_trial(6);
   trial.run(0.5);
   trial.hold_walk({0.15, 0, 0});
   trial.run(2);
@@ -117,7 +117,7 @@ TEST(Kick, OutOfTheWalkDoesNotStopIt) {
 }
 
 TEST(Kick, AStrongOneEndsTheWalkFirst) {
-  ClosedLoop trial = make_trial(7);
+  ClosedLoop trial = make_kick_trial(7);
   trial.run(0.5);
   trial.hold_walk({0.15, 0, 0});
   trial.run(2);

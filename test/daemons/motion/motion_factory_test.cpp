@@ -10,7 +10,7 @@
 namespace nao::motion {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 class MotionFactoryTest : public ::testing::Test {
  protected:
@@ -22,7 +22,7 @@ class MotionFactoryTest : public ::testing::Test {
     return reason == nullptr ? Reason() : *reason;
   }
   Reason plan_action(const std::string& name) {
-    return plan(ActionCommand{name, kNan, kNan, kNan});
+    return plan(ActionCommand{name, kNotANumber, kNotANumber, kNotANumber});
   }
 
   MotionOptions options_;
@@ -68,7 +68,7 @@ TEST_F(MotionFactoryTest, AWalkFromASeatStandsUpFirst) {
 }
 
 TEST_F(MotionFactoryTest, RefusesABallOutOfReach) {
-  const Reason reason = plan(ActionCommand{"kick-left", 1.0, 0.05, kNan});
+  const Reason reason = plan(ActionCommand{"kick-left", 1.0, 0.05, kNotANumber});
   EXPECT_EQ(reason.code, "ball-out-of-reach");
   EXPECT_EQ(reason.arguments.size(), 4u);
 }
