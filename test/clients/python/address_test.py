@@ -8,6 +8,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
+import built_package  # noqa: F401
 from nao_remote import discovery
 from nao_remote.address import Address, resolve
 

@@ -13,6 +13,7 @@ import warnings
 from pathlib import Path
 from unittest import mock
 
+import built_package  # noqa: F401
 import nao_remote
 from fake_gateway import DEADLINE, FakeGateway, refuse, result, state, wait_until
 from nao_remote import aio, connection, session

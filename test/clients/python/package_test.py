@@ -11,7 +11,8 @@ import unittest
 import venv
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
+from built_package import ROOT
+
 SOURCES = ROOT / "clients/python"
 # What an installed package must do without the repository.
 USE = "import nao_remote, nao_remote.remote_pb2, nao_remote.simulation; print(nao_remote.__version__, nao_remote.Address.parse('nao.local').port)"

@@ -11,10 +11,11 @@ import threading
 import unittest
 from pathlib import Path
 
-import nao_remote
-from programs import BIN_DIR, DEADLINE, Gateway, Robot, wait_until
+from built_package import BIN_DIR, ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
+import nao_remote
+from programs import DEADLINE, Gateway, Robot, wait_until
+
 EXAMPLES = ROOT / "clients/python/examples"
 
 

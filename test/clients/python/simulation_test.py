@@ -7,9 +7,9 @@ import struct
 import subprocess
 import time
 import unittest
-from pathlib import Path
 
-BIN_DIR = Path(os.environ.get("NAO_BIN_DIR", Path(__file__).resolve().parents[3] / "build/dev/bin"))
+from built_package import BIN_DIR
+
 os.environ["NAO_REMOTE_BIN"] = str(BIN_DIR)
 
 import nao_remote  # noqa: E402

@@ -8,9 +8,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import nao_remote
+from built_package import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
+import nao_remote
 
 
 class Types(unittest.TestCase):
