@@ -47,7 +47,14 @@ EventLoop::~EventLoop() {
 }
 
 void EventLoop::on_readable(int descriptor, std::function<void()> handler) {
-  sources_.push_back({descriptor, false, std::move(handler)});
+  sources_.push_back(
+      {descriptor, false, std::make_shared<const std::function<void()>>(std::move(handler))});
+}
+
+void EventLoop::forget(int descriptor) {
+  for (Source& source : sources_) {
+    if (!source.is_timer && source.descriptor == descriptor) source.descriptor = -1;
+  }
 }
 
 void EventLoop::every(double period, std::function<void()> handler) {
@@ -57,12 +64,14 @@ void EventLoop::every(double period, std::function<void()> handler) {
   if (descriptor < 0 || timerfd_settime(descriptor, 0, &timing, nullptr) != 0) {
     throw Error(std::string("cannot create a timer: ") + std::strerror(errno));
   }
-  sources_.push_back({descriptor, true, std::move(handler)});
+  sources_.push_back(
+      {descriptor, true, std::make_shared<const std::function<void()>>(std::move(handler))});
 }
 
 std::string EventLoop::run() {
   std::vector<pollfd> polled;
   while (!is_stopped_) {
+    std::erase_if(sources_, [](const Source& source) { return source.descriptor < 0; });
     polled.clear();
     polled.push_back({signal_descriptor_, POLLIN, 0});
     for (const Source& source : sources_) polled.push_back({source.descriptor, POLLIN, 0});
@@ -79,14 +88,15 @@ std::string EventLoop::run() {
     }
     // By index: a handler may add sources.
     for (size_t i = 1; i < polled.size() && !is_stopped_; ++i) {
-      if (polled[i].revents == 0) continue;
+      if (polled[i].revents == 0 || sources_[i - 1].descriptor < 0) continue;
       if (sources_[i - 1].is_timer) {
         uint64_t expirations = 0;
         // Periods that have passed meanwhile are one event: a loop that was held up does not catch
         // up with a burst.
         if (read(sources_[i - 1].descriptor, &expirations, sizeof expirations) < 0) continue;
       }
-      sources_[i - 1].handler();
+      const auto handler = sources_[i - 1].handler;
+      (*handler)();
     }
   }
   // run() may be called again.

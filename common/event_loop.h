@@ -28,6 +28,10 @@ class EventLoop {
    * open. */
   void on_readable(int descriptor, std::function<void()> handler);
 
+  /** Ends on_readable() for a descriptor; call it before the descriptor is closed. A handler may
+   * forget its own. */
+  void forget(int descriptor);
+
   /** Calls `handler` every `period` s of the monotonic clock, first after one period. Missed
    * periods are merged into one call. */
   void every(double period, std::function<void()> handler);
@@ -41,9 +45,11 @@ class EventLoop {
 
  private:
   struct Source {
+    /** -1: forgotten. */
     int descriptor;
     bool is_timer;
-    std::function<void()> handler;
+    /** Shared with the call that is running, during which the source may be forgotten. */
+    std::shared_ptr<const std::function<void()>> handler;
   };
 
   std::vector<Source> sources_;

@@ -68,9 +68,9 @@ void read_signs(const YamlEntry& list, std::array<double, N>& signs) {
 }
 
 template <class Values>
-constexpr bool is_light = false;
+constexpr bool kIsLight = false;
 template <size_t N>
-constexpr bool is_light<std::array<float, N>> = N != kLolaJoints;
+constexpr bool kIsLight<std::array<float, N>> = N != kLolaJoints;
 
 /** Calls `act(values)` with the optional values of a group of lights. @return Whether there is one.
  */
@@ -79,7 +79,7 @@ bool with_light(Command& command, const std::string& key, Act&& act) {
   bool is_found = false;
   for_each_field(command, [&](const char* name, auto& values) {
     using Values = typename std::remove_cvref_t<decltype(values)>::value_type;
-    if constexpr (is_light<Values>) {
+    if constexpr (kIsLight<Values>) {
       if (key != name) return;
       is_found = true;
       act(values);

@@ -15,6 +15,9 @@ CALL = os.environ.get("NAO_REMOTE_CALL", "scripts/")
 
 # All programs of a stack.
 PROGRAMS = ("nao-sim", "nao-motion", "nao-head-camera", "nao-phone-gateway")
+# With --backend lola one more: the bridge of a real robot, which its watchdog starts.
+ROBOT = "nao-robot"
+ROBOT_WATCHDOG = "nao-robot-watchdog"
 
 # Targets that scripts/start builds beside them.
 COMPANIONS = ("nao", "nao_robot_files", "scenes", "nao_phone_app")
@@ -112,6 +115,7 @@ class Stack:
         self.socket = run_dir / "supervisor.sock"
         self.pid_file = run_dir / "supervisord.pid"
         self.token_file = run_dir / "token"
+        self.lola_socket = run_dir / "lola.sock"
 
     def write_settings(self, settings):
         (self.run_dir / "settings").write_text("".join(f"{key}={value}\n" for key, value in settings.items()))

@@ -11,7 +11,8 @@ import sys
 from argparse import ArgumentTypeError
 from pathlib import Path
 
-from stack import CALL, COMPANIONS, PROGRAMS, ROOT, CommandLine, Failure, Stack, run_as_root, run_script, warn
+from stack import (CALL, COMPANIONS, PROGRAMS, ROBOT, ROBOT_WATCHDOG, ROOT, CommandLine, Failure, Stack, run_as_root,
+                   run_script, warn)
 
 # Ports that are tried first. 8080: registered for HTTP alternatives (IANA); 7668: next to LCM's 7667.
 HTTP_PORT = 8080
@@ -49,14 +50,17 @@ supervisor.rpcinterface_factory = supervisor.rpcinterface:make_main_rpcinterface
 [supervisorctl]
 serverurl=unix://{socket}
 """
+# Time to end after SIGTERM, s; the bridge of a robot first lets it sit down.
+STOP_WAIT_TIME = 5
+ROBOT_STOP_WAIT_TIME = 10
 PROGRAM_SECTION = """
 [program:{program}]
 command={command}
-autorestart=true
+autorestart={restart}
 startsecs=5
 startretries=10
 stopsignal=TERM
-stopwaitsecs=5
+stopwaitsecs={stop_time}
 redirect_stderr=true
 stdout_logfile={logs}/{program}.log
 stdout_logfile_maxbytes=5MB
@@ -87,6 +91,9 @@ def parse_options():
                 default=os.environ.get("LCM_DEFAULT_URL") or "udpm://239.255.76.67:7667?ttl=0",
                 help="message bus (default: LCM_DEFAULT_URL, or limited to this host: udpm://239.255.76.67:7667?ttl=0; "
                      "several hosts: ...?ttl=1)")
+    line.option("--backend", choices=("sim", "lola"), default="sim",
+                help="sim: the robot is simulated; lola: the simulated robot has the interface of a NAO V6, and nao-robot "
+                     "connects it as it would a real one (default: sim)")
     line.option("--lock-step", action="store_true", help="simulate as fast as possible and deterministically")
     line.option("--http-port", metavar="PORT", type=port,
                 help=f"for the app (default: {HTTP_PORT}, or the next free one)")
@@ -109,12 +116,15 @@ def parse_options():
 def choose_programs(line, options):
     """The programs that --only and --no-camera leave."""
     programs = list(PROGRAMS)
+    if options.backend == "lola":
+        programs.insert(1, ROBOT)
+    known_programs = list(programs)
     if options.only:
         names = re.split("[, ]+", options.only.strip(", "))
         programs = ["nao-" + name.removeprefix("nao-") for name in names]
         for name, program in zip(names, programs):
-            if program not in PROGRAMS:
-                known = " ".join(known.removeprefix("nao-") for known in PROGRAMS)
+            if program not in known_programs:
+                known = " ".join(known.removeprefix("nao-") for known in known_programs)
                 line.error(f"no program '{name}'; there are: {known}")
     if options.no_camera:
         programs = [program for program in programs if program != "nao-head-camera"]
@@ -137,7 +147,8 @@ def install_and_build(options):
             say("Building; the first time this takes some minutes.")
         # Only the programs started here; all others (nao-viewer, nao-trial): cmake --build --preset dev --target programs
         build = f". '{ROOT}/scripts/lib.sh'; build_preset dev \"$@\""
-        succeed(["bash", "-c", build, "start", *options.programs, *COMPANIONS], umask=0o022)
+        watchdog = [ROBOT_WATCHDOG] if ROBOT in options.programs else []
+        succeed(["bash", "-c", build, "start", *options.programs, *watchdog, *COMPANIONS], umask=0o022)
     for program in [*options.programs, "nao"]:
         if not os.access(folder / program, os.X_OK):
             raise Failure(f"there is no {folder / program}; build it, or choose other programs: --only")
@@ -219,10 +230,15 @@ def command_of(program, stack, settings, options):
     else:
         words = [program, *bus, "--robot", settings["robot"]]
     if program == "nao-sim":
-        words += ["--scene", settings["scene"], *(["--lock-step"] if options.lock_step else [])]
+        words += ["--scene", settings["scene"], *(["--lola", stack.lola_socket] if options.backend == "lola" else [])]
+    elif program == ROBOT:
+        # A simulated robot has nobody who presses its button.
+        words = [ROBOT_WATCHDOG, *words[1:], "--lola", stack.lola_socket, "--autostart"]
     elif program == GATEWAY:
         words += [*gateway_options(stack, settings), "--tcp-port", settings["tcp_port"],
                   "--audit-log", stack.logs / "phones.jsonl"]
+    if options.lock_step and program in ("nao-sim", ROBOT):
+        words.append("--lock-step")
     words[0] = f"{settings['bin_dir']}/{words[0]}"
     return " ".join('"' + escaped(word).replace('"', '\\"') + '"' for word in words)
 
@@ -231,8 +247,12 @@ def write_configuration(stack, settings, options):
     paths = {"socket": escaped(stack.socket), "logs": escaped(stack.logs), "pid_file": escaped(stack.pid_file)}
     text = SUPERVISOR_SECTION.format(**paths, user="user=root" if os.geteuid() == 0 else "")
     for program in [*options.programs, "nao-watchdog"]:
+        is_robot = program == ROBOT
+        # The bridge ends with status 0 when somebody has ended it by the robot's button.
         text += PROGRAM_SECTION.format(**paths, program=program,
-                                       command=command_of(program, stack, settings, options))
+                                       command=command_of(program, stack, settings, options),
+                                       restart="unexpected" if is_robot else "true",
+                                       stop_time=ROBOT_STOP_WAIT_TIME if is_robot else STOP_WAIT_TIME)
     stack.configuration.write_text(text)
 
 

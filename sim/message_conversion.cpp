@@ -66,6 +66,15 @@ naolcm::robot_truth_t robot_truth_of(const SimRobot& robot) {
   return truth;
 }
 
+void add_lights(const LolaRobot& lola, naolcm::robot_truth_t& truth) {
+  for (const LolaMap::Light& light : lola.map().lights) {
+    truth.light_names.push_back(light.name);
+    const std::array<double, 3> rgb = light_color(lola.held(), light.key);
+    truth.light_rgb.push_back({rgb[0], rgb[1], rgb[2]});
+  }
+  truth.num_lights = static_cast<int>(truth.light_names.size());
+}
+
 }  // namespace
 
 JointCommand to_core(const naolcm::joint_command_t& message) {
@@ -136,6 +145,7 @@ naolcm::world_truth_t world_truth_of(const SimCore& core, double real_time_facto
   message.num_late_ticks = scheduler.num_late_ticks();
   for (int i = 0; i < world.num_robots(); ++i) {
     message.robots.push_back(robot_truth_of(world.robot(i)));
+    if (core.lola()) add_lights(*core.lola(), message.robots.back());
   }
   message.num_robots = static_cast<int>(message.robots.size());
   message.has_ball = world.has_ball() ? 1 : 0;

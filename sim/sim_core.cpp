@@ -71,6 +71,17 @@ void add_robots(const SimOptions& options, World& world) {
   }
 }
 
+/** @throws ConfigError, ModelError */
+std::optional<LolaRobot> make_lola(const SimOptions& options, const World& world) {
+  if (options.lola_socket.empty()) return std::nullopt;
+  if (world.num_robots() != 1) {
+    throw ConfigError(fmt::format("LoLA serves one robot, and there are {}", world.num_robots()));
+  }
+  LolaRobot lola(world.robot(0).model());
+  lola.update(world.sensors(0), world.targets(0), 0);
+  return lola;
+}
+
 bool is_within(const Eigen::Vector3d& v, double limit) {
   return v.allFinite() && v.cwiseAbs().maxCoeff() <= limit;
 }
@@ -88,6 +99,13 @@ SimCore::SimCore(const SimOptions& options)
                  options.lock_step, options.pace) {
   add_robots(options_, world_);
   for (int i = 0; i < world_.num_robots(); ++i) targets_.push_back(world_.targets(i));
+  lola_ = make_lola(options_, world_);
+}
+
+void SimCore::take_lola_command(const LolaCommand& command, double now) {
+  const JointCommand joints = lola_->take(command, world_.targets(0), world_.tick());
+  // Names and numbers are valid by construction.
+  (void)take_joint_command(0, joints, now);
 }
 
 std::optional<std::string> SimCore::take_joint_command(int robot, const JointCommand& command,
@@ -133,6 +151,7 @@ std::string SimCore::execute(const WorldCommand& command, double now) {
   if (name == "place-robot") return place_robot(command);
   if (name == "place-ball") return place_ball(command);
   if (name == "push") return push(command);
+  if (name == "touch") return touch(command);
   if (name == "drag" || name == "add-robot" || name == "remove-robot") {
     return fmt::format("world command \"{}\" is not supported by this simulator", name);
   }
@@ -149,6 +168,7 @@ std::string SimCore::step(const WorldCommand& command, double now) {
 
 std::string SimCore::reset(double now) {
   world_.reset();
+  if (lola_) lola_->update(world_.sensors(0), world_.targets(0), 0);
   for (int i = 0; i < world_.num_robots(); ++i) targets_[i] = world_.targets(i);
   scheduler_.reset(now);
   return "";
@@ -221,6 +241,15 @@ std::string SimCore::push(const WorldCommand& command) {
   return "";
 }
 
+std::string SimCore::touch(const WorldCommand& command) {
+  if (!lola_) return "only a robot behind LoLA has buttons and touch sensors";
+  if (command.num_ticks < 1) {
+    return fmt::format("number of ticks {} must be 1 or more", command.num_ticks);
+  }
+  if (lola_->touch(command.link, command.num_ticks)) return "";
+  return fmt::format("there is no button or touch sensor \"{}\"", command.link);
+}
+
 int SimCore::find_robot(const std::string& name) const {
   if (name.empty()) return 0;
   const auto found = std::find(options_.robots.begin(), options_.robots.end(), name);
@@ -230,6 +259,7 @@ int SimCore::find_robot(const std::string& name) const {
 double SimCore::run_tick(double now) {
   const double delay = scheduler_.begin_tick(world_.tick(), now);
   world_.step_tick();
+  if (lola_) lola_->update(world_.sensors(0), world_.targets(0), world_.options().period());
   // Lost readings are never answered: in lock-step the next tick must not wait for it.
   for (int i = 0; scheduler_.is_lock_step() && i < world_.num_robots(); ++i) {
     if (world_.are_readings_lost(i)) scheduler_.note_command(i, world_.tick(), now);

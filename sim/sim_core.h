@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/joint_command.h"
+#include "sim/lola_robot.h"
 #include "sim/sim_options.h"
 #include "sim/tick_scheduler.h"
 #include "sim/world.h"
@@ -37,6 +38,11 @@ class SimCore {
   [[nodiscard]] std::optional<std::string> take_joint_command(int robot,
                                                               const JointCommand& command,
                                                               double now);
+  /** Nothing unless options().lola_socket is set. */
+  const std::optional<LolaRobot>& lola() const { return lola_; }
+  /** Takes a client's command as the answer to the newest tick: in lock-step the next one may be
+   * run. */
+  void take_lola_command(const LolaCommand& command, double now);
   /** Executes a world command; last_world_command() is its outcome.
    * @return false if the command was executed before: senders repeat them. */
   bool take_world_command(const WorldCommand& command, double now);
@@ -57,6 +63,7 @@ class SimCore {
   std::string place_robot(const WorldCommand& command);
   std::string place_ball(const WorldCommand& command);
   std::string push(const WorldCommand& command);
+  std::string touch(const WorldCommand& command);
   /** Index; -1 if there is no robot of that name. The empty name is the first robot's. */
   int find_robot(const std::string& name) const;
 
@@ -68,6 +75,7 @@ class SimCore {
   /** Senders and numbers of the last world commands. */
   std::deque<std::pair<std::string, int64_t>> executed_;
   WorldCommandOutcome outcome_;
+  std::optional<LolaRobot> lola_;
 };
 
 }  // namespace nao::sim

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -36,6 +37,7 @@ SimDaemon::SimDaemon(Bus& bus, EventLoop& loop, const SimOptions& options)
   if (timer_ < 0) throw Error(std::string("cannot make a timer: ") + std::strerror(errno));
   for (const std::string& robot : options.robots) channels_.emplace_back(robot);
   subscribe();
+  if (core_.lola()) serve_lola();
   loop_.on_readable(bus_.descriptor(), [this] {
     bus_.handle();
     run_due_ticks();
@@ -64,7 +66,8 @@ SimDaemon::~SimDaemon() {
 }
 
 void SimDaemon::subscribe() {
-  for (size_t i = 0; i < channels_.size(); ++i) {
+  // A robot behind LoLA obeys its client only.
+  for (size_t i = 0; i < channels_.size() && !core_.lola(); ++i) {
     const int robot = static_cast<int>(i);
     bus_.subscribe<naolcm::joint_command_t>(channels_[i].joint_command, Bus::Queue::kAll,
                                             [this, robot](const naolcm::joint_command_t& message) {
@@ -74,6 +77,16 @@ void SimDaemon::subscribe() {
   bus_.subscribe<naolcm::world_command_t>(
       kWorldCommandChannel, Bus::Queue::kAll,
       [this](const naolcm::world_command_t& message) { take_world_command(message); });
+}
+
+void SimDaemon::serve_lola() {
+  LolaServer::Handlers handlers;
+  handlers.on_client = [this] { lola_->send(core_.lola()->state()); };
+  handlers.on_command = [this](const LolaCommand& command) {
+    core_.take_lola_command(command, monotonic_seconds());
+    run_due_ticks();
+  };
+  lola_.emplace(loop_, core_.options().lola_socket, std::move(handlers));
 }
 
 void SimDaemon::take_joint_command(int robot, const naolcm::joint_command_t& message) {
@@ -141,7 +154,8 @@ void SimDaemon::repeat_while_waiting() {
   if (now - last_publish_time_ < kIdlePeriod * 0.9) return;
   // In lock-step the answer, or the sensor state itself, may have been lost.
   const TickScheduler& scheduler = core_.scheduler();
-  if (scheduler.is_lock_step() && !scheduler.is_stopped()) publish_sensors();
+  // A frame of LoLA is a tick, and its socket loses none.
+  if (scheduler.is_lock_step() && !scheduler.is_stopped() && !lola_) publish_sensors();
   publish_truth();
 }
 
@@ -168,24 +182,42 @@ void SimDaemon::publish_sensors() {
   for (size_t i = 0; i < channels_.size(); ++i) {
     const int robot = static_cast<int>(i);
     if (core_.world().are_readings_lost(robot)) continue;
+    if (lola_) {
+      lola_->send(core_.lola()->state());
+      continue;
+    }
     bus_.publish(channels_[i].sensor_state, sensor_state_of(core_.world(), robot));
   }
   last_publish_time_ = monotonic_seconds();
 }
 
 void SimDaemon::publish_truth() {
-  bus_.publish(kWorldTruthChannel, world_truth_of(core_, real_time_factor_));
+  naolcm::world_truth_t truth = world_truth_of(core_, real_time_factor_);
+  // nao-robot's clock, as LoLA's frames carry no time: images are stamped with the truth's. In
+  // lock-step both count frames.
+  if (lola_ && !core_.scheduler().is_lock_step()) {
+    truth.utime = std::llround(monotonic_seconds() * 1e6);
+  }
+  bus_.publish(kWorldTruthChannel, truth);
   last_publish_time_ = monotonic_seconds();
+}
+
+std::string SimDaemon::status_detail(int64_t num_ticks) const {
+  const TickScheduler& scheduler = core_.scheduler();
+  if (scheduler.is_paused()) return "paused";
+  if (lola_ && !lola_->has_client()) {
+    return "waiting for a LoLA client at " + core_.options().lola_socket;
+  }
+  const bool is_waiting = scheduler.is_lock_step() && !core_.may_tick() && num_ticks == 0;
+  if (!is_waiting) return "";
+  return "waiting for " + (lola_ ? "the LoLA client" : channels_[0].joint_command);
 }
 
 void SimDaemon::publish_status() {
   const TickStatistics::Report report = statistics_.report(monotonic_seconds());
   real_time_factor_ = report.real_time_factor;
   const TickScheduler& scheduler = core_.scheduler();
-  const bool is_waiting = scheduler.is_lock_step() && !core_.may_tick() && report.num_ticks == 0;
-  status_.set_state("ready", scheduler.is_paused() ? "paused"
-                             : is_waiting          ? "waiting for " + channels_[0].joint_command
-                                                   : "");
+  status_.set_state("ready", status_detail(report.num_ticks));
   const World& world = core_.world();
   status_.publish({{"real_time_factor", report.real_time_factor},
                    {"tick_us", report.duration_mean * 1e6},

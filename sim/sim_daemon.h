@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <naolcm/joint_command_t.hpp>
 #include <naolcm/world_command_t.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "common/bus.h"
@@ -10,6 +12,7 @@
 #include "common/event_loop.h"
 #include "common/rate_limiter.h"
 #include "common/status_reporter.h"
+#include "sim/lola_server.h"
 #include "sim/sim_core.h"
 #include "sim/sim_options.h"
 #include "sim/tick_statistics.h"
@@ -17,7 +20,10 @@
 namespace nao::sim {
 
 /** Connects a SimCore to bus and clock: decodes commands, runs the ticks that are due, publishes
- * what robots sense and what is true. */
+ * what robots sense and what is true.
+ *
+ * With SimOptions::lola_socket the robot is connected to that socket and not to the bus; only the
+ * world is on the bus. */
 class SimDaemon {
  public:
   /** Loads scene and robots and publishes tick 0. Bus and loop must outlive this.
@@ -31,6 +37,7 @@ class SimDaemon {
 
  private:
   void subscribe();
+  void serve_lola();
   void take_joint_command(int robot, const naolcm::joint_command_t& message);
   void take_world_command(const naolcm::world_command_t& message);
   /** Runs the ticks that are due and sets the timer for the next. */
@@ -42,10 +49,14 @@ class SimDaemon {
   void publish_sensors();
   void publish_truth();
   void publish_status();
+  /** What the world waits for, or "paused"; empty if it runs. @param num_ticks  Since the last
+   * call. */
+  std::string status_detail(int64_t num_ticks) const;
 
   Bus& bus_;
   EventLoop& loop_;
   SimCore core_;
+  std::optional<LolaServer> lola_;
   std::vector<RobotChannels> channels_;
   StatusReporter status_;
   TickStatistics statistics_;

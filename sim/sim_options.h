@@ -32,6 +32,9 @@ struct SimOptions {
   int tick_ms = -1;
   /** -1: as the disturbances say, or 1. */
   int command_latency_ticks = -1;
+  /** Path of a Unix socket that serves the first robot as a NAO V6 does (LoLA), instead of the bus;
+   * empty: none. Needs lola.yaml in the model's folder, and a single robot. */
+  std::string lola_socket{};
 };
 
 }  // namespace nao::sim

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <csignal>
+#include <string>
 
 namespace nao {
 namespace {
@@ -27,6 +28,26 @@ TEST(EventLoop, CallsTheHandlerOfAReadableDescriptor) {
   });
   EXPECT_EQ(loop.run(), "read");
   EXPECT_EQ(received, 'x');
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST(EventLoop, AHandlerMayForgetItsOwnDescriptorAndAddAnother) {
+  EventLoop loop;
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  ASSERT_EQ(write(ends[1], "x", 1), 1);
+  int num_calls = 0;
+  // The descriptor stays readable. What the handler has captured must live until it returns.
+  const std::string text(100, 'x');
+  loop.on_readable(ends[0], [&, text] {
+    ++num_calls;
+    loop.forget(ends[0]);
+    for (int i = 0; i < 100; ++i) loop.on_readable(ends[0], [&] { loop.stop("second"); });
+    EXPECT_EQ(text, std::string(100, 'x'));
+  });
+  EXPECT_EQ(loop.run(), "second");
+  EXPECT_EQ(num_calls, 1);
   close(ends[0]);
   close(ends[1]);
 }

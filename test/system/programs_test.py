@@ -16,17 +16,19 @@ PROGRAMS = {
     "nao-head-camera": [],
     "nao-phone-gateway": ["--bind", "127.0.0.1", "--token", "x"],
 }
+# And those that run with other robots than the simulated one.
+ALL_PROGRAMS = {**PROGRAMS, "nao-robot": ["--lola", "/nowhere/lola"]}
 
 
 def options_of(name):
     if name == "nao-phone-gateway":
         return [*PROGRAMS[name], "--http-port", free_port(), "--tcp-port", free_port()]
-    return PROGRAMS[name]
+    return ALL_PROGRAMS[name]
 
 
 class Ending(unittest.TestCase):
     def test_each_program_ends_well_when_asked(self):
-        for name in PROGRAMS:
+        for name in ALL_PROGRAMS:
             for asked in (signal.SIGTERM, signal.SIGINT):
                 with self.subTest(program=name, signal=asked), Stack() as stack:
                     program = Program(name, stack.lcm_url, *options_of(name))
@@ -41,7 +43,7 @@ class Ending(unittest.TestCase):
                     self.assertLess(seconds, 10)
 
     def test_each_program_has_a_version_and_explains_its_options(self):
-        for name in [*PROGRAMS, "nao"]:
+        for name in [*ALL_PROGRAMS, "nao"]:
             with self.subTest(program=name):
                 for option, expected in (("--version", name), ("--help", "--lcm-url")):
                     program = Program(name, "memq://", option)
@@ -49,7 +51,7 @@ class Ending(unittest.TestCase):
                     self.assertEqual(program.process.returncode, 0)
 
     def test_a_wrong_option_is_status_2(self):
-        for name in PROGRAMS:
+        for name in ALL_PROGRAMS:
             with self.subTest(program=name):
                 program = Program(name, "memq://", "--no-such-option")
                 _, said = program.process.communicate(timeout=DEADLINE)
@@ -72,7 +74,7 @@ class Turns(unittest.TestCase):
 
 class ServiceManager(unittest.TestCase):
     def test_each_program_tells_systemd_that_it_is_ready_and_that_it_lives(self):
-        for name in PROGRAMS:
+        for name in ALL_PROGRAMS:
             with self.subTest(program=name), Stack() as stack, \
                     tempfile.TemporaryDirectory() as folder, \
                     socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:

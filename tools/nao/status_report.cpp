@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <naolcm/body_state_t.hpp>
 #include <naolcm/daemon_status_t.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "common/event_loop.h"
 #include "common/json_writer.h"
 #include "common/wall_clock.h"
+#include "tools/nao/body_report.h"
 #include "tools/nao/process_usage.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/text_table.h"
@@ -37,7 +40,11 @@ struct ProgramReport {
 
 class StatusListener {
  public:
-  explicit StatusListener(const std::string& lcm_url) : bus_(lcm_url) {
+  explicit StatusListener(const CommonOptions& common)
+      : bus_(common.lcm_url), robot_(common.robot) {
+    bus_.subscribe<naolcm::body_state_t>(
+        RobotChannels(robot_).body_state, Bus::Queue::kLatest,
+        [this](const naolcm::body_state_t& body) { body_ = body; });
     std::array<char, 256> host{};
     if (gethostname(host.data(), host.size() - 1) == 0) host_ = host.data();
     bus_.subscribe<naolcm::daemon_status_t>(
@@ -81,7 +88,7 @@ class StatusListener {
                       std::to_string(status.num_messages_dropped), format_number(cpu, 0),
                       format_number(memory / 1e6, 0), status.detail});
     }
-    return format_table(rows);
+    return format_table(rows) + (body_ ? body_report(robot_, *body_) : "");
   }
 
   std::string to_json() const {
@@ -131,7 +138,10 @@ class StatusListener {
 
   EventLoop loop_;
   Bus bus_;
+  std::string robot_;
   std::string host_;
+  /** Newest one; simulated robots publish none. */
+  std::optional<naolcm::body_state_t> body_;
   std::map<std::tuple<std::string, std::string, int>, ProgramReport> programs_;
 };
 
@@ -162,7 +172,7 @@ int wait_until_ready(StatusListener& listener, const std::vector<std::string>& w
 
 int run_status(const CommonOptions& common, const std::vector<std::string>& wanted, double timeout,
                bool as_json) {
-  StatusListener listener(common.lcm_url);
+  StatusListener listener(common);
   if (!wanted.empty()) return wait_until_ready(listener, wanted, timeout);
   listener.loop().every(kListenTime, [&listener] { listener.loop().stop("end"); });
   listener.loop().run();

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/bus.h"
 #include "common/channels.h"
@@ -67,6 +68,12 @@ std::string to_json(const naolcm::world_truth_t& truth) {
     json.end();
     json.add("joint_position", robot.joint_position.data(), robot.num_joints);
     json.add("joint_torque", robot.joint_torque.data(), robot.num_joints);
+    json.begin_array("light_names");
+    for (const std::string& name : robot.light_names) json.add("", name);
+    json.end();
+    json.begin_array("light_rgb");
+    for (const std::vector<double>& rgb : robot.light_rgb) json.add("", rgb.data(), 3);
+    json.end();
     json.end();
   }
   json.end();

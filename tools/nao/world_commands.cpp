@@ -109,6 +109,15 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
   push->add_option("--link", push_command->link,
                    "Link as in the URDF, or ball (default: the root, the torso)");
 
+  const auto [touch, touch_command] = add_world_command(
+      *world, invocation, "touch", "Press a button or touch sensor of a robot behind LoLA");
+  // 0.1 s: longer than a button bounces, far shorter than the 3 s of the chest button.
+  touch_command->num_ticks = 8;
+  touch->add_option("name", touch_command->link, "Such as chest-button")->required();
+  touch->add_option("--ticks", touch_command->num_ticks, "Control ticks, usually of 12 ms")
+      ->positive()
+      ->show_default();
+
   auto ball_velocity = std::make_shared<std::vector<double>>();
   const auto [ball, ball_command] =
       add_world_command(*world, invocation, "place-ball", "Place the ball",

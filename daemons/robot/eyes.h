@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+
+#include "daemons/robot/safety.h"
+
+namespace nao::robot {
+
+/** What the eyes show. */
+enum class EyeState { kNoClient, kReady, kDriver, kLinkLost, kFault };
+
+/** @param has_driver  Somebody drives the robot. @param fault  Present one. */
+inline EyeState eye_state(const Safety& safety, bool has_driver, Fault fault) {
+  if (fault != Fault::kNone) return EyeState::kFault;
+  if (safety.cause() == Cause::kLinkLost && safety.phase() != Phase::kDriven &&
+      safety.phase() != Phase::kStiffening) {
+    return EyeState::kLinkLost;
+  }
+  if (!safety.has_controller()) return EyeState::kNoClient;
+  return has_driver ? EyeState::kDriver : EyeState::kReady;
+}
+
+/** Red, green, blue, 0 to 1. Chosen: red and yellow warn, as everywhere; blue is told from green by
+ * people who confuse red and green. */
+inline std::array<double, 3> eye_color(EyeState state) {
+  switch (state) {
+    case EyeState::kNoClient:
+      return {0.3, 0.3, 0.3};
+    case EyeState::kReady:
+      return {0, 0, 1};
+    case EyeState::kDriver:
+      return {0, 1, 0};
+    case EyeState::kLinkLost:
+      return {1, 0.6, 0};
+    default:
+      return {1, 0, 0};
+  }
+}
+
+/** Of the chest's light, which is in the button: what a press would change. */
+inline std::array<double, 3> chest_color(Phase phase) {
+  switch (phase) {
+    case Phase::kStiffening:
+    case Phase::kSitting:
+      return {1, 0.6, 0};
+    case Phase::kDriven:
+      return {0, 1, 0};
+    default:
+      return {0, 0, 1};
+  }
+}
+
+}  // namespace nao::robot

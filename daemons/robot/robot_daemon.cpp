@@ -1,0 +1,272 @@
+#include "daemons/robot/robot_daemon.h"
+
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <naolcm/command_result_t.hpp>
+#include <string_view>
+#include <utility>
+
+#include "common/error.h"
+#include "common/logger.h"
+#include "common/wall_clock.h"
+
+namespace nao::robot {
+namespace {
+
+/** Time for the answer to a frame, s: Nao Devils answer after 8 ms at the latest. */
+constexpr double kAnswerTime = 0.008;
+/** In lock-step a sensor state that is not answered is sent again after this time, s: as nao-sim
+ * does. */
+constexpr double kRepeatTime = 0.1;
+/** Between attempts to connect, and after the end of a connection, s: B-Human waits 100 ms, else a
+ * broken message may come first. */
+constexpr double kReconnectTime = 0.1;
+/** Frames between two body states: 10 Hz. */
+constexpr int64_t kBodyStateFrames = 8;
+/** A driver that the gateway has not reported for this time has gone, s; the status of a running
+ * gateway comes every second. */
+constexpr double kDriverTime = 3;
+
+}  // namespace
+
+RobotDaemon::RobotDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
+                         const RobotOptions& options, const std::string& robot)
+    : bus_(bus),
+      loop_(loop),
+      model_(model),
+      options_(options),
+      channels_(robot),
+      status_(bus, "nao-robot"),
+      map_(LolaMap::load(model)),
+      messages_(model, map_) {
+  deadline_ = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
+  if (deadline_ < 0) throw Error(std::string("cannot make a timer: ") + std::strerror(errno));
+  subscribe();
+  loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
+  loop_.on_readable(deadline_, [this] {
+    uint64_t expirations = 0;
+    if (read(deadline_, &expirations, sizeof expirations) > 0) handle_deadline();
+  });
+  loop_.every(kReconnectTime, [this] { connect(); });
+  loop_.every(1.0, [this] { publish_status(); });
+  if (options_.heartbeat >= 0) {
+    loop_.every(kHeartbeatPeriod, [this] {
+      // A full pipe means a watchdog that does not read: nothing to be done.
+      [[maybe_unused]] const ssize_t ignored = write(options_.heartbeat, "", 1);
+    });
+  }
+  connect();
+  publish_status();
+}
+
+RobotDaemon::~RobotDaemon() {
+  if (session_) loop_.forget(session_->connection.descriptor());
+  loop_.forget(deadline_);
+  close(deadline_);
+}
+
+void RobotDaemon::subscribe() {
+  bus_.subscribe<naolcm::joint_command_t>(
+      channels_.joint_command, Bus::Queue::kLatest,
+      [this](const naolcm::joint_command_t& message) { take_joint_command(message); });
+  bus_.subscribe<naolcm::light_command_t>(
+      channels_.light_command, Bus::Queue::kAll,
+      [this](const naolcm::light_command_t& message) { take_light_command(message); });
+  bus_.subscribe<naolcm::daemon_status_t>(
+      kDaemonStatusChannel, Bus::Queue::kAll,
+      [this](const naolcm::daemon_status_t& message) { take_status(message); });
+}
+
+void RobotDaemon::connect() {
+  const double now = monotonic_seconds();
+  if (session_ || is_ending_ || now - disconnect_time_ < kReconnectTime) return;
+  auto socket = UnixSocket::connect(options_.lola_socket);
+  if (!socket) return;
+  session_.emplace(std::move(*socket), model_, map_, options_);
+  loop_.on_readable(session_->connection.descriptor(), [this] { read_frames(); });
+  logger::info("connected to LoLA at {}", options_.lola_socket);
+}
+
+void RobotDaemon::disconnect() {
+  logger::warn("LoLA at {}: {}", options_.lola_socket, session_->connection.end());
+  loop_.forget(session_->connection.descriptor());
+  session_.reset();
+  disconnect_time_ = monotonic_seconds();
+  set_deadline(0);
+  if (is_ending_) loop_.stop("the end of the LoLA connection");
+}
+
+void RobotDaemon::read_frames() {
+  session_->connection.receive();
+  while (session_ && session_->connection.next(state_)) {
+    // Frames that have queued up are answered one by one, each with what is known.
+    if (session_->is_pending) finish_frame(nullptr);
+    begin_frame();
+  }
+  if (session_ && !session_->connection.end().empty()) disconnect();
+}
+
+void RobotDaemon::begin_frame() {
+  Session& session = *session_;
+  session.frame_time = monotonic_seconds();
+  session.stamp = session.clock.take(session.frame_time);
+  session.core.take_frame(state_, session.stamp.num_periods);
+  if (session.stamp.num_periods == 0) session.command = session.core.targets();
+  ++num_frames_;
+  bus_.publish(channels_.sensor_state, messages_.sensor_state(session.core, session.stamp.utime));
+  if (num_frames_ % kBodyStateFrames == 1) {
+    bus_.publish(channels_.body_state, messages_.body_state(session.core, session.stamp.utime));
+  }
+  session.is_pending = true;
+  const double now = monotonic_seconds();
+  session.publish_time = now - session.frame_time;
+  status_.tick(now);
+  if (options_.lock_step && !is_ending_) {
+    set_deadline(kRepeatTime);
+  } else if (session.core.safety().has_controller()) {
+    set_deadline(kAnswerTime - session.publish_time);
+  } else {
+    finish_frame(nullptr);
+  }
+}
+
+void RobotDaemon::finish_frame(const Targets* command) {
+  Session& session = *session_;
+  session.is_pending = false;
+  if (std::exchange(session.has_late_command, false)) command = &session.command;
+  const bool has_driver = monotonic_seconds() - driver_time_ < kDriverTime;
+  const LolaCommand& answer = session.core.step({command, has_driver, is_ending_});
+  std::array<uint8_t, kLolaCommandBytes> bytes;
+  session.connection.send(std::span(bytes).first(encode(answer, bytes)));
+  log_phase();
+  if (session.core.safety().phase() == Phase::kEnded) {
+    is_ending_ = true;
+    loop_.stop(to_string(session.core.safety().cause()));
+  }
+}
+
+void RobotDaemon::take_joint_command(const naolcm::joint_command_t& message) {
+  const double start = monotonic_seconds();
+  if (!session_) return;
+  Session& session = *session_;
+  // Commands for another count of ticks are from before it began anew.
+  if (message.tick > session.core.tick()) return;
+  merge(message, model_.motor_names(), session.command);
+  if (!session.is_pending || message.tick != session.core.tick()) {
+    // Late: it is used in the next frame.
+    session.has_late_command = true;
+    return;
+  }
+  finish_frame(&session.command);
+  latencies_.note(session.publish_time + monotonic_seconds() - start);
+}
+
+void RobotDaemon::take_light_command(const naolcm::light_command_t& message) {
+  naolcm::command_result_t result{};
+  result.utime = session_ ? session_->stamp.utime : 0;
+  result.source = message.source;
+  result.command_id = message.command_id;
+  result.command_kind = result.COMMAND_KIND_LIGHT;
+  result.status = result.STATUS_REFUSED;
+  if (!session_) {
+    result.reason_code = "no-robot";
+    result.reason = "There is no robot: LoLA is not connected.";
+  } else {
+    const auto color = [&](int i) -> Lights::Color {
+      const std::vector<double>& rgb = message.light_rgb[static_cast<size_t>(i)];
+      return {rgb[0], rgb[1], rgb[2]};
+    };
+    Lights& lights = session_->core.lights();
+    for (int i = 0; i < message.num_lights && result.reason.empty(); ++i) {
+      const std::string& name = message.light_names[static_cast<size_t>(i)];
+      if (lights.check(name, color(i))) continue;
+      result.reason =
+          "There is no light \"" + name + "\", or its color is not three numbers from 0 to 1.";
+    }
+    if (!(message.duration >= 0)) result.reason = "The duration must be 0 s or more.";
+    if (result.reason.empty()) {
+      for (int i = 0; i < message.num_lights; ++i) {
+        lights.set(message.light_names[static_cast<size_t>(i)], color(i), message.duration);
+      }
+      result.status = result.STATUS_ACCEPTED;
+      bus_.publish(channels_.command_result, result);
+      result.status = result.STATUS_DONE;
+    }
+  }
+  bus_.publish(channels_.command_result, result);
+}
+
+void RobotDaemon::take_status(const naolcm::daemon_status_t& message) {
+  if (message.program != "nao-phone-gateway") return;
+  for (int i = 0; i < message.num_metrics; ++i) {
+    const auto index = static_cast<size_t>(i);
+    if (message.metric_names[index] != "driver_id") continue;
+    driver_time_ = message.metric_values[index] > 0 ? monotonic_seconds() : -1e9;
+  }
+}
+
+void RobotDaemon::handle_deadline() {
+  if (!session_ || !session_->is_pending) return;
+  if (!options_.lock_step || is_ending_) {
+    // The command may lie in the queue already.
+    bus_.handle();
+    if (session_ && session_->is_pending) finish_frame(nullptr);
+    return;
+  }
+  bus_.publish(channels_.sensor_state,
+               messages_.sensor_state(session_->core, session_->stamp.utime));
+  set_deadline(kRepeatTime);
+}
+
+void RobotDaemon::set_deadline(double delay) {
+  itimerspec timing{};
+  // 0 would stop the timer.
+  timing.it_value.tv_nsec = std::max(1000L, std::lround(delay * 1e9));
+  timerfd_settime(deadline_, 0, &timing, nullptr);
+}
+
+void RobotDaemon::begin_end() {
+  is_ending_ = true;
+  status_.set_state("stopping");
+  if (!session_) {
+    loop_.stop("no LoLA connection");
+  } else if (session_->is_pending) {
+    finish_frame(nullptr);
+  }
+}
+
+bool RobotDaemon::has_ended() const {
+  return is_ending_ && (!session_ || session_->core.safety().phase() == Phase::kEnded);
+}
+
+void RobotDaemon::log_phase() {
+  const Safety& safety = session_->core.safety();
+  if (safety.phase() == session_->logged_phase) return;
+  session_->logged_phase = safety.phase();
+  const bool is_leaving = safety.phase() == Phase::kSitting || safety.phase() == Phase::kLimp;
+  const std::string cause = is_leaving ? to_string(safety.cause()) : "";
+  logger::info("the robot is {}{}{}", to_string(safety.phase()), cause.empty() ? "" : ": ", cause);
+}
+
+void RobotDaemon::publish_status() {
+  if (!is_ending_) {
+    if (!session_) {
+      status_.set_state("waiting", "waiting for LoLA at " + options_.lola_socket);
+    } else {
+      const Safety& safety = session_->core.safety();
+      std::string detail = to_string(safety.phase());
+      if (safety.phase() == Phase::kLimp && safety.cause() != Cause::kNone) {
+        detail += ": " + to_string(safety.cause());
+      }
+      status_.set_state("ready", detail);
+    }
+  }
+  status_.publish({{"frames", static_cast<double>(num_frames_)},
+                   {"added_latency_p99_us", latencies_.p99() * 1e6}});
+}
+
+}  // namespace nao::robot

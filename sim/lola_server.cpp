@@ -1,0 +1,58 @@
+#include "sim/lola_server.h"
+
+#include <unistd.h>
+
+#include <utility>
+
+#include "common/logger.h"
+
+namespace nao::sim {
+
+LolaServer::LolaServer(EventLoop& loop, std::string path, Handlers handlers)
+    : loop_(loop),
+      path_(std::move(path)),
+      handlers_(std::move(handlers)),
+      listener_(UnixSocket::listen(path_)) {
+  loop_.on_readable(listener_.descriptor(), [this] { accept(); });
+}
+
+LolaServer::~LolaServer() {
+  if (client_) loop_.forget(client_->descriptor());
+  loop_.forget(listener_.descriptor());
+  unlink(path_.c_str());
+}
+
+void LolaServer::accept() {
+  auto socket = listener_.accept();
+  if (!socket) return;
+  // The next client waits in the socket's queue.
+  loop_.forget(listener_.descriptor());
+  client_.emplace(std::move(*socket));
+  logger::info("LoLA client connected");
+  loop_.on_readable(client_->descriptor(), [this] { read(); });
+  handlers_.on_client();
+}
+
+void LolaServer::read() {
+  client_->receive();
+  LolaCommand command;
+  // A command may make the simulator send a frame, which may end the connection.
+  while (client_ && client_->next(command)) handlers_.on_command(command);
+  if (client_ && !client_->end().empty()) drop();
+}
+
+void LolaServer::send(const LolaState& state) {
+  if (!client_) return;
+  const size_t size = encode(state, frame_);
+  client_->send(std::span(frame_).first(size));
+  if (!client_->end().empty()) drop();
+}
+
+void LolaServer::drop() {
+  logger::info("LoLA client left: {}; the servos hold their targets", client_->end());
+  loop_.forget(client_->descriptor());
+  client_.reset();
+  loop_.on_readable(listener_.descriptor(), [this] { accept(); });
+}
+
+}  // namespace nao::sim
