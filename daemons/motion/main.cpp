@@ -19,12 +19,15 @@ int main(int argc, char** argv) {
   nao::CommonOptions common;
   nao::add_common_options(app, common);
   std::string model_name = "nao";
+  std::string calibration_file;
   nao::motion::MotionOptions options;
   app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
       ->show_default();
   app.add_option("--default-speed", options.default_speed,
                  "Speed of the robot's own motions, fraction of the maximum")
       ->show_default();
+  app.add_option("--calibration", calibration_file,
+                 "File of the robot's own joint and sensor errors, as nao calibrate writes it");
   app.add_flag("!--no-get-up", options.gets_up, "After a fall, lie until a command");
   return nao::run_program(app, common, argc, argv, [&] {
     const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
@@ -33,6 +36,10 @@ int main(int argc, char** argv) {
     if (model.foot_sensors().empty()) {
       nao::logger::warn("{} has no foot force sensors: it cannot detect contact with the ground",
                         model.name());
+    }
+    if (!calibration_file.empty()) {
+      options.calibration = nao::Calibration::load(model, calibration_file);
+      nao::logger::info("calibration {} of {}", calibration_file, options.calibration->date);
     }
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);

@@ -32,11 +32,17 @@ MotionCore::MotionCore(const RobotModel& model, const MotionOptions& options)
       arbiter_(model, factory_, guard_),
       falls_(model, options_),
       limiter_(model),
-      reporter_(options.motion_state_period) {}
+      reporter_(options.motion_state_period) {
+  if (options.calibration) correction_.emplace(model, *options.calibration);
+}
 
 Output MotionCore::step(const Input& input, double dt) {
   if (input.sensors) {
-    take_sensors(*input.sensors, dt);
+    if (correction_) {
+      corrected_ = *input.sensors;
+      correction_->correct(corrected_);
+    }
+    take_sensors(correction_ ? corrected_ : *input.sensors, dt);
   } else {
     wait_for_sensors(dt);
   }
@@ -46,6 +52,7 @@ Output MotionCore::step(const Input& input, double dt) {
   if (input.sensors) {
     move(dt);
     output.joint_targets = targets_;
+    if (correction_) correction_->to_servos(output.joint_targets->position);
     output.robot_state = estimator_.state();
   }
   output.motion_state =

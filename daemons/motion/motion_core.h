@@ -14,6 +14,7 @@
 #include "daemons/motion/motion_state.h"
 #include "daemons/motion/robot_presence.h"
 #include "daemons/motion/robot_state.h"
+#include "daemons/motion/sensor_correction.h"
 #include "daemons/motion/sensors.h"
 #include "daemons/motion/state_reporter.h"
 #include "messages/command.h"
@@ -88,6 +89,10 @@ class MotionCore {
 
   const RobotModel* model_;
   MotionOptions options_;
+  /** Nothing without a calibration. */
+  std::optional<SensorCorrection> correction_;
+  /** Sensors of this step, if they are corrected. */
+  Sensors corrected_;
   RobotPresence presence_;
   StateEstimator estimator_;
   JointChangeGuard guard_;

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "calibration/calibration.h"
 #include "daemons/motion/transitions/transition_graph.h"
 #include "daemons/motion/walk/gait.h"
 
@@ -38,6 +39,8 @@ struct MotionOptions {
   std::optional<Gait> gait;
   /** Transitions between states of the body; nothing: as in the robot's transitions.yaml. */
   std::optional<TransitionGraph> transitions;
+  /** How the robot differs from its model; nothing: not at all. */
+  std::optional<Calibration> calibration;
 
   /** @throws ConfigError  naming the option that is out of its range. */
   void validate() const;

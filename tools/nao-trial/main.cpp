@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "closed_loop/calibrate.h"
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/error.h"
@@ -45,7 +46,12 @@ Summary run_all(const Scenario& scenario, const ScenarioOptions& options,
   summary.scenario = scenario.name();
   summary.units = scenario.units();
   for (uint64_t seed : seeds) {
-    for (RunResult& run : scenario.run(options, seed)) {
+    ScenarioOptions robot = options;
+    if (options.num_calibration_directions > 0) {
+      robot.trial.motion.calibration =
+          calibrate(options.trial, seed, options.num_calibration_directions);
+    }
+    for (RunResult& run : scenario.run(robot, seed)) {
       if (is_verbose) print(run, seed);
       summary.runs.push_back(std::move(run));
       // One entry for each run: a scenario may have several for a seed.
@@ -117,6 +123,11 @@ int main(int argc, char** argv) {
         ->add_option("--disturbances", disturbances,
                      "What is drawn for each seed: none, default, moderate, real, or entries of "
                      "real such as backlash,floor_slope")
+        ->show_default();
+    command
+        ->add_option("--calibrate", options.num_calibration_directions,
+                     "Calibrate each robot before its run, standing in so many directions (0: not)")
+        ->range(0, 8)
         ->show_default();
     command->add_flag("--ideal", options.trial.is_ideal,
                       "No noise or latency either: --disturbances none");

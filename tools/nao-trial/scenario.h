@@ -32,6 +32,8 @@ struct ScenarioOptions {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   /** Distance, m; 0: the scenario's default. */
   double distance = 0;
+  /** Calibrate each robot before its run, standing in so many directions; 0: not at all. */
+  int num_calibration_directions = 0;
   /** If not empty: true and estimated pose of the last seed's walk, ten times a second, as CSV. */
   std::string trace_file;
   /** Measure what plot() draws instead of the default metrics. */

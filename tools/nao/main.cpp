@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   nao::add_driver_commands(app, invocation);
   nao::add_spy_command(app, invocation);
   nao::add_bus_command(app, invocation);
+  nao::add_calibrate_command(app, invocation);
   nao::add_robot_files_command(app, invocation);
   nao::add_record_command(app, invocation);
   nao::add_log_command(app, invocation);

@@ -53,6 +53,9 @@ void add_log_command(CommandLine& app, Invocation& invocation);
 /** Adds robot and its own subcommands. */
 void add_robot_files_command(CommandLine& app, Invocation& invocation);
 
+/** Adds calibrate. */
+void add_calibrate_command(CommandLine& app, Invocation& invocation);
+
 /** Adds bus. */
 void add_bus_command(CommandLine& app, Invocation& invocation);
 
