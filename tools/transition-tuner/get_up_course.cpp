@@ -1,5 +1,6 @@
 #include "tools/transition-tuner/get_up_course.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -11,10 +12,6 @@ namespace {
 
 constexpr double kTimeout = 14;  // s for one try
 constexpr double kSpread = 0.6;  // rad, either side of how it shall lie
-// Cost of a failed try, s, above kTimeout; and its reduction at full torso height, s, so that a
-// failed try always costs as much as a success at the timeout.
-constexpr double kFailed = 20;
-constexpr double kHeightCounts = 6;
 
 /** Direction of the push that makes the robot lie so, or rotation about its long axis, rad. */
 double direction_of(GetUpCourse::Start start) {
@@ -30,15 +27,50 @@ double direction_of(GetUpCourse::Start start) {
   }
 }
 
+/** Sums over the ticks of a try. */
+class Effort {
+ public:
+  explicit Effort(ClosedLoop& trial) : trial_(trial), last_(trial.torso_in_world().linear()) {}
+
+  void add_tick() {
+    const sim::SensorReadings& readings = trial_.world().sensors(0);
+    double greatest = 0;
+    for (int motor = 0; motor < trial_.model().num_motors(); ++motor) {
+      greatest = std::max(greatest, std::abs(readings.torque[motor]) /
+                                        trial_.model().motor_joint(motor).max_torque);
+    }
+    load_ += greatest;
+    // Angular velocity from the rotation since the last tick: exact, without a sensor's noise.
+    const Eigen::Matrix3d torso = trial_.torso_in_world().linear();
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(torso * last_.transpose()));
+    const Eigen::Vector3d rate = turn.angle() / trial_.period() * turn.axis();
+    if (num_ticks_ > 0) {
+      squared_acceleration_ += ((rate - last_rate_) / trial_.period()).squaredNorm();
+    }
+    last_ = torso;
+    last_rate_ = rate;
+    ++num_ticks_;
+  }
+
+  double load() const { return load_ / std::max(1, num_ticks_); }
+  double shaking() const { return std::sqrt(squared_acceleration_ / std::max(1, num_ticks_)); }
+
+ private:
+  ClosedLoop& trial_;
+  Eigen::Matrix3d last_;
+  Eigen::Vector3d last_rate_ = Eigen::Vector3d::Zero();
+  double load_ = 0;
+  double squared_acceleration_ = 0;
+  int num_ticks_ = 0;
+};
+
 }  // namespace
 
-GetUpResult GetUpCourse::run(const motion::TransitionGraph& transitions, uint64_t seed) const {
-  ClosedLoopOptions options;
-  options.model = model_;
-  options.scene = scene_;
+GetUpResult GetUpCourse::run(ClosedLoopOptions options, const motion::TransitionGraph& transitions,
+                             uint64_t seed) const {
   options.motion.transitions = transitions;
   ClosedLoop trial(options, seed);
-  const double standing = model_->references().heights.standing;
+  const double standing = trial.model().references().heights.standing;
   const double spread = start_ == Start::kAny ? M_PI : kSpread;
   const double direction = direction_of(start_) + trial.random(-spread, spread);
   trial.run(0.5);
@@ -48,19 +80,20 @@ GetUpResult GetUpCourse::run(const motion::TransitionGraph& transitions, uint64_
     trial::lay_down(trial, direction);
   }
   const double start = trial::wait_until_still(trial).since;
-  double highest = 0;
+  Effort effort(trial);
   GetUpResult result;
   trial.run_until(
       [&] {
+        effort.add_tick();
         const double height = trial.torso_height() * std::cos(trial.torso_tilt());
-        highest = std::max(highest, height);
+        result.height = std::clamp(height / standing, result.height, 1.0);
         result.is_up = trial::has_got_up(trial);
         return result.is_up || trial.core().motion_state().num_tries > 1;
       },
       kTimeout);
   result.time = trial.time() - start;
-  result.cost = result.is_up ? result.time
-                             : kFailed - kHeightCounts * std::clamp(highest / standing, 0.0, 1.0);
+  result.load = effort.load();
+  result.shaking = effort.shaking();
   return result;
 }
 

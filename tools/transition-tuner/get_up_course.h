@@ -1,42 +1,42 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
-#include <vector>
 
+#include "closed_loop/closed_loop.h"
 #include "daemons/motion/transitions/transition_graph.h"
-#include "robot_model/robot_model.h"
-#include "robot_model/scene_file.h"
 
 namespace nao {
 
 /** Result of a transition graph from one start. */
 struct GetUpResult {
+  /** It stood at the end of the first try. */
   bool is_up = false;
-  /** s from lying still to standing in StandInit. */
+  /** s from lying still to standing in StandInit, or to the failure. */
   double time = 0;
-  /** Time in s if it stood at the first try; otherwise a penalty above any time, decreasing with
-   * the height reached. */
-  double cost = 0;
+  /** Greatest height of the upright torso, as a fraction of the standing height. */
+  double height = 0;
+  /** Mean over the ticks of the greatest torque of a motor, as a fraction of its peak torque. */
+  double load = 0;
+  /** RMS of the torso's angular acceleration, rad/s^2. */
+  double shaking = 0;
 };
 
-/** Cost function of get-up motions: success at the first try and its duration, from lying on one
- * side of the body. Physics, noise and latency are random in each trial. */
+/** Trials of get-up motions, from lying on one side of the body. Physics, noise and latency are
+ * random in each trial. */
 class GetUpCourse {
  public:
   enum class Start { kAny, kBelly, kBack, kLeft, kRight };
 
-  GetUpCourse(std::shared_ptr<const RobotModel> model, SceneFile scene, Start start)
-      : model_(std::move(model)), scene_(std::move(scene)), start_(start) {}
+  explicit GetUpCourse(Start start) : start_(start) {}
 
-  /** @param seed  Seed of all random values. Even: the robot is placed lying; odd: it is pushed
+  /** @param options  Model, scene, engine and disturbances.
+   * @param seed  Seed of all random values. Even: the robot is placed lying; odd: it is pushed
    * over. */
-  GetUpResult run(const motion::TransitionGraph& transitions, uint64_t seed) const;
+  GetUpResult run(ClosedLoopOptions options, const motion::TransitionGraph& transitions,
+                  uint64_t seed) const;
 
  private:
-  std::shared_ptr<const RobotModel> model_;
-  SceneFile scene_;
   Start start_;
 };
 

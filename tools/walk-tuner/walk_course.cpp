@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "closed_loop/closed_loop.h"
 #include "kinematics/pose2.h"
 
 namespace nao::tool {
@@ -12,7 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTick = 0.01;            // s
 constexpr double kStandDuration = 0.5;    // s before the walk
 constexpr double kSpeedUpDuration = 2;    // s until the velocity is measured
 constexpr double kWalkDuration = 7;       // s at one velocity
@@ -44,7 +41,7 @@ class EvaluatedWalk {
   void run(double duration, const Vector3d* commanded) {
     Vector3d displacement = Vector3d::Zero();
     double time = 0;
-    for (; time < duration && !has_fallen_; time += kTick) {
+    for (; time < duration && !has_fallen_; time += trial_.period()) {
       trial_.step();
       displacement += measure_displacement();
       add_tick();
@@ -100,69 +97,73 @@ class EvaluatedWalk {
   int num_ticks_ = 1;
 };
 
+/** Walks at one velocity, and stops. */
+void walk_straight(EvaluatedWalk& walk, const Vector3d& velocity) {
+  walk.trial().hold_walk(velocity);
+  walk.run(kSpeedUpDuration, nullptr);
+  walk.run(kWalkDuration, &velocity);
+  walk.trial().release_walk();
+  walk.run(kStopDuration, nullptr);
+}
+
+/** Random velocities, held for random times. */
+void walk_as_with_a_joystick(EvaluatedWalk& walk, double speed) {
+  const WalkLimits& limits = walk.trial().model().walk_limits();
+  for (double time = 0; time < kJoystickDuration;) {
+    ClosedLoop& trial = walk.trial();
+    const double x = trial.random(-1, 1);
+    const Vector3d velocity(x * (x > 0 ? limits.forward : limits.backward),
+                            trial.random(-1, 1) * limits.sideways,
+                            trial.random(-1, 1) * limits.turning);
+    trial.hold_walk(speed * velocity);
+    const double duration = trial.random(0.3, 2.5);
+    walk.run(duration, nullptr);
+    time += duration;
+  }
+}
+
+/** A push in a random direction at a random phase of the step. */
+void walk_with_a_push(EvaluatedWalk& walk, double forward) {
+  ClosedLoop& trial = walk.trial();
+  trial.hold_walk({0.5 * forward, 0, 0});
+  walk.run(trial.random(3, 4), nullptr);
+  const double direction = trial.random(-M_PI, M_PI);
+  trial.world().push(0, 0, kPush * Vector3d(std::cos(direction), std::sin(direction), 0));
+  walk.run(kWalkDuration / 2, nullptr);
+}
+
 }  // namespace
 
-CourseResult WalkCourse::run(const motion::Gait& gait, uint64_t seed) const {
-  ClosedLoopOptions options;
-  options.model = model_;
-  options.scene = scene_;
-  options.motion.gait = gait;
-  options.missed_tick_probability = late_probability_;
-  const WalkLimits& limits = model_->walk_limits();
-  CourseResult result;
-  const auto next_seed = [&] { return seed * 100 + static_cast<uint64_t>(result.num_walks); };
-  const auto add_walk = [&](const EvaluatedWalk& walk) {
-    result.cost += walk.cost();
-    result.num_falls += walk.has_fallen() ? 1 : 0;
-    ++result.num_walks;
-  };
-
+WalkResult WalkCourse::run(ClosedLoopOptions options, const motion::Gait& gait, uint64_t seed,
+                           int walk) const {
+  const WalkLimits& limits = options.model->walk_limits();
   // Constant velocities; sideways and turning to the left for even seeds.
   const double left = seed % 2 == 0 ? 1 : -1;
   const double forward = speed_ * limits.forward;
   const double sideways = left * speed_ * limits.sideways;
   const double turning = left * speed_ * limits.turning;
-  const std::vector<Vector3d> velocities = {
+  constexpr int kNumVelocities = 6;
+  const Vector3d velocities[kNumVelocities] = {
       {forward, 0, 0},  {0.6 * forward, 0, 0}, {-speed_ * limits.backward, 0, 0},
       {0, sideways, 0}, {0, 0, turning},       {0.6 * forward, 0.4 * sideways, -0.4 * turning}};
-  for (const Vector3d& velocity : velocities) {
-    EvaluatedWalk walk(options, next_seed(), kSpeedUpDuration + kWalkDuration + kStopDuration);
-    walk.trial().hold_walk(velocity);
-    walk.run(kSpeedUpDuration, nullptr);
-    walk.run(kWalkDuration, &velocity);
-    walk.trial().release_walk();
-    walk.run(kStopDuration, nullptr);
-    add_walk(walk);
+  constexpr int kFirstPush = 8;
+
+  options.motion.gait = gait;
+  double planned_time = kSpeedUpDuration + kWalkDuration;
+  if (walk < kNumVelocities) {
+    planned_time += kStopDuration;
+  } else if (walk < kFirstPush) {
+    planned_time = kJoystickDuration;
   }
-  // Random velocities, held for random times.
-  for (int i = 0; i < 2; ++i) {
-    EvaluatedWalk walk(options, next_seed(), kJoystickDuration);
-    for (double time = 0; time < kJoystickDuration;) {
-      ClosedLoop& trial = walk.trial();
-      const double x = trial.random(-1, 1);
-      const Vector3d velocity(x * (x > 0 ? limits.forward : limits.backward),
-                              trial.random(-1, 1) * limits.sideways,
-                              trial.random(-1, 1) * limits.turning);
-      trial.hold_walk(speed_ * velocity);
-      const double duration = trial.random(0.3, 2.5);
-      walk.run(duration, nullptr);
-      time += duration;
-    }
-    add_walk(walk);
+  EvaluatedWalk evaluated(options, seed * 100 + static_cast<uint64_t>(walk), planned_time);
+  if (walk < kNumVelocities) {
+    walk_straight(evaluated, velocities[walk]);
+  } else if (walk < kFirstPush) {
+    walk_as_with_a_joystick(evaluated, speed_);
+  } else {
+    walk_with_a_push(evaluated, forward);
   }
-  // A push in a random direction at a random phase of the step.
-  for (int i = 0; i < 2; ++i) {
-    EvaluatedWalk walk(options, next_seed(), kSpeedUpDuration + kWalkDuration);
-    ClosedLoop& trial = walk.trial();
-    trial.hold_walk({0.5 * forward, 0, 0});
-    walk.run(trial.random(3, 4), nullptr);
-    const double direction = trial.random(-M_PI, M_PI);
-    trial.world().push(0, 0, kPush * Vector3d(std::cos(direction), std::sin(direction), 0));
-    walk.run(kWalkDuration / 2, nullptr);
-    add_walk(walk);
-  }
-  result.cost /= result.num_walks;
-  return result;
+  return {evaluated.cost(), evaluated.has_fallen()};
 }
 
 }  // namespace nao::tool

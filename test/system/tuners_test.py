@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""The tuners give the same files with any number of threads and processes, and after an interruption."""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+import unittest
+
+from stack import BIN_DIR
+
+# Of two generations; every candidate gets up twice.
+GET_UP = ["nao-transition-tuner", "--sequence", "get-up-belly", "--start", "belly", "--population", "4",
+          "--generations", "2", "--trials", "1", "--disturbances", "default,real"]
+WALK = ["nao-walk-tuner", "--population", "4", "--generations", "1", "--courses", "1"]
+# Open MPI on this host alone: no remote shell, no network, more processes than cores; also for root.
+MPI_ENVIRONMENT = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_plm": "isolated",
+    "OMPI_MCA_btl": "self,vader", "OMPI_MCA_oob_tcp_if_include": "lo", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+
+
+def has_open_mpi():
+    if shutil.which("mpirun") is None:
+        return False
+    return "libmpi" in subprocess.run(["ldd", BIN_DIR / GET_UP[0]], capture_output=True, text=True, check=False).stdout
+
+
+class Tuners(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def command(self, command, name, *more, mpirun=()):
+        return [*mpirun, str(BIN_DIR / command[0]), *command[1:], "--output", str(self.folder / name), *more]
+
+    def files(self, name):
+        return (self.folder / name).read_text(), (self.folder / f"{name}.checkpoint").read_text()
+
+    def run_tuner(self, command, name, *more, mpirun=()):
+        """Output file and checkpoint."""
+        done = subprocess.run(self.command(command, name, *more, mpirun=mpirun), env={**os.environ, **MPI_ENVIRONMENT},
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return self.files(name)
+
+    def test_get_up_motions_do_not_depend_on_the_number_of_threads(self):
+        one = self.run_tuner(GET_UP, "1", "--jobs", "1")
+        for jobs in ("2", "3"):
+            self.assertEqual(self.run_tuner(GET_UP, jobs, "--jobs", jobs), one)
+
+    @unittest.skipUnless(has_open_mpi(), "without Open MPI")
+    def test_get_up_motions_do_not_depend_on_the_number_of_processes(self):
+        threads = self.run_tuner(GET_UP, "threads")
+        for processes in ("1", "2"):
+            self.assertEqual(self.run_tuner(GET_UP, processes, mpirun=["mpirun", "-n", processes]), threads)
+        self.assertEqual(self.run_tuner(GET_UP, "both", "--jobs", "2", mpirun=["mpirun", "-n", "2"]), threads)
+
+    @unittest.skipUnless(has_open_mpi(), "without Open MPI")
+    def test_the_gait_does_not_depend_on_the_number_of_processes(self):
+        self.assertEqual(self.run_tuner(WALK, "processes", mpirun=["mpirun", "-n", "2"]),
+                         self.run_tuner(WALK, "threads"))
+
+    @unittest.skipUnless(has_open_mpi(), "without Open MPI")
+    def test_a_failure_ends_all_processes(self):
+        done = subprocess.run(self.command(GET_UP, "none", "--resume", "/no/such/file", mpirun=["mpirun", "-n", "2"]),
+                              env={**os.environ, **MPI_ENVIRONMENT}, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn("cannot read /no/such/file", done.stderr)
+
+    def test_an_interrupted_search_goes_on_to_the_same_result(self):
+        whole = self.run_tuner(GET_UP, "whole")
+        with subprocess.Popen(self.command(GET_UP, "part"), stdout=subprocess.PIPE, text=True) as process:
+            # The search runs, its handler is there: the first generation has been printed.
+            first = process.stdout.readline()
+            process.send_signal(signal.SIGINT)
+            rest = process.stdout.read()
+        self.assertEqual(process.returncode, 0)
+        self.assertRegex(first, "^generation 1 of 2: ")
+        self.assertIn("--resume", rest)
+        checkpoint = str(self.folder / "part.checkpoint")
+        self.assertEqual(self.run_tuner(GET_UP, "part", "--resume", checkpoint), whole)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,77 @@
+#include "tools/tuning/checkpoint.h"
+
+#include <fmt/core.h>
+
+#include "common/error.h"
+#include "common/json_writer.h"
+#include "common/yaml_entry.h"
+
+namespace nao {
+namespace {
+
+std::vector<double> read_numbers(const YamlEntry& list) {
+  std::vector<double> numbers;
+  for (const YamlEntry& item : list.items()) numbers.push_back(item.number());
+  return numbers;
+}
+
+}  // namespace
+
+std::string Checkpoint::to_text() const {
+  const auto add = [](JsonWriter& json, const std::string& key, const std::vector<double>& list) {
+    json.add(key, list.data(), static_cast<int>(list.size()));
+  };
+  JsonWriter json;
+  json.begin_object();
+  json.begin_object("settings");
+  for (const auto& [name, value] : settings) json.add(name, value);
+  json.end();
+  json.begin_array("costs");
+  for (const std::vector<double>& generation : costs) add(json, "", generation);
+  json.end();
+  add(json, "mean", mean);
+  json.end();
+  return json.text() + "\n";
+}
+
+Checkpoint Checkpoint::parse(const std::string& text, const std::string& name) {
+  // JSON is a subset of YAML.
+  const auto whole = YamlEntry::parse<ConfigError>(text, name);
+  whole.allow_only({"settings", "costs", "mean"});
+  Checkpoint checkpoint;
+  for (const auto& [key, value] : whole.at("settings").entries()) {
+    checkpoint.settings[key] = value.text();
+  }
+  for (const YamlEntry& generation : whole.at("costs").items()) {
+    checkpoint.costs.push_back(read_numbers(generation));
+    if (checkpoint.costs.back().size() != checkpoint.costs.front().size()) {
+      generation.fail("must have as many costs as the first generation");
+    }
+  }
+  checkpoint.mean = read_numbers(whole.at("mean"));
+  return checkpoint;
+}
+
+void Checkpoint::require_settings(const std::map<std::string, std::string>& present,
+                                  const std::string& name) const {
+  std::string differences;
+  const auto compare = [&](const std::string& key) {
+    const auto get = [&](const auto& map) {
+      const auto found = map.find(key);
+      return found == map.end() ? std::string("(none)") : found->second;
+    };
+    if (get(present) == get(settings)) return;
+    differences +=
+        fmt::format("; {} is {}, in the checkpoint {}", key, get(present), get(settings));
+  };
+  for (const auto& [key, value] : present) compare(key);
+  for (const auto& [key, value] : settings) {
+    if (present.count(key) == 0) compare(key);
+  }
+  if (!differences.empty()) {
+    throw ConfigError(fmt::format("{} belongs to another search: give the same options and files{}",
+                                  name, differences));
+  }
+}
+
+}  // namespace nao
