@@ -49,7 +49,7 @@ const std::vector<Gait::Parameter>& all_parameters() {
       NAO_GAIT_PARAMETER(zmp, reach_forward),
       NAO_GAIT_PARAMETER(zmp, reach_backward),
       NAO_GAIT_PARAMETER(zmp, reach_sideways),
-      NAO_GAIT_PARAMETER(feedback, prediction_time),
+      NAO_GAIT_PARAMETER(feedback, initial_lag),
       NAO_GAIT_PARAMETER(feedback, com_position_gain),
       NAO_GAIT_PARAMETER(feedback, com_velocity_gain),
       NAO_GAIT_PARAMETER(feedback, footstep_gain),

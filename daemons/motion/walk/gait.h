@@ -65,7 +65,7 @@ struct Gait {
   };
   /** Feedback of the measured center of mass: s, 1/s, dimensionless gains. */
   struct Feedback {
-    double prediction_time = 0;
+    double initial_lag = 0;
     double com_position_gain = 0;
     double com_velocity_gain = 0;
     double footstep_gain = 0;

@@ -8,8 +8,9 @@ VelocityPlanner::VelocityPlanner(const RobotModel& model, const Gait& gait)
     : gait_(&gait.velocity), limits_(model.walk_limits()) {}
 
 Eigen::Vector3d VelocityPlanner::clip(const Eigen::Vector3d& velocity) const {
-  const Eigen::Vector3d max(velocity.x() > 0 ? limits_.forward : limits_.backward, limits_.sideways,
-                            limits_.turning);
+  const Eigen::Vector3d limit(velocity.x() > 0 ? limits_.forward : limits_.backward,
+                              limits_.sideways, limits_.turning);
+  const Eigen::Vector3d max = speed_fraction_ * limit;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
     sum += std::pow(std::abs(velocity[i]) / max[i], gait_->envelope_exponent);

@@ -17,6 +17,9 @@ class VelocityPlanner {
  public:
   VelocityPlanner(const RobotModel& model, const Gait& gait);
 
+  /** Sets the fraction of the robot's limits that the envelope has from now on, above 0 to 1. */
+  void set_speed_fraction(double fraction) { speed_fraction_ = fraction; }
+
   /** The greatest velocity along the direction of the given one that lies in the envelope
    * sum (|v_i| / max_i)^p <= 1, or the given one if it does. */
   Eigen::Vector3d clip(const Eigen::Vector3d& velocity) const;
@@ -48,6 +51,7 @@ class VelocityPlanner {
  private:
   const Gait::Velocity* gait_;
   WalkLimits limits_;
+  double speed_fraction_ = 1;
   PathTracker path_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d step_velocity_ = Eigen::Vector3d::Zero();

@@ -6,6 +6,7 @@
 #include "common/constants.h"
 #include "common/smooth_step.h"
 #include "daemons/motion/walk/pendulum.h"
+#include "daemons/motion/walk/speed_limit.h"
 #include "daemons/motion/walk/step_timing.h"
 #include "daemons/motion/walk/weight_transfer.h"
 #include "daemons/motion/walk/zmp_control.h"
@@ -50,7 +51,6 @@ WalkEngine::WalkEngine(const RobotModel& model, const Gait& gait, const Posture&
       steps_(model, gait, calc_stand_lead(model, gait, end_posture)),
       feet_(gait),
       reference_(gait),
-      observer_(gait),
       body_(model, gait, end_posture) {}
 
 void WalkEngine::start(const JointTargets& targets) {
@@ -62,6 +62,7 @@ void WalkEngine::start(const JointTargets& targets) {
   velocity_.stop();
   kick_.reset();
   steps_.start();
+  lag_.start(gait_->feedback.initial_lag);
   observer_.start();
   body_.read_start(targets.position);
   feet_.start(body_.pose().start_right_sole());
@@ -73,8 +74,9 @@ void WalkEngine::start(const JointTargets& targets) {
 bool WalkEngine::step(const RobotState& state, const Kinematics& measured, double dt,
                       JointTargets& targets) {
   if (stage_ == Stage::kDone) return false;
+  lag_.update(body_.position(), state.joint_position, body_.pose().motors(), dt);
   observer_.update(state, measured.center_of_mass(), feet_.support_is_left(), reference_,
-                   body_.pose().torso_pitch(), dt);
+                   body_.pose().torso_pitch(), lag_.lag(), dt);
   time_ += dt;
   kick_.advance(dt);
   switch (stage_) {
@@ -144,7 +146,8 @@ void WalkEngine::begin_starting() {
 }
 
 void WalkEngine::step_starting(double dt) {
-  reference_.follow(observer_.com(), dt);
+  // The reference does not follow the measurement: both feet stand, and a reference that moves with
+  // an error of the measurement would move the center of mass to the edge of the soles.
   const double remaining = std::max(duration_ - time_, kMinHorizon);
   const Vector2d start_dcm = steps_.dcm().start;
   reference_.set_zmp(control_double_support(gait_->zmp, feet_, reference_.dcm(), start_dcm,
@@ -165,6 +168,7 @@ void WalkEngine::begin_step() {
   const Pose2 body = body_in_odometry();
   Vector3d target = Vector3d::Zero();
   if (!is_ending_) target = kick_.begin_step(commanded_, feet_.support_is_left(), body);
+  velocity_.set_speed_fraction(calc_speed_fraction(lag_.lag()));
   velocity_.begin_step(target, body, is_ending_, !is_capturing_ && !kick_.seeks_ball());
   is_capturing_ = is_ending_;
   steps_.begin_step(is_ending_);

@@ -8,6 +8,7 @@
 #include "daemons/motion/walk/com_reference.h"
 #include "daemons/motion/walk/feet.h"
 #include "daemons/motion/walk/gait.h"
+#include "daemons/motion/walk/lag_estimator.h"
 #include "daemons/motion/walk/step_planner.h"
 #include "daemons/motion/walk/velocity_planner.h"
 #include "daemons/motion/walk/walk_kick.h"
@@ -124,6 +125,7 @@ class WalkEngine {
   StepPlanner steps_;
   Feet feet_;
   ComReference reference_;
+  LagEstimator lag_;
   WalkObserver observer_;
   WholeBodyController body_;
   /** Fraction of the weight that is planned on the foot that is not the support foot, 0..1. */

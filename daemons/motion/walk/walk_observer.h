@@ -5,7 +5,6 @@
 
 #include "daemons/motion/robot_state.h"
 #include "daemons/motion/walk/com_reference.h"
-#include "daemons/motion/walk/gait.h"
 #include "daemons/motion/walk/gyroscope_filter.h"
 #include "daemons/motion/walk/pendulum_estimator.h"
 #include "kinematics/pose2.h"
@@ -16,8 +15,6 @@ namespace nao::motion {
  * of the torso, load on the swing foot, soles in odometry. */
 class WalkObserver {
  public:
-  explicit WalkObserver(const Gait& gait) : gait_(&gait) {}
-
   /** Forgets the estimate of a previous walk. */
   void start();
 
@@ -25,12 +22,17 @@ class WalkObserver {
    * @param com_in_torso     From the measured joint angles, m.
    * @param support_is_left  The support foot now.
    * @param reference        Gives the pendulum's frequency and the commanded ZMP.
-   * @param torso_pitch      Commanded, rad. */
+   * @param torso_pitch      Commanded, rad.
+   * @param lag              From a command to the measurement of what it did, s. */
   void update(const RobotState& state, const Eigen::Vector3d& com_in_torso, bool support_is_left,
-              const ComReference& reference, double torso_pitch, double dt);
+              const ComReference& reference, double torso_pitch, double lag, double dt);
 
-  /** Center of mass in the support frame S when this tick's targets take effect: the estimate
-   * advanced by prediction_time. */
+  /** Center of mass in the support frame S when this tick's targets take effect: the reference plus
+   * the tracking error.
+   *
+   * What is measured now was commanded one lag ago. The difference from the reference of that time,
+   * without the estimated offset of the measurement, is the error: commands in flight are accounted
+   * for. */
   const PendulumState& com() const { return com_; }
   /** Torso against its commanded orientation: roll, pitch, 0; rad. */
   const Eigen::Vector3d& tilt() const { return tilt_; }
@@ -44,9 +46,8 @@ class WalkObserver {
 
  private:
   void estimate_com(const RobotState& state, const Eigen::Vector3d& com_in_torso,
-                    bool support_is_left, const ComReference& reference, double dt);
+                    bool support_is_left, const ComReference& reference, double lag, double dt);
 
-  const Gait* gait_;
   PendulumEstimator estimator_;
   bool has_estimate_ = false;
   /** At the last update. */

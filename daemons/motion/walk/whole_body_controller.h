@@ -39,6 +39,8 @@ class WholeBodyController {
   WholeBodyController(const RobotModel& model, const Gait& gait, const Posture& end_posture);
 
   const WalkPose& pose() const { return pose_; }
+  /** Commanded angles without feedforward and feedback, rad, (num_motors). */
+  const std::vector<double>& position() const { return position_; }
 
   /** Reads the pose that the walk begins in. @param position  As sent in the last tick, rad,
    * (num_motors). */

@@ -8,8 +8,8 @@
 namespace nao::motion {
 
 /** Nearer to the end of a step than this, s, neither ZMP nor step duration is adapted: the joints
- * would follow too late (see prediction_time in gait.yaml), and the control law divides by
- * e^(omega t) - 1, which goes to zero. Chosen: four times the prediction time. */
+ * would follow too late (see initial_lag in gait.yaml), and the control law divides by
+ * e^(omega t) - 1, which goes to zero. Chosen: about twice the lag. */
 constexpr double kMinHorizon = 0.05;
 
 /** Moves a point into the range of the zero moment point on a sole (zmp.reach_* in gait.yaml).

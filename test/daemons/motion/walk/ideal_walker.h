@@ -40,6 +40,7 @@ class IdealWalker {
   /** Moves the joints to the targets. */
   void measure() {
     kinematics_.update(targets_.position);
+    state_.joint_position = targets_.position;
     place();
     if (other_sole().translation().z() < -1e-9) {
       // The other foot has gone below the ground: it carries the robot from now on.

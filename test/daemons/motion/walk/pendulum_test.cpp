@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "daemons/motion/walk/pendulum_estimator.h"
 
 namespace nao::motion {
@@ -54,7 +56,7 @@ TEST(PendulumEstimator, EstimatesTheVelocityFromNoisyPositions) {
   const Eigen::Vector2d zmp(0.01, 0);
   PendulumState truth{{0, 0.04}, {0.2, -0.25}};
   PendulumEstimator estimator;
-  estimator.reset(truth.position);
+  estimator.reset(truth.position, truth.position);
   for (int tick = 0; tick < 20; ++tick) {
     truth = advance(truth, zmp, kOmega, 0.01);
     // Noise of half a millimeter with alternating sign.
@@ -67,7 +69,7 @@ TEST(PendulumEstimator, EstimatesTheVelocityFromNoisyPositions) {
 
 TEST(PendulumEstimator, KeepsTheVelocityWhenTheSupportFootChanges) {
   PendulumEstimator estimator;
-  estimator.reset({0, 0});
+  estimator.reset({0, 0}, {0, 0});
   for (int tick = 1; tick <= 100; ++tick) {
     estimator.update({0.002 * tick, 0}, {0.002 * tick, 0}, kOmega, 0.01);
   }
@@ -76,6 +78,29 @@ TEST(PendulumEstimator, KeepsTheVelocityWhenTheSupportFootChanges) {
   estimator.change_frame({0.01, 0.02}, M_PI / 2);
   EXPECT_EQ(estimator.state().position, Eigen::Vector2d(0.01, 0.02));
   EXPECT_NEAR(estimator.state().velocity.y(), -0.2, 0.01);
+}
+
+TEST(PendulumEstimator, LearnsTheOffsetOfTheMeasurementFromTheMotion) {
+  // A tilted inertial unit shifts the position; the pressure balances a body that sways.
+  const Eigen::Vector2d offset(0.008, -0.01);
+  PendulumState truth{{0.01, 0.02}, {0, 0}};
+  PendulumEstimator estimator;
+  estimator.reset(truth.position + offset, truth.position);
+  for (int tick = 0; tick < 200; ++tick) {
+    const Eigen::Vector2d sway(0.01 * std::sin(0.2 * tick), 0.02 * std::sin(0.25 * tick));
+    const Eigen::Vector2d zmp = 2 * truth.dcm(kOmega) - sway;
+    truth = advance(truth, zmp, kOmega, 0.01);
+    estimator.update(truth.position + offset, zmp, kOmega, 0.01);
+  }
+  EXPECT_NEAR((estimator.offset() - offset).norm(), 0, 1e-3);
+  EXPECT_NEAR((estimator.state().position - offset - truth.position).norm(), 0, 5e-4);
+  EXPECT_NEAR((estimator.state().velocity - truth.velocity).norm(), 0, 1e-2);
+}
+
+TEST(PendulumEstimator, BoundsTheOffset) {
+  PendulumEstimator estimator;
+  estimator.reset({0.5, -0.5}, {0, 0});
+  EXPECT_LE(estimator.offset().cwiseAbs().maxCoeff(), 0.03 + 1e-12);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "daemons/motion/walk/speed_limit.h"
 #include "test/daemons/motion/walk/nao_gait.h"
 
 namespace nao::motion {
@@ -24,6 +25,24 @@ TEST_F(VelocityPlannerTest, ClipsAVelocityAlongItsDirection) {
   EXPECT_LT(clipped.x(), limits.forward);
   const Vector3d small(0.02, 0.01, 0.1);
   EXPECT_EQ(planner_.clip(small), small);
+}
+
+TEST_F(VelocityPlannerTest, ClipsToAFractionOfTheLimits) {
+  planner_.set_speed_fraction(0.5);
+  const WalkLimits& limits = nao_model().walk_limits();
+  EXPECT_TRUE(planner_.clip({9, 0, 0}).isApprox(Vector3d(0.5 * limits.forward, 0, 0)));
+  EXPECT_TRUE(planner_.clip({0, 0, 9}).isApprox(Vector3d(0, 0, 0.5 * limits.turning)));
+}
+
+TEST(SpeedFraction, FallsWithTheLag) {
+  EXPECT_DOUBLE_EQ(calc_speed_fraction(0.02), 1);
+  EXPECT_DOUBLE_EQ(calc_speed_fraction(0.1), calc_speed_fraction(0.06));
+  double last = 1;
+  for (double lag = 0.02; lag < 0.08; lag += 0.001) {
+    EXPECT_LE(calc_speed_fraction(lag), last);
+    last = calc_speed_fraction(lag);
+  }
+  EXPECT_LT(last, 0.8);
 }
 
 TEST_F(VelocityPlannerTest, ChangesVelocityByALimitedAmountPerStep) {
