@@ -3,12 +3,48 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
+#include <variant>
 
+#include "calibration/calibration_run.h"
 #include "common/data_path.h"
 #include "sim/disturbance_draw.h"
 
 namespace nao {
 namespace {
+
+// The tipping guard once refused the poses, and robots were calibrated by the first stand alone.
+TEST(Calibrate, TheRobotTakesEveryPose) {
+  ClosedLoopOptions options;
+  options.model = std::make_shared<RobotModel>(RobotModel::load(data_path() / "robots" / "nao"));
+  options.scene = SceneFile::find("empty");
+  ClosedLoop loop(options, 1);
+  CalibrationRun run(loop.model(), 1);
+  loop.run(1);
+  const double tilt = loop.torso_tilt();
+  while (!run.is_done()) {
+    if (auto command = run.next_command()) {
+      const int64_t id = std::visit(
+          [&](auto& request) {
+            return loop.send({"", 0, std::move(request)});
+          },
+          *command);
+      const auto end = loop.await_end(id, 30);
+      ASSERT_TRUE(end);
+      EXPECT_EQ(end->status, ResultStatus::kDone) << to_sentence(end->reason);
+      run.end_command("");
+    }
+    loop.step();
+    const sim::SensorReadings& readings = loop.world().sensors(0);
+    StandingSample sample;
+    sample.position.assign(readings.position.begin(), readings.position.end());
+    sample.accelerometer = readings.accelerometer;
+    sample.gyroscope = readings.gyroscope;
+    sample.foot_force.assign(readings.foot_force.begin(), readings.foot_force.end());
+    run.measure(sample, loop.period());
+  }
+  EXPECT_NEAR(loop.torso_tilt(), tilt, 0.02);
+}
 
 TEST(Calibrate, FindsTheErrorsOfAUsedRobot) {
   ClosedLoopOptions options;

@@ -144,7 +144,7 @@ class CalibrationSession {
                                      std::numeric_limits<double>::quiet_NaN());
       message.is_relative = 0;
       message.speed = change->speed;
-      message.allow_tipping = 0;
+      message.allow_tipping = change->allow_tipping ? 1 : 0;
       publish(channels_.joint_change_command, message);
     }
   }
