@@ -91,7 +91,7 @@ void LolaConnection<Incoming>::receive() {
   if (num_bytes > 0) {
     stream_.note_received(static_cast<size_t>(num_bytes));
   } else if (num_bytes == 0) {
-    end_ = "the peer has closed the connection";
+    end_ = "the other end has closed the connection";
   } else if (errno != EAGAIN && errno != EINTR) {
     end_ = std::string("cannot read: ") + std::strerror(errno);
   }
@@ -111,7 +111,7 @@ void LolaConnection<Incoming>::send(std::span<const uint8_t> message) {
       ::send(socket_.descriptor(), message.data(), message.size(), MSG_NOSIGNAL);
   if (num_bytes == static_cast<ssize_t>(message.size())) return;
   end_ = num_bytes < 0 && errno != EAGAIN ? std::string("cannot write: ") + std::strerror(errno)
-                                          : "the peer does not read";
+                                          : "the other end does not read";
 }
 
 template class LolaConnection<LolaState>;

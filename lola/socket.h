@@ -47,8 +47,8 @@ class LolaConnection {
   void receive();
   /** @return Whether there was a message. */
   bool next(Incoming& message);
-  /** Sends a whole message. A peer that does not read until the socket's memory is full counts as
-   * gone. */
+  /** Sends a whole message. A client or server that does not read until the socket's memory is full
+   * counts as gone. */
   void send(std::span<const uint8_t> message);
 
   /** Why the connection is of no use any more; empty while it is. Messages that arrived before can

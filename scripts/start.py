@@ -232,7 +232,7 @@ def command_of(program, stack, settings, options):
     if program == "nao-sim":
         words += ["--scene", settings["scene"], *(["--lola", stack.lola_socket] if options.backend == "lola" else [])]
     elif program == ROBOT:
-        # A simulated robot has nobody who presses its button.
+        # Nobody presses a simulated robot's button.
         words = [ROBOT_WATCHDOG, *words[1:], "--lola", stack.lola_socket, "--autostart"]
     elif program == GATEWAY:
         words += [*gateway_options(stack, settings), "--tcp-port", settings["tcp_port"],
@@ -248,7 +248,7 @@ def write_configuration(stack, settings, options):
     text = SUPERVISOR_SECTION.format(**paths, user="user=root" if os.geteuid() == 0 else "")
     for program in [*options.programs, "nao-watchdog"]:
         is_robot = program == ROBOT
-        # The bridge ends with status 0 when somebody has ended it by the robot's button.
+        # The bridge ends with status 0 when it was ended by the robot's button.
         text += PROGRAM_SECTION.format(**paths, program=program,
                                        command=command_of(program, stack, settings, options),
                                        restart="unexpected" if is_robot else "true",

@@ -9,7 +9,7 @@ namespace nao::robot {
 /** What the eyes show. */
 enum class EyeState { kNoClient, kReady, kDriver, kLinkLost, kFault };
 
-/** @param has_driver  Somebody drives the robot. @param fault  Present one. */
+/** @param has_driver  A client drives the robot. @param fault  Present one. */
 inline EyeState eye_state(const Safety& safety, bool has_driver, Fault fault) {
   if (fault != Fault::kNone) return EyeState::kFault;
   if (safety.cause() == Cause::kLinkLost && safety.phase() != Phase::kDriven &&

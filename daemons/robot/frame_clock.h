@@ -43,7 +43,7 @@ class FrameClock {
   }
 
  private:
-  /** Part of a frame's lateness by which the time is corrected. Chosen: follows a difference of the
+  /** Part of a frame's delay by which the time is corrected. Chosen: follows a difference of the
    * clocks within 20 frames, and passes a twentieth of the jitter on. */
   static constexpr double kGain = 0.05;
   /** Bound of the number of lost frames. */

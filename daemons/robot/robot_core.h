@@ -24,7 +24,7 @@ class RobotCore {
   struct Input {
     /** New targets that answer tick(), for all motors; nullptr: none. */
     const Targets* command = nullptr;
-    /** Somebody drives the robot, for the eyes. */
+    /** A client drives the robot, for the eyes. */
     bool has_driver = false;
     /** The robot is to sit down and go limp, and then the program ends. */
     bool is_ending = false;

@@ -1,5 +1,5 @@
 // Starts nao-robot, and takes over when it dies or hangs: a robot keeps its stiffness when its
-// program has ended. Ends after that; whoever started it (supervisor, systemd) starts it anew.
+// program has ended. Ends after that; supervisor or systemd starts it anew.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>

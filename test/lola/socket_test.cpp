@@ -63,7 +63,7 @@ TEST_F(LolaSocket, APeerThatClosesAtAnyByteEndsTheConnection) {
       while (client.next(state)) ++num_states;
     }
     EXPECT_EQ(num_states, size == bytes.size() ? 1 : 0);
-    EXPECT_EQ(client.end(), "the peer has closed the connection");
+    EXPECT_EQ(client.end(), "the other end has closed the connection");
     client.send(encoded(numbered_command()));
   }
 }
@@ -73,7 +73,7 @@ TEST_F(LolaSocket, APeerThatDoesNotReadEndsTheConnection) {
   const std::vector<uint8_t> frame = encoded(numbered_state());
   // Linux keeps some hundred kilobytes for a socket.
   for (int i = 0; i < 5000 && robot.end().empty(); ++i) robot.send(frame);
-  EXPECT_EQ(robot.end(), "the peer does not read");
+  EXPECT_EQ(robot.end(), "the other end does not read");
 }
 
 TEST_F(LolaSocket, AnUnreadableMessageEndsTheConnection) {

@@ -17,7 +17,7 @@ KEYS = {"Position": 25, "Stiffness": 25, "Temperature": 25, "Current": 25, "Stat
         "Accelerometer": 3, "Gyroscope": 3, "Angles": 2, "Sonar": 2, "FSR": 8, "Touch": 14, "RobotConfig": 4}
 FRAME_BYTES = 896
 HEAD_YAW, L_KNEE_PITCH = 0, 10
-# Tilt of a standing robot, rad: 0.1 when its servos give way under its weight.
+# Tilt of a standing robot, rad: 0.1 when its servos yield under its weight.
 UPRIGHT = 0.2
 
 

@@ -9,7 +9,7 @@ namespace nao {
 /** @throws Error  if the file cannot be read. */
 std::string read_file(const std::filesystem::path& file);
 
-/** Replaces the file at once: whoever reads it, or finds it after an interruption, has the old text
+/** Replaces the file at once: a reader, also after an interruption, has the old text
  * or the new one, but no part of one.
  * @throws Error  if the file cannot be written. */
 void replace_file(const std::filesystem::path& file, const std::string& text);

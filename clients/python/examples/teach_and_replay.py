@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Records the robot's joints while somebody moves them (another client, or by hand), saves them, and replays them.
+"""Records the robot's joints while another client or a hand moves them, saves them, and replays them.
 
 teach_and_replay.py [ADDRESS] [FILE] [SECONDS]    FILE: written if it does not exist, else replayed only
 """

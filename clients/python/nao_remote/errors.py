@@ -108,7 +108,7 @@ class NotAllowed(Refused):
 
 
 class Stopped(Refused):
-    """Somebody sent Stop during this walk. The next walk() after 0.5 s is accepted."""
+    """A client sent Stop during this walk. The next walk() after 0.5 s is accepted."""
 
     error_code = pb.STOPPED
 

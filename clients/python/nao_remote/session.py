@@ -133,5 +133,5 @@ def _parse(received: bytes) -> pb.ServerMessage:
     except DecodeError:
         is_whole = False
     if not is_whole:
-        raise ConnectionLost("the peer sent bytes that are no message; is this port the gateway's?")
+        raise ConnectionLost("the other end sent bytes that are no message; is this port the gateway's?")
     return message

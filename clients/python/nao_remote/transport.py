@@ -12,7 +12,7 @@ from typing import Any, Protocol
 from nao_remote.address import Address
 from nao_remote.errors import ConnectionLost
 
-# Bytes of a message from the gateway: PROTOCOL.md promises less than 100 kB; ten times as much is an error of the peer.
+# Bytes of a message from the gateway: PROTOCOL.md promises less than 100 kB; ten times as much is an error of the sender.
 MAX_MESSAGE = 1_000_000
 # Time for an orderly end of a WebSocket, s. Chosen: a gateway that does not answer must not delay the caller.
 CLOSE_TIMEOUT = 0.5
@@ -85,7 +85,7 @@ class WebSocketTransport:
         except (OSError, WebSocketException) as error:
             raise ConnectionLost(f"the gateway closed the connection: {error}") from error
         if not isinstance(message, bytes):
-            raise ConnectionLost("the peer sent a text message; is this address the gateway's?")
+            raise ConnectionLost("the other end sent a text message; is this address the gateway's?")
         return message
 
     async def close(self) -> None:
