@@ -17,6 +17,7 @@ constexpr double kMaxRate = 0.35;   // rad/s
 constexpr double kMinScale = 0.2;
 constexpr double kMaxScale = 5;
 
+// Written so that NaN fails; the error names the entry with file and line.
 double number_within(const YamlEntry& entry, double least, double most) {
   const double number = entry.number();
   if (number >= least && number <= most) return number;
@@ -40,6 +41,7 @@ int find_foot_sensor(const RobotModel& model, const std::string& name) {
   return -1;
 }
 
+// Each part is optional and stays at its neutral value: 0, or 1 for scales.
 Calibration read(const RobotModel& model, const YamlEntry& root) {
   root.allow_only({"date", "joint_zero", "imu_mount", "gyroscope_scale", "gyroscope_offset",
                    "foot_sensor_scale"});
@@ -65,6 +67,7 @@ Calibration read(const RobotModel& model, const YamlEntry& root) {
     for (const auto& [name, entry] : root.at("foot_sensor_scale").entries()) {
       const int sensor = find_foot_sensor(model, name);
       if (sensor < 0) entry.fail("is no foot force sensor of " + model.name());
+      // 0 is outside of the range, and means a dead sensor.
       const bool is_dead = entry.number() == 0;
       result.foot_sensor_scale[sensor] = is_dead ? 0 : number_within(entry, kMinScale, kMaxScale);
     }
@@ -97,6 +100,7 @@ Calibration Calibration::parse(const RobotModel& model, const std::string& text,
   return read(model, YamlEntry::parse<ConfigError>(text, name));
 }
 
+// In the form that read() accepts; angles with 0.00001 rad, far below an encoder's step.
 std::string Calibration::to_yaml(const RobotModel& model) const {
   std::string text =
       "# How one " + model.name() +

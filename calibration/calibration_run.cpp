@@ -43,6 +43,8 @@ constexpr TorsoShift kShifts[] = {
 
 /** Angles of all motors with the torso displaced over the soles of the ready posture. Shifts that
  * the legs do not reach are left out. */
+// A list of poses that moves the weight and changes the lever arms of all errors; without it the
+// errors of joints and inertial unit could not be told apart.
 std::vector<std::vector<double>> plan_poses(const RobotModel& model) {
   const LegKinematics legs(model);
   Kinematics kinematics(model);
@@ -55,6 +57,7 @@ std::vector<std::vector<double>> plan_poses(const RobotModel& model) {
     moved.linear() =
         (AngleAxisd(shift.roll, Vector3d::UnitX()) * AngleAxisd(shift.pitch, Vector3d::UnitY()))
             .toRotationMatrix();
+    // The soles stay where they are; the torso moves over them.
     const Isometry3d to_moved = moved.inverse();
     const LegsSolution solution =
         legs.solve_both(to_moved * kinematics.left_sole(), to_moved * kinematics.right_sole());
@@ -80,6 +83,8 @@ CalibrationRun::CalibrationRun(const RobotModel& model, int num_stations)
     }
   }
   const std::vector<std::vector<double>> poses = plan_poses(model);
+  // Stations at equal turns: the slope of the room turns relative to the robot, its own errors do
+  // not.
   for (int station = 0; station < num_stations; ++station) {
     if (station > 0) steps_.push_back({2 * M_PI / num_stations, {}});
     // Upright: the posture in which turns begin, whatever the robot did before.
@@ -90,6 +95,7 @@ CalibrationRun::CalibrationRun(const RobotModel& model, int num_stations)
   steps_.push_back({});
 }
 
+// One command at a time; the next one after end_command() and, for poses, the measurement.
 std::optional<CalibrationCommand> CalibrationRun::next_command() {
   if (phase_ != Phase::kReady) return std::nullopt;
   phase_ = Phase::kMoving;
@@ -111,6 +117,7 @@ std::optional<CalibrationCommand> CalibrationRun::next_command() {
 void CalibrationRun::end_command(const std::string& fault) {
   if (phase_ != Phase::kMoving) return;
   const Step& step = steps_[step_];
+  // A command that fails costs its pose only, up to kMaxFaults.
   if (!fault.empty() && ++num_faults_ > kMaxFaults) {
     fault_ = fault;
     phase_ = Phase::kDone;
@@ -122,6 +129,7 @@ void CalibrationRun::end_command(const std::string& fault) {
     ++station_;
     heading_ += step.turn;
   }
+  // Turns and the upright posture are not measured.
   if (step.turn != 0 || step.position.empty() || !fault.empty()) {
     advance();
     return;
@@ -135,6 +143,7 @@ void CalibrationRun::advance() {
   phase_ = step_ < steps_.size() ? Phase::kReady : Phase::kDone;
 }
 
+// Called in every tick; only the phases after a move use the sample.
 void CalibrationRun::measure(StandingSample sample, double dt) {
   time_ += dt;
   if (phase_ == Phase::kSettling && time_ >= kSettlingTime) {

@@ -13,6 +13,7 @@ namespace {
 constexpr double kTakeOver = 1;
 constexpr double kTimeout = 30;
 
+// Raw readings: the calibration must see the robot's errors.
 StandingSample to_sample(const sim::SensorReadings& readings) {
   StandingSample sample;
   sample.position.assign(readings.position.begin(), readings.position.end());
@@ -24,6 +25,7 @@ StandingSample to_sample(const sim::SensorReadings& readings) {
 
 }  // namespace
 
+// The same run as `nao calibrate` with a robot: commands, waiting and measuring on simulated time.
 Calibration calibrate(const ClosedLoopOptions& options, uint64_t seed, int num_stations) {
   ClosedLoop loop(options, seed);
   CalibrationRun run(loop.model(), num_stations);

@@ -14,6 +14,7 @@ namespace {
 /** Interval at which hold_walk() repeats its command, s: that of the phone app's joysticks. */
 constexpr double kWalkCommandPeriod = 0.2;
 
+// By default those of disturbances/default.yaml, loaded once.
 const sim::DisturbanceSet& disturbances_of(const ClosedLoopOptions& options) {
   static const sim::DisturbanceSet none;
   static const sim::DisturbanceSet by_default = sim::DisturbanceSet::find("default");
@@ -36,6 +37,7 @@ sim::WorldOptions world_options(const ClosedLoopOptions& options, uint64_t seed)
   return result;
 }
 
+// Sensors as the motion daemon would decode them from the message, without a bus in between.
 motion::Sensors to_core(const sim::SensorReadings& readings, const sim::MotorTargets& held,
                         double period) {
   const auto list = [](const Eigen::VectorXd& values) {
@@ -76,6 +78,7 @@ ClosedLoop::ClosedLoop(const ClosedLoopOptions& options, uint64_t seed)
   restart_core();
 }
 
+// A new core knows nothing of the robot: it takes over the servos' targets.
 void ClosedLoop::restart_core() {
   core_ = std::make_unique<motion::MotionCore>(*options_.model, options_.motion);
 }
@@ -96,7 +99,13 @@ int64_t ClosedLoop::send_action(const std::string& action) {
   return send({"", 0, ActionCommand{action, nan, nan, nan}});
 }
 
+void ClosedLoop::teach(motion::ActionScript script) {
+  const std::string name = script.sequence.name;
+  taught_.push_back({name, std::make_shared<const motion::ActionScript>(std::move(script))});
+}
+
 int64_t ClosedLoop::hold_walk(const Eigen::Vector3d& velocity) {
+  // One command for the whole walk; its velocity changes under the same number.
   if (!walk_) walk_ = Command{"trial", ++last_id_, {}};
   walk_->request = WalkCommand{velocity.x(), velocity.y(), velocity.z()};
   // The next tick sends it.
@@ -109,6 +118,7 @@ int ClosedLoop::ticks_per_walk_command() const {
   return static_cast<int>(std::lround(kWalkCommandPeriod / period()));
 }
 
+// With a stop the robot ends the walk; without one the command expires, as when a phone vanishes.
 void ClosedLoop::release_walk(bool sends_stop) {
   if (walk_ && sends_stop) {
     walk_->request = WalkCommand{};
@@ -117,16 +127,20 @@ void ClosedLoop::release_walk(bool sends_stop) {
   walk_.reset();
 }
 
+// One control tick: physics with the last targets, then the motion core with the new readings.
 void ClosedLoop::step() {
   world_.step_tick();
   if (walk_ && ++ticks_since_walk_ > ticks_per_walk_command()) {
     commands_.push_back(*walk_);
     ticks_since_walk_ = 1;
   }
+  // A missed tick stands for a late motion daemon: the servos hold their targets, and the next step
+  // of the core is longer.
   const double probability = options_.missed_tick_probability;
   if (probability > 0 && ticks_to_miss_ == 0 && random(0, 1) < probability) {
     ticks_to_miss_ = 1 + static_cast<int>(random(0, 4));
   }
+  // A crashed core is not stepped; the servos go on holding.
   if (ticks_to_miss_ > 0 || world_.are_readings_lost(0)) {
     ticks_to_miss_ = std::max(0, ticks_to_miss_ - 1);
     ++missed_ticks_;
@@ -134,11 +148,12 @@ void ClosedLoop::step() {
     motion::Input input;
     input.sensors = to_core(world_.sensors(0), world_.targets(0), period());
     input.commands = std::exchange(commands_, {});
+    input.taught = std::exchange(taught_, {});
     const double begin = clock_ != nullptr ? clock_() : 0;
     const double dt = (1 + std::exchange(missed_ticks_, 0)) * period();
     const motion::Output output = core_->step(input, dt);
     if (clock_ != nullptr) step_times_->push_back(clock_() - begin);
-    results_.insert(results_.end(), output.results.begin(), output.results.end());
+    keep(output.results);
     targets_ = output.joint_targets->position;
     estimate_ = *output.robot_state;
     sim::MotorTargets targets;
@@ -148,6 +163,16 @@ void ClosedLoop::step() {
     world_.set_targets(0, targets);
   }
   if (on_tick_) on_tick_();
+}
+
+void ClosedLoop::keep(const std::vector<CommandResult>& results) {
+  for (const CommandResult& result : results) {
+    if (result.kind == CommandKind::kWalk) {
+      const std::pair walk_result{result.id, result.status};
+      if (std::exchange(last_walk_result_, walk_result) == walk_result) continue;
+    }
+    results_.push_back(result);
+  }
 }
 
 void ClosedLoop::run(double duration) {
@@ -165,6 +190,7 @@ bool ClosedLoop::run_until(const std::function<bool()>& condition, double timeou
 }
 
 std::optional<CommandResult> ClosedLoop::await_end(int64_t id, double timeout) {
+  // Results are looked at once each: `next` moves on.
   size_t next = 0;
   std::optional<CommandResult> end;
   run_until(
@@ -191,6 +217,7 @@ double ClosedLoop::deviation_from(const Posture& posture, std::string* joint) co
   const Eigen::VectorXd& position = world_.robot(0).motor_position();
   double largest = 0;
   for (int motor = 0; motor < model().num_motors(); ++motor) {
+    // Openings of hands have no part in a posture of the body.
     if (world_.robot(0).is_opening(motor)) continue;
     const double deviation = std::abs(position[motor] - posture.position[motor]);
     if (deviation <= largest) continue;

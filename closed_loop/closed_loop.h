@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/random.h"
@@ -68,8 +69,12 @@ class ClosedLoop {
 
   /** Queues a command for the next tick. @return Its number. */
   int64_t send(Command command);
+  /** Queues a command with its own sender and number for the next tick. */
+  void pass_on(Command command) { commands_.push_back(std::move(command)); }
   int64_t send_posture(const std::string& posture, double speed);
   int64_t send_action(const std::string& action);
+  /** Makes a taught motion an action from the next tick on. */
+  void teach(motion::ActionScript script);
   /** Commands a velocity now and every 0.2 s, as an operator's joystick does, as one command until
    * release_walk(). @param velocity  m/s ahead and to the left, rad/s. @return The command's
    * number.
@@ -87,8 +92,11 @@ class ClosedLoop {
   /** Steps until the condition holds. @return false after `timeout` s. */
   bool run_until(const std::function<bool()>& condition, double timeout);
 
-  /** All results so far. */
+  /** The results since the start or take_results(). Of a walk that hold_walk() repeats, each status
+   * is there once for as long as it lasts: the core answers every repetition. */
   const std::vector<CommandResult>& results() const { return results_; }
+  /** The same, which are then forgotten. */
+  std::vector<CommandResult> take_results() { return std::exchange(results_, {}); }
   /** Last targets of the core. */
   const std::vector<double>& targets() const { return targets_; }
   /** State as the core estimated it last. */
@@ -115,6 +123,7 @@ class ClosedLoop {
 
  private:
   int ticks_per_walk_command() const;
+  void keep(const std::vector<CommandResult>& results);
 
   ClosedLoopOptions options_;
   sim::World world_;
@@ -122,12 +131,15 @@ class ClosedLoop {
   Random random_;
   bool is_core_crashed_ = false;
   std::vector<Command> commands_;
+  std::vector<motion::TaughtChange> taught_;
   std::optional<Command> walk_;
   int ticks_since_walk_ = 0;
   int ticks_to_miss_ = 0;
   int missed_ticks_ = 0;
   int64_t last_id_ = 0;
   std::vector<CommandResult> results_;
+  /** Number and status of the last result of a walk. */
+  std::pair<int64_t, ResultStatus> last_walk_result_{0, ResultStatus::kAccepted};
   std::vector<double> targets_;
   motion::RobotState estimate_;
   std::function<void()> on_tick_;

@@ -5,7 +5,7 @@ set(SCRIPTS_DIR ${CMAKE_INSTALL_DATADIR}/nao-remote/scripts)
 install(PROGRAMS scripts/start scripts/stop scripts/status scripts/spy scripts/record scripts/replay
                  scripts/setup
         DESTINATION ${SCRIPTS_DIR})
-install(FILES scripts/start.py scripts/stack.py scripts/lib.sh scripts/stack.sh scripts/packages
+install(FILES scripts/start.py scripts/stack.py scripts/robots.py scripts/seat.py scripts/lib.sh scripts/stack.sh scripts/packages
         DESTINATION ${SCRIPTS_DIR})
 install(PROGRAMS packaging/nao-remote DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES packaging/nao-remote@.service packaging/nao-remote.target
@@ -28,5 +28,5 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "bash, ${RUN_DEPENDS}")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "default-jre, liblcm-java, libjchart2d-java")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "avahi-daemon, python3-zeroconf, default-jre, liblcm-java, libjchart2d-java")
 include(CPack)

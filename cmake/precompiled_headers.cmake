@@ -1,5 +1,5 @@
 # Precompiled headers. Every source reads the same standard, Eigen and GoogleTest headers, which cost
-# more than most of the sources themselves; those of the gateway also protobuf and Boost.
+# more than most of the sources themselves; those of the gateway also protobuf.
 
 # nao_add_precompiled(NAME HEADER [LIBRARIES ...] [IDENTIFIED_BY FILE...])
 # IDENTIFIED_BY: sources of what the header includes and cmake/precompiled does not hold.
@@ -40,6 +40,7 @@ function(nao_use_precompiled)
       set(precompiled nao_precompiled)
       if(libraries MATCHES "GTest::")
         set(precompiled nao_precompiled_test)
+        target_compile_options(${target} PRIVATE ${test_optimization})
       endif()
     endif()
     target_precompile_headers(${target} REUSE_FROM ${precompiled})
@@ -48,12 +49,13 @@ endfunction()
 
 nao_add_precompiled(nao_precompiled standard.h)
 if(GTest_FOUND)
+  # Sources of tests are compiled more often than they run: what they test is in the libraries.
+  set(test_optimization -O1)
   nao_add_precompiled(nao_precompiled_test test.h LIBRARIES GTest::gmock)
+  target_compile_options(nao_precompiled_test PRIVATE ${test_optimization})
 endif()
 if(TARGET nao_phone_protocol)
   nao_add_precompiled(nao_precompiled_protocol protocol.h
     LIBRARIES nao_phone_protocol IDENTIFIED_BY ${CMAKE_SOURCE_DIR}/phone-gateway/protocol/remote.proto)
-  nao_add_precompiled(nao_precompiled_network network.h
-    LIBRARIES nao_phone_protocol nao_boost IDENTIFIED_BY ${CMAKE_SOURCE_DIR}/phone-gateway/protocol/remote.proto)
 endif()
 nao_use_precompiled()

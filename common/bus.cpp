@@ -14,6 +14,7 @@ Bus::Bus(const std::string& url) : lcm_(url) {
   }
 }
 
+// All messages that have arrived, without waiting; handlers run here.
 void Bus::handle() {
   while (lcm_.handleTimeout(0) > 0) {
   }
@@ -39,6 +40,12 @@ void Bus::drop(const std::string& channel, const std::string& why) {
   }
 }
 
+// Messages of all types on matching channels, not decoded: for recorders.
+void Bus::publish_raw(const std::string& channel, std::span<const uint8_t> message) {
+  count_sent(channel,
+             lcm_.publish(channel, message.data(), static_cast<unsigned>(message.size())) == 0);
+}
+
 void Bus::subscribe_raw(const std::string& pattern,
                         std::function<void(const std::string&, const uint8_t*, int)> handler) {
   auto receiver = std::make_shared<RawReceiver>();
@@ -52,6 +59,7 @@ void Bus::subscribe_raw(const std::string& pattern,
 
 void Bus::RawReceiver::receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   ++bus->counters_.num_in;
+  // No exception may cross LCM's C code.
   try {
     call(channel, static_cast<const uint8_t*>(buffer->data), static_cast<int>(buffer->data_size));
   } catch (const std::exception& error) {

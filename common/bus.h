@@ -5,6 +5,7 @@
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,9 @@ class Bus {
     count_sent(channel, lcm_.publish(channel, &message) == 0);
   }
 
+  /** Sends an encoded message. A failure is handled as in publish(). */
+  void publish_raw(const std::string& channel, std::span<const uint8_t> message);
+
   /** Calls `handler(message)` for every message on a channel, inside handle().
    * @param queue  kLatest for states (older ones are skipped), kAll for events. */
   template <class Message>
@@ -49,13 +53,14 @@ class Bus {
     auto receiver = std::make_shared<Receiver>();
     receiver->call = [this, channel,
                       handler = std::move(handler)](const lcm::ReceiveBuffer& buffer) {
-      Message message;
-      if (message.decode(buffer.data, 0, static_cast<int>(buffer.data_size)) < 0) {
-        drop(channel, std::string("it is not a ") + Message::getTypeName() +
-                          " of this version of the project");
-        return;
-      }
       try {
+        Message message;
+        // LCM's decoder throws where a text has the length 0.
+        if (message.decode(buffer.data, 0, static_cast<int>(buffer.data_size)) < 0) {
+          drop(channel, std::string("it is not a ") + Message::getTypeName() +
+                            " of this version of the project");
+          return;
+        }
         handler(message);
       } catch (const std::exception& error) {
         drop(channel, error.what());

@@ -31,11 +31,13 @@ struct RobotChannels {
         body_state(robot + "_BODY_STATE"),
         light_command(robot + "_LIGHT_COMMAND"),
         speech_command(robot + "_SPEECH_COMMAND"),
+        speech_audio(robot + "_SPEECH_AUDIO"),
         vision_state(robot + "_VISION_STATE"),
         play_command(robot + "_PLAY_COMMAND"),
         play_state(robot + "_PLAY_STATE"),
         motion_file_command(robot + "_MOTION_FILE_COMMAND"),
-        motion_file_result(robot + "_MOTION_FILE_RESULT") {}
+        motion_file_result(robot + "_MOTION_FILE_RESULT"),
+        keyframe_motion(robot + "_KEYFRAME_MOTION") {}
 
   std::string sensor_state;
   std::string joint_command;
@@ -53,11 +55,13 @@ struct RobotChannels {
   std::string body_state;
   std::string light_command;
   std::string speech_command;
+  std::string speech_audio;
   std::string vision_state;
   std::string play_command;
   std::string play_state;
   std::string motion_file_command;
   std::string motion_file_result;
+  std::string keyframe_motion;
 };
 
 }  // namespace nao

@@ -19,12 +19,15 @@ namespace nao {
 ChildProcess::ChildProcess(const std::vector<std::string>& command, Output output) {
   int file = -1;
   if (output == Output::kFile) {
+    // A file and not a pipe: a pipe that nobody reads would block the child.
     std::string pattern = (std::filesystem::temp_directory_path() / "nao-child-XXXXXX").string();
-    file = mkstemp(pattern.data());
+    // Closed by execv(): the child keeps it as its standard output only.
+    file = mkostemp(pattern.data(), O_CLOEXEC);
     if (file < 0) throw Error("cannot create " + pattern + " for a program's output");
     output_file_ = pattern;
   }
   std::vector<char*> arguments;
+  // execv() takes char*, and does not write to the strings.
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   pid_ = fork();
@@ -48,6 +51,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, Output outpu
   if (pid_ < 0) throw Error("cannot start " + command.at(0));
 }
 
+// SIGTERM first, so that the program leaves the robot safe; SIGKILL after five seconds.
 ChildProcess::~ChildProcess() {
   if (pid_ > 0) {
     using std::chrono::steady_clock;
@@ -59,6 +63,8 @@ ChildProcess::~ChildProcess() {
       } else {
         // A program that hangs must not make its parent wait for ever.
         kill(pid_, SIGKILL);
+        waitpid(pid_, nullptr, 0);
+        break;
       }
     }
   }

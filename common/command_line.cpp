@@ -6,6 +6,7 @@
 
 namespace nao {
 
+// CLI11 is hidden behind this file: its header is slow to compile.
 struct CommandLine::Parts {
   /** Of a program; its subcommands belong to it. */
   std::unique_ptr<CLI::App> own_app;
@@ -193,6 +194,15 @@ CommandLine* CommandLine::add_subcommand(const std::string& name, const std::str
   return parts_->subcommands.back().get();
 }
 
+CommandLine* CommandLine::add_delegated_subcommand(const std::string& name,
+                                                   const std::string& help) {
+  CommandLine* command = add_subcommand(name, help);
+  command->parts_->app.set_help_flag();
+  command->parts_->app.fallthrough(false);
+  command->parts_->app.prefix_command();
+  return command;
+}
+
 void CommandLine::require_subcommand() {
   parts_->app.require_subcommand(1);
 }
@@ -209,10 +219,8 @@ void CommandLine::on_parsed(std::function<void()> act) {
   parts_->app.callback(with_usage_errors(std::move(act)));
 }
 
-void CommandLine::on_end(std::function<void()> act) {
-  parts_->app.final_callback(with_usage_errors(std::move(act)));
-}
-
+// Status 0 after --help and --version, 2 after a wrong command line; nothing if the program is to
+// run.
 std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
   try {
     parts_->app.parse(argc, argv);

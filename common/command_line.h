@@ -95,6 +95,9 @@ class CommandLine {
 
   /** @return The subcommand; lives as long as this. */
   CommandLine* add_subcommand(const std::string& name, const std::string& help);
+  /** Adds a subcommand that another program reads: it takes whatever follows its name, --help too.
+   * @return The subcommand; lives as long as this. */
+  CommandLine* add_delegated_subcommand(const std::string& name, const std::string& help);
   /** One of the subcommands must be named. */
   void require_subcommand();
   /** Subcommands take options of this one too. */
@@ -103,8 +106,6 @@ class CommandLine {
   void footer(const std::string& text);
   /** Called when this was named and all its options are read. It may throw UsageError. */
   void on_parsed(std::function<void()> act);
-  /** Called when the whole command line is read. */
-  void on_end(std::function<void()> act);
 
   /** Reads the command line.
    * @return None: run the program. Otherwise the exit status to end with, the reason is printed:

@@ -9,4 +9,8 @@ namespace nao {
  * @throws ConfigError  if the folder does not exist. */
 std::filesystem::path data_path();
 
+/** Folder of files that programs keep between runs: XDG_STATE_HOME/nao-remote, usually
+ * ~/.local/state/nao-remote. @throws ConfigError  if neither XDG_STATE_HOME nor HOME is set. */
+std::filesystem::path state_path();
+
 }  // namespace nao

@@ -51,6 +51,7 @@ void EventLoop::on_readable(int descriptor, std::function<void()> handler) {
       {descriptor, false, std::make_shared<const std::function<void()>>(std::move(handler))});
 }
 
+// Marked only: the list must not change while run() goes through it.
 void EventLoop::forget(int descriptor) {
   for (Source& source : sources_) {
     if (!source.is_timer && source.descriptor == descriptor) source.descriptor = -1;
@@ -68,9 +69,11 @@ void EventLoop::every(double period, std::function<void()> handler) {
       {descriptor, true, std::make_shared<const std::function<void()>>(std::move(handler))});
 }
 
+// Signals first, then sources in the order in which they were added.
 std::string EventLoop::run() {
   std::vector<pollfd> polled;
   while (!is_stopped_) {
+    // Forgotten sources are removed here, between two waits.
     std::erase_if(sources_, [](const Source& source) { return source.descriptor < 0; });
     polled.clear();
     polled.push_back({signal_descriptor_, POLLIN, 0});
@@ -88,6 +91,7 @@ std::string EventLoop::run() {
     }
     // By index: a handler may add sources.
     for (size_t i = 1; i < polled.size() && !is_stopped_; ++i) {
+      // Forgotten by a handler of this round.
       if (polled[i].revents == 0 || sources_[i - 1].descriptor < 0) continue;
       if (sources_[i - 1].is_timer) {
         uint64_t expirations = 0;
@@ -95,6 +99,7 @@ std::string EventLoop::run() {
         // up with a burst.
         if (read(sources_[i - 1].descriptor, &expirations, sizeof expirations) < 0) continue;
       }
+      // A copy: the handler may forget its own source.
       const auto handler = sources_[i - 1].handler;
       (*handler)();
     }

@@ -1,23 +1,20 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace nao {
 
-/** Builds one JSON value, field by field. Inside an object every call names a key; inside an array,
- * and for the outermost value, the key is "".
+/** Writes one JSON value, field by field. Inside an object every call names a key, each once;
+ * inside an array, and for the outermost value, the key is "".
  *
- * The implementation is nlohmann-json. Only json_writer.cpp includes its header, which takes
- * several seconds to compile. */
+ * Text is appended as it comes: programs write some 10^5 numbers a second. Bytes beyond ASCII go
+ * through nlohmann-json, whose header only json_writer.cpp includes. */
 class JsonWriter {
  public:
-  JsonWriter();
-  ~JsonWriter();
-  JsonWriter(const JsonWriter&) = delete;
-  JsonWriter& operator=(const JsonWriter&) = delete;
-
   void begin_object(const std::string& key = "");
   void begin_array(const std::string& key = "");
   /** Ends the innermost object or array. */
@@ -32,14 +29,27 @@ class JsonWriter {
   void add(const std::string& key, double value);
   void add(const std::string& key, const double* values, int num_values);
   void add_null(const std::string& key);
+  /** Bytes as a string in base64 (RFC 4648, section 4). */
+  void add_base64(const std::string& key, std::span<const uint8_t> bytes);
+  /** A value that is JSON already. */
+  void add_json(const std::string& key, const std::string& json);
 
   /** The value on one line, keys in the order of the calls. Bytes that are not UTF-8 become U+FFFD.
    */
-  std::string text() const;
+  const std::string& text() const { return text_; }
+  /** As text(), without a copy; nothing can be added afterwards. */
+  std::string take() { return std::move(text_); }
 
  private:
-  struct Document;
-  std::unique_ptr<Document> document_;
+  /** Writes what comes before a value: comma and key. */
+  void begin_value(const std::string& key);
+  void write_string(const std::string& value);
+
+  std::string text_;
+  /** The last letters of the unfinished objects and arrays, outermost first. */
+  std::vector<char> ends_;
+  /** The next value is the first of its object or array. */
+  bool is_first_ = true;
 };
 
 }  // namespace nao

@@ -38,6 +38,7 @@ LogReader::LogReader(const std::filesystem::path& file) : file_(std::fopen(file.
   if (fault) throw Error("cannot read log " + file.string() + ": " + fault.message());
 }
 
+// The next event with its data.
 std::optional<LogEvent> LogReader::next() {
   auto entry = next_entry();
   if (!entry) return std::nullopt;
@@ -46,6 +47,8 @@ std::optional<LogEvent> LogReader::next() {
 }
 
 std::optional<LogEntry> LogReader::next_entry() {
+  // After damage the next event is found by its sync word, byte by byte; the bytes in between are
+  // counted.
   while (offset_ + kHeaderSize <= size_) {
     if (auto entry = read_entry()) return entry;
     ++offset_;
@@ -62,6 +65,8 @@ std::optional<LogEntry> LogReader::read_entry() {
   if (std::fread(header.data(), 1, header.size(), file_.get()) != header.size()) return {};
   const auto channel_size = static_cast<uint32_t>(big_endian(&header[20], 4));
   const auto data_size = static_cast<uint32_t>(big_endian(&header[24], 4));
+  // Lengths are checked against the file before memory is taken: a damaged header must not ask for
+  // gigabytes.
   const int64_t data_offset = offset_ + kHeaderSize + channel_size;
   if (big_endian(header.data(), 4) != kSync || channel_size == 0 ||
       channel_size > kMaxChannelSize || data_offset + data_size > size_) {

@@ -27,6 +27,7 @@ void set_up(const std::string& program, const std::string& level) {
   spdlog::set_default_logger(logger);
 }
 
+// Formats only what is printed.
 void write(Level level, fmt::string_view format, fmt::format_args arguments) {
   spdlog::logger* logger = spdlog::default_logger_raw();
   if (!logger->should_log(to_spdlog(level))) return;

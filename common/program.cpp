@@ -5,6 +5,7 @@
 
 #include "common/command_line.h"
 #include "common/logger.h"
+#include "common/robot_option.h"
 
 #ifndef NAO_REMOTE_VERSION
 #error "NAO_REMOTE_VERSION comes from the build"
@@ -16,18 +17,7 @@ const char* version() {
   return NAO_REMOTE_VERSION;
 }
 
-namespace {
-
-std::string fault_of_robot_name(const std::string& name) {
-  const bool is_valid =
-      !name.empty() && name.size() <= 20 &&
-      name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
-  return is_valid ? "" : "a robot's name consists of 1 to 20 characters of A-Z, 0-9 and _";
-}
-
-}  // namespace
-
-void add_common_options(CommandLine& app, CommonOptions& options) {
+void add_bus_options(CommandLine& app, CommonOptions& options) {
   app.add_version_flag("--version", app.name() + " " + version());
   app.add_option("--lcm-url", options.lcm_url, "URL of the message bus")
       ->from_environment("LCM_DEFAULT_URL")
@@ -35,6 +25,10 @@ void add_common_options(CommandLine& app, CommonOptions& options) {
   app.add_option("--log-level", options.log_level, "Minimum severity of printed log lines")
       ->one_of({"trace", "debug", "info", "warning", "error"})
       ->show_default();
+}
+
+void add_common_options(CommandLine& app, CommonOptions& options) {
+  add_bus_options(app, options);
   app.add_option("--robot", options.robot, "Name of the robot: prefix of its channels")
       ->check(fault_of_robot_name, "NAME")
       ->show_default();
@@ -48,6 +42,7 @@ int run_program(CommandLine& app, const CommonOptions& common, int argc, char** 
   });
 }
 
+// Exit status: the body's own, 1 after an error, 2 after a wrong command line.
 int run_program_with_status(CommandLine& app, const CommonOptions& common, int argc, char** argv,
                             const std::function<int()>& body) {
   if (const auto status = app.parse(argc, argv)) return *status;

@@ -20,7 +20,10 @@ struct CommonOptions {
 /** Version of the whole project, such as "0.1.0". */
 const char* version();
 
-/** Adds --version, --lcm-url, --log-level and --robot to a program's options. */
+/** Adds --version, --lcm-url and --log-level to a program's options. */
+void add_bus_options(CommandLine& app, CommonOptions& options);
+
+/** Adds those and --robot to a program's options. */
 void add_common_options(CommandLine& app, CommonOptions& options);
 
 /** Runs a program: parses the command line, sets up logging to stderr, runs the body.

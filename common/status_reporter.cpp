@@ -19,6 +19,7 @@ StatusReporter::StatusReporter(Bus& bus, std::string program)
   if (gethostname(host.data(), host.size() - 1) == 0) host_ = host.data();
 }
 
+// Mean and worst period between two ticks since the last status.
 void StatusReporter::tick(double now) {
   if (last_tick_ > 0) {
     const double period = now - last_tick_;

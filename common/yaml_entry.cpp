@@ -30,6 +30,7 @@ YamlEntry YamlEntry::parse(const std::string& text, const std::string& name, Thr
   }
 }
 
+// Linear search: files are small and are read at start.
 YamlEntry YamlEntry::at(const std::string& key) const {
   for (const auto& [name, entry] : entries()) {
     if (name == key) {
@@ -45,6 +46,7 @@ bool YamlEntry::has(const std::string& key) const {
                      [&key](const auto& entry) { return entry.first == key; });
 }
 
+// A misspelled key would otherwise silently keep a default.
 void YamlEntry::allow_only(std::initializer_list<const char*> keys) const {
   for (const auto& [name, entry] : entries()) {
     if (std::find(keys.begin(), keys.end(), name) == keys.end()) {
@@ -87,6 +89,7 @@ std::vector<YamlEntry> YamlEntry::items() const {
 }
 
 std::string YamlEntry::text() const {
+  // An empty value is a forgotten one.
   if (!node_.IsScalar() || node_.Scalar().empty()) {
     fail("must be a non-empty string");
   }

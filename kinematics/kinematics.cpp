@@ -61,6 +61,7 @@ void Kinematics::update(const std::vector<double>& position) {
   center_of_mass_ /= mass_;
 }
 
+// In the torso frame T, m per rad; `point` in T as well.
 Eigen::Matrix3Xd Kinematics::calc_point_jacobian(int link, const Eigen::Vector3d& point) const {
   Eigen::Matrix3Xd jacobian = Eigen::Matrix3Xd::Zero(3, model_->num_motors());
   for (int joint = model_->links()[link].parent_joint; joint >= 0;
@@ -90,6 +91,7 @@ Eigen::Matrix3Xd Kinematics::calc_angular_jacobian(int link) const {
 }
 
 Eigen::Matrix3Xd Kinematics::calc_center_of_mass_jacobian() const {
+  // Cost is linear in the number of links, in contrast to a sum over pairs of joints and links.
   // All links beyond a joint turn with it as one body (composite rigid body): sum their masses and
   // first moments from the leaves to the root.
   const std::vector<Link>& links = model_->links();

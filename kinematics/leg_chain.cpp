@@ -38,6 +38,7 @@ bool find_roles(const std::array<Eigen::Vector3d, 6>& axis, LegRoles& roles) {
   std::vector<int> yaws;
   for (int i = 0; i < 6; ++i) {
     const int direction = direction_of(axis[i]);
+    // Order along the chain matters: the first roll is the hip's, the last the ankle's.
     (direction == 0 ? rolls : direction == 1 ? pitches : yaws).push_back(i);
     roles.sign[i] = axis[i][direction] < 0 ? -1 : 1;
   }
@@ -48,6 +49,7 @@ bool find_roles(const std::array<Eigen::Vector3d, 6>& axis, LegRoles& roles) {
   roles.knee = pitches[1];
   roles.ankle_pitch = pitches[2];
   roles.ankle_roll = rolls[1];
+  // The three hip joints come before the knee in any order; the knee is the fourth joint.
   const int last_of_hip = std::max({roles.hip_yaw, roles.hip_roll, roles.hip_pitch});
   return last_of_hip < roles.knee && roles.knee == 3;
 }
@@ -64,6 +66,7 @@ LegChain LegChain::read(const RobotModel& model, Leg leg) {
   if (joints.size() != chain.motors.size()) {
     fail("it has " + std::to_string(joints.size()) + " joints of its own instead of 6");
   }
+  // All joints at 0: axes and points of the product of exponentials, in T.
   const std::vector<Eigen::Isometry3d> poses =
       model.link_poses(std::vector<double>(model.num_motors(), 0.0));
   for (size_t i = 0; i < joints.size(); ++i) {
@@ -91,6 +94,7 @@ LegChain LegChain::read(const RobotModel& model, Leg leg) {
 Eigen::Isometry3d LegChain::calc_sole(const LegAngles& angles) const {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  // Product of exponentials: sole(q) = exp(S_1 q_1) ... exp(S_6 q_6) sole(0).
   for (size_t i = 0; i < angles.size(); ++i) {
     // exp(S q): a rotation about the axis through the point.
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(angles[i], axis[i]).toRotationMatrix();

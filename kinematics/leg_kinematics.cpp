@@ -31,6 +31,7 @@ LegKinematics::LegKinematics(const RobotModel& model)
 }
 
 void LegKinematics::choose_method(const RobotModel& model) {
+  // Both legs share the first motor (the NAO's HipYawPitch): neither can be solved alone.
   if (chains_[0].motors[0] == chains_[1].motors[0]) {
     method_ = Method::kCoupled;
     for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
@@ -40,6 +41,7 @@ void LegKinematics::choose_method(const RobotModel& model) {
     reach_ = coupled_[0].thigh + coupled_[0].tibia;
     return;
   }
+  // Both legs must have the closed form; otherwise both are solved numerically.
   for (int i = 0; i < 2; ++i) analytic_[i] = AnalyticLegSolver::make(chains_[i]);
   if (analytic_[0] && analytic_[1]) method_ = Method::kAnalytic;
   const Posture* ready = model.find_posture(model.references().ready);
@@ -50,6 +52,7 @@ void LegKinematics::choose_method(const RobotModel& model) {
     hips_[index(leg)] =
         method_ == Method::kAnalytic ? analytic_[index(leg)]->hip() : c.point[c.roles.hip_pitch];
   }
+  // Length of thigh and tibia: the distance from hip to ankle of a straight leg.
   const LegChain& left = chains_[0];
   const Eigen::Vector3d& knee = left.point[left.roles.knee];
   reach_ = (hips_[0] - knee).norm() + (knee - left.point[left.roles.ankle_pitch]).norm();
@@ -57,6 +60,8 @@ void LegKinematics::choose_method(const RobotModel& model) {
 
 LegKinematics::CoupledLeg LegKinematics::read_coupled(const RobotModel& model, Leg leg) {
   const LegDescription& description = model.legs()[index(leg)];
+  // The closed form below assumes the NAO's geometry; a model that differs is refused at start with
+  // what differs, instead of solving wrongly.
   const auto require = [&](bool holds, const std::string& what) {
     if (!holds) {
       throw ModelError(std::string(leg == Leg::kLeft ? "the left" : "the right") + " leg of " +
@@ -98,6 +103,7 @@ LegKinematics::CoupledLeg LegKinematics::read_coupled(const RobotModel& model, L
   result.thigh = -origin(3).z();
   result.tibia = -origin(4).z();
   result.sole_offset = sole_joint.pose_in_parent.translation();
+  // Axis of HipYawPitch in T: z rotated by `tilt` about x, with the joint's sense as `sign`.
   const Eigen::Vector3d axis = joints[0]->axis;
   result.sign = axis.z() < 0 ? -1 : 1;
   result.tilt = std::atan2(-result.sign * axis.y(), result.sign * axis.z());
@@ -122,6 +128,7 @@ LegSolution LegKinematics::solve_coupled(const CoupledLeg& c,
   const Eigen::Matrix3d& R_TF = sole_in_torso.linear();
   const Eigen::Vector3d p_hip_ankle =
       sole_in_torso.translation() - R_TF * c.sole_offset - c.hip;  // in T
+  // Law of cosines in the triangle hip, knee, ankle.
   const double knee = knee_bend(c.thigh, c.tibia, p_hip_ankle.norm(), solution.is_reachable);
 
   // The hip seen from the ankle, in the foot's axes: AnkleRoll turns it into the plane of the leg.
@@ -130,6 +137,8 @@ LegSolution LegKinematics::solve_coupled(const CoupledLeg& c,
   // below the ankle.
   const double up = std::copysign(std::hypot(q.y(), q.z()), q.z());
   const double ankle_roll = std::atan2(q.y() / up, q.z() / up);
+  // In the plane of the leg: direction of the hip as the bent leg has it, less the one that it must
+  // have.
   const double ankle_pitch =
       std::atan2(-c.thigh * std::sin(knee), c.tibia + c.thigh * std::cos(knee)) -
       std::atan2(q.x(), up);
@@ -137,6 +146,8 @@ LegSolution LegKinematics::solve_coupled(const CoupledLeg& c,
   // The remaining rotation is the hip's: Rz(sign yaw) Rx(roll - tilt) Ry(pitch) in tilted axes.
   const Eigen::Matrix3d N =
       rotation_x(-c.tilt) * R_TF * rotation_x(-ankle_roll) * rotation_y(-(ankle_pitch + knee));
+  // N = Rz(yaw) Rx(roll) Ry(pitch) has N(0,1) = -sin(yaw) cos(roll), N(1,1) = cos(yaw) cos(roll),
+  // N(2,1) = sin(roll), N(2,0) = -cos(roll) sin(pitch), N(2,2) = cos(roll) cos(pitch).
   const double hip_yaw_pitch = c.sign * std::atan2(-N(0, 1), N(1, 1));
   const double hip_roll = std::asin(std::clamp(N(2, 1), -1.0, 1.0)) + c.tilt;
   const double hip_pitch = std::atan2(-N(2, 0), N(2, 2));
@@ -144,13 +155,17 @@ LegSolution LegKinematics::solve_coupled(const CoupledLeg& c,
   return solution;
 }
 
+// With the shared joint given five angles are left for six conditions: the ankle's position and the
+// sole's normal are kept, the foot's heading follows from the rest.
 LegSolution LegKinematics::solve_with_hip_yaw_pitch(Leg leg, const Eigen::Isometry3d& sole_in_torso,
                                                     double hip_yaw_pitch) const {
   const CoupledLeg& c = coupled_[index(leg)];
   LegSolution solution;
   const Eigen::Matrix3d& R_TF = sole_in_torso.linear();
+  // Rotation of the pelvis-side link by HipYawPitch about its tilted axis.
   const Eigen::Matrix3d R_TP =
       rotation_x(c.tilt) * rotation_z(c.sign * hip_yaw_pitch) * rotation_x(-c.tilt);
+  // Ankle seen from the hip, in that link's axes.
   const Eigen::Vector3d p =
       R_TP.transpose() * (sole_in_torso.translation() - R_TF * c.sole_offset - c.hip);
   const double knee = knee_bend(c.thigh, c.tibia, p.norm(), solution.is_reachable);
@@ -179,6 +194,8 @@ LegsSolution LegKinematics::solve_both(const Eigen::Isometry3d& left_sole_in_tor
     const LegSolution right = solve(Leg::kRight, right_sole_in_torso);
     return {left.angles, right.angles, left.is_reachable && right.is_reachable};
   }
+  // Each leg's own solution asks for an angle of the shared motor. Neither foot has its exact
+  // heading at the mean; one with weight 1 does.
   const double hip_yaw_pitch =
       left_weight * solve(Leg::kLeft, left_sole_in_torso).angles[0] +
       (1 - left_weight) * solve(Leg::kRight, right_sole_in_torso).angles[0];
@@ -189,6 +206,7 @@ LegsSolution LegKinematics::solve_both(const Eigen::Isometry3d& left_sole_in_tor
 }
 
 void LegKinematics::write(Leg leg, const LegAngles& angles, std::vector<double>& position) const {
+  // The right leg does not write the shared motor: both solutions have the same angle.
   const bool has_own_first = leg == Leg::kLeft || method_ != Method::kCoupled;
   for (size_t i = has_own_first ? 0 : 1; i < angles.size(); ++i) {
     position[motors(leg)[i]] = angles[i];

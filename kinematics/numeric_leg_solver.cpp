@@ -37,6 +37,8 @@ NumericLegSolver::NumericLegSolver(const LegChain& chain, const LegAngles& start
   }
 }
 
+// Rotation vector and position from the present sole to the goal, both in T. Errors in position are
+// divided by the leg's length, so that 1 rad and one leg length count alike.
 NumericLegSolver::Vector6d NumericLegSolver::calc_error(const Eigen::Isometry3d& goal,
                                                         const LegAngles& angles) const {
   const Eigen::Isometry3d sole = chain_.calc_sole(angles);
@@ -46,8 +48,8 @@ NumericLegSolver::Vector6d NumericLegSolver::calc_error(const Eigen::Isometry3d&
   return error;
 }
 
-NumericLegSolver::Matrix6d NumericLegSolver::calc_jacobian(const Eigen::Isometry3d& /*goal*/,
-                                                           const LegAngles& angles) const {
+NumericLegSolver::Matrix6d NumericLegSolver::calc_jacobian(const LegAngles& angles) const {
+  // Geometric Jacobian of the chain, column by column: axis, and axis x (sole - point on the axis).
   const Eigen::Vector3d sole = chain_.calc_sole(angles).translation();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
@@ -63,11 +65,13 @@ NumericLegSolver::Matrix6d NumericLegSolver::calc_jacobian(const Eigen::Isometry
   return jacobian;
 }
 
+// Levenberg-Marquardt with box constraints by projection: (J^T J + damping I) change = J^T error.
+// Returns the norm of the remaining error.
 double NumericLegSolver::descend(const Eigen::Isometry3d& goal, LegAngles& angles) const {
   Vector6d error = calc_error(goal, angles);
   double damping = kFirstDamping;
   for (int iteration = 0; iteration < kMaxIterations && error.norm() > kExact; ++iteration) {
-    Matrix6d jacobian = calc_jacobian(goal, angles);
+    Matrix6d jacobian = calc_jacobian(angles);
     // A joint at its limit whose gradient leads beyond it is held.
     const Vector6d gradient = jacobian.transpose() * error;
     for (int i = 0; i < 6; ++i) {
@@ -85,6 +89,8 @@ double NumericLegSolver::descend(const Eigen::Isometry3d& goal, LegAngles& angle
       for (int i = 0; i < 6; ++i) {
         next[i] = std::clamp(angles[i] + change[i], chain_.lower[i], chain_.upper[i]);
       }
+      // A step that does not lower the error is repeated with more damping, which shortens it and
+      // turns it towards the gradient.
       const Vector6d next_error = calc_error(goal, next);
       is_better = next_error.squaredNorm() < error.squaredNorm();
       if (is_better) {
@@ -95,6 +101,7 @@ double NumericLegSolver::descend(const Eigen::Isometry3d& goal, LegAngles& angle
         damping *= kRaised;
       }
     }
+    // No damping helps: a local minimum.
     if (!is_better) break;
   }
   return error.norm();
@@ -102,6 +109,8 @@ double NumericLegSolver::descend(const Eigen::Isometry3d& goal, LegAngles& angle
 
 LegSolution NumericLegSolver::solve(const Eigen::Isometry3d& sole_in_torso) const {
   LegSolution solution;
+  // First from the ready posture; a leg that is stretched or at a limit there may need another
+  // bend.
   solution.angles = start_;
   double least = descend(sole_in_torso, solution.angles);
   const LegRoles& roles = chain_.roles;
@@ -124,6 +133,7 @@ LegSolution NumericLegSolver::solve(const Eigen::Isometry3d& sole_in_torso) cons
     least = error;
     solution.angles = angles;
   }
+  // What is not reached within tolerance gets the nearest pose that was found.
   solution.is_reachable = least < kReached;
   return solution;
 }

@@ -29,7 +29,7 @@ class NumericLegSolver {
   double descend(const Eigen::Isometry3d& goal, LegAngles& angles) const;
   /** Error twist of the sole and its Jacobian, lengths in leg lengths. */
   Vector6d calc_error(const Eigen::Isometry3d& goal, const LegAngles& angles) const;
-  Matrix6d calc_jacobian(const Eigen::Isometry3d& goal, const LegAngles& angles) const;
+  Matrix6d calc_jacobian(const LegAngles& angles) const;
 
   LegChain chain_;
   LegAngles start_;

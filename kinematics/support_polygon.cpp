@@ -6,6 +6,7 @@
 namespace nao {
 namespace {
 
+// z component of the cross product: positive where b is to the left of a.
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -14,6 +15,7 @@ double distance_to_segment(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                            const Eigen::Vector2d& point) {
   const Eigen::Vector2d along = b - a;
   const double length_squared = along.squaredNorm();
+  // Parameter of the nearest point on the line, clamped to the segment.
   const double t =
       length_squared > 0 ? std::clamp((point - a).dot(along) / length_squared, 0.0, 1.0) : 0.0;
   return (point - a - t * along).norm();
@@ -31,6 +33,7 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
   if (points.size() < 3) return points;
   std::vector<Eigen::Vector2d> hull(2 * points.size());
   size_t size = 0;
+  // Removes points that do not make a left turn; the hull is counterclockwise and strictly convex.
   const auto add = [&](const Eigen::Vector2d& point, size_t least) {
     while (size >= least + 2 &&
            cross(hull[size - 1] - hull[size - 2], point - hull[size - 2]) <= 0) {
@@ -39,12 +42,14 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
     hull[size++] = point;
   };
   for (const Eigen::Vector2d& point : points) add(point, 0);
+  // The upper hull must not remove points of the lower one.
   const size_t lower_size = size - 1;
   for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower_size);
   hull.resize(size - 1);
   return hull;
 }
 
+// Distance to the nearest edge, m, negative outside; of two points or one always negative or 0.
 double margin_in_polygon(const std::vector<Eigen::Vector2d>& polygon,
                          const Eigen::Vector2d& point) {
   if (polygon.empty()) return std::numeric_limits<double>::quiet_NaN();

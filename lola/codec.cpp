@@ -62,6 +62,8 @@ class FieldReader {
  public:
   explicit FieldReader(std::span<const uint8_t> bytes) : reader_(bytes) {}
 
+  // Reads one map whose keys are the message's field names; foreign keys are skipped, so that a
+  // newer LoLA with more of them can still be read.
   template <class Message>
   LolaDecoding read_map(Message& message) {
     const Token map = reader_.next();
@@ -71,6 +73,8 @@ class FieldReader {
       if (key.kind != Kind::kText) return fault(key.kind, "a key is no text");
       bool is_known = false;
       size_t field = 0;
+      // Linear search over the fields: there are a dozen. `field` is the bit of the field in
+      // found_.
       for_each_field(message, [&](const char* name, auto& values) {
         if (key.text == name) {
           is_known = true;
@@ -128,6 +132,7 @@ class FieldReader {
   }
 
   template <class Values>
+  // A field of a command is optional: it exists once its key was there.
   void read_field(const char* name, uint64_t bit, std::optional<Values>& values) {
     read_field(name, bit, values.emplace());
   }
@@ -140,6 +145,7 @@ class FieldReader {
 
 }  // namespace
 
+// All fields of a state, in LoLA's order, into the caller's memory; returns the number of bytes.
 size_t encode(const LolaState& state, std::span<uint8_t> memory) {
   MsgpackWriter writer(memory);
   size_t num_fields = 0;
@@ -150,6 +156,7 @@ size_t encode(const LolaState& state, std::span<uint8_t> memory) {
   return writer.size();
 }
 
+// Only fields that are set are written; the map's head needs their number before.
 size_t encode(const LolaCommand& command, std::span<uint8_t> memory) {
   MsgpackWriter writer(memory);
   size_t num_fields = 0;
@@ -167,6 +174,7 @@ LolaDecoding decode(std::span<const uint8_t> bytes, LolaState& state) {
   LolaDecoding result = reader.read_map(state);
   if (result.status != LolaDecoding::Status::kDone) return result;
   size_t field = 0;
+  // A state without one of its keys would leave old values in place.
   for_each_field(state, [&](const char* name, const auto& /*values*/) {
     if (reader.has(field++) || result.status != LolaDecoding::Status::kDone) return;
     result = {LolaDecoding::Status::kMalformed, 0, fmt::format("key {} is missing", name)};
@@ -174,6 +182,7 @@ LolaDecoding decode(std::span<const uint8_t> bytes, LolaState& state) {
   return result;
 }
 
+// Every key of a command may be absent: the robot then keeps the last value.
 LolaDecoding decode(std::span<const uint8_t> bytes, LolaCommand& command) {
   command = {};
   return FieldReader(bytes).read_map(command);

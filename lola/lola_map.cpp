@@ -29,6 +29,8 @@ int read_motor(const RobotModel& model, const YamlEntry& entry, const std::strin
   return motor;
 }
 
+// All motors exactly once: LoLA's arrays have no room for others, and a motor that is not listed
+// would never move.
 void read_joints(const RobotModel& model, const YamlEntry& list, LolaMap& map) {
   if (model.num_motors() != static_cast<int>(kLolaJoints)) {
     list.fail("is for " + std::to_string(kLolaJoints) + " motors; the robot has " +
@@ -68,6 +70,7 @@ void read_signs(const YamlEntry& list, std::array<double, N>& signs) {
 }
 
 template <class Values>
+// Lights are all arrays of floats but the joints'.
 constexpr bool kIsLight = false;
 template <size_t N>
 constexpr bool kIsLight<std::array<float, N>> = N != kLolaJoints;
@@ -111,6 +114,7 @@ LolaMap LolaMap::load(const RobotModel& model) {
   const auto found = std::find(map.touch.begin(), map.touch.end(), button);
   if (found == map.touch.end()) file.at("start_button").fail("names no entry of touch");
   map.start_button = static_cast<size_t>(found - map.touch.begin());
+  // A key is known if setting its light works.
   LolaCommand probe;
   for (const auto& [name, key] : file.at("lights").entries()) {
     if (!set_light(probe, key.text(), {0, 0, 0}))
@@ -127,6 +131,7 @@ LolaMap LolaMap::load(const RobotModel& model) {
   return map;
 }
 
+// Joint arrays in LoLA's order; signs for angles only, since stiffness has none.
 std::array<float, kLolaJoints> LolaMap::to_lola(std::span<const double> values,
                                                 bool is_angle) const {
   std::array<float, kLolaJoints> result{};
@@ -148,6 +153,8 @@ void LolaMap::from_lola(const std::array<float, kLolaJoints>& values, bool is_an
 bool set_light(LolaCommand& command, const std::string& key, const std::array<double, 3>& rgb) {
   return with_light(command, key, [&](auto& values) {
     auto& lights = values.emplace();
+    // All red values come first, then all green, then all blue; white lights get the brightest
+    // part.
     const size_t num = num_per_color(lights.size());
     for (size_t i = 0; i < lights.size(); ++i) {
       lights[i] =
@@ -156,6 +163,7 @@ bool set_light(LolaCommand& command, const std::string& key, const std::array<do
   });
 }
 
+// The mean over the lights of a group, 0 to 1; black where the command does not have the key.
 std::array<double, 3> light_color(const LolaCommand& command, const std::string& key) {
   std::array<double, 3> rgb{};
   with_light(command, key, [&](const auto& values) {

@@ -4,6 +4,7 @@
 
 namespace nao {
 
+// Big-endian number of some bytes. `is_there` becomes false, and stays so, when the input ends.
 uint64_t MsgpackReader::read(size_t num_bytes, bool& is_there) {
   is_there = is_there && bytes_.size() - position_ >= num_bytes;
   if (!is_there) return 0;
@@ -37,6 +38,7 @@ MsgpackReader::Token MsgpackReader::floating(size_t num_bytes) {
 }
 
 MsgpackReader::Token MsgpackReader::text(Kind kind, uint64_t size, bool is_there) {
+  // The length comes from outside: compared with what is left before any use.
   if (!is_there || bytes_.size() - position_ < size) return {};
   const auto* begin = reinterpret_cast<const char*>(bytes_.data() + position_);
   position_ += size;
@@ -52,6 +54,8 @@ MsgpackReader::Token MsgpackReader::next() {
   bool is_there = true;
   const uint64_t first = read(1, is_there);
   if (!is_there) return {};
+  // First bytes of the MessagePack specification: positive fixint, fixmap, fixarray, fixstr and
+  // negative fixint carry their value or length themselves.
   if (first <= 0x7f) return number(first, true);
   if (first <= 0x8f) return head(Kind::kMap, first & 0x0f, true);
   if (first <= 0x9f) return head(Kind::kArray, first & 0x0f, true);
@@ -65,6 +69,7 @@ MsgpackReader::Token MsgpackReader::next() {
     case 0xc2:
     case 0xc3:
       return {Kind::kBool, static_cast<double>(first & 1), {}, 0};
+    // bin 8, 16, 32.
     case 0xc4:
     case 0xc5:
     case 0xc6: {
@@ -75,6 +80,7 @@ MsgpackReader::Token MsgpackReader::next() {
       return floating(4);
     case 0xcb:
       return floating(8);
+    // uint 8 to 64; a value that a double does not hold exactly is rounded.
     case 0xcc:
     case 0xcd:
     case 0xce:
@@ -87,17 +93,20 @@ MsgpackReader::Token MsgpackReader::next() {
     case 0xd2:
     case 0xd3:
       return signed_number(size_t{1} << (first - 0xd0));
+    // str 8, 16, 32.
     case 0xd9:
     case 0xda:
     case 0xdb: {
       const uint64_t size = length(size_t{1} << (first - 0xd9));
       return text(Kind::kText, size, is_there);
     }
+    // array 16, 32.
     case 0xdc:
     case 0xdd: {
       const uint64_t size = length(size_t{2} << (first - 0xdc));
       return head(Kind::kArray, size, is_there);
     }
+    // map 16, 32.
     case 0xde:
     case 0xdf: {
       const uint64_t size = length(size_t{2} << (first - 0xde));
@@ -109,6 +118,7 @@ MsgpackReader::Token MsgpackReader::next() {
   }
 }
 
+// Without recursion: the depth of nesting comes from outside and must not use the stack.
 MsgpackReader::Kind MsgpackReader::skip() {
   const Token first = next();
   // Values that are still to come. Each takes one byte at least, so a count that the input cannot
@@ -127,6 +137,7 @@ MsgpackReader::Kind MsgpackReader::skip() {
   return first.kind;
 }
 
+// A message that does not fit is told by is_full_, not written beyond the memory.
 void MsgpackWriter::byte(uint64_t value) {
   if (size_ == memory_.size()) {
     is_full_ = true;
@@ -157,6 +168,7 @@ void MsgpackWriter::array(size_t num_elements) {
   }
 }
 
+// float 32, as in LoLA's own messages.
 void MsgpackWriter::number(float value) {
   byte(0xca);
   bytes(std::bit_cast<uint32_t>(value), 4);

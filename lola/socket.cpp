@@ -51,6 +51,8 @@ UnixSocket& UnixSocket::operator=(UnixSocket&& other) noexcept {
   return *this;
 }
 
+// A socket's file outlives its program. If nobody answers at it, it is removed; if somebody does,
+// that program must not be cut off.
 UnixSocket UnixSocket::listen(const std::string& path) {
   const sockaddr_un address = address_of(path);
   const int error = connect_to(address, make_socket());
@@ -59,6 +61,7 @@ UnixSocket UnixSocket::listen(const std::string& path) {
     throw Error("another program listens at " + path + " already");
   }
   std::error_code ignored;
+  // Only a socket is removed, never another file of that name.
   if (error == ECONNREFUSED && std::filesystem::is_socket(path, ignored)) unlink(path.c_str());
   UnixSocket result = make_socket();
   const auto* generic = reinterpret_cast<const sockaddr*>(&address);
@@ -85,6 +88,7 @@ std::optional<UnixSocket> UnixSocket::connect(const std::string& path) {
 template <class Incoming>
 void LolaConnection<Incoming>::receive() {
   if (!end_.empty()) return;
+  // Without free memory next() has found an error, or the caller does not take messages out.
   const std::span<uint8_t> memory = stream_.free_memory();
   if (memory.empty()) return;
   const ssize_t num_bytes = recv(socket_.descriptor(), memory.data(), memory.size(), 0);
@@ -107,6 +111,8 @@ bool LolaConnection<Incoming>::next(Incoming& message) {
 template <class Incoming>
 void LolaConnection<Incoming>::send(std::span<const uint8_t> message) {
   if (!end_.empty()) return;
+  // MSG_NOSIGNAL: a closed connection is an error here, not SIGPIPE. A message that fits only in
+  // part means that the other end has stopped reading; a later one would be out of step.
   const ssize_t num_bytes =
       ::send(socket_.descriptor(), message.data(), message.size(), MSG_NOSIGNAL);
   if (num_bytes == static_cast<ssize_t>(message.size())) return;

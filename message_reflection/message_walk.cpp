@@ -42,6 +42,7 @@ class WireReader {
   std::string text() {
     const auto size = static_cast<int32_t>(big_endian(4));
     if (size < 1) is_good_ = false;
+    // An invalid length reads nothing.
     const auto characters = take(is_good_ ? static_cast<size_t>(size) : 0);
     if (characters.empty() || characters.back() != 0) {
       is_good_ = false;
@@ -63,6 +64,8 @@ class StructWalk {
 
   void walk() {
     for (const FieldLayout& field : layout_.fields) {
+      // Each field in the order of the .lcm file; the wire format has neither names nor lengths of
+      // fields.
       if (!reader_.is_good()) return;
       walk_dimension(field, 0, field.name);
     }
@@ -85,13 +88,21 @@ class StructWalk {
     // rejected before it causes a long loop.
     if (length > reader_.size_left()) return reader_.fail();
     visitor_.begin_list(key);
+    // Entries of an array are labelled by the string array of the same dimension, such as joints by
+    // joint_names.
+    const std::vector<std::string>* names = depth == 0 ? find_names(field, dimension) : nullptr;
     for (size_t i = 0; i < length && reader_.is_good(); ++i) {
-      const auto names = names_.find(dimension);
-      const bool is_named = depth == 0 && names != names_.end() && i < names->second.size() &&
-                            field.kind != FieldKind::kString;
-      walk_dimension(field, depth + 1, is_named ? names->second[i] : std::to_string(i));
+      const bool is_named = names != nullptr && i < names->size();
+      walk_dimension(field, depth + 1, is_named ? (*names)[i] : std::to_string(i));
     }
     visitor_.end_list();
+  }
+
+  /** Entries of the string array that labels an array; nullptr if there is none. */
+  const std::vector<std::string>* find_names(const FieldLayout& field,
+                                             const std::string& dimension) const {
+    const auto names = names_.find(dimension);
+    return names == names_.end() || field.kind == FieldKind::kString ? nullptr : &names->second;
   }
 
   void walk_value(const FieldLayout& field, const std::string& key) {
@@ -121,6 +132,7 @@ class StructWalk {
   }
 
   void integer(const FieldLayout& field, const std::string& key, int64_t value) {
+    // May be the length of an array that follows.
     if (field.dimensions.empty()) lengths_[field.name] = value;
     const std::string* constant = find_constant_name(field, value);
     if (constant != nullptr) {
@@ -140,12 +152,14 @@ class StructWalk {
     const MessageLayout* layout = find_message_layout(field.type);
     if (layout == nullptr) return reader_.fail();
     visitor_.begin_struct(key);
+    // A walk of its own: lengths and names belong to one struct.
     StructWalk(*layout, reader_, visitor_).walk();
     visitor_.end_struct();
   }
 
   size_t length_of(const std::string& dimension) {
     int64_t length = -1;
+    // A number, or the name of an integer field before it.
     const char* const end = dimension.data() + dimension.size();
     if (std::from_chars(dimension.data(), end, length).ptr != end) {
       const auto place = lengths_.find(dimension);
@@ -174,6 +188,7 @@ void MessageVisitor::enumerator(const std::string& key, int64_t value,
 bool walk_message(const MessageLayout& layout, std::span<const uint8_t> message,
                   MessageVisitor& visitor) {
   WireReader reader(message);
+  // The fingerprint is checked by the caller, who chose the layout by it.
   reader.take(kFingerprintSize);
   StructWalk(layout, reader, visitor).walk();
   return reader.is_good() && reader.is_at_end();

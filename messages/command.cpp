@@ -7,6 +7,8 @@ namespace {
 // app. Chosen.
 constexpr size_t kMaxQuotedLength = 40;
 constexpr size_t kMaxNamesListed = 4;
+// Of a source, characters. Chosen: a host name and a program name fit in.
+constexpr size_t kMaxSourceLength = 64;
 
 }  // namespace
 
@@ -24,6 +26,12 @@ const char* to_string(CommandKind kind) {
       return "action";
     case CommandKind::kStop:
       return "stop";
+    case CommandKind::kPlay:
+      return "play";
+    case CommandKind::kSpeech:
+      return "speech";
+    case CommandKind::kLight:
+      return "light";
   }
   return "unknown";
 }
@@ -46,10 +54,21 @@ const char* to_string(ResultStatus status) {
 
 std::string quoted(const std::string& text) {
   std::string result = "\"" + text.substr(0, kMaxQuotedLength);
+  // What a sender wrote must not break a line of a log, or hide in it.
   for (char& c : result) {
     if (c < ' ' || c > '~') c = '?';
   }
   return result + (text.size() > kMaxQuotedLength ? "...\"" : "\"");
+}
+
+std::optional<Reason> check_sender(const std::string& source, int64_t id) {
+  if (source.empty()) return Reason("source-missing");
+  if (source.size() > kMaxSourceLength) {
+    return Reason("source-too-long",
+                  {std::to_string(source.size()), std::to_string(kMaxSourceLength)});
+  }
+  if (id == 0) return Reason("command-id-zero");
+  return std::nullopt;
 }
 
 std::string describe(const Command& command) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -64,15 +65,27 @@ struct Command {
   /** Sender, and its number for this command. */
   std::string source;
   int64_t id = 0;
-  /** In the order of CommandKind. */
+  /** In the order of the first CommandKinds. */
   std::variant<WalkCommand, MoveToCommand, PostureCommand, JointChangeCommand, ActionCommand,
                StopCommand>
       request;
 };
 
 /** The values are those of command_result_t::COMMAND_KIND_*. */
-enum class CommandKind { kWalk, kMoveTo, kPosture, kJointChange, kAction, kStop };
+enum class CommandKind {
+  kWalk,
+  kMoveTo,
+  kPosture,
+  kJointChange,
+  kAction,
+  kStop,
+  // Not executed by nao-motion.
+  kPlay,
+  kSpeech,
+  kLight,
+};
 
+/** Those that nao-motion executes: the first ones. */
 inline constexpr int kNumCommandKinds = 6;
 
 inline CommandKind kind_of(const Command& command) {
@@ -81,6 +94,10 @@ inline CommandKind kind_of(const Command& command) {
 
 /** Name for logs and users: "joint-change"; "unknown" for a value outside the enumeration. */
 const char* to_string(CommandKind kind);
+
+/** Checks source and number of a command. With a fault in them no result can be remembered.
+ * @return What is wrong; nothing if they are well formed. */
+std::optional<Reason> check_sender(const std::string& source, int64_t id);
 
 /** Content of a command in short, as in motion_state_t::command_name: "Crouch", "kick-left",
  * "HeadYaw, HeadPitch". */

@@ -6,6 +6,7 @@ namespace nao {
 
 bool CommandRetry::should_send(double now) {
   if (has_ended_) return false;
+  // After acceptance the command is repeated more slowly, to hear of its result.
   const double period = is_accepted_ ? timing_.confirm_period : timing_.repeat_period;
   if (last_sent_ && now - *last_sent_ < period) return false;
   last_sent_ = now;
@@ -15,6 +16,7 @@ bool CommandRetry::should_send(double now) {
 bool CommandRetry::handle_result(ResultStatus status, double now) {
   last_heard_ = now;
   if (has_ended_) return false;
+  // Only the first acceptance is news.
   if (status == ResultStatus::kAccepted) return !std::exchange(is_accepted_, true);
   has_ended_ = true;
   return true;

@@ -57,6 +57,7 @@ std::optional<Reason> read_named_joints(const std::vector<std::string>& robot_jo
   }
 
   for (const NamedJointValues& list : lists) {
+    // Joints that are not named keep what the result held.
     list.result.resize(robot_joints.size());
     for (size_t i = 0; i < names.size(); ++i) list.result[joints[i]] = list.values[i];
   }

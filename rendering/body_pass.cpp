@@ -28,6 +28,9 @@ void BodyPass::set_surroundings(const SceneFile& scene) {
   }
 }
 
+// Sorts the instances of this image by pass: what the camera cannot see is left out (view frustum
+// culling with bounding spheres). A body outside of the image may still cast a shadow into it, so
+// that casters are selected on their own.
 void BodyPass::select(const Scene& scene, const RenderView& view, ShadowPass& shadows) {
   opaque_.clear();
   translucent_.clear();
@@ -52,6 +55,7 @@ void BodyPass::select(const Scene& scene, const RenderView& view, ShadowPass& sh
 
 void BodyPass::draw_opaque(const RenderView& view, const ShadowPass& shadows,
                            RenderStatistics& statistics) {
+  // One use() for all instances: only the matrices change from one to the next.
   solid_.use(view, shadows);
   for (const MeshInstance& instance : opaque_) {
     solid_.draw(meshes_.buffer(instance.mesh), instance, view, statistics);

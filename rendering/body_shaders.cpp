@@ -5,6 +5,8 @@
 namespace nao::shaders {
 namespace {
 
+// Colors of meshes are stored as square roots (see encode_color()) and become linear light by
+// squaring.
 const char* const kSolidVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

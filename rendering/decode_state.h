@@ -5,6 +5,7 @@
 
 #include "rendering/world_state.h"
 #include "robot_model/robot_model.h"
+#include "robot_model/robot_models.h"
 
 namespace naolcm {
 class world_truth_t;
@@ -23,7 +24,7 @@ std::vector<double> decode_positions(const RobotModel& model, const std::vector<
 /** @param position  m. @param quaternion  (w, x, y, z), of norm 1 within 0.001. */
 Eigen::Isometry3d decode_pose(const double (&position)[3], const double (&quaternion)[4]);
 
-/** The visible part of the simulated world. */
-WorldState decode_truth(const RobotModel& model, const naolcm::world_truth_t& truth);
+/** The visible part of the simulated world. @param models  Loads those that it does not have. */
+WorldState decode_truth(RobotModels& models, const naolcm::world_truth_t& truth);
 
 }  // namespace nao

@@ -26,6 +26,7 @@ bool has_extension(const char* extensions, const char* name) {
   return padded.find(std::string(" ") + name + " ") != std::string::npos;
 }
 
+// Extension functions are not exported by the library: they are looked up at run time.
 template <class Function>
 Function find(const char* name) {
   return reinterpret_cast<Function>(eglGetProcAddress(name));
@@ -82,9 +83,11 @@ std::vector<EglContext::Candidate> EglContext::candidates(Platform platform) {
   return found;
 }
 
+// Returns why this display cannot be used, or an empty text after it has become current.
 std::string EglContext::open(void* display) {
   if (display == EGL_NO_DISPLAY) return "not supported by this EGL";
   if (eglInitialize(display, nullptr, nullptr) == EGL_FALSE) return failure("eglInitialize");
+  // A display that was initialized must be terminated on every way out.
   const auto give_up = [display](const std::string& why) {
     eglTerminate(display);
     return why;
@@ -124,7 +127,10 @@ std::string EglContext::open(void* display) {
 }
 
 EglContext::EglContext(Platform platform) {
+  // llvmpipe's worker threads: none, unless the environment says otherwise (the last argument keeps
+  // an existing value).
   setenv("LP_NUM_THREADS", "0", 0);
+  // The first candidate that opens is taken; the error lists all with their reasons.
   std::string tried;
   for (const Candidate& candidate : candidates(platform)) {
     const std::string why = open(candidate.display);

@@ -13,6 +13,7 @@ namespace {
  * driver with a lower limit rejects the framebuffer itself. */
 constexpr int kMaxSize = 8192;
 
+// Throws with the driver's log, which names line and reason.
 unsigned compile(const std::string& name, unsigned kind, const std::string& source) {
   const unsigned shader = glCreateShader(kind);
   const char* text = source.c_str();
@@ -29,6 +30,7 @@ unsigned compile(const std::string& name, unsigned kind, const std::string& sour
   return shader;
 }
 
+// Of the framebuffer that is bound.
 void require_complete(const char* what) {
   const unsigned status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
@@ -68,6 +70,7 @@ void ShaderProgram::use() const {
   glUseProgram(id_);
 }
 
+// -1 for a name that the compiler has removed because it has no effect; OpenGL ignores it.
 int ShaderProgram::location(const char* name) const {
   return glGetUniformLocation(id_, name);
 }
@@ -109,6 +112,7 @@ MeshBuffer::MeshBuffer(const Mesh& mesh) : num_indices_(static_cast<int>(mesh.in
   glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(uint32_t)), mesh.indices.data(),
                GL_STATIC_DRAW);
+  // Attribute numbers are those of the shaders' layout(location = ...).
   constexpr int kStride = sizeof(Vertex);
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride,
@@ -186,6 +190,7 @@ void EmptyVertexArray::draw_triangles(int num_vertices) const {
   glDrawArrays(GL_TRIANGLES, 0, num_vertices);
 }
 
+// Color and depth as renderbuffers: they are read back, never sampled.
 Framebuffer::Framebuffer(int width, int height) : width_(width), height_(height) {
   if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize) {
     throw Error("the image size " + std::to_string(width) + "x" + std::to_string(height) +
@@ -244,6 +249,7 @@ ShadowMap::~ShadowMap() {
   glDeleteTextures(1, &texture_);
 }
 
+// Four bytes a pixel: rows are aligned without padding, and BGRA is the drivers' own order.
 void read_pixels(unsigned framebuffer, int width, int height, std::vector<uint8_t>& pixels) {
   pixels.resize(static_cast<size_t>(4) * width * height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);

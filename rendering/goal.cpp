@@ -43,6 +43,8 @@ Mesh make_bar(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float radi
   return bar;
 }
 
+// The roof slopes from the crossbar to the ground at the back; triangles close the sides.
+// Coordinates on the net are in m, for the pattern of strings.
 void append_nets(std::vector<NetCorner>& corners, const GoalFrame& goal) {
   const Eigen::Vector3f left_top(goal.front, goal.half_width, goal.height);
   const Eigen::Vector3f right_top(goal.front, -goal.half_width, goal.height);
@@ -73,6 +75,7 @@ Mesh make_goal(const FieldDimensions& field, const GoalDimensions& goals, int en
   const float r = goal.post_radius;
   for (const float side : {-1.0f, 1.0f}) {
     const float y = side * goal.half_width;
+    // Up to the crossbar's outer edge.
     append(mesh, make_bar({goal.front, y, 0}, {goal.front, y, goal.height + r}, r, kWhite, 16));
     append(mesh,
            make_bar({goal.front, y, kBarRadius}, {goal.back, y, kBarRadius}, kBarRadius, kGrey, 6));

@@ -11,6 +11,7 @@ void set_field(const gl::ShaderProgram& program, const FieldDimensions& field) {
   const auto pair = [](double x, double y) {
     return Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y));
   };
+  // Lengths are passed as the shader uses them: halves of what is symmetric about the center.
   const double strip = field.border_strip_width;
   program.set("half_field", pair(field.length / 2, field.width / 2));
   program.set("half_carpet", pair(field.length / 2 + strip, field.width / 2 + strip));
@@ -46,6 +47,7 @@ void GroundPass::draw_ground(const RenderView& view, const ShadowPass& shadows,
     draw_boxes(lit, {all}, view, shadows, statistics);
   } else {
     draw_boxes(with_shadow, {shadowed}, view, shadows, statistics);
+    // Below and above over the whole width; left and right of it in between.
     draw_boxes(lit,
                {{all.left, all.bottom, all.right, shadowed.bottom},
                 {all.left, shadowed.top, all.right, all.top},
@@ -70,6 +72,7 @@ void GroundPass::draw_boxes(const gl::ShaderProgram& program, const std::vector<
   }
   for (const PixelBox& box : boxes) {
     if (box.is_empty()) continue;
+    // The scissor box limits one large quadrilateral to these pixels.
     glScissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
     vertices_.draw_triangles(6);
     ++statistics.num_draws;
@@ -80,6 +83,7 @@ void GroundPass::draw_sky(const RenderView& view, RenderStatistics& statistics) 
   sky_.use();
   // The projection with the eye at the origin: its inverse gives the direction through each pixel.
   Eigen::Matrix4f eye_at_origin = Eigen::Matrix4f::Identity();
+  // clip_from_world * T(eye) has no translation of the eye left: directions only.
   eye_at_origin.topRightCorner<3, 1>() = view.eye;
   sky_.set("world_from_clip", Eigen::Matrix4f((view.clip_from_world * eye_at_origin).inverse()));
   vertices_.draw_triangles(3);

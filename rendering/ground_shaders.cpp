@@ -5,6 +5,7 @@
 namespace nao::shaders {
 namespace {
 
+// The ground is a square of half side `reach` about the origin, at z = 0.
 // Two triangles, from gl_VertexID.
 const char* const kGroundVertex = R"(
 uniform mat4 clip_from_world;

@@ -11,6 +11,7 @@ namespace nao {
 Image image_from_bgrx(int width, int height, const std::vector<uint8_t>& bgrx) {
   Image image{width, height, {}};
   image.rgb.reserve(static_cast<size_t>(3) * width * height);
+  // From the last row in memory to the first: OpenGL's rows run bottom up, an image's top down.
   for (int v = height - 1; v >= 0; --v) {
     const uint8_t* row = &bgrx[static_cast<size_t>(4) * width * v];
     for (int u = 0; u < width; ++u) {
@@ -43,6 +44,7 @@ Image downsampled(const Image& image, int factor) {
 }
 
 void write_png(const std::filesystem::path& file, const Image& image) {
+  // libpng's simplified interface: it owns what it allocates, also when it fails.
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   png.width = image.width;

@@ -9,6 +9,7 @@ namespace nao {
 MarkingPass::MarkingPass()
     : net_(compile("net", shaders::net())), plain_(compile("plain", shaders::plain())) {}
 
+// The net is the same in every image; its vertices are computed once for a scene.
 void MarkingPass::set_surroundings(const SceneFile& scene) {
   net_vertices_.clear();
   if (!scene.field || !scene.goals) return;
@@ -36,6 +37,7 @@ void MarkingPass::draw_markings(const Scene& scene, const RenderView& view,
       vertices.push_back({corner, triangle.color});
     }
   }
+  // Triangles first: lines are drawn over them.
   stream_.draw_triangles(vertices);
   vertices.clear();
   for (const SceneLine& line : scene.lines) {

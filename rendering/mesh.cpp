@@ -6,6 +6,8 @@
 
 namespace nao {
 
+// Square roots as an approximation of the sRGB curve: 8 bits then resolve dark colors as finely as
+// the screen does. Alpha is linear.
 std::array<uint8_t, 4> encode_color(const Color& color) {
   std::array<uint8_t, 4> encoded{};
   for (int i = 0; i < 4; ++i) {
@@ -15,6 +17,7 @@ std::array<uint8_t, 4> encode_color(const Color& color) {
   return encoded;
 }
 
+// About the center of the bounding box: not the smallest sphere, but near to it.
 BoundingSphere bounding_sphere(const Mesh& mesh) {
   BoundingSphere sphere;
   if (mesh.vertices.empty()) return sphere;
@@ -40,6 +43,8 @@ void append(Mesh& mesh, const Mesh& part, const Eigen::Vector3f& offset) {
   for (const uint32_t index : part.indices) mesh.indices.push_back(first + index);
 }
 
+// Vertex clustering: all vertices in one cell of a grid become one, at their mean; triangles that
+// lose a corner vanish. Good enough for shadows.
 Mesh simplified(const Mesh& mesh, float cell) {
   Mesh coarse;
   std::vector<int> num_merged;

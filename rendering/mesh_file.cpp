@@ -12,6 +12,7 @@
 namespace nao {
 namespace {
 
+// The material's base color (glTF), otherwise the diffuse one; white without either.
 Color base_color(const aiMaterial& material) {
   aiColor4D color(1, 1, 1, 1);
   if (material.Get(AI_MATKEY_BASE_COLOR, color) != AI_SUCCESS) {
@@ -34,6 +35,7 @@ void append(Mesh& mesh, const aiMesh& part, const Color& color, const std::strin
       throw ModelError("mesh " + file + " has a vertex with a non-finite coordinate");
     Vertex vertex;
     vertex.position = {position.x, position.y, position.z};
+    // Degenerate triangles have no normal: they keep the default one.
     if (is_finite(normal)) vertex.normal = {normal.x, normal.y, normal.z};
     vertex.encoded_color = encoded_color;
     mesh.vertices.push_back(vertex);
@@ -52,6 +54,8 @@ void append(Mesh& mesh, const aiMesh& part, const Color& color, const std::strin
 Mesh load_mesh(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) throw ModelError("mesh " + file.string() + " does not exist");
   Assimp::Importer importer;
+  // PreTransformVertices applies the transforms of the file's node tree, so that all parts are in
+  // the mesh's own frame.
   const aiScene* scene = importer.ReadFile(
       file.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals |
                          aiProcess_PreTransformVertices | aiProcess_JoinIdenticalVertices |

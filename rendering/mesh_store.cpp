@@ -9,6 +9,7 @@ constexpr float kShadowCell = 0.014f;
 
 }  // namespace
 
+// Each mesh is kept twice: as it is, and simplified for the shadow map.
 MeshId MeshStore::add(const Mesh& mesh) {
   entries_.push_back({std::make_unique<gl::MeshBuffer>(mesh),
                       std::make_unique<gl::MeshBuffer>(simplified(mesh, kShadowCell)),
@@ -16,6 +17,7 @@ MeshId MeshStore::add(const Mesh& mesh) {
   return static_cast<MeshId>(entries_.size()) - 1;
 }
 
+// A scale that differs by axis makes an ellipsoid of the sphere; its largest half axis bounds it.
 BoundingSphere MeshStore::sphere_in_world(const MeshInstance& instance) const {
   const BoundingSphere& sphere = entries_[instance.mesh].sphere;
   return {instance.pose_in_world * sphere.center.cwiseProduct(instance.scale),

@@ -10,8 +10,10 @@ PinholeCamera PinholeCamera::from_fov(int width, int height, double horizontal_f
   PinholeCamera camera;
   camera.width = width;
   camera.height = height;
+  // tan(fov / 2) = (size / 2) / f.
   camera.fx = width / 2.0 / std::tan(horizontal_fov / 2);
   camera.fy = height / 2.0 / std::tan(vertical_fov / 2);
+  // Pixel centers are at whole numbers: the middle of the image is between the two middle ones.
   camera.cx = (width - 1) / 2.0;
   camera.cy = (height - 1) / 2.0;
   return camera;
@@ -30,6 +32,7 @@ PinholeCamera PinholeCamera::resized(int new_width) const {
   return camera;
 }
 
+// The camera looks along x, y is to the left and z up: u = cx - fx y / x, v = cy - fy z / x.
 Eigen::Vector2d PinholeCamera::project(const Eigen::Vector3d& point_in_camera) const {
   return {cx - fx * point_in_camera.y() / point_in_camera.x(),
           cy - fy * point_in_camera.z() / point_in_camera.x()};
@@ -39,9 +42,12 @@ Eigen::Vector3d PinholeCamera::ray(const Eigen::Vector2d& pixel) const {
   return {1, (cx - pixel.x()) / fx, (cy - pixel.y()) / fy};
 }
 
+// OpenGL's projection (Khronos, glFrustum) with the intrinsics in place of the planes: eye
+// coordinates look along -z, clip coordinates are -1 to 1.
 Eigen::Matrix4f projection_matrix(const PinholeCamera& camera, double near, double far) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
   matrix(0, 0) = 2 * camera.fx / camera.width;
+  // +0.5: OpenGL measures from the corner of the first pixel, the camera from its center.
   matrix(0, 2) = 1 - 2 * (camera.cx + 0.5) / camera.width;
   matrix(1, 1) = 2 * camera.fy / camera.height;
   matrix(1, 2) = 2 * (camera.cy + 0.5) / camera.height - 1;
@@ -51,6 +57,7 @@ Eigen::Matrix4f projection_matrix(const PinholeCamera& camera, double near, doub
   return matrix.cast<float>();
 }
 
+// Camera axes (x forward, y left, z up) to OpenGL's eye axes (x right, y up, z backward).
 Eigen::Matrix4f view_matrix(const Eigen::Isometry3d& pose_camera_in_world) {
   Eigen::Matrix4d eye_from_camera;
   eye_from_camera << 0, -1, 0, 0,  //
@@ -73,12 +80,15 @@ Frustum::Frustum(const Eigen::Matrix4f& clip_from_world) {
   }
 }
 
+// A sphere is outside if it lies wholly behind one plane. Spheres near the frustum's edges may pass
+// although they are not seen: that costs time only.
 bool Frustum::may_see(const Eigen::Vector3f& center, float radius) const {
   return may_see(center, center, radius);
 }
 
 bool Frustum::may_see(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float radius) const {
   for (const Eigen::Vector4f& plane : planes_) {
+    // A capsule: its end that is farther inside decides.
     const float nearest = std::max(plane.head<3>().dot(from), plane.head<3>().dot(to));
     if (nearest + plane.w() < -radius) return false;
   }

@@ -24,6 +24,7 @@ Mesh revolve(const std::vector<OutlinePoint>& outline, const Color& color, int n
   Mesh mesh;
   const auto encoded_color = encode_color(color);
   for (const OutlinePoint& point : outline) {
+    // The seam is listed twice, at 0 and 2 pi: rows of equal length need no case for it.
     for (int side = 0; side <= num_sides; ++side) {
       const float angle = 2 * kPi * static_cast<float>(side) / static_cast<float>(num_sides);
       const float c = std::cos(angle);
@@ -57,6 +58,7 @@ void append_arc(std::vector<OutlinePoint>& outline, float radius, float z, float
   for (int i = 0; i <= num_steps; ++i) {
     const float latitude =
         from + (to - from) * static_cast<float>(i) / static_cast<float>(num_steps);
+    // Exactly 0 at the poles, so that revolve() recognizes them.
     const bool is_pole = std::abs(std::abs(latitude) - kPi / 2) < 1e-4f;
     const float c = is_pole ? 0 : std::cos(latitude);
     outline.push_back({radius * c, z + radius * std::sin(latitude), c, std::sin(latitude)});
@@ -72,6 +74,8 @@ Mesh make_box(const Eigen::Vector3f& size, const Color& color) {
     for (const float sign : {-1.0f, 1.0f}) {
       const Eigen::Vector3f normal = sign * Eigen::Vector3f::Unit(axis);
       const Eigen::Vector3f u = Eigen::Vector3f::Unit((axis + 1) % 3);
+      // Two axes of the face; normal, u and v are right-handed, so that corners run
+      // counterclockwise seen from outside.
       const Eigen::Vector3f v = normal.cross(u);
       const auto first = static_cast<uint32_t>(mesh.vertices.size());
       for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "rendering/robot_shirt.h"
 #include "rendering/scene.h"
+#include "rendering/world_state.h"
 #include "robot_model/robot_model.h"
 
 namespace nao {
@@ -23,6 +26,16 @@ class RobotVisual {
 
   const RobotModel& model() const { return model_; }
 
+  /** Adds the lights that are lit to a scene, unlit by others, as lights are.
+   * @param hidden_link  As in append(). A light that the robot does not have is not drawn. */
+  void append_lights(Scene& scene, const std::vector<Eigen::Isometry3d>& link_poses_in_world,
+                     const std::vector<LitLight>& lights, int hidden_link = -1) const;
+
+  /** Adds the shirt of a team with a number to a scene, on the first link that has visuals: the
+   * torso. @param hidden_link  As in append(). */
+  void append_shirt(Scene& scene, const std::vector<Eigen::Isometry3d>& link_poses_in_world,
+                    int team, int number, int hidden_link = -1) const;
+
   /** Adds the robot to a scene.
    * @param link_poses_in_world  Of all links, in the order of model().links().
    * @param tint  Factor on its colors; an opacity below 1 makes it translucent.
@@ -40,8 +53,23 @@ class RobotVisual {
 
   void add_shape(SceneRenderer& renderer, int link, const Shape& shape);
 
+  /** The surface of a light. */
+  struct LightSurface {
+    std::string name;
+    int link;
+    /** m, in the link's frame. */
+    std::vector<std::array<Eigen::Vector3f, 3>> triangles;
+  };
+
+  void make_torso_shirt(SceneRenderer& renderer);
+
   const RobotModel& model_;
   std::vector<Part> parts_;
+  RobotShirt shirt_;
+  /** Of its band; -1: none. */
+  MeshId shirt_mesh_ = -1;
+  int torso_ = -1;
+  std::vector<LightSurface> lights_;
   std::vector<std::string> problems_;
 };
 

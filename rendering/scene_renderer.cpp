@@ -78,6 +78,8 @@ class SceneRenderer::Passes {
     ground_.draw_ground(view, shadows_, statistics);
     ground_.draw_sky(view, statistics);
 
+    // Translucent things last, over what is behind them. Nets and markings do not write depth, so
+    // that they do not hide each other.
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     bodies_.draw_translucent(view, shadows_, statistics);
@@ -88,6 +90,7 @@ class SceneRenderer::Passes {
     glEnable(GL_CULL_FACE);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
+    // State is left as the viewer's own drawing expects it.
     glBindVertexArray(0);
     glUseProgram(0);
     return statistics;

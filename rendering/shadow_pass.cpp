@@ -21,6 +21,8 @@ constexpr float kOffsetFactor = 2.0f;
 constexpr float kOffsetUnits = 4.0f;
 
 /** Rotation into the axes of the light: z points to the light. */
+// x of the light's axes is across the light and the world's x; the light is never along x
+// (SceneAppearance: from above).
 Eigen::Matrix3f light_from_world(const Eigen::Vector3f& light) {
   Eigen::Matrix3f rotation;
   rotation.row(2) = light;
@@ -33,6 +35,7 @@ Eigen::Matrix3f light_from_world(const Eigen::Vector3f& light) {
  * @param box  m, in the axes of the light. @param light  Unit vector towards it. @return Clip
  * coordinates from world coordinates. */
 Eigen::Matrix4f light_projection(const Eigen::AlignedBox3f& box, const Eigen::Vector3f& light) {
+  // Snapped outwards to multiples of kBoxStep.
   const Eigen::Vector3f lower = (box.min() / kBoxStep).array().floor() * kBoxStep;
   const Eigen::Vector3f upper = (box.max() / kBoxStep).array().ceil() * kBoxStep;
   const Eigen::Vector3f scale = 2 * (upper - lower).cwiseInverse();
@@ -72,6 +75,7 @@ void ShadowPass::add_caster(const MeshInstance& instance, const RenderView& view
     return;
   }
   casters_.push_back(instance);
+  // Box of the caster in the light's axes, around its sphere.
   const Eigen::Vector3f center = light_from_world(light_) * sphere.center;
   casters_box_.extend(Eigen::Vector3f(center.array() - sphere.radius));
   casters_box_.extend(Eigen::Vector3f(center.array() + sphere.radius));
@@ -110,6 +114,7 @@ PixelBox ShadowPass::shadowed_pixels(const RenderView& view) const {
   if (casters_.empty()) return {};
   // Projects the four corners of the map along the light onto the ground, and from there into the
   // image. The shadows on the ground lie between them.
+  // Any depth will do: the ray through a map's corner is along the light.
   const Eigen::Matrix4f world_from_map = shadow_from_world_.inverse();
   Eigen::Vector2f lower = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
   Eigen::Vector2f upper = -lower;
@@ -122,6 +127,7 @@ PixelBox ShadowPass::shadowed_pixels(const RenderView& view) const {
     lower = lower.cwiseMin(clip.head<2>() / clip.w());
     upper = upper.cwiseMax(clip.head<2>() / clip.w());
   }
+  // Clip coordinates -1..1 to pixels, clamped to the image.
   const auto pixel = [](float in_clip, int size) {
     return std::clamp((in_clip + 1) / 2, 0.0f, 1.0f) * static_cast<float>(size);
   };

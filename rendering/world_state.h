@@ -2,11 +2,22 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace nao {
+
+class RobotModel;
+
+/** A light that is lit. */
+struct LitLight {
+  /** As in the robot's lights.yaml. */
+  std::string name;
+  /** Red, green, blue, 0 to 1, as displayed (gamma-encoded). */
+  Eigen::Vector3f rgb = Eigen::Vector3f::Zero();
+};
 
 /** State of one robot, as far as it is visible. */
 struct RobotPose {
@@ -14,6 +25,12 @@ struct RobotPose {
   Eigen::Isometry3d pose_torso_in_world = Eigen::Isometry3d::Identity();
   /** rad (hands: opening), (num_motors), motor order. */
   std::vector<double> position;
+  std::vector<LitLight> lights{};
+  /** Nothing: that of the program which draws it, see RobotModels. */
+  std::shared_ptr<const RobotModel> model{};
+  /** Team (0 or 1) and number on the shirt; 0 and 0: it wears none. */
+  int team = 0;
+  int number = 0;
 };
 
 /** State of the world at one time, as far as it is visible. */

@@ -24,6 +24,7 @@ constexpr double kFroudeVelocity = 0.15;
 
 std::ostringstream make_stream() {
   std::ostringstream text;
+  // Numbers with a point, whatever the user's locale.
   text.imbue(std::locale::classic());
   text.precision(9);
   return text;
@@ -46,6 +47,7 @@ std::string make_sole_name(const RobotModel& model, int side) {
   return name;
 }
 
+// nullopt for legs without an inverse kinematics: such a robot is imported, but cannot walk.
 std::optional<LegKinematics> find_leg_kinematics(const RobotModel& model) {
   try {
     return LegKinematics(model);
@@ -63,6 +65,7 @@ std::string make_group(const RobotModel& model, const std::string& name,
   for (const int motor : motors) {
     const Joint& joint = model.motor_joint(motor);
     Eigen::Index direction = 0;
+    // At the angles 0 in the root's axes: the largest component names the direction.
     (poses[joint.child_link].linear() * joint.axis).cwiseAbs().maxCoeff(&direction);
     if (of_direction[direction] < 0) of_direction[direction] = motor;
   }
@@ -103,6 +106,7 @@ void add_limb_groups(const RobotModel& model, const std::string& side, std::vect
 std::string make_groups(const RobotModel& model) {
   std::string text = "joint_groups:\n";
   std::set<int> known;
+  // Joints that lead to both legs are the waist.
   std::vector<int> waist;
   for (const int joint : model.legs()[0].joints) {
     const auto& right = model.legs()[1].joints;
@@ -119,6 +123,7 @@ std::string make_groups(const RobotModel& model) {
     add_limb_groups(model, name, new_motors(model, model.legs()[side].joints, known),
                     {{"hip", 3}, {"knee", 1}, {"ankle", 2}}, limbs);
   }
+  // What is in no arm, leg or waist: the head.
   std::vector<int> head;
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     if (known.count(motor) == 0) head.push_back(motor);
@@ -135,12 +140,14 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
   if (!legs) return std::nullopt;
   std::vector<double> position(model.num_motors(), 0.0);
   for (int motor = 0; motor < model.num_motors(); ++motor) {
+    // As near to 0 as the limits allow.
     position[motor] = model.clip_to_limits(motor, 0, position);
   }
   Kinematics kinematics(model);
   kinematics.update(std::vector<double>(model.num_motors(), 0.0));
   const std::array<Eigen::Isometry3d, 2> straight = {kinematics.left_sole(),
                                                      kinematics.right_sole()};
+  // Center of the outline, in the sole's frame; the center of mass is brought over it.
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& corner : model.left_sole_outline()) {
     center += corner / static_cast<double>(model.left_sole_outline().size());
@@ -158,9 +165,11 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
     legs->write(Leg::kLeft, solution.left, position);
     legs->write(Leg::kRight, solution.right, position);
     kinematics.update(position);
+    // Fixed-point iteration: soles go ahead by what the center of mass is ahead of them.
     ahead +=
         kinematics.center_of_mass().x() - (kinematics.left_sole().translation().x() + center.x());
   }
+  // A solution beyond a joint's limits is none.
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     if (model.clip_to_limits(motor, position[motor], position) != position[motor]) {
       return std::nullopt;
@@ -183,6 +192,7 @@ void add_posture(const RobotModel& model, const std::string& name, const std::st
 std::string make_structure_text(const RobotModel& model, const RobotStructure& structure,
                                 const std::string& urdf) {
   std::ostringstream text = make_stream();
+  // In the form that RobotModelReader reads.
   const std::string root = quoted(model.links().front().name);
   text << "urdf: " << urdf << "\n\n"
        << "# Frames of the inertial unit.\n"
@@ -212,6 +222,7 @@ std::string make_sole_links(const RobotModel& model, const RobotStructure& struc
     const FoundSole& sole = structure.soles[side];
     const std::string name = make_sole_name(model, side);
     const Eigen::Vector3d xyz = sole.pose_in_foot.translation();
+    // Written below as roll, pitch and yaw of R = Rz(yaw) Ry(pitch) Rx(roll), URDF's order.
     const Eigen::Matrix3d& r = sole.pose_in_foot.linear();
     text << "<link name=\"" << name << "\"/>\n<joint name=\"" << name
          << "_mount\" type=\"fixed\">\n  <parent link=\"" << model.links()[sole.foot].name

@@ -20,6 +20,7 @@ constexpr double kLeastEdge = 1e-3;
 constexpr double kLongRatio = 1.6;
 constexpr double kRoundRatio = 1.5;
 
+// Meshes with all transforms of the file's node tree and the URDF's scale applied.
 const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::path& file,
                           const Eigen::Vector3d& scale) {
   const aiScene* scene = importer.ReadFile(
@@ -69,6 +70,8 @@ void convert_mesh(const std::filesystem::path& source, const Eigen::Vector3d& sc
   }
 }
 
+// The axis-aligned bounding box in the mesh's own frame, or a capsule along its longest axis where
+// that fits better.
 FittedShape fit_shape(const std::vector<Eigen::Vector3d>& points) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& point : points) box.extend(point);
@@ -81,6 +84,7 @@ FittedShape fit_shape(const std::vector<Eigen::Vector3d>& points) {
   const double b = shape.size[(axis + 2) % 3];
   const bool is_round = std::max(a, b) < kRoundRatio * std::min(a, b);
   if (!is_round || longest < kLongRatio * 0.5 * (a + b)) return shape;
+  // The radius is half of the mean of both short sides; the ends are within the box.
   shape.is_capsule = true;
   shape.radius = 0.25 * (a + b);
   shape.length = longest - 2 * shape.radius;

@@ -10,6 +10,7 @@
 #include "kinematics/leg_kinematics.h"
 #include "kinematics/support_polygon.h"
 #include "robot_import/description_text.h"
+#include "robot_import/gait_text.h"
 #include "robot_import/robot_structure.h"
 #include "robot_import/urdf_repair.h"
 #include "robot_model/robot_model.h"
@@ -30,6 +31,8 @@ void write_file(const fs::path& file, const std::string& text) {
   if (!stream) throw ModelError(file.string() + ": cannot be written");
 }
 
+// The steps need one another's results: the model is loaded three times, each time with more of its
+// description.
 void import_into(const fs::path& urdf, const fs::path& folder, Findings& findings) {
   const std::string name = folder.filename().string() + ".urdf";
   RepairedUrdf repaired = repair_urdf(urdf, folder);
@@ -47,6 +50,7 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
 
   const size_t end = repaired.text.rfind("</robot>");
   if (end == std::string::npos) throw ModelError(urdf.string() + ": has no </robot>");
+  // Soles become links of the URDF, so that all programs know their frames.
   write_file(folder / name, repaired.text.insert(end, make_sole_links(tree, structure)));
   const std::string text = make_structure_text(tree, structure, name);
   write_file(folder / "robot.yaml", text);
@@ -54,9 +58,14 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
   write_file(folder / "postures.yaml", make_postures_text(limbs, findings));
   write_file(folder / "robot.yaml", text + make_description_text(limbs));
   write_file(folder / "transitions.yaml", "transitions: []\n");
+  const std::string gait = make_gait_text(limbs);
+  if (!gait.empty()) write_file(folder / "gait.yaml", gait);
+  // The result must load; otherwise the import fails as a whole.
   RobotModel::load(folder);
 }
 
+// What the robot can and cannot do with its description: each missing ability with the file and
+// what to write there.
 class Check {
  public:
   explicit Check(const fs::path& folder) : folder_(folder), model_(RobotModel::load(folder)) {}
@@ -90,6 +99,7 @@ class Check {
       corners.emplace_back((ground * kinematics.right_sole() * point).head<2>());
     }
     const Eigen::Vector2d com = (ground * kinematics.center_of_mass()).head<2>();
+    // Static stability: the distance of the center of mass from the edge of both soles' hull.
     const double margin = margin_in_polygon(convex_hull(corners), com);
     const double height = model_.references().heights.standing;
     if (margin < kStanceMargin * height) {
@@ -108,11 +118,10 @@ class Check {
       add("walking", "", error.what(), "walking needs such legs");
     }
     if (!fs::exists(folder_ / "gait.yaml")) {
-      add("walking", "gait.yaml", "there is no gait", "find one with nao-walk-tuner");
-    }
-    if (model_.foot_sensors().empty()) {
-      add("walking", "robot.yaml", "there are no foot force sensors",
-          "name their links in `foot_sensors` if the robot has them");
+      add("walking", "gait.yaml", "there is no gait", "copy one and tune it with nao-walk-tuner");
+    } else if (read(folder_ / "gait.yaml").find(kUntunedGait) != std::string::npos) {
+      add("walking", "gait.yaml", "the gait is scaled by the legs' length, not tuned",
+          "tune it with nao-walk-tuner");
     }
     if (model_.references().walking_arms.empty()) {
       add("walking", "robot.yaml", "the arms do not swing", "write `walking_arms`");
@@ -168,6 +177,7 @@ Findings import_robot(const fs::path& urdf, const fs::path& folder) {
   }
   fs::create_directories(folder);
   Findings findings;
+  // A folder that is half written would look like a robot.
   try {
     import_into(urdf, folder, findings);
   } catch (...) {

@@ -31,6 +31,7 @@ struct Chain {
   Vector3d point;
 };
 
+// Chains of joints from the root to each link that carries no further joint.
 std::vector<Chain> find_chains(const RobotModel& model, const std::vector<Isometry3d>& poses) {
   std::vector<bool> carries_joint(model.links().size(), false);
   for (const Joint& joint : model.joints()) {
@@ -50,6 +51,7 @@ std::vector<Chain> find_chains(const RobotModel& model, const std::vector<Isomet
   return chains;
 }
 
+// Mirror images at the robot's xz plane, the left one first.
 bool is_pair(const Chain& left, const Chain& right) {
   const double apart = left.point.y() - right.point.y();
   const Vector3d mirrored(right.point.x(), -right.point.y(), right.point.z());
@@ -80,11 +82,13 @@ FoundSole find_sole(const RobotModel& model, const Chain& leg, const std::vector
   FoundSole sole;
   sole.foot = leg.end;
   const Isometry3d& foot = poses[leg.end];
+  // Height of the leg: from its first joint to its last, m.
   const double height =
       poses[model.joints()[leg.joints.front()].child_link].translation().z() - leg.point.z();
   std::vector<Vector3d> corners;
   for (const Shape& shape : model.links()[leg.end].collisions) add_corners(shape, corners);
   double lowest = std::numeric_limits<double>::infinity();
+  // Into the root's frame, with all joints at 0.
   for (Vector3d& corner : corners) {
     corner = foot * corner;
     lowest = std::min(lowest, corner.z());
@@ -95,6 +99,7 @@ FoundSole find_sole(const RobotModel& model, const Chain& leg, const std::vector
     if (corner.z() < lowest + kSoleDepth * height) points.push_back(corner.head<2>() - ankle);
   }
   sole.outline = convex_hull(points);
+  // No shape, or one that touches the ground in a line only.
   if (sole.outline.size() < 3) {
     lowest = leg.point.z() - 0.1 * height;
     const double back = 0.35 * kSoleLength * height;
@@ -106,6 +111,7 @@ FoundSole find_sole(const RobotModel& model, const Chain& leg, const std::vector
                         "the foot has no collision shape with a flat lower side",
                         "a rectangle is assumed as its sole: write the outline into `soles`"});
   }
+  // The sole's frame: level, under the ankle, with the root's heading.
   Isometry3d pose = Isometry3d::Identity();
   pose.translation() << ankle, lowest;
   sole.pose_in_foot = foot.inverse() * pose;
@@ -118,6 +124,7 @@ RobotStructure find_structure(const RobotModel& model, Findings& findings) {
   const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
   const std::vector<Chain> chains = find_chains(model, poses);
   const Chain* legs[2] = {nullptr, nullptr};
+  // Legs are the lowest pair with at least three joints.
   for (const Chain& left : chains) {
     for (const Chain& right : chains) {
       if (!is_pair(left, right) || left.joints.size() < 3) continue;
@@ -126,6 +133,7 @@ RobotStructure find_structure(const RobotModel& model, Findings& findings) {
       legs[1] = &right;
     }
   }
+  // Both chains must end below the root's origin.
   if (legs[0] == nullptr || legs[0]->point.z() >= 0) {
     throw ModelError(
         model.name() +
@@ -137,6 +145,7 @@ RobotStructure find_structure(const RobotModel& model, Findings& findings) {
     structure.soles[side] = find_sole(model, *legs[side], poses, findings);
   }
   const Chain* arms[2] = {nullptr, nullptr};
+  // Arms are the pair with the most joints besides.
   for (const Chain& left : chains) {
     for (const Chain& right : chains) {
       if (!is_pair(left, right) || &left == legs[0] || left.joints.size() < 2) continue;
@@ -165,6 +174,7 @@ Symmetry find_symmetry(const RobotModel& model) {
   Symmetry symmetry;
   for (int motor = 0; motor < model.num_motors(); ++motor) symmetry.mirrors.push_back({motor, 1});
   for (int motor = 0; motor < model.num_motors(); ++motor) {
+    // Each motor's mirror image: the joint whose place and axis are nearest to the reflected ones.
     const Vector3d point = place(motor).cwiseProduct(Vector3d(1, -1, 1));
     // An angular velocity is a pseudovector: its reflection keeps y and reverses x and z.
     const Vector3d image = axis(motor).cwiseProduct(Vector3d(-1, 1, -1));
@@ -178,6 +188,7 @@ Symmetry find_symmetry(const RobotModel& model) {
       best = other;
     }
     if (best < 0) continue;
+    // The sign tells whether the mirrored motion has the same angle or the opposite one.
     symmetry.mirrors[motor] = {best, image.dot(axis(best)) > 0 ? 1.0 : -1.0};
   }
   // Pairs must be mutual.
@@ -191,6 +202,7 @@ Symmetry find_symmetry(const RobotModel& model) {
     if (other == motor) {
       symmetry.pairs.push_back({name, motor, -1});
     } else if (place(motor).y() > place(other).y()) {
+      // A star marks the names of pairs, which are no names of joints.
       symmetry.pairs.push_back({name + "*", motor, other});
     }
   }

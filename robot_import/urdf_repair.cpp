@@ -30,6 +30,8 @@ constexpr double kDensity = 1000;
 
 class UrdfRepair {
  public:
+  // Edits the XML itself, so that everything it does not understand stays as it is. Each repair is
+  // told with line, assumption and what to write instead.
   UrdfRepair(const fs::path& file, const fs::path& folder) : file_(file), folder_(folder) {}
 
   RepairedUrdf run();
@@ -84,6 +86,7 @@ void UrdfRepair::load() {
         file_.filename().string() + ":" + std::to_string(document_.ErrorRow()) +
         ": is not a URDF: " + (document_.Error() ? document_.ErrorDesc() : "no <robot> element"));
   }
+  // xacro's output is a URDF; its input cannot be understood without it.
   if (text.str().find("<xacro:") != std::string::npos ||
       text.str().find("${") != std::string::npos) {
     fail(robot_, "is the input of xacro", "run `xacro FILE.xacro > FILE.urdf` and import that");
@@ -91,6 +94,7 @@ void UrdfRepair::load() {
 }
 
 void UrdfRepair::find_root() {
+  // The root is the only link that is no joint's child.
   std::set<std::string> children;
   for (const TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {
@@ -114,6 +118,7 @@ void UrdfRepair::find_root() {
   if (result_.root.empty()) fail(robot_, "has no root link", "remove the cycle of joints");
 }
 
+// The robot's mass, for the assumed torque limits.
 void UrdfRepair::measure_mass() {
   for (const TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
@@ -127,6 +132,7 @@ void UrdfRepair::measure_mass() {
   }
 }
 
+// Joints that the programs cannot move become fixed at 0.
 void UrdfRepair::hold(TiXmlElement& joint, const std::string& element) {
   note(Severity::kRepaired, joint, element, std::string("is ") + joint.Attribute("type"),
        "it is held at 0 (fixed)");
@@ -146,6 +152,7 @@ void UrdfRepair::repair_limit(TiXmlElement& joint, const std::string& element, b
   const double none = std::numeric_limits<double>::quiet_NaN();
   const double lower = read_number(*limit, "lower", none);
   const double upper = read_number(*limit, "upper", none);
+  // Written so that missing numbers (NaN) get the assumed range as well.
   if (is_continuous || !(lower < upper)) {
     limit->SetAttribute("lower", to_text(-kRange).c_str());
     limit->SetAttribute("upper", to_text(kRange).c_str());
@@ -204,6 +211,8 @@ void UrdfRepair::repair_inertial(TiXmlElement& link, const std::string& element)
   Eigen::Matrix3d matrix;
   matrix << of("ixx"), of("ixy"), of("ixz"), of("ixy"), of("iyy"), of("iyz"), of("ixz"), of("iyz"),
       of("izz");
+  // As in UrdfFile::convert_inertial(): principal moments of a rigid body obey the triangle
+  // inequality.
   const Eigen::Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
   if (moments(0) > 0 && moments(2) <= (moments(0) + moments(1)) * (1 + 1e-9)) return;
@@ -218,6 +227,7 @@ void UrdfRepair::repair_inertial(TiXmlElement& link, const std::string& element)
 }
 
 fs::path UrdfRepair::find_mesh(const std::string& name) const {
+  // The scheme says how a path is found; what follows is searched beside the file.
   std::string path = name;
   for (const char* scheme : {"package://", "model://", "file://"}) {
     if (path.rfind(scheme, 0) == 0) path = path.substr(std::string(scheme).size());
@@ -245,6 +255,7 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
   const std::string name = mesh.Attribute("filename") == nullptr ? "" : mesh.Attribute("filename");
   const fs::path source = find_mesh(name);
   if (source.empty()) {
+    // A missing visual only looks bad; a missing collision shape changes the physics.
     note(is_collision ? Severity::kMissing : Severity::kRepaired, mesh, element,
          "mesh \"" + name + "\" is neither beside the URDF nor in the folders above it",
          is_collision ? "the link collides with nothing: put the file there and import again"
@@ -274,6 +285,7 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
       primitive.SetAttribute("size", to_text(fitted.size).c_str());
     }
     geometry.InsertEndChild(primitive);
+    // The fitted shape is in the mesh's frame, which the origin places in the link.
     write_origin(shape, read_origin(shape) * fitted.pose);
     shape.SetAttribute("name",
                        (source.stem().string() + (fitted.is_capsule ? "_capsule" : "")).c_str());
@@ -314,6 +326,7 @@ void UrdfRepair::repair_cylinder(TiXmlElement& shape, TiXmlElement& geometry,
 void UrdfRepair::repair_shapes(TiXmlElement& link, const char* kind, const std::string& element) {
   const bool is_collision = std::string(kind) == "collision";
   for (TiXmlElement* shape = link.FirstChildElement(kind); shape != nullptr;) {
+    // Taken before the shape may be removed.
     TiXmlElement* next = shape->NextSiblingElement(kind);
     TiXmlElement* geometry = shape->FirstChildElement("geometry");
     bool stays = geometry != nullptr && geometry->FirstChildElement() != nullptr;
@@ -334,6 +347,7 @@ RepairedUrdf UrdfRepair::run() {
   load();
   find_root();
   measure_mass();
+  // Joints first: links do not depend on them, but what is held does.
   for (TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {
     repair_joint(*joint);
@@ -354,6 +368,7 @@ RepairedUrdf UrdfRepair::run() {
     repair_shapes(*link, "visual", element);
     repair_shapes(*link, "collision", element);
   }
+  // Extensions of other programs, which may name files that are not here.
   for (const char* kind : {"transmission", "gazebo", "ros2_control", "sensor"}) {
     while (TiXmlElement* extension = robot_->FirstChildElement(kind))
       robot_->RemoveChild(extension);

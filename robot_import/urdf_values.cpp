@@ -17,6 +17,7 @@ std::optional<std::vector<double>> read_numbers(const TiXmlElement& element, con
   stream.imbue(std::locale::classic());
   std::vector<double> numbers;
   for (double number = 0; stream >> number;) numbers.push_back(number);
+  // All of the text must be numbers, and as many as asked for.
   const bool is_right = stream.eof() && numbers.size() == count &&
                         std::all_of(numbers.begin(), numbers.end(),
                                     [](double number) { return std::isfinite(number); });
@@ -47,6 +48,7 @@ Eigen::Isometry3d read_origin(const TiXmlElement& parent) {
   if (const auto xyz = read_numbers(*origin, "xyz", 3)) {
     pose.translation() = Eigen::Vector3d(xyz->data());
   }
+  // URDF: fixed axes roll, pitch, yaw, that is R = Rz Ry Rx.
   if (const auto rpy = read_numbers(*origin, "rpy", 3)) {
     pose.linear() = (Eigen::AngleAxisd((*rpy)[2], Eigen::Vector3d::UnitZ()) *
                      Eigen::AngleAxisd((*rpy)[1], Eigen::Vector3d::UnitY()) *

@@ -12,6 +12,7 @@ using Eigen::Vector3d;
 /** Support mapping: the corner of the inner box that is farthest in a direction. */
 Vector3d support(const RoundedBox& box, const Vector3d& direction) {
   const Vector3d local = box.rotation.transpose() * direction;
+  // copysign also for half lengths of 0, which then give 0: spheres and capsules need no case.
   const Vector3d corner(std::copysign(box.half.x(), local.x()),
                         std::copysign(box.half.y(), local.y()),
                         std::copysign(box.half.z(), local.z()));
@@ -59,6 +60,7 @@ double nearest_on_triangle(const Vector3d& a, const Vector3d& b, const Vector3d&
   // Not a degenerate triangle (the squared area of one with sides of 30 nm).
   if (area > 1e-30) {
     // Barycentric coordinates of 0's projection onto the plane.
+    // u = [0 b c] / [a b c] areas with their signs, by cross products in the triangle's plane.
     const double u = b.cross(c).dot(normal) / area;
     const double v = c.cross(a).dot(normal) / area;
     const double w = 1 - u - v;
@@ -69,6 +71,7 @@ double nearest_on_triangle(const Vector3d& a, const Vector3d& b, const Vector3d&
       return (u * a + v * b + w * c).squaredNorm();
     }
   }
+  // Outside, or degenerate: the nearest point is on an edge.
   const Vector3d* corners[] = {&a, &b, &c};
   double best = -1;
   for (int i = 0; i < 3; ++i) {
@@ -79,6 +82,7 @@ double nearest_on_triangle(const Vector3d& a, const Vector3d& b, const Vector3d&
     best = distance;
     weight[i] = pair[0];
     weight[j] = pair[1];
+    // 3 - i - j is the index of the third corner.
     weight[3 - i - j] = 0;
   }
   return best;
@@ -96,6 +100,7 @@ bool nearest_on_tetrahedron(const Simplex& simplex, double* weight) {
     const Vector3d& c = simplex.vertices[face[2]].difference;
     const Vector3d& opposite = simplex.vertices[face[3]].difference;
     const Vector3d normal = (b - a).cross(c - a);
+    // 0 and the fourth corner on the same side of a face: the face does not separate them.
     const double side_of_zero = -a.dot(normal);
     const double side_of_opposite = (opposite - a).dot(normal);
     const bool is_flat = std::abs(side_of_opposite) < 1e-15;
@@ -121,6 +126,7 @@ bool reduce(Simplex& simplex) {
     nearest_on_triangle(v[0].difference, v[1].difference, v[2].difference, weight);
   }
   if (simplex.size == 4 && !nearest_on_tetrahedron(simplex, weight)) return false;
+  // Corners with weight 0 do not carry the nearest point, and make room for the next vertex.
   int kept = 0;
   for (int i = 0; i < simplex.size; ++i) {
     if (weight[i] <= 0) continue;
@@ -132,6 +138,8 @@ bool reduce(Simplex& simplex) {
   return true;
 }
 
+// Distance, normal and contact point of the rounded shapes from the nearest points of the inner
+// ones.
 Proximity from_core_points(const RoundedBox& a, const RoundedBox& b, const Vector3d& on_a,
                            const Vector3d& on_b, double distance) {
   Proximity result;
@@ -152,15 +160,18 @@ Proximity least_overlap(const RoundedBox& a, const RoundedBox& b) {
   const auto try_axis = [&](const Vector3d& direction) {
     const double length = direction.norm();
     if (length < 1e-9) return;
+    // Projections of both boxes on the axis: half lengths weighted with |cosines|.
     const Vector3d axis = direction / length;
     const double reach = (a.rotation.transpose() * axis).cwiseAbs().dot(a.half) +
                          (b.rotation.transpose() * axis).cwiseAbs().dot(b.half);
     const double along = offset.dot(axis);
+    // How far the boxes must be moved along the axis until they are apart.
     const double overlap = reach - std::abs(along);
     if (least >= 0 && overlap >= least) return;
     least = std::max(overlap, 0.0);
     best = along >= 0 ? axis : Vector3d(-axis);
   };
+  // 15 axes: 3 faces of each box and 9 pairs of edges; parallel edges give none.
   for (int i = 0; i < 3; ++i) {
     try_axis(a.rotation.col(i));
     try_axis(b.rotation.col(i));
@@ -191,9 +202,11 @@ bool closest_of_lines(const RoundedBox& a, const RoundedBox& b, Proximity& resul
   const double vr = v.dot(r);
   const double determinant = uu * vv - uv * uv;
   double s = 0;
+  // Parallel segments keep s = 0, the middle of a; t is then found for it.
   if (determinant > 1e-12 * uu * vv) {
     s = std::clamp((uv * vr - ur * vv) / determinant, -1.0, 1.0);
   }
+  // Best t for this s, clamped, and again the best s for this t: exact for two segments.
   double t = vv > 0 ? (uv * s + vr) / vv : 0.0;
   if (t < -1 || t > 1) t = std::clamp(t, -1.0, 1.0);
   if (uu > 0) s = std::clamp((uv * t - ur) / uu, -1.0, 1.0);
@@ -218,9 +231,13 @@ Proximity closest_points(const RoundedBox& a, const RoundedBox& b) {
   constexpr double kTolerance = 1e-10;
   Simplex simplex;
   Vector3d nearest = a.center - b.center;
+  // The centers coincide: there is no direction to begin with.
   if (nearest.squaredNorm() == 0) return least_overlap(a, b);
+  // GJK iteration. Invariant: `nearest` is the point of the simplex nearest to 0, a point of the
+  // Minkowski difference a - b; |nearest| never increases and ends as the distance.
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     Vertex vertex;
+    // Vertex of the difference that is farthest towards 0.
     vertex.on_a = support(a, -nearest);
     vertex.on_b = support(b, nearest);
     vertex.difference = vertex.on_a - vertex.on_b;
@@ -238,6 +255,7 @@ Proximity closest_points(const RoundedBox& a, const RoundedBox& b) {
   }
   Vector3d on_a = Vector3d::Zero();
   Vector3d on_b = Vector3d::Zero();
+  // The same barycentric weights give the nearest points on both inner boxes.
   for (int i = 0; i < simplex.size; ++i) {
     on_a += simplex.vertices[i].weight * simplex.vertices[i].on_a;
     on_b += simplex.vertices[i].weight * simplex.vertices[i].on_b;

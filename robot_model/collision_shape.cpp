@@ -12,6 +12,7 @@ RoundedBox rounded_box_in_link(const Link& link, const Shape& shape, double edge
   box.rotation = shape.pose_in_link.linear();
   switch (shape.kind) {
     case Shape::Kind::kBox:
+      // A quarter of the thinnest side at most, so that an inner box remains.
       box.radius = std::min(edge_radius, shape.size.minCoeff() / 4);
       box.half = shape.size / 2 - Eigen::Vector3d::Constant(box.radius);
       break;

@@ -27,9 +27,12 @@ auto key_of(const Branch& branch) {
 
 std::vector<UrdfEdge> order_joints(const std::string& root, const std::vector<UrdfEdge>& edges,
                                    const std::map<std::string, int>& limb_of_link) {
+  // Children of each link. Order within a link is by limb and place, so that the order does not
+  // depend on that of the URDF's elements.
   std::map<std::string, std::vector<const UrdfEdge*>> edges_of;
   for (const UrdfEdge& edge : edges) edges_of[edge.parent].push_back(&edge);
 
+  // Recursion from the root; each branch knows the least limb rank of its subtree.
   const std::function<std::vector<Branch>(const std::string&)> grow = [&](const std::string& link) {
     std::vector<Branch> branches;
     for (const UrdfEdge* edge : edges_of[link]) {
@@ -51,6 +54,8 @@ std::vector<UrdfEdge> order_joints(const std::string& root, const std::vector<Ur
   };
 
   std::vector<UrdfEdge> ordered;
+  // Depth first, in two passes: first all bodies, then frames without bodies (sensors, cameras).
+  // Within a frame's subtree everything is a frame.
   const std::function<void(const std::vector<Branch>&, bool, bool)> list =
       [&](const std::vector<Branch>& branches, bool bodies, bool inside_frame) {
         for (const Branch& branch : branches) {

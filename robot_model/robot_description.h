@@ -129,6 +129,14 @@ struct BodyHeights {
   double on_feet = 0;
 };
 
+/** Forces by which contact with the ground is told, N. */
+struct ContactForces {
+  /** Least force on a foot in contact. */
+  double contact = 0;
+  /** Difference of the feet's loads at which the other one becomes the support foot. */
+  double support_switch = 0;
+};
+
 /** Bounds of a stance in which a walk can begin, m. */
 struct WalkingStance {
   /** Distance of the soles from each other. */
@@ -149,6 +157,7 @@ struct MotionReferences {
   FallPoses fall;
   std::vector<WalkingArmJoint> walking_arms;
   BodyHeights heights;
+  ContactForces contact_forces;
   WalkingStance walking_stance;
 };
 

@@ -24,6 +24,7 @@ std::vector<Eigen::Vector2d> read_outline(const YamlEntry& list) {
   for (size_t i = 0; i < count; ++i) {
     const Eigen::Vector2d before = outline[(i + 1) % count] - outline[i];
     const Eigen::Vector2d after = outline[(i + 2) % count] - outline[(i + 1) % count];
+    // Exterior angle at the corner, rad, positive for a left turn.
     const double turn =
         std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
     if (turn <= 0) {
@@ -31,6 +32,7 @@ std::vector<Eigen::Vector2d> read_outline(const YamlEntry& list) {
     }
     sum += turn;
   }
+  // A star polygon has left turns only as well, but goes around twice.
   if (sum > 2 * std::numbers::pi + 1e-6) {
     list.fail("goes around more than once");
   }
@@ -50,6 +52,7 @@ void RobotModelReader::read_limbs(const YamlEntry& robot) {
   for (const char* side : {"left", "right"}) {
     ArmDescription arm;
     arm.hand = link_named(robot.at("hands").at(side));
+    // Joints from the torso to the hand, without fixed ones.
     arm.joints = model_.find_chain(arm.hand);
     model_.arms_.push_back(arm);
   }
@@ -68,6 +71,7 @@ void RobotModelReader::read_foot_sensors(const YamlEntry& list) {
     add_unique(names, item);
     const int link = link_named(item);
     const int body = model_.find_body(link);
+    // Sensors belong to the leg whose sole is fixed to the same body.
     const auto leg = std::find_if(
         model_.legs_.begin(), model_.legs_.end(),
         [&](const LegDescription& candidate) { return model_.find_body(candidate.sole) == body; });
@@ -79,6 +83,7 @@ void RobotModelReader::read_foot_sensors(const YamlEntry& list) {
 
 void RobotModelReader::read_symmetry(const YamlEntry& robot) {
   Symmetry& symmetry = model_.symmetry_;
+  // Without an entry a motor is its own mirror image.
   for (int motor = 0; motor < model_.num_motors(); ++motor) symmetry.mirrors.push_back({motor, 1});
   if (!robot.has("mirrored_joints")) return;
   std::set<std::string> names;
@@ -93,10 +98,13 @@ void RobotModelReader::read_symmetry(const YamlEntry& robot) {
     if (pair.right == pair.left) item.at("right").fail("is the left joint, too");
     const double sign = item.at("sign").number();
     if (std::abs(sign) != 1) item.at("sign").fail("must be 1 or -1");
+    // A joint in the middle (HeadYaw) has no partner: it mirrors onto itself, with its sign.
     const int other = pair.right >= 0 ? pair.right : pair.left;
+    // A set, since both may be the same motor.
     for (const int motor : std::set<int>{pair.left, other}) {
       if (!known.insert(motor).second) item.fail("has a joint that appears twice");
     }
+    // A pair's name must not hide another joint; a joint without a partner may have its own name.
     const int named = model_.find_motor(pair.name);
     if (named >= 0 && (named != pair.left || pair.right >= 0)) {
       item.at("name").fail("is the name of a joint");
@@ -121,6 +129,7 @@ void RobotModelReader::read_joint_groups(const YamlEntry& list) {
     group.pitch_motor = motor_of("pitch");
     group.roll_motor = motor_of("roll");
     if (item.has("opening")) {
+      // An opening is shown in the place of the pitch.
       if (item.has("pitch")) item.fail("has both a pitch and an opening");
       group.pitch_motor = motor_of("opening");
       group.is_opening = true;

@@ -45,12 +45,14 @@ int RobotMechanism::find_motor(const std::string& name) const {
   return -1;
 }
 
+// A mimic joint belongs to the motor of the joint that it follows; -1 for fixed joints.
 int RobotMechanism::motor_of(int joint) const {
   const int driver = joints_[joint].mimic_joint >= 0 ? joints_[joint].mimic_joint : joint;
   const auto found = std::find(motor_joints_.begin(), motor_joints_.end(), driver);
   return found == motor_joints_.end() ? -1 : static_cast<int>(found - motor_joints_.begin());
 }
 
+// Walks from the link to the root, and returns the joints from the root on.
 std::vector<int> RobotMechanism::find_chain(int link) const {
   std::vector<int> chain;
   for (int joint = links_[link].parent_joint; joint >= 0;
@@ -61,6 +63,7 @@ std::vector<int> RobotMechanism::find_chain(int link) const {
   return chain;
 }
 
+// The first link above which is not fixed to its parent: rigidly connected links are one body.
 int RobotMechanism::find_body(int link) const {
   int joint = links_[link].parent_joint;
   while (joint >= 0 && joints_[joint].kind == Joint::Kind::kFixed) {
@@ -96,6 +99,8 @@ std::vector<double> RobotMechanism::joint_positions(const std::vector<double>& p
   return angles;
 }
 
+// Forward kinematics in the root's frame. Joints are sorted from the root outwards, so that the
+// parent's pose is known.
 std::vector<Eigen::Isometry3d> RobotMechanism::link_poses(
     const std::vector<double>& position) const {
   const std::vector<double> angles = joint_positions(position);
@@ -112,6 +117,7 @@ double RobotMechanism::clip_to_limits(int motor, double angle,
                                       const std::vector<double>& position) const {
   double lower = motor_joint(motor).lower;
   double upper = motor_joint(motor).upper;
+  // A joint may have several coupled ranges; the narrowest of all counts.
   for (const CoupledLimit& limit : coupled_limits_) {
     if (limit.motor == motor) {
       const double other = position[limit.other_motor];

@@ -23,6 +23,7 @@ Motor read_motor_type(const YamlEntry& entry) {
   return motor;
 }
 
+// The ranks make left arm, left leg, right leg, right arm: NAO's order of joints.
 /** Links at the ends of limbs, and the ranks of the limbs in order_joints(). */
 std::map<std::string, int> find_limbs(const YamlEntry& robot) {
   std::map<std::string, int> limbs;
@@ -60,15 +61,18 @@ RobotModel RobotModelReader::read(const std::filesystem::path& folder) {
                     "walk_limits",
                     "reference_postures",
                     "heights",
+                    "contact_forces",
                     "walking_stance",
                     "walking_arms",
                     "fall_poses",
                     "actions"});
+  // A path could lead out of the folder; only a name is allowed.
   const std::string urdf = robot.at("urdf").text();
   if (std::filesystem::path(urdf).filename() != urdf) {
     robot.at("urdf").fail("must be a file in this folder");
   }
   reader.model_.urdf_file_ = reader.model_.folder_ / urdf;
+  // The URDF first: all other entries refer to its links and joints by name.
   reader.read_urdf(reader.model_.urdf_file_, find_limbs(robot));
   if (robot.has("motors")) {
     reader.read_motors(robot.at("motor_types"), robot.at("motors"));
@@ -82,6 +86,7 @@ RobotModel RobotModelReader::read(const std::filesystem::path& folder) {
   reader.read_symmetry(robot);
   if (robot.has("joint_groups")) reader.read_joint_groups(robot.at("joint_groups"));
   reader.read_contact_clusters(robot);
+  // Postures need coupled limits; reference postures need the postures.
   if (robot.has("actions")) reader.read_actions(robot.at("actions"));
 
   const YamlEntry postures = YamlEntry::load(reader.model_.folder_ / "postures.yaml");
@@ -132,12 +137,14 @@ void RobotModelReader::read_motors(const YamlEntry& types, const YamlEntry& moto
       type.fail("is the unknown motor type \"" + type.text() + "\"");
     }
     model_.motors_[motor] = found->second;
+    // Peak torque and velocity are the URDF's, one source for all programs.
     model_.motors_[motor].peak_torque = model_.motor_joint(motor).max_torque;
     if (model_.motors_[motor].peak_torque < model_.motors_[motor].continuous_torque) {
       type.fail("has a continuous torque above the URDF's effort limit");
     }
     is_known[motor] = true;
   }
+  // Every motor needs a type: a forgotten one would have no torque.
   for (int motor = 0; motor < model_.num_motors(); ++motor) {
     if (!is_known[motor]) {
       motors.fail("lacks \"" + model_.motor_joint(motor).name + "\"");
@@ -170,6 +177,7 @@ void RobotModelReader::estimate_motors(const YamlEntry& robot) {
     motor.dry_friction = 0.015 * joint.max_torque;
     motor.viscous_friction = 0.01 * joint.max_torque / motor.no_load_velocity;
     motor.stiffness_gain = joint.max_torque / peak_error;
+    // Damping ratio 0.9: kd = 2 zeta sqrt(kp J).
     // Nearly critical damping of the rotor alone.
     motor.damping_gain = 1.8 * std::sqrt(motor.stiffness_gain * motor.reflected_inertia);
     model_.motors_.push_back(motor);
@@ -186,6 +194,7 @@ void RobotModelReader::read_coupled_limits(const YamlEntry& list) {
     limit.other_motor = motor_named(item.at("depends_on"));
     if (limit.motor == limit.other_motor) {
       item.fail("depends on itself");
+      // The ranges depend on the other joint's angle: rows of (angle, lower, upper), rad, rising.
     }
     for (const YamlEntry& row : item.at("rows").items()) {
       const std::vector<double> values = row.numbers(3);
@@ -196,6 +205,7 @@ void RobotModelReader::read_coupled_limits(const YamlEntry& list) {
         row.fail("has its limits reversed");
       }
       const Joint& joint = model_.motor_joint(limit.motor);
+      // A row that leaves no part of the joint's own range is a mistake in the file.
       if (values[1] > joint.upper || values[2] < joint.lower) {
         row.fail("is outside the joint's own limits");
       }
@@ -237,6 +247,8 @@ void RobotModelReader::read_inertial_unit(const YamlEntry& entry) {
   model_.gyroscope_ = link_named(entry.at("gyroscope"));
 }
 
+// Which contacts of links are no self-collision: without an entry those of parent and child; with
+// clusters all within a cluster and between clusters that a joint connects.
 void RobotModelReader::read_contact_clusters(const YamlEntry& robot) {
   if (!robot.has("contact_clusters")) {
     for (const Joint& joint : model_.joints_) {
@@ -261,6 +273,7 @@ void RobotModelReader::read_contact_clusters(const YamlEntry& robot) {
   // Clusters that a joint connects.
   std::set<std::pair<int, int>> neighbors;
   for (const Joint& joint : model_.joints_) {
+    // Includes kNone, which no pair below has.
     neighbors.insert(std::minmax(cluster_of[joint.parent_link], cluster_of[joint.child_link]));
   }
   const int num_links = static_cast<int>(model_.links_.size());

@@ -46,6 +46,7 @@ class RobotModelReader {
   void read_actions(const YamlEntry& list);
   void read_labels(const YamlEntry& root);
   void read_heights(const YamlEntry& entry);
+  void read_contact_forces(const YamlEntry& robot);
   void read_walking_stance(const YamlEntry& entry);
   void read_walking_arms(const YamlEntry& entry);
   /** Angles of joints or joint pairs; NaN for joints that are not named. */

@@ -92,6 +92,7 @@ class UrdfFile {
   std::filesystem::path folder_;
 };
 
+// Read twice, by TinyXML for the checks and by urdfdom for the model: the same bytes.
 std::string UrdfFile::text() const {
   if (!std::filesystem::is_regular_file(file_)) {
     throw ModelError(file_.string() + ": the file is missing");
@@ -102,6 +103,7 @@ std::string UrdfFile::text() const {
   return text.str();
 }
 
+// urdfdom reports most errors as messages and goes on; any message is an error here.
 urdf::ModelInterfaceSharedPtr UrdfFile::parse() const {
   const UrdfdomMessages messages;
   urdf::ModelInterfaceSharedPtr model;
@@ -126,9 +128,11 @@ void UrdfFile::describe(const urdf::ModelInterface& urdf, UrdfEdge& edge) const 
   const urdf::JointConstSharedPtr joint = urdf.getJoint(edge.joint);
   const urdf::LinkConstSharedPtr child = urdf.getLink(edge.child);
   if (joint == nullptr || child == nullptr) fail("joint " + edge.joint, "is missing");
+  // A link without mass and collision behind a fixed joint is a frame only.
   edge.is_body = joint->type != urdf::Joint::FIXED || child->inertial != nullptr ||
                  !child->collision_array.empty();
   const urdf::Pose& pose = joint->parent_to_joint_origin_transform;
+  // Sort key for branches of one link that is independent of names: origin, rotation and axis.
   edge.place = {pose.position.x, pose.position.y, pose.position.z, pose.rotation.x, pose.rotation.y,
                 pose.rotation.z, pose.rotation.w, joint->axis.x,   joint->axis.y,   joint->axis.z};
 }
@@ -139,6 +143,7 @@ UrdfTree UrdfFile::tree() const {
   const TiXmlElement* robot = document.FirstChildElement("robot");
   require(robot != nullptr, "robot", "no <robot> element");
 
+  // Names first, so that joints can be checked against them.
   std::set<std::string> links;
   for (const TiXmlElement* link = robot->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
@@ -158,6 +163,7 @@ UrdfTree UrdfFile::tree() const {
     const std::string child = attribute(joint->FirstChildElement("child"), "link", element);
     require(links.count(parent) > 0, element, "its parent \"" + parent + "\" is not a link");
     require(links.count(child) > 0, element, "its child \"" + child + "\" is not a link");
+    // A tree: each link has at most one parent.
     const auto [known, is_new] = joint_of_child.try_emplace(child, name);
     require(is_new, element, "its child \"" + child + "\" is also the child of " + known->second);
     UrdfEdge edge;
@@ -167,6 +173,7 @@ UrdfTree UrdfFile::tree() const {
     tree.edges.push_back(edge);
   }
 
+  // Exactly one link has no parent.
   for (const std::string& link : links) {
     if (joint_of_child.count(link) == 0) {
       require(tree.root.empty(), "link " + link,
@@ -201,6 +208,7 @@ Eigen::Isometry3d UrdfFile::convert(const urdf::Pose& pose, const std::string& e
   Eigen::Isometry3d converted = Eigen::Isometry3d::Identity();
   converted.translation() = convert(pose.position, element);
   Eigen::Quaterniond rotation(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
+  // urdfdom normalizes rpy itself; a norm near 0 or NaN comes from numbers that are not finite.
   require(rotation.coeffs().allFinite() && rotation.norm() > 0.5, element, "rpy is not a rotation");
   converted.linear() = rotation.normalized().toRotationMatrix();
   return converted;
@@ -208,6 +216,7 @@ Eigen::Isometry3d UrdfFile::convert(const urdf::Pose& pose, const std::string& e
 
 std::filesystem::path UrdfFile::mesh_path(const std::string& name,
                                           const std::string& element) const {
+  // Meshes outside the folder would be missing on another computer.
   const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
   require(!name.empty() && relative.is_relative() && *relative.begin() != "..", element,
           "mesh \"" + name + "\" is not inside the robot's folder");
@@ -236,6 +245,7 @@ Shape UrdfFile::convert(const urdf::Geometry* geometry, const urdf::Pose& origin
       break;
     case urdf::Geometry::CYLINDER: {
       const auto* cylinder = static_cast<const urdf::Cylinder*>(geometry);
+      // URDF has no capsule: a cylinder whose name ends in "_capsule" stands for one.
       shape.kind = name.ends_with("_capsule") ? Shape::Kind::kCapsule : Shape::Kind::kCylinder;
       shape.radius = cylinder->radius;
       shape.length = finite(cylinder->length, element, "the length");
@@ -269,12 +279,15 @@ void UrdfFile::convert_inertial(const urdf::Inertial& inertial, const std::strin
       inertial.ixy, inertial.iyy, inertial.iyz,         //
       inertial.ixz, inertial.iyz, inertial.izz;
   require(inertia.allFinite(), element, "the inertia is not finite");
+  // Principal moments, rising. A rigid body's satisfy the triangle inequality, I3 <= I1 + I2, since
+  // I1 + I2 - I3 is twice an integral of a square.
   const Eigen::Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
   require(
       moments(0) > 0 && moments(2) <= (moments(0) + moments(1)) * (1 + 1e-9), element,
       "the inertia is not physical: the principal moments must be above 0, and none larger than "
       "the sum of the others");
+  // Re-expressed in the link's axes.
   link.inertia = pose.linear() * inertia * pose.linear().transpose();
 }
 
@@ -302,6 +315,7 @@ Joint UrdfFile::convert(const urdf::Joint& source) const {
   joint.name = source.name;
   joint.pose_in_parent = convert(source.parent_to_joint_origin_transform, element);
   if (source.type == urdf::Joint::FIXED) {
+    // A fixed joint has neither axis nor limits.
     return joint;
   }
   require(source.type == urdf::Joint::REVOLUTE, element, "must be revolute or fixed");
@@ -326,6 +340,8 @@ Joint UrdfFile::convert(const urdf::Joint& source) const {
 
 }  // namespace
 
+// Order of links and joints: order_joints(); indices rise from the root outwards, which the
+// kinematics rely on.
 void RobotModelReader::read_urdf(const std::filesystem::path& file_path,
                                  const std::map<std::string, int>& limb_of_link) {
   const UrdfFile file(file_path);
@@ -357,6 +373,7 @@ void RobotModelReader::read_urdf(const std::filesystem::path& file_path,
       model_.motor_names_.push_back(joint.name);
     }
   }
+  // Mimic joints after all motors are known: the leader may stand below its follower.
   for (Joint& joint : model_.joints_) {
     const urdf::JointConstSharedPtr source = urdf->getJoint(joint.name);
     if (joint.kind != Joint::Kind::kRevolute || source->mimic == nullptr) {

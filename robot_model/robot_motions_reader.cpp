@@ -3,6 +3,7 @@
 #include <limits>
 #include <set>
 
+#include "common/constants.h"
 #include "robot_model/robot_model_reader.h"
 
 namespace nao {
@@ -11,6 +12,11 @@ namespace {
 // Fraction of the standing height above which an upright robot is on its feet, where robot.yaml
 // does not say it. Chosen: a NAO stands at 0.32 m, crouches at 0.229 m and sits at 0.12 m.
 constexpr double kOnFeetFraction = 0.6;
+// The same for contact: fractions of the weight on a foot in contact, and of the difference of
+// loads at which the other foot becomes the support foot. Chosen: above the noise of force sensors
+// and the error of forces from joint torques.
+constexpr double kContactFraction = 0.06;
+constexpr double kSupportSwitchFraction = 0.1;
 
 Action::Kind read_action_kind(const YamlEntry& entry) {
   const std::string kind = entry.text();
@@ -31,6 +37,8 @@ Side read_side(const YamlEntry& entry) {
 
 }  // namespace
 
+// Angles of some joints, rad, in motor order; NaN for joints that are not named. A name of
+// mirrored_joints sets both sides.
 std::vector<double> RobotModelReader::read_pose(const YamlEntry& joints) const {
   std::vector<double> pose(model_.num_motors(), std::numeric_limits<double>::quiet_NaN());
   const auto set = [&](int motor, double angle, const YamlEntry& entry) {
@@ -74,6 +82,7 @@ void RobotModelReader::read_references(const YamlEntry& robot) {
   references.stand = read_name("stand", references.ready);
   references.rest = read_name("rest", references.ready);
 
+  // A fall without poses leaves all joints where they are.
   const std::vector<double> free(model_.num_motors(), std::numeric_limits<double>::quiet_NaN());
   references.fall = {free, free, free};
   if (robot.has("fall_poses")) {
@@ -87,10 +96,12 @@ void RobotModelReader::read_references(const YamlEntry& robot) {
   if (robot.has("heights")) {
     read_heights(robot.at("heights"));
   } else if (const Posture* ready = model_.find_posture(references.ready); ready != nullptr) {
+    // Height of the torso over the left sole in the ready posture, m.
     const std::vector<Eigen::Isometry3d> poses = model_.link_poses(ready->position);
     references.heights.standing = poses[model_.left_sole()].inverse().translation().z();
     references.heights.on_feet = kOnFeetFraction * references.heights.standing;
   }
+  read_contact_forces(robot);
   if (robot.has("walking_stance")) read_walking_stance(robot.at("walking_stance"));
   if (robot.has("walk_limits")) {
     const YamlEntry limits = robot.at("walk_limits");
@@ -108,6 +119,17 @@ void RobotModelReader::read_heights(const YamlEntry& entry) {
   heights.standing = entry.at("standing").positive();
   heights.on_feet = entry.at("on_feet").positive();
   if (heights.on_feet >= heights.standing) entry.at("on_feet").fail("must be below standing");
+}
+
+void RobotModelReader::read_contact_forces(const YamlEntry& robot) {
+  ContactForces& forces = model_.references_.contact_forces;
+  const double weight = model_.total_mass() * kGravity;
+  forces = {kContactFraction * weight, kSupportSwitchFraction * weight};
+  if (!robot.has("contact_forces")) return;
+  const YamlEntry entry = robot.at("contact_forces");
+  entry.allow_only({"contact", "support_switch"});
+  forces.contact = entry.at("contact").positive();
+  forces.support_switch = entry.at("support_switch").positive();
 }
 
 void RobotModelReader::read_walking_stance(const YamlEntry& entry) {
@@ -131,6 +153,7 @@ void RobotModelReader::read_walking_arms(const YamlEntry& entry) {
     if (std::isnan(angles[pair->left])) factor.fail("has no angle");
     // The arms swing in opposite phases.
     swing[pair->left] = factor.number();
+    // Without the minus sign both arms would swing alike in the mirrored sense.
     swing[pair->right] = -model_.symmetry_.mirrors[pair->left].sign * factor.number();
   }
   for (int motor = 0; motor < model_.num_motors(); ++motor) {
@@ -159,6 +182,8 @@ void RobotModelReader::read_actions(const YamlEntry& list) {
 
 void RobotModelReader::read_labels(const YamlEntry& root) {
   root.allow_only({"postures", "actions", "groups", "cameras"});
+  // Labels are texts for people in several languages; a label of an unknown name is a spelling
+  // mistake.
   const auto read = [&](const char* key, const char* kind, const auto& items) {
     if (!root.has(key)) return;
     for (const auto& [name, texts] : root.at(key).entries()) {
@@ -185,6 +210,7 @@ void RobotModelReader::read_postures(const YamlEntry& list) {
     Posture posture;
     posture.name = item.at("name").text();
     posture.family = item.at("family").text();
+    // Required, and not used: where the angles come from.
     item.at("source").text();
     const std::set<std::string> families = {"standing", "crouching", "sitting", "lying-back",
                                             "lying-belly"};
@@ -200,11 +226,13 @@ void RobotModelReader::read_postures(const YamlEntry& list) {
       }
       posture.position[motor] = angle.number();
     }
+    // A posture has all joints, so that it can be reached from anywhere.
     for (int motor = 0; motor < model_.num_motors(); ++motor) {
       if (std::isnan(posture.position[motor])) {
         joints.fail("lacks \"" + model_.motor_joint(motor).name + "\"");
       }
     }
+    // Coupled limits need all angles; therefore after the whole posture is read.
     for (int motor = 0; motor < model_.num_motors(); ++motor) {
       const double angle = posture.position[motor];
       if (model_.clip_to_limits(motor, angle, posture.position) != angle) {

@@ -69,6 +69,7 @@ BallDescription read_ball(const YamlEntry& entry) {
 
 }  // namespace
 
+// Field, goals and ball are optional; goals are placed on the field's lines and need one.
 SceneFile SceneFile::load(const std::filesystem::path& file) {
   const YamlEntry entry = YamlEntry::load<ConfigError>(file);
   entry.allow_only({"name", "field", "goals", "ball"});

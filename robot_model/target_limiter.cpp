@@ -10,10 +10,12 @@ void TargetLimiter::limit(const std::vector<double>& last, double dt,
   for (int motor = 0; motor < model_->num_motors(); ++motor) {
     const Joint& joint = model_->motor_joint(motor);
     const double step = joint.max_velocity * dt;
+    // A target that is not a number keeps the last one: it must not reach a servo.
     if (!std::isfinite(target[motor])) target[motor] = last[motor];
     target[motor] = std::clamp(target[motor], joint.lower, joint.upper);
     target[motor] = std::clamp(target[motor], last[motor] - step, last[motor] + step);
   }
+  // Coupled limits after the single ones: they depend on the other joint's limited target.
   for (const CoupledLimit& limit : model_->coupled_limits()) {
     const double step = model_->motor_joint(limit.motor).max_velocity * dt;
     // The factor allows for rounding of the difference.

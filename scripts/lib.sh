@@ -54,6 +54,13 @@ build_jobs() {
     printf '%s' "$((memory_jobs < cores ? memory_jobs : cores))"
 }
 
+# reconfigure_with_new_packages: until GoogleTest and OpenCV came, the dev preset was configured without tests and nao-vision.
+reconfigure_with_new_packages() {
+    if grep -qsE '^(GTest_DIR|OPENCV_INCLUDE_DIR):PATH=.*-NOTFOUND' "$ROOT/build/dev/CMakeCache.txt"; then
+        rm -f "$ROOT/build/dev/.configured"
+    fi
+}
+
 # build_preset PRESET [TARGET...]: configures if necessary and builds; prints ninja's progress.
 build_preset() {
     local preset=$1 targets=() target

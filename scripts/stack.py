@@ -13,11 +13,25 @@ ROOT = Path(__file__).resolve().parent.parent
 # Prefix of the scripts' names for users: an installed copy has one command for all, "nao-remote start".
 CALL = os.environ.get("NAO_REMOTE_CALL", "scripts/")
 
+SIM = "nao-sim"
 # All programs of a stack.
-PROGRAMS = ("nao-sim", "nao-motion", "nao-head-camera", "nao-phone-gateway")
+PROGRAMS = (SIM, "nao-motion", "nao-motion-files", "nao-head-camera", "nao-speaker", "nao-phone-gateway")
+# Of these, those without which the robot can be driven.
+OPTIONAL = ("nao-speaker",)
 # With --backend lola one more: the bridge of a real robot, which its watchdog starts.
 ROBOT = "nao-robot"
 ROBOT_WATCHDOG = "nao-robot-watchdog"
+# On a real robot, and where LoLA listens there.
+ROBOT_PROGRAMS = (ROBOT, "nao-motion", "nao-motion-files", "nao-head-camera", "nao-phone-gateway")
+LOLA_SOCKET = "/tmp/robocup"
+CAMERA = "nao-head-camera"
+# With --foxglove one more: the bus for Foxglove and Lichtblick.
+FOXGLOVE = "nao-foxglove"
+# With --vision two more: perception in the head camera's images, and behaviors that use it.
+VISION = "nao-vision"
+PLAY = "nao-play"
+# One process for each robot; all other programs serve every robot of the stack.
+PER_ROBOT = ("nao-motion", "nao-motion-files", CAMERA, "nao-speaker", VISION, PLAY)
 
 # Targets that scripts/start builds beside them.
 COMPANIONS = ("nao", "nao_robot_files", "scenes", "nao_phone_app")
@@ -85,7 +99,7 @@ class CommandLine(argparse.ArgumentParser):
     def parse(self):
         """Adds --help and reads the command line."""
         self.option("--help", action="help", help="this text")
-        values, unknown = self.parse_known_args()
+        values, unknown = self.parse_known_intermixed_args()
         if unknown:
             self.error(f"unknown option {unknown[0]}")
         return values
@@ -115,6 +129,7 @@ class Stack:
         self.socket = run_dir / "supervisor.sock"
         self.pid_file = run_dir / "supervisord.pid"
         self.token_file = run_dir / "token"
+        self.motions = run_dir / "motions"
         self.lola_socket = run_dir / "lola.sock"
 
     def write_settings(self, settings):

@@ -30,3 +30,8 @@ tool() {
     done
     die "$1 is not built yet; ${CALL}start builds it"
 }
+
+# build_tools: builds what "nao record" and "nao spy" need, which scripts/start does not, if it is missing.
+build_tools() {
+    [ -n "${NAO_REMOTE_BIN:-}" ] || [ -x "$(dirname "$(tool nao)")/nao-tools" ] || build_preset dev nao-tools
+}

@@ -11,12 +11,16 @@ import sys
 from argparse import ArgumentTypeError
 from pathlib import Path
 
-from stack import (CALL, COMPANIONS, PROGRAMS, ROBOT, ROBOT_WATCHDOG, ROOT, CommandLine, Failure, Stack, run_as_root,
-                   run_script, warn)
+from robots import (MAX_ROBOTS, Process, choose_processes, choose_robots, number_of_robots, place_robots, team_sizes)
+from seat import check_seated
+from stack import (CALL, CAMERA, COMPANIONS, FOXGLOVE, LOLA_SOCKET, OPTIONAL, PLAY, PROGRAMS, ROBOT, ROBOT_PROGRAMS,
+                   ROBOT_WATCHDOG, ROOT, SIM, VISION, CommandLine, Failure, Stack, run_as_root, run_script, warn)
 
-# Ports that are tried first. 8080: registered for HTTP alternatives (IANA); 7668: next to LCM's 7667.
+# Ports that are tried first. 8080: registered for HTTP alternatives (IANA); 7668: next to LCM's 7667; 8765: what
+# Foxglove proposes.
 HTTP_PORT = 8080
 TCP_PORT = 7668
+FOXGLOVE_PORT = 8765
 GATEWAY = "nao-phone-gateway"
 
 # Time for all programs to become ready, s. Chosen: ten times the usual 2 to 4 s, and more for a loaded machine.
@@ -54,7 +58,7 @@ serverurl=unix://{socket}
 STOP_WAIT_TIME = 5
 ROBOT_STOP_WAIT_TIME = 10
 PROGRAM_SECTION = """
-[program:{program}]
+[program:{name}]
 command={command}
 autorestart={restart}
 startsecs=5
@@ -62,10 +66,14 @@ startretries=10
 stopsignal=TERM
 stopwaitsecs={stop_time}
 redirect_stderr=true
-stdout_logfile={logs}/{program}.log
+stdout_logfile={logs}/{name}.log
 stdout_logfile_maxbytes=5MB
 stdout_logfile_backups=3
 """
+
+
+# Where the simulator places the robot.
+DEFAULT_START_POSE = "0,0,0"
 
 
 def say(text):
@@ -79,21 +87,47 @@ def port(text):
     return int(text)
 
 
+def start_pose(text):
+    """Value of --start-pose; nao-vision checks its range."""
+    if not re.fullmatch(r"[-+0-9.e]+,[-+0-9.e]+,[-+0-9.e]+", text):
+        raise ArgumentTypeError(f"'{text}' is not a pose X,Y,HEADING such as 0,0,0 or -3,0,90")
+    return text
+
+
 def parse_options():
     line = CommandLine("[OPTION]...", __doc__)
     line.option("--scene", metavar="NAME", default="soccer", help="empty or soccer (default: soccer)")
-    line.option("--robot", metavar="NAME", default="NAO",
-                help="name of the robot: prefix of its channels (default: NAO)")
+    line.option("--robot", metavar="NAME[:MODEL]", action="append",
+                help="name of the robot, which is the prefix of its channels, and its model (default: NAO, and that of "
+                     "--model); repeat it for several robots in one world")
+    line.option("--robots", metavar="NUMBER", type=number_of_robots,
+                help=f"this many robots, up to {MAX_ROBOTS}: NAO1, NAO2 ...; an even number is two teams (default: 1)")
+    line.option("--match", metavar="TEAMS", type=team_sizes,
+                help="two teams that face each other, such as 2v2 (1 to 5 robots each): NAO1, NAO2 ... of team 0, which plays "
+                     "along x, then those of team 1")
+    line.option("--model", metavar="NAME", default="nao",
+                help="folder of robots/ that describes robots without a model: nao, a V5, or nao_v6 (default: nao)")
     line.option("--only", metavar="LIST",
-                help="only these programs; the others run on other hosts: sim,motion,head-camera,phone-gateway")
+                help="only these programs; the others run on other hosts: "
+                     "sim,motion,motion-files,head-camera,speaker,phone-gateway")
     line.option("--no-camera", action="store_true", help="without the head camera")
+    line.option("--vision", action="store_true",
+                help="also find ball, lines, goals and robots in the head camera's images, and the robot's pose on the field, and "
+                     "let the robot act by it (the app's \"Score\" and \"Keep goal\"): docs/vision.md")
+    line.option("--start-pose", metavar="X,Y,HEADING", type=start_pose, default=DEFAULT_START_POSE,
+                help="with --vision: pose of the robot on the field at the start, m and degrees; x towards the opponents' "
+                     "goal, y left (default: 0,0,0, where the simulator places it)")
+    line.option("--foxglove", action="store_true",
+                help=f"also serve every channel to Foxglove and Lichtblick, read-only, on port {FOXGLOVE_PORT} or the next "
+                     "free one of this host: docs/inspection.md")
     line.option("--lcm-url", metavar="URL",
                 default=os.environ.get("LCM_DEFAULT_URL") or "udpm://239.255.76.67:7667?ttl=0",
                 help="message bus (default: LCM_DEFAULT_URL, or limited to this host: udpm://239.255.76.67:7667?ttl=0; "
                      "several hosts: ...?ttl=1)")
-    line.option("--backend", choices=("sim", "lola"), default="sim",
+    line.option("--backend", choices=("sim", "lola", "robot"), default="sim",
                 help="sim: the robot is simulated; lola: the simulated robot has the interface of a NAO V6, and nao-robot "
-                     "connects it as it would a real one (default: sim)")
+                     "connects it as it would a real one; robot: this runs on a real NAO V6 (default: sim)")
+    line.option("--any-posture", action="store_true", help="with --backend robot: also if the robot is not seated")
     line.option("--lock-step", action="store_true", help="simulate as fast as possible and deterministically")
     line.option("--http-port", metavar="PORT", type=port,
                 help=f"for the app (default: {HTTP_PORT}, or the next free one)")
@@ -109,13 +143,16 @@ def parse_options():
                 help="folder of built programs (default: NAO_REMOTE_BIN, or build them)")
     line.run_dir_option("for logs and settings; one for each stack")
     options = line.parse()
+    options.robot_words = choose_robots(line, options)
     options.programs = choose_programs(line, options)
+    if len(options.robot_words) > 1 and options.start_pose != DEFAULT_START_POSE:
+        line.error("--start-pose is for one robot; several start where the simulator places them")
     return options
 
 
 def choose_programs(line, options):
     """The programs that --only and --no-camera leave."""
-    programs = list(PROGRAMS)
+    programs = list(ROBOT_PROGRAMS if options.backend == "robot" else PROGRAMS)
     if options.backend == "lola":
         programs.insert(1, ROBOT)
     known_programs = list(programs)
@@ -127,7 +164,14 @@ def choose_programs(line, options):
                 known = " ".join(known.removeprefix("nao-") for known in known_programs)
                 line.error(f"no program '{name}'; there are: {known}")
     if options.no_camera:
-        programs = [program for program in programs if program != "nao-head-camera"]
+        programs = [program for program in programs if program != CAMERA]
+    if options.vision:
+        # Behaviors need a field.
+        programs += [VISION] if options.scene == "empty" else [VISION, PLAY]
+    elif options.start_pose != DEFAULT_START_POSE:
+        line.error("--start-pose needs --vision")
+    if options.foxglove:
+        programs.append(FOXGLOVE)
     if not programs:
         line.error("no program is left to start")
     return programs
@@ -135,7 +179,7 @@ def choose_programs(line, options):
 
 def install_and_build(options):
     """Installs and builds what is missing. @return the folder of the programs."""
-    setup = [ROOT / "scripts/setup"]
+    setup = [ROOT / "scripts/setup", *(["--with", "vision"] if options.vision else [])]
     # What is installed and built can be read by other users, unlike what a stack writes.
     if options.bin:
         folder = Path(options.bin).resolve()
@@ -146,13 +190,49 @@ def install_and_build(options):
         if not (folder / "nao-sim").exists():
             say("Building; the first time this takes some minutes.")
         # Only the programs started here; all others (nao-viewer, nao-trial): cmake --build --preset dev --target programs
-        build = f". '{ROOT}/scripts/lib.sh'; build_preset dev \"$@\""
+        build = f". '{ROOT}/scripts/lib.sh'; reconfigure_with_new_packages; build_preset dev \"$@\""
         watchdog = [ROBOT_WATCHDOG] if ROBOT in options.programs else []
-        succeed(["bash", "-c", build, "start", *options.programs, *watchdog, *COMPANIONS], umask=0o022)
-    for program in [*options.programs, "nao"]:
+        needed = {*options.programs, *watchdog, *COMPANIONS, *needed_programs(options)}
+        succeed(["bash", "-c", build, "start", *sorted(needed)], umask=0o022)
+    if options.bin and not options.only:
+        # A folder of an earlier build may lack programs that a robot can do without.
+        options.programs = [program for program in options.programs
+                            if program not in OPTIONAL or (folder / program).exists()]
+    for program in [*options.programs, *needed_programs(options)]:
         if not os.access(folder / program, os.X_OK):
             raise Failure(f"there is no {folder / program}; build it, or choose other programs: --only")
     return folder
+
+
+def needed_programs(options):
+    """Programs that this script calls: with several robots it asks the simulator for their places."""
+    return ["nao", *([SIM] if len(options.robot_words) > 1 else [])]
+
+
+def camera_devices(model):
+    """Device files of a robot's head cameras; none if its folder names none."""
+    try:
+        text = (model / "head_cameras.yaml").read_text()
+    except FileNotFoundError:
+        return []
+    return re.findall(r"^ +device: (\S+)$", text, re.MULTILINE)
+
+
+def check_models(options, robots, bin_dir):
+    """Checks that the files of all robots are there, and that a real robot is seated."""
+    folder = Path(os.environ.get("NAO_REMOTE_DATA") or bin_dir.parent / "share/nao-remote") / "robots"
+    for robot in robots:
+        model = folder / robot.model
+        if not (model / "robot.yaml").exists():
+            known = " ".join(sorted(file.parent.name for file in folder.glob("*/robot.yaml")))
+            raise Failure(f"there is no {model / 'robot.yaml'}; choose another robot: --model NAME, of these: {known}")
+    if options.backend == "robot" and CAMERA in options.programs:
+        devices = camera_devices(model)
+        if not any(Path(device).exists() for device in devices):
+            say(f"No head camera: none of its devices is there ({', '.join(devices) or 'the robot names none'}).")
+            options.programs.remove(CAMERA)
+    if options.backend == "robot" and ROBOT in options.programs and not options.any_posture:
+        check_seated(model, LOLA_SOCKET)
 
 
 def succeed(command, **keywords):
@@ -174,7 +254,7 @@ def owner_of(sockets):
 
 
 def choose_port(given, option, default):
-    """A given port, which must be free; otherwise the first free one from the default on."""
+    """A given port, which must be free; otherwise the first free one from the default on. `option`, if any, gives one."""
     if given:
         if used := listeners(given):
             raise Failure(f"port {given} is in use by {owner_of(used)}. End that, or take another: {option} PORT")
@@ -182,7 +262,8 @@ def choose_port(given, option, default):
     used = listeners(default)
     chosen = default if not used else next(number for number in itertools.count(default + 1) if not listeners(number))
     if used:
-        say(f"Port {default} is in use by {owner_of(used)}; taking {chosen} instead ({option} chooses another).")
+        say(f"Port {default} is in use by {owner_of(used)}; taking {chosen} instead"
+            f"{f' ({option} chooses another)' if option else ''}.")
     return chosen
 
 
@@ -222,57 +303,80 @@ def gateway_options(stack, settings):
     return [*options, "--tls"] if settings["scheme"] == "https" else options
 
 
-def command_of(program, stack, settings, options):
-    """Command line of a program, quoted for supervisor."""
+def command_of(process, stack, settings, options, robots):
+    """Command line of a process, quoted for supervisor."""
+    program, robot = process.program, process.robot
     bus = ["--lcm-url", settings["lcm_url"]]
     if program == "nao-watchdog":
         words = ["nao", "watchdog", *bus]
+    elif program in (SIM, GATEWAY) and (len(robots) > 1 or robot.team):
+        words = [program, *bus]
+        for one in robots:
+            words += ["--robot", one.words()]
     else:
-        words = [program, *bus, "--robot", settings["robot"]]
-    if program == "nao-sim":
+        words = [program, *bus, "--robot", robot.name, "--model", robot.model]
+    if program == SIM:
         words += ["--scene", settings["scene"], *(["--lola", stack.lola_socket] if options.backend == "lola" else [])]
     elif program == ROBOT:
-        # Nobody presses a simulated robot's button.
-        words = [ROBOT_WATCHDOG, *words[1:], "--lola", stack.lola_socket, "--autostart"]
+        words[0] = ROBOT_WATCHDOG
+        if options.backend == "robot":
+            words += ["--lola", LOLA_SOCKET]
+        else:
+            # Nobody presses a simulated robot's button.
+            words += ["--lola", stack.lola_socket, "--autostart"]
+    elif program == CAMERA and options.backend == "robot":
+        words += ["--source", "v4l2"]
+    elif program == "nao-motion-files":
+        words += ["--folder", stack.motions if len(robots) == 1 else stack.motions / robot.name]
     elif program == GATEWAY:
         words += [*gateway_options(stack, settings), "--tcp-port", settings["tcp_port"],
                   "--audit-log", stack.logs / "phones.jsonl"]
-    if options.lock_step and program in ("nao-sim", ROBOT):
+    elif program == VISION:
+        words += ["--request", "any"]
+        if options.scene != "empty":
+            words += [f"--start-pose={robot.start_pose}", "--scene", settings["scene"]]
+    elif program == PLAY:
+        words += [f"--start-pose={robot.start_pose}", "--scene", settings["scene"]]
+    elif program == FOXGLOVE:
+        words += ["--port", settings["foxglove_port"]]
+    if options.lock_step and program in (SIM, ROBOT):
         words.append("--lock-step")
     words[0] = f"{settings['bin_dir']}/{words[0]}"
     return " ".join('"' + escaped(word).replace('"', '\\"') + '"' for word in words)
 
 
-def write_configuration(stack, settings, options):
+def write_configuration(stack, settings, options, processes, robots):
     paths = {"socket": escaped(stack.socket), "logs": escaped(stack.logs), "pid_file": escaped(stack.pid_file)}
     text = SUPERVISOR_SECTION.format(**paths, user="user=root" if os.geteuid() == 0 else "")
-    for program in [*options.programs, "nao-watchdog"]:
-        is_robot = program == ROBOT
+    for process in [*processes, Process("nao-watchdog", "nao-watchdog", robots[0])]:
+        is_robot = process.program == ROBOT
         # The bridge ends with status 0 when it was ended by the robot's button.
-        text += PROGRAM_SECTION.format(**paths, program=program,
-                                       command=command_of(program, stack, settings, options),
+        text += PROGRAM_SECTION.format(**paths, name=process.name,
+                                       command=command_of(process, stack, settings, options, robots),
                                        restart="unexpected" if is_robot else "true",
                                        stop_time=ROBOT_STOP_WAIT_TIME if is_robot else STOP_WAIT_TIME)
     stack.configuration.write_text(text)
 
 
-def failed_program(stack, programs):
-    """A program that ended several times; None if there is none."""
+def failed_process(stack, processes):
+    """Name of a process that ended several times; None if there is none."""
     log = (stack.logs / "supervisord.log").read_text(errors="replace")
-    return next((program for program in programs if log.count(f"exited: {program} ") >= MAX_START_FAILURES), None)
+    return next((process.name for process in processes
+                 if log.count(f"exited: {process.name} ") >= MAX_START_FAILURES), None)
 
 
-def wait_until_ready(stack, settings, options):
+def wait_until_ready(stack, settings, options, processes):
     """Waits until every program is ready. With --only, a program may wait for programs on other hosts: then a shorter
     timeout applies and is not an error."""
     timeout = ONLY_READY_TIMEOUT if options.only else READY_TIMEOUT
     report = stack.logs / "start.log"
     with open(report, "w", encoding="utf-8") as output:
-        waiter = subprocess.Popen([f"{settings['bin_dir']}/nao", "status", "--wait", ",".join(options.programs),
+        waiter = subprocess.Popen([f"{settings['bin_dir']}/nao", "status", "--wait",
+                                   ",".join(process.program for process in processes),
                                    "--timeout", str(timeout), "--lcm-url", settings["lcm_url"]], stderr=output)
     ended = os.pidfd_open(waiter.pid)  # readable when the process has ended
     while not select.select([ended], [], [], POLL_PERIOD)[0]:
-        failed = failed_program(stack, options.programs)
+        failed = failed_process(stack, processes)
         if failed:
             waiter.kill()
             waiter.wait()
@@ -311,17 +415,25 @@ def print_addresses(stack):
     say(f"Clients in other languages: TCP port {settings['tcp_port']}. Watch: {CALL}status. End: {CALL}stop")
 
 
-def choose_settings(options, bin_dir):
+def print_foxglove_address(settings):
+    if settings.get("foxglove_port"):
+        say(f"Foxglove or Lichtblick: ws://127.0.0.1:{settings['foxglove_port']}; layout: tools/foxglove/layout.json")
+
+
+def choose_settings(options, bin_dir, robots, processes):
     """What scripts/start has chosen, for the other scripts."""
     has_gateway = GATEWAY in options.programs
     return {
         "bin_dir": bin_dir,
         "lcm_url": options.lcm_url,
-        "robot": options.robot,
+        "robot": robots[0].name,
+        "model": robots[0].model,
+        "robots": " ".join(robot.words() for robot in robots),
         "scene": options.scene,
-        "programs": " ".join(options.programs),
+        "programs": " ".join(process.name for process in processes),
         "http_port": choose_port(options.http_port, "--http-port", HTTP_PORT) if has_gateway else "",
         "tcp_port": choose_port(options.tcp_port, "--tcp-port", TCP_PORT) if has_gateway else "",
+        "foxglove_port": choose_port(None, "", FOXGLOVE_PORT) if options.foxglove else "",
         "bind": options.bind,
         "scheme": "https" if options.tls else "http",
     }
@@ -344,25 +456,32 @@ def main():
         say(f"The robot is running already (other options need {CALL}stop first).")
         if GATEWAY in stack.read_settings()["programs"]:
             print_addresses(stack)
+        print_foxglove_address(stack.read_settings())
         return
     stack.stop()  # orphans of a killed supervisor
 
     bin_dir = install_and_build(options)
-    settings = choose_settings(options, bin_dir)
+    robots = place_robots(options, bin_dir)
+    check_models(options, robots, bin_dir)
+    processes = choose_processes(options, robots)
+    settings = choose_settings(options, bin_dir, robots, processes)
     check_bus(bin_dir, options.lcm_url)
     stack.token_file.unlink(missing_ok=True)  # the gateway creates a new one
     if options.token:
         stack.token_file.write_text(options.token + "\n")
-    write_configuration(stack, settings, options)
+    write_configuration(stack, settings, options, processes, robots)
     stack.write_settings(settings)
     (stack.logs / "supervisord.log").write_text("")
     succeed([sys.executable, "-m", "supervisor.supervisord", "--configuration", stack.configuration],
             env={**os.environ, "NAO_REMOTE_STACK": str(stack.run_dir)})
-    wait_until_ready(stack, settings, options)
+    wait_until_ready(stack, settings, options, processes)
     if GATEWAY in options.programs:
         print_addresses(stack)
     else:
         say(f"Running: {settings['programs']}. Watch: {CALL}status. End: {CALL}stop")
+    if len(robots) > 1:
+        say(f"Robots: {', '.join(robot.words() for robot in robots)}. One of them: nao --robot {robots[-1].name} walk 0.1 0 0")
+    print_foxglove_address(settings)
 
 
 if __name__ == "__main__":

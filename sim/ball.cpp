@@ -14,6 +14,7 @@ Ball::Ball(const BallDescription& description)
       inertia_(0.4 * description.mass * description.radius * description.radius) {}
 
 double Ball::energy(const Vector3d& gravity) const {
+  // Kinetic energy of translation and rotation, and potential energy, J:
   const double mass = description_.mass;
   // m v^2 / 2 + I w^2 / 2 - m g . p
   return 0.5 * mass * state_.velocity.squaredNorm() +
@@ -32,10 +33,12 @@ bool Ball::is_within_bounds() const {
 void Ball::reset() {
   state_ = BallState();
   impulse_.setZero();
+  // On the floor's plane z = 0; on a bumpy floor the first contact lifts the ball to its surface.
   place({description_.position.x(), description_.position.y(), 0}, Vector3d::Zero());
 }
 
 void Ball::place(const Vector3d& position, const Vector3d& velocity) {
+  // `position` is the point on the ground below the ball, in W.
   state_.position = position + Vector3d(0, 0, description_.radius);
   state_.velocity = velocity;
   state_.angular_velocity.setZero();
@@ -54,6 +57,8 @@ void Ball::begin_step(double h, const Vector3d& gravity, Eigen::VectorXd& scaled
 
 int Ball::add_contact_entries(double sign, const Vector3d& point, const Matrix3d& frame,
                               ConstraintSolver& solver) const {
+  // Six entries: the ball's dofs are angular x, y, z, then linear x, y, z, all about W's axes.
+  // `sign` is -1 where the ball is the second surface of the contact.
   const int first = solver.add_entries(6);
   if (first < 0) return -1;
   // Velocity of the contact point along axis k of the frame: n_k . (v + w x arm) = n_k . v + (arm x
@@ -78,6 +83,11 @@ int Ball::add_contact_entries(double sign, const Vector3d& point, const Matrix3d
 
 void Ball::add_rolling_resistance(const Matrix3d& frame, double deceleration, double gravity,
                                   ConstraintSolver& solver) const {
+  // A block whose entries are the ball's three rotations only: rolling resistance is a torque.
+  // Rolling without sliding couples rotation and translation: a torque T at the ball slows it down
+  // by a = T r / (I + m r^2). For T = friction * N and N = m g that is a = friction * m g r / (I +
+  // m r^2), which is solved for the lever arm `friction`, m. Spinning about the normal gets the
+  // same arm.
   ContactBlock rolling;
   rolling.is_rolling = true;
   // (I + m r^2) / (m r) = 1.4 r for a solid sphere.
@@ -96,6 +106,8 @@ void Ball::add_rolling_resistance(const Matrix3d& frame, double deceleration, do
 
 void Ball::end_step(double h, const Eigen::VectorXd& scaled_velocity) {
   // Semi-implicit Euler: the pose moves with the velocity after the step.
+  // Back from scaled velocities: divided by the roots of the inertias that begin_step() multiplied
+  // by.
   state_.angular_velocity = scaled_velocity.segment<3>(first_dof_) / std::sqrt(inertia_);
   state_.velocity = scaled_velocity.segment<3>(first_dof_ + 3) / std::sqrt(description_.mass);
   state_.position += h * state_.velocity;

@@ -14,6 +14,8 @@ using Eigen::Vector3d;
  * overlap by twice as much before their inner boxes meet, see RoundedBox. */
 constexpr double kEdgeRadius = 0.008;
 
+// A link's collision shape as a box with rounded edges, in the frame of the tree body that carries
+// the link (links behind fixed joints share one body).
 CollisionModel::Part part_of(const Shape& shape, const Link& link,
                              const Eigen::Isometry3d& link_in_body) {
   const RoundedBox box = rounded_box_in_link(link, shape, kEdgeRadius);
@@ -26,6 +28,7 @@ CollisionModel::Part part_of(const Shape& shape, const Link& link,
   return part;
 }
 
+// Twice the area of the triangle a, b, c, m^2: the 2D cross product of two of its sides.
 double twice_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   const Eigen::Vector2d u = b - a;
   const Eigen::Vector2d v = c - a;
@@ -34,6 +37,8 @@ double twice_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eige
 
 /** Distinct corners of a part's inner box in its body's frame: 1 (sphere), 2 (capsule) or 8. */
 std::vector<Vector3d> corners_of(const CollisionModel::Part& part) {
+  // A half length of 0 makes corners coincide: the set keeps one of each. The coordinates are equal
+  // bit by bit then, since the same numbers are added.
   std::set<std::vector<double>> distinct;
   std::vector<Vector3d> corners;
   for (int i = 0; i < 8; ++i) {
@@ -48,6 +53,8 @@ std::vector<Vector3d> corners_of(const CollisionModel::Part& part) {
 }  // namespace
 
 std::vector<Eigen::Vector2d> simplify_outline(std::vector<Eigen::Vector2d> outline, int count) {
+  // Visvalingam's simplification: the corner whose triangle with its two neighbors is smallest
+  // changes the outline's area least, and is removed first.
   while (static_cast<int>(outline.size()) > count) {
     const size_t n = outline.size();
     size_t least = 0;
@@ -65,8 +72,11 @@ std::vector<Eigen::Vector2d> simplify_outline(std::vector<Eigen::Vector2d> outli
 
 std::vector<Eigen::Vector2d> inner_points(const std::vector<Eigen::Vector2d>& outline,
                                           double spacing) {
+  // Fewer corners than a triangle have no inside.
   std::vector<Eigen::Vector2d> points;
   if (outline.size() < 3) return points;
+  // Bounding box, and twice the signed area by the shoelace formula: positive for a
+  // counterclockwise outline.
   Eigen::Vector2d low = outline[0];
   Eigen::Vector2d high = outline[0];
   double area = 0;
@@ -77,9 +87,13 @@ std::vector<Eigen::Vector2d> inner_points(const std::vector<Eigen::Vector2d>& ou
     high = high.cwiseMax(a);
     area += a.x() * b.y() - a.y() * b.x();
   }
+  // With the outline's sense of rotation, "inside" is the left side of every edge below. That holds
+  // for convex outlines only, which soles are.
   const double turn = area > 0 ? 1 : -1;
   const Eigen::Vector2d center = (low + high) / 2;
   const Eigen::Vector2i count = ((high - low) / (2 * spacing)).array().floor().cast<int>();
+  // A grid about the center of the bounding box, so that the points of a symmetric sole are
+  // symmetric.
   for (int i = -count.x(); i <= count.x(); ++i) {
     for (int k = -count.y(); k <= count.y(); ++k) {
       const Eigen::Vector2d point = center + spacing * Eigen::Vector2d(i, k);
@@ -111,6 +125,8 @@ CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int nu
       part.body = tree.body_of_link(index);
       part.first_point = static_cast<int>(points.size());
       int sole = -1;
+      // The part that carries the sole: the first shape of the body that has the sole's frame.
+      // Further shapes of that body keep their own corners.
       for (int side = 0; side < 2; ++side) {
         const bool is_sole = sole_links[side] >= 0 && !has_sole[side] &&
                              tree.body_of_link(sole_links[side]) == part.body;
@@ -134,6 +150,7 @@ CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int nu
           part.bounding_radius = std::max(part.bounding_radius, to_corner);
         }
       }
+      // Corners of the shape itself, for a robot that lies on the floor.
       for (const Vector3d& corner : corners_of(part)) {
         // Corners within 1 mm of the sole's plane, or below it, are the lower ones.
         if (sole >= 0 && corner.z() - part.radius < sole_height + 1e-3) continue;
@@ -144,6 +161,8 @@ CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int nu
     }
   }
 
+  // Largest distance of a surface point from the root's origin: the length of the chain of joint
+  // origins at full stretch bounds it for all joint angles.
   for (const Part& part : parts) {
     double distance = part.center_in_body.norm() + part.bounding_radius;
     for (int body = part.body; body > 0; body = tree.bodies()[body].parent) {
@@ -152,6 +171,8 @@ CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int nu
     reach = std::max(reach, distance);
   }
 
+  // Pairs that are tested for self-collision: parts of one body do not move relative to each other,
+  // and the model lists pairs of links whose contact is none.
   const auto& allowed = model.allowed_contacts();
   for (size_t i = 0; i < parts.size(); ++i) {
     for (size_t j = i + 1; j < parts.size(); ++j) {

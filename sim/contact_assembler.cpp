@@ -51,6 +51,8 @@ void ContactAssembler::begin_step(int64_t step_number) {
   active_.clear();
 }
 
+// Coulomb's coefficient of a pair of surfaces. The ball is always surface a, and its coefficient
+// holds against everything; the floor's is scaled by each robot's drawn friction disturbance.
 double friction_between(const Surface& a, const Surface& b, const MovingBodies& bodies,
                         const Materials& materials) {
   if (a.kind == Surface::Kind::kBall) return materials.ball_friction;
@@ -63,14 +65,21 @@ void ContactAssembler::set_normal_law(const ContactCandidate& candidate,
   const Materials& materials = options_.materials;
   const double h = options_.step;
   const double distance = candidate.proximity.distance;
+  // A spring k and damper b, taken implicitly over a step h: with the distance d + h v after the
+  // step, the force is f = -k (d + h v) - b v. With the impulse p = h f that is v + p / (h (h k +
+  // b)) + k d / (h k + b) = 0: normal_softness and bias of the row.
   const double strength = h * materials.contact_stiffness + materials.contact_damping;
   // A net has no restitution: it catches the ball.
   const bool rebounds =
       candidate.a.kind == Surface::Kind::kBall && candidate.b.kind != Surface::Kind::kNet &&
       candidate.approach_speed > kMinReboundSpeed && distance < h * candidate.approach_speed;
   if (rebounds) {
+    // Newton's restitution law: the ball leaves with restitution times its approach speed. No
+    // softness: the row is rigid.
     block.bias[0] = -materials.ball_restitution * candidate.approach_speed;
   } else if (distance > 0) {
+    // Still apart: the row allows an approach that closes the gap within this step, v >= -d / h.
+    // The spring would pull on the surfaces here, so that only its softness is kept.
     block.bias[0] = distance / h;
     block.normal_softness = 1 / (h * strength);
   } else {
@@ -85,6 +94,7 @@ bool ContactAssembler::add(const ContactCandidate& candidate, ConstraintSolver& 
   ActiveContact contact;
   contact.candidate = &candidate;
   const Vector3d& normal = candidate.proximity.normal;
+  // On a level floor all contacts have the same axes, which saves their computation.
   const bool is_level = candidate.b.kind == Surface::Kind::kFloor && normal.z() == 1;
   contact.frame = is_level ? kFloorFrame : frame_of(normal);
   ContactBlock block;
@@ -94,6 +104,9 @@ bool ContactAssembler::add(const ContactCandidate& candidate, ConstraintSolver& 
   block.friction = friction_between(candidate.a, candidate.b, bodies_, options_.materials);
   set_normal_law(candidate, block);
 
+  // Tangential spring and damper, implicit as the normal one; the spring's deflection is carried
+  // from step to step. Without it a standing robot would creep, since velocities alone carry no
+  // memory of where a contact stuck.
   ContactMemory& memory = *candidate.memory;
   // A contact that was open in the last step starts from nothing.
   if (memory.last_step != step_number_ - 1) memory = ContactMemory();
@@ -104,6 +117,8 @@ bool ContactAssembler::add(const ContactCandidate& candidate, ConstraintSolver& 
   for (int k = 1; k < 3; ++k) {
     block.bias[k] = contact.deflection_to_bias * contact.frame.col(k).dot(memory.spring_deflection);
   }
+  // Warm start: the last impulse in this step's contact frame; projected, since the normal may have
+  // turned.
   block.impulse = contact.frame.transpose() * memory.impulse;
   block.impulse[0] = std::max(0.0, block.impulse[0]);
   contact.block = solver.add_block(block);
@@ -123,6 +138,8 @@ int ContactAssembler::add_entries(const ActiveContact& contact, ConstraintSolver
   const bool is_self_contact = candidate.a.kind == Surface::Kind::kRobot &&
                                candidate.b.kind == Surface::Kind::kRobot &&
                                candidate.a.robot == candidate.b.robot;
+  // The Jacobian's row of a contact between two trees has entries of both, which do not overlap;
+  // within one tree the chains share the root, see add_self_contact_entries().
   if (is_self_contact) return add_self_contact_entries(contact, solver);
   const int count = add_surface_entries(candidate.a, candidate.body_a, 1, contact, solver);
   if (count < 0 || candidate.b.kind != Surface::Kind::kRobot) return count;
@@ -136,6 +153,8 @@ int ContactAssembler::add_surface_entries(const Surface& surface, int body, doub
   if (surface.kind == Surface::Kind::kBall) {
     return bodies_.ball->add_contact_entries(sign, point, contact.frame, solver);
   }
+  // Entries y = L^-T J^T for the dofs of the chain from the root to the body. Fill-in stays within
+  // the chain, as all its ancestors are in it.
   const SimRobot& robot = *bodies_.robots[surface.robot];
   const std::vector<int>& chain = robot.tree().bodies()[body].chain;
   const int count = static_cast<int>(chain.size());
@@ -183,6 +202,7 @@ void ContactAssembler::update_spring(const ActiveContact& contact, const Contact
   const double h = options_.step;
   const double stiffness = options_.materials.tangent_stiffness;
   Vector3d& deflection = contact.candidate->memory->spring_deflection;
+  // An open contact forgets its deflection.
   deflection.setZero();
   if (!(block.impulse[0] > 0)) return;
   for (int k = 1; k < 3; ++k) {
@@ -192,6 +212,7 @@ void ContactAssembler::update_spring(const ActiveContact& contact, const Contact
     const double stretched = block.bias[k] / contact.deflection_to_bias + h * velocity;
     deflection += stretched * contact.frame.col(k);
   }
+  // In the plane of the contact, the largest deflection is friction * f_n / k.
   // Where the contact slides, the spring follows: its force stays within Coulomb's cone.
   const double most = block.friction * block.impulse[0] / h / stiffness;
   const double length = deflection.norm();
@@ -206,14 +227,17 @@ void ContactAssembler::end_step(const ConstraintSolver& solver) {
   for (const ActiveContact& contact : active_) {
     const ContactCandidate& candidate = *contact.candidate;
     const ContactBlock& block = solver.blocks()[contact.block];
+    // Stored in W: the contact frame may be another in the next step.
     ContactMemory& memory = *candidate.memory;
     memory.impulse = contact.frame * block.impulse;
+    // Elastic energy k d^2 / 2 of the normal spring, with the velocity from the row's equality.
     if (block.impulse[0] > 0 && block.normal_softness > 0) {
       const double velocity = -block.normal_softness * block.impulse[0] - block.bias[0];
       const double depth = std::min(0.0, candidate.proximity.distance + h * velocity);
       elastic_energy_ += 0.5 * options_.materials.contact_stiffness * depth * depth;
     }
     update_spring(contact, block);
+    // Contacts without force are candidates only; they are not published.
     if (!(block.impulse[0] > 0)) continue;
     const Vector3d force = memory.impulse / h;
     contacts_.push_back({candidate.a, candidate.b, candidate.proximity.point, force});

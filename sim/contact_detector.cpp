@@ -27,6 +27,8 @@ void forget(Memories& memories) {
 ContactDetector::ContactDetector(const SceneFile& scene, const MovingBodies& bodies,
                                  const Floor& floor, double step)
     : bodies_(bodies), floor_(floor), step_(step), statics_(make_goal_shapes(scene)) {
+  // One memory for each possible contact, at a fixed place: impulses and friction springs are found
+  // again in the next step without a search.
   if (scene.ball) ball_static_memory_.resize(statics_.size());
 }
 
@@ -41,30 +43,46 @@ void ContactDetector::add_robot() {
   memory.statics.resize(num_parts * statics_.size());
   memory.ball.resize(num_parts);
   robot_memory_.push_back(std::move(memory));
+  // Every pair of robots has a table of (part of the first) x (part of the second).
   for (int other = 0; other < index; ++other) {
     const size_t other_parts = bodies_.robots[other]->collisions().parts.size();
     pair_memory_.push_back({other, index, std::vector<ContactMemory>(other_parts * num_parts)});
   }
 }
 
+void ContactDetector::remove_robot(int robot) {
+  placed_.erase(placed_.begin() + robot);
+  robot_memory_.erase(robot_memory_.begin() + robot);
+  std::erase_if(pair_memory_,
+                [robot](const PairMemory& pair) { return pair.a == robot || pair.b == robot; });
+  for (PairMemory& pair : pair_memory_) {
+    if (pair.a > robot) --pair.a;
+    if (pair.b > robot) --pair.b;
+  }
+}
+
+// After a robot was placed elsewhere: its old impulses would push it at the new place.
 void ContactDetector::forget_robot(int robot) {
-  forget(robot_memory_[robot].floor);
-  forget(robot_memory_[robot].self);
+  RobotMemory& memory = robot_memory_[robot];
+  for (auto* memories : {&memory.floor, &memory.self, &memory.statics, &memory.ball}) {
+    forget(*memories);
+  }
+  for (PairMemory& pair : pair_memory_) {
+    if (pair.a == robot || pair.b == robot) forget(pair.parts);
+  }
 }
 
 void ContactDetector::forget_ball() {
   ball_floor_memory_ = ContactMemory();
+  forget(ball_static_memory_);
+  for (RobotMemory& memory : robot_memory_) forget(memory.ball);
 }
 
 void ContactDetector::clear() {
   num_dropped_ = 0;
-  for (RobotMemory& memory : robot_memory_) {
-    for (auto* memories : {&memory.floor, &memory.self, &memory.statics, &memory.ball}) {
-      forget(*memories);
-    }
+  for (size_t robot = 0; robot < robot_memory_.size(); ++robot) {
+    forget_robot(static_cast<int>(robot));
   }
-  for (PairMemory& pair : pair_memory_) forget(pair.parts);
-  forget(ball_static_memory_);
   forget_ball();
 }
 
@@ -74,6 +92,8 @@ void ContactDetector::place_parts(int index) {
   for (size_t i = 0; i < parts.size(); ++i) {
     PlacedPart& placed = placed_[index][i];
     placed.has_rotation = false;
+    // Part's center in W. The rotation is computed by part_shape() only where a narrow phase needs
+    // it.
     placed.shape.center = robot.dynamics().position(parts[i].body) +
                           robot.dynamics().rotation(parts[i].body) * parts[i].center_in_body;
   }
@@ -93,6 +113,8 @@ const RoundedBox& ContactDetector::part_shape(int robot, int index) {
 }
 
 void ContactDetector::find(int64_t step_number) {
+  // Order: floor, self, goals, pairs of robots, ball. The order decides in which sequence the
+  // solver visits contacts, and so the last digits: it must not depend on anything but the state.
   step_number_ = step_number;
   candidates_.clear();
   for (int i = 0; i < bodies_.num_robots(); ++i) place_parts(i);
@@ -107,6 +129,8 @@ void ContactDetector::find(int64_t step_number) {
 
 Vector3d ContactDetector::velocity_of(const Surface& surface, int body,
                                       const Vector3d& point) const {
+  // Velocity in W, m/s, of the surface's material point at `point`; the floor and goals do not
+  // move.
   switch (surface.kind) {
     case Surface::Kind::kRobot:
       return bodies_.robots[surface.robot]->dynamics().velocity_at(body, point);
@@ -124,6 +148,8 @@ void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int bo
   const double approach_speed = -proximity.normal.dot(relative);
   // Distance after the step if nothing stops the surfaces. A separating velocity is not used: an
   // impulse of the step may reverse it.
+  // The distance is predicted to first order: d + h d'. Surfaces that may touch within the step
+  // become constraints now, so that they cannot pass through each other before the next detection.
   if (proximity.distance - step_ * std::max(approach_speed, 0.0) > kMargin) return;
   if (candidates_.size() == candidates_.capacity()) {
     // Marked as looked at, so that it is counted once in a step.
@@ -135,6 +161,8 @@ void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int bo
   candidates_.push_back({a, b, body_a, body_b, foot, proximity, approach_speed, &memory});
 }
 
+// Distance of a sphere (a corner point with its radius) from the floor, and the point of contact in
+// W: on the sphere's surface when it penetrates, on the floor otherwise.
 Proximity ContactDetector::to_floor(const Vector3d& center, double radius) const {
   Proximity proximity;
   if (floor_.is_flat()) {
@@ -145,6 +173,8 @@ Proximity ContactDetector::to_floor(const Vector3d& center, double radius) const
   // The plane of the triangle below the center: bumps are far flatter than they are wide.
   const Floor::Plane plane = floor_.at(center.x(), center.y());
   proximity.normal = plane.normal;
+  // Distance of the center from the plane through (x, y, height): the vertical distance times the
+  // normal's vertical component.
   proximity.distance = plane.normal.z() * (center.z() - plane.height) - radius;
   proximity.point = center - (radius + std::max(proximity.distance, 0.0)) * plane.normal;
   return proximity;
@@ -155,6 +185,7 @@ void ContactDetector::find_floor_contacts(int index) {
   const CollisionModel& model = robot.collisions();
   for (size_t p = 0; p < model.parts.size(); ++p) {
     const CollisionModel::Part& part = model.parts[p];
+    // Bounding sphere over the highest bump: most parts of a standing robot end here.
     const double height = placed_[index][p].shape.center.z() - floor_.max_height();
     if (height > part.bounding_radius + kReach) continue;
     const Vector3d& origin = robot.dynamics().position(part.body);
@@ -170,6 +201,9 @@ void ContactDetector::find_floor_contacts(int index) {
   }
 }
 
+// After a solution of the step: points that are above the floor now but would be below it after the
+// step, since an impulse within the step (a push, an impact elsewhere) has changed their velocity.
+// They become candidates too. Returns whether there are any.
 bool ContactDetector::find_missed_floor_contacts(int index) {
   const SimRobot& robot = *bodies_.robots[index];
   const CollisionModel& model = robot.collisions();
@@ -178,6 +212,7 @@ bool ContactDetector::find_missed_floor_contacts(int index) {
     const CollisionModel::Part& part = model.parts[p];
     const Vector3d& origin = robot.dynamics().position(part.body);
     const Vector3d& part_center = placed_[index][p].shape.center;
+    // Vertical speed of the part's center only; kMaxSweptRadius covers the rotation.
     const double speed = robot.dynamics().velocity_at(part.body, part_center).z();
     const double height = part_center.z() - floor_.max_height();
     if (height + step_ * speed > part.bounding_radius * kMaxSweptRadius) continue;
@@ -189,6 +224,7 @@ bool ContactDetector::find_missed_floor_contacts(int index) {
       const Vector3d center = origin + rotation * point.center_in_body;
       const Proximity proximity = to_floor(center, point.radius);
       const Vector3d velocity = robot.dynamics().velocity_at(part.body, proximity.point);
+      // Distance after the step with the velocity of the present solution.
       const double next = proximity.distance + step_ * proximity.normal.dot(velocity);
       if (next >= -kMargin) continue;
       // It had no force in the last step.
@@ -209,8 +245,10 @@ void ContactDetector::find_self_contacts(int index) {
     const CollisionModel::Part& part_b = model.parts[b];
     const double reach = part_a.bounding_radius + part_b.bounding_radius + kMargin;
     const Vector3d offset = placed_[index][a].shape.center - placed_[index][b].shape.center;
+    // The spheres are a lower bound of the distance: |offset| - r_a - r_b <= distance.
     // Broad phase: bounding spheres that are apart have no closest points to look for.
     if (offset.squaredNorm() > reach * reach) continue;
+    // Narrow phase: GJK on the rounded boxes, see robot_model/closest_points.h.
     const Proximity proximity = closest_points(part_shape(index, a), part_shape(index, b));
     if (proximity.distance > kReach) continue;
     add({Surface::Kind::kRobot, index, part_a.link}, part_a.body,
@@ -263,6 +301,7 @@ void ContactDetector::find_goal_contacts(int index) {
 }
 
 void ContactDetector::find_ball_contacts() {
+  // A sphere is a rounded box with half lengths of 0.
   RoundedBox ball;
   ball.center = bodies_.ball->state().position;
   ball.radius = bodies_.ball->radius();

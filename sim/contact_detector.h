@@ -29,6 +29,8 @@ class ContactDetector {
 
   /** Makes room for the robot that was added last. */
   void add_robot();
+  /** Forgets a robot; those after it move up. */
+  void remove_robot(int robot);
   /** Takes memory for the candidates of a step; more are dropped and counted. */
   void reserve(int max_candidates) { candidates_.reserve(max_candidates); }
 

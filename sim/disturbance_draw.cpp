@@ -14,6 +14,8 @@ constexpr Disturbance kShared[kNumSharedDraws] = {Disturbance::kFriction, Distur
                                                   Disturbance::kCommandLatencyMs};
 
 /** The stream of random numbers of one disturbance. */
+// Each disturbance has its own stream, a function of name and seed alone: switching one disturbance
+// on or off leaves the numbers of all others unchanged, so that runs stay comparable.
 Random stream(Disturbance disturbance, uint64_t seed) {
   for (int i = 0; i < kNumSharedDraws; ++i) {
     if (kShared[i] != disturbance) continue;
@@ -24,8 +26,11 @@ Random stream(Disturbance disturbance, uint64_t seed) {
   // The name's FNV-1a hash, so that further disturbances do not change the others' numbers.
   uint64_t hash = 14695981039346656037u;
   for (const char* c = disturbance_names()[static_cast<size_t>(disturbance)]; *c != 0; ++c) {
+    // Constants of FNV-1a, 64 bits: offset basis and prime.
     hash = (hash ^ static_cast<unsigned char>(*c)) * 1099511628211u;
   }
+  // One step of the generator mixes seed and hash, so that neighboring seeds have unrelated
+  // streams.
   return Random(Random(seed ^ hash).next());
 }
 
@@ -48,6 +53,7 @@ Eigen::VectorXd draw_each(const DisturbanceSet& set, Disturbance disturbance, ui
   return drawn;
 }
 
+// Three numbers for the axes x, y, z, or `otherwise` without the disturbance.
 Vector3d draw_axes(const DisturbanceSet& set, Disturbance disturbance, uint64_t seed,
                    const Vector3d& otherwise) {
   const Eigen::VectorXd drawn = draw_each(set, disturbance, seed, 3);
@@ -76,6 +82,8 @@ Eigen::VectorXd draw_backlash(const DisturbanceSet& set, uint64_t seed, const Ro
        {Disturbance::kBacklashHip, Disturbance::kBacklashKnee, Disturbance::kBacklashAnkle,
         Disturbance::kBacklashArm, Disturbance::kBacklashHead}) {
     const Eigen::VectorXd drawn = draw_each(set, part, seed, model.num_motors());
+    // All motors draw, and the class keeps its own: a motor's number does not depend on how many
+    // motors other classes have.
     for (int motor = 0; motor < drawn.size(); ++motor) {
       if (backlash_of(model, motor) == part) play[motor] = drawn[motor];
     }
@@ -83,6 +91,8 @@ Eigen::VectorXd draw_backlash(const DisturbanceSet& set, uint64_t seed, const Ro
   return play.isZero(0) ? Eigen::VectorXd() : play;
 }
 
+// Scale of each foot sensor's reading, 1 being exact; at most one sensor of the robot is dead
+// (scale 0). Empty if all are exact.
 Eigen::VectorXd draw_foot_sensors(const DisturbanceSet& set, uint64_t seed,
                                   const RobotModel& model) {
   const auto count = static_cast<long>(model.foot_sensors().size());
@@ -91,6 +101,8 @@ Eigen::VectorXd draw_foot_sensors(const DisturbanceSet& set, uint64_t seed,
   if (!dead || count == 0) return scale;
   Random random = stream(Disturbance::kFootSensorDeadProbability, seed);
   const double probability = dead->draw(random);
+  // Both numbers are drawn in any case, so that which sensor would die does not depend on the
+  // probability.
   const bool has_dead_sensor = random.uniform() < probability;
   const auto which = static_cast<long>(random.uniform() * static_cast<double>(count));
   if (!has_dead_sensor) return scale;
@@ -104,6 +116,9 @@ Eigen::VectorXd draw_foot_sensors(const DisturbanceSet& set, uint64_t seed,
 void draw_world(const DisturbanceSet& set, uint64_t seed, WorldOptions& options) {
   if (const auto& slope = set.entry(Disturbance::kFloorSlope)) {
     Random random = stream(Disturbance::kFloorSlope, seed);
+    // Gravity of a floor that slopes by `angle` rad, downhill in the direction `downhill` rad from
+    // x: seen from the floor's own axes the weight leans by that angle. That equals a tilted floor
+    // without changing any contact code.
     const double angle = slope->draw(random);
     const double downhill = random.uniform(-M_PI, M_PI);
     // The floor stays level in W, and gravity is tilted.
@@ -121,10 +136,12 @@ void draw_world(const DisturbanceSet& set, uint64_t seed, WorldOptions& options)
   Materials& materials = options.materials;
   if (set.entry(Disturbance::kContactStiffness)) {
     const double stiffness = draw(set, Disturbance::kContactStiffness, seed, 0);
+    // Friction along the surface is as stiff relative to pressing as before.
     materials.tangent_stiffness *= stiffness / materials.contact_stiffness;
     materials.contact_stiffness = stiffness;
   }
   if (set.entry(Disturbance::kTickMs)) {
+    // The control period is a whole number of physics steps.
     const double tick = draw(set, Disturbance::kTickMs, seed, 0) * 1e-3;
     options.steps_per_tick = std::max(1, static_cast<int>(std::lround(tick / options.step)));
   }
@@ -133,12 +150,14 @@ void draw_world(const DisturbanceSet& set, uint64_t seed, WorldOptions& options)
 void draw_robot(const DisturbanceSet& set, uint64_t seed, int index, const RobotModel& model,
                 const WorldOptions& world, RobotOptions& options) {
   if (set.is_none()) {
+    // Further robots draw from seeds of their own: identical robots would fall in the same way.
     options.ideal_sensors = true;
     options.command_latency_ticks = 0;
     return;
   }
   if (index > 0) seed = Random(seed + static_cast<uint64_t>(index)).next();
   const double nominal_friction = world.materials.floor_friction;
+  // The draw is the coefficient itself; the options hold its ratio to the scene's.
   options.friction_scale =
       draw(set, Disturbance::kFriction, seed, options.friction_scale * nominal_friction) /
       nominal_friction;

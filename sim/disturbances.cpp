@@ -97,6 +97,7 @@ std::vector<std::string> names_after(const std::string& prefix) {
   return names;
 }
 
+// A number of the file in the simulator's unit. Errors give the range in the file's own unit.
 double read_size(const YamlEntry& entry, const Rule& rule, const Unit& unit, double least) {
   const double number = entry.number() * unit.size;
   // Conversion of units must not reject the limits themselves.
@@ -112,6 +113,7 @@ double read_size(const YamlEntry& entry, const Rule& rule, const Unit& unit, dou
 }
 
 const Unit& read_unit(const YamlEntry& entry, const Rule& rule) {
+  // Collects the allowed names for the error message; entry.fail() throws.
   const std::string name = entry.text();
   std::vector<std::string> names;
   for (const Unit& unit : rule.units) {
@@ -129,7 +131,9 @@ Distribution read_distribution(const YamlEntry& entry, const Rule& rule) {
     entry.at("per").fail("is \"" + per + "\" and must be " +
                          joined({rule.per.begin(), rule.per.end()}));
   }
+  // The source of a number is required to be there, and is for people only.
   entry.at("source").text();
+  // Each has() is 0 or 1.
   if (entry.has("value") + entry.has("uniform") + entry.has("sigma") != 1) {
     entry.fail("must have exactly one of value, uniform and sigma");
   }
@@ -165,6 +169,8 @@ const std::array<const char*, kNumDisturbances>& disturbance_names() {
   return names;
 }
 
+// Clamped after the draw: a normal distribution has tails, and the rule's range is what the physics
+// can compute.
 double Distribution::draw(Random& random) const {
   double drawn = a;
   if (kind == Kind::kUniform) drawn = random.uniform(a, b);
@@ -188,15 +194,18 @@ DisturbanceSet DisturbanceSet::parse(const std::string& text, const std::string&
 }
 
 void DisturbanceSet::read(const YamlEntry& whole) {
+  // The lambda gets itself as an argument to recurse into "backlash", whose entries are the classes
+  // of joints; all other entries are distributions.
   const auto read_all = [this](const YamlEntry& part, const std::string& prefix,
                                auto&& self) -> void {
-    for (const auto& [name, entry] : part.entries()) {
-      if (prefix.empty() && name == kBacklash) {
+    for (const auto& [key, entry] : part.entries()) {
+      const std::string name = prefix + key;
+      if (name == kBacklash) {
         self(entry, kBacklash + ".", self);
         continue;
       }
       const auto rule = std::find_if(rules().begin(), rules().end(),
-                                     [&](const Rule& each) { return each.name == prefix + name; });
+                                     [&](const Rule& each) { return each.name == name; });
       if (rule == rules().end()) {
         entry.fail("is unknown; allowed are " + joined(names_after(prefix)));
       }
@@ -208,6 +217,7 @@ void DisturbanceSet::read(const YamlEntry& whole) {
 
 DisturbanceSet DisturbanceSet::find(const std::string& name_or_list) {
   const std::filesystem::path folder = data_path() / "disturbances";
+  // A word without separators is a file's name first; otherwise a list of entries of real.yaml.
   const bool is_word = name_or_list.find_first_of("/.,") == std::string::npos;
   const auto file = folder / (name_or_list + ".yaml");
   if (is_word && std::filesystem::is_regular_file(file)) return load(file);
@@ -220,6 +230,7 @@ DisturbanceSet DisturbanceSet::find(const std::string& name_or_list) {
   while (std::getline(words, word, ',')) {
     bool is_known = false;
     for (size_t i = 0; i < kNumDisturbances; ++i) {
+      // "backlash" selects all of its classes, so that one word may match several entries.
       if (key_of(rules()[i].name) != word || !real.entries_[i]) continue;
       set.entries_[i] = real.entries_[i];
       is_known = true;
@@ -243,6 +254,7 @@ std::vector<std::string> DisturbanceSet::keys() const {
   std::vector<std::string> keys;
   for (size_t i = 0; i < kNumDisturbances; ++i) {
     const std::string key = key_of(rules()[i].name);
+    // Entries of one key are neighbors in rules(): comparing with the last key suffices.
     if (entries_[i] && (keys.empty() || keys.back() != key)) keys.push_back(key);
   }
   return keys;

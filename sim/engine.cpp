@@ -17,6 +17,8 @@ std::vector<std::string> engine_names() {
 #endif
 }
 
+// The engine of that name. An engine that is missing in this build is told apart from an unknown
+// one, since the first can be installed.
 std::unique_ptr<Engine> make_engine(const SceneFile& scene, const WorldOptions& options,
                                     MovingBodies& bodies) {
   if (options.engine == "fast") return std::make_unique<Stepper>(scene, options, bodies);

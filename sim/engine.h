@@ -28,6 +28,10 @@ class Engine {
   virtual const char* name() const = 0;
   /** Takes in the robot that was added to the bodies last. */
   virtual void add_robot() = 0;
+  /** Whether robots may be added after the first step, and removed. */
+  virtual bool can_change_robots() const { return false; }
+  /** The robot of this index was removed from the bodies; only if can_change_robots(). */
+  virtual void remove_robot(int /*robot*/) {}
   virtual void step() = 0;
   /** Forgets all contacts and counts from 0 again. */
   virtual void reset() = 0;

@@ -23,12 +23,17 @@ const std::vector<JointForce>& JointDrives::begin_explicit_step(double h,
     if (drive.dof < 0) continue;
     const auto k = static_cast<long>(i);
     const Backlash& gear = drive.gear;
+    // The servo measures the motor's side of the gear; with play that speed differs from the
+    // link's.
     const double link_speed = state.velocity[drive.dof];
     const double speed = gear.has_play() ? gear.motor_velocity : link_speed;
+    // Mean of the last and the new target, as in JointDrives::begin_step(), so that all engines see
+    // the same commands.
     const double target = (last_target_[k] + targets.position[k]) / 2;
     const double error = target - (state.coordinate[drive.dof] + gear.offset + drive.zero);
     JointForce force;
     force.dof = drive.dof;
+    // In the play the link feels nothing of its motor, which moves alone.
     if (!gear.is_engaged()) {
       drive.plan_step(h, targets.stiffness[k], error, speed);
       plan_free_motor(h, i);
@@ -36,6 +41,8 @@ const std::vector<JointForce>& JointDrives::begin_explicit_step(double h,
       continue;
     }
     const Motor& motor = drive.motor;
+    // The laws of Drive: PD demand clipped to the limit, then the back-EMF line, then clipped again
+    // (a braking motor's current limit). All from the speed at the start of the step.
     const double limit = targets.stiffness[k] * drive.torque_available();
     const double demand =
         limit > 0
@@ -55,10 +62,13 @@ const std::vector<JointForce>& JointDrives::begin_explicit_step(double h,
 }
 
 void JointDrives::end_explicit_step(double h, const TreeState& state) {
+  // The play opens by the torque that passed the gear; begin_explicit_step() has applied all else.
   for (size_t i = 0; i < drives_.size(); ++i) {
     Drive& drive = drives_[i];
     if (drive.dof < 0 || !drive.gear.has_play()) continue;
     const double speed = state.velocity[drive.dof];
+    // Dry friction of the step from the sign of the speed, blurred by tanh: the engine does not
+    // tell the friction that it applied.
     drive.friction.impulse = -h * drive.motor.dry_friction * std::tanh(speed / kStill);
     drive.plan.drag = 0;
     drive.plan.viscosity = drive.motor.viscous_friction;

@@ -24,6 +24,8 @@ std::array<double, 4> corner_fractions(const std::array<Vector2d, 4>& corners,
   double s = 0.5;
   double t = 0.5;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
+    // Residual of the bilinear map P(s, t) = s F(t) + (1 - s) R(t), with F between the front
+    // corners and R between the rear ones; its partial derivatives are the Jacobian's columns.
     const Vector2d front = t * front_left + (1 - t) * front_right;
     const Vector2d rear = t * rear_left + (1 - t) * rear_right;
     const Vector2d error = point - (s * front + (1 - s) * rear);
@@ -31,12 +33,14 @@ std::array<double, 4> corner_fractions(const std::array<Vector2d, 4>& corners,
     const Vector2d along_t = s * (front_left - front_right) + (1 - s) * (rear_left - rear_right);
     const double determinant = along_s.x() * along_t.y() - along_s.y() * along_t.x();
     if (std::abs(determinant) < kMinDeterminant) break;
+    // Newton step, with the 2 x 2 system solved by Cramer's rule.
     s += (error.x() * along_t.y() - error.y() * along_t.x()) / determinant;
     t += (along_s.x() * error.y() - along_s.y() * error.x()) / determinant;
   }
   // Beyond the quadrilateral: its edge carries the load.
   s = std::clamp(s, 0.0, 1.0);
   t = std::clamp(t, 0.0, 1.0);
+  // The bilinear weights of the four corners: positive, and their sum is 1.
   return {s * t, s * (1 - t), (1 - s) * t, (1 - s) * (1 - t)};
 }
 
@@ -45,6 +49,7 @@ FootLoad::FootLoad(std::vector<Vector2d> positions)
       fractions_(positions_.size(), 0.0),
       is_loaded_(positions_.size(), false) {}
 
+// Front, rear, left and right sensors are where their order says: bilinear weights need that.
 bool FootLoad::has_four_corners() const {
   if (positions_.size() != 4) return false;
   const Vector2d& front_left = positions_[0];
@@ -72,9 +77,12 @@ void FootLoad::distribute_linearly(const Vector2d& point) {
   constexpr double kRankTolerance = 1e-9;
   // Rounding.
   constexpr double kNegative = -1e-12;
+  // Active-set method: the least-norm solution first; while a sensor would have to pull, the one
+  // that pulls most is taken out and the rest is solved again. At most one pass per sensor.
   std::fill(is_loaded_.begin(), is_loaded_.end(), true);
   for (size_t num_loaded = positions_.size(); num_loaded > 0; --num_loaded) {
     const auto count = static_cast<double>(num_loaded);
+    // Center and second moments of the sensors that still carry load, in the sole's frame.
     Vector2d center = Vector2d::Zero();
     for (size_t i = 0; i < positions_.size(); ++i) {
       if (is_loaded_[i]) center += positions_[i] / count;
@@ -90,12 +98,14 @@ void FootLoad::distribute_linearly(const Vector2d& point) {
     Eigen::SelfAdjointEigenSolver<Matrix2d> solver;
     solver.computeDirect(moments);
     Vector2d gradient = Vector2d::Zero();
+    // Pseudo-inverse by the eigenvectors: directions without extent have no gradient.
     for (int k = 0; k < 2; ++k) {
       const double value = solver.eigenvalues()[k];
       if (value <= kRankTolerance * solver.eigenvalues()[1]) continue;
       const Vector2d axis = solver.eigenvectors().col(k);
       gradient += axis * axis.dot(point - center) / value;
     }
+    // The most negative fraction of this pass.
     size_t least = 0;
     double least_fraction = 1;
     for (size_t i = 0; i < positions_.size(); ++i) {
@@ -107,6 +117,7 @@ void FootLoad::distribute_linearly(const Vector2d& point) {
     if (least_fraction >= kNegative) break;
     is_loaded_[least] = false;
   }
+  // Rounding may leave tiny negative numbers.
   for (double& fraction : fractions_) fraction = std::max(fraction, 0.0);
 }
 

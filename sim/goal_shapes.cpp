@@ -15,6 +15,7 @@ std::vector<StaticShape> make_goal_shapes(const SceneFile& scene) {
   const GoalDimensions& goals = *scene.goals;
   const double radius = goals.post_diameter / 2;
   const double half_width = goals.post_distance / 2;
+  // Both goals mirror each other; `side` is the sign of their x in W. Nets lie behind the line.
   for (const double side : {1.0, -1.0}) {
     const double x = side * (scene.field->length / 2 + goals.post_offset);
     for (const double y : {half_width, -half_width}) {
@@ -24,6 +25,7 @@ std::vector<StaticShape> make_goal_shapes(const SceneFile& scene) {
       post.shape.half.z() = goals.crossbar_height / 2;
       post.shape.radius = radius;
       shapes.push_back(post);
+      // A box of no thickness with rounded edges, from the post to the goal's depth.
       StaticShape side_net;
       side_net.is_net = true;
       side_net.shape.radius = kNetRadius;
@@ -32,6 +34,7 @@ std::vector<StaticShape> make_goal_shapes(const SceneFile& scene) {
       shapes.push_back(side_net);
     }
     StaticShape crossbar;
+    // A capsule lies along its z axis; the crossbar's is turned onto y.
     crossbar.shape.center = {x, 0, goals.crossbar_height};
     crossbar.shape.rotation = Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()).toRotationMatrix();
     crossbar.shape.half.z() = half_width;

@@ -21,6 +21,7 @@ constexpr double kStopMargin = 0.01;
 /** Time constant with which an opening follows its target, s. Assumed. */
 constexpr double kOpeningTime = 0.1;
 
+// The rows that a drive may have in a step, for loops over all of them.
 std::array<Drive::Row*, 4> rows_of(Drive& drive) {
   return {&drive.stop, &drive.friction, &drive.upper_bound, &drive.lower_bound};
 }
@@ -42,6 +43,8 @@ JointDrives::JointDrives(const RobotModel& model, const Tree& tree, const RobotO
     const RobotErrors& errors = options.errors;
     if (errors.joint_zero.size() > 0) drive.zero = errors.joint_zero[i];
     if (errors.backlash.size() > 0) drive.gear.half_play = errors.backlash[i] / 2;
+    // The joint's degree of freedom. A motor that no body of the tree belongs to opens a hand, and
+    // keeps dof -1.
     for (int body = 1; body < tree_.num_bodies(); ++body) {
       if (tree_.bodies()[body].joint == model.motors()[i]) drive.dof = tree_.bodies()[body].dof;
     }
@@ -58,6 +61,8 @@ double JointDrives::position(int motor, const TreeState& state) const {
   return drive.dof < 0 ? drive.opening : state.coordinate[drive.dof];
 }
 
+// What the robot's encoder reads, rad: the motor's side of the gear (link plus play) with the error
+// of the joint's zero.
 double JointDrives::encoder_position(int motor, const TreeState& state) const {
   const Drive& drive = drives_[motor];
   if (drive.dof < 0) return drive.opening;
@@ -69,6 +74,7 @@ double JointDrives::speed(int motor, const TreeState& state) const {
   return drive.dof < 0 ? 0 : state.velocity[drive.dof];
 }
 
+// Kinetic energy of the rotors and elastic energy of the stops, J; the tree has the rest.
 double JointDrives::energy(const TreeState& state) const {
   double sum = 0;
   for (const Drive& drive : drives_) {
@@ -82,6 +88,7 @@ double JointDrives::energy(const TreeState& state) const {
   return sum;
 }
 
+// At rest at these positions, in the middle of the play, without impulses of the last step.
 void JointDrives::place(const std::vector<double>& position) {
   for (size_t i = 0; i < drives_.size(); ++i) {
     Drive& drive = drives_[i];
@@ -108,13 +115,18 @@ void JointDrives::begin_step(double h, const MotorTargets& targets, TreeIntegrat
     // Leapfrog: a velocity belongs to the middle between two steps, so that half of this step's
     // torque acts before a target that is new in it.
     const double target = (last_target_[k] + targets.position[k]) / 2;
+    // The servo controls what its encoder reads, errors included.
     const double measured = state.coordinate[drive.dof] + gear.offset + drive.zero;
     drive.plan_step(h, targets.stiffness[k], target - measured, speed);
+    // No row of the last step is left: index -1 until one is added below.
     for (Drive::Row* row : rows_of(drive)) row->index = -1;
     if (!gear.is_engaged()) {
       plan_free_motor(h, i);
       continue;
     }
+    // The rotor joins its link: (M + D) u' = M u + J speed + h (torques), where the parts of the
+    // torques that depend on u' are in D, see TreeIntegrator. The term J * speed is the rotor's
+    // momentum, which with play differs from that of the link's speed.
     const double inertia = drive.motor.reflected_inertia;
     integrator.add_joint_impulse(
         drive.dof, inertia * speed + h * (drive.plan.demand - drive.plan.emf - drive.plan.drag),
@@ -130,6 +142,9 @@ void JointDrives::plan_free_motor(double h, size_t motor) {
       drive.free_velocity(h, drive.gear.motor_velocity, torque_[static_cast<long>(motor)]);
 }
 
+// Entries L^-T e_dof of a joint's rows: a unit velocity of the joint. All rows of the joint share
+// them; they are computed at most once in a step. Returns the first entry's index, or -1 if memory
+// is used up.
 int JointDrives::add_dof_entries(int dof, const TreeDynamics& dynamics, int first_dof,
                                  ConstraintSolver& solver) {
   if (entry_of_dof_[dof] >= 0) return entry_of_dof_[dof];
@@ -142,6 +157,7 @@ int JointDrives::add_dof_entries(int dof, const TreeDynamics& dynamics, int firs
     solver.entry(first + k) = RowEntry();
     position_in_chain_[chain[k]] = k;
   }
+  // The unit vector: the joint's own dof is the last of its chain.
   solver.entry(first + count - 1).row[0] = 1;
   dynamics.solve_upper(chain.data(), count, position_in_chain_.data(), &solver.entry(first));
   entry_of_dof_[dof] = first;
@@ -151,6 +167,7 @@ int JointDrives::add_dof_entries(int dof, const TreeDynamics& dynamics, int firs
 void JointDrives::add_friction_row(double h, Drive& drive, int first_entry,
                                    ConstraintSolver& solver) const {
   // Holds the joint still with an impulse up to h times the dry friction.
+  // bias = softness = 0: within its bounds the impulse brings the joint's speed to exactly 0.
   JointRow row;
   row.first_entry = first_entry;
   row.num_entries = num_entries(drive.dof);
@@ -165,11 +182,13 @@ void JointDrives::add_stop_row(double h, const TreeState& state, Drive& drive,
                                ConstraintSolver& solver) {
   const double angle = state.coordinate[drive.dof];
   const double speed = state.velocity[drive.dof];
+  // Positive inside the range; the nearer stop counts. Only one can be reached in a step.
   const double to_lower = angle - drive.lower;
   const double to_upper = drive.upper - angle;
   const bool is_low = to_lower < to_upper;
   const double distance = is_low ? to_lower : to_upper;
   const double approach_speed = is_low ? -speed : speed;
+  // 2 h: the speed may double within the step. Written so that NaN adds no row.
   if (!(distance < kStopMargin + 2 * h * approach_speed)) {
     drive.stop.impulse = 0;
     return;
@@ -192,12 +211,14 @@ void JointDrives::add_stop_row(double h, const TreeState& state, Drive& drive,
 void JointDrives::add_torque_bound(double h, Drive& drive, bool is_upper, bool is_braking,
                                    const TreeDynamics& dynamics, int first_dof,
                                    ConstraintSolver& solver) {
+  // Without memory the bound is missing in this step, and the motor may exceed its limit in it.
   const int first = add_dof_entries(drive.dof, dynamics, first_dof, solver);
   if (first < 0) return;
   // The bounded torque is demand - slope * v': the servo's demand u, less back-EMF when braking.
   // The row's impulse p >= 0 takes from it what exceeds the limit: demand - slope * v' - p / h =
   // limit  =>  v' + p / (h slope) + (limit - demand) / slope = 0, and the mirror image for the
   // lower bound.
+  // emf and line are the two parts of the back-EMF, emf + line * v', see Drive::Plan.
   const double slope = drive.plan.slope + (is_braking ? drive.plan.line : 0);
   const double demand = drive.plan.demand - (is_braking ? drive.plan.emf : 0);
   JointRow row;
@@ -210,6 +231,7 @@ void JointDrives::add_torque_bound(double h, Drive& drive, bool is_upper, bool i
   row.upper = kInfinity;
   Drive::Row& bound = is_upper ? drive.upper_bound : drive.lower_bound;
   row.impulse = bound.impulse;
+  // A bound that changes from driving to braking keeps its place and impulse.
   if (bound.index < 0) {
     bound.index = solver.add_row(row);
   } else {
@@ -231,6 +253,8 @@ void JointDrives::add_rows(double h, const TreeState& state, const TreeDynamics&
     // Without a slope the servo is off, or has no gain at all.
     if (!is_engaged || !(drive.plan.slope > 0)) continue;
     const double speed = state.velocity[drive.dof];
+    // Predicted with the speed at the start of the step. A bound that was active in the last step
+    // is kept as well: its start value is good.
     const double demanded = drive.plan.demand - drive.plan.slope * speed;
     const double threshold = kBoundFraction * drive.plan.limit;
     if (demanded > threshold || drive.upper_bound.impulse > 0) {
@@ -242,6 +266,8 @@ void JointDrives::add_rows(double h, const TreeState& state, const TreeDynamics&
   }
 }
 
+// Bounds that the solved step violates although no row was added for them: adds them, and tells
+// whether any was. The stepper solves again then.
 bool JointDrives::add_missed_bounds(double h, const Eigen::VectorXd& velocity,
                                     const TreeDynamics& dynamics, int first_dof,
                                     ConstraintSolver& solver) {
@@ -252,11 +278,13 @@ bool JointDrives::add_missed_bounds(double h, const Eigen::VectorXd& velocity,
   for (Drive& drive : drives_) {
     if (drive.dof < 0 || drive.plan.slope == 0 || !drive.gear.is_engaged()) continue;
     const double speed = velocity[drive.dof];
+    // The servo's torque in the solution so far, N m, including what the bounds take from it.
     const double driven = drive.plan.demand - drive.plan.slope * speed +
                           (impulse_of(drive.lower_bound) - impulse_of(drive.upper_bound)) / h;
     const double allowed = drive.plan.limit * (1 + kBoundTolerance);
     const double back_emf = drive.plan.emf + drive.plan.line * speed;
     for (const bool is_upper : {true, false}) {
+      // A motor brakes where back-EMF acts in the direction of the bound.
       // A driving motor's servo torque is bounded, a braking one's servo torque less back-EMF.
       const bool is_braking = is_upper ? back_emf < 0 : back_emf > 0;
       const double bounded = driven - (is_braking ? back_emf : 0);
@@ -279,9 +307,12 @@ void JointDrives::end_step(double h, const Eigen::VectorXd& velocity,
     Drive& drive = drives_[i];
     if (drive.dof < 0) continue;
     const double speed = velocity[drive.dof];
+    // Impulses for the next step's warm start; a row that is absent has none.
     for (Drive::Row* row : rows_of(drive)) {
       row->impulse = row->index < 0 ? 0 : solver.rows()[row->index].impulse;
     }
+    // The torque that the motor gave, at the joint: before friction and the rotor's acceleration. A
+    // free motor's was computed by plan_free_motor().
     double& torque = torque_[static_cast<long>(i)];
     if (drive.gear.is_engaged()) {
       torque = drive.plan.demand - drive.plan.emf - (drive.plan.slope + drive.plan.line) * speed +
@@ -304,6 +335,8 @@ void JointDrives::end_gear_step(double h, double torque, double speed, Drive& dr
   gear.end_engaged_step(speed, torque - friction - drive.motor.reflected_inertia * acceleration);
 }
 
+// Once in a control tick: winding temperatures from the mean torque of the tick, and openings of
+// hands, which follow their target as a first-order lag with limited speed (kinematic, no mass).
 void JointDrives::end_tick(const Eigen::VectorXd& torque_impulse, const MotorTargets& targets,
                            double period) {
   for (size_t i = 0; i < drives_.size(); ++i) {

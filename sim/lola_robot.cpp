@@ -49,6 +49,9 @@ void LolaRobot::update(const SensorReadings& sensed, const MotorTargets& targets
   read_joints(sensed, targets, period);
   const bool is_first = sensed.tick == 0;
   for (int i = 0; i < 3; ++i) {
+    // A frame comes every 12 ms; the unit is read in turn, the accelerometer in even frames and the
+    // gyroscope in odd ones, and the other value is repeated. The factors map the torso frame to
+    // LoLA's axes.
     const auto axis = static_cast<size_t>(i);
     if (is_first || sensed.tick % 2 == 0) {
       state_.accelerometer[axis] =
@@ -58,13 +61,17 @@ void LolaRobot::update(const SensorReadings& sensed, const MotorTargets& targets
       state_.gyroscope[axis] = static_cast<float>(map_.gyroscope_sign[axis] * sensed.gyroscope[i]);
     }
   }
+  // With R = Rz(yaw) Ry(pitch) Rx(roll): R(2,0) = -sin(pitch), R(2,1) / R(2,2) = tan(roll). The
+  // clamp is for rounding. Heading is not reported.
   // Orientation as heading, then pitch, then roll about the axes that turn along: R = Rz Ry Rx.
   const Eigen::Matrix3d rotation = sensed.orientation.toRotationMatrix();
   state_.angles[0] = static_cast<float>(std::atan2(rotation(2, 1), rotation(2, 2)));
   state_.angles[1] = static_cast<float>(-std::asin(std::clamp(rotation(2, 0), -1.0, 1.0)));
   for (size_t i = 0; i < map_.foot_sensors.size(); ++i) {
+    // LoLA reports foot forces in kg.
     state_.fsr[i] = static_cast<float>(sensed.foot_force[map_.foot_sensors[i]] / kGravity);
   }
+  // A touch lasts for a number of ticks, so that a client that reads every frame cannot miss it.
   for (size_t i = 0; i < touched_ticks_.size(); ++i) {
     state_.touch[i] = touched_ticks_[i] > 0 ? 1 : 0;
     touched_ticks_[i] = std::max<int64_t>(0, touched_ticks_[i] - 1);
@@ -82,6 +89,8 @@ void LolaRobot::read_joints(const SensorReadings& sensed, const MotorTargets& ta
   state_.position = map_.to_lola(span(sensed.position), true);
   state_.stiffness = map_.to_lola(span(targets.stiffness), false);
   state_.battery[2] = kIdleCurrent;
+  // Current |torque| / torque constant; the electronics' current and all motors' discharge the
+  // battery (negative current). Heating is a first-order lag of the squared current.
   for (size_t i = 0; i < kLolaJoints; ++i) {
     const double current = std::abs(sensed.torque[map_.joints[i].motor]) / map_.torque_per_current;
     state_.current[i] = static_cast<float>(current);
@@ -92,6 +101,8 @@ void LolaRobot::read_joints(const SensorReadings& sensed, const MotorTargets& ta
   }
 }
 
+// A LoLA message may leave out keys, and values that are not finite: what it leaves out keeps the
+// last value. The command that results is complete, as if it had come by the bus.
 JointCommand LolaRobot::take(const LolaCommand& command, const MotorTargets& targets,
                              int64_t tick) {
   // Pairs of new and held values: key by key, value by value.
@@ -121,6 +132,7 @@ JointCommand LolaRobot::take(const LolaCommand& command, const MotorTargets& tar
 }
 
 bool LolaRobot::touch(const std::string& name, int64_t num_ticks) {
+  // An unknown name is the caller's error: false.
   const auto found = std::find(map_.touch.begin(), map_.touch.end(), name);
   if (found == map_.touch.end()) return false;
   touched_ticks_[static_cast<size_t>(found - map_.touch.begin())] = num_ticks;

@@ -8,6 +8,7 @@
 
 namespace nao::sim {
 
+// LoLA serves one client at a time. While it is connected the listener is not watched.
 LolaServer::LolaServer(EventLoop& loop, std::string path, Handlers handlers)
     : loop_(loop),
       path_(std::move(path)),
@@ -16,6 +17,7 @@ LolaServer::LolaServer(EventLoop& loop, std::string path, Handlers handlers)
   loop_.on_readable(listener_.descriptor(), [this] { accept(); });
 }
 
+// The socket's file would otherwise stay and let a later client believe in a running robot.
 LolaServer::~LolaServer() {
   if (client_) loop_.forget(client_->descriptor());
   loop_.forget(listener_.descriptor());
@@ -37,10 +39,13 @@ void LolaServer::read() {
   client_->receive();
   LolaCommand command;
   // A command may make the simulator send a frame, which may end the connection.
+  // next() takes complete messages out of the receive buffer; a partial one waits for more bytes.
   while (client_ && client_->next(command)) handlers_.on_command(command);
+  // end() is the reason for which the connection ended; empty while it is open.
   if (client_ && !client_->end().empty()) drop();
 }
 
+// Encodes into a buffer that is used again for every frame.
 void LolaServer::send(const LolaState& state) {
   if (!client_) return;
   const size_t size = encode(state, frame_);

@@ -1,27 +1,52 @@
+#include <fmt/ranges.h>
+
+#include <cstdio>
 #include <string>
+#include <vector>
 
 #include "common/bus.h"
 #include "common/command_line.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
 #include "common/program.h"
+#include "common/robot_option.h"
 #include "common/scheduling.h"
 #include "sim/sim_daemon.h"
 #include "sim/sim_options.h"
+#include "sim/start_places.h"
+
+namespace {
+
+void print_places(const nao::sim::SimOptions& options) {
+  const auto robots = nao::sim::with_teams(options.robots);
+  const auto places = nao::sim::start_places(robots, nao::SceneFile::find(options.scene));
+  for (size_t i = 0; i < robots.size(); ++i) {
+    const nao::RobotOption& robot = robots[i];
+    std::puts(fmt::format("{} {} {} {} {}", robot.name, robot.model,
+                          robot.team ? std::to_string(*robot.team) : "-",
+                          robot.team ? std::to_string(robot.number) : "-",
+                          nao::sim::start_pose_text(robot, places[i]))
+                  .c_str());
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   nao::CommandLine app("Simulates the robot's world: bodies, contacts, motors, sensors, ball.",
                        "nao-sim");
   nao::CommonOptions common;
-  nao::add_common_options(app, common);
+  nao::add_bus_options(app, common);
   nao::sim::SimOptions options;
-  std::vector<std::string> more_robots;
-  app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
+  std::vector<std::string> robots{common.robot};
+  std::string model = "nao";
+  bool prints_places = false;
+  nao::add_robot_option(app, robots);
+  app.add_option("--model", model, "Folder of robots/ that describes robots without a model")
       ->show_default();
   app.add_option("--scene", options.scene, "Surroundings of the robot: soccer or empty")
       ->show_default();
-  app.add_option("--posture", options.posture, "Posture that the robot starts in")->show_default();
-  app.add_option("--also-robot", more_robots, "Name of a further robot; may be repeated");
+  app.add_option("--posture", options.posture, "Posture that the robots start in")->show_default();
   app.add_option("--pace", options.pace,
                  "Simulated seconds per second of wall time, 0 as fast as possible")
       ->range(0.0, 1000.0)
@@ -49,11 +74,14 @@ int main(int argc, char** argv) {
       "--lola", options.lola_socket,
       "Serve the robot on a Unix socket as a NAO V6 does, with 12 ms ticks, instead of on "
       "the bus; nao-robot is its client");
+  app.add_flag("--print-places", prints_places,
+               "Print each robot's name, model, team and number (- outside a match) and start as "
+               "its team sees the field, X,Y,HEADING in m and degrees, and end");
   return nao::run_program(app, common, argc, argv, [&] {
     // The period of LoLA's frames.
     if (!options.lola_socket.empty() && options.tick_ms == -1) options.tick_ms = 12;
-    options.robots = {common.robot};
-    options.robots.insert(options.robots.end(), more_robots.begin(), more_robots.end());
+    options.robots = nao::parse_robot_options(robots, model);
+    if (prints_places) return print_places(options);
     const bool is_in_real_time = !options.lock_step && options.pace > 0;
     if (is_in_real_time && nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
       nao::logger::info("uses real-time scheduling (SCHED_RR)");
@@ -61,10 +89,10 @@ int main(int argc, char** argv) {
     nao::Bus bus(common.lcm_url);
     const nao::sim::SimDaemon daemon(bus, loop, options);
     nao::logger::info(
-        "version {}, bus {}, channels {}_* and WORLD_*, model {}, scene {}, disturbances \"{}\", "
+        "version {}, bus {}, robots {}, WORLD_*, scene {}, disturbances \"{}\", "
         "control period {} ms, {}",
-        nao::version(), common.lcm_url, common.robot, options.model, options.scene,
-        options.disturbances, 1e3 * daemon.core().world().options().period(),
+        nao::version(), common.lcm_url, fmt::join(robots, " "), options.scene, options.disturbances,
+        1e3 * daemon.core().world().options().period(),
         options.lock_step ? std::string("lock-step") : "pace " + std::to_string(options.pace));
     const std::string reason = loop.run();
     nao::logger::info(

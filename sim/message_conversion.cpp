@@ -1,6 +1,7 @@
 #include "sim/message_conversion.h"
 
 #include <cmath>
+#include <limits>
 
 namespace nao::sim {
 namespace {
@@ -26,6 +27,7 @@ Eigen::Vector3d to_eigen(const double (&from)[3]) {
   return {from[0], from[1], from[2]};
 }
 
+// Time of a robot's last sensor reading in simulated time, as whole microseconds.
 int64_t utime_of(const World& world, int robot) {
   return std::llround(world.sensors(robot).time * 1e6);
 }
@@ -66,6 +68,16 @@ naolcm::robot_truth_t robot_truth_of(const SimRobot& robot) {
   return truth;
 }
 
+void add_lights(const SimLights& lights, naolcm::robot_truth_t& truth) {
+  for (size_t i = 0; i < lights.names().size(); ++i) {
+    const LightColor rgb = lights.color(i);
+    if (rgb == LightColor{}) continue;
+    truth.light_names.push_back(lights.names()[i]);
+    truth.light_rgb.emplace_back(rgb.begin(), rgb.end());
+  }
+  truth.num_lights = static_cast<int>(truth.light_names.size());
+}
+
 void add_lights(const LolaRobot& lola, naolcm::robot_truth_t& truth) {
   for (const LolaMap::Light& light : lola.map().lights) {
     truth.light_names.push_back(light.name);
@@ -77,6 +89,8 @@ void add_lights(const LolaRobot& lola, naolcm::robot_truth_t& truth) {
 
 }  // namespace
 
+// Copies fields only: ranges and lengths are checked in the core, see merge_joint_command() and
+// SimCore::take_world_command().
 JointCommand to_core(const naolcm::joint_command_t& message) {
   return {message.tick, message.joint_names, message.joint_position, message.joint_stiffness};
 }
@@ -90,11 +104,15 @@ WorldCommand to_core(const naolcm::world_command_t& message) {
   command.pace = message.pace;
   command.robot = message.robot;
   command.posture = message.posture;
+  command.model = message.model;
   command.position = to_eigen(message.position_in_world);
   for (int i = 0; i < 4; ++i) command.orientation[i] = message.orientation_in_world[i];
   command.velocity = to_eigen(message.velocity_in_world);
   command.link = message.link;
+  // Everything in W and in SI units, as the message's comments say.
   command.impulse = to_eigen(message.impulse_in_world);
+  command.point = to_eigen(message.point_in_link);
+  command.target = to_eigen(message.target_in_world);
   return command;
 }
 
@@ -102,6 +120,8 @@ naolcm::sensor_state_t sensor_state_of(const World& world, int index) {
   const SensorReadings& sensed = world.sensors(index);
   const RobotModel& model = world.robot(index).model();
   naolcm::sensor_state_t message;
+  // The readings are those of the last tick, with all sensor errors: nothing of the truth may leak
+  // into this message.
   message.utime = utime_of(world, index);
   message.tick = sensed.tick;
   message.period = world.options().period();
@@ -125,6 +145,25 @@ naolcm::sensor_state_t sensor_state_of(const World& world, int index) {
   return message;
 }
 
+naolcm::body_state_t body_state_of(const SimCore& core, int robot) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const SimLights& lights = core.lights(robot);
+  naolcm::body_state_t message{};
+  message.utime = utime_of(core.world(), robot);
+  message.battery_charge = kUnknown;
+  message.battery_current = kUnknown;
+  message.battery_temperature = kUnknown;
+  message.light_names = lights.names();
+  message.num_lights = static_cast<int>(message.light_names.size());
+  for (size_t i = 0; i < message.light_names.size(); ++i) {
+    const LightColor rgb = lights.color(i);
+    message.light_rgb.emplace_back(rgb.begin(), rgb.end());
+  }
+  return message;
+}
+
+// Ground truth of the whole world, for viewers and tests; programs that control the robot must not
+// read it.
 naolcm::world_truth_t world_truth_of(const SimCore& core, double real_time_factor) {
   const SimOptions& options = core.options();
   const World& world = core.world();
@@ -143,9 +182,17 @@ naolcm::world_truth_t world_truth_of(const SimCore& core, double real_time_facto
   message.pace = scheduler.pace();
   message.num_late_commands = scheduler.num_late_commands();
   message.num_late_ticks = scheduler.num_late_ticks();
+  // One LoLA robot at most: the lights of its last command are shown on it.
   for (int i = 0; i < world.num_robots(); ++i) {
     message.robots.push_back(robot_truth_of(world.robot(i)));
-    if (core.lola()) add_lights(*core.lola(), message.robots.back());
+    const RobotOption& player = options.robots[static_cast<size_t>(i)];
+    message.robots.back().team = static_cast<int8_t>(player.team.value_or(0));
+    message.robots.back().number = static_cast<int8_t>(player.number);
+    if (core.lola()) {
+      add_lights(*core.lola(), message.robots.back());
+    } else {
+      add_lights(core.lights(i), message.robots.back());
+    }
   }
   message.num_robots = static_cast<int>(message.robots.size());
   message.has_ball = world.has_ball() ? 1 : 0;
@@ -156,6 +203,7 @@ naolcm::world_truth_t world_truth_of(const SimCore& core, double real_time_facto
     copy(ball.velocity, message.velocity_ball_in_world);
     copy(ball.angular_velocity, message.angular_velocity_ball_in_world);
   }
+  // The force on a; contact_t's reader negates it for b.
   for (const Contact& contact : world.contacts()) {
     naolcm::contact_t part;
     part.body_a = surface_name(world, contact.a);

@@ -19,6 +19,8 @@ MujocoBaseline::MujocoBaseline(const SimRobot& robot, const WorldOptions& world,
   robot_.emplace(*model_, robot, 0);
 
   const Tree& tree = robot.tree();
+  // Actuators are written in the order of the bodies (Writer::write_servos()), and are numbered in
+  // the same order here; openings of hands have none.
   actuator_of_motor_.assign(robot.model().num_motors(), -1);
   int actuator = 0;
   for (int i = 1; i < tree.num_bodies(); ++i) {
@@ -26,6 +28,7 @@ MujocoBaseline::MujocoBaseline(const SimRobot& robot, const WorldOptions& world,
     if (motor < 0 || options.is_limp) continue;
     actuator_of_motor_[motor] = actuator++;
     const Motor& drive = robot.model().motor(motor);
+    // Back-EMF as a damper: the slope of the torque-speed line, N m s/rad.
     back_emf_.push_back(drive.peak_torque / drive.no_load_velocity);
   }
   set_state(tree, robot.state());
@@ -42,6 +45,8 @@ void MujocoBaseline::match_laws(const WorldOptions& world) {
   // Ratio of the damper along the surface of a sticking contact to the normal one.
   model_->opt.impratio = 10;
   model_->opt.cone = mjCONE_ELLIPTIC;
+  // solimp = (d_min, d_max, width, ...): equal first two make the impedance constant. Negative
+  // solref is MuJoCo's direct format, (-stiffness, -damping).
   const auto set_impedance = [](mjtNum* solimp, double impedance) {
     solimp[0] = solimp[1] = impedance;
   };
@@ -49,10 +54,15 @@ void MujocoBaseline::match_laws(const WorldOptions& world) {
     solref[0] = -stiffness;
     solref[1] = -damping;
   };
+  // Only the contact spheres, whose contype is 0: they carry the robot on the floor.
   for (int geom = 0; geom < model_->ngeom; ++geom) {
     if (model_->geom_contype[geom] != 0) continue;
+    // R f = -k r - b v with R = (1 - d) / d A: multiplied by (1 - d) A, the spring k of the contact
+    // becomes MuJoCo's reference stiffness per unit of inverse mass. The factor d cancels in direct
+    // format, where MuJoCo divides by it (see above).
     const double inverse_mass = model_->body_invweight0[2 * model_->geom_bodyid[geom]];
     const double scale = (1 - kImpedance) * inverse_mass;
+    // A geom with the higher priority decides the parameters of the contact alone.
     model_->geom_priority[geom] = 1;
     set_reference(&model_->geom_solref[mjNREF * geom], scale * world.materials.contact_stiffness,
                   scale * world.materials.contact_damping);
@@ -71,6 +81,8 @@ void MujocoBaseline::match_laws(const WorldOptions& world) {
     // A mimic joint has the stops of the joint that it follows.
     model_->jnt_limited[model_->eq_obj1id[i]] = 0;
   }
+  // The stops of joints, as the contacts above: with the joint's inverse inertia in place of the
+  // body's inverse mass.
   for (int joint = 0; joint < model_->njnt; ++joint) {
     if (!model_->jnt_limited[joint]) continue;
     const double scale = (1 - kImpedance) * model_->dof_invweight0[model_->jnt_dofadr[joint]];
@@ -92,6 +104,9 @@ TreeState MujocoBaseline::state(const Tree& tree) const {
   return state;
 }
 
+// MuJoCo's force range bounds servo and damping, but not the joint's damping, which holds the
+// back-EMF: a braking motor would exceed its current limit. An applied force takes the excess back,
+// from the state at the start of the step.
 void MujocoBaseline::limit_braking_torque() {
   for (int i = 0; i < model_->nu; ++i) {
     const int joint = model_->actuator_trnid[2 * i];

@@ -21,6 +21,8 @@ mjfCollision collide_with_plane = nullptr;
 /** Contact of a sphere with the floor, whose bumps are in the user data of the plane's geom. Our
  * surface in the place of MuJoCo's height fields: these are made for shapes that are not small
  * beside a cell. */
+// mjCOLLISIONFUNC's signature. Returns the number of contacts written: 0 or 1. MuJoCo completes the
+// contact's frame from its first axis; the second is left 0 for that.
 int collide_with_floor(const mjModel* model, const mjData* data, mjContact* contact, int plane,
                        int sphere, mjtNum margin) {
   const mjtNum* user = model->geom_user + static_cast<long>(model->nuser_geom) * plane;
@@ -31,6 +33,8 @@ int collide_with_floor(const mjModel* model, const mjData* data, mjContact* cont
   const mjtNum* center = data->geom_xpos + 3 * sphere;
   const mjtNum radius = model->geom_size[3 * sphere];
   const Floor::Plane tangent = floor.at(center[0], center[1]);
+  // The same plane of the triangle as ContactDetector::to_floor(); pos is in the middle between
+  // both surfaces, as MuJoCo defines it.
   const double distance = tangent.normal.z() * (center[2] - tangent.height) - radius;
   if (distance > margin) return 0;
   contact->dist = distance;
@@ -42,6 +46,7 @@ int collide_with_floor(const mjModel* model, const mjData* data, mjContact* cont
   return 1;
 }
 
+// The table is one for the process: replaced once, and the original kept for flat floors.
 void use_our_floor() {
   mjfCollision& function = mjCOLLISIONFUNC[mjGEOM_PLANE][mjGEOM_SPHERE];
   if (function == collide_with_floor) return;
@@ -67,11 +72,14 @@ void MujocoEngine::add_robot() {
   build();
 }
 
+// The whole model is compiled anew whenever a robot is added: MuJoCo's sizes are fixed.
 void MujocoEngine::build() {
   MujocoScene scene;
   for (const auto& robot : bodies_.robots) scene.robots.push_back(robot.get());
   if (bodies_.ball) scene.ball = &bodies_.ball->description();
   scene.statics = statics_;
+  // Points carry all floor contacts, as in the fast engine; servos and friction of joints come from
+  // JointDrives instead, so that all engines have the same motors.
   MujocoModelOptions how;
   how.has_points_only = true;
   how.has_servos = false;
@@ -96,6 +104,8 @@ void MujocoEngine::build() {
   write_states();
 }
 
+// Which surface, foot and robot each geom belongs to, from names and user data that Writer wrote:
+// unnamed geoms are a robot's. Also sets each geom's contact stiffness.
 void MujocoEngine::identify_geoms() {
   std::vector<int> robot_of_body(model_->nbody, -1);
   for (int i = 0; i < bodies_.num_robots(); ++i) {
@@ -103,6 +113,8 @@ void MujocoEngine::identify_geoms() {
       robot_of_body[mj_name2id(model_.get(), mjOBJ_BODY, mujoco_body_name(i, body).c_str())] = i;
     }
   }
+  // MuJoCo's stiffness goes with 1 / timeconst^2: a contact k times stiffer has a time constant
+  // shorter by the square root of k.
   const double softness =
       std::sqrt(Materials().contact_stiffness / options_.materials.contact_stiffness);
   geoms_.assign(model_->ngeom, {});
@@ -129,6 +141,7 @@ void MujocoEngine::reset() {
 }
 
 void MujocoEngine::write_states() {
+  // mj_resetData() also clears the warm start; the state of all bodies is written again.
   contacts_.clear();
   mj_resetData(model_.get(), data_.get());
   for (int i = 0; i < bodies_.num_robots(); ++i) forget_contacts_of_robot(i);
@@ -138,6 +151,7 @@ void MujocoEngine::write_states() {
 void MujocoEngine::forget_contacts_of_robot(int index) {
   const SimRobot& robot = *bodies_.robots[index];
   robots_[index].write(robot.tree(), robot.state(), *model_, *data_);
+  // Accelerations of the old place would be the start value of the first solution.
   mju_zero(data_->qacc_warmstart, model_->nv);
 }
 
@@ -150,6 +164,7 @@ void MujocoEngine::write_ball() {
   const BallState& ball = bodies_.ball->state();
   const Eigen::Quaterniond& q = ball.orientation;
   const double orientation[] = {q.w(), q.x(), q.y(), q.z()};
+  // A free joint's angular velocity is in the body's own axes in MuJoCo, in W here.
   const Vector3d turning = q.conjugate() * ball.angular_velocity;
   for (int k = 0; k < 3; ++k) {
     data_->qpos[ball_position_ + k] = ball.position[k];
@@ -163,6 +178,8 @@ void MujocoEngine::apply_forces(int index) {
   SimRobot& robot = *bodies_.robots[index];
   const MujocoRobot& in_mujoco = robots_[index];
   const double h = options_.step;
+  // Pushes are impulses; as a force over one step they give the same change of momentum. The root's
+  // moment is in the root's axes.
   const Eigen::VectorXd impulses = robot.take_impulses();
   if (const int root = in_mujoco.root_dof(); root >= 0) {
     const Vector3d moment = robot.state().orientation.conjugate() * Vector3d(impulses.head<3>());
@@ -171,6 +188,8 @@ void MujocoEngine::apply_forces(int index) {
       data_->qfrc_applied[root + 3 + k] = moment[k] / h;
     }
   }
+  // Servo torques from the state at the start of the step. Damping and dry friction are left to
+  // MuJoCo, which integrates the first implicitly and the second as a constraint.
   for (const JointForce& force : robot.begin_explicit_step(h)) {
     const int dof = in_mujoco.dof(force.dof);
     data_->qfrc_applied[dof] = force.torque + impulses[force.dof] / h;
@@ -196,12 +215,14 @@ void MujocoEngine::read_contacts() {
   contacts_.clear();
   for (int i = 0; i < data_->ncon; ++i) {
     const mjContact& from = data_->contact[i];
+    // Candidates that MuJoCo left out of the solution have no address.
     if (from.efc_address < 0) continue;
     mjtNum in_frame[6];
     mj_contactForce(model_.get(), data_.get(), i, in_frame);
     if (!(in_frame[0] > 0)) continue;
     // On the second geom, which the normal points to.
     Vector3d force = Vector3d::Zero();
+    // frame's rows are the normal and two tangents in W: R^T f.
     for (int row = 0; row < 3; ++row) {
       for (int k = 0; k < 3; ++k) force[k] += in_frame[row] * from.frame[3 * row + k];
     }
@@ -213,12 +234,14 @@ void MujocoEngine::read_contacts() {
     }
     const Vector3d position(from.pos[0], from.pos[1], from.pos[2]);
     contacts_.push_back({a->surface, b->surface, position, force});
+    // Foot sensors get the impulse of the step.
     if (a->foot >= 0) {
       bodies_.robots[a->surface.robot]->add_foot_load(a->foot, position, options_.step * force);
     }
   }
 }
 
+// MuJoCo counts these warnings when a state is not finite or too large, and resets itself.
 bool MujocoEngine::has_failed() const {
   return data_->warning[mjWARN_BADQPOS].number + data_->warning[mjWARN_BADQVEL].number +
              data_->warning[mjWARN_BADQACC].number >
@@ -232,6 +255,7 @@ void MujocoEngine::read_states() {
   const double lost = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < bodies_.num_robots(); ++i) {
     SimRobot& robot = *bodies_.robots[i];
+    // Fields that MuJoCo does not have (a root on a stand) keep the robot's own values.
     TreeState& state = states_[i];
     state = robot.state();
     robots_[i].read(robot.tree(), *data_, state);
@@ -249,6 +273,7 @@ void MujocoEngine::read_states() {
     if (!is_valid) ball.position.setConstant(lost);
     bodies_.ball->set_state(ball);
   }
+  // The counters are cleared, so that the next step is judged by itself.
   if (!is_valid) {
     for (const int kind : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
       data_->warning[kind].number = 0;

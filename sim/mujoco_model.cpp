@@ -14,6 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+// 17 digits, so that MuJoCo's numbers are the same as ours bit by bit.
 std::string numbers(const Vector3d& v) {
   std::ostringstream text;
   text << std::setprecision(17) << v.x() << ' ' << v.y() << ' ' << v.z();
@@ -26,6 +27,7 @@ std::string numbers(const Eigen::Quaterniond& q) {
   return text.str();
 }
 
+// The first robot's names have no prefix, so that the model of a single robot is plain to read.
 std::string prefix(int robot) {
   return robot == 0 ? "" : "robot" + std::to_string(robot) + "_";
 }
@@ -39,6 +41,8 @@ constexpr int kFloorBit = 2;
 /** Nets: with the ball. */
 constexpr int kNetBit = 4;
 
+// MuJoCo has no rounded boxes: a box gets the radius on all sides, a box without width is a capsule
+// along z, and a point a sphere.
 void write_shape_size(std::ostream& out, const Vector3d& half, double radius) {
   if (half.x() > 0) {
     out << " type=\"box\" size=\"" << numbers(half + Vector3d::Constant(radius)) << '"';
@@ -59,6 +63,8 @@ class Writer {
 
   std::string write() {
     const size_t num_robots = std::max<size_t>(1, scene_.robots.size());
+    // Solver and cone are MuJoCo's defaults, written out. njmax and nconmax: memory for the
+    // constraint rows and contacts of each robot.
     out_ << "<mujoco><compiler angle=\"radian\"/>\n<option timestep=\"" << world_.step
          << "\" gravity=\"" << numbers(world_.gravity)
          << "\" solver=\"Newton\" cone=\"pyramidal\"/>\n<size njmax=\"" << 1000 * num_robots
@@ -123,6 +129,8 @@ class Writer {
          << materials.ball_friction << " 0.0001 " << rolling << "\"/></body>\n";
   }
 
+  // Joint of a tree body. Its damping includes the back-EMF as a viscous term where the model has
+  // servos of its own; dry friction is MuJoCo's frictionloss.
   void write_joint(int index, int body_index) {
     const TreeBody& body = robot(index).tree().bodies()[body_index];
     const Joint& joint = robot(index).model().joints()[body.joint];
@@ -160,6 +168,8 @@ class Writer {
     write_shape_size(out_, part.half, part.radius);
     out_ << "/>\n";
     for (int p = part.first_point; has_points && p < part.end_point; ++p) {
+      // MuJoCo has no points: a sphere of at least 1 mm, raised so that its lowest point is at the
+      // same height.
       const CollisionModel::Point& point = shapes.points[p];
       const double radius = std::max(point.radius, 1e-3);
       const Vector3d raised(0, 0, radius - point.radius);
@@ -199,6 +209,8 @@ class Writer {
     out_ << "</body>\n";
   }
 
+  // Pairs that may collide by contype and conaffinity but are no self-collision pairs of the
+  // collision model: excluded by name. MuJoCo excludes only parent and child by itself.
   /** Pairs of bodies without self-collision. */
   void write_excluded_pairs(int index) {
     const CollisionModel& shapes = robot(index).collisions();
@@ -221,6 +233,7 @@ class Writer {
     const Tree& tree = robot(index).tree();
     for (int i = 1; i < tree.num_bodies(); ++i) {
       const TreeBody& body = tree.bodies()[i];
+      // A mimic joint: q = offset + ratio * q_leader, as a soft equality of MuJoCo.
       const int leader = tree.body_of_dof(body.dof);
       if (leader == i) continue;
       out_ << "<joint joint1=\"" << mujoco_joint_name(index, i) << "\" joint2=\""
@@ -236,6 +249,7 @@ class Writer {
       const Motor& drive = robot(index).model().motor(motor);
       // The limit applies to spring and damping together, as in Drive: clipping the spring alone
       // changes the distance of a walk (docs/performance.md).
+      // Affine bias: force = kp ctrl - kp q - kd q', the servo's PD law.
       out_ << "<general joint=\"" << mujoco_joint_name(index, i)
            << "\" biastype=\"affine\" gainprm=\"" << drive.stiffness_gain << "\" biasprm=\"0 "
            << -drive.stiffness_gain << ' ' << -drive.damping_gain
@@ -253,6 +267,7 @@ class Writer {
 
 }  // namespace
 
+// Linear search: only at start.
 int motor_of_body(const SimRobot& robot, int body) {
   const RobotModel& model = robot.model();
   for (int motor = 0; motor < model.num_motors(); ++motor) {
@@ -274,6 +289,7 @@ std::string to_mjcf(const MujocoScene& scene, const WorldOptions& world,
   return Writer(scene, world, options).write();
 }
 
+// MuJoCo reads XML from a file only: the virtual file system holds the text in memory.
 MujocoModelPointer load_mjcf(const std::string& text) {
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
@@ -294,6 +310,7 @@ MujocoRobot::MujocoRobot(const mjModel& model, const SimRobot& sim_robot, int ro
     root_position_ = model.jnt_qposadr[root];
     root_dof_ = model.jnt_dofadr[root];
   }
+  // Addresses by name: MuJoCo orders bodies depth first, the tree by its own rule.
   joint_.assign(tree.num_bodies(), -1);
   position_address_ = velocity_address_ = joint_;
   dof_address_.assign(tree.num_dofs(), -1);
@@ -302,6 +319,7 @@ MujocoRobot::MujocoRobot(const mjModel& model, const SimRobot& sim_robot, int ro
     position_address_[i] = model.jnt_qposadr[joint_[i]];
     velocity_address_[i] = model.jnt_dofadr[joint_[i]];
   }
+  // Dofs 0..5 are the root's; each further one belongs to the body whose joint is no mimic.
   for (int dof = 6; dof < tree.num_dofs(); ++dof) {
     dof_address_[dof] = velocity_address_[tree.body_of_dof(dof)];
   }
@@ -321,9 +339,11 @@ void MujocoRobot::write(const Tree& tree, const TreeState& state, mjModel& model
     }
     for (int k = 0; k < 4; ++k) data.qpos[root_position_ + 3 + k] = orientation[k];
   } else {
+    // A robot on a stand has no free joint: the pose of its root body in the model is changed.
     for (int k = 0; k < 3; ++k) model.body_pos[3 * root_body_ + k] = state.position[k];
     for (int k = 0; k < 4; ++k) model.body_quat[4 * root_body_ + k] = orientation[k];
   }
+  // Mimic joints have coordinates of their own in MuJoCo, and start consistent with their leader.
   for (int i = 1; i < tree.num_bodies(); ++i) {
     const TreeBody& body = tree.bodies()[i];
     data.qpos[position_address_[i]] = body.ratio * state.coordinate[body.dof] + body.offset;

@@ -24,15 +24,18 @@ Quaterniond sitting_orientation(const RobotModel& model, const Tree& tree,
   constexpr double kPitchStep = 0.005;
   std::vector<Vector3d> points;
   std::vector<double> radii;
+  // Contact points in the torso's frame, and their radii; only orientation changes in the search.
   const std::vector<Eigen::Isometry3d> poses = model.link_poses(posture.position);
   for (const CollisionModel::Part& part : collisions.parts) {
     const int joint = tree.bodies()[part.body].joint;
+    // A body's frame is that of the link that its joint moves; the root's is link 0.
     const int body_link = joint < 0 ? 0 : model.joints()[joint].child_link;
     for (int i = part.first_point; i < part.end_point; ++i) {
       points.push_back(poses[body_link] * collisions.points[i].center_in_body);
       radii.push_back(collisions.points[i].radius);
     }
   }
+  // Center of mass in the torso's frame, by mass-weighted mean.
   Vector3d com = Vector3d::Zero();
   for (size_t i = 0; i < poses.size(); ++i) {
     com += model.links()[i].mass * (poses[i] * model.links()[i].center_of_mass);
@@ -46,6 +49,7 @@ Quaterniond sitting_orientation(const RobotModel& model, const Tree& tree,
     for (size_t i = 0; i < points.size(); ++i) {
       lowest = std::min(lowest, (orientation * points[i]).z() - radii[i]);
     }
+    // Height of the center of mass over the floor when the lowest point touches it.
     const double height = (orientation * com).z() - lowest;
     if (height >= least) continue;
     least = height;
@@ -56,6 +60,8 @@ Quaterniond sitting_orientation(const RobotModel& model, const Tree& tree,
 
 }  // namespace
 
+// Orientation of the torso in W at which a posture of this family rests on the floor. Families are
+// robot.yaml's words.
 Quaterniond resting_orientation(const RobotModel& model, const Tree& tree,
                                 const CollisionModel& collisions, const Posture* posture) {
   if (posture == nullptr) return Quaterniond::Identity();
@@ -70,6 +76,8 @@ Quaterniond resting_orientation(const RobotModel& model, const Tree& tree,
   // The torso leans so that the left sole is level.
   const Matrix3d sole = model.link_poses(posture->position)[model.left_sole()].linear();
   const Vector3d up_in_torso = sole.col(2);
+  // The shortest rotation that makes the sole's normal vertical; heading stays as near to 0 as that
+  // allows.
   return rotation_between(up_in_torso, Vector3d::UnitZ());
 }
 
@@ -81,6 +89,8 @@ double lowest_point(const CollisionModel& collisions, const TreeDynamics& dynami
       const CollisionModel::Point& point = collisions.points[i];
       const Vector3d in_world =
           dynamics.position(part.body) + dynamics.rotation(part.body) * point.center_in_body;
+      // Each point is compared with the floor below it: on bumps the lowest point is not always the
+      // one that touches.
       const double ground = floor.is_flat() ? 0 : floor.at(in_world.x(), in_world.y()).height;
       lowest = std::min(lowest, in_world.z() - point.radius - ground);
     }

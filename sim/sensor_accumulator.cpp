@@ -10,6 +10,8 @@ using Eigen::Vector3d;
 SensorAccumulator::SensorAccumulator(const RobotModel& model, const Tree& tree,
                                      const Vector3d& gravity)
     : gravity_(gravity),
+      // On a slope gravity is tilted in W, while an IMU knows "up" as against gravity: its level
+      // frame is W turned by the rotation from -g to z.
       level_from_world_(
           rotation_between(Vector3d(-gravity.normalized()), Vector3d(Vector3d::UnitZ()))),
       is_floor_level_(gravity.head<2>().isZero(0)),
@@ -18,6 +20,7 @@ SensorAccumulator::SensorAccumulator(const RobotModel& model, const Tree& tree,
     accelerometer_body_ = tree.body_of_link(model.accelerometer());
     accelerometer_in_body_ = tree.pose_in_body(model.accelerometer());
   }
+  // Foot forces are summed in the frames of the soles.
   for (size_t side = 0; side < soles_.size(); ++side) {
     const int link = model.legs()[side].sole;
     if (link < 0) continue;
@@ -25,6 +28,8 @@ SensorAccumulator::SensorAccumulator(const RobotModel& model, const Tree& tree,
   }
 }
 
+// Velocity of the accelerometer at the start of the tick: means are differences of velocities,
+// which cannot miss an impact between two samples.
 void SensorAccumulator::begin_tick(const TreeDynamics& dynamics) {
   time_ = 0;
   torque_impulse_.setZero();
@@ -41,6 +46,8 @@ void SensorAccumulator::begin_tick(const TreeDynamics& dynamics) {
 void SensorAccumulator::add_step(double h, const TreeState& state, const TreeDynamics& dynamics,
                                  const Eigen::VectorXd& torque) {
   torque_impulse_ += h * torque;
+  // The readings are in the torso's axes; each step's change is rotated with the pose of that step,
+  // as a strapdown unit would measure it.
   const Matrix3d torso_from_world = dynamics.rotation(0).transpose();
   if (accelerometer_body_ >= 0) {
     const Vector3d position =
@@ -50,6 +57,8 @@ void SensorAccumulator::add_step(double h, const TreeState& state, const TreeDyn
     velocity_change_ += torso_from_world * (velocity - accelerometer_velocity_);
     accelerometer_velocity_ = velocity;
   }
+  // Integral of the angular velocity in the torso's axes, rad. For the small angle of a tick the
+  // order of rotations does not matter.
   rotation_ += h * (torso_from_world * state.velocity.head<3>());
   time_ += h;
 }
@@ -64,6 +73,7 @@ void SensorAccumulator::add_foot_impulse(int foot, const Vector3d& point, const 
   const double normal_impulse = sole_from_world.row(2).dot(impulse);
   const Vector3d point_in_sole = sole_from_world * (point - origin);
   foot_impulse_[foot].force += normal_impulse;
+  // Moment as sum of force times point: divided by the force it is the center of pressure.
   foot_impulse_[foot].moment += normal_impulse * point_in_sole.head<2>();
 }
 
@@ -73,9 +83,11 @@ const TrueMotion& SensorAccumulator::means(const Eigen::VectorXd& position,
   means_.position = position;
   means_.torque = torque;
   means_.orientation = is_floor_level_ ? state.orientation : level_from_world_ * state.orientation;
+  // An accelerometer at rest reads -g: specific force f = a - g, in the torso's axes.
   means_.specific_force = -(dynamics.rotation(0).transpose() * gravity_);
   means_.angular_velocity.setZero();
   means_.feet = {};
+  // Right after a jump no time has passed: the readings are those of a robot at rest.
   if (time_ > 0) {
     means_.torque = torque_impulse_ / time_;
     means_.specific_force += velocity_change_ / time_;

@@ -29,6 +29,7 @@ Vector3d clipped(const Vector3d& v, double range) {
 
 Sensors::Sensors(const RobotModel& model, const SensorOptions& options, uint64_t seed)
     : options_(options),
+      // A unit that is mounted with a rotation R to the torso reads R^T times the torso's vector.
       unit_from_torso_(rotation_of(options.errors.imu_mount).conjugate().toRotationMatrix()),
       random_(seed) {
   const int num_motors = model.num_motors();
@@ -52,6 +53,7 @@ Sensors::Sensors(const RobotModel& model, const SensorOptions& options, uint64_t
 }
 
 void Sensors::reset(const TrueMotion& truth) {
+  // Constant offsets of this run, drawn once; the noise comes with every reading.
   const auto draw = [this](double deviation) {
     Vector3d bias;
     for (double& x : bias) x = deviation * random_.normal();
@@ -76,10 +78,16 @@ void Sensors::jump(const TrueMotion& truth) {
   for (int i = 0; i < readings_.position.size(); ++i) {
     readings_.position[i] = quantized(truth.position[i]);
   }
+  // Velocity 0: position has not changed since the line above.
   // With no change of position the speed is 0 over any period; the estimate needs a period of 0.
   measure_joints(truth, 1);
   measure_inertia(truth, 0);
   measure_feet(truth);
+}
+
+void Sensors::set_tick(int64_t tick, double period) {
+  readings_.tick = tick;
+  readings_.time = static_cast<double>(tick) * period;
 }
 
 void Sensors::update(const TrueMotion& truth, double period) {
@@ -90,6 +98,7 @@ void Sensors::update(const TrueMotion& truth, double period) {
   measure_feet(truth);
 }
 
+// An encoder's position is a multiple of its resolution, rad.
 double Sensors::quantized(double position) const {
   if (options_.is_ideal) return position;
   const double step = 2 * M_PI / options_.encoder_steps;
@@ -99,6 +108,8 @@ double Sensors::quantized(double position) const {
 void Sensors::measure_joints(const TrueMotion& truth, double period) {
   for (int i = 0; i < readings_.position.size(); ++i) {
     const double position = quantized(truth.position[i]);
+    // Velocity is the difference quotient of quantized positions, as a joint board computes it: at
+    // low speed it is 0 or one quantum per tick.
     readings_.velocity[i] = (position - readings_.position[i]) / period;
     readings_.position[i] = position;
   }
@@ -107,6 +118,7 @@ void Sensors::measure_joints(const TrueMotion& truth, double period) {
 
 void Sensors::add_inertial_errors() {
   const RobotErrors& errors = options_.errors;
+  // Order of a real unit: mounting, scale and offset of its axes, noise, and the range last.
   if (!errors.imu_mount.isZero(0)) {
     readings_.accelerometer = unit_from_torso_ * readings_.accelerometer;
     readings_.gyroscope = unit_from_torso_ * readings_.gyroscope;
@@ -124,6 +136,7 @@ void Sensors::add_inertial_errors() {
 }
 
 void Sensors::measure_inertia(const TrueMotion& truth, double period) {
+  // Repeated in ticks in which the value is not read anew, see imu_alternates.
   const Vector3d last_accelerometer = readings_.accelerometer;
   const Vector3d last_gyroscope = readings_.gyroscope;
   readings_.accelerometer = truth.specific_force;
@@ -147,9 +160,13 @@ void Sensors::measure_inertia(const TrueMotion& truth, double period) {
   const double weight = std::clamp(1 - std::abs(force - kGravity) / kMaxTiltDeviation, 0.0, 1.0);
   Vector3d correction = Vector3d::Zero();
   if (weight > 0) {
+    // Vertical in the unit's axes by the estimate. The cross product of measured and estimated
+    // vertical is the rotation vector between them for small angles. Heading is not observable this
+    // way, and drifts.
     const Vector3d up = estimate.conjugate() * Vector3d::UnitZ();
     correction = options_.tilt_gain * weight * (readings_.accelerometer / force).cross(up);
   }
+  // The correction and the gyroscope's rate are in the body's axes: multiplied from the right.
   estimate = (estimate * rotation_of((readings_.gyroscope + correction) * period)).normalized();
 }
 
@@ -159,11 +176,13 @@ void Sensors::measure_feet(const TrueMotion& truth) {
     const TrueMotion::FootLoad& load = truth.feet[side];
     const bool is_loaded = load.force > 0;
     const std::vector<double>* fractions = nullptr;
+    // Moment over force: the center of pressure in the sole's frame.
     if (is_loaded) fractions = &foot.load.distribute(load.moment / load.force);
     for (size_t i = 0; i < foot.sensors.size(); ++i) {
       double force = (is_loaded ? (*fractions)[i] : 0.0) * load.force;
       if (!options_.is_ideal) {
         const Eigen::VectorXd& scale = options_.errors.foot_sensor_scale;
+        // Order of a real sensor: sensitivity, noise proportional to the force, resolution, range.
         if (scale.size() > 0) force *= scale[foot.sensors[i]];
         force *= 1 + options_.foot_force_noise * random_.normal();
         force = std::round(force / options_.foot_force_step) * options_.foot_force_step;

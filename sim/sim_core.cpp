@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "common/data_path.h"
 #include "common/error.h"
+#include "robot_model/robot_lights.h"
 #include "sim/disturbance_draw.h"
+#include "sim/start_places.h"
 
 namespace nao::sim {
 namespace {
@@ -23,8 +27,13 @@ constexpr double kMaxPace = 1000;
 constexpr double kMaxImpulse = 100;
 /** m, and m/s. */
 constexpr double kMaxPosition = 100;
-/** Distance of further robots to the left and right of the first, m: arms do not meet. */
-constexpr double kRobotSpacing = 0.8;
+/** Most robots of a world. Chosen: twice a match of five against five. */
+constexpr size_t kMaxRobots = 20;
+/** Least distance between the torsos of a robot that is added and another one, m. Chosen: two NAOs
+ * stand beside each other. */
+constexpr double kLeastDistance = 0.4;
+/** Distance of a dragged point from its link's origin, m: more than a link is long. */
+constexpr double kMaxDragPoint = 1;
 
 /** Nothing if none were asked for. */
 std::optional<DisturbanceSet> find_disturbances(const SimOptions& options) {
@@ -49,26 +58,58 @@ WorldOptions world_options(const SimOptions& options) {
   return result;
 }
 
-void add_robots(const SimOptions& options, World& world) {
-  const auto disturbances = find_disturbances(options);
-  const auto model =
-      std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / options.model));
-  for (size_t i = 0; i < options.robots.size(); ++i) {
-    RobotOptions robot;
-    robot.name = options.robots[i];
-    robot.posture = options.posture;
-    robot.ideal_sensors = options.ideal_sensors;
-    if (disturbances) {
-      draw_robot(*disturbances, options.seed, static_cast<int>(i), *model, world.options(), robot);
-    }
-    if (options.command_latency_ticks >= 0) {
-      robot.command_latency_ticks = options.command_latency_ticks;
-    }
-    // Alternating: 0, left, right, farther left, farther right ...
-    const size_t rank = (i + 1) / 2;
-    robot.position.y() = (i % 2 == 0 ? -kRobotSpacing : kRobotSpacing) * static_cast<double>(rank);
-    world.add_robot(model, robot);
+/** Options with teams. */
+SimOptions complete(SimOptions options) {
+  options.robots = with_teams(std::move(options.robots));
+  return options;
+}
+
+/** In a match the ball is at the center of the field. */
+SceneFile find_scene(const SimOptions& options) {
+  SceneFile scene = SceneFile::find(options.scene);
+  const bool is_match =
+      std::any_of(options.robots.begin(), options.robots.end(),
+                  [](const RobotOption& robot) { return robot.team.has_value(); });
+  if (is_match && scene.ball) scene.ball->position.setZero();
+  return scene;
+}
+
+std::shared_ptr<const RobotModel> load_model(const std::string& name) {
+  return std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / name));
+}
+
+/** @param index  Of the robot among all that ever were in the world: part of its seed. */
+void add_robot_to(World& world, const SimOptions& options, const std::string& name,
+                  const std::shared_ptr<const RobotModel>& model, const StartPlace& place,
+                  int index) {
+  RobotOptions robot;
+  robot.name = name;
+  robot.posture = options.posture;
+  robot.ideal_sensors = options.ideal_sensors;
+  if (const auto disturbances = find_disturbances(options)) {
+    draw_robot(*disturbances, options.seed, index, *model, world.options(), robot);
   }
+  if (options.command_latency_ticks >= 0) {
+    robot.command_latency_ticks = options.command_latency_ticks;
+  }
+  robot.position = place.position;
+  robot.heading = place.heading;
+  world.add_robot(model, robot);
+}
+
+/** @return Their number. */
+int add_robots(const SimOptions& options, World& world) {
+  const std::vector<StartPlace> places = start_places(options.robots, world.scene());
+  // Robots of one model share its description.
+  std::map<std::string, std::shared_ptr<const RobotModel>> models;
+  int index = 0;
+  for (const RobotOption& robot : options.robots) {
+    std::shared_ptr<const RobotModel>& model = models[robot.model];
+    if (!model) model = load_model(robot.model);
+    add_robot_to(world, options, robot.name, model, places[static_cast<size_t>(index)], index);
+    ++index;
+  }
+  return index;
 }
 
 /** @throws ConfigError, ModelError */
@@ -93,12 +134,15 @@ std::string to_text(const Eigen::Vector3d& v) {
 }  // namespace
 
 SimCore::SimCore(const SimOptions& options)
-    : options_(options),
-      world_(SceneFile::find(options.scene), world_options(options)),
+    : options_(complete(options)),
+      world_(find_scene(options_), world_options(options_)),
       scheduler_(static_cast<int>(options.robots.size()), world_.options().period(),
                  options.lock_step, options.pace) {
-  add_robots(options_, world_);
-  for (int i = 0; i < world_.num_robots(); ++i) targets_.push_back(world_.targets(i));
+  num_drawn_robots_ = add_robots(options_, world_);
+  for (int i = 0; i < world_.num_robots(); ++i) {
+    targets_.push_back(world_.targets(i));
+    lights_.emplace_back(names_of(load_robot_lights(world_.robot(i).model())));
+  }
   lola_ = make_lola(options_, world_);
 }
 
@@ -152,9 +196,9 @@ std::string SimCore::execute(const WorldCommand& command, double now) {
   if (name == "place-ball") return place_ball(command);
   if (name == "push") return push(command);
   if (name == "touch") return touch(command);
-  if (name == "drag" || name == "add-robot" || name == "remove-robot") {
-    return fmt::format("world command \"{}\" is not supported by this simulator", name);
-  }
+  if (name == "drag" || name == "drag-in-torso") return drag(command);
+  if (name == "add-robot") return add_robot(command);
+  if (name == "remove-robot") return remove_robot(command);
   return fmt::format("unknown world command \"{}\"", name);
 }
 
@@ -170,6 +214,7 @@ std::string SimCore::reset(double now) {
   world_.reset();
   if (lola_) lola_->update(world_.sensors(0), world_.targets(0), 0);
   for (int i = 0; i < world_.num_robots(); ++i) targets_[i] = world_.targets(i);
+  for (SimLights& lights : lights_) lights.reset();
   scheduler_.reset(now);
   return "";
 }
@@ -241,6 +286,23 @@ std::string SimCore::push(const WorldCommand& command) {
   return "";
 }
 
+std::string SimCore::drag(const WorldCommand& command) {
+  const int robot = find_robot(command.robot);
+  if (robot < 0) return fmt::format("there is no robot \"{}\"", command.robot);
+  const int link = world_.robot(robot).model().find_link(command.link);
+  if (link < 0) return fmt::format("there is no link \"{}\"", command.link);
+  if (!is_within(command.point, kMaxDragPoint)) {
+    return fmt::format("point {} must be finite and within {} m of the link's origin",
+                       to_text(command.point), kMaxDragPoint);
+  }
+  if (!is_within(command.target, kMaxPosition)) {
+    return fmt::format("target {} must be finite and within {} m", to_text(command.target),
+                       kMaxPosition);
+  }
+  world_.drag(robot, {link, command.point, command.target, command.name == "drag-in-torso"});
+  return "";
+}
+
 std::string SimCore::touch(const WorldCommand& command) {
   if (!lola_) return "only a robot behind LoLA has buttons and touch sensors";
   if (command.num_ticks < 1) {
@@ -250,15 +312,69 @@ std::string SimCore::touch(const WorldCommand& command) {
   return fmt::format("there is no button or touch sensor \"{}\"", command.link);
 }
 
+std::string SimCore::add_robot(const WorldCommand& command) {
+  if (lola_) return "LoLA serves one robot";
+  if (!world_.can_change_robots()) {
+    return fmt::format("the engine {} takes no further robots", options_.engine);
+  }
+  if (const std::string fault = fault_of_robot_name(command.robot); !fault.empty()) return fault;
+  if (find_robot(command.robot) >= 0) return fmt::format("there is a robot {}", command.robot);
+  if (options_.robots.size() >= kMaxRobots) return fmt::format("there are {} robots", kMaxRobots);
+  const std::string& model = command.model.empty() ? options_.robots[0].model : command.model;
+  if (model.starts_with('.') || model.find('/') != std::string::npos) {
+    return fmt::format("\"{}\" is no name of a robot's folder", model);
+  }
+  if (!is_within(command.position, kMaxPosition)) {
+    return fmt::format("position {} must be finite and within {} m", to_text(command.position),
+                       kMaxPosition);
+  }
+  const StartPlace place{command.position.head<2>(), 0};
+  for (int i = 0; i < world_.num_robots(); ++i) {
+    if ((world_.robot(i).state().position.head<2>() - place.position).norm() < kLeastDistance) {
+      return fmt::format("{} is nearer than {} m to that place", options_.robots[i].name,
+                         kLeastDistance);
+    }
+  }
+  try {
+    add_robot_to(world_, options_, command.robot, load_model(model), place, num_drawn_robots_);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ++num_drawn_robots_;
+  const int robot = world_.num_robots() - 1;
+  targets_.push_back(world_.targets(robot));
+  lights_.emplace_back(names_of(load_robot_lights(world_.robot(robot).model())));
+  scheduler_.add_robot();
+  options_.robots.push_back({command.robot, model});
+  return "";
+}
+
+std::string SimCore::remove_robot(const WorldCommand& command) {
+  const int robot = command.robot.empty() ? -1 : find_robot(command.robot);
+  if (robot < 0) return fmt::format("there is no robot \"{}\"", command.robot);
+  if (world_.num_robots() == 1) return "the last robot stays";
+  if (!world_.can_change_robots()) {
+    return fmt::format("the engine {} keeps its robots", options_.engine);
+  }
+  world_.remove_robot(robot);
+  targets_.erase(targets_.begin() + robot);
+  lights_.erase(lights_.begin() + robot);
+  scheduler_.remove_robot(robot);
+  options_.robots.erase(options_.robots.begin() + robot);
+  return "";
+}
+
 int SimCore::find_robot(const std::string& name) const {
   if (name.empty()) return 0;
-  const auto found = std::find(options_.robots.begin(), options_.robots.end(), name);
+  const auto found = std::find_if(options_.robots.begin(), options_.robots.end(),
+                                  [&name](const RobotOption& robot) { return robot.name == name; });
   return found == options_.robots.end() ? -1 : static_cast<int>(found - options_.robots.begin());
 }
 
 double SimCore::run_tick(double now) {
   const double delay = scheduler_.begin_tick(world_.tick(), now);
   world_.step_tick();
+  for (SimLights& lights : lights_) lights.step(world_.options().period());
   if (lola_) lola_->update(world_.sensors(0), world_.targets(0), world_.options().period());
   // Lost readings are never answered: in lock-step the next tick must not wait for it.
   for (int i = 0; scheduler_.is_lock_step() && i < world_.num_robots(); ++i) {

@@ -10,6 +10,7 @@
 
 #include "sim/joint_command.h"
 #include "sim/lola_robot.h"
+#include "sim/sim_lights.h"
 #include "sim/sim_options.h"
 #include "sim/tick_scheduler.h"
 #include "sim/world.h"
@@ -21,15 +22,18 @@ namespace nao::sim {
  * are arguments: s of a monotonic clock. */
 class SimCore {
  public:
-  /** Loads scene and robots.
+  /** Loads scene and robots. In a match, that is if robots have teams, the ball is at the center.
    * @throws ConfigError, ModelError */
   explicit SimCore(const SimOptions& options);
   /** Starts the clock: the first tick is due one period from now. */
   void start(double now) { scheduler_.restart(now); }
 
+  /** With the teams that with_teams() gave, and the robots that are there now. */
   const SimOptions& options() const { return options_; }
   const World& world() const { return world_; }
   const TickScheduler& scheduler() const { return scheduler_; }
+  /** Index; -1 if there is no robot of that name. The empty name is the first robot's. */
+  int find_robot(const std::string& name) const;
   /** Of the last world command; id 0 if there was none. */
   const WorldCommandOutcome& last_world_command() const { return outcome_; }
 
@@ -38,6 +42,12 @@ class SimCore {
   [[nodiscard]] std::optional<std::string> take_joint_command(int robot,
                                                               const JointCommand& command,
                                                               double now);
+  /** @return Nothing, or why a light command is refused. */
+  [[nodiscard]] std::optional<Reason> take_light_command(int robot, const LightCommand& command) {
+    return lights_[static_cast<size_t>(robot)].take(command);
+  }
+  /** Of a robot on the bus; with LoLA its lights are in lola(). */
+  const SimLights& lights(int robot) const { return lights_[static_cast<size_t>(robot)]; }
   /** Nothing unless options().lola_socket is set. */
   const std::optional<LolaRobot>& lola() const { return lola_; }
   /** Takes a client's command as the answer to the newest tick: in lock-step the next one may be
@@ -63,12 +73,14 @@ class SimCore {
   std::string place_robot(const WorldCommand& command);
   std::string place_ball(const WorldCommand& command);
   std::string push(const WorldCommand& command);
+  std::string drag(const WorldCommand& command);
+  std::string add_robot(const WorldCommand& command);
+  std::string remove_robot(const WorldCommand& command);
   std::string touch(const WorldCommand& command);
-  /** Index; -1 if there is no robot of that name. The empty name is the first robot's. */
-  int find_robot(const std::string& name) const;
-
   SimOptions options_;
   World world_;
+  /** Robots that were ever in the world. */
+  int num_drawn_robots_ = 0;
   TickScheduler scheduler_;
   /** Targets of each robot that partial commands are merged into. */
   std::vector<MotorTargets> targets_;
@@ -76,6 +88,7 @@ class SimCore {
   std::deque<std::pair<std::string, int64_t>> executed_;
   WorldCommandOutcome outcome_;
   std::optional<LolaRobot> lola_;
+  std::vector<SimLights> lights_;
 };
 
 }  // namespace nao::sim

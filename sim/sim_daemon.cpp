@@ -13,6 +13,8 @@
 #include "common/logger.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
+#include "messages/light_command.h"
+#include "messages/result_message.h"
 #include "sim/message_conversion.h"
 
 namespace nao::sim {
@@ -24,6 +26,8 @@ constexpr double kIdlePeriod = 0.1;
 /** Longest time that ticks are run without returning to the event loop, s. Chosen: half the default
  * control period. */
 constexpr double kMaxBurst = 0.005;
+/** Between two body states, s of the robot's time. */
+constexpr double kBodyStatePeriod = 0.1;
 
 }  // namespace
 
@@ -35,9 +39,10 @@ SimDaemon::SimDaemon(Bus& bus, EventLoop& loop, const SimOptions& options)
       statistics_(core_.world().options().period(), monotonic_seconds()) {
   timer_ = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
   if (timer_ < 0) throw Error(std::string("cannot make a timer: ") + std::strerror(errno));
-  for (const std::string& robot : options.robots) channels_.emplace_back(robot);
-  subscribe();
+  subscribe_world();
+  update_robots();
   if (core_.lola()) serve_lola();
+  // A command may be the answer that lock-step waits for, so that ticks are run at once.
   loop_.on_readable(bus_.descriptor(), [this] {
     bus_.handle();
     run_due_ticks();
@@ -52,6 +57,8 @@ SimDaemon::SimDaemon(Bus& bus, EventLoop& loop, const SimOptions& options)
   loop_.every(kIdlePeriod, [this] { repeat_while_waiting(); });
   loop_.every(1.0, [this] { publish_status(); });
 
+  // Sensor state is published before the first command: a controller answers it, and lock-step
+  // could not begin otherwise.
   status_.set_state("ready");
   publish_sensors();
   publish_truth();
@@ -65,18 +72,29 @@ SimDaemon::~SimDaemon() {
   close(timer_);
 }
 
-void SimDaemon::subscribe() {
-  // A robot behind LoLA obeys its client only.
-  for (size_t i = 0; i < channels_.size() && !core_.lola(); ++i) {
-    const int robot = static_cast<int>(i);
-    bus_.subscribe<naolcm::joint_command_t>(channels_[i].joint_command, Bus::Queue::kAll,
-                                            [this, robot](const naolcm::joint_command_t& message) {
-                                              take_joint_command(robot, message);
-                                            });
-  }
+void SimDaemon::subscribe_world() {
   bus_.subscribe<naolcm::world_command_t>(
       kWorldCommandChannel, Bus::Queue::kAll,
       [this](const naolcm::world_command_t& message) { take_world_command(message); });
+}
+
+void SimDaemon::update_robots() {
+  channels_.clear();
+  for (const RobotOption& robot : core_.options().robots) {
+    channels_.emplace_back(robot.name);
+    // A robot behind LoLA obeys its client only.
+    if (core_.lola() || !subscribed_.insert(robot.name).second) continue;
+    bus_.subscribe<naolcm::joint_command_t>(
+        channels_.back().joint_command, Bus::Queue::kAll,
+        [this, name = robot.name](const naolcm::joint_command_t& message) {
+          take_joint_command(name, message);
+        });
+    bus_.subscribe<naolcm::light_command_t>(
+        channels_.back().light_command, Bus::Queue::kAll,
+        [this, name = robot.name](const naolcm::light_command_t& message) {
+          take_light_command(name, message);
+        });
+  }
 }
 
 void SimDaemon::serve_lola() {
@@ -89,21 +107,51 @@ void SimDaemon::serve_lola() {
   lola_.emplace(loop_, core_.options().lola_socket, std::move(handlers));
 }
 
-void SimDaemon::take_joint_command(int robot, const naolcm::joint_command_t& message) {
+void SimDaemon::take_joint_command(const std::string& name,
+                                   const naolcm::joint_command_t& message) {
+  const int robot = core_.find_robot(name);
+  if (robot < 0) return;
   if (auto reason = core_.take_joint_command(robot, to_core(message), monotonic_seconds())) {
     // The bus counts and reports the message.
     throw Error("rejected: " + *reason);
   }
 }
 
+void SimDaemon::take_light_command(const std::string& name,
+                                   const naolcm::light_command_t& message) {
+  const int robot = core_.find_robot(name);
+  if (robot < 0) return;
+  CommandResult result{message.source, message.command_id, CommandKind::kLight,
+                       ResultStatus::kAccepted};
+  const auto publish = [&] {
+    bus_.publish(channels_[static_cast<size_t>(robot)].command_result,
+                 to_message(result, std::llround(core_.world().sensors(robot).time * 1e6)));
+  };
+  if (auto fault = core_.take_light_command(robot, to_light_command(message))) {
+    result.status = ResultStatus::kRefused;
+    result.reason = *std::move(fault);
+  } else {
+    publish();
+    result.status = ResultStatus::kDone;
+  }
+  publish();
+}
+
+// false: executed before; senders repeat their commands.
 void SimDaemon::take_world_command(const naolcm::world_command_t& message) {
   if (!core_.take_world_command(to_core(message), monotonic_seconds())) return;
   const std::string& error = core_.last_world_command().error;
   if (!error.empty()) {
-    logger::warn("world command {} from {} rejected: {}", message.command, message.source, error);
+    if (rejection_warnings_.allow(monotonic_seconds())) {
+      logger::warn("world command {} from {} rejected: {}", message.command, message.source, error);
+    }
+  } else if (message.command == "drag" || message.command == "drag-in-torso") {
+    // Ten times a second: not worth a line each, nor another state of the world.
+    return;
   } else {
     logger::info("world command {} from {}", message.command, message.source);
-    if (message.command == "reset") publish_sensors();
+    if (message.command == "add-robot" || message.command == "remove-robot") update_robots();
+    if (message.command == "reset" || message.command == "add-robot") publish_sensors();
     if (message.command == "set-pace") {
       // A simulator that never waits must not run at real-time priority.
       if (core_.scheduler().pace() > 0) {
@@ -116,11 +164,14 @@ void SimDaemon::take_world_command(const naolcm::world_command_t& message) {
   publish_truth();
 }
 
+// Runs ticks while they are due, for kMaxBurst at most: the event loop must see signals and
+// messages also when the simulator cannot keep up. The timer continues where it stopped.
 void SimDaemon::run_due_ticks() {
   double now = monotonic_seconds();
   const double end = now + kMaxBurst;
   while (core_.may_tick() && core_.next_tick(now) <= now && now <= end) {
     run_tick(now);
+    // Without waiting, nothing else would read commands between the ticks of a burst.
     if (core_.scheduler().pace() == 0) bus_.handle();
     now = monotonic_seconds();
   }
@@ -131,6 +182,9 @@ void SimDaemon::run_tick(double now) {
   const double delay = core_.run_tick(now);
   publish_sensors();
   publish_truth();
+  const auto body_ticks =
+      std::max<int64_t>(1, std::llround(kBodyStatePeriod / core_.world().options().period()));
+  if (core_.world().tick() % body_ticks == 0) publish_bodies();
   status_.tick(now);
   statistics_.note_tick(delay, monotonic_seconds() - now);
   warn_of_failures(now);
@@ -145,6 +199,7 @@ void SimDaemon::set_timer(double now) {
     timing.it_value.tv_nsec =
         static_cast<long>((next - static_cast<double>(timing.it_value.tv_sec)) * 1e9);
   }
+  // Without a tick to run, a time of 0 disarms the timer.
   timerfd_settime(timer_, TFD_TIMER_ABSTIME, &timing, nullptr);
 }
 
@@ -157,8 +212,10 @@ void SimDaemon::repeat_while_waiting() {
   // A frame of LoLA is a tick, and its socket loses none.
   if (scheduler.is_lock_step() && !scheduler.is_stopped() && !lola_) publish_sensors();
   publish_truth();
+  publish_bodies();
 }
 
+// Reports what went wrong since the last tick; each kind is rate-limited in the log.
 void SimDaemon::warn_of_failures(double now) {
   const World& world = core_.world();
   // Both counters go back to 0 with a reset.
@@ -181,6 +238,7 @@ void SimDaemon::warn_of_failures(double now) {
 void SimDaemon::publish_sensors() {
   for (size_t i = 0; i < channels_.size(); ++i) {
     const int robot = static_cast<int>(i);
+    // Sensor loss (a disturbance): this tick's message is left out.
     if (core_.world().are_readings_lost(robot)) continue;
     if (lola_) {
       lola_->send(core_.lola()->state());
@@ -202,15 +260,23 @@ void SimDaemon::publish_truth() {
   last_publish_time_ = monotonic_seconds();
 }
 
+void SimDaemon::publish_bodies() {
+  // Behind LoLA the client, nao-robot, publishes it.
+  for (size_t i = 0; i < channels_.size() && !lola_; ++i) {
+    bus_.publish(channels_[i].body_state, body_state_of(core_, static_cast<int>(i)));
+  }
+}
+
 std::string SimDaemon::status_detail(int64_t num_ticks) const {
   const TickScheduler& scheduler = core_.scheduler();
   if (scheduler.is_paused()) return "paused";
   if (lola_ && !lola_->has_client()) {
     return "waiting for a LoLA client at " + core_.options().lola_socket;
   }
-  const bool is_waiting = scheduler.is_lock_step() && !core_.may_tick() && num_ticks == 0;
-  if (!is_waiting) return "";
-  return "waiting for " + (lola_ ? "the LoLA client" : channels_[0].joint_command);
+  const int awaited = scheduler.awaited_robot(core_.world().tick());
+  if (awaited < 0 || num_ticks != 0) return "";
+  return "waiting for " +
+         (lola_ ? "the LoLA client" : channels_[static_cast<size_t>(awaited)].joint_command);
 }
 
 void SimDaemon::publish_status() {

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <naolcm/joint_command_t.hpp>
+#include <naolcm/light_command_t.hpp>
 #include <naolcm/world_command_t.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,9 +38,13 @@ class SimDaemon {
   const SimCore& core() const { return core_; }
 
  private:
-  void subscribe();
+  void subscribe_world();
+  /** After robots were added or removed. */
+  void update_robots();
   void serve_lola();
-  void take_joint_command(int robot, const naolcm::joint_command_t& message);
+  /** Of the robot that has this name; there may be none any more. */
+  void take_joint_command(const std::string& robot, const naolcm::joint_command_t& message);
+  void take_light_command(const std::string& robot, const naolcm::light_command_t& message);
   void take_world_command(const naolcm::world_command_t& message);
   /** Runs the ticks that are due and sets the timer for the next. */
   void run_due_ticks();
@@ -48,6 +54,7 @@ class SimDaemon {
   void warn_of_failures(double now);
   void publish_sensors();
   void publish_truth();
+  void publish_bodies();
   void publish_status();
   /** What the world waits for, or "paused"; empty if it runs. @param num_ticks  Since the last
    * call. */
@@ -58,6 +65,8 @@ class SimDaemon {
   SimCore core_;
   std::optional<LolaServer> lola_;
   std::vector<RobotChannels> channels_;
+  /** Robots whose commands arrive: LCM's subscriptions last as long as the bus. */
+  std::set<std::string> subscribed_;
   StatusReporter status_;
   TickStatistics statistics_;
   double real_time_factor_ = 0;
@@ -66,6 +75,7 @@ class SimDaemon {
   double last_publish_time_ = 0;
   int64_t num_bad_states_ = 0;
   int64_t num_dropped_contacts_ = 0;
+  RateLimiter rejection_warnings_{1.0};
   RateLimiter bad_state_warnings_{1.0};
   RateLimiter dropped_contact_warnings_{1.0};
 };

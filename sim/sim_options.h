@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "common/robot_option.h"
+
 namespace nao::sim {
 
 /** Options of nao-sim's command line. */
 struct SimOptions {
   /** Scene: scenes/NAME.yaml of the data folder. */
   std::string scene = "soccer";
-  /** Robot model: the name of its folder in robots/ of the data folder. */
-  std::string model = "nao";
-  /** Names of the robots, with which their channels begin; the first is at the origin. */
-  std::vector<std::string> robots{"NAO"};
+  /** The robots. An even number without teams becomes two teams, see with_teams(). */
+  std::vector<RobotOption> robots{{"NAO", "nao"}};
   /** Posture that the robots start in. */
   std::string posture{};
   /** See WorldOptions::engine. */
@@ -32,7 +32,7 @@ struct SimOptions {
   int tick_ms = -1;
   /** -1: as the disturbances say, or 1. */
   int command_latency_ticks = -1;
-  /** Path of a Unix socket that serves the first robot as a NAO V6 does (LoLA), instead of the bus;
+  /** Path of a Unix socket that serves the robot as a NAO V6 does (LoLA), instead of the bus;
    * empty: none. Needs lola.yaml in the model's folder, and a single robot. */
   std::string lola_socket{};
 };

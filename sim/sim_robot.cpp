@@ -11,6 +11,15 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
+/** Of a drag: time for which one command acts, s (world_command_t); stiffness, N/m, damping, N s/m,
+ * and greatest force, N. Chosen: a limp arm hangs 1 cm below the target, does not swing, and a
+ * robot that stands is not pulled over at once. The damping is stable with steps of 2 ms down to 16
+ * g. */
+constexpr double kDragTime = 0.2;
+constexpr double kDragStiffness = 400;
+constexpr double kDragDamping = 8;
+constexpr double kMaxDragForce = 20;
+
 SensorOptions sensor_options(const RobotOptions& options) {
   SensorOptions result;
   result.is_ideal = options.ideal_sensors;
@@ -33,6 +42,8 @@ SimRobot::SimRobot(std::shared_ptr<const RobotModel> model, const RobotOptions& 
     : model_(std::move(model)),
       options_(options),
       tree_(*model_, options.mass_scale, options.errors.torso_com),
+      // On a flat floor the corners of the outline carry what a grid of points would; bumps need
+      // points inside the outline.
       collisions_(*model_, tree_, world.num_sole_points,
                   Floor(world.floor).is_flat() ? 0 : world.sole_point_spacing),
       integrator_(tree_, options.is_on_stand, world.gravity),
@@ -41,6 +52,7 @@ SimRobot::SimRobot(std::shared_ptr<const RobotModel> model, const RobotOptions& 
       accumulator_(*model_, tree_, world.gravity),
       sensors_(*model_, sensor_options(options), seed_of(world, options.name)),
       floor_(world.floor),
+      // A stream of its own: losses must not change the sensors' noise.
       random_(~seed_of(world, options.name)),
       motor_position_(Eigen::VectorXd::Zero(model_->num_motors())),
       motor_velocity_(Eigen::VectorXd::Zero(model_->num_motors())),
@@ -70,6 +82,8 @@ double SimRobot::energy() const {
   return dynamics().kinetic_energy() + potential + drives_.energy(state());
 }
 
+// Puts joints and targets at `position`, and the root so high that the lowest point touches the
+// floor at ground_position.z.
 void SimRobot::place_joints(const std::vector<double>& position, const Vector3d& ground_position,
                             const Quaterniond& orientation) {
   drives_.place(position);
@@ -81,6 +95,7 @@ void SimRobot::place_joints(const std::vector<double>& position, const Vector3d&
   }
   targets_.set_at_once(targets);
   // First with the root on the ground, to see how far the lowest point is from it.
+  drag_time_ = 0;
   integrator_.place(coordinate, {ground_position.x(), ground_position.y(), 0}, orientation);
   integrator_.move_root({ground_position.x(), ground_position.y(),
                          ground_position.z() - lowest_point(collisions_, dynamics(), floor_)});
@@ -125,6 +140,24 @@ void SimRobot::push(int link, const Vector3d& impulse) {
   integrator_.add_impulse(tree_.body_of_link(link), impulse);
 }
 
+void SimRobot::drag(const LinkDrag& drag) {
+  drag_ = drag;
+  drag_time_ = kDragTime;
+}
+
+void SimRobot::apply_drag(double h) {
+  if (drag_time_ <= 0) return;
+  drag_time_ -= h;
+  const int body = tree_.body_of_link(drag_.link);
+  const Vector3d point = link_pose(drag_.link) * drag_.point;
+  const Vector3d target = drag_.is_in_torso ? link_pose(0) * drag_.target : drag_.target;
+  Vector3d force =
+      kDragStiffness * (target - point) - kDragDamping * dynamics().velocity_at(body, point);
+  const double size = force.norm();
+  if (size > kMaxDragForce) force *= kMaxDragForce / size;
+  integrator_.add_impulse_at(body, point, h * force);
+}
+
 void SimRobot::update_motor_state() {
   for (int i = 0; i < model_->num_motors(); ++i) {
     motor_position_[i] = drives_.position(i, state());
@@ -142,6 +175,8 @@ void SimRobot::begin_tick() {
   accumulator_.begin_tick(dynamics());
 }
 
+// Order: torques of the tick heat the motors before new targets take effect; sensors read the state
+// last.
 void SimRobot::end_tick(double period) {
   drives_.end_tick(accumulator_.torque_impulse(), targets_.current(), period);
   targets_.end_tick();
@@ -163,6 +198,8 @@ void SimRobot::begin_step(double h, Eigen::Ref<Eigen::VectorXd> scaled_velocity)
   scaled_velocity = integrator_.factorize();
 }
 
+// Steps of the fast engine in the order of the calls: begin_step(), add_joint_rows(), solver,
+// add_missed_bounds() and solver until nothing is missed, end_step().
 void SimRobot::add_joint_rows(double h, ConstraintSolver& solver) {
   drives_.add_rows(h, state(), dynamics(), first_dof_, solver);
 }
@@ -178,6 +215,7 @@ void SimRobot::add_foot_load(int foot, const Vector3d& point, const Vector3d& im
   accumulator_.add_foot_impulse(foot, point, impulse, dynamics());
 }
 
+// For engines that integrate by themselves (MuJoCo, Simbody): takes their state over.
 void SimRobot::end_explicit_step(double h, const TreeState& state) {
   integrator_.set_state(state);
   drives_.end_explicit_step(h, state);

@@ -17,6 +17,16 @@
 
 namespace nao::sim {
 
+/** A hand that pulls at a robot: a spring and a damper between a point of a link and a target. */
+struct LinkDrag {
+  int link = 0;
+  /** m, in the link's frame. */
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  /** m, in W; or in the frame of the root link, the torso. */
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();
+  bool is_in_torso = false;
+};
+
 /** One simulated robot: the order in which its bodies (TreeIntegrator), motors (JointDrives) and
  * sensors take part in a tick and in a step.
  *
@@ -73,8 +83,15 @@ class SimRobot {
   void return_to_start();
   /** Tick 0: servos on, motors cold, sensors with new biases. */
   void switch_on();
+  /** For a robot that joins a world which has run so many ticks. @param period  Of a tick, s. */
+  void set_tick(int64_t tick, double period) { sensors_.set_tick(tick, period); }
   /** Impulse at a link's center of mass in the next step, N s, in W. */
   void push(int link, const Eigen::Vector3d& impulse);
+
+  /** See World::drag(). */
+  void drag(const LinkDrag& drag);
+  /** Applies the drag's force to the next step, of h seconds, while it lasts. */
+  void apply_drag(double h);
 
   // A control tick: begin, steps, end.
   void begin_tick();
@@ -132,6 +149,9 @@ class SimRobot {
   Random random_;
   bool are_readings_lost_ = false;
   bool are_targets_lost_ = false;
+  LinkDrag drag_;
+  /** For which the drag still acts, s. */
+  double drag_time_ = 0;
   int first_dof_ = 0;
   bool is_in_contact_ = false;
   Eigen::VectorXd motor_position_;

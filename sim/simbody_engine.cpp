@@ -51,6 +51,8 @@ class OwnersForce : public SimTK::Force::Custom::Implementation {
 
 void integrate(const SimTK::MultibodySystem& system, SimTK::Integrator& integrator,
                double duration) {
+  // Motor torques have changed since the last step's end although the state has not: Simbody's
+  // cached forces are invalid.
   // The step begins with the accelerations of its first state, under the new forces.
   SimTK::State& start = integrator.updAdvancedState();
   start.invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
@@ -62,9 +64,11 @@ void integrate(const SimTK::MultibodySystem& system, SimTK::Integrator& integrat
 
 std::unique_ptr<SimTK::Integrator> make_integrator(const SimTK::MultibodySystem& system,
                                                    double step) {
+  // Substeps of at most kMaxStep that divide the step evenly.
   const double substep = step / std::ceil(step / kMaxStep - 1e-9);
   auto integrator = std::make_unique<SimTK::SemiExplicitEulerIntegrator>(system, substep);
   integrator->setConstraintTolerance(kConstraintTolerance);
+  // stepTo() then ends with a state of the integrator itself, from which the next step goes on.
   integrator->setAllowInterpolation(false);
   return integrator;
 }
@@ -83,17 +87,22 @@ Vector3d velocity_of(const MovingBodies& bodies, const Surface& surface, int bod
  * k x (1 + 3/2 c x'), and Coulomb's friction with a continuous direction. */
 Vector3d force_on_a(const ContactCandidate& contact, const MovingBodies& bodies,
                     const WorldOptions& options) {
+  // No force without penetration: Hunt and Crossley's law has no adhesion.
   const double depth = -contact.proximity.distance;
   if (!(depth > 0)) return Vector3d::Zero();
   const Vector3d& normal = contact.proximity.normal;
   const Vector3d& point = contact.proximity.point;
   const Vector3d relative = velocity_of(bodies, contact.a, contact.body_a, point) -
                             velocity_of(bodies, contact.b, contact.body_b, point);
+  // Positive while the surfaces separate; the factor 1 - 3/2 c v is clipped at 0, since a fast
+  // separation would pull.
   const double opening = normal.dot(relative);
   const bool is_ball = contact.a.kind == Surface::Kind::kBall;
   const double dissipation = is_ball ? kBallDissipation : kDissipation;
   const double pressing =
       options.materials.contact_stiffness * depth * std::max(0.0, 1 - 1.5 * dissipation * opening);
+  // hypot(|v|, v_s) in the denominator makes Coulomb's force continuous at 0 sliding speed, at the
+  // cost of creep below v_s.
   const Vector3d sliding = relative - opening * normal;
   const double speed = std::hypot(sliding.norm(), kSlidingSpeed);
   const double friction = friction_between(contact.a, contact.b, bodies, options.materials);
@@ -116,15 +125,19 @@ class SimbodyEngine::RobotSystem {
     SimTK::Force::Custom(forces_, new OwnersForce<RobotSystem>(*this));
     model_.system().realizeTopology();
     for (int body = 0; body < robot_.tree().num_bodies(); ++body) {
+      // First generalized speed of each body in Simbody's vector, which is not our order of dofs.
       first_u_.push_back(model_.mobilized(body).getFirstUIndex(model_.default_state()));
     }
     start();
   }
 
   /** Takes over the robot's state. */
+  // Also called after a jump: the integrator begins with the new state, without forces of the old
+  // one.
   void start() {
     SimTK::State state = model_.default_state();
     model_.set_state(robot_.tree(), robot_.state(), state);
+    // On a stand, the free joint of the root is locked.
     if (robot_.options().is_on_stand) model_.mobilized(0).lock(state);
     state_ = robot_.state();
     motors_.clear();
@@ -149,6 +162,9 @@ class SimbodyEngine::RobotSystem {
   /** Ends the step after contacts were collected. */
   void end_step(double h) { robot_.end_explicit_step(h, state_); }
 
+  // Called by Simbody for every state of the integrator, also within a step. Poses and velocities
+  // go through our own kinematics, so that contacts are found by the same code as in the fast
+  // engine.
   void calc_forces(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
                    SimTK::Vector& mobility_forces) {
     read(state);
@@ -160,6 +176,7 @@ class SimbodyEngine::RobotSystem {
   }
 
  private:
+  // Dofs 0..5 are the root's, in the same order (angular, linear) in both.
   int u_of_dof(int dof) const {
     return dof < 6 ? first_u_[0] + dof : first_u_[robot_.tree().body_of_dof(dof)];
   }
@@ -179,6 +196,7 @@ class SimbodyEngine::RobotSystem {
     }
   }
 
+  // A force at a point as a spatial force at the body's origin: moment r x f, and f.
   void add_force(int body, const Vector3d& point, const Vector3d& force,
                  SimTK::Vector_<SimTK::SpatialVec>& body_forces) const {
     const Vector3d moment = (point - robot_.dynamics().position(body)).cross(force);
@@ -186,6 +204,8 @@ class SimbodyEngine::RobotSystem {
         SimTK::SpatialVec(to_simbody(moment), to_simbody(force));
   }
 
+  // Gravity is applied here instead of by Simbody's Force::Gravity, so that it is among the forces
+  // that add_rotors() takes into account.
   void add_weight(SimTK::Vector_<SimTK::SpatialVec>& body_forces) const {
     for (int body = 0; body < robot_.tree().num_bodies(); ++body) {
       add_force(body, robot_.dynamics().body_center_of_mass(body),
@@ -194,6 +214,7 @@ class SimbodyEngine::RobotSystem {
   }
 
   void add_contacts(SimTK::Vector_<SimTK::SpatialVec>& body_forces) const {
+    // Contacts of all bodies are found, and those of this robot applied.
     engine_.detector_.find(engine_.num_steps_);
     for (const ContactCandidate& contact : engine_.detector_.candidates()) {
       const bool is_a = contact.a.kind == Surface::Kind::kRobot && contact.a.robot == index_;
@@ -205,6 +226,7 @@ class SimbodyEngine::RobotSystem {
     }
   }
 
+  // Pushes as forces over the step, then servo torque, viscous and dry friction, and stops.
   void add_motors(SimTK::Vector& mobility_forces) const {
     const double h = engine_.options_.step;
     for (int dof = 0; dof < robot_.tree().num_dofs(); ++dof) {
@@ -226,6 +248,7 @@ class SimbodyEngine::RobotSystem {
     const Joint& joint =
         robot_.model().joints()[robot_.tree().bodies()[robot_.tree().body_of_dof(motor.dof)].joint];
     const double angle = state_.coordinate[motor.dof];
+    // Angle beyond the range, rad, with its sign.
     const double bent = std::max(0.0, angle - joint.upper) + std::min(0.0, angle - joint.lower);
     if (bent == 0) return 0;
     // As stiff and as damped as an explicit step allows.
@@ -237,12 +260,15 @@ class SimbodyEngine::RobotSystem {
 
   /** Adds the torques of the rotors' inertia J to all other forces f: -J u' with (M + J) u' = f, in
    * the degrees of freedom of the tree, where coupled joints are one. */
+  // Simbody has no armature. Moving -J u' to the right side needs u' first: solved from the full
+  // mass matrix with the rotors on its diagonal, reduced to independent dofs.
   void add_rotors(const SimTK::State& state, const SimTK::Vector_<SimTK::SpatialVec>& body_forces,
                   SimTK::Vector& mobility_forces) {
     const SimTK::SimbodyMatterSubsystem& matter = model_.matter();
     const int num_u = matter.getNumMobilities();
     SimTK::Vector residual;
     const SimTK::Vector no_acceleration(num_u, 0.0);
+    // Residual force at zero acceleration: C(q, u) - f, so that f - C is its negative.
     matter.calcResidualForceIgnoringConstraints(state, mobility_forces, body_forces,
                                                 no_acceleration, residual);
     SimTK::Matrix mass;
@@ -261,13 +287,16 @@ class SimbodyEngine::RobotSystem {
       force[i] = -residual[i];
       for (int k = 0; k < num_u; ++k) full(i, k) = mass(i, k);
     }
+    // Coupled joints: u = T v, therefore T^T M T v' = T^T (f - C).
     Eigen::MatrixXd reduced = to_u.transpose() * full * to_u;
     Eigen::VectorXd right = to_u.transpose() * force;
     for (const JointForce& motor : motors_) reduced(motor.dof, motor.dof) += motor.inertia;
+    // On a stand the root's six are not solved for.
     const long count = tree.num_dofs() - first;
     const Eigen::VectorXd acceleration =
         reduced.bottomRightCorner(count, count).llt().solve(right.tail(count));
     for (const JointForce& motor : motors_) {
+      // The reaction of each rotor, in place of an armature in M.
       mobility_forces[u_of_dof(motor.dof)] -= motor.inertia * acceleration[motor.dof - first];
     }
   }
@@ -307,6 +336,7 @@ class SimbodyEngine::BallSystem {
     const double q[] = {
         r.w(), r.x(), r.y(), r.z(), from.position.x(), from.position.y(), from.position.z()};
     for (int i = 0; i < 7; ++i) body_.setOneQ(state, i, q[i]);
+    // Free's speeds: angular in W, then linear in W.
     for (int i = 0; i < 3; ++i) {
       body_.setOneU(state, i, from.angular_velocity[i]);
       body_.setOneU(state, 3 + i, from.velocity[i]);
@@ -336,6 +366,7 @@ class SimbodyEngine::BallSystem {
       force += pressing;
       moment += (contact.proximity.point - now.position).cross(pressing);
       if (contact.b.kind != Surface::Kind::kFloor) continue;
+      // As Ball::add_rolling_resistance(); the direction is blurred near rest as sliding is.
       // Rolling resistance: a torque of 7/5 r a / g N slows a solid sphere down by a.
       const double arm = 1.4 * ball_.radius() *
                          engine_.options_.materials.ball_rolling_deceleration /
@@ -395,6 +426,7 @@ void SimbodyEngine::reset() {
 }
 
 void SimbodyEngine::forget_contacts_of_robot(int robot) {
+  // A robot that is being added has no system yet.
   if (robot < static_cast<int>(robots_.size())) robots_[robot]->start();
 }
 
@@ -402,6 +434,8 @@ void SimbodyEngine::forget_contacts_of_ball() {
   if (ball_ != nullptr) ball_->start();
 }
 
+// Robots and ball are systems of their own, stepped one after the other: each sees the others in
+// their latest state. Contacts are collected when all have moved, from final states.
 void SimbodyEngine::step() {
   for (const auto& robot : robots_) robot->step(options_.step);
   if (ball_ != nullptr) ball_->step(options_.step);

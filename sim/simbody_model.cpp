@@ -50,7 +50,9 @@ SimbodyModel::SimbodyModel(const RobotModel& model, double mass_scale,
       matter_(system_),
       link_body_(model.links().size(), -1),
       link_pose_(model.links().size(), Eigen::Isometry3d::Identity()) {
+  // Link 0 is the root; the recursion adds all others.
   add_body(0, -1, -1, mass_scale);
+  // Coupled joints: followers are constrained to their leaders after all bodies exist.
   for (const Body& body : bodies_) {
     if (body.joint < 0) continue;
     const Joint& joint = robot_.joints()[body.joint];
@@ -77,6 +79,7 @@ SimbodyModel::SimbodyModel(const RobotModel& model, double mass_scale,
   system_.realizeTopology();
 }
 
+// Mass of a link and everything behind it, kg.
 double SimbodyModel::subtree_mass(int link) const {
   double mass = robot_.links()[link].mass;
   for (const Joint& joint : robot_.joints()) {
@@ -85,6 +88,7 @@ double SimbodyModel::subtree_mass(int link) const {
   return mass;
 }
 
+// Assigns a link, and all links rigidly connected to it, to a body.
 void SimbodyModel::collect_fixed(int link, int body, const Eigen::Isometry3d& pose_in_body) {
   link_body_[link] = body;
   link_pose_[link] = pose_in_body;
@@ -101,6 +105,7 @@ void SimbodyModel::collect_fixed(int link, int body, const Eigen::Isometry3d& po
 void SimbodyModel::add_body(int link, int parent, int joint_index, double mass_scale) {
   const int index = static_cast<int>(bodies_.size());
   collect_fixed(link, index, Eigen::Isometry3d::Identity());
+  // Mass properties of all links of the body, about the body's origin.
   SimTK::MassProperties mass(0, SimTK::Vec3(0), SimTK::Inertia(0));
   for (size_t i = 0; i < link_body_.size(); ++i) {
     const Link& part = robot_.links()[i];
@@ -109,11 +114,13 @@ void SimbodyModel::add_body(int link, int parent, int joint_index, double mass_s
         mass_of(part, link_pose_[i], mass_scale, i == 0 ? torso_com_ : Eigen::Vector3d::Zero());
     mass = mass.getMass() == 0 ? part_mass : sum(mass, part_mass);
   }
+  // Simbody cannot accelerate a moving body without mass: the model is refused at start.
   if (mass.getMass() <= 0) {
     throw ModelError("link " + robot_.links()[link].name + " is moved by a joint but has no mass");
   }
 
   const SimTK::Body::Rigid rigid(mass);
+  // The body's frame is that of its first link.
   Body body{link, parent, joint_index, {}};
   if (parent < 0) {
     body.mobilized =
@@ -152,6 +159,7 @@ void SimbodyModel::set_state(const Tree& tree, const TreeState& from, SimTK::Sta
   for (int i = 0; i < 6; ++i) u[i] = from.velocity[i];
   mobilized(0).setQFromVector(state, q);
   mobilized(0).setUFromVector(state, u);
+  // Mimic joints get the angle and speed that the coupling demands.
   for (int i = 1; i < tree.num_bodies(); ++i) {
     const TreeBody& body = tree.bodies()[i];
     mobilized(i).setOneQ(state, 0, body.ratio * from.coordinate[body.dof] + body.offset);

@@ -31,6 +31,15 @@ void Stepper::add_robot() {
   reserve();
 }
 
+void Stepper::remove_robot(int robot) {
+  detector_.remove_robot(robot);
+  // Its contacts of the last step name robots by index.
+  assembler_.clear();
+  reserve();
+}
+
+// Gives each robot and the ball its range of dofs in the common vector of scaled velocities, and
+// takes memory for the most constraints. A step allocates nothing.
 void Stepper::reserve() {
   int num_dofs = 0;
   size_t max_chain = 0;
@@ -62,6 +71,8 @@ void Stepper::reset() {
   assembler_.clear();
 }
 
+// One step of the fast engine: (1) velocities with all smooth forces, (2) contact candidates, (3)
+// constraint rows, (4) impulses by projected Gauss-Seidel, (5) new positions.
 void Stepper::step() {
   begin_step();
   finish_stage(Stage::kDynamics);
@@ -90,6 +101,7 @@ void Stepper::begin_step() {
 void Stepper::add_contacts(size_t first_candidate) {
   const std::vector<ContactCandidate>& candidates = detector_.candidates();
   for (size_t i = first_candidate; i < candidates.size(); ++i) {
+    // Full memory leaves the contact out; the daemon warns of it.
     if (!assembler_.add(candidates[i], solver_)) ++num_dropped_blocks_;
   }
 }
@@ -107,10 +119,13 @@ void Stepper::solve() {
 }
 
 bool Stepper::add_missed_constraints() {
+  // Every robot is checked although one already has missed constraints: one further solution then
+  // covers all of them.
   bool has_missed = false;
   for (int i = 0; i < bodies_.num_robots(); ++i) {
     SimRobot& robot = *bodies_.robots[i];
     has_missed |= robot.add_missed_bounds(options_.step, scaled_velocity_, solver_);
+    // find_missed_floor_contacts() reads velocities of the solution, not of the step's start.
     robot.take_velocities();
     const size_t num_candidates = detector_.candidates().size();
     has_missed |= detector_.find_missed_floor_contacts(i);
@@ -119,6 +134,8 @@ bool Stepper::add_missed_constraints() {
   return has_missed;
 }
 
+// The assembler first: it tells robots which of their feet carry load, and whether they are in
+// contact.
 void Stepper::end_step() {
   assembler_.end_step(solver_);
   for (const auto& robot : bodies_.robots) robot->end_step(options_.step, solver_);

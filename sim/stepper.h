@@ -27,6 +27,8 @@ class Stepper : public Engine {
   const char* name() const override { return "fast"; }
   /** Numbers the degrees of freedom and takes memory. */
   void add_robot() override;
+  bool can_change_robots() const override { return true; }
+  void remove_robot(int robot) override;
   /** Nothing is allocated. */
   void step() override;
   void reset() override;

@@ -21,6 +21,7 @@ constexpr double kActive = 0.1;
 
 TickScheduler::TickScheduler(int num_robots, double period, bool is_lock_step, double pace)
     : period_(period), is_lock_step_(is_lock_step), pacer_(period), commands_(num_robots) {
+  // In lock-step commands set the pace; the pacer never waits.
   pacer_.set_pace(is_lock_step ? 0 : pace, 0);
 }
 
@@ -30,12 +31,14 @@ void TickScheduler::resume(double now) {
   restart(now);
 }
 
+// Single steps leave the simulator paused when they are done.
 void TickScheduler::step(int64_t num_ticks, double now) {
   is_paused_ = true;
   ticks_to_step_ += num_ticks;
   restart(now);
 }
 
+// Ticks count from 0 again: answers to ticks of the last run must not let the first ticks pass.
 void TickScheduler::reset(double now) {
   ticks_to_step_ = 0;
   for (Commands& commands : commands_) commands.answered_tick = -1;
@@ -44,6 +47,7 @@ void TickScheduler::reset(double now) {
 
 void TickScheduler::note_command(int robot, int64_t answered_tick, double now) {
   Commands& commands = commands_[robot];
+  // Commands may arrive out of order; the newest tick counts.
   commands.answered_tick = std::max(commands.answered_tick, answered_tick);
   commands.time = now;
   commands.has_any = true;
@@ -52,14 +56,24 @@ void TickScheduler::note_command(int robot, int64_t answered_tick, double now) {
 
 bool TickScheduler::may_run(int64_t tick) const {
   if (is_stopped()) return false;
-  if (!is_lock_step_) return true;
-  return std::all_of(commands_.begin(), commands_.end(),
-                     [tick](const Commands& commands) { return commands.answered_tick == tick; });
+  return awaited_robot(tick) < 0;
+}
+
+int TickScheduler::awaited_robot(int64_t tick) const {
+  if (!is_lock_step_) return -1;
+  // Lock-step: every robot's controller has answered exactly this tick's sensor state.
+  const auto missing =
+      std::find_if(commands_.begin(), commands_.end(),
+                   [tick](const Commands& commands) { return commands.answered_tick != tick; });
+  return missing == commands_.end() ? -1 : static_cast<int>(missing - commands_.begin());
 }
 
 double TickScheduler::next_time(int64_t tick, double now) const {
   const double due = pacer_.next(now);
   if (is_lock_step_ || pacer_.pace() == 0) return due;
+  // In real time a tick waits for an answer only where one can be expected: the controller has been
+  // active, has not answered yet, and is fast enough to answer within a period. A dead controller
+  // delays nothing after kActive.
   const bool is_awaited =
       std::any_of(commands_.begin(), commands_.end(), [&](const Commands& commands) {
         return commands.has_any && commands.answered_tick < tick && now - commands.time < kActive &&
@@ -71,6 +85,7 @@ double TickScheduler::next_time(int64_t tick, double now) const {
 double TickScheduler::begin_tick(int64_t tick, double now) {
   const double delay = pacer_.delay(now);
   if (delay > kLateTick) ++num_late_ticks_;
+  // A late command is counted once per tick for every robot that is under control.
   for (Commands& commands : commands_) {
     const bool is_active = commands.has_any && now - commands.time < kSilence;
     if (is_active && commands.answered_tick < tick) ++num_late_commands_;

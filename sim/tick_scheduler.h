@@ -40,11 +40,17 @@ class TickScheduler {
   /** The world was reset to tick 0. */
   void reset(double now);
 
+  void add_robot() { commands_.emplace_back(); }
+  /** The indices of the robots after it fall by one. */
+  void remove_robot(int robot) { commands_.erase(commands_.begin() + robot); }
+
   /** A robot's joint command was received. @param answered_tick  Of the sensor state. */
   void note_command(int robot, int64_t answered_tick, double now);
 
   /** Whether the tick after `tick` may be run, as far as pause and lock-step decide. */
   bool may_run(int64_t tick) const;
+  /** A robot whose answer to `tick` lock-step waits for; -1: none. */
+  int awaited_robot(int64_t tick) const;
   /** When to run it, if it may be run; not after `now` means at once. */
   double next_time(int64_t tick, double now) const;
   /** The tick after `tick` begins. @return Its delay behind its due time, s. */

@@ -38,10 +38,14 @@ Tree::Tree(const SimbodyModel& model) {
     link_body_.push_back(model.body_of_link(static_cast<int>(link)));
     link_pose_.push_back(model.pose_in_body(static_cast<int>(link)));
   }
+  // Simbody's model is the one source of frames and masses; the arrays copy it, so that both
+  // engines simulate the same robot.
   const SimTK::State& state = model.default_state();
   std::map<int, int> dof_of_joint;
   const std::vector<Joint>& joints = model.robot().joints();
 
+  // Root: dofs 0..5 belong to body 0, each with the ones before it as ancestors, as if six joints
+  // were in series. The triangular factorization needs such an order.
   dof_body_.assign(6, 0);
   for (int dof = 0; dof < 6; ++dof) {
     dof_ancestors_.emplace_back();
@@ -61,6 +65,7 @@ Tree::Tree(const SimbodyModel& model) {
     if (body.parent < 0) {
       body.chain = {0, 1, 2, 3, 4, 5};
     } else {
+      // R_PB and p_PB at angle 0.
       // A pin rotates about the z axis of its frame M on the body, which coincides with frame F on
       // the parent at angle 0.
       const SimTK::Transform& parent_F = mobilized.getInboardFrame(state);
@@ -78,6 +83,7 @@ Tree::Tree(const SimbodyModel& model) {
         body.ratio = joint.mimic_multiplier;
         body.offset = joint.mimic_offset;
       }
+      // A follower takes the leader's dof, whichever of both comes first in the list.
       const std::vector<int>& parent_chain = bodies_[body.parent].chain;
       const auto [entry, is_new] = dof_of_joint.try_emplace(leader, num_dofs());
       body.dof = entry->second;
@@ -85,6 +91,7 @@ Tree::Tree(const SimbodyModel& model) {
         dof_ancestors_.push_back(parent_chain);
         dof_body_.push_back(index);
       }
+      // body_of_dof() means the leader's body, also where the follower was found first.
       if (joint.mimic_joint < 0) dof_body_[body.dof] = index;
       body.chain = parent_chain;
       body.chain.push_back(body.dof);

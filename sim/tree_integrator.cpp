@@ -56,9 +56,13 @@ void TreeIntegrator::move_root(const Vector3d& position) {
   dynamics_.update_kinematics(state_);
 }
 
+// A push at the center of mass of a body; several in one step add up.
 void TreeIntegrator::add_impulse(int body, const Vector3d& impulse) {
-  // J^T times the impulse, J the Jacobian of the body's center of mass.
-  const Vector3d point = dynamics_.body_center_of_mass(body);
+  add_impulse_at(body, dynamics_.body_center_of_mass(body), impulse);
+}
+
+void TreeIntegrator::add_impulse_at(int body, const Vector3d& point, const Vector3d& impulse) {
+  // J^T times the impulse, J the Jacobian of the point.
   external_impulse_.head<3>() += (point - dynamics_.origin()).cross(impulse);
   external_impulse_.segment<3>(3) += impulse;
   const Vector3d moment = (point - dynamics_.origin()).cross(impulse);
@@ -69,6 +73,7 @@ void TreeIntegrator::add_impulse(int body, const Vector3d& impulse) {
   }
 }
 
+// Engines that integrate by themselves apply the pushes as forces.
 Eigen::VectorXd TreeIntegrator::take_impulses() {
   Eigen::VectorXd impulses = external_impulse_;
   external_impulse_.setZero();
@@ -90,19 +95,26 @@ void TreeIntegrator::begin_step(double h) {
     // not count twice; their effect on the joints stays.
     const Vector3d weight = tree_.total_mass() * gravity_;
     const Vector3d arm = dynamics_.center_of_mass_from_origin();
+    // Root motion that the bias forces (without weight) would cause if the joints were held: rigid
+    // body with the composite inertia.
     const SpatialVector back =
         dynamics_.rigid_motion({bias_.head<3>() + arm.cross(weight), bias_.segment<3>(3) + weight});
     work_.head<3>() += h * back.angular;
     work_.segment<3>(3) += h * back.linear;
   }
   dynamics_.multiply_by_mass(work_, momentum_);
+  // M u + impulses - h c: momentum after the step's smooth forces, but for the joints' (added by
+  // JointDrives).
   momentum_ += external_impulse_ - h * bias_;
+  // The root's rows of M are the unit matrix on a stand: zero momentum keeps it at rest.
   if (is_root_fixed_) momentum_.head<6>().setZero();
   diagonal_.setZero();
   external_impulse_.setZero();
 }
 
 const Eigen::VectorXd& TreeIntegrator::factorize() {
+  // L^T L u' = momentum: half of the solution here; contacts act on z = L u', and velocity_of()
+  // does the other half.
   dynamics_.factorize(diagonal_);
   dynamics_.solve_upper(momentum_);
   return momentum_;
@@ -115,10 +127,12 @@ void TreeIntegrator::take_velocity() {
 
 void TreeIntegrator::integrate(double h, bool is_in_contact) {
   // Momentum that the forces of the step have given: linear, and angular about the center of mass.
+  // About the center of mass, where it is constant in free flight; O moves with the root.
   SpatialVector momentum = dynamics_.momentum();
   momentum.angular -= dynamics_.center_of_mass_from_origin().cross(momentum.linear);
 
   const auto num_joint_dofs = state_.velocity.size() - 6;
+  // Semi-implicit Euler: positions move with the velocities after the step.
   state_.coordinate.tail(num_joint_dofs) += h * state_.velocity.tail(num_joint_dofs);
 
   // Without contact the root moves with the velocity that belongs to the momentum in the
@@ -147,6 +161,7 @@ bool TreeIntegrator::is_within_bounds() const {
     return false;
   }
   const auto num_joint_dofs = state_.velocity.size() - 6;
+  // NaN fails the comparisons below as well; the check above gives the clear answer first.
   double rate = state_.velocity.head<3>().cwiseAbs().maxCoeff();
   if (num_joint_dofs > 0) {
     rate = std::max(rate, state_.velocity.tail(num_joint_dofs).cwiseAbs().maxCoeff());

@@ -32,6 +32,8 @@ class TreeIntegrator {
   void move_root(const Eigen::Vector3d& position);
   /** Impulse at a body's center of mass in the next step, N s, in W. */
   void add_impulse(int body, const Eigen::Vector3d& impulse);
+  /** The same at a point of the body; in W, m. */
+  void add_impulse_at(int body, const Eigen::Vector3d& point, const Eigen::Vector3d& impulse);
 
   /** Generalized impulses of the pushes since the last step, N m s and N s, (num_dofs), for other
    * engines; they are taken out. */

@@ -1,6 +1,8 @@
 #include "sim/world.h"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "common/error.h"
 
@@ -46,6 +48,7 @@ MovingBodies bodies_of(const SceneFile& scene) {
 World::World(const SceneFile& scene, const WorldOptions& options)
     : scene_(scene),
       options_(checked(options)),
+      materials_(options_.materials),
       floor_(options.floor),
       bodies_(bodies_of(scene)),
       engine_(make_engine(scene_, options_, bodies_)) {
@@ -54,9 +57,19 @@ World::World(const SceneFile& scene, const WorldOptions& options)
 
 int World::add_robot(std::shared_ptr<const RobotModel> model, const RobotOptions& options) {
   check(options);
+  // The springs of all contacts are those for the heaviest robot.
+  max_mass_ = std::max(max_mass_, model->total_mass());
+  options_.materials = materials_;
+  options_.materials.bear(max_mass_);
   bodies_.robots.push_back(std::make_unique<SimRobot>(std::move(model), options, options_));
+  bodies_.robots.back()->set_tick(tick_, options_.period());
   engine_->add_robot();
   return num_robots() - 1;
+}
+
+void World::remove_robot(int robot) {
+  bodies_.robots.erase(bodies_.robots.begin() + robot);
+  engine_->remove_robot(robot);
 }
 
 double World::time() const {
@@ -71,6 +84,11 @@ const BallState& World::ball() const {
 
 void World::set_targets(int robot, const MotorTargets& targets) {
   bodies_.robots[robot]->set_targets(targets);
+}
+
+void World::step() {
+  for (const auto& robot : bodies_.robots) robot->apply_drag(options_.step);
+  engine_->step();
 }
 
 void World::step_tick() {
@@ -137,6 +155,10 @@ void World::place_ball(const Vector3d& position, const Vector3d& velocity) {
 
 void World::push(int robot, int link, const Vector3d& impulse) {
   bodies_.robots[robot]->push(link, impulse);
+}
+
+void World::drag(int robot, const LinkDrag& drag) {
+  bodies_.robots[robot]->drag(drag);
 }
 
 void World::push_ball(const Vector3d& impulse) {

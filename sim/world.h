@@ -41,10 +41,16 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /** Adds a robot, at rest with servos on. Robots may have different models.
+  /** Adds a robot, at rest with servos on. Robots may have different models. The ticks of one that
+   * is added after the first tick are the world's, until a reset.
    * @throws ModelError, ConfigError  if the physics does not support the model, or a posture is
    * unknown. @return Its index, from 0. */
   int add_robot(std::shared_ptr<const RobotModel> model, const RobotOptions& options = {});
+
+  /** Whether robots may be added after the first tick, and removed: with the fast engine. */
+  bool can_change_robots() const { return engine_->can_change_robots(); }
+  /** Takes a robot away; only if can_change_robots(). The indices of those after it fall by one. */
+  void remove_robot(int robot);
 
   int num_robots() const { return bodies_.num_robots(); }
   const SimRobot& robot(int index) const { return *bodies_.robots[index]; }
@@ -61,7 +67,7 @@ class World {
   /** One control tick: steps_per_tick steps, then new sensor readings. */
   void step_tick();
   /** One physics step, without sensors, for benchmarks and tests. */
-  void step() { engine_->step(); }
+  void step();
 
   int64_t tick() const { return tick_; }
   /** Simulated time since the start or reset, s. */
@@ -92,6 +98,8 @@ class World {
   void place_ball(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity);
   /** Impulse at a link's center of mass in the next step, N s, in W. */
   void push(int robot, int link, const Eigen::Vector3d& impulse);
+  /** Pulls a point of a link to a target, for 0.2 s or until the next call. */
+  void drag(int robot, const LinkDrag& drag);
   /** Without a ball: no effect. */
   void push_ball(const Eigen::Vector3d& impulse);
 
@@ -118,7 +126,10 @@ class World {
   void return_ball_to_start();
 
   SceneFile scene_;
+  /** Its materials are those for the heaviest robot, see Materials::bear(). */
   WorldOptions options_;
+  Materials materials_;
+  double max_mass_ = 0;
   Floor floor_;
   MovingBodies bodies_;
   std::unique_ptr<Engine> engine_;

@@ -17,12 +17,15 @@ struct WorldCommand {
   double pace = 0;
   std::string robot{};
   std::string posture{};
+  std::string model{};
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   /** w, x, y, z. */
   Eigen::Vector4d orientation = Eigen::Vector4d::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   std::string link{};
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();
 };
 
 /** What became of a world command. */

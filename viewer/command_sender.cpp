@@ -39,6 +39,7 @@ Message CommandSender::make_command() {
   return message;
 }
 
+// Sent now, and repeated by repeat() until it is answered.
 void CommandSender::send(const std::string& name, int64_t id, std::function<void()> publish) {
   const double now = monotonic_seconds();
   Pending& pending =
@@ -94,6 +95,7 @@ void CommandSender::place_ball(double x, double y) {
   message.command = "place-ball";
   message.position_in_world[0] = x;
   message.position_in_world[1] = y;
+  // Only the last place of a ball that is dragged counts: earlier ones are not repeated.
   std::erase_if(pending_, [&](const Pending& pending) { return pending.name == message.command; });
   send_world(message);
 }
@@ -118,6 +120,7 @@ void CommandSender::receive(const naolcm::command_result_t& result) {
   std::erase_if(pending_, [&](const Pending& pending) { return pending.id == result.command_id; });
 }
 
+// Simulators acknowledge world commands in the truth, not by results.
 void CommandSender::receive(const naolcm::world_truth_t& truth) {
   if (truth.last_command_source != source_) return;
   const auto acknowledged =

@@ -28,6 +28,8 @@ namespace {
 constexpr double kRate = 30;
 
 void add_options(nao::CommandLine& app, ViewerOptions& options) {
+  app.add_option("--model", options.model, "Folder of robots/ that describes the robot shown")
+      ->show_default();
   app.add_option("--log", options.log_file, "Log of lcm-logger to play instead of the bus")
       ->existing_file();
   app.add_option("--log-start", options.log_start, "Time in the log to start at, s")
@@ -145,7 +147,7 @@ int run(int argc, char** argv) {
     EventLoop loop;
     std::optional<Bus> bus;
     if (options.log_file.empty()) bus.emplace(common.lcm_url);
-    const auto model = RobotModel::load(data_path() / "robots" / "nao");
+    const auto model = RobotModel::load(data_path() / "robots" / options.model);
     nao::logger::info("version {}, {}, robot {} from {}", version(),
                       bus ? "bus " + common.lcm_url : "log " + options.log_file, options.robot,
                       model.folder().string());

@@ -31,6 +31,7 @@ void Markers::add_arrow(Scene& scene, const Eigen::Vector3d& from, const Eigen::
   MeshInstance arrow;
   arrow.mesh = arrow_;
   arrow.pose_in_world.translate(from.cast<float>());
+  // The arrow's mesh points along z and has length 1.
   arrow.pose_in_world.rotate(rotation_between(Eigen::Vector3d::UnitZ(), along).cast<float>());
   const auto length = static_cast<float>(along.norm());
   const float width = std::min(length, kMaxArrowWidth);
@@ -55,6 +56,7 @@ void Markers::add_disc(Scene& scene, const Eigen::Vector3d& center, double radiu
                        const Color& color) const {
   const auto rim = [&](int i) {
     const double angle = 2 * M_PI * i / kDiscSides;
+    // Horizontal.
     const Eigen::Vector3d offset(radius * std::cos(angle), radius * std::sin(angle), 0);
     return Eigen::Vector3f((center + offset).cast<float>());
   };

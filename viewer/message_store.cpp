@@ -23,10 +23,12 @@ bool decode(const uint8_t* data, int num_bytes, double time,
 
 bool MessageStore::receive(const std::string& channel, const uint8_t* data, int num_bytes,
                            double time) {
+  // The last message of each channel, not decoded, for the plots.
   if (raw_.size() < kMaxChannels || raw_.count(channel) > 0) {
     raw_[channel].assign(data, data + num_bytes);
   }
   if (channel == channels_.robot_state) return decode(data, num_bytes, time, robot_state_);
+  if (channel == channels_.body_state) return decode(data, num_bytes, time, body_state_);
   if (channel == channels_.motion_state) return decode(data, num_bytes, time, motion_state_);
   if (channel == kWorldTruthChannel) return decode(data, num_bytes, time, truth_);
   if (channel == channels_.head_camera_image) return decode(data, num_bytes, time, image_);
@@ -53,6 +55,7 @@ bool MessageStore::receive_result(const uint8_t* data, int num_bytes, double tim
 bool MessageStore::receive_status(const uint8_t* data, int num_bytes, double time) {
   std::optional<Received<naolcm::daemon_status_t>> status;
   if (!decode(data, num_bytes, time, status)) return false;
+  // Two processes of one program are two entries.
   const std::string key =
       status->message.program + " " + std::to_string(status->message.process_id);
   if (programs_.size() < kMaxPrograms || programs_.count(key) > 0) programs_[key] = *status;
@@ -61,6 +64,7 @@ bool MessageStore::receive_status(const uint8_t* data, int num_bytes, double tim
 
 void MessageStore::clear() {
   robot_state_.reset();
+  body_state_.reset();
   motion_state_.reset();
   truth_.reset();
   image_.reset();

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <naolcm/body_state_t.hpp>
 #include <naolcm/command_result_t.hpp>
 #include <naolcm/daemon_status_t.hpp>
 #include <naolcm/image_t.hpp>
@@ -43,6 +44,7 @@ class MessageStore {
   const std::optional<Received<naolcm::motion_state_t>>& motion_state() const {
     return motion_state_;
   }
+  const std::optional<Received<naolcm::body_state_t>>& body_state() const { return body_state_; }
   const std::optional<Received<naolcm::world_truth_t>>& truth() const { return truth_; }
   const std::optional<Received<naolcm::image_t>>& image() const { return image_; }
   /** The last 100 results without repetitions, newest last. */
@@ -61,6 +63,7 @@ class MessageStore {
   RobotChannels channels_;
   std::optional<Received<naolcm::robot_state_t>> robot_state_;
   std::optional<Received<naolcm::motion_state_t>> motion_state_;
+  std::optional<Received<naolcm::body_state_t>> body_state_;
   std::optional<Received<naolcm::world_truth_t>> truth_;
   std::optional<Received<naolcm::image_t>> image_;
   std::deque<Received<naolcm::command_result_t>> results_;

@@ -24,6 +24,8 @@ constexpr double kMaxBallDistance = 20;
 
 }  // namespace
 
+// Left button: rotate the view, drag the ball, or push (with Ctrl) a link; right or middle: pan;
+// wheel: zoom. Returns whether the view was panned.
 bool MouseControl::update(WorldView& world, const PinholeCamera& pinhole, CommandSender* commands,
                           double now) {
   const ImGuiIO& io = ImGui::GetIO();
@@ -41,6 +43,7 @@ bool MouseControl::update(WorldView& world, const PinholeCamera& pinhole, Comman
   if (drag_ == Drag::kView) camera_.rotate(io.MouseDelta.x, io.MouseDelta.y);
   if (drag_ == Drag::kBall) drag_ball(ray, *commands, now);
   if (drag_ == Drag::kPush) drag_push(ray);
+  // The push happens when the button is released; until then its arrow is shown.
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     if (drag_ == Drag::kPush) {
       commands->push(grabbed_.robot, grabbed_.link,
@@ -75,6 +78,7 @@ const Handle* MouseControl::handle_at(const WorldView& world, const Eigen::Vecto
     const double depth = to_handle.dot(ray);
     const double miss = (to_handle - depth * ray).norm();
     if (depth <= 0 || miss > kGrabFactor * handle.radius) continue;
+    // Of several handles on the ray the nearest one.
     if (nearest == nullptr || depth < nearest_depth) {
       nearest = &handle;
       nearest_depth = depth;
@@ -86,6 +90,7 @@ const Handle* MouseControl::handle_at(const WorldView& world, const Eigen::Vecto
 void MouseControl::drag_ball(const Eigen::Vector3d& ray_in_camera, CommandSender& commands,
                              double now) {
   Eigen::Vector3d point;
+  // The ball moves on the plane at the height of its center.
   if (!intersect_plane(camera_.pose(), ray_in_camera, grabbed_.radius, point) ||
       point.norm() > kMaxBallDistance) {
     return;

@@ -88,6 +88,7 @@ void Viewer::receive(const std::string& channel, const uint8_t* data, int num_by
   }
 }
 
+// A log has no state at a point in time: messages of the plots' window before it are read again.
 void Viewer::seek(double time) {
   store_.clear();
   plots_.clear();
@@ -116,6 +117,7 @@ void Viewer::update_image() {
   image_.load_jpeg(store_.image()->message.data);
 }
 
+// A walk's velocities are sent while its button is held; without them the walk ends.
 void Viewer::send_commands(double now) {
   if (!commands_) return;
   commands_->repeat(now);

@@ -9,6 +9,8 @@ namespace nao::viewer {
 struct ViewerOptions {
   /** Name of the robot shown, the prefix of its channels. */
   std::string robot = "NAO";
+  /** Its folder in robots/; other robots of the world have the models that the simulator tells. */
+  std::string model = "nao";
   /** Log to play; empty: listen to the bus. */
   std::string log_file;
   /** Start in the log, s, and whether it is paused there. */

@@ -42,22 +42,25 @@ constexpr double kLinkHandleRadius = 0.05;
 WorldView::WorldView(const RobotModel& model, SceneRenderer& renderer, const std::string& robot,
                      const std::string& waiting_posture)
     : model_(model),
-      visual_(model, renderer),
+      models_(model),
+      visuals_(model, renderer),
       robot_(robot),
       waiting_posture_(waiting_posture),
       markers_(renderer),
       surroundings_(renderer) {}
 
+// Builds the scene of this frame anew: truth, estimate, footsteps, or the waiting robot if nothing
+// has come. A message that does not decode is reported, and the rest is drawn.
 void WorldView::update(const MessageStore& store, const ViewChoice& choice) {
   scene_.clear();
   handles_.clear();
-  problems_ = visual_.problems();
+  problems_ = visuals_.problems();
   has_robot_ = false;
   truth_.reset();
   surroundings_.set(store.truth() ? store.truth()->message.scene : "soccer");
   if (!surroundings_.problem().empty()) problems_.push_back(surroundings_.problem());
   try {
-    if (store.truth()) truth_ = decode_truth(model_, store.truth()->message);
+    if (store.truth()) truth_ = decode_truth(models_, store.truth()->message);
   } catch (const Error& error) {
     problems_.push_back(std::string(kWorldTruthChannel) + ": " + error.what());
   }
@@ -81,22 +84,23 @@ void WorldView::add_waiting_robot() {
   Eigen::Isometry3d torso = Eigen::Isometry3d::Identity();
   if (model_.left_sole() >= 0) torso = in_torso[model_.left_sole()].inverse();
   torso = projected_on_ground(torso).inverse() * torso;
-  visual_.append(scene_, link_poses_in_world(model_, torso, position), kWaitingTint);
+  visuals_.own().append(scene_, link_poses_in_world(model_, torso, position), kWaitingTint);
 }
 
 void WorldView::add_truth(const naolcm::world_truth_t& truth, const ViewChoice& choice,
                           bool has_estimate) {
   for (const RobotPose& robot : truth_->robots) {
-    const auto poses = link_poses_in_world(model_, robot.pose_torso_in_world, robot.position);
-    add_handles(robot, poses);
     const bool is_own = robot.name == robot_;
     if (is_own) {
+      // Without an estimate the truth gives the robot's place for the camera to follow.
       pose_torso_in_world_ = robot.pose_torso_in_world;
       has_robot_ = true;
     }
-    if (is_own && !choice.true_robot) continue;
+    // Beside the estimate the truth is tinted, so that both can be told apart.
     const bool is_compared = is_own && has_estimate && choice.estimated_robot;
-    visual_.append(scene_, poses, is_compared ? kTruthTint : Color(Color::Ones()));
+    Scene hidden;
+    add_handles(robot, visuals_.append(is_own && !choice.true_robot ? hidden : scene_, robot,
+                                       is_compared ? kTruthTint : Color(Color::Ones())));
   }
   if (truth_->pose_ball_in_world) {
     const double radius = surroundings_.ball_radius();
@@ -120,7 +124,7 @@ void WorldView::add_contact_forces(const naolcm::world_truth_t& truth) {
 
 void WorldView::add_handles(const RobotPose& robot, const std::vector<Eigen::Isometry3d>& poses) {
   for (size_t link = 0; link < poses.size(); ++link) {
-    const Link& description = model_.links()[link];
+    const Link& description = visuals_.of(robot).model().links()[link];
     if (description.mass <= 0) continue;
     handles_.push_back({robot.name, description.name, poses[link] * description.center_of_mass,
                         kLinkHandleRadius});
@@ -133,13 +137,14 @@ void WorldView::add_estimate(const naolcm::robot_state_t& state, const ViewChoic
   const std::vector<double> position =
       decode_positions(model_, state.joint_names, state.joint_position);
   const RobotPose* true_robot = truth_ ? truth_->find_robot(robot_) : nullptr;
+  // Odometry is moved onto the truth where there is one, else it is drawn as the world.
   odometry_.update(state.utime, pose_torso_in_odometry,
                    true_robot != nullptr ? &true_robot->pose_torso_in_world : nullptr);
   pose_torso_in_world_ = odometry_.pose_odometry_in_world() * pose_torso_in_odometry;
   has_robot_ = true;
   if (choice.estimated_robot) {
-    visual_.append(scene_, link_poses_in_world(model_, pose_torso_in_world_, position),
-                   choice.translucent ? kTranslucentTint : Color(Color::Ones()));
+    visuals_.own().append(scene_, link_poses_in_world(model_, pose_torso_in_world_, position),
+                          choice.translucent ? kTranslucentTint : Color(Color::Ones()));
   }
   add_markings(state, choice);
 }
@@ -170,6 +175,7 @@ void WorldView::add_markings(const naolcm::robot_state_t& state, const ViewChoic
   }
 }
 
+// Outlines of the planned soles, in odometry.
 void WorldView::add_footsteps(const naolcm::motion_state_t& motion) {
   for (const naolcm::footstep_t& step : motion.footsteps) {
     const bool is_left = step.is_left != 0;

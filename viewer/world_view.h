@@ -5,14 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "rendering/robot_visual.h"
+#include "kinematics/odometry_alignment.h"
+#include "rendering/robot_visuals.h"
 #include "rendering/scene.h"
 #include "rendering/scene_surroundings.h"
 #include "rendering/world_state.h"
 #include "robot_model/robot_model.h"
+#include "robot_model/robot_models.h"
 #include "viewer/handle.h"
 #include "viewer/markers.h"
-#include "viewer/odometry_alignment.h"
 #include "viewer/view_choice.h"
 
 namespace naolcm {
@@ -64,7 +65,8 @@ class WorldView {
   void add_waiting_robot();
 
   const RobotModel& model_;
-  RobotVisual visual_;
+  RobotModels models_;
+  RobotVisuals visuals_;
   std::string robot_;
   std::string waiting_posture_;
   Markers markers_;

@@ -18,6 +18,8 @@ Eigen::Matrix2d jacobian(const Distortion& d, const Eigen::Vector2d& point) {
   const double x = point.x();
   const double y = point.y();
   const double r2 = point.squaredNorm();
+  // With r^2 = x^2 + y^2 and d(radial)/dx = 2 x d(radial)/d(r^2); the mixed derivatives are equal,
+  // so that the Jacobian is symmetric.
   const double radial = 1 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
   const double radial_by_r2 = d.k1 + r2 * (2 * d.k2 + r2 * 3 * d.k3);
   const double mixed = 2 * x * y * radial_by_r2 + 2 * d.p1 * x + 2 * d.p2 * y;
@@ -29,6 +31,7 @@ Eigen::Matrix2d jacobian(const Distortion& d, const Eigen::Vector2d& point) {
 
 }  // namespace
 
+// Brown-Conrady model in OpenCV's order of coefficients, on normalized image coordinates.
 Eigen::Vector2d distorted(const Distortion& d, const Eigen::Vector2d& point) {
   const double x = point.x();
   const double y = point.y();

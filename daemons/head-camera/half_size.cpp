@@ -27,6 +27,7 @@ uint32_t mean(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
 
 }  // namespace
 
+// Box filter of 2 x 2 pixels. Widths and heights are even.
 void halve(const std::vector<uint8_t>& pixels, int width, int height, std::vector<uint8_t>& half) {
   const int half_width = width / 2;
   const int half_height = height / 2;

@@ -33,13 +33,13 @@ HeadCamera::HeadCamera(const RobotModel& model, const HeadCameraOptions& options
       options_(options),
       context_(egl_platform(options.egl_platform)),
       renderer_(RendererOptions{.shadow_size = options.shadow_size}),
-      visual_(model, renderer_),
+      visuals_(model, renderer_),
       surroundings_(renderer_),
-      framebuffer_(kFullWidth, kFullHeight),
-      problems_(visual_.problems()) {
+      framebuffer_(kFullWidth, kFullHeight) {
   if (options.noise > 0) noise_.emplace(options.noise);
   frame_.distortion = options.distortion;
   if (options.distortion.is_zero()) return;
+  // The table of a lens takes time to compute: once for each camera at start.
   for (const CameraModel& camera : model.cameras()) {
     lenses_.try_emplace(camera.name, pinhole_of(camera), options.distortion);
   }
@@ -50,9 +50,15 @@ std::string HeadCamera::driver() const {
 }
 
 std::vector<std::string> HeadCamera::take_problems() {
+  const std::vector<std::string>& faults = visuals_.problems();
+  problems_.insert(problems_.end(), faults.begin() + static_cast<long>(num_told_problems_),
+                   faults.end());
+  num_told_problems_ = faults.size();
   return std::exchange(problems_, {});
 }
 
+// Renders the world as this camera sees it into the framebuffer. The camera's own head is hidden:
+// its lens looks out of the shell.
 void HeadCamera::draw(const WorldState& world, const std::string& camera) {
   const CameraModel& description = find_camera(model_, camera);
   if (world.find_robot(options_.robot) == nullptr) {
@@ -64,13 +70,10 @@ void HeadCamera::draw(const WorldState& world, const std::string& camera) {
   scene_.clear();
   Eigen::Isometry3d pose_camera_in_world = Eigen::Isometry3d::Identity();
   for (const RobotPose& robot : world.robots) {
-    const auto poses = link_poses_in_world(model_, robot.pose_torso_in_world, robot.position);
-    int hidden_link = -1;
-    if (robot.name == options_.robot) {
-      pose_camera_in_world = poses[description.link];
-      hidden_link = carrying_link(model_, description.link);
-    }
-    visual_.append(scene_, poses, Color::Ones(), hidden_link);
+    const bool is_own = robot.name == options_.robot;
+    const int hidden_link = is_own ? carrying_link(model_, description.link) : -1;
+    const auto poses = visuals_.append(scene_, robot, Color::Ones(), hidden_link);
+    if (is_own) pose_camera_in_world = poses[description.link];
   }
   if (world.pose_ball_in_world) {
     scene_.ball = SceneBall{world.pose_ball_in_world->cast<float>(),
@@ -88,6 +91,7 @@ void HeadCamera::read_back() {
   framebuffer_.read(frame_.bgrx[0]);
 }
 
+// Each level from the one above: 640, 320, 160 pixels wide, down to what is asked for.
 void HeadCamera::make_smaller(int min_width) {
   for (int level = 1; level <= CameraFrame::level(min_width); ++level) {
     halve(frame_.bgrx[level - 1], kFullWidth >> (level - 1), kFullHeight >> (level - 1),
@@ -121,6 +125,7 @@ void HeadCamera::distort() {
 
 const CameraFrame& HeadCamera::take(const WorldState& world, const std::string& camera,
                                     int min_width, const WorldState* earlier) {
+  // Blur needs a state before this one; after a restart there is none.
   if (options_.exposure > 0 && earlier != nullptr && earlier->utime < world.utime) {
     expose(*earlier, world, camera);
   } else {
@@ -128,6 +133,7 @@ const CameraFrame& HeadCamera::take(const WorldState& world, const std::string& 
     read_back();
     frame_.exposure_time = 0;
   }
+  // Order of a real camera: lens, then sensor noise, then the smaller sizes made of it.
   distort();
   if (noise_) noise_->add(frame_.bgrx[0], frame_.utime);
   make_smaller(min_width);

@@ -12,7 +12,7 @@
 #include "daemons/head-camera/lens.h"
 #include "rendering/egl_context.h"
 #include "rendering/gl_objects.h"
-#include "rendering/robot_visual.h"
+#include "rendering/robot_visuals.h"
 #include "rendering/scene_renderer.h"
 #include "rendering/scene_surroundings.h"
 #include "rendering/world_state.h"
@@ -43,7 +43,7 @@ struct CameraFrame {
 PinholeCamera pinhole_of(const CameraModel& camera);
 
 /** The robot's head cameras: computes images from states of the world. It uses neither the bus nor
- * a clock. All robots of the world look like the model. */
+ * a clock. */
 class HeadCamera {
  public:
   /** Opens its own graphics context, which stays current in this thread.
@@ -82,7 +82,7 @@ class HeadCamera {
   HeadCameraOptions options_;
   EglContext context_;
   SceneRenderer renderer_;
-  RobotVisual visual_;
+  RobotVisuals visuals_;
   SceneSurroundings surroundings_;
   gl::Framebuffer framebuffer_;
   /** By camera name; empty without distortion. */
@@ -92,6 +92,8 @@ class HeadCamera {
   std::vector<uint8_t> distorted_;
   Scene scene_;
   std::vector<std::string> problems_;
+  /** Of visuals_.problems(), those that take_problems() returned. */
+  size_t num_told_problems_ = 0;
   CameraFrame frame_;
 };
 

@@ -31,6 +31,12 @@ void HeadCameraOptions::validate(const RobotModel& model) const {
   const std::string problem =
       check_request({camera_name(model), width, rate, quality}, model.cameras());
   if (!problem.empty()) throw ConfigError(problem);
+  if (source != "v4l2" && !devices.empty()) {
+    throw ConfigError("--device needs --source v4l2: rendered images come from no device");
+  }
+  if (source == "v4l2" && (noise > 0 || exposure > 0)) {
+    throw ConfigError("--noise and --exposure are for rendered images; the source is v4l2");
+  }
   if (shadow_size < 0 || shadow_size > kMaxShadowSize) {
     throw ConfigError("the shadow map size " + std::to_string(shadow_size) +
                       " is outside 0 to 4096 texels");

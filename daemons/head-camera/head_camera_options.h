@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "daemons/head-camera/distortion.h"
 
@@ -12,6 +15,12 @@ namespace nao::camera {
 
 /** Options of nao-head-camera. */
 struct HeadCameraOptions {
+  /** "rendered" or "v4l2". */
+  std::string source = "rendered";
+  /** Devices of the source v4l2, CAMERA=FILE; empty: those of the robot's files. */
+  std::vector<std::string> devices;
+  /** Port at which the first camera's images are served to programs made for Webots. */
+  std::optional<uint16_t> webots_port;
   /** Robot that carries the camera, by its name in WORLD_TRUTH. */
   std::string robot = "NAO";
   /** Send images although none are requested, of the camera, width and rate below. */

@@ -17,6 +17,7 @@ constexpr int kHeaderBytes = 512;
 
 naolcm::image_t encode_image(const CameraFrame& frame, const ImageRequest& request,
                              int default_quality, JpegEncoder& encoder) {
+  // Intrinsics for the size that is sent.
   const PinholeCamera pinhole = frame.pinhole.resized(request.width);
   naolcm::image_t image;
   image.utime = frame.utime;
@@ -33,6 +34,7 @@ naolcm::image_t encode_image(const CameraFrame& frame, const ImageRequest& reque
   image.exposure_time = frame.exposure_time;
   image.format = "jpeg";
   const int quality = request.quality > 0 ? request.quality : default_quality;
+  // The smallest level that is at least as wide: widths are those of the levels.
   image.data = encoder.encode(frame.bgrx[CameraFrame::level(request.width)], image.width,
                               image.height, quality, kMaxMessageBytes - kHeaderBytes);
   image.size_bytes = static_cast<int>(image.data.size());

@@ -26,6 +26,7 @@ ImageNoise::ImageNoise(double deviation) : samples_(kNumSamples) {
 
 void ImageNoise::add(std::vector<uint8_t>& bgrx, int64_t utime) const {
   // The seed of this generator must not be 0.
+  // Seeded with the image's time: the same state gives the same image in every run.
   std::minstd_rand start_of_piece(static_cast<uint32_t>(utime ^ (utime >> 32)) | 1u);
   for (size_t start = 0; start < bgrx.size(); start += kPiece) {
     const int8_t* sample = samples_.data() + start_of_piece() % (samples_.size() - kPiece);
@@ -33,6 +34,7 @@ void ImageNoise::add(std::vector<uint8_t>& bgrx, int64_t utime) const {
     uint8_t* piece = bgrx.data() + start;
     for (size_t i = 0; i < end; ++i) {
       const int noisy = std::clamp(piece[i] + sample[i], 0, 255);
+      // The fourth byte of a pixel is padding.
       piece[i] = i % 4 == 3 ? piece[i] : static_cast<uint8_t>(noisy);
     }
   }

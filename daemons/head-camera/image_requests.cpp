@@ -41,6 +41,8 @@ std::string check_request(const ImageRequest& request, const std::vector<CameraM
   return "";
 }
 
+// A sender's request for one camera and width replaces its earlier one and starts its validity
+// anew.
 void ImageRequests::add(const std::string& source, const ImageRequest& request, double now) {
   const auto key = std::make_tuple(source, request.camera, request.width);
   if (entries_.size() >= kMaxEntries && entries_.count(key) == 0) return;
@@ -48,12 +50,15 @@ void ImageRequests::add(const std::string& source, const ImageRequest& request, 
 }
 
 std::vector<ImageRequest> ImageRequests::merged(double now) {
+  // Requests that were not repeated expire; a receiver that ends need not say so.
   std::erase_if(entries_, [now](const auto& entry) { return entry.second.end < now; });
+  // The widest image of a camera first: a receiver that takes the first one gets the best.
   std::map<std::pair<std::string, int>, ImageRequest> merged;
   for (const auto& [key, entry] : entries_) {
     const auto [place, is_new] =
-        merged.try_emplace({entry.request.camera, entry.request.width}, entry.request);
+        merged.try_emplace({entry.request.camera, -entry.request.width}, entry.request);
     if (is_new) continue;
+    // Receivers of one size share its images: the fastest rate and the best quality serve all.
     place->second.rate = std::max(place->second.rate, entry.request.rate);
     place->second.quality = std::max(place->second.quality, entry.request.quality);
   }
@@ -63,6 +68,8 @@ std::vector<ImageRequest> ImageRequests::merged(double now) {
   return requests;
 }
 
+// Called at kMaxRate. Each call adds rate / kMaxRate to the credit, and an image costs 1: the mean
+// rate is exact, and images are spread evenly.
 std::vector<ImageRequest> ImageSchedule::due(const std::vector<ImageRequest>& requests) {
   // Only the credit of the current requests is kept.
   std::map<std::pair<std::string, int>, double> credit;

@@ -18,6 +18,7 @@ double widening(const PinholeCamera& camera, const Distortion& distortion) {
   double factor = 1;
   const auto include = [&](int u, int v) {
     const Eigen::Vector2d point = ideal_point(camera, distortion, u, v);
+    // Room between the principal point and the border on that side of the image, pixels.
     const double width = point.x() > 0 ? camera.width - 1 - camera.cx : camera.cx;
     const double height = point.y() > 0 ? camera.height - 1 - camera.cy : camera.cy;
     factor = std::max({factor, std::abs(point.x()) * camera.fx / width,
@@ -51,6 +52,7 @@ Lens::Lens(const PinholeCamera& camera, const Distortion& distortion) : source_(
       const Eigen::Vector2d point = ideal_point(camera, distortion, u, camera.height - 1 - row);
       const double column = source_.cx + source_.fx * point.x();
       const double line = camera.height - 1 - (source_.cy + source_.fy * point.y());
+      // The four pixels around the point; at the border the last pair, with a weight of 1 at most.
       const double left = std::clamp(std::floor(column), 0.0, camera.width - 2.0);
       const double below = std::clamp(std::floor(line), 0.0, camera.height - 2.0);
       table_.push_back({static_cast<int32_t>(below) * camera.width + static_cast<int32_t>(left),
@@ -60,6 +62,7 @@ Lens::Lens(const PinholeCamera& camera, const Distortion& distortion) : source_(
   }
 }
 
+// Bilinear interpolation with 8-bit weights, channel by channel.
 void Lens::distort(const std::vector<uint8_t>& ideal, std::vector<uint8_t>& distorted) const {
   distorted.resize(4 * table_.size());
   const size_t row_bytes = static_cast<size_t>(4) * source_.width;

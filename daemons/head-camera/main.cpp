@@ -16,6 +16,14 @@ namespace {
 using nao::camera::HeadCameraOptions;
 
 void add_image_options(nao::CommandLine& app, HeadCameraOptions& options) {
+  app.add_option("--source", options.source,
+                 "Where images come from: rendered from a simulator's state, or v4l2: cameras")
+      ->one_of({"rendered", "v4l2"})
+      ->show_default();
+  app.add_option("--device", options.devices,
+                 "Device file of a camera of --source v4l2, CAMERA=FILE (default: those of the "
+                 "robot's head_cameras.yaml)")
+      ->count(1);
   app.add_flag("--always", options.always, "Send images although none are requested");
   app.add_option("--camera", options.camera,
                  "Camera of --always (default: the first one of the robot's description)");
@@ -32,12 +40,15 @@ void add_image_options(nao::CommandLine& app, HeadCameraOptions& options) {
 }
 
 /** Values of the command line that need conversion. */
-struct SensorValues {
+struct ConvertedValues {
   /** k1, k2. */
   std::vector<double> radial;
   double exposure_ms = 0;
+  /** 0: none. */
+  uint16_t webots_port = 0;
 
   void write(HeadCameraOptions& options) const {
+    if (webots_port != 0) options.webots_port = webots_port;
     if (!radial.empty()) options.distortion.k1 = radial[0];
     if (radial.size() > 1) options.distortion.k2 = radial[1];
     options.exposure = 1e-3 * exposure_ms;
@@ -45,7 +56,8 @@ struct SensorValues {
 };
 
 /** Options for what distinguishes a real camera's image from an ideal one. */
-void add_sensor_options(nao::CommandLine& app, HeadCameraOptions& options, SensorValues& sensor) {
+void add_sensor_options(nao::CommandLine& app, HeadCameraOptions& options,
+                        ConvertedValues& sensor) {
   nao::camera::Distortion& distortion = options.distortion;
   app.add_option("--distortion", sensor.radial,
                  "Radial lens distortion K1 [K2] of the Brown-Conrady model, as OpenCV defines it, "
@@ -59,6 +71,10 @@ void add_sensor_options(nao::CommandLine& app, HeadCameraOptions& options, Senso
       ->show_default();
   app.add_option("--exposure", sensor.exposure_ms,
                  "Exposure time, 0 to 33 ms; blurs what moves (default: 0)");
+  app.add_option("--webots-images", sensor.webots_port,
+                 "Also serve YUYV images of 640x480 to programs made for the Webots LoLA "
+                 "controller: TCP port, on this host only, of the first camera; the next camera "
+                 "has the next port");
 }
 
 }  // namespace
@@ -73,7 +89,7 @@ int main(int argc, char** argv) {
   app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
       ->show_default();
   add_image_options(app, options);
-  SensorValues sensor;
+  ConvertedValues sensor;
   add_sensor_options(app, options, sensor);
 
   return nao::run_program(app, common, argc, argv, [&] {
@@ -88,7 +104,7 @@ int main(int argc, char** argv) {
     nao::camera::HeadCameraDaemon daemon(bus, model, options);
     daemon.attach(loop);
     const std::string reason = loop.run();
-    nao::logger::info("{}: {} images rendered, {} messages in, {} out, {} dropped", reason,
+    nao::logger::info("{}: {} images taken, {} messages in, {} out, {} dropped", reason,
                       daemon.num_frames(), bus.counters().num_in, bus.counters().num_out,
                       bus.counters().num_dropped);
   });

@@ -30,9 +30,11 @@ int main(int argc, char** argv) {
                  "File of the robot's own joint and sensor errors, as nao calibrate writes it");
   app.add_flag("!--no-get-up", options.gets_up, "After a fall, lie until a command");
   return nao::run_program(app, common, argc, argv, [&] {
+    // Errors of the model end the program here, before it answers on any channel.
     const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
     if (nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
       nao::logger::info("real-time scheduling granted");
+    // Without contact the robot neither walks nor gets up: a warning, since joints can be moved.
     if (model.foot_sensors().empty()) {
       nao::logger::warn("{} has no foot force sensors: it cannot detect contact with the ground",
                         model.name());

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "common/error.h"
+#include "daemons/motion/actions/taught_script.h"
+#include "messages/motion_file.h"
 #include "messages/named_joints.h"
 #include "messages/reason.h"
 
@@ -19,6 +21,7 @@ constexpr double kOrientationTolerance = 0.01;
 constexpr double kMinPeriod = 0.001;
 constexpr double kMaxPeriod = 0.1;
 
+// Non-finite numbers stop here; the core can rely on finite measurements.
 void require_finite(const double* values, int count, const char* quantity) {
   for (int i = 0; i < count; ++i) {
     if (!std::isfinite(values[i])) {
@@ -27,6 +30,7 @@ void require_finite(const double* values, int count, const char* quantity) {
   }
 }
 
+// The names decide, not the order: messages may list sensors in any order.
 /** Index of the foot force sensor on a link of that name; the number of sensors if there is none.
  */
 size_t find_foot_sensor(const RobotModel& model, const std::string& name) {
@@ -36,6 +40,7 @@ size_t find_foot_sensor(const RobotModel& model, const std::string& name) {
          links.begin();
 }
 
+// Every joint exactly once, see read_named_joints(). Errors count as dropped messages on the bus.
 void read_joints(const RobotModel& model, const naolcm::sensor_state_t& message, Sensors& sensors) {
   const auto fault = read_named_joints(
       model.motor_names(), message.joint_names,
@@ -53,6 +58,7 @@ void read_inertial_unit(const naolcm::sensor_state_t& message, Sensors& sensors)
   require_finite(message.orientation_torso_in_world, 4, "orientation");
   sensors.accelerometer_torso = Eigen::Vector3d(message.accelerometer_torso);
   sensors.gyroscope_torso = Eigen::Vector3d(message.gyroscope_torso);
+  // w first in messages; the constructor takes the same order.
   const double* q = message.orientation_torso_in_world;
   sensors.orientation_torso_in_world = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
   const double norm = sensors.orientation_torso_in_world.norm();
@@ -147,6 +153,19 @@ Command to_command(const naolcm::stop_command_t& message) {
   return command;
 }
 
+TaughtChange to_taught(const RobotModel& model, const naolcm::keyframe_motion_t& message) {
+  if (!is_motion_name(message.name)) throw Error(quoted(message.name) + " is no name of a motion");
+  if (message.num_keyframes == 0) return {message.name, nullptr};
+  const auto motion = from_message(message);
+  if (!motion) throw Error("the lists of motion " + message.name + " have unequal lengths");
+  auto script = to_script(model, *motion);
+  if (const auto* fault = std::get_if<MotionFault>(&script)) {
+    throw Error("motion " + message.name + ": " + to_sentence(fault->reason));
+  }
+  return {message.name,
+          std::make_shared<const ActionScript>(std::get<ActionScript>(std::move(script)))};
+}
+
 naolcm::joint_command_t to_message(const JointTargets& targets, const RobotState& state,
                                    const std::vector<std::string>& names) {
   naolcm::joint_command_t message;
@@ -224,20 +243,6 @@ naolcm::motion_state_t to_message(const MotionState& state) {
     part.heading_in_odometry = footstep.heading_in_odometry;
     message.footsteps.push_back(part);
   }
-  return message;
-}
-
-naolcm::command_result_t to_message(const CommandResult& result, int64_t utime) {
-  naolcm::command_result_t message;
-  message.utime = utime;
-  message.source = result.source;
-  message.command_id = result.id;
-  message.command_kind = static_cast<int8_t>(result.kind);
-  message.status = static_cast<int8_t>(result.status);
-  message.reason_code = result.reason.code;
-  message.num_reason_arguments = static_cast<int>(result.reason.arguments.size());
-  message.reason_arguments = result.reason.arguments;
-  message.reason = to_sentence(result.reason);
   return message;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <naolcm/action_command_t.hpp>
-#include <naolcm/command_result_t.hpp>
 #include <naolcm/joint_change_command_t.hpp>
 #include <naolcm/joint_command_t.hpp>
+#include <naolcm/keyframe_motion_t.hpp>
 #include <naolcm/motion_state_t.hpp>
 #include <naolcm/move_to_command_t.hpp>
 #include <naolcm/posture_command_t.hpp>
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "daemons/motion/joint_targets.h"
+#include "daemons/motion/motion_core.h"
 #include "daemons/motion/motion_state.h"
 #include "daemons/motion/robot_state.h"
 #include "daemons/motion/sensors.h"
@@ -37,12 +38,13 @@ Command to_command(const naolcm::joint_change_command_t& message);
 Command to_command(const naolcm::action_command_t& message);
 Command to_command(const naolcm::stop_command_t& message);
 
+/** @throws Error  if it is no motion of this robot: it must not reach the core. */
+TaughtChange to_taught(const RobotModel& model, const naolcm::keyframe_motion_t& message);
+
 /** @param names  Of all motors' joints, in motor order. */
 naolcm::joint_command_t to_message(const JointTargets& targets, const RobotState& state,
                                    const std::vector<std::string>& names);
 naolcm::robot_state_t to_message(const RobotState& state, const std::vector<std::string>& names);
 naolcm::motion_state_t to_message(const MotionState& state);
-/** @param utime  Robot time, microseconds. */
-naolcm::command_result_t to_message(const CommandResult& result, int64_t utime);
 
 }  // namespace nao::motion

@@ -25,8 +25,9 @@ MotionOptions validated(const MotionOptions& options) {
 MotionCore::MotionCore(const RobotModel& model, const MotionOptions& options)
     : model_(&model),
       options_(validated(options)),
+      dead_foot_sensors_(model),
       presence_(model, options.sensor_timeout),
-      estimator_(model, options.foot_contact_force),
+      estimator_(model),
       guard_(model),
       factory_(model, options_, guard_),
       arbiter_(model, factory_, guard_),
@@ -36,16 +37,20 @@ MotionCore::MotionCore(const RobotModel& model, const MotionOptions& options)
   if (options.calibration) correction_.emplace(model, *options.calibration);
 }
 
+// One control tick, or one tick of silence. Order: sensors, commands, motions, reports; commands
+// see the state of this tick, and the report sees what the commands made of it.
 Output MotionCore::step(const Input& input, double dt) {
+  // Correction of the robot's own errors at the border: all motions work with true angles, and
+  // targets are converted back below.
   if (input.sensors) {
-    if (correction_) {
-      corrected_ = *input.sensors;
-      correction_->correct(corrected_);
-    }
-    take_sensors(correction_ ? corrected_ : *input.sensors, dt);
+    corrected_ = *input.sensors;
+    if (correction_) correction_->correct(corrected_);
+    dead_foot_sensors_.update(corrected_.foot_force, dt);
+    take_sensors(corrected_, dt);
   } else {
     wait_for_sensors(dt);
   }
+  for (const TaughtChange& change : input.taught) factory_.set_taught(change.name, change.script);
   // Commands are received without a robot, too: they are refused with the reason "no-robot".
   receive(input.commands);
   Output output;
@@ -77,10 +82,13 @@ void MotionCore::take_sensors(const Sensors& sensors, double dt) {
   estimator_.update(sensors, dt);
 }
 
+// Commands end with the robot; those that come later are refused by the mode.
 void MotionCore::wait_for_sensors(double dt) {
   if (presence_.wait(dt) == RobotPresence::Change::kLost) arbiter_.abort_all({"no-robot"});
 }
 
+// A robot appears, or was placed elsewhere: what was known of it is forgotten, and its targets are
+// the start of all motions.
 void MotionCore::take_over(bool is_placed) {
   const Sensors& sensors = presence_.sensors();
   time_with_robot_ = 0;
@@ -101,16 +109,19 @@ void MotionCore::receive(const std::vector<Command>& commands) {
 }
 
 void MotionCore::move(double dt) {
+  // For the limiter, which bounds the change of one tick.
   const JointTargets last = targets_;
   choose_first_motion(dt);
   handle_falls(dt);
   run_motions(dt);
+  follow_limp_joints();
   limit_targets(last, dt);
 }
 
 void MotionCore::choose_first_motion(double dt) {
   time_with_robot_ += dt;
   if (has_first_motion_ || time_with_robot_ < kTakeOverTime) return;
+  // Once for a robot: motions are then chosen by commands and falls only.
   has_first_motion_ = true;
   const RobotState& state = estimator_.state();
   falls_.begin(state);
@@ -118,6 +129,7 @@ void MotionCore::choose_first_motion(double dt) {
   if (!arbiter_.is_idle() || is_relaxed()) return;
   const Posture* posture =
       find_present_posture(*model_, presence_.sensors().position, state, options_.lying_tilt);
+  // In no known posture: a robot that lies is treated as fallen; otherwise it goes to the stand.
   if (posture == nullptr) {
     if (is_lying(state, options_.lying_tilt)) {
       falls_.note_fallen();
@@ -133,11 +145,13 @@ void MotionCore::handle_falls(double dt) {
   const Assignment* running = arbiter_.running();
   FallSupervisor::Activity activity;
   activity.is_busy = !arbiter_.is_idle();
+  // A robot without a motion stands, and must not fall either.
   activity.must_stay_upright = running == nullptr || running->generator->must_stay_upright();
   activity.is_walking = arbiter_.is_walking();
   switch (falls_.update(estimator_.state(), activity, dt)) {
     case FallSupervisor::Action::kProtect:
       arbiter_.abort_all({"robot-fell"});
+      // The fall's motion begins in this tick; it cannot wait for the end of another motion.
       arbiter_.start({std::make_unique<FallMotion>(), std::nullopt, "fall"}, context(0), targets_);
       break;
     case FallSupervisor::Action::kGetUp:
@@ -153,6 +167,14 @@ void MotionCore::run_motions(double dt) {
   if (const auto ended = arbiter_.step(context(dt), targets_)) {
     falls_.note_end(ended->phase == MotionGenerator::Phase::kDone, ended->mode == Mode::kFalling,
                     estimator_.state());
+  }
+}
+
+void MotionCore::follow_limp_joints() {
+  // A robot that rests as a whole keeps the targets of its posture.
+  if (is_relaxed()) return;
+  for (size_t i = 0; i < targets_.stiffness.size(); ++i) {
+    if (targets_.stiffness[i] == 0) targets_.position[i] = presence_.sensors().position[i];
   }
 }
 

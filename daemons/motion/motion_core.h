@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "daemons/motion/commands/command_arbiter.h"
+#include "daemons/motion/estimator/dead_foot_sensors.h"
 #include "daemons/motion/estimator/state_estimator.h"
 #include "daemons/motion/falls/fall_supervisor.h"
 #include "daemons/motion/guards/joint_change_guard.h"
@@ -22,12 +25,19 @@
 
 namespace nao::motion {
 
+/** A taught motion that can be played from now on, by its name; nullptr: it cannot any longer. */
+struct TaughtChange {
+  std::string name;
+  std::shared_ptr<const ActionScript> script;
+};
+
 /** Input of one control step. */
 struct Input {
   /** Nothing while no sensor data arrive. */
   std::optional<Sensors> sensors;
   /** In the order in which they arrived. */
   std::vector<Command> commands;
+  std::vector<TaughtChange> taught{};
 };
 
 /** Output of one control step. */
@@ -80,6 +90,9 @@ class MotionCore {
   void choose_first_motion(double dt);
   void handle_falls(double dt);
   void run_motions(double dt);
+  /** Targets of limp joints follow their angles, so that a limb that is moved by hand stays where
+   * it is when it becomes stiff. */
+  void follow_limp_joints();
   void limit_targets(const JointTargets& last, double dt);
 
   MotionContext context(double dt) const;
@@ -91,7 +104,8 @@ class MotionCore {
   MotionOptions options_;
   /** Nothing without a calibration. */
   std::optional<SensorCorrection> correction_;
-  /** Sensors of this step, if they are corrected. */
+  DeadFootSensors dead_foot_sensors_;
+  /** Sensors of this step. */
   Sensors corrected_;
   RobotPresence presence_;
   StateEstimator estimator_;

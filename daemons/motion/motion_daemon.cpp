@@ -8,6 +8,7 @@
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "daemons/motion/message_conversion.h"
+#include "messages/result_message.h"
 
 namespace nao::motion {
 namespace {
@@ -27,6 +28,9 @@ constexpr double kFastRatio = 2;
 // Commands for one step; more are dropped, and repeated by their senders. Chosen: more than all
 // clients of the gateway send in a step.
 constexpr size_t kMaxWaitingCommands = 256;
+// Taught motions for one step; more are dropped, and announced again. Chosen: a motion of 200
+// keyframes takes 0.1 ms.
+constexpr size_t kMaxWaitingMotions = 16;
 
 }  // namespace
 
@@ -43,6 +47,15 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
   subscribe_to_command<naolcm::joint_change_command_t>(channels_.joint_change_command);
   subscribe_to_command<naolcm::action_command_t>(channels_.action_command);
   subscribe_to_command<naolcm::stop_command_t>(channels_.stop_command);
+  bus_.subscribe<naolcm::keyframe_motion_t>(
+      channels_.keyframe_motion, Bus::Queue::kAll,
+      [this](const naolcm::keyframe_motion_t& message) {
+        if (taught_.size() >= kMaxWaitingMotions) {
+          throw Error("more than " + std::to_string(kMaxWaitingMotions) + " motions in one step");
+        }
+        taught_.push_back(to_taught(model_, message));
+      });
+  // The latest sensor state only: an older one would be answered with targets for the past.
   bus_.subscribe<naolcm::sensor_state_t>(
       channels_.sensor_state, Bus::Queue::kLatest,
       [this](const naolcm::sensor_state_t& message) { take_sensor_state(message); });
@@ -54,6 +67,7 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
 
 template <class Message>
 void MotionDaemon::subscribe_to_command(const std::string& channel) {
+  // Bus counts an exception as a dropped message; the sender repeats its command.
   bus_.subscribe<Message>(channel, Bus::Queue::kAll, [this](const Message& message) {
     if (commands_.size() >= kMaxWaitingCommands) {
       throw Error("more than " + std::to_string(kMaxWaitingCommands) + " commands in one step");
@@ -72,6 +86,7 @@ void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
   }
   Sensors sensors = to_sensors(model_, message);
   const double period = sensors.period;
+  // By the robot's clock, so that ticks that were lost lengthen the step.
   const double elapsed = static_cast<double>(sensors.utime - last_utime_) * 1e-6;
   const bool is_successor =
       last_tick_ >= 0 && elapsed > 0 && elapsed <= kMaxStepPeriods * period + kRounding;
@@ -81,6 +96,8 @@ void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
   step(std::move(sensors), is_successor ? elapsed : period);
 }
 
+// Without sensors the core still runs, on wall time: it notices that the robot is gone, and refuses
+// commands.
 void MotionDaemon::check_for_silence() {
   const double now = monotonic_seconds();
   if (now - last_step_time_ < kSilencePeriod) return;
@@ -95,8 +112,10 @@ void MotionDaemon::step(std::optional<Sensors> sensors, double dt) {
   Input input;
   input.sensors = std::move(sensors);
   input.commands = std::exchange(commands_, {});
+  input.taught = std::exchange(taught_, {});
   const Output output = core_.step(input, dt);
   publish(output);
+  // Results are sent again, since the bus may lose messages.
   for (const CommandResult& result : reminder_.due(dt)) publish(result);
   for (const CommandResult& result : output.results) {
     logger::info("{} {} of {}: {}{}{}", to_string(result.kind), result.id, quoted(result.source),
@@ -105,6 +124,7 @@ void MotionDaemon::step(std::optional<Sensors> sensors, double dt) {
     publish(result);
     reminder_.note(result);
   }
+  // Steps of silence do not count in the statistics of control.
   if (!has_sensors) return;
   const double end = monotonic_seconds();
   ++num_steps_;

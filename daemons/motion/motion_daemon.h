@@ -11,8 +11,8 @@
 #include "common/channels.h"
 #include "common/event_loop.h"
 #include "common/status_reporter.h"
-#include "daemons/motion/commands/result_reminder.h"
 #include "daemons/motion/motion_core.h"
+#include "messages/result_reminder.h"
 #include "robot_model/robot_model.h"
 
 namespace nao::motion {
@@ -47,6 +47,7 @@ class MotionDaemon {
   ResultReminder reminder_;
   /** Commands for the next step. */
   std::vector<Command> commands_;
+  std::vector<TaughtChange> taught_;
   int64_t num_steps_ = 0;
   int64_t num_missed_ticks_ = 0;
   /** Of the last sensor state. */

@@ -3,13 +3,16 @@
 #include <filesystem>
 #include <utility>
 
+#include "daemons/motion/actions/taught_script.h"
 #include "daemons/motion/generators/joint_change_motion.h"
 #include "daemons/motion/generators/kick_motion.h"
 #include "daemons/motion/generators/posture_path_motion.h"
 #include "daemons/motion/generators/rest_motion.h"
 #include "daemons/motion/generators/script_motion.h"
 #include "daemons/motion/generators/sequence_motion.h"
+#include "daemons/motion/generators/taught_motion.h"
 #include "daemons/motion/generators/walk_motion.h"
+#include "daemons/motion/standing_rates.h"
 #include "daemons/motion/transitions/body_state.h"
 
 namespace nao::motion {
@@ -20,10 +23,14 @@ constexpr const char* kGaitFile = "gait.yaml";
 constexpr const char* kKickFile = "actions/kick.yaml";
 constexpr const char* kScriptFile = "actions/keeper.yaml";
 
+// nao-transition-tuner gives transitions of its own; otherwise the robot's file.
 TransitionGraph load_graph(const RobotModel& model, const MotionOptions& options) {
   if (options.transitions) return *options.transitions;
   return TransitionGraph::load(model, model.folder() / kTransitionFile);
 }
+
+// Stiffness below which a joint cannot carry the robot. Chosen: that up to which legs do not walk.
+constexpr double kCarryingStiffness = 0.6;
 
 /** A state of the body as an argument of a reason. */
 std::string name_of(const std::string& body_state) {
@@ -41,6 +48,7 @@ MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& optio
       gait_(options.gait),
       stand_(&model.ready_posture()) {
   const std::filesystem::path& folder = model.folder();
+  // A robot without gait, kick or scripts is controlled without these; its commands are refused.
   if (!gait_ && std::filesystem::exists(folder / kGaitFile)) gait_ = Gait::load(folder / kGaitFile);
   if (gait_) legs_.emplace(model);
   if (std::filesystem::exists(folder / kKickFile)) kick_ = Kick::load(folder / kKickFile);
@@ -52,12 +60,14 @@ MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& optio
 
 std::map<std::string, MotionFactory::ActionPlanner> MotionFactory::make_action_table() {
   std::map<std::string, ActionPlanner> table;
+  // Actions of robot.yaml without a motion are left out: "action-without-motion" is the answer.
   for (const Action& action : model_->actions()) {
     if (ActionPlanner planner = make_planner(action)) table[action.name] = std::move(planner);
   }
   return table;
 }
 
+// The motion that carries out an action; nullptr if the robot's files do not have it.
 MotionFactory::ActionPlanner MotionFactory::make_planner(const Action& action) {
   switch (action.kind) {
     case Action::Kind::kStandUp:
@@ -82,6 +92,7 @@ MotionFactory::ActionPlanner MotionFactory::make_planner(const Action& action) {
 MotionFactory::ActionPlanner MotionFactory::make_keyframe_planner(const std::string& keyframes) {
   for (const ActionScript& script : scripts_) {
     if (script.sequence.name != keyframes) continue;
+    // scripts_ and graph_ do not change after construction: the references stay valid.
     return [this, &script](const ActionCommand&, const Situation& situation) {
       return plan_script(script, situation);
     };
@@ -123,22 +134,27 @@ MotionPlan MotionFactory::plan_request(const MoveToCommand& move_to, const Situa
   return std::make_unique<MoveToMotion>(*model_, *gait_, make_stand_path(), move_to);
 }
 
-MotionPlan MotionFactory::plan_request(const PostureCommand& posture, const Situation& situation) {
-  const Posture& goal = *model_->find_posture(posture.posture);
+std::optional<Reason> MotionFactory::find_posture_obstacle(const Posture& goal,
+                                                           const Situation& situation) const {
   const std::string state = find_body_state(*model_, situation.context.state, options_->lying_tilt);
-  if (state.empty() && !situation.context.state.has_foot_force_sensors) {
-    return Reason("no-foot-force-sensors");
-  }
   // In an unknown state, such as held in the air, the motion looks for a path once it is known.
   const bool needs_path = !state.empty() && state != state_of(goal);
   if (needs_path && graph_.find_path(state, state_of(goal)).empty()) {
     return Reason("no-path", {state, goal.name});
   }
+  return std::nullopt;
+}
+
+MotionPlan MotionFactory::plan_request(const PostureCommand& posture, const Situation& situation) {
+  // Exists: find_fault() has checked the name.
+  const Posture& goal = *model_->find_posture(posture.posture);
+  if (auto obstacle = find_posture_obstacle(goal, situation)) return *std::move(obstacle);
   return make_posture_path(goal, posture.speed);
 }
 
 MotionPlan MotionFactory::plan_request(const JointChangeCommand& change,
                                        const Situation& situation) {
+  if (auto support = find_relaxed_support(change, situation)) return *std::move(support);
   if (auto danger = guard_->find_danger(change, situation.context, situation.targets)) {
     return *danger;
   }
@@ -147,8 +163,10 @@ MotionPlan MotionFactory::plan_request(const JointChangeCommand& change,
 
 MotionPlan MotionFactory::plan_request(const ActionCommand& action, const Situation& situation) {
   const auto planner = actions_.find(action.action);
-  if (planner == actions_.end()) return Reason("action-without-motion", {action.action});
-  return planner->second(action, situation);
+  if (planner != actions_.end()) return planner->second(action, situation);
+  const auto taught = taught_.find(action.action);
+  if (taught != taught_.end()) return plan_taught(taught->second, situation);
+  return Reason("action-without-motion", {action.action});
 }
 
 MotionPlan MotionFactory::plan_request(const StopCommand& /*stop*/,
@@ -173,6 +191,16 @@ MotionPlan MotionFactory::plan_script(const ActionScript& script,
                                         make_stand_path());
 }
 
+MotionPlan MotionFactory::plan_taught(const std::shared_ptr<const ActionScript>& script,
+                                      const Situation& situation) const {
+  const Posture* start = model_->find_posture(script->start);
+  if (start == nullptr) start = stand_;
+  if (auto obstacle = find_posture_obstacle(*start, situation)) return *std::move(obstacle);
+  return std::make_unique<TaughtMotion>(*model_, script, make_posture_path(*start),
+                                        starts_on_feet(*model_, *script));
+}
+
+// A keyframe transition plays from the state it starts in, and from no other.
 MotionPlan MotionFactory::plan_sequence(const KeyframeSequence& sequence,
                                         const Situation& situation) const {
   const std::string state = find_body_state(*model_, situation.context.state, options_->lying_tilt);
@@ -182,16 +210,42 @@ MotionPlan MotionFactory::plan_sequence(const KeyframeSequence& sequence,
   return std::make_unique<SequenceMotion>(sequence);
 }
 
+void MotionFactory::set_taught(const std::string& name,
+                               std::shared_ptr<const ActionScript> script) {
+  if (script == nullptr) {
+    taught_.erase(name);
+  } else {
+    taught_[name] = std::move(script);
+  }
+}
+
+std::optional<Reason> MotionFactory::find_relaxed_support(const JointChangeCommand& change,
+                                                          const Situation& situation) const {
+  const std::string state = find_body_state(*model_, situation.context.state, options_->lying_tilt);
+  // A robot that is held in the air, in no known state, may be put down.
+  if (!state.empty() && state != kOnFeet) return std::nullopt;
+  for (size_t i = 0; i < change.joint_stiffness.size(); ++i) {
+    // A stiffness that stays as it is, is NaN, for which the comparison is false.
+    const bool is_soft = change.joint_stiffness[i] < kCarryingStiffness;
+    const int motor = model_->find_motor(change.joint_names[i]);
+    if (is_soft && carries_body(situation.context, motor)) {
+      return Reason("joint-carries-robot", {change.joint_names[i]});
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<Reason> MotionFactory::find_walk_obstacle(const Situation& situation) const {
   const RobotState& state = situation.context.state;
   if (!gait_) return Reason("no-gait", {model_->name()});
-  if (!state.has_foot_force_sensors) return Reason("no-foot-force-sensors");
   if (is_lying(state, options_->lying_tilt)) return Reason("robot-fallen");
   return motion::find_walk_obstacle(*legs_, state, situation.targets.stiffness);
 }
 
 std::optional<Reason> MotionFactory::find_obstacle_after_standing_up(
     const Situation& situation) const {
+  // A robot that sits stands up before it walks, so that contact and tilt do not count yet; soft
+  // legs do.
   const RobotState& state = situation.context.state;
   const bool sits = is_sitting(*model_, find_body_state(*model_, state, options_->lying_tilt));
   if (!gait_ || !sits) return find_walk_obstacle(situation);

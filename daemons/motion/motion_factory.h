@@ -44,6 +44,11 @@ class MotionFactory {
   MotionPlan plan(const Command& command, const MotionContext& context,
                   const JointTargets& targets);
 
+  /** Makes a taught motion an action of its name; nullptr: it is none any longer. The robot's own
+   * actions go before taught ones of the same name. */
+  void set_taught(const std::string& name, std::shared_ptr<const ActionScript> script);
+  bool has_taught(const std::string& name) const { return taught_.contains(name); }
+
   /** Path to a posture from any state of the body. @param speed  Fraction of the maximum, (0, 1].
    */
   std::unique_ptr<MotionGenerator> make_posture_path(const Posture& posture, double speed) const;
@@ -78,8 +83,16 @@ class MotionFactory {
 
   MotionPlan plan_kick(const ActionCommand& action, const Situation& situation, bool is_left) const;
   MotionPlan plan_script(const ActionScript& script, const Situation& situation) const;
+  MotionPlan plan_taught(const std::shared_ptr<const ActionScript>& script,
+                         const Situation& situation) const;
   MotionPlan plan_sequence(const KeyframeSequence& sequence, const Situation& situation) const;
 
+  /** Why the robot cannot reach a posture; nothing if it can. */
+  std::optional<Reason> find_posture_obstacle(const Posture& goal,
+                                              const Situation& situation) const;
+  /** The joint that a change would relax although it carries the robot. */
+  std::optional<Reason> find_relaxed_support(const JointChangeCommand& change,
+                                             const Situation& situation) const;
   /** Why the robot must not walk; nothing if it may. */
   std::optional<Reason> find_walk_obstacle(const Situation& situation) const;
   /** The same for a walk that goes to its stand first: it may start from a seat. */
@@ -97,6 +110,7 @@ class MotionFactory {
   std::vector<ActionScript> scripts_;
   const Posture* stand_;
   std::map<std::string, ActionPlanner> actions_;
+  std::map<std::string, std::shared_ptr<const ActionScript>> taught_;
 };
 
 }  // namespace nao::motion

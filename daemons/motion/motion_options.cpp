@@ -24,6 +24,7 @@ void require_fraction(double value, const char* name) {
 
 }  // namespace
 
+// Throws for the first option that is out of range; values come from the command line and tools.
 void MotionOptions::validate() const {
   require_positive(sensor_timeout, "sensor_timeout", "s");
   require_positive(max_acceleration, "max_acceleration", "rad/s^2");
@@ -32,7 +33,6 @@ void MotionOptions::validate() const {
   require_fraction(posture_leg_speed, "posture_leg_speed");
   require_positive(posture_tolerance, "posture_tolerance", "rad");
   require_positive(lying_tilt, "lying_tilt", "rad");
-  require_positive(foot_contact_force, "foot_contact_force", "N");
   require_positive(motion_state_period, "motion_state_period", "s");
 }
 

@@ -27,8 +27,6 @@ struct MotionOptions {
   double posture_tolerance = 0.09;
   /** Tilt of the torso above which the robot lies, rad. */
   double lying_tilt = 1.0;
-  /** Least force on a foot in contact, N: above the force sensors' noise, 6 % of NAO's weight. */
-  double foot_contact_force = 3.0;
   /** Period of motion states while nothing changes, s. */
   double motion_state_period = 0.1;
   /** Gets up by itself after a fall. */

@@ -35,6 +35,8 @@ struct MotionState {
    */
   int num_tries = 0;
   bool needs_help = false;
+  /** Index of the keyframe to which a taught motion moves, or at which it pauses; -1: none. */
+  int keyframe = -1;
   double balance_margin = std::numeric_limits<double>::quiet_NaN();
   /** m/s forward, m/s to the left, rad/s. */
   Eigen::Vector3d walk_velocity = Eigen::Vector3d::Zero();

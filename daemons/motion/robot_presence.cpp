@@ -12,6 +12,7 @@ constexpr double kPlacedAngle = 0.5;
 }  // namespace
 
 RobotPresence::Change RobotPresence::take(const Sensors& sensors, double dt) {
+  // The first message after silence is always a new appearance, even of the same robot.
   Change change = Change::kNone;
   if (!has_robot_) {
     change = Change::kAppeared;
@@ -32,6 +33,7 @@ RobotPresence::Change RobotPresence::wait(double dt) {
 }
 
 bool RobotPresence::is_another(const Sensors& sensors, double dt) const {
+  // Ticks count upwards: an earlier one is another robot or a reset simulation.
   if (sensors.tick < sensors_.tick) return true;
   for (int motor = 0; motor < model_->num_motors(); ++motor) {
     const double farthest = model_->motor_joint(motor).max_velocity * dt + kPlacedAngle;

@@ -30,10 +30,7 @@ struct RobotState {
   /** In O, m; NaN while no foot carries weight. */
   Eigen::Vector2d center_of_pressure_in_odometry =
       Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-  /** False if a foot has no force sensor: contact is then unknown, and no foot counts as carrying
-   * weight. */
-  bool has_foot_force_sensors = true;
-  /** Sum of each foot's force sensors, N. */
+  /** Sum of each foot's force sensors, N; or estimated from the joint torques. */
   double left_foot_force = 0;
   double right_foot_force = 0;
   /** Which feet carry weight. */

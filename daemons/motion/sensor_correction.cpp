@@ -1,7 +1,6 @@
 #include "daemons/motion/sensor_correction.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 
 namespace nao::motion {
 namespace {
@@ -9,6 +8,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+// Rotation vector (axis times angle, rad) to matrix: the exponential map.
 Matrix3d rotation_of(const Vector3d& vector) {
   const double angle = vector.norm();
   if (angle == 0) return Matrix3d::Identity();
@@ -18,41 +18,13 @@ Matrix3d rotation_of(const Vector3d& vector) {
 }  // namespace
 
 SensorCorrection::SensorCorrection(const RobotModel& model, const Calibration& calibration)
-    : calibration_(calibration), torso_from_unit_(rotation_of(calibration.imu_mount)) {
-  find_dead_sensors(model);
+    : calibration_(calibration),
+      pressure_(model),
+      torso_from_unit_(rotation_of(calibration.imu_mount)) {
+  for (const double scale : calibration_.foot_sensor_scale) is_dead_.push_back(scale == 0);
 }
 
-void SensorCorrection::find_dead_sensors(const RobotModel& model) {
-  const std::vector<double>& scale = calibration_.foot_sensor_scale;
-  const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
-  for (const LegDescription& leg : model.legs()) {
-    // Of a sensor: 1 and its position in the sole, the terms of a linear pressure.
-    const auto terms = [&](int sensor) {
-      const Vector3d position =
-          poses[leg.sole].inverse() * poses[model.foot_sensors()[sensor]].translation();
-      return Vector3d(1, position.x(), position.y());
-    };
-    Matrix3d normal = Matrix3d::Zero();
-    int num_alive = 0;
-    for (const int sensor : leg.sensors) {
-      if (scale[sensor] == 0) continue;
-      normal += terms(sensor) * terms(sensor).transpose();
-      ++num_alive;
-    }
-    // Three sensors determine the pressure; with fewer the dead ones stay at 0.
-    if (num_alive < 3 || normal.determinant() == 0) continue;
-    const Matrix3d inverse = normal.inverse();
-    for (const int dead : leg.sensors) {
-      if (scale[dead] != 0) continue;
-      std::vector<double> weights(scale.size(), 0.0);
-      for (const int sensor : leg.sensors) {
-        if (scale[sensor] != 0) weights[sensor] = terms(dead).dot(inverse * terms(sensor));
-      }
-      dead_sensors_.push_back({static_cast<size_t>(dead), std::move(weights)});
-    }
-  }
-}
-
+// Inverse of the error model of the calibration: zero offsets, mounting, scale and offset.
 void SensorCorrection::correct(Sensors& sensors) const {
   for (size_t i = 0; i < sensors.position.size(); ++i) {
     sensors.position[i] -= calibration_.joint_zero[i];
@@ -66,13 +38,7 @@ void SensorCorrection::correct(Sensors& sensors) const {
     const double scale = calibration_.foot_sensor_scale[i];
     sensors.foot_force[i] = scale > 0 ? sensors.foot_force[i] / scale : 0;
   }
-  for (const DeadSensor& dead : dead_sensors_) {
-    double force = 0;
-    for (size_t i = 0; i < dead.weights.size(); ++i) {
-      force += dead.weights[i] * sensors.foot_force[i];
-    }
-    sensors.foot_force[dead.sensor] = std::max(0.0, force);
-  }
+  pressure_.replace_dead(is_dead_, sensors.foot_force);
 }
 
 }  // namespace nao::motion

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
 #include <vector>
 
 #include "calibration/calibration.h"
+#include "daemons/motion/estimator/foot_pressure.h"
 #include "daemons/motion/sensors.h"
 #include "robot_model/robot_model.h"
 
@@ -28,18 +28,12 @@ class SensorCorrection {
   }
 
  private:
-  /** A sensor, and how much of every sensor's force it gets. */
-  struct DeadSensor {
-    size_t sensor;
-    std::vector<double> weights;
-  };
-
-  void find_dead_sensors(const RobotModel& model);
-
   Calibration calibration_;
+  FootPressure pressure_;
+  /** Of foot sensors, those of scale 0. */
+  std::vector<bool> is_dead_;
   /** Re-expresses in the torso frame a vector given in the inertial unit's axes. */
   Eigen::Matrix3d torso_from_unit_;
-  std::vector<DeadSensor> dead_sensors_;
 };
 
 }  // namespace nao::motion

@@ -8,6 +8,7 @@ std::vector<JointRates> standing_rates(const MotionContext& context, double spee
   const double leg_speed = speed * context.options.posture_leg_speed;
   std::vector<JointRates> rates =
       joint_rates(context.model, speed, context.options.max_acceleration);
+  // Legs move the whole robot: slower, with less acceleration, so that it does not tip over.
   const std::vector<JointRates> leg_rates =
       joint_rates(context.model, leg_speed, context.options.max_acceleration * leg_speed);
   for (int motor = 0; motor < context.model.num_motors(); ++motor) {
@@ -28,6 +29,7 @@ std::vector<JointRates> stopping_rates(const MotionContext& context) {
 
 bool carries_body(const MotionContext& context, int motor) {
   for (int sole : {context.model.left_sole(), context.model.right_sole()}) {
+    // A column of a sole's Jacobian that is not 0: the joint is between torso and sole.
     if (!context.kinematics.calc_angular_jacobian(sole).col(motor).isZero(0)) return true;
   }
   return false;

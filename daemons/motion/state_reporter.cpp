@@ -25,6 +25,7 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+// The complete report of this tick; whether it is sent is decided in update().
 MotionState build(const StateReporter::Inputs& inputs) {
   const MotionContext& context = inputs.context;
   const Assignment* running = inputs.commands.running();
@@ -63,6 +64,7 @@ std::optional<MotionState> StateReporter::update(const Inputs& inputs, double dt
   const bool changes = has_changed(state, state_);
   const bool is_due = time_since_report_ >= period_ - kRounding;
   state_ = std::move(state);
+  // A change is reported at once, and the period starts anew.
   if (changes) {
     time_since_report_ = 0;
     return state_;

@@ -29,6 +29,8 @@ constexpr double kConfirmTime = 0.5;
 
 HealthMonitor::HealthMonitor(int num_motors) : motors_(static_cast<size_t>(num_motors)) {}
 
+// Conditions are counted by time, so that single bad readings mean nothing. Of several faults the
+// first in this order is reported: a dead motor is the one that cannot wait.
 void HealthMonitor::step(const Measurement& measured, const Targets& sent, double dt) {
   time_empty_ = measured.battery_charge < kEmptyCharge ? time_empty_ + dt : 0;
   is_battery_low_ = measured.battery_charge < kLowCharge;
@@ -57,6 +59,8 @@ void HealthMonitor::watch(const Measurement& measured, const Targets& sent, size
   const bool is_off_target =
       std::abs(sent.position[motor] - measured.position[motor]) > kDeadDeviation;
   const bool is_without_current = std::abs(measured.current[motor]) < kLeastCurrent;
+  // A stiff motor off its target must draw current; one that does not has lost its supply or its
+  // driver.
   if (is_stiff && is_off_target && is_without_current) {
     watched.time_without_current += dt;
   } else if (!is_without_current) {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "daemons/robot/eyes.h"
 #include "lola/frame.h"
 #include "lola/lola_map.h"
+#include "messages/light_settings.h"
 
 namespace nao::robot {
 
@@ -14,32 +14,25 @@ namespace nao::robot {
  * state. */
 class Lights {
  public:
-  using Color = std::array<double, 3>;
-
   /** @param map  Must outlive this. */
   explicit Lights(const LolaMap& map);
 
-  /** @return false if there is no group of that name, or a part of the color is not in [0, 1]. */
-  [[nodiscard]] bool check(const std::string& name, const Color& color) const;
-  /** @param duration  s; 0: until replaced. */
-  void set(const std::string& name, const Color& color, double duration);
+  /** The groups of lights, in LolaMap's order. */
+  const std::vector<std::string>& names() const { return names_; }
+  /** @param command  Checked against names(). */
+  void set(const LightCommand& command);
 
   /** @param dt  s. @param command  Gets the lights' keys. Allocates nothing. */
   void step(EyeState eyes, Phase phase, double dt, LolaCommand& command);
 
   /** As shown, in LolaMap's order. */
-  const std::vector<Color>& shown() const { return shown_; }
+  const std::vector<LightColor>& shown() const { return shown_; }
 
  private:
-  struct Setting {
-    Color color{};
-    /** s that it is still shown; infinity: until replaced; 0: not set. */
-    double time_left = 0;
-  };
-
   const LolaMap& map_;
-  std::vector<Setting> settings_;
-  std::vector<Color> shown_;
+  std::vector<std::string> names_;
+  LightSettings settings_;
+  std::vector<LightColor> shown_;
 };
 
 }  // namespace nao::robot

@@ -19,6 +19,7 @@ constexpr double kEndTime = 6;
 
 /** Lets the robot sit down, whatever signals come meanwhile. */
 void end(nao::EventLoop& loop, nao::robot::RobotDaemon& daemon) {
+  // The wait is limited: without frames the robot cannot be moved.
   bool is_too_late = false;
   loop.every(kEndTime, [&] {
     is_too_late = true;
@@ -52,6 +53,8 @@ int main(int argc, char** argv) {
     nao::logger::info("version {}, bus {}, channels {}_*, model {}, LoLA at {}", nao::version(),
                       common.lcm_url, common.robot, model.folder().string(), options.lola_socket);
     const std::string reason = loop.run();
+    // Signals end the loop; before the program ends, the robot sits down and its motors become
+    // limp.
     if (!daemon.has_ended()) end(loop, daemon);
     nao::logger::info("stopped by {} after {} frames; {} messages in, {} out, {} dropped", reason,
                       daemon.num_frames(), bus.counters().num_in, bus.counters().num_out,

@@ -12,6 +12,7 @@ namespace {
  * there is no heading. */
 constexpr double kLeastCosine = 0.2;
 
+// Values that are not finite keep the last good one.
 void take(double value, double& result) {
   if (std::isfinite(value)) result = value;
 }
@@ -27,6 +28,7 @@ void take(const LolaMap& map, const std::array<float, N>& values, bool is_angle,
 
 }  // namespace
 
+// Roll and pitch, not the angle to the vertical: the thresholds of other teams are in these.
 double Measurement::tilt() const {
   return std::max(std::abs(roll), std::abs(pitch));
 }
@@ -42,6 +44,7 @@ MeasurementReader::MeasurementReader(const RobotModel& model, const LolaMap& map
 }
 
 const Measurement& MeasurementReader::read(const LolaState& state, double dt) {
+  // The heading is a sum over the gyroscope's rates and starts at 0.
   if (is_first_) heading_ = 0;
   read_joints(state, dt);
   read_inertial_unit(state, dt);
@@ -93,6 +96,8 @@ void MeasurementReader::read_inertial_unit(const LolaState& state, double dt) {
   take(state.angles[1], result.pitch);
   // Rate of the heading psi from body rates: psi' = (w_y sin(roll) + w_z cos(roll)) / cos(pitch).
   const double cosine = std::cos(result.pitch);
+  // The divisor keeps its sign and at least kLeastCosine: near a pitch of 90 degrees the rate would
+  // be infinite.
   const double divisor = std::copysign(std::max(std::abs(cosine), kLeastCosine), cosine);
   if (!is_first_) {
     heading_ += dt *
@@ -100,6 +105,7 @@ void MeasurementReader::read_inertial_unit(const LolaState& state, double dt) {
                  result.gyroscope.z() * std::cos(result.roll)) /
                 divisor;
   }
+  // Into [-pi, pi].
   heading_ = std::remainder(heading_, 2 * M_PI);
   using Eigen::AngleAxisd;
   using Eigen::Vector3d;

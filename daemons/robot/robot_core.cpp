@@ -19,14 +19,19 @@ RobotCore::RobotCore(const RobotModel& model, const LolaMap& map, bool starts_it
 
 const Measurement& RobotCore::take_frame(const LolaState& state, int num_periods) {
   const bool is_driven = safety_.phase() == Phase::kDriven;
+  // A new phase begins a new count of ticks: to the motion daemon the robot is a new one then,
+  // whose targets it takes over.
   tick_ = is_driven == was_driven_ ? tick_ + 1 : 0;
   was_driven_ = is_driven;
   reader_.read(state, num_periods * kLolaPeriod);
+  // The first targets are where the joints are: nothing moves.
   if (is_first_) targets_.position = reader_.measurement().position;
   is_first_ = false;
   return reader_.measurement();
 }
 
+// Answers the last frame. Order: button and faults, then the safety's targets, and the limiter
+// last, which no source of targets passes by.
 const LolaCommand& RobotCore::step(const Input& input) {
   const Measurement& measured = reader_.measurement();
   const Press press = button_.step(measured.is_touched[map_.start_button], kLolaPeriod);
@@ -43,6 +48,7 @@ const LolaCommand& RobotCore::step(const Input& input) {
 }
 
 double RobotCore::commanded_stiffness(int motor) const {
+  // Until the robot is driven it counts as limp for the motion daemon, so that no motion begins.
   if (safety_.phase() != Phase::kDriven) return 0;
   return targets_.stiffness[static_cast<size_t>(motor)];
 }

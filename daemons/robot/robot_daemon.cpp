@@ -6,13 +6,14 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <naolcm/command_result_t.hpp>
 #include <string_view>
 #include <utility>
 
 #include "common/error.h"
 #include "common/logger.h"
 #include "common/wall_clock.h"
+#include "messages/light_command.h"
+#include "messages/result_message.h"
 
 namespace nao::robot {
 namespace {
@@ -70,6 +71,7 @@ RobotDaemon::~RobotDaemon() {
 }
 
 void RobotDaemon::subscribe() {
+  // The latest command only: an older one answers an earlier frame.
   bus_.subscribe<naolcm::joint_command_t>(
       channels_.joint_command, Bus::Queue::kLatest,
       [this](const naolcm::joint_command_t& message) { take_joint_command(message); });
@@ -83,6 +85,7 @@ void RobotDaemon::subscribe() {
 
 void RobotDaemon::connect() {
   const double now = monotonic_seconds();
+  // One attempt every 100 ms; not while the program ends.
   if (session_ || is_ending_ || now - disconnect_time_ < kReconnectTime) return;
   auto socket = UnixSocket::connect(options_.lola_socket);
   if (!socket) return;
@@ -107,6 +110,7 @@ void RobotDaemon::read_frames() {
     if (session_->is_pending) finish_frame(nullptr);
     begin_frame();
   }
+  // The connection ends after all complete messages were read.
   if (session_ && !session_->connection.end().empty()) disconnect();
 }
 
@@ -114,6 +118,7 @@ void RobotDaemon::begin_frame() {
   Session& session = *session_;
   session.frame_time = monotonic_seconds();
   session.stamp = session.clock.take(session.frame_time);
+  // LoLA frames that were lost lengthen the step.
   session.core.take_frame(state_, session.stamp.num_periods);
   if (session.stamp.num_periods == 0) session.command = session.core.targets();
   ++num_frames_;
@@ -123,8 +128,11 @@ void RobotDaemon::begin_frame() {
   }
   session.is_pending = true;
   const double now = monotonic_seconds();
+  // The latency that this program adds, without the controller's own time.
   session.publish_time = now - session.frame_time;
   status_.tick(now);
+  // Lock-step waits for the answer; a real robot gets one at kAnswerTime in any case, from the last
+  // command. Without a controller there is nothing to wait for.
   if (options_.lock_step && !is_ending_) {
     set_deadline(kRepeatTime);
   } else if (session.core.safety().has_controller()) {
@@ -134,6 +142,8 @@ void RobotDaemon::begin_frame() {
   }
 }
 
+// Sends the answer to the frame; LoLA expects one for each frame. nullptr: no command in time, the
+// targets are held.
 void RobotDaemon::finish_frame(const Targets* command) {
   Session& session = *session_;
   session.is_pending = false;
@@ -154,6 +164,7 @@ void RobotDaemon::take_joint_command(const naolcm::joint_command_t& message) {
   if (!session_) return;
   Session& session = *session_;
   // Commands for another count of ticks are from before it began anew.
+  // The count begins anew when a robot begins to be driven.
   if (message.tick > session.core.tick()) return;
   merge(message, model_.motor_names(), session.command);
   if (!session.is_pending || message.tick != session.core.tick()) {
@@ -166,40 +177,29 @@ void RobotDaemon::take_joint_command(const naolcm::joint_command_t& message) {
 }
 
 void RobotDaemon::take_light_command(const naolcm::light_command_t& message) {
-  naolcm::command_result_t result{};
-  result.utime = session_ ? session_->stamp.utime : 0;
-  result.source = message.source;
-  result.command_id = message.command_id;
-  result.command_kind = result.COMMAND_KIND_LIGHT;
-  result.status = result.STATUS_REFUSED;
-  if (!session_) {
-    result.reason_code = "no-robot";
-    result.reason = "There is no robot: LoLA is not connected.";
-  } else {
-    const auto color = [&](int i) -> Lights::Color {
-      const std::vector<double>& rgb = message.light_rgb[static_cast<size_t>(i)];
-      return {rgb[0], rgb[1], rgb[2]};
-    };
+  const LightCommand command = to_light_command(message);
+  CommandResult result{message.source, message.command_id, CommandKind::kLight,
+                       ResultStatus::kRefused, Reason("no-robot")};
+  if (session_) {
     Lights& lights = session_->core.lights();
-    for (int i = 0; i < message.num_lights && result.reason.empty(); ++i) {
-      const std::string& name = message.light_names[static_cast<size_t>(i)];
-      if (lights.check(name, color(i))) continue;
-      result.reason =
-          "There is no light \"" + name + "\", or its color is not three numbers from 0 to 1.";
-    }
-    if (!(message.duration >= 0)) result.reason = "The duration must be 0 s or more.";
-    if (result.reason.empty()) {
-      for (int i = 0; i < message.num_lights; ++i) {
-        lights.set(message.light_names[static_cast<size_t>(i)], color(i), message.duration);
-      }
-      result.status = result.STATUS_ACCEPTED;
-      bus_.publish(channels_.command_result, result);
-      result.status = result.STATUS_DONE;
+    if (const auto fault = check(command, lights.names())) {
+      result.reason = *fault;
+    } else {
+      lights.set(command);
+      result.reason = {};
+      result.status = ResultStatus::kAccepted;
+      publish(result);
+      result.status = ResultStatus::kDone;
     }
   }
-  bus_.publish(channels_.command_result, result);
+  publish(result);
 }
 
+void RobotDaemon::publish(const CommandResult& result) {
+  bus_.publish(channels_.command_result, to_message(result, session_ ? session_->stamp.utime : 0));
+}
+
+// The eyes show whether somebody drives: from the gateway's status.
 void RobotDaemon::take_status(const naolcm::daemon_status_t& message) {
   if (message.program != "nao-phone-gateway") return;
   for (int i = 0; i < message.num_metrics; ++i) {
@@ -229,6 +229,7 @@ void RobotDaemon::set_deadline(double delay) {
   timerfd_settime(deadline_, 0, &timing, nullptr);
 }
 
+// The end itself comes from Safety, in frames to come; has_ended() tells.
 void RobotDaemon::begin_end() {
   is_ending_ = true;
   status_.set_state("stopping");

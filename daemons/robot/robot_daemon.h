@@ -18,6 +18,7 @@
 #include "daemons/robot/robot_messages.h"
 #include "daemons/robot/robot_options.h"
 #include "lola/socket.h"
+#include "messages/command.h"
 
 namespace nao::robot {
 
@@ -51,6 +52,7 @@ class RobotDaemon {
   void finish_frame(const Targets* command);
   void take_joint_command(const naolcm::joint_command_t& message);
   void take_light_command(const naolcm::light_command_t& message);
+  void publish(const CommandResult& result);
   void take_status(const naolcm::daemon_status_t& message);
   /** The frame has waited long enough, or its sensor state may have been lost. */
   void handle_deadline();

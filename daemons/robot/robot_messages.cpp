@@ -6,12 +6,14 @@
 
 namespace nao::robot {
 
+// What never changes in the messages is filled in once.
 RobotMessages::RobotMessages(const RobotModel& model, const LolaMap& map) {
   const auto num_motors = static_cast<size_t>(model.num_motors());
   naolcm::sensor_state_t& sensors = sensor_state_;
   sensors.period = kLolaPeriod;
   sensors.num_joints = model.num_motors();
   sensors.joint_names = model.motor_names();
+  // LoLA has no torques: 0.
   sensors.joint_torque.assign(num_motors, 0);
   sensors.joint_stiffness.assign(num_motors, 0);
   for (const int link : model.foot_sensors()) {
@@ -76,7 +78,7 @@ const naolcm::body_state_t& RobotMessages::body_state(const RobotCore& core, int
   }
   message.sonar_range.assign(measured.sonar_range.begin(), measured.sonar_range.end());
   for (size_t i = 0; i < message.light_rgb.size(); ++i) {
-    const Lights::Color& color = core.lights().shown()[i];
+    const LightColor& color = core.lights().shown()[i];
     message.light_rgb[i].assign(color.begin(), color.end());
   }
   message.warning_codes = core.health().warnings();
@@ -84,6 +86,7 @@ const naolcm::body_state_t& RobotMessages::body_state(const RobotCore& core, int
   return message;
 }
 
+// Errors leave the command as it is; the bus counts the message as dropped.
 void merge(const naolcm::joint_command_t& message, const std::vector<std::string>& motor_names,
            Targets& targets) {
   const auto fault =

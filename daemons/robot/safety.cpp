@@ -75,6 +75,8 @@ Safety::Safety(const RobotModel& model, const LolaMap& map, double period, bool 
   held_.stiffness = held_.position;
 }
 
+// Called in every frame, before the targets are sent: first the phase, then the targets that the
+// phase allows.
 void Safety::step(const Input& input, Targets& targets) {
   frames_without_command_ = input.command != nullptr ? 0 : frames_without_command_ + 1;
   if (is_first_) begin(input, targets);
@@ -102,6 +104,7 @@ void Safety::begin(const Input& input, Targets& targets) {
 
 void Safety::change_phase(const Input& input, const Targets& targets) {
   const Press press = input.measured.tilt() > kButtonTilt ? Press::kNone : input.press;
+  // A request to end stays, whatever happens meanwhile.
   ends_ = ends_ || input.is_ending || press == Press::kLong;
   switch (phase_) {
     case Phase::kLimp:
@@ -113,6 +116,8 @@ void Safety::change_phase(const Input& input, const Targets& targets) {
       return;
     case Phase::kStiffening:
     case Phase::kDriven: {
+      // Pressed twice: limp at once, for an emergency. All other causes let the robot sit down
+      // first.
       const Cause cause = find_cause(input, press);
       if (press == Press::kTwice) {
         starts_itself_ = false;
@@ -120,10 +125,12 @@ void Safety::change_phase(const Input& input, const Targets& targets) {
       } else if (cause != Cause::kNone) {
         leave(cause, input, targets);
       } else if (phase_ == Phase::kStiffening && time_ >= kStiffeningTime) {
+        // Stiff: from now on the controller's commands are followed.
         enter(Phase::kDriven);
       }
       return;
     }
+    // A robot that falls while it sits down goes limp.
     case Phase::kSitting:
       if (input.measured.tilt() > kLimpTilt) {
         go_limp(Cause::kTilt, false);
@@ -136,6 +143,7 @@ void Safety::change_phase(const Input& input, const Targets& targets) {
   }
 }
 
+// The first cause that holds.
 Cause Safety::find_cause(const Input& input, Press press) const {
   if (press == Press::kLong) return Cause::kButton;
   if (ends_) return Cause::kEnding;
@@ -155,6 +163,7 @@ Cause Safety::find_cause(const Input& input, Press press) const {
   return Cause::kNone;
 }
 
+// Upright, under control and without a fault.
 bool Safety::may_start(const Input& input) const {
   return input.measured.tilt() <= kUprightTilt && has_controller() && input.fault == Fault::kNone;
 }
@@ -175,6 +184,7 @@ void Safety::start(const Input& input, const Targets& targets) {
 }
 
 void Safety::leave(Cause cause, const Input& input, const Targets& targets) {
+  // One that lies, or whose legs are limp already, cannot sit down.
   if (input.measured.tilt() > kLimpTilt || !are_legs_stiff(targets.stiffness)) {
     go_limp(cause, false);
     return;
@@ -201,6 +211,7 @@ void Safety::set_targets(const Input& input, Targets& targets) {
     case Phase::kStiffening:
       targets.position = held_.position;
       for (size_t i = 0; i < targets.stiffness.size(); ++i) {
+        // At the angles where the joints were found: stiffness rises without motion.
         targets.stiffness[i] = std::max(held_.stiffness[i], smooth_step(time_ / kStiffeningTime));
       }
       return;
@@ -213,6 +224,8 @@ void Safety::set_targets(const Input& input, Targets& targets) {
         stiffness = std::max(stiffness, kSittingStiffness);
       return;
     default:
+      // Limp: targets follow the joints, so that nothing jumps when they become stiff again. A
+      // seated robot keeps some stiffness in its hips.
       for (size_t i = 0; i < targets.position.size(); ++i) {
         targets.stiffness[i] = is_seated_ ? map_.seated_stiffness[i] : 0;
         if (targets.stiffness[i] == 0) targets.position[i] = input.measured.position[i];
@@ -231,6 +244,7 @@ void Safety::follow_command(const Input& input, Targets& targets) {
     }
   }
   follow_time_ += period_;
+  // The offset between held angles and the first command fades out.
   const double left = 1 - smooth_step(follow_time_ / kFollowTime);
   for (size_t i = 0; i < targets.position.size(); ++i) {
     targets.position[i] = input.command->position[i] + left * held_.position[i];

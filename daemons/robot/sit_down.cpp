@@ -12,6 +12,7 @@ constexpr double kLegsEnd = 2.6;
 
 }  // namespace
 
+// To the rest posture of robot.yaml; a model without one cannot be used here.
 SitDown::SitDown(const RobotModel& model)
     : from_(static_cast<size_t>(model.num_motors())),
       to_(model.find_posture(model.references().rest)->position),
@@ -31,6 +32,7 @@ void SitDown::begin(const std::vector<double>& from) {
 
 void SitDown::step(double dt, std::vector<double>& position) {
   time_ += dt;
+  // Arms first, legs later: the arms must be out of the way of the thighs.
   const double arms = smooth_step(time_ / kArmsEnd);
   const double legs = smooth_step((time_ - kLegsBegin) / (kLegsEnd - kLegsBegin));
   for (size_t i = 0; i < position.size(); ++i) {

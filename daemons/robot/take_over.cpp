@@ -22,6 +22,7 @@ constexpr double kTotalTime = 10;
 /** Wait between attempts and for frames, ms. */
 constexpr int kPollMs = 20;
 
+// Without an event loop: this runs after nao-robot has died, with as little code as possible.
 void sleep_for(double seconds) {
   usleep(static_cast<useconds_t>(seconds * 1e6));
 }
@@ -55,6 +56,7 @@ std::string take_over(const RobotModel& model, const std::string& lola_socket) {
       core.take_frame(state, has_state ? 1 : 0);
       has_state = true;
       std::array<uint8_t, kLolaCommandBytes> bytes;
+      // No command, no driver, ending: Safety lets the robot sit down and go limp.
       const LolaCommand& command = core.step({nullptr, false, true});
       connection.send(std::span(bytes).first(encode(command, bytes)));
       if (core.safety().phase() != Phase::kEnded) continue;

@@ -38,8 +38,10 @@ class Child {
  public:
   explicit Child(std::vector<std::string> command) {
     std::array<int, 2> ends{};
+    // Both ends do not block: a child that hangs must not hang its watchdog.
     if (pipe2(ends.data(), O_NONBLOCK) != 0) throw Error("cannot make a pipe");
     heartbeat_ = ends[0];
+    // The child inherits the writing end only.
     fcntl(heartbeat_, F_SETFD, FD_CLOEXEC);
     command.insert(command.end(), {"--heartbeat", std::to_string(ends[1])});
     std::vector<char*> words;
@@ -51,6 +53,7 @@ class Child {
       // Without a watchdog it ends in an orderly way.
       prctl(PR_SET_PDEATHSIG, SIGTERM);
       execv(words[0], words.data());
+      // As a shell reports a program that it cannot start.
       _exit(127);
     }
     close(ends[1]);
@@ -89,12 +92,14 @@ class Child {
 std::string watch(Child& child, int signals) {
   bool has_begun = false;
   int num_missed = 0;
+  // Ends with the child, or with its silence.
   while (!child.has_ended()) {
     // Not the heartbeat: it is readable for good when the child has ended.
     pollfd polled{signals, POLLIN, 0};
     poll(&polled, 1, static_cast<int>(kHeartbeatPeriod * 1e3));
     signalfd_siginfo signal{};
     if (read(signals, &signal, sizeof signal) == sizeof signal && signal.ssi_signo != SIGCHLD) {
+      // SIGINT of a terminal reaches the whole process group; SIGTERM twice does no harm.
       child.send(SIGTERM);
       continue;
     }
@@ -123,6 +128,7 @@ int run(const RobotOptions& options, const std::vector<std::string>& arguments) 
   if (descriptor < 0) throw Error("cannot create a signal descriptor");
   const std::string reason = watch(child, descriptor);
   if (reason.empty()) return 0;
+  // From here on the robot has no program: it must be made limp before this one ends.
   logger::error("{}; taking over", reason);
   logger::warn("{}", take_over(model, options.lola_socket));
   return 1;

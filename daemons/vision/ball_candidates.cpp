@@ -22,14 +22,18 @@ constexpr float kLeastScore = 60;
  * image. */
 constexpr int kColumns = 40;
 
+// Tests places of the half-size image by means over boxes; the integral image gives each mean with
+// four look-ups, whatever its size.
 class Search {
  public:
   explicit Search(const FieldView& view) : view_(view) { cv::integral(view.other, sum_, CV_32S); }
 
   void add(int x, int y, float r) {
+    // The foot of a ball: what is field at the center is no ball.
     if (y < view_.other.rows && view_.other(y, x) < kSide) return;
     const float inside = mean(x - 0.6f * r, y - 0.6f * r, x + 0.6f * r, y + 0.6f * r);
     if (inside < kInside) return;
+    // Left, right and below; above it there may be anything, such as a goal behind the field.
     const std::array<float, 3> sides = {
         mean(x - 1.9f * r - 1, y - 0.5f * r, x - 1.3f * r - 0.5f, y + 0.5f * r),
         mean(x + 1.3f * r + 0.5f, y - 0.5f * r, x + 1.9f * r + 1, y + 0.5f * r),
@@ -40,6 +44,7 @@ class Search {
     const auto num_field =
         std::count_if(sides.begin(), sides.end(), [](float side) { return side < kSide; });
     if (num_field < 2 || inside - outside < kLeastScore) return;
+    // From pixels of the half-size image to pixels of the full one: centers are half a pixel off.
     hints_.push_back({{2 * static_cast<float>(x) + 0.5f, 2 * static_cast<float>(y) + 0.5f},
                       2 * r,
                       inside - outside});
@@ -51,6 +56,7 @@ class Search {
               [](const BallHint& a, const BallHint& b) { return a.score > b.score; });
     std::vector<BallHint> kept;
     for (const BallHint& hint : hints_) {
+      // Non-maximum suppression, best first.
       const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const BallHint& other) {
         const float ratio = hint.radius / other.radius;
         return cv::norm(hint.center - other.center) < std::max(hint.radius, other.radius) &&
@@ -87,6 +93,7 @@ std::vector<BallHint> find_ball_hints(const FieldView& view, const CameraGeometr
   Search search(view);
   const int width = view.other.cols;
   const int height = view.other.rows;
+  // Without a pose every radius is tried everywhere: slower, with more false hints.
   if (!geometry.has_pose()) {
     for (const float r : kRadii) {
       const int step = std::max(2, static_cast<int>(0.35f * r));
@@ -98,10 +105,13 @@ std::vector<BallHint> find_ball_hints(const FieldView& view, const CameraGeometr
     }
     return search.best();
   }
+  // With a pose the radius at a place is known: computed every few rows and in the middle of a
+  // strip of columns, since it changes slowly across the image.
   for (int left = 0; left < width; left += kColumns) {
     float r = 0;
     int computed = -100;
     for (int y = 0; y < height + height / 12; y += std::max(1, static_cast<int>(0.25f * r))) {
+      // Above the field's border, with room for one that is higher elsewhere in the strip.
       if (view.top[std::min(left + kColumns / 2, width - 1)] > y + 3 * kColumns) continue;
       if (y - computed >= 4) {
         const cv::Point2f pixel(2 * static_cast<float>(left + kColumns / 2),

@@ -32,6 +32,7 @@ std::array<cv::Point2f, kNumAngles> make_directions() {
 
 /** Mean step of FieldView::other across a circle, 0 to 1. Pixels of the full image. */
 float edge_of(const FieldView& view, const cv::Point2f& center, float radius) {
+  // Computed once; the same for every circle.
   static const std::array<cv::Point2f, kNumAngles> directions = make_directions();
   // A pixel of the half-size image at least on each side of the edge.
   const float inner = std::min(0.82f * radius, radius - 1.2f);
@@ -49,6 +50,7 @@ float edge_of(const FieldView& view, const cv::Point2f& center, float radius) {
     const int y = std::clamp(static_cast<int>(in.y), 0, view.other.rows - 1);
     const int inside = view.other(y, x);
     const int outside = view.other(static_cast<int>(out.y), static_cast<int>(out.x));
+    // Only a step from ball to field counts, not the reverse.
     sum += static_cast<float>(std::max(0, inside - outside)) / 255;
     ++count;
   }
@@ -58,6 +60,8 @@ float edge_of(const FieldView& view, const cv::Point2f& center, float radius) {
              : sum / static_cast<float>(count);
 }
 
+// Coordinate search (pattern search) over x, y and radius: 27 neighbors, then half of the step. It
+// needs no derivatives, which a sum over pixels does not have.
 /** Moves and scales the circle to the steepest edge, with halving steps. */
 void fit(const FieldView& view, BallCandidate& candidate, float least, float most) {
   candidate.edge = edge_of(view, candidate.center, candidate.radius);
@@ -101,6 +105,7 @@ void judge_pattern(const FieldView& view, BallCandidate& candidate) {
       const cv::Vec3b& color = view.smooth(static_cast<int>(p.y), static_cast<int>(p.x));
       const int high = std::max({color[0], color[1], color[2]});
       const int low = std::min({color[0], color[1], color[2]});
+      // whiteness() is the mean of red and blue.
       light.push_back(whiteness(color));
       if (!view.is_green(color)) own_light.push_back(whiteness(color));
       saturation.push_back(
@@ -109,6 +114,7 @@ void judge_pattern(const FieldView& view, BallCandidate& candidate) {
   }
   if (light.size() < 6) return;
   std::sort(light.begin(), light.end());
+  // 90 % quantile: the bright parts of the ball, without single highlights.
   const float bright = light[light.size() * 9 / 10];
   // Of the bright pixels, since that of dark ones is noise: colored parts of robots are bright.
   std::vector<float> of_bright;
@@ -116,11 +122,14 @@ void judge_pattern(const FieldView& view, BallCandidate& candidate) {
     if (brightness > 0.45f * bright) of_bright.push_back(value);
   }
   std::sort(of_bright.begin(), of_bright.end());
+  // 80 % quantile of the saturation.
   candidate.saturation = of_bright[of_bright.size() * 8 / 10];
+  // Dark: below 62 % of the bright parts, as the pentagons of the ball are.
   const auto num_dark = std::count_if(own_light.begin(), own_light.end(),
                                       [bright](float value) { return value < 0.62f * bright; });
   candidate.green = 1 - static_cast<float>(own_light.size()) / static_cast<float>(light.size());
   candidate.dark = static_cast<float>(num_dark) / static_cast<float>(light.size());
+  // Mean whiteness of the field just outside of the ball, where the ring is field.
   float field = 0;
   int num_field = 0;
   for (int i = 0; i < 16; ++i) {
@@ -145,6 +154,8 @@ double ramp(double value, double low, double high) {
 
 }  // namespace
 
+// Product of scores between 0 and 1, one for each property that a ball must have: one property that
+// is missing suffices to reject.
 double BallDetector::confidence(const BallCandidate& c) {
   // Tuned on rendered and real images; docs/vision.md has the figures.
   const double pattern = ramp(c.dark, 0.03, 0.10) * (1 - ramp(c.dark, 0.55, 0.75));
@@ -160,6 +171,7 @@ double BallDetector::confidence(const BallCandidate& c) {
 std::vector<BallCandidate> BallDetector::candidates(const FieldView& view,
                                                     const CameraGeometry& geometry) const {
   std::vector<BallCandidate> candidates;
+  // Without a pose the radius of a hint is less certain.
   const float range = geometry.has_pose() ? kRadiusRange : kFreeRadiusRange;
   for (const BallHint& hint : find_ball_hints(view, geometry, radius_)) {
     BallCandidate candidate;

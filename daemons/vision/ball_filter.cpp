@@ -16,6 +16,10 @@ constexpr double kAccelerationDensity = 0.09;
 constexpr double kVelocitySigma = 1.0;
 /** 99.9 % of the chi-square distribution with two degrees of freedom. */
 constexpr double kGate = 13.8;
+/** 95 % of the same: two measurements in succession beyond this, to the same side, show a kick, at
+ * the time of the last one before them, but not longer ago than kKickTime, s. */
+constexpr double kSurprise = 6.0;
+constexpr double kKickTime = 0.5;
 /** Measurements in succession that do not fit, and agree within this distance (m), restart it. */
 constexpr int kRestart = 3;
 constexpr double kAgreement = 0.4;
@@ -28,10 +32,13 @@ constexpr double kRollingSigmas = 2.5;
 
 }  // namespace
 
+// Kalman filter with the state (position, velocity) in odometry, m and m/s; the rolling
+// deceleration is the deterministic part of the model.
 void BallFilter::predict(int64_t utime) {
   const int64_t elapsed = utime - utime_;
   utime_ = utime;
   if (!estimate_.is_known) return;
+  // Time that runs backwards: the simulation was restarted.
   if (elapsed < 0 || utime - estimate_.seen_utime > kForgetTime) {
     estimate_ = {};
     num_rejected_ = 0;
@@ -69,6 +76,19 @@ void BallFilter::start(const Eigen::Vector2d& position, const Eigen::Matrix2d& c
   estimate_.covariance.bottomRightCorner<2, 2>() =
       Eigen::Matrix2d::Identity() * kVelocitySigma * kVelocitySigma;
   num_rejected_ = 0;
+  surprise_.setZero();
+}
+
+// The velocity may have changed by kVelocitySigma at the kick; position and velocity after it are
+// correlated by the time since then.
+void BallFilter::expect_kick() {
+  const double dt = std::min(1e-6 * static_cast<double>(utime_ - kick_utime_), kKickTime);
+  const Eigen::Matrix2d variance = Eigen::Matrix2d::Identity() * kVelocitySigma * kVelocitySigma;
+  Eigen::Matrix4d& P = estimate_.covariance;
+  P.topLeftCorner<2, 2>() += dt * dt * variance;
+  P.topRightCorner<2, 2>() += dt * variance;
+  P.bottomLeftCorner<2, 2>() += dt * variance;
+  P.bottomRightCorner<2, 2>() += variance;
 }
 
 void BallFilter::update(const Eigen::Vector2d& position, const Eigen::Matrix2d& covariance) {
@@ -77,9 +97,21 @@ void BallFilter::update(const Eigen::Vector2d& position, const Eigen::Matrix2d& 
     start(position, covariance);
     return;
   }
-  const Eigen::Matrix4d P = estimate_.covariance;
-  const Eigen::Matrix2d S = P.topLeftCorner<2, 2>() + covariance;
+  // Innovation covariance S of the measured position.
+  Eigen::Matrix2d S = estimate_.covariance.topLeftCorner<2, 2>() + covariance;
   const Eigen::Vector2d innovation = position - estimate_.state.head<2>();
+  const bool was_surprised = surprise_.dot(innovation) > 0;
+  const bool is_surprised = innovation.dot(S.inverse() * innovation) > kSurprise;
+  if (is_surprised && was_surprised) {
+    expect_kick();
+    S = estimate_.covariance.topLeftCorner<2, 2>() + covariance;
+  } else if (is_surprised) {
+    kick_utime_ = estimate_.seen_utime;
+  }
+  surprise_ = is_surprised && !was_surprised ? innovation : Eigen::Vector2d::Zero();
+  const Eigen::Matrix4d P = estimate_.covariance;
+  // Mahalanobis distance beyond the gate: an outlier, or the ball was moved. Several outliers in
+  // agreement restart the filter at their place.
   if (innovation.dot(S.inverse() * innovation) > kGate) {
     const bool agrees = num_rejected_ > 0 && (position - rejected_).norm() < kAgreement;
     num_rejected_ = agrees ? num_rejected_ + 1 : 1;
@@ -88,6 +120,7 @@ void BallFilter::update(const Eigen::Vector2d& position, const Eigen::Matrix2d& 
     return;
   }
   num_rejected_ = 0;
+  // Kalman gain K = P H^T S^-1 with H = [1 0].
   const Eigen::Matrix<double, 4, 2> gain = P.leftCols<2>() * S.inverse();
   estimate_.state += gain * innovation;
   // Joseph form: stays symmetric and positive definite.
@@ -98,6 +131,7 @@ void BallFilter::update(const Eigen::Vector2d& position, const Eigen::Matrix2d& 
 
   const double speed = estimate_.state.tail<2>().norm();
   const double sigma = std::sqrt(std::max(estimate_.covariance(2, 2), estimate_.covariance(3, 3)));
+  // Hysteresis, so that a slow ball does not alternate.
   if (estimate_.is_rolling) {
     estimate_.is_rolling = speed > 0.5 * kRollingSpeed;
   } else {

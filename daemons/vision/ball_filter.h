@@ -19,7 +19,8 @@ struct BallEstimate {
 /** Kalman filter of the ball's position and velocity.
  *
  * A rolling ball decelerates by a constant friction; random accelerations stand for kicks and for
- * the drift of the odometry. A measurement that does not fit is ignored, unless several in
+ * the drift of the odometry. Two measurements in succession far to the same side show a kick: the
+ * velocity is then uncertain again. A measurement that does not fit is ignored, unless several in
  * succession agree with each other: the ball was moved, and the filter starts anew. */
 class BallFilter {
  public:
@@ -35,12 +36,17 @@ class BallFilter {
   void reset() { *this = {}; }
 
  private:
+  void expect_kick();
   void start(const Eigen::Vector2d& position, const Eigen::Matrix2d& covariance);
 
   BallEstimate estimate_;
   int64_t utime_ = 0;
   int num_rejected_ = 0;
   Eigen::Vector2d rejected_ = Eigen::Vector2d::Zero();
+  /** Innovation of the last measurement if it was far from what was predicted, else zero; and time
+   * of the last one before it, microseconds. */
+  Eigen::Vector2d surprise_ = Eigen::Vector2d::Zero();
+  int64_t kick_utime_ = 0;
 };
 
 }  // namespace nao::vision

@@ -17,6 +17,7 @@ constexpr double kHeightStep = 1e-4;
 
 }  // namespace
 
+// The limits reject damaged messages; no lens comes near.
 bool CameraCalibration::is_valid() const {
   for (const double coefficient : distortion) {
     if (!std::isfinite(coefficient) || std::abs(coefficient) > 10) return false;
@@ -44,6 +45,7 @@ std::vector<cv::Point2f> CameraGeometry::undistorted(const std::vector<cv::Point
   const cv::Matx33d matrix(c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1);
   const cv::Vec<double, 5> coefficients(c.distortion.data());
   std::vector<cv::Point2f> ideal;
+  // With the matrix as the last argument the result is in pixels of the ideal camera.
   cv::undistortPoints(pixels, ideal, matrix, coefficients, cv::noArray(), matrix);
   return ideal;
 }
@@ -56,6 +58,7 @@ cv::Point2f CameraGeometry::distorted(const cv::Point2f& ideal) const {
   const CameraCalibration& c = calibration_;
   const double x = (ideal.x - c.cx) / c.fx;
   const double y = (ideal.y - c.cy) / c.fy;
+  // Brown-Conrady model in OpenCV's order of coefficients.
   const auto& [k1, k2, p1, p2, k3] = c.distortion;
   const double r2 = x * x + y * y;
   const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
@@ -63,16 +66,19 @@ cv::Point2f CameraGeometry::distorted(const cv::Point2f& ideal) const {
           static_cast<float>(c.cy + c.fy * (y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y))};
 }
 
+// In the camera's axes: x forward, y left, z up; not normalized.
 Eigen::Vector3d CameraGeometry::ray(const cv::Point2f& ideal) const {
   return {1, -(ideal.x - calibration_.cx) / calibration_.fx,
           -(ideal.y - calibration_.cy) / calibration_.fy};
 }
 
+// Point at a height over the ground on the ray from the camera, in the heading frame H, m.
 std::optional<Eigen::Vector2d> CameraGeometry::intersect(const Eigen::Isometry3d& pose,
                                                          const Eigen::Vector3d& ray,
                                                          double height) {
   const Eigen::Vector3d direction = pose.linear() * ray;
   const Eigen::Vector3d origin = pose.translation();
+  // Parallel to the ground the division gives infinity, behind the camera a negative distance.
   const double distance = (height - origin.z()) / direction.z();
   if (!std::isfinite(distance) || distance <= 0) return std::nullopt;
   const Eigen::Vector2d point = origin.head<2>() + distance * direction.head<2>();
@@ -92,6 +98,7 @@ std::optional<GroundPoint> CameraGeometry::locate(const cv::Point2f& ideal, doub
   GroundPoint point{*position, Eigen::Matrix2d::Zero()};
   // First-order propagation of independent errors: sum of (sigma d/dx)(sigma d/dx)^T.
   const auto add = [&](const std::optional<Eigen::Vector2d>& moved, double step, double sigma) {
+    // A moved ray that misses the ground contributes nothing.
     if (!moved) return;
     const Eigen::Vector2d slope = (*moved - *position) * (sigma / step);
     point.covariance += slope * slope.transpose();
@@ -120,6 +127,8 @@ std::optional<cv::Point2f> CameraGeometry::project(const Eigen::Vector3d& point_
                     static_cast<float>(c.cy - c.fy * point.z() / point.x())});
 }
 
+// The center of a ball on the ground is at the height of its radius; its image has about the radius
+// f r / depth.
 std::optional<double> CameraGeometry::sphere_radius_px(const cv::Point2f& pixel,
                                                        double radius) const {
   const cv::Point2f ideal = undistorted(pixel);
@@ -135,6 +144,7 @@ std::optional<double> CameraGeometry::horizon_row(double column) const {
   if (!pose_) return std::nullopt;
   // A ray (1, a, b) is level if its z in H, R(2,0) + a R(2,1) + b R(2,2), is 0.
   const Eigen::RowVector3d z = pose_->linear().row(2);
+  // A camera that looks almost straight up or down has no usable horizon.
   if (std::abs(z.z()) < 0.1) return std::nullopt;
   const double a = -(column - calibration_.cx) / calibration_.fx;
   return calibration_.cy + calibration_.fy * (z.x() + a * z.y()) / z.z();

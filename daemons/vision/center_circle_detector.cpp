@@ -32,6 +32,7 @@ double tolerance(const Eigen::Vector2d& point) {
 int longest_run(const std::bitset<kNumSectors>& sectors) {
   int longest = 0;
   int run = 0;
+  // Twice around, so that a run across the angle 0 counts as one.
   for (int i = 0; i < 2 * kNumSectors; ++i) {
     run = sectors[i % kNumSectors] ? run + 1 : 0;
     longest = std::max(longest, std::min(run, kNumSectors));
@@ -55,6 +56,8 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
   }
   if (ground.size() < kLeastPoints) return std::nullopt;
 
+  // RANSAC with a fixed seed, so that an image always gives the same result. Two points and the
+  // known radius determine two circles.
   Random random(2);
   size_t best_sectors = 0;
   std::vector<size_t> best;
@@ -64,6 +67,7 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
     const Eigen::Vector2d& b = ground[random.next() % ground.size()];
     const Eigen::Vector2d chord = b - a;
     const double half = 0.5 * chord.norm();
+    // A short chord determines the center badly; one longer than the diameter none.
     if (half < 0.2 * radius_ || half >= radius_) continue;
     const Eigen::Vector2d normal = Eigen::Vector2d(-chord.y(), chord.x()).normalized();
     for (const double side : {-1.0, 1.0}) {
@@ -73,11 +77,13 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
       std::vector<size_t> on_circle;
       for (size_t i = 0; i < ground.size(); ++i) {
         const Eigen::Vector2d d = ground[i] - center;
+        // The tolerance grows with distance, as the projection's error does.
         if (std::abs(d.norm() - radius_) > tolerance(ground[i])) continue;
         on_circle.push_back(i);
         const double turn = std::atan2(d.y(), d.x()) / (2 * M_PI) + 0.5;
         sectors.set(std::min(kNumSectors - 1, static_cast<int>(turn * kNumSectors)));
       }
+      // Many points in many directions: a line has many points in few directions only.
       if (sectors.count() * on_circle.size() <= best_sectors * best.size()) continue;
       best_sectors = sectors.count();
       best = std::move(on_circle);
@@ -87,6 +93,8 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
   if (best.size() < kLeastPoints || best_sectors < kLeastSectors) return std::nullopt;
 
   // Gauss-Newton on the distances from the circle.
+  // Residuals r_i = |p_i - c| - R with dr_i/dc = -(p_i - c) / |p_i - c|, weighted with 1 /
+  // tolerance^2; the small identity keeps the matrix regular.
   for (int step = 0; step < 3; ++step) {
     Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() * 1e-6;
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
@@ -100,6 +108,7 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
     best_center += normal.inverse() * right;
   }
 
+  // Checked again for the refined center, more strictly.
   std::bitset<kNumSectors> sectors;
   double residual = 0;
   for (const size_t i : best) {
@@ -115,6 +124,7 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
   detection.kind = Kind::kCenterCircle;
   detection.position = best_center;
   detection.confidence = std::min(1.0, static_cast<double>(best_sectors) / 24);
+  // Box in the image around the points on the circle.
   Eigen::Vector4d box(1e9, 1e9, -1e9, -1e9);
   for (const size_t i : best) {
     const cv::Point2f& pixel = points[index[i]].pixel;
@@ -128,6 +138,8 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
   if (const auto located = geometry.locate(geometry.undistorted(middle))) {
     detection.covariance = located->covariance;
   }
+  // From the last to the first, so that indices stay valid. The line detector does not see these
+  // points any more.
   for (auto i = best.rbegin(); i != best.rend(); ++i) {
     points.erase(points.begin() + static_cast<std::ptrdiff_t>(index[*i]));
     ideal.erase(ideal.begin() + static_cast<std::ptrdiff_t>(index[*i]));

@@ -26,6 +26,7 @@ struct Meeting {
   bool is_end() const { return beyond > -inside; }
 };
 
+// Where the crossing lies relative to the ends of one of the two segments.
 Meeting meeting_of(const LineSegment& segment, const cv::Point2f& point, float other_width) {
   const cv::Point2f direction = (segment.to - segment.from) * (1 / segment.length());
   const float along = (point - segment.from).dot(direction);
@@ -35,6 +36,8 @@ Meeting meeting_of(const LineSegment& segment, const cv::Point2f& point, float o
 }
 
 double ground_angle(const LineSegment& a, const LineSegment& b, const CameraGeometry& geometry) {
+  // Angle between the lines on the ground, rad; 0 where the ground is not known, so that the pair
+  // is rejected.
   const auto p = geometry.at_height(a.from, 0);
   const auto q = geometry.at_height(a.to, 0);
   const auto r = geometry.at_height(b.from, 0);
@@ -55,10 +58,12 @@ Detections CrossingDetector::detect(const std::vector<LineSegment>& segments, co
       const LineSegment& b = segments[j];
       const cv::Point2f d = a.to - a.from;
       const cv::Point2f e = b.to - b.from;
+      // Cross product of the directions: |d| |e| sin(angle).
       const float cross = d.x * e.y - d.y * e.x;
       if (std::abs(cross) < std::sin(kLeastImageAngle) * a.length() * b.length()) continue;
       if (geometry.has_pose() && ground_angle(a, b, geometry) < kLeastGroundAngle) continue;
       const cv::Point2f f = b.from - a.from;
+      // Intersection of both lines: a.from + t d with t = (f x e) / (d x e).
       const cv::Point2f point = a.from + d * ((f.x * e.y - f.y * e.x) / cross);
       const cv::Point2f pixel = geometry.distorted(point);
       if (pixel.x < 0 || pixel.y < 0 || pixel.x >= static_cast<float>(view.smooth.cols) ||
@@ -68,6 +73,7 @@ Detections CrossingDetector::detect(const std::vector<LineSegment>& segments, co
       const Meeting on_a = meeting_of(a, point, b.width);
       const Meeting on_b = meeting_of(b, point, a.width);
       if (!on_a.is_reached() || !on_b.is_reached()) continue;
+      // L: both lines end there; T: one of them; X: none.
       const int num_ends = (on_a.is_end() ? 1 : 0) + (on_b.is_end() ? 1 : 0);
       Detection detection;
       detection.kind = num_ends == 2   ? Kind::kCrossingL

@@ -32,6 +32,8 @@ float value_of(int bin) {
   return kLow + (static_cast<float>(bin) + 0.5f) * (kHigh - kLow) / kNumBins;
 }
 
+// Returns the bin that divides the histogram into two classes with the largest variance between
+// them.
 /** N. Otsu, "A threshold selection method from gray-level histograms", IEEE SMC 1979. */
 int otsu(const Histogram& histogram) {
   double total = 0;
@@ -50,6 +52,7 @@ int otsu(const Histogram& histogram) {
     const double above = total - below;
     if (below == 0 || above == 0) continue;
     const double difference = sum_below / below - (sum - sum_below) / above;
+    // Variance between the classes, up to a constant factor.
     const double variance = below * above * difference * difference;
     if (variance > best) {
       best = variance;
@@ -66,6 +69,7 @@ void find_color(const cv::Mat_<cv::Vec3b>& half, FieldView& view) {
   }
   view.threshold = std::clamp(value_of(otsu(histogram)), kLeastThreshold, kGreatestThreshold);
   // Median of what is above the threshold.
+  // The field's own green, from the pixels above the threshold; every second pixel was counted.
   const int first = bin_of(view.threshold);
   int above = 0;
   for (int bin = first; bin < kNumBins; ++bin) above += histogram[bin];
@@ -78,6 +82,7 @@ void find_color(const cv::Mat_<cv::Vec3b>& half, FieldView& view) {
 }
 
 /** Upper convex hull of the points (column, row), rows counting downwards; interpolated. */
+// The field is convex, and so is its border: robots and lines that cut into it are bridged.
 void raise_to_hull(std::vector<int>& top, int height) {
   std::vector<cv::Point2d> hull;
   for (size_t column = 0; column < top.size(); column += 4) {
@@ -86,6 +91,7 @@ void raise_to_hull(std::vector<int>& top, int height) {
     while (hull.size() >= 2) {
       const cv::Point2d a = hull[hull.size() - 1] - hull[hull.size() - 2];
       const cv::Point2d b = point - hull[hull.size() - 2];
+      // Removes the middle of three points that lies below the line between its neighbors.
       if (a.x * b.y - a.y * b.x > 0) break;
       hull.pop_back();
     }
@@ -104,12 +110,14 @@ void find_border(const CameraGeometry& geometry, FieldView& view) {
   view.top.assign(view.other.cols, height);
   for (int x = 0; x < view.other.cols; x += 4) {
     int first = 0;
+    // Nothing above the horizon is on the field.
     if (const auto horizon = geometry.horizon_row(2 * x)) {
       first = std::clamp(static_cast<int>(*horizon / 2) - 4, 0, height);
     }
     // Upwards, since there may be green things behind the field.
     int gap = 0;
     for (int y = height - 1; y >= first && gap <= kGap + y / kRowsPerGap; --y) {
+      // Two rows in succession: single green pixels are noise.
       const bool is_green = view.other(y, x) < 128 && view.other(std::max(0, y - 1), x) < 128;
       gap = is_green ? 0 : gap + 1;
       if (is_green) view.top[x] = y - (y > 0);
@@ -123,6 +131,7 @@ void find_border(const CameraGeometry& geometry, FieldView& view) {
 
 FieldView FieldDetector::detect(const cv::Mat& bgr, const CameraGeometry& geometry) const {
   FieldView view;
+  // Smoothing before the color is judged: noise would scatter the green index.
   cv::blur(bgr, view.smooth, {3, 3});
   cv::Mat_<cv::Vec3b> half;
   cv::resize(view.smooth, half, {bgr.cols / 2, bgr.rows / 2}, 0, 0, cv::INTER_AREA);

@@ -60,12 +60,16 @@ const char* image_status_name(ImageStatus status) {
   return "";
 }
 
+// The first state that holds: overexposed, covered, frozen, inverted; otherwise ok. Detectors run
+// on images that are ok only.
 ImageStatus ImageStatusMonitor::check(const cv::Mat& bgr, const std::string& camera, int64_t utime,
                                       bool is_moving) {
   cv::Mat_<cv::Vec3b> small;
   cv::resize(bgr, small, {kWidth, kHeight}, 0, 0, cv::INTER_AREA);
   const uint64_t hash = hash_of(small);
   History& history = history_[camera];
+  // A robot that stands still may see the same image for long; only while it moves must the image
+  // change.
   if (hash != history.hash || utime < history.utime || !is_moving) history = {hash, utime};
 
   cv::Scalar mean;
@@ -80,10 +84,12 @@ ImageStatus ImageStatusMonitor::check(const cv::Mat& bgr, const std::string& cam
   }
   const double green = green_fraction(small, 0, kHeight);
   const double spread = std::max({deviation[0], deviation[1], deviation[2]});
+  // An image that is uniformly green is a field seen from near, not a covered lens.
   if (brightness < kDarkMean || (spread < kUniformDeviation && green < 0.5)) {
     return ImageStatus::kCovered;
   }
   if (utime - history.utime >= kFrozenTime) return ImageStatus::kFrozen;
+  // Field above and none below: the camera hangs upside down.
   const double upper = green_fraction(small, 0, kHeight / 3);
   const double lower = green_fraction(small, kHeight - kHeight / 3, kHeight);
   if (upper > 0.7 && lower < 0.15) return ImageStatus::kInverted;

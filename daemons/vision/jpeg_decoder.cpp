@@ -23,6 +23,8 @@ JpegDecoder::~JpegDecoder() {
   tjDestroy(handle_);
 }
 
+// Returns what is wrong with the data, or an empty text. The size is checked before memory is
+// taken: the header comes from outside.
 std::string JpegDecoder::decode(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
   if (num_bytes == 0) return "the image is empty";
   int width = 0;
@@ -38,6 +40,8 @@ std::string JpegDecoder::decode(const uint8_t* data, size_t num_bytes, cv::Mat& 
            " pixels; from 64x48 to 1280x960 are allowed";
   }
   bgr.create(height, width, CV_8UC3);
+  // A damaged image is rejected, not shown with grey parts; the limit of scans stops images that
+  // would take minutes to decode.
   if (tjDecompress2(handle_, data, num_bytes, bgr.data, width, static_cast<int>(bgr.step), height,
                     TJPF_BGR, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0) {
     return std::string("damaged JPEG image: ") + tjGetErrorStr2(handle_);

@@ -41,6 +41,7 @@ float extent(const LinePoint& point) {
 }
 
 /** Indices of the longest run of inliers without a gap, in order along the line. */
+// Inliers of a line, sorted along it; the longest stretch without a gap is one segment.
 std::vector<int> longest_run(const Line& line, const std::vector<LinePoint>& points,
                              const std::vector<cv::Point2f>& ideal) {
   std::vector<std::pair<float, int>> inliers;
@@ -65,6 +66,7 @@ std::vector<int> longest_run(const Line& line, const std::vector<LinePoint>& poi
   return run;
 }
 
+// Of the scatter matrix the larger eigenvector, in closed form: angle = atan2(2 xy, xx - yy) / 2.
 /** Total least squares: the direction of the greatest variance. */
 Line fit(const std::vector<int>& run, const std::vector<cv::Point2f>& ideal) {
   cv::Point2f mean(0, 0);
@@ -83,6 +85,7 @@ Line fit(const std::vector<int>& run, const std::vector<cv::Point2f>& ideal) {
 }
 
 /** Median width across the line: a scan line at an angle sees it longer. */
+// Across the line, so that scan lines in both directions give the same width.
 float median_width(const std::vector<int>& run, const Line& line,
                    const std::vector<LinePoint>& points) {
   std::vector<float> widths;
@@ -101,6 +104,7 @@ bool has_fitting_width(const LineSegment& segment, const Line& line,
   if (segment.length() < 1.3f * segment.width) return false;
   const cv::Point2f middle = 0.5f * (segment.from + segment.to);
   const cv::Point2f across(-line.direction.y, line.direction.x);
+  // Width on the ground: the step across the segment, without its part along the line.
   const auto a = geometry.at_height(middle - 0.5f * segment.width * across, 0);
   const auto b = geometry.at_height(middle + 0.5f * segment.width * across, 0);
   if (!geometry.has_pose()) return true;
@@ -122,6 +126,7 @@ std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
                                               std::vector<cv::Point2f>& ideal,
                                               const CameraGeometry& geometry) const {
   std::vector<LineSegment> segments;
+  // Sequential RANSAC with a fixed seed: one segment in each round, whose points are then removed.
   Random random(1);
   for (int round = 0; round < kMostSegments && points.size() >= kLeastPoints; ++round) {
     std::vector<int> best;
@@ -130,12 +135,14 @@ std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
       const size_t j = random.next() % ideal.size();
       const cv::Point2f step = ideal[j] - ideal[i];
       const auto base = static_cast<float>(cv::norm(step));
+      // Near points give no direction, far ones rarely belong to one line.
       if (base < kLeastBase || base > kMostBase) continue;
       std::vector<int> run = longest_run({ideal[i], step * (1 / base)}, points, ideal);
       if (run.size() > best.size()) best = std::move(run);
     }
     if (best.size() < kLeastPoints) break;
     const Line line = fit(best, ideal);
+    // With the fitted line; kept only if that has not lost points.
     std::vector<int> run = longest_run(line, points, ideal);
     if (run.size() < best.size()) run = best;
     const float first = line.along(ideal[run.front()]);
@@ -146,6 +153,7 @@ std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
     if (segment.length() >= kLeastLength && has_fitting_width(segment, line, geometry)) {
       segments.push_back(segment);
     }
+    // Removed also if the segment was rejected: the next round must find another.
     std::sort(run.begin(), run.end(), std::greater<>());
     for (const int i : run) {
       points.erase(points.begin() + i);

@@ -30,6 +30,8 @@ class Scan {
        std::vector<LinePoint>& points)
       : view_(view), start_(start), step_(step), length_(length), points_(points) {}
 
+  // State machine along the scan line: field (levels are learnt), crossing (first_ >= 0), and what
+  // is neither. A crossing counts only between two stretches of field.
   void run() {
     for (int i = 0; i < length_; ++i) {
       const cv::Vec3b& color = at(i);
@@ -44,6 +46,7 @@ class Scan {
         num_mixed_ = 0;
       } else if (index > view_.threshold) {
         num_mixed_ = 0;
+        // The first pixels form a plain mean, later ones an exponential one.
         const float weight = num_green_ == 0 ? 1 : std::max(kWeight, 1.0f / (num_green_ + 1.0f));
         level_ += weight * (white - level_);
         level_index_ += weight * (index - level_index_);
@@ -75,6 +78,7 @@ class Scan {
     num_green_ = 0;
   }
 
+  // Ends a crossing before pixel `end`, if field follows that is darker than it.
   void close(int end) {
     if (end + kMargin + num_mixed_ >= length_) return;
     float after = 0;
@@ -89,6 +93,7 @@ class Scan {
     // Centroid of the brightness above the field.
     float sum = 0;
     float moment = 0;
+    // One pixel more on both sides, for subpixel precision.
     for (int i = std::max(0, first_ - 1); i <= std::min(end, length_ - 1); ++i) {
       const float weight = std::max(0.0f, whiteness(at(i)) - base);
       sum += weight;
@@ -119,6 +124,7 @@ class Scan {
 
 }  // namespace
 
+// Horizontal scan lines find lines that lead away from the robot, vertical ones those across.
 std::vector<LinePoint> find_line_points(const FieldView& view) {
   std::vector<LinePoint> points;
   const int width = view.smooth.cols;
@@ -127,6 +133,7 @@ std::vector<LinePoint> find_line_points(const FieldView& view) {
     Scan(view, {0, y}, {1, 0}, width, points).run();
   }
   for (int x = kSpacing / 2; x < width; x += kSpacing) {
+    // From a little above the field's border downwards.
     const int top = std::max(0, 2 * view.top[std::min(x / 2, view.other.cols - 1)] - kSpacing);
     if (top < height) Scan(view, {x, top}, {0, 1}, height - top, points).run();
   }

@@ -44,6 +44,7 @@ double coverage(const FieldView& view, const CameraGeometry& geometry,
   int num_seen = 0;
   int num_other = 0;
   for (int i = 1; i <= kNumSteps; ++i) {
+    // Projection of a vertical pole that stands there, by its height over the ground.
     const auto pixel = geometry.project({position.x(), position.y(), height * i / kNumSteps});
     if (!pixel || pixel->y < 0 || pixel->x < 0 ||
         pixel->x >= static_cast<float>(view.smooth.cols)) {
@@ -57,6 +58,7 @@ double coverage(const FieldView& view, const CameraGeometry& geometry,
 
 /** Feet of obstacles in one column, from below: a run of other colors that is as high as an
  * obstacle at that place. */
+// Searched from below: the first place where something begins above the field.
 std::optional<Foot> find_foot(const FieldView& view, const CameraGeometry& geometry, float x) {
   const int top = view.top[std::min(static_cast<int>(x / 2), view.other.cols - 1)];
   bool is_field_below = false;
@@ -71,6 +73,7 @@ std::optional<Foot> find_foot(const FieldView& view, const CameraGeometry& geome
     if (!is_field_below) continue;
     is_field_below = false;
     const auto ground = geometry.at_height(geometry.undistorted({x, y}), 0);
+    // Nearer than 0.15 m are the robot's own feet.
     if (!ground || ground->norm() > kReach || ground->norm() < 0.15) continue;
     if (coverage(view, geometry, *ground, kLeastHeight) < 0.8) continue;
     return Foot{x, y, *ground};
@@ -84,6 +87,7 @@ std::vector<std::vector<Foot>> find_clusters(const FieldView& view,
   for (int x = 0; x < view.smooth.cols; x += kSpacing) {
     const auto foot = find_foot(view, geometry, static_cast<float>(x));
     if (!foot) continue;
+    // The uncertainty of the distance grows with the distance, hence the second part of the limit.
     // Legs stand apart: what is within 15 cm on the ground or along the view belongs together.
     std::vector<Foot>* home = nullptr;
     for (std::vector<Foot>& cluster : clusters) {
@@ -104,6 +108,7 @@ bool is_bar(const FieldView& view, const CameraGeometry& geometry, const Eigen::
   int num_white = 0;
   int num_edges = 0;
   int num_seen = 0;
+  // Points beside the pole at its distance, m, across the line of sight.
   const Eigen::Vector2d side = 0.11 * Eigen::Vector2d(-position.y(), position.x()).normalized();
   for (int i = 1; i <= 8; ++i) {
     const auto pixel = geometry.project({position.x(), position.y(), height * i / 8});
@@ -139,6 +144,7 @@ Detection make_detection(Kind kind, const FieldView& view, const CameraGeometry&
                          const std::vector<Foot>& cluster, double height) {
   const Foot& left = cluster.front();
   const Foot& right = cluster.back();
+  // The lowest pixel is the nearest foot.
   const Foot& nearest = *std::max_element(cluster.begin(), cluster.end(),
                                           [](const Foot& a, const Foot& b) { return a.y < b.y; });
   Detection detection;
@@ -152,6 +158,7 @@ Detection make_detection(Kind kind, const FieldView& view, const CameraGeometry&
   if (const auto head = geometry.project({nearest.position.x(), nearest.position.y(), height})) {
     top = std::max(0.0f, head->y);
   }
+  // Half of the spacing on each side: an obstacle ends somewhere between two searched columns.
   detection.box_px = {left.x - 0.5 * kSpacing, top, right.x + 0.5 * kSpacing,
                       std::min<double>(nearest.y + 2, view.smooth.rows - 1)};
   return detection;
@@ -180,6 +187,7 @@ Detections GoalPostDetector::detect(const FieldView& view, const CameraGeometry&
   if (!geometry.has_pose()) return posts;
   for (const std::vector<Foot>& cluster : find_clusters(view, geometry)) {
     const double width = ground_width(cluster, geometry);
+    // Bounds as factors of the width: columns are 4 pixels apart, and feet are found roughly.
     if (width < 0.5 * kPostWidth || width > 2.2 * kPostWidth) continue;
     const Foot& middle = cluster[cluster.size() / 2];
     if (coverage(view, geometry, middle.position, kPostHeight) < 0.95 ||
@@ -206,6 +214,7 @@ Detections RobotDetector::detect(const FieldView& view, const CameraGeometry& ge
     Detection robot = make_detection(Kind::kRobot, view, geometry, cluster, 0.55);
     const bool is_post = std::any_of(posts.begin(), posts.end(),
                                      [&](const Detection& post) { return overlap(post, robot); });
+    // A ball looks like a narrow obstacle; what overlaps a post is that post.
     if (is_post || (ball && overlap(*ball, robot) && width < 0.2)) continue;
     robot.confidence = std::min(0.9, 0.4 + width);
     robots.push_back(robot);

@@ -13,7 +13,10 @@ constexpr int64_t kMostLead = 30000;
 /** m/s and rad/s, above the noise of a standing robot's estimate. */
 constexpr double kStillSpeed = 0.002;
 constexpr double kStillTurn = 0.009;
+/** Cosine of the torso's tilt beyond which the robot falls or lies; 35 degrees. */
+constexpr double kUprightCosine = 0.82;
 
+// Position linearly, orientation by spherical linear interpolation, joints linearly.
 RobotPosture interpolated(const RobotPosture& from, const RobotPosture& to, double fraction) {
   RobotPosture result = to;
   const Eigen::Quaterniond a(from.pose_torso_in_odometry.linear());
@@ -30,6 +33,7 @@ RobotPosture interpolated(const RobotPosture& from, const RobotPosture& to, doub
 
 }  // namespace
 
+// Messages out of order are dropped; a large step backwards in time is a restart.
 void PoseHistory::add(const RobotPosture& posture) {
   if (!history_.empty() && posture.utime <= history_.back().utime) {
     if (history_.back().utime - posture.utime < kLength) return;
@@ -55,6 +59,7 @@ std::optional<CameraPose> PoseHistory::find(const std::string& camera, int64_t u
   const RobotPosture* from = nullptr;
   if (next == history_.end()) {
     posture = history_.back();
+    // An image may be a little newer than the last state; that state is used then.
     if (utime - posture.utime > kMostLead) return std::nullopt;
     if (history_.size() > 1) from = &history_[history_.size() - 2];
   } else if (next->utime == utime) {
@@ -63,6 +68,7 @@ std::optional<CameraPose> PoseHistory::find(const std::string& camera, int64_t u
   } else {
     if (next == history_.begin()) return std::nullopt;
     from = &*std::prev(next);
+    // A gap: the robot may have moved in between in ways that are not known.
     if (next->utime - from->utime > kMostGap) return std::nullopt;
     posture = interpolated(
         *from, *next,
@@ -71,11 +77,14 @@ std::optional<CameraPose> PoseHistory::find(const std::string& camera, int64_t u
   CameraPose result;
   const Eigen::Isometry3d pose = camera_in_odometry(posture, model->link);
   result.heading_in_odometry = Pose2::from(posture.pose_torso_in_odometry);
+  result.is_upright = posture.pose_torso_in_odometry.linear()(2, 2) > kUprightCosine;
+  // Heading frame H: on the ground below the torso, with its heading.
   Eigen::Isometry3d heading = Eigen::Isometry3d::Identity();
   heading.translation().head<2>() = result.heading_in_odometry.position;
   heading.linear() =
       Eigen::AngleAxisd(result.heading_in_odometry.heading, Eigen::Vector3d::UnitZ()).matrix();
   result.pose_camera_in_heading = heading.inverse() * pose;
+  // Whether the camera moves at the image's time, from two neighboring states.
   if (from != nullptr && utime > from->utime) {
     const double dt = 1e-6 * static_cast<double>(utime - from->utime);
     const Eigen::Isometry3d step = camera_in_odometry(*from, model->link).inverse() * pose;

@@ -25,6 +25,8 @@ struct RobotPosture {
 struct CameraPose {
   Eigen::Isometry3d pose_camera_in_heading = Eigen::Isometry3d::Identity();
   Pose2 heading_in_odometry;
+  /** The torso is upright: the robot stands, walks or crouches. */
+  bool is_upright = true;
   /** The camera's speed was above what an image shows, 2 mm/s or 0.5 degrees/s. */
   bool is_moving = false;
 };

@@ -34,6 +34,7 @@ const char* kind_name(Kind kind) {
   return "";
 }
 
+// The center circle first: it takes its points out of those that become lines.
 void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometry,
                             VisionResult& result) {
   std::vector<LinePoint> points = find_line_points(view);
@@ -54,6 +55,14 @@ void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometr
   finish_stage("lines");
 }
 
+void VisionCore::localize(const VisionInput& input, VisionResult& result) {
+  if (!localizer_ || !input.heading_in_odometry || !input.pose_camera_in_heading) return;
+  const CameraPlace place{input.pose_camera_in_heading->translation(), 1 / input.calibration.fx};
+  localizer_->observe(observe_field(result.detections, place, *input.heading_in_odometry));
+  result.field_pose = localizer_->estimate();
+  finish_stage("localisation");
+}
+
 VisionResult VisionCore::process(const VisionInput& input) {
   if (input.bgr.type() != CV_8UC3 || input.bgr.cols < 64 || input.bgr.rows < 48) {
     throw Error("the image has " + std::to_string(input.bgr.cols) + "x" +
@@ -63,13 +72,19 @@ VisionResult VisionCore::process(const VisionInput& input) {
   VisionResult result;
   result.image_status = status_.check(input.bgr, input.camera, input.utime, input.is_moving);
   finish_stage("image status");
+  // Predicted in every image, so that the ball's estimate ages also while it is not seen.
   ball_filter_.predict(input.utime);
   result.ball = ball_filter_.estimate();
+  if (localizer_ && input.heading_in_odometry) {
+    localizer_->predict(input.utime, *input.heading_in_odometry, input.is_upright);
+    result.field_pose = localizer_->estimate();
+  }
   if (result.image_status != ImageStatus::kOk) return result;
 
   const CameraGeometry geometry(input.calibration, input.pose_camera_in_heading);
   const FieldView view = field_.detect(input.bgr, geometry);
   finish_stage("field");
+  // The robot looks up or over the border: what looks like objects there is none.
   if (view.fraction < kLeastField) return result;
   const auto ball = ball_.detect(view, geometry);
   if (ball) result.detections.push_back(*ball);
@@ -82,9 +97,11 @@ VisionResult VisionCore::process(const VisionInput& input) {
     result.detections.push_back(robot);
   }
   finish_stage("robots");
+  localize(input, result);
 
   if (ball && ball->has_position() && input.heading_in_odometry) {
     const Pose2& pose = *input.heading_in_odometry;
+    // From the heading frame to odometry: position as a point, covariance rotated.
     const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.heading).toRotationMatrix();
     ball_filter_.update(pose * ball->position, R * ball->covariance * R.transpose());
     result.ball = ball_filter_.estimate();

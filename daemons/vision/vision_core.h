@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "daemons/vision/ball_detector.h"
 #include "daemons/vision/ball_filter.h"
@@ -13,6 +14,7 @@
 #include "daemons/vision/detection.h"
 #include "daemons/vision/image_status.h"
 #include "daemons/vision/landmarks.h"
+#include "daemons/vision/localizer.h"
 #include "kinematics/pose2.h"
 
 namespace nao::vision {
@@ -29,8 +31,10 @@ struct VisionInput {
   /** Camera axes (x along the view, y left, z up) in the heading frame H. Nothing: detections have
    * no positions, and only ball, lines and crossings are found. */
   std::optional<Eigen::Isometry3d> pose_camera_in_heading;
-  /** H in the odometry frame. Nothing: the ball is not tracked. */
+  /** H in the odometry frame. Nothing: neither ball nor pose on the field are tracked. */
   std::optional<Pose2> heading_in_odometry;
+  /** The robot stands or walks; what it sees while it falls does not serve localisation. */
+  bool is_upright = true;
   /** The camera has moved since its last image. */
   bool is_moving = false;
 };
@@ -40,14 +44,19 @@ struct VisionResult {
   ImageStatus image_status = ImageStatus::kOk;
   Detections detections;
   BallEstimate ball;
+  FieldPose field_pose;
 };
 
 /** Perception of one robot: finds field, lines, crossings, the center circle, posts, robots and the
- * ball in images, and tracks the ball. It uses neither a clock nor the bus. */
+ * ball in images, and tracks the ball and the pose on the field. It uses neither a clock nor the
+ * bus. */
 class VisionCore {
  public:
   /** @throws Error  if the image has another format or is too small. */
   VisionResult process(const VisionInput& input);
+
+  /** From now on the pose on the field is estimated; see Localizer. */
+  void localize(const FieldModel& field, const Pose2& start) { localizer_.emplace(field, start); }
 
   /** Called with the stage's name after each stage; for measuring them. */
   void on_stage(std::function<void(const char*)> callback) { on_stage_ = std::move(callback); }
@@ -56,6 +65,7 @@ class VisionCore {
   void finish_stage(const char* name) const {
     if (on_stage_) on_stage_(name);
   }
+  void localize(const VisionInput& input, VisionResult& result);
   void find_lines(const FieldView& view, const CameraGeometry& geometry, VisionResult& result);
 
   ImageStatusMonitor status_;
@@ -67,6 +77,7 @@ class VisionCore {
   BallDetector ball_;
   RobotDetector robots_;
   BallFilter ball_filter_;
+  std::optional<Localizer> localizer_;
   std::function<void(const char*)> on_stage_;
 };
 

@@ -1,10 +1,13 @@
 #include "daemons/vision/vision_daemon.h"
 
+#include <cstdlib>
 #include <naolcm/camera_command_t.hpp>
+#include <utility>
 
 #include "common/bus.h"
 #include "common/error.h"
 #include "common/event_loop.h"
+#include "common/logger.h"
 #include "common/wall_clock.h"
 #include "daemons/vision/vision_messages.h"
 
@@ -21,6 +24,9 @@ constexpr double kImageValidity = 2;
 constexpr int kWidth = 640;
 /** Least width that is processed: in smaller images a ball at 2 m has two pixels. */
 constexpr int kLeastWidth = 320;
+/** While wide images of a camera come, narrower ones of it, for other receivers, are left out:
+ * microseconds since the last wide one. */
+constexpr int64_t kWideValidity = 500000;
 /** Images that are older than the last one by less than this were overtaken, microseconds; by more:
  * the simulation was restarted. */
 constexpr int64_t kRestartThreshold = 1000000;
@@ -34,16 +40,25 @@ VisionDaemon::VisionDaemon(Bus& bus, const RobotModel& model, const VisionOption
       channels_(options.robot),
       status_(bus, kProgram),
       poses_(model) {
+  if (options_.field_start) {
+    core_.localize(options_.field_start->first, options_.field_start->second);
+  }
+  // All states: an image is matched with the state of its own time.
   bus_.subscribe<naolcm::robot_state_t>(
       channels_.robot_state, Bus::Queue::kAll,
       [this](const naolcm::robot_state_t& state) { poses_.add(decode_posture(model_, state)); });
-  bus_.subscribe<naolcm::image_t>(channels_.head_camera_image, Bus::Queue::kLatest,
+  // All images, of which process_images() takes the newest: LCM's queue of one message keeps the
+  // oldest two, which on a busy host are a second old when their turn comes.
+  bus_.subscribe<naolcm::image_t>(channels_.head_camera_image, Bus::Queue::kAll,
                                   [this](const naolcm::image_t& image) { receive_image(image); });
   publish_status(monotonic_seconds());
 }
 
 void VisionDaemon::attach(EventLoop& loop) {
-  loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
+  loop.on_readable(bus_.descriptor(), [this] {
+    bus_.handle();
+    process_images();
+  });
   loop.every(kStatusPeriod, [this] { publish_status(monotonic_seconds()); });
   if (!options_.request_camera.empty()) {
     request_images();
@@ -51,6 +66,7 @@ void VisionDaemon::attach(EventLoop& loop) {
   }
 }
 
+// Repeated, as requests expire.
 void VisionDaemon::request_images() {
   naolcm::camera_command_t command{};
   command.source = kProgram;
@@ -61,12 +77,39 @@ void VisionDaemon::request_images() {
 }
 
 void VisionDaemon::receive_image(const naolcm::image_t& image) {
+  // Too small to be processed, and meant for other receivers.
   if (image.width < kLeastWidth) return;
+  const auto wide = last_wide_image_.find(image.camera);
+  if (image.width >= kWidth) {
+    last_wide_image_[image.camera] = image.utime;
+  } else if (wide != last_wide_image_.end() &&
+             std::abs(image.utime - wide->second) < kWideValidity) {
+    return;
+  }
   const auto last = last_image_.find(image.camera);
   if (last != last_image_.end() && image.utime <= last->second &&
       last->second - image.utime < kRestartThreshold) {
     return;
   }
+  last_image_[image.camera] = image.utime;
+  waiting_[image.camera] = image;
+}
+
+void VisionDaemon::process_images() {
+  for (const auto& [camera, image] : std::exchange(waiting_, {})) {
+    try {
+      process(image);
+    } catch (const std::exception& error) {
+      ++num_refused_;
+      if (const auto num_suppressed = warnings_.allow(monotonic_seconds())) {
+        logger::warn("{}: image refused: {} ({} similar warnings suppressed)",
+                     channels_.head_camera_image, error.what(), *num_suppressed);
+      }
+    }
+  }
+}
+
+void VisionDaemon::process(const naolcm::image_t& image) {
   const double start = monotonic_seconds();
   if (image.format != "jpeg") throw Error("the image's format is not jpeg");
   VisionInput input;
@@ -76,13 +119,14 @@ void VisionDaemon::receive_image(const naolcm::image_t& image) {
   if (bgr_.cols != image.width || bgr_.rows != image.height) {
     throw Error("the image has another size than its message says");
   }
-  last_image_[image.camera] = image.utime;
   input.bgr = bgr_;
   input.utime = image.utime;
   input.camera = image.camera;
+  // Without a pose (no motion daemon) objects are found in the image, without positions.
   if (const auto pose = poses_.find(image.camera, image.utime)) {
     input.pose_camera_in_heading = pose->pose_camera_in_heading;
     input.heading_in_odometry = pose->heading_in_odometry;
+    input.is_upright = pose->is_upright;
     input.is_moving = pose->is_moving;
   }
   bus_.publish(channels_.vision_state,

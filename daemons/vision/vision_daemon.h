@@ -4,17 +4,16 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+
+#include <naolcm/image_t.hpp>
 
 #include "common/channels.h"
+#include "common/rate_limiter.h"
 #include "common/status_reporter.h"
 #include "daemons/vision/jpeg_decoder.h"
 #include "daemons/vision/pose_history.h"
 #include "daemons/vision/vision_core.h"
-
-namespace naolcm {
-class image_t;
-class robot_state_t;
-}  // namespace naolcm
 
 namespace nao {
 class Bus;
@@ -30,11 +29,13 @@ struct VisionOptions {
   std::string request_camera;
   /** Images a second that are requested. */
   double rate = 15;
+  /** The field, and the robot's pose on it when nao-motion starts. Nothing: it is not localised. */
+  std::optional<std::pair<FieldModel, Pose2>> field_start;
 };
 
 /** Connects VisionCore to the bus: receives NAO_HEAD_CAMERA_IMAGE and NAO_ROBOT_STATE, publishes
  * NAO_VISION_STATE with each image. Of several images of one camera and time only the first is
- * processed. */
+ * processed; where images come faster than they are processed, only the newest of each camera. */
 class VisionDaemon {
  public:
   /** @param bus, model  Must outlive this. */
@@ -46,10 +47,17 @@ class VisionDaemon {
   /** Publishes the status, with the figures since the last call. @param now  s, monotonic. */
   void publish_status(double now);
 
+  /** Processes the images that were received since the last call. */
+  void process_images();
+
   int64_t num_images() const { return num_images_; }
+  /** Damaged images. */
+  int64_t num_refused() const { return num_refused_; }
 
  private:
   void receive_image(const naolcm::image_t& image);
+  /** @throws Error  if the image is damaged. */
+  void process(const naolcm::image_t& image);
   void request_images();
 
   Bus& bus_;
@@ -63,6 +71,11 @@ class VisionDaemon {
   cv::Mat bgr_;
   /** Robot time of the last image of each camera. */
   std::map<std::string, int64_t> last_image_;
+  std::map<std::string, int64_t> last_wide_image_;
+  /** Received and not processed yet, by camera. */
+  std::map<std::string, naolcm::image_t> waiting_;
+  int64_t num_refused_ = 0;
+  RateLimiter warnings_{1.0};
   double last_image_time_ = -1e9;
   int64_t num_images_ = 0;
   // Since the last status.

@@ -14,6 +14,7 @@ constexpr double kNormTolerance = 1e-3;
 naolcm::detection_t encode_detection(const Detection& detection) {
   naolcm::detection_t message{};
   message.kind = static_cast<int8_t>(detection.kind);
+  // Same units and frames as in detection_t; NaN where a position is not known.
   for (int i = 0; i < 4; ++i) {
     message.box_px[i] = detection.box_px[i];
     message.line_px[i] = detection.line_px[i];
@@ -25,6 +26,17 @@ naolcm::detection_t encode_detection(const Detection& detection) {
   }
   message.confidence = detection.confidence;
   return message;
+}
+
+void encode_field_pose(const FieldPose& estimate, naolcm::vision_state_t& message) {
+  if (!estimate.is_known) return;
+  message.has_field_pose = 1;
+  message.torso_in_field[0] = estimate.pose.position.x();
+  message.torso_in_field[1] = estimate.pose.position.y();
+  message.torso_in_field[2] = estimate.pose.heading;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) message.field_pose_covariance[i][j] = estimate.covariance(i, j);
+  }
 }
 
 }  // namespace
@@ -57,6 +69,7 @@ CameraCalibration decode_calibration(const naolcm::image_t& image) {
 
 naolcm::vision_state_t encode_result(const VisionResult& result, int64_t utime,
                                      const std::string& camera) {
+  // Zero-initialized: fields of ball and field pose stay 0 without them.
   naolcm::vision_state_t message{};
   message.utime = utime;
   message.camera = camera;
@@ -65,6 +78,7 @@ naolcm::vision_state_t encode_result(const VisionResult& result, int64_t utime,
     message.detections.push_back(encode_detection(detection));
   }
   message.num_detections = static_cast<int32_t>(message.detections.size());
+  encode_field_pose(result.field_pose, message);
   if (!result.ball.is_known) return message;
   message.has_ball = 1;
   message.ball_utime = result.ball.seen_utime;

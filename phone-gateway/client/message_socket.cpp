@@ -25,6 +25,7 @@ constexpr double kSendTimeout = 5;
 /** Waits until a descriptor is ready. @return false after the timeout, s. */
 bool wait_for(int descriptor, short events, double timeout) {
   pollfd polled{descriptor, events, 0};
+  // poll() takes milliseconds; 0 asks without waiting.
   const int timeout_ms = static_cast<int>(std::max(0.0, timeout) * 1e3);
   return poll(&polled, 1, timeout_ms) > 0;
 }
@@ -63,6 +64,7 @@ MessageSocket::MessageSocket(const std::string& host, uint16_t port, double time
   addrinfo* found = nullptr;
   const int status = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found);
   if (status != 0) throw ConnectionError("no such host: " + host + ": " + gai_strerror(status));
+  // Freed on every way out.
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> addresses(found, freeaddrinfo);
   // A name may have IPv6 and IPv4 addresses: the first that answers.
   for (const addrinfo* address = found; address != nullptr; address = address->ai_next) {
@@ -103,6 +105,7 @@ void MessageSocket::send_raw(std::string_view bytes) {
 
 std::optional<std::string> MessageSocket::receive(double timeout) {
   const double deadline = monotonic_seconds() + timeout;
+  // Bytes that have come before may hold several messages.
   while (true) {
     if (std::optional<std::string> message = reader_.next()) return message;
     if (reader_.is_oversized()) throw ConnectionError("the program on this port is not a gateway");

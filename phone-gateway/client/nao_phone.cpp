@@ -1,14 +1,22 @@
 // nao-phone: a client of nao-phone-gateway for the command line, over raw TCP. See README.md.
 #include <cctype>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <optional>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include "common/command_line.h"
 #include "common/program.h"
+#include "common/wall_clock.h"
+#include "messages/body_condition.h"
 #include "phone-gateway/client/phone_client.h"
+#include "phone-gateway/discovery/gateway_list.h"
+#include "phone-gateway/discovery/service_discovery.h"
 
 namespace nao::phone {
 namespace {
@@ -18,6 +26,8 @@ using naoremote::Response;
 
 /** s. Chosen: longer than any motion of the robot, getting up and a posture included. */
 constexpr double kResultTimeout = 60;
+/** s. Chosen: longer than the search for a ball, and than any way to a goal. */
+constexpr double kPlayTimeout = 600;
 /** s; see WalkTurn and GetState in PROTOCOL.md. */
 constexpr double kWalkPeriod = 0.1;
 constexpr double kPollPeriod = 0.1;
@@ -29,6 +39,7 @@ struct PhoneOptions {
   PhoneClient::Options client;
   std::string posture;
   std::string action;
+  std::string behavior;
   std::string group;
   std::string file;
   double x = 0;
@@ -42,6 +53,8 @@ struct PhoneOptions {
   double roll = 0;
   double speed = 0;
   double duration = 5;
+  double play_duration = 0;
+  double timeout = 2;
   double rate = 10;
   double image_rate = 0;
 };
@@ -59,6 +72,20 @@ void print_state(const naoremote::State& state, const naoremote::RobotDescriptio
               static_cast<double>(state.utime()) * 1e-6, state.age_ms(),
               mode_name(state.mode()).c_str(),
               state.posture().empty() ? "-" : state.posture().c_str(), state.torso_position(2));
+  if (state.has_body()) {
+    const naoremote::Body& body = state.body();
+    if (body.has_battery_charge()) {
+      std::printf("battery %.0f %%%s\n", 100 * static_cast<double>(body.battery_charge()),
+                  body.is_charging() ? ", charging" : "");
+    }
+    if (!body.hottest_joint().empty()) {
+      std::printf("hottest motor %s, %.0f degrees Celsius\n", body.hottest_joint().c_str(),
+                  static_cast<double>(body.hottest_temperature()));
+    }
+    for (const std::string& code : body.warnings()) {
+      std::printf("warning: %s\n", body_warning_text(code).c_str());
+    }
+  }
   for (int i = 0; i < state.joint_position_size(); ++i) {
     std::printf("%-16s %8.4f\n", robot.joints(i).name().c_str(),
                 static_cast<double>(state.joint_position(i)));
@@ -73,13 +100,14 @@ int report(const Response& response) {
 }
 
 /** Takes control, sends a command, and waits for its result. */
-int command(PhoneClient& client, const std::function<Response(PhoneClient&)>& send) {
+int command(PhoneClient& client, const std::function<Response(PhoneClient&)>& send,
+            double timeout = kResultTimeout) {
   if (const int status = report(client.take_control()); status != 0) return status;
   const Response response = send(client);
   if (const int status = report(response); status != 0) return status;
-  const auto result = client.wait_for_result(response.request_id(), kResultTimeout);
+  const auto result = client.wait_for_result(response.request_id(), timeout);
   if (!result) {
-    std::cerr << "no result within 60 s\n";
+    std::cerr << "no result within " << timeout << " s\n";
     return 1;
   }
   std::cout << Notice::Status_Name(result->status())
@@ -87,6 +115,27 @@ int command(PhoneClient& client, const std::function<Response(PhoneClient&)>& se
   return result->status() == Notice::DONE ? 0 : 1;
 }
 
+/** The behavior of a name such as "keep-goal"; NONE for "none" or an unknown name. */
+naoremote::Play::Behavior find_behavior(std::string name) {
+  for (char& c : name) c = c == '-' ? '_' : static_cast<char>(std::toupper(c));
+  naoremote::Play::Behavior behavior = naoremote::Play::NONE;
+  naoremote::Play::Behavior_Parse(name, &behavior);
+  return behavior;
+}
+
+/** Lets the robot act until it is done. Ctrl-C ends it, as the connection closes. */
+int play(PhoneClient& client, const PhoneOptions& options) {
+  return command(
+      client,
+      [&options](PhoneClient& c) {
+        naoremote::Request request;
+        request.mutable_play()->set_behavior(find_behavior(options.behavior));
+        return c.request(std::move(request));
+      },
+      options.play_duration > 0 ? options.play_duration : kPlayTimeout);
+}
+
+// The command is repeated all the time, as from a joystick: a walk ends by itself without it.
 int walk(PhoneClient& client, const PhoneOptions& options) {
   if (const int status = report(client.take_control()); status != 0) return status;
   const int num_commands = static_cast<int>(options.duration / kWalkPeriod);
@@ -95,6 +144,7 @@ int walk(PhoneClient& client, const PhoneOptions& options) {
     if (const int status = report(response); status != 0) return status;
     client.run_for(kWalkPeriod);
   }
+  // Zero velocity ends the walk at once.
   return report(client.walk_turn(0, 0, 0));
 }
 
@@ -156,11 +206,47 @@ int list_clients(const PhoneOptions& options) {
       operate(options.client.host, options.client.port, naoremote::Operate::LIST);
   if (const int status = report(response); status != 0) return status;
   for (const auto& client : response.clients().clients()) {
-    std::printf("%4u  %-20s %-16s %-10s%s\n", client.client_id(), client.name().c_str(),
+    std::printf("%4u  %-20s %-16s %-10s%s%s%s\n", client.client_id(), client.name().c_str(),
                 client.address().c_str(), client.transport().c_str(),
-                client.is_driver() ? " drives" : "");
+                client.is_driver()  ? " drives"
+                : client.is_muted() ? " may only watch"
+                                    : "",
+                client.robot().empty() ? "" : " ", client.robot().c_str());
   }
   return 0;
+}
+
+/** Prints the robots of the gateway; of one robot only its name and model. */
+int list_robots(const PhoneClient& client) {
+  if (client.connected().robots().robots().empty()) {
+    std::printf("%-20s %s\n", client.robot().name().c_str(), client.robot().model().c_str());
+  }
+  for (const auto& robot : client.connected().robots().robots()) {
+    std::string team;
+    if (robot.has_team()) team = "team " + std::to_string(robot.team());
+    if (robot.number() > 0) team += " number " + std::to_string(robot.number());
+    const std::string driver = robot.driver_id() != 0 ? robot.driver_name() + " drives"
+                               : robot.is_available() ? "free"
+                                                      : "does not answer";
+    std::printf("%-20s %-12s %-16s %s\n", robot.name().c_str(), robot.model().c_str(), team.c_str(),
+                driver.c_str());
+  }
+  return 0;
+}
+
+/** Lists the gateways that are found within some time. @return Exit status: 0 if there is one. */
+int list_gateways(double timeout) {
+  ServiceDiscovery discovery(std::nullopt);
+  const double end = monotonic_seconds() + timeout;
+  while (monotonic_seconds() < end) {
+    discovery.step(monotonic_seconds());
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  std::cout << gateways_to_text(discovery.found());
+  if (!discovery.found().empty()) return 0;
+  std::cerr << "nao-phone: no gateway is announced in this network"
+            << (discovery.problem().empty() ? "" : ": " + discovery.problem()) << "\n";
+  return 1;
 }
 
 /** Prints why a walk was refused: its commands are answered OK, the refusal is a notice. */
@@ -188,6 +274,12 @@ CommandLine* add_action(CommandLine& app, PhoneOptions& options, std::function<i
 
 void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& chosen) {
   app.require_subcommand();
+  CommandLine* gateways = app.add_subcommand(
+      "gateways", "List the gateways in the local network; needs avahi-daemon on this host");
+  gateways->add_option("--timeout", o.timeout, "How long to look for them, s")->show_default();
+  gateways->on_parsed([&o, &chosen] { chosen = [&o] { return list_gateways(o.timeout); }; });
+  add_action(app, o, chosen, "robots", "List the robots of the gateway and who drives them",
+             list_robots);
   add_action(app, o, chosen, "state", "Show the robot's state", show_state);
   CommandLine* image = add_action(app, o, chosen, "image", "Save an image of the head camera",
                                   [&o](PhoneClient& client) { return save_image(client, o.file); });
@@ -219,6 +311,17 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
     return command(c, [&o](PhoneClient& client) { return client.do_action(o.action); });
   });
   action->add_option("name", o.action, "Action, such as wave")->required();
+
+  CommandLine* playing =
+      add_action(app, o, chosen, "play", "Let the robot act by itself until it is done",
+                 [&o](PhoneClient& client) { return play(client, o); });
+  playing->add_option("behavior", o.behavior, "go-to-ball, kick, dribble, score or keep-goal")
+      ->required()
+      ->check([](const std::string& name) {
+        return find_behavior(name) == naoremote::Play::NONE ? "there is no behavior '" + name + "'"
+                                                            : std::string();
+      });
+  playing->add_option("--duration", o.play_duration, "End it after this time, s (default: 600)");
 
   CommandLine* walking = add_action(app, o, chosen, "walk", "Walk and turn",
                                     [&o](PhoneClient& client) { return walk(client, o); });
@@ -263,6 +366,8 @@ int main(int argc, char** argv) {
   app.add_option("--token", options.client.token,
                  "Pairing token; not needed on the gateway's own host");
   app.add_option("--name", options.client.name, "Name that other clients see")->show_default();
+  app.add_option("--robot", options.client.robot,
+                 "Robot of a gateway of several (default: the first one that nobody drives)");
   std::function<int()> chosen;
   nao::phone::add_subcommands(app, options, chosen);
   return nao::run_program_with_status(app, common, argc, argv, [&] { return chosen(); });

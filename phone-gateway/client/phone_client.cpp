@@ -32,11 +32,13 @@ PhoneClient::PhoneClient(const Options& options, Handlers handlers)
     : options_(options),
       handlers_(std::move(handlers)),
       socket_(options.host, options.port, options.timeout) {
+  // Connect is the first request; the gateway closes the connection after a refusal.
   Request hello;
   hello.mutable_connect()->set_protocol_version(kProtocolVersion);
   hello.mutable_connect()->set_token(options_.token);
   hello.mutable_connect()->set_client_name(options_.name);
   hello.mutable_connect()->set_client_software(options_.software);
+  hello.mutable_connect()->set_robot(options_.robot);
   const Response response = request(hello);
   if (response.error() != naoremote::OK) throw RefusedError(response.error(), response.message());
   connected_ = response.connected();
@@ -52,6 +54,7 @@ uint32_t PhoneClient::send(Request request) {
 Response PhoneClient::request(Request request) {
   const uint32_t id = send(std::move(request));
   std::optional<Response> response;
+  // Notices, states and images that come before the answer go to their handlers.
   run_until([&] { return (response = take_response(id)).has_value(); }, options_.timeout);
   if (!response) throw ConnectionError("the gateway does not answer");
   return *std::move(response);
@@ -65,6 +68,7 @@ std::optional<Response> PhoneClient::take_response(uint32_t request_id) {
 
 void PhoneClient::handle_one(double timeout) {
   const double now = monotonic_seconds();
+  // Within the gateway's silence timeout something must be sent.
   if (now - last_sent_ >= kPingPeriod && connected_.client_id() != 0) {
     Request ping;
     ping.mutable_ping()->set_client_utime(static_cast<uint64_t>(wall_utime()));
@@ -74,6 +78,7 @@ void PhoneClient::handle_one(double timeout) {
   if (!bytes) return;
   const naoremote::ServerMessage message = parse(*bytes);
   if (message.has_response()) {
+    // Nobody waits for the answers to own pings.
     if (message.response().request_id() == own_ping_) return;
     responses_[message.response().request_id()] = message.response();
     if (responses_.size() > kMaxResponses) responses_.erase(responses_.begin());
@@ -82,13 +87,20 @@ void PhoneClient::handle_one(double timeout) {
   } else if (message.has_image()) {
     if (handlers_.on_image) handlers_.on_image(message.image());
   } else if (message.has_notice()) {
-    const Notice& notice = message.notice();
-    if (notice.kind() == Notice::COMMAND_RESULT && notice.status() != Notice::ACCEPTED) {
-      results_.push_back(notice);
-      if (results_.size() > kMaxResults) results_.erase(results_.begin());
-    }
-    if (handlers_.on_notice) handlers_.on_notice(notice);
+    handle_notice(message.notice());
   }
+}
+
+void PhoneClient::handle_notice(const Notice& notice) {
+  if (notice.kind() == Notice::COMMAND_RESULT && notice.status() != Notice::ACCEPTED) {
+    results_.push_back(notice);
+    if (results_.size() > kMaxResults) results_.erase(results_.begin());
+  } else if (notice.kind() == Notice::ROBOT_CHANGED) {
+    *connected_.mutable_robot() = notice.robot();
+  } else if (notice.kind() == Notice::ROBOTS_CHANGED) {
+    *connected_.mutable_robots() = notice.robots();
+  }
+  if (handlers_.on_notice) handlers_.on_notice(notice);
 }
 
 bool PhoneClient::run_until(const std::function<bool()>& is_done, double timeout) {
@@ -119,10 +131,25 @@ std::optional<Notice> PhoneClient::wait_for_result(uint32_t request_id, double t
   return result;
 }
 
-Response PhoneClient::take_control() {
+Response PhoneClient::request_robot(Request request, const std::string& robot) {
+  Response response = this->request(std::move(request));
+  if (response.error() != naoremote::OK || robot.empty()) return response;
+  if (!run_until([&] { return this->robot().name() == robot; }, options_.timeout)) {
+    throw ConnectionError("the gateway does not describe the robot " + robot);
+  }
+  return response;
+}
+
+Response PhoneClient::take_control(const std::string& robot) {
   Request request;
-  request.mutable_take_control();
-  return this->request(request);
+  request.mutable_take_control()->set_robot(robot);
+  return request_robot(std::move(request), robot);
+}
+
+Response PhoneClient::watch_robot(const std::string& robot) {
+  Request request;
+  request.mutable_watch_robot()->set_robot(robot);
+  return request_robot(std::move(request), robot);
 }
 
 Response PhoneClient::release_control() {
@@ -198,13 +225,15 @@ Response PhoneClient::ping() {
 }
 
 Response operate(const std::string& host, uint16_t port, naoremote::Operate::Operation operation,
-                 uint32_t client_id) {
+                 uint32_t client_id, const std::string& robot) {
+  // A connection of its own, without Connect: operators are recognized by their address.
   constexpr double kTimeout = 5;  // s, chosen: the gateway on this host answers in milliseconds
   MessageSocket socket(host, port, kTimeout);
   Request request;
   request.set_request_id(1);
   request.mutable_operate()->set_operation(operation);
   request.mutable_operate()->set_client_id(client_id);
+  request.mutable_operate()->set_robot(robot);
   socket.send(request.SerializeAsString());
   const auto answer = socket.receive(kTimeout);
   if (!answer) throw ConnectionError("the gateway does not answer");

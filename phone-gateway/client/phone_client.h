@@ -33,6 +33,8 @@ class PhoneClient {
     /** Name that other clients see; empty: the gateway chooses one. */
     std::string name;
     std::string software = "nao_phone_client";
+    /** Robot to watch, of a gateway of several; empty: the gateway chooses. */
+    std::string robot = {};
     /** For connecting and for each answer, s. */
     double timeout = 5;
   };
@@ -49,7 +51,8 @@ class PhoneClient {
    * @throws RefusedError     if it refuses the client. */
   explicit PhoneClient(const Options& options, Handlers handlers = {});
 
-  /** The gateway's answer to Connect, with the robot's description. */
+  /** The gateway's answer to Connect, with the description of the robot that is watched now, and
+   * the list of robots as it is now. */
   const naoremote::Connected& connected() const { return connected_; }
   const naoremote::RobotDescription& robot() const { return connected_.robot(); }
 
@@ -77,7 +80,10 @@ class PhoneClient {
   std::optional<naoremote::Notice> wait_for_result(uint32_t request_id, double timeout);
 
   // The use cases; each function waits for the answer. Units as in remote.proto.
-  naoremote::Response take_control();
+  /** @param robot  Watches this one of several robots from now on; empty: none other. */
+  naoremote::Response take_control(const std::string& robot = "");
+  /** Watches another robot; robot() is that one when this returns. */
+  naoremote::Response watch_robot(const std::string& robot);
   naoremote::Response release_control();
   naoremote::Response get_state(bool with_image);
   naoremote::Response subscribe(double state_rate, double image_rate);
@@ -91,8 +97,12 @@ class PhoneClient {
   naoremote::Response ping();
 
  private:
+  /** Sends a request that may change the robot, and waits until robot() is the one that is named.
+   */
+  naoremote::Response request_robot(naoremote::Request request, const std::string& robot);
   /** Handles one message, if one arrives within `timeout` s. */
   void handle_one(double timeout);
+  void handle_notice(const naoremote::Notice& notice);
 
   Options options_;
   Handlers handlers_;
@@ -108,8 +118,10 @@ class PhoneClient {
 };
 
 /** Executes one operation of the operator's console, without Connect. Works on the gateway's own
- * host only. @throws ConnectionError  if there is no gateway. */
+ * host only. @param robot  Name of a robot, see Operate in remote.proto. @throws ConnectionError if
+ * there is no gateway. */
 naoremote::Response operate(const std::string& host, uint16_t port,
-                            naoremote::Operate::Operation operation, uint32_t client_id = 0);
+                            naoremote::Operate::Operation operation, uint32_t client_id = 0,
+                            const std::string& robot = "");
 
 }  // namespace nao

@@ -9,7 +9,7 @@
 namespace nao {
 
 /** Largest Request that the gateway accepts on any transport, bytes; see PROTOCOL.md. */
-inline constexpr size_t kMaxRequestBytes = 65536;
+inline constexpr size_t kMaxRequestBytes = 262144;
 
 /** Version of the protocol in remote.proto, sent in Connect. */
 inline constexpr unsigned kProtocolVersion = 1;

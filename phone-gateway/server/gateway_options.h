@@ -11,7 +11,9 @@ namespace nao::gateway {
 /** Options of nao-phone-gateway. */
 struct GatewayOptions {
   NetworkOptions network;
-  /** Folder of robots/ that describes the robot. */
+  /** The robots, see parse_robot_options(). */
+  std::vector<std::string> robots = {"NAO"};
+  /** Folder of robots/ that describes the robots without a model of their own. */
   std::string model = "nao";
   /** Pairing token; empty: a new one at each start. */
   std::string token;
@@ -26,7 +28,7 @@ struct GatewayOptions {
   std::string audit_file;
   /** Serve https in addition to http, on the same port. */
   bool uses_tls = false;
-  /** Folder of the gateway's own certificate; empty: state_folder(). Ignored if `network` has a
+  /** Folder of the gateway's own certificate; empty: state_path(). Ignored if `network` has a
    * certificate. */
   std::string tls_folder;
   /** Print the address for phones as a QR code. */
@@ -35,6 +37,10 @@ struct GatewayOptions {
   bool prints_addresses = false;
   /** File for the QR code, PNG; empty: none. */
   std::string qr_file;
+  /** Announce the gateway in the local network. */
+  bool announces = true;
+  /** Host name, without ".local", that leads to the announced gateway; empty: none. */
+  std::string mdns_name = "nao";
   GatewayLimits limits;
 };
 

@@ -2,6 +2,7 @@
 #include <google/protobuf/stubs/logging.h>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "common/bus.h"
 #include "common/command_line.h"
@@ -9,8 +10,11 @@
 #include "common/error.h"
 #include "common/logger.h"
 #include "common/program.h"
+#include "common/robot_option.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
+#include "phone-gateway/discovery/gateway_list.h"
+#include "phone-gateway/discovery/service_discovery.h"
 #include "phone-gateway/server/bus/gateway_daemon.h"
 #include "phone-gateway/server/bus/robot_description.h"
 #include "phone-gateway/server/core/secret.h"
@@ -30,6 +34,9 @@ namespace {
 constexpr double kStepPeriod = 0.02;
 /** Period of DAEMON_STATUS, s. */
 constexpr double kStatusPeriod = 1.0;
+/** Period, s, of looking for messages of avahi-daemon. Chosen: the page shows changes at once for a
+ * person. */
+constexpr double kDiscoveryPeriod = 0.2;
 /** Time for sending the last messages, s. Chosen: one tenth of the 2 s in which a program must
  * stop. */
 constexpr double kDrainTime = 0.2;
@@ -43,7 +50,9 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
   app.add_option("--tcp-port", network.tcp_port, "Port of raw TCP clients; 0: any free")
       ->show_default();
   app.add_option("--bind", network.bind, "Address to listen on; 0.0.0.0: all")->show_default();
-  app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
+  add_robot_option(app, options.robots);
+  app.add_option("--model", options.model,
+                 "Folder of robots/ that describes the robots whose --robot names none")
       ->show_default();
   app.add_option("--token", options.token,
                  "Pairing token that clients must send; default: a new one at each start");
@@ -51,6 +60,13 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
                  "File of the pairing token; created with a new one if it does not exist");
   app.add_option("--host-name", options.host_names,
                  "Another name of this host that browsers may use (repeatable)");
+  app.add_flag("!--no-announce", options.announces,
+               "Do not announce the gateway in the local network; by default avahi-daemon, if it "
+               "runs, does so unless --bind is a loopback address");
+  app.add_option("--mdns-name", options.mdns_name,
+                 "Announce this host also as NAME.local, or NAME-2.local where that is taken; "
+                 "empty: not")
+      ->show_default();
   app.add_option(
       "--allow-origin", options.origins,
       "Another site whose pages may connect, such as http://localhost:5173 (repeatable)");
@@ -75,10 +91,16 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
 }
 
 AccessRules make_access_rules(const GatewayOptions& options) {
+  // Browsers may use the host's name, also with mDNS's ".local".
   std::vector<std::string> names = options.host_names;
   const std::string own_name = own_host_name();
   names.push_back(own_name);
   names.push_back(own_name + ".local");
+  if (!options.mdns_name.empty()) {
+    for (const std::string& name : ServiceDiscovery::alias_names(options.mdns_name)) {
+      names.push_back(name);
+    }
+  }
   return AccessRules(names, options.origins);
 }
 
@@ -94,7 +116,7 @@ void prepare_tls(GatewayOptions& options) {
     names.addresses = own_addresses();
     names.addresses.push_back("127.0.0.1");
     const CertificateFiles files = own_certificate(
-        options.tls_folder.empty() ? state_folder() : std::filesystem::path(options.tls_folder),
+        options.tls_folder.empty() ? state_path() : std::filesystem::path(options.tls_folder),
         names);
     network.certificate_file = files.certificate;
     network.key_file = files.key;
@@ -107,6 +129,77 @@ void prepare_tls(GatewayOptions& options) {
 std::vector<std::string> addresses_for_phones(const GatewayOptions& options, uint16_t port) {
   return phone_urls({options.network.bind, port, options.uses_tls, options.token}, own_addresses());
 }
+
+std::vector<naoremote::RobotDescription> describe_robots(const std::vector<RobotOption>& robots) {
+  std::vector<naoremote::RobotDescription> descriptions;
+  for (const RobotOption& robot : robots) {
+    const std::filesystem::path folder = data_path() / "robots" / robot.model;
+    logger::info("robot {} from {}", robot.name, folder.string());
+    descriptions.push_back(describe_robot(robot.name, RobotModel::load(folder)));
+  }
+  return descriptions;
+}
+
+/** Teams and numbers of the robots that have any. */
+std::vector<PlayerLabel> label_players(const std::vector<RobotOption>& robots) {
+  std::vector<PlayerLabel> players;
+  for (const RobotOption& robot : robots) {
+    if (!robot.team) continue;
+    players.push_back(
+        {robot.name, static_cast<uint32_t>(*robot.team), static_cast<uint32_t>(robot.number)});
+  }
+  return players;
+}
+
+/** What to announce; nothing if others cannot connect, or must not find it. */
+std::optional<Announcement> make_announcement(const GatewayOptions& options,
+                                              const std::vector<RobotOption>& robots,
+                                              const Network& network) {
+  const bool is_loopback = options.network.bind.starts_with("127.") ||
+                           options.network.bind == "::1" || options.network.bind == "localhost";
+  if (!options.announces || is_loopback) return std::nullopt;
+  Announcement announcement;
+  // A name has at most 63 bytes (RFC 6763, section 4.1.1): of several robots the first and a count.
+  std::string name = robots.front().name;
+  if (robots.size() > 1) name += " and " + std::to_string(robots.size() - 1) + " more";
+  announcement.service.name = name + " on " + own_host_name();
+  announcement.service.robot = robots.front().name;
+  announcement.service.model = robots.front().model;
+  announcement.service.http_port = network.http_port();
+  announcement.service.tcp_port = network.tcp_port();
+  announcement.service.uses_tls = options.uses_tls;
+  // avahi-daemon itself announces the host's own name.
+  if (options.mdns_name != own_host_name()) announcement.alias = options.mdns_name;
+  announcement.addresses = own_addresses();
+  return announcement;
+}
+
+/** Logs what has changed since the last call. */
+class DiscoveryLog {
+ public:
+  void write(const ServiceDiscovery& discovery, uint16_t port) {
+    if (note(problem_, discovery.problem()) && !problem_.empty()) {
+      logger::info("not announced in the local network: {}", problem_);
+    }
+    if (note(name_, discovery.announced_name()) && !name_.empty()) {
+      logger::info("announced in the local network as \"{}\"", name_);
+    }
+    if (note(alias_, discovery.alias()) && !alias_.empty()) {
+      logger::info("phones in the local network: http://{}:{}", alias_, port);
+    }
+  }
+
+ private:
+  static bool note(std::string& last, const std::string& value) {
+    const bool is_new = last != value;
+    last = value;
+    return is_new;
+  }
+
+  std::string problem_;
+  std::string name_;
+  std::string alias_;
+};
 
 /** Prints the addresses, one a line; if requested, then an empty line and the first as a QR code.
  */
@@ -131,6 +224,7 @@ void show_qr_code(const GatewayOptions& options, const std::string& url) {
 void run_gateway(const CommonOptions& common, GatewayOptions options) {
   // The library prints a line for every message that it cannot parse: any host could fill the log.
   google::protobuf::SetLogHandler(nullptr);
+  // Before the addresses are printed, which contain the token.
   if (options.token.empty()) {
     options.token = options.token_file.empty() ? make_token() : token_from_file(options.token_file);
   }
@@ -139,20 +233,20 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
     return;
   }
   prepare_tls(options);
-  const std::filesystem::path folder = data_path() / "robots" / options.model;
+  const std::vector<RobotOption> robots = parse_robot_options(options.robots, options.model);
   if (request_realtime_scheduling(RealtimePriority::kServing))
     logger::info("uses real-time scheduling (SCHED_RR)");
   Bus bus(common.lcm_url);
-  GatewayDaemon daemon(bus, describe_robot(common.robot, RobotModel::load(folder)), options.limits,
-                       options.token, options.audit_file);
+  logger::info("version {}, bus {}", version(), common.lcm_url);
+  GatewayDaemon daemon(bus, describe_robots(robots), options.limits, options.token,
+                       options.audit_file);
+  daemon.core().set_players(label_players(robots));
   WebPages pages(data_path());
   Network network(options.network, make_access_rules(options), daemon.core(), pages);
 
   network.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
   network.every(kStepPeriod, [&daemon] { daemon.step(monotonic_seconds()); });
   network.every(kStatusPeriod, [&daemon] { daemon.publish_status(monotonic_seconds()); });
-  logger::info("version {}, bus {}, robot {} from {}", version(), common.lcm_url, common.robot,
-               folder.string());
   logger::info("HTTP and WebSocket on {}:{}, TCP on {}:{}", options.network.bind,
                network.http_port(), options.network.bind, network.tcp_port());
   const std::vector<std::string> urls = addresses_for_phones(options, network.http_port());
@@ -164,8 +258,20 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   pages.add_page("/qr.png", {"image/png", true, [url = urls.front()] {
                                return draw_as_png(make_qr_code(url), kQrScale);
                              }});
+  const std::optional<Announcement> announcement = make_announcement(options, robots, network);
+  ServiceDiscovery discovery(announcement);
+  DiscoveryLog discovery_log;
+  if (announcement) {
+    network.every(kDiscoveryPeriod, [&] {
+      discovery.step(monotonic_seconds());
+      discovery_log.write(discovery, network.http_port());
+    });
+  }
+  pages.add_page("/gateways",
+                 {"application/json", false, [&discovery] { return gateways_to_json(discovery); }});
   daemon.publish_status(monotonic_seconds());
 
+  // First the last messages of the core, then time to send them.
   const std::string reason = network.run();
   daemon.shut_down(monotonic_seconds());
   network.drain(kDrainTime);
@@ -180,11 +286,11 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
 
 int main(int argc, char** argv) {
   nao::CommandLine app(
-      "Lets phones drive the robot: the app over HTTP, the protocol over WebSocket and TCP",
+      "Lets phones drive robots: the app over HTTP, the protocol over WebSocket and TCP",
       "nao-phone-gateway");
   nao::CommonOptions common;
   nao::gateway::GatewayOptions options;
-  nao::add_common_options(app, common);
+  nao::add_bus_options(app, common);
   nao::gateway::add_gateway_options(app, options);
   return nao::run_program(app, common, argc, argv,
                           [&] { nao::gateway::run_gateway(common, std::move(options)); });

@@ -12,6 +12,9 @@ Only the left links are modeled; the right ones are their mirror images.
 import argparse
 import math
 import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 
 from mesh import Mesh
 from solids import Tube, ball, limb, patch, puck, revolve, skin

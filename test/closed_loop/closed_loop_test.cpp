@@ -35,6 +35,26 @@ TEST_P(ControlPeriod, HoldsAWalkByTime) {
 INSTANTIATE_TEST_SUITE_P(Milliseconds, ControlPeriod, testing::Values(10, 12),
                          [](const auto& info) { return std::to_string(info.param); });
 
+TEST(ClosedLoop, KeepsAResultOfARepeatedWalkOnce) {
+  ClosedLoop loop(options_with_tick(10), 1);
+  loop.run(1);
+  const int64_t walk = loop.hold_walk({0.1, 0, 0});
+  // The core answers each of 50 commands.
+  loop.run(10);
+  ASSERT_EQ(loop.results().size(), 1u);
+  EXPECT_EQ(loop.results()[0].id, walk);
+  EXPECT_EQ(loop.results()[0].status, ResultStatus::kAccepted);
+  loop.release_walk();
+  ASSERT_TRUE(loop.await_end(walk, 10));
+  EXPECT_LE(loop.results().size(), 2u);
+  // Another walk has results of its own.
+  const int64_t next = loop.hold_walk({0.1, 0, 0});
+  loop.run(1);
+  EXPECT_EQ(loop.results().back().id, next);
+  EXPECT_EQ(loop.take_results().back().id, next);
+  EXPECT_TRUE(loop.results().empty());
+}
+
 TEST(ClosedLoop, RejectsAControlPeriodBetweenPhysicsSteps) {
   EXPECT_THROW(ClosedLoop(options_with_tick(11), 1), ConfigError);
   EXPECT_THROW(ClosedLoop(options_with_tick(-2), 1), ConfigError);

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <naolcm/posture_command_t.hpp>
 #include <naolcm/stop_command_t.hpp>
 #include <stdexcept>
+#include <vector>
 
 #include "common/error.h"
 
@@ -43,6 +45,31 @@ TEST(Bus, DropsAndCountsAMessageOfAnotherType) {
   bus.publish("POSTURE", other);
   bus.handle_for(1.0);
   EXPECT_EQ(num_received, 0);
+  EXPECT_EQ(bus.counters().num_dropped, 1);
+}
+
+/** Bytes that are sent as a message. */
+struct EncodedMessage {
+  std::vector<uint8_t> bytes;
+  int getEncodedSize() const { return static_cast<int>(bytes.size()); }
+  int encode(void* buffer, int /*offset*/, int size) const {
+    std::memcpy(buffer, bytes.data(), size);
+    return size;
+  }
+};
+
+TEST(Bus, DropsAMessageWithATextOfLengthZero) {
+  Bus bus("memq://");
+  bus.subscribe<naolcm::stop_command_t>("STOP", Bus::Queue::kAll,
+                                        [](const naolcm::stop_command_t&) {});
+  const naolcm::stop_command_t message{};
+  EncodedMessage damaged{std::vector<uint8_t>(message.getEncodedSize())};
+  message.encode(damaged.bytes.data(), 0, damaged.getEncodedSize());
+  // The length of `source` comes after fingerprint, utime and wall_utime, and counts the final
+  // zero: LCM's decoder throws std::length_error for 0.
+  damaged.bytes.at(8 + 8 + 8 + 3) = 0;
+  bus.publish("STOP", damaged);
+  bus.handle_for(1.0);
   EXPECT_EQ(bus.counters().num_dropped, 1);
 }
 

@@ -57,6 +57,29 @@ class Operator(unittest.TestCase):
         self.assertEqual(refused.returncode, 1)
         self.assertIn("refused", refused.stderr)
 
+    def test_lets_a_client_watch_only(self):
+        ana = self.phone("Ana")
+        number = str(ana.connected.client_id)
+        self.assertEqual(self.driver("mute", number).returncode, 0)
+        with self.assertRaises(phone.Refused) as refused:
+            ana.ask(take_control=pb.TakeControl())
+        self.assertEqual(refused.exception.response.reason_code, "muted-by-operator")
+        clients = {client["name"]: client for client in json.loads(self.driver("list", "--json").stdout)}
+        self.assertTrue(clients["Ana"]["is_muted"])
+        self.assertEqual(self.driver("unmute", number).returncode, 0)
+        self.assertTrue(ana.ask(take_control=pb.TakeControl()).control.is_mine)
+
+    def test_gives_control_to_a_client(self):
+        ana, ben = self.phone("Ana"), self.phone("Ben")
+        ana.ask(take_control=pb.TakeControl())
+        self.assertEqual(self.driver("assign", str(ben.connected.client_id), "NAO").returncode, 0)
+        with self.assertRaises(phone.Refused) as refused:
+            ana.ask(take_control=pb.TakeControl())
+        self.assertEqual(refused.exception.response.control.driver_name, "Ben")
+        unknown = self.driver("assign", str(ben.connected.client_id), "NAO9")
+        self.assertEqual(unknown.returncode, 1)
+        self.assertIn("NAO9", unknown.stderr)
+
     def test_reports_a_missing_gateway(self):
         result = subprocess.run([str(BIN_DIR / "nao"), "driver", "--port", "1", "list"], capture_output=True,
                                 text=True, timeout=DEADLINE, check=False)

@@ -17,7 +17,7 @@ from other_host import OtherHost, enter_private_network
 from nao_remote import remote_pb2 as pb
 
 TOKEN = "test-token"
-CLIENTS_PER_ADDRESS = 8
+CLIENTS_PER_ADDRESS = 32
 
 
 class OtherHostTest(WalkingTest):

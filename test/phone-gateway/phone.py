@@ -30,7 +30,7 @@ class Refused(Exception):
 class Phone:
     """Connects at once. Use it in a with statement, and call a waiting method at least every 4 s."""
 
-    def __init__(self, host="127.0.0.1", port=7668, token="", name="python", timeout=5.0):
+    def __init__(self, host="127.0.0.1", port=7668, token="", name="python", timeout=5.0, robot=""):
         self.timeout = timeout
         self.state = None  # newest State
         self.image = None  # newest Image
@@ -46,7 +46,7 @@ class Phone:
             raise ConnectionLost(f"no gateway at {host} port {port}: {error}") from error
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         hello = pb.Connect(protocol_version=PROTOCOL_VERSION, token=token, client_name=name,
-                           client_software="nao-remote test")
+                           client_software="nao-remote test", robot=robot)
         try:
             self.connected = self.ask(connect=hello).connected
         except (ConnectionLost, Refused):

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections import deque
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -38,11 +39,12 @@ def wait_until(condition, what, timeout=DEADLINE):
 
 
 class Program:
-    """A running program. Its log is in .log, a list of lines."""
+    """A running program. The last lines of its log are in .log."""
 
     def __init__(self, name, *options):
         self.name = name
-        self.log = []
+        # The last lines: in a test of an hour they must not be the memory that grows.
+        self.log = deque(maxlen=1000)
         self.process = subprocess.Popen(
             [str(BIN_DIR / name), *[str(option) for option in options]],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -120,6 +122,11 @@ class Robot:
         before = self.programs.get("nao-phone-gateway")
         ports = {"http_port": before.http_port, "tcp_port": before.tcp_port} if before else {}
         self.programs["nao-phone-gateway"] = Gateway(lcm_url=self.lcm_url, bind=self.bind, **ports)
+
+    def start_speaker(self):
+        """Starts the speech program without sound."""
+        self.start("nao-speaker", "--output", "none")
+        self.nao("status", "--wait", "nao-speaker", "--timeout", DEADLINE)
 
     @property
     def gateway(self):

@@ -199,15 +199,15 @@ class WebSocket(unittest.TestCase):
 
     def test_the_longest_message_is_accepted_and_one_byte_more_is_refused(self):
         connection = self.connected()
-        connection.send_frame(BINARY, b"\xff" * 65536)
+        connection.send_frame(BINARY, b"\xff" * 262144)
         self.assertEqual(connection.response(0).error, pb.INVALID_REQUEST)
-        connection.send_frame(BINARY, b"\xff" * 65537)
+        connection.send_frame(BINARY, b"\xff" * 262145)
         self.assertEqual(connection.close_code(), 1009)
 
     def test_a_message_that_grows_too_long_in_fragments_is_refused(self):
         connection = self.connected()
-        connection.send_frame(BINARY, b"\xff" * 40000, is_final=False)
-        connection.send_frame(CONTINUATION, b"\xff" * 40000)
+        connection.send_frame(BINARY, b"\xff" * 140000, is_final=False)
+        connection.send_frame(CONTINUATION, b"\xff" * 140000)
         self.assertEqual(connection.close_code(), 1009)
 
     def test_a_length_of_exabytes_is_refused_at_once(self):

@@ -5,12 +5,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 #include "common/data_path.h"
 #include "common/error.h"
 #include "rendering/gl.h"
 #include "rendering/primitives.h"
-#include "rendering/robot_visual.h"
+#include "rendering/robot_shirt.h"
+#include "rendering/robot_visuals.h"
 #include "test/rendering/offscreen.h"
 
 namespace nao {
@@ -203,6 +205,97 @@ TEST(RobotVisual, DrawsCollisionShapesForAMeshThatCannotBeRead) {
   const Image with = offscreen.draw(scene, kCamera, pose);
   const Image without = offscreen.draw({}, kCamera, pose);
   EXPECT_GT(difference(with, without, 160, 120), 20) << "no chest in the middle of the image";
+}
+
+TEST(RobotVisual, DrawsTheLightsThatAreLit) {
+  const RobotModel model = RobotModel::load(data_path() / "robots" / "nao");
+  Offscreen offscreen(RendererOptions{.shadow_size = 0});
+  const RobotVisual visual(model, offscreen.renderer);
+  Eigen::Isometry3d torso = Eigen::Isometry3d::Identity();
+  torso.translation().z() = 0.33;
+  const auto poses = link_poses_in_world(model, torso, model.find_posture("StandInit")->position);
+  Scene scene;
+  visual.append(scene, poses);
+  // The chest's button, from 10 cm ahead of it.
+  const Eigen::Isometry3d pose = look_at({0.17, 0, 0.383}, {0, 0, 0.383});
+  const Image dark = offscreen.draw(scene, kCamera, pose);
+  visual.append_lights(scene, poses, {{"chest", {1, 0, 0}}, {"tail", {0, 1, 0}}});
+  const Image lit = offscreen.draw(scene, kCamera, pose);
+  EXPECT_GT(difference(lit, dark, 160, 120), 60);
+  // Not beside it, and not if its link is hidden.
+  EXPECT_LT(difference(lit, dark, 20, 120), 2);
+  Scene hidden;
+  visual.append_lights(hidden, poses, {{"chest", {1, 0, 0}}}, model.find_link("torso"));
+  EXPECT_TRUE(hidden.triangles.empty());
+}
+
+/** Pixels of a team's shirt: much more blue than red, or the other way round; and white ones. */
+struct ShirtPixels {
+  int blue = 0;
+  int red = 0;
+  int white = 0;
+};
+
+ShirtPixels count_shirt_pixels(const Image& image) {
+  ShirtPixels count;
+  for (int v = 60; v < 180; ++v) {
+    for (int u = 100; u < 220; ++u) {
+      const uint8_t* pixel = image.at(u, v);
+      if (pixel[2] > 2 * pixel[0]) ++count.blue;
+      if (pixel[0] > 2 * pixel[2]) ++count.red;
+      if (std::min({pixel[0], pixel[1], pixel[2]}) > 240) ++count.white;
+    }
+  }
+  return count;
+}
+
+TEST(RobotVisuals, DrawEveryModelWithTheShirtOfItsTeam) {
+  const RobotModel own = RobotModel::load(data_path() / "robots" / "nao");
+  const auto other =
+      std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots/t1"));
+  Offscreen offscreen(RendererOptions{.shadow_size = 0});
+  RobotVisuals visuals(own, offscreen.renderer);
+  for (const bool is_own : {true, false}) {
+    const RobotModel& model = is_own ? own : *other;
+    RobotPose robot;
+    robot.name = "ROBOT";
+    if (!is_own) robot.model = other;
+    robot.position.assign(model.num_motors(), 0.0);
+    robot.pose_torso_in_world.translation().z() = 1;
+    const double distance = is_own ? 0.6 : 1.5;
+    for (const double side : {1.0, -1.0}) {
+      const Eigen::Isometry3d view = look_at({side * distance, 0, 1.02}, {0, 0, 1.02});
+      const auto draw = [&](int team, int number) {
+        robot.team = team;
+        robot.number = number;
+        Scene scene;
+        visuals.append(scene, robot);
+        return count_shirt_pixels(offscreen.draw(scene, kCamera, view));
+      };
+      const ShirtPixels none = draw(0, 0);
+      const ShirtPixels blue = draw(0, 1);
+      const ShirtPixels red = draw(1, 8);
+      EXPECT_GT(blue.blue, none.blue + 300) << model.name() << side;
+      EXPECT_GT(red.red, none.red + 300) << model.name() << side;
+      EXPECT_LT(red.blue, none.blue + 50) << model.name() << side;
+      EXPECT_GT(blue.white, none.white + 10) << model.name() << side;
+      EXPECT_GT(red.white, blue.white + 20) << "8 has more strokes than 1";
+    }
+  }
+}
+
+TEST(RobotShirt, FollowsTheConvexOutlineOfTheTorso) {
+  const RobotShirt shirt = make_shirt(make_box({0.2f, 0.1f, 0.4f}, Color::Ones()));
+  ASSERT_FALSE(shirt.band.indices.empty());
+  for (const Vertex& vertex : shirt.band.vertices) {
+    EXPECT_NEAR(std::abs(vertex.position.x()), 0.1, 0.005);
+    EXPECT_NEAR(std::abs(vertex.position.y()), 0.05, 0.005);
+    EXPECT_GT(vertex.position.z(), -0.11);
+    EXPECT_LT(vertex.position.z(), 0.09);
+  }
+  EXPECT_GT(shirt.front, 0.1);
+  EXPECT_LT(shirt.back, -0.1);
+  EXPECT_TRUE(make_shirt({}).band.indices.empty());
 }
 
 TEST(RobotVisual, HidesTheLinkThatCarriesTheCamera) {

@@ -8,6 +8,7 @@
 
 #include "closed_loop/closed_loop.h"
 #include "common/data_path.h"
+#include "daemons/motion/walk/gait.h"
 #include "kinematics/leg_kinematics.h"
 #include "test/support/test_biped.h"
 
@@ -53,7 +54,8 @@ TEST(RobotImport, ListsWhatIsMissing) {
   for (const Finding& finding : check_robot(folder.path() / "biped")) {
     lines.push_back(to_line(finding));
   }
-  EXPECT_THAT(lines, testing::Contains(testing::HasSubstr("walking: there is no gait")));
+  EXPECT_THAT(lines, testing::Contains(
+                         testing::HasSubstr("walking: the gait is scaled by the legs' length")));
   EXPECT_THAT(lines, testing::Contains(testing::HasSubstr("kicks")));
   EXPECT_THAT(lines, testing::Not(testing::Contains(testing::HasSubstr("standing:"))));
 }
@@ -89,6 +91,39 @@ TEST(RobotT1, Stands) {
     EXPECT_GT(trial.torso_height(), 0.95 * model->references().heights.standing);
     EXPECT_LT(trial.torso_in_world().translation().head<2>().norm(), 0.1) << "seed " << seed;
   }
+}
+
+// It has no foot force sensors: contact comes from the joint torques.
+TEST(RobotT1, WalksAheadAndStops) {
+  ClosedLoopOptions options;
+  options.model =
+      std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / "t1"));
+  for (uint64_t seed = 1; seed <= 2; ++seed) {
+    ClosedLoop trial(options, seed);
+    trial.run(1);
+    const int64_t walk = trial.hold_walk({0.25, 0, 0});
+    trial.run(8);
+    EXPECT_GT(trial.torso_in_world().translation().head<2>().norm(), 1.2) << "seed " << seed;
+    trial.release_walk();
+    const auto end = trial.await_end(walk, 10);
+    EXPECT_TRUE(end && end->status == ResultStatus::kDone) << "seed " << seed;
+    EXPECT_LT(trial.torso_tilt(), 0.15) << "seed " << seed;
+  }
+}
+
+TEST(RobotImport, GivesAGaitOfTheSizeOfTheLegs) {
+  const TemporaryFolder folder;
+  TestBiped large;
+  large.thigh = large.shank = 0.4;
+  TestBiped small;
+  small.thigh = small.shank = 0.1;
+  const auto step_duration = [&](const TestBiped& dimensions) {
+    std::filesystem::remove_all(folder.path() / "biped");
+    import(folder.path(), dimensions);
+    return motion::Gait::load(folder.path() / "biped" / "gait.yaml").timing.step_duration;
+  };
+  // Dynamic similarity: times with the square root of the length.
+  EXPECT_NEAR(step_duration(large) / step_duration(small), 2, 1e-3);
 }
 
 }  // namespace

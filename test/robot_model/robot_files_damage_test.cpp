@@ -51,7 +51,7 @@ TEST(RobotFiles, NeverCrashTheReaderHoweverDamaged) {
   const CopiedRobot robot;
   std::mt19937 random(20140613);
   int num_refused = 0;
-  constexpr int kVariants = 3000;
+  constexpr int kVariants = 1500;
   for (int i = 0; i < kVariants; ++i) {
     const std::string& file = kRobotFiles[i % kRobotFiles.size()];
     const std::string whole = robot.read(file);

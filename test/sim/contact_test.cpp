@@ -107,6 +107,20 @@ double lowest_point(const World& world, int robot) {
   return lowest;
 }
 
+TEST(Contact, HeavyRobotSinksInAsDeepAsALightOne) {
+  const auto depth = [](const std::string& mass) {
+    World world{SceneFile{}};
+    RobotOptions options;
+    options.posture = "Start";
+    const int block = world.add_robot(make_block(mass), options);
+    for (int i = 0; i < 100; ++i) world.step_tick();
+    return -world.robot(block).state().position.z();
+  };
+  EXPECT_GT(depth("6"), 1e-4);
+  EXPECT_NEAR(depth("60"), depth("6"), 1e-6);
+  EXPECT_NEAR(depth("3"), depth("6") / 2, 1e-6);
+}
+
 TEST(Contact, FloorStopsAPushedBodyWithinTheStep) {
   World world{SceneFile{}};
   RobotOptions options;

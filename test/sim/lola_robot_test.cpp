@@ -116,10 +116,10 @@ TEST_F(SimulatedLola, ButtonsArePressedByTheWorld) {
 
 TEST(SimCoreWithLola, ServesOneRobotThatHasTheFile) {
   SimOptions options = lola_options();
-  options.robots = {"NAO", "NAO2"};
+  options.robots = {{"NAO", "nao"}, {"NAO2", "nao"}};
   EXPECT_THROW(SimCore{options}, ConfigError);
   options = lola_options();
-  options.model = "t1";
+  options.robots = {{"NAO", "t1"}};
   EXPECT_THROW(SimCore{options}, ModelError);
 }
 

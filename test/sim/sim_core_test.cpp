@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/error.h"
@@ -16,7 +17,7 @@ class SimCoreTest : public testing::Test {
   static SimOptions options() {
     SimOptions options;
     options.ideal_sensors = true;
-    options.robots = {"NAO", "OTHER"};
+    options.robots = {{"NAO", "nao"}, {"OTHER", "nao"}};
     return options;
   }
 
@@ -111,6 +112,32 @@ TEST_F(SimCoreTest, PlacesAndPushes) {
   EXPECT_GT(core_.world().ball().velocity.x(), 1);
 }
 
+TEST_F(SimCoreTest, DragsALimpArmUntilTheCommandsEnd) {
+  const RobotModel& model = core_.world().robot(0).model();
+  const int wrist = model.find_link("LWrist");
+  const auto wrist_in_torso = [&] {
+    const SimRobot& robot = core_.world().robot(0);
+    return Eigen::Vector3d(robot.link_pose(0).inverse() * robot.link_pose(wrist).translation());
+  };
+  for (const char* joint : {"LShoulderPitch", "LShoulderRoll", "LElbowYaw", "LElbowRoll"}) {
+    ASSERT_FALSE(core_.take_joint_command(0, {core_.world().tick(), {joint}, {0}, {0}}, now_));
+  }
+  run(1.5);
+  const Eigen::Vector3d hanging = wrist_in_torso();
+  const Eigen::Vector3d target(0.15, 0.15, 0.1);
+  for (int i = 0; i < 30; ++i) {
+    WorldCommand drag = command("drag-in-torso");
+    drag.link = "LWrist";
+    drag.target = target;
+    ASSERT_EQ(execute(drag), "");
+    run(0.1);
+  }
+  EXPECT_LT((wrist_in_torso() - target).norm(), 0.03);
+  run(2);
+  // Friction stops the joints before the arm hangs as it did.
+  EXPECT_LT((wrist_in_torso() - hanging).norm(), 0.1);
+}
+
 TEST_F(SimCoreTest, RejectsInvalidWorldCommandsWithASentence) {
   const double nan = std::nan("");
   const auto expect_rejected = [&](const WorldCommand& command, const std::string& part) {
@@ -118,9 +145,8 @@ TEST_F(SimCoreTest, RejectsInvalidWorldCommandsWithASentence) {
     EXPECT_NE(error.find(part), std::string::npos) << command.name << ": " << error;
   };
   expect_rejected(command("fly"), "unknown world command \"fly\"");
-  for (const char* later : {"drag", "add-robot", "remove-robot"}) {
-    expect_rejected(command(later), "not supported");
-  }
+  expect_rejected(command("add-robot"), "a robot's name consists of");
+  expect_rejected(command("remove-robot"), "there is no robot \"\"");
   expect_rejected(command("step"), "1 or more");
   WorldCommand wrong = command("set-pace");
   wrong.pace = -1;
@@ -140,6 +166,17 @@ TEST_F(SimCoreTest, RejectsInvalidWorldCommandsWithASentence) {
   wrong = command("place-ball");
   wrong.velocity.x() = nan;
   expect_rejected(wrong, "velocity (nan, 0, 0)");
+  wrong = command("drag");
+  wrong.link = "Tail";
+  expect_rejected(wrong, "no link \"Tail\"");
+  wrong = command("drag");
+  wrong.link = "LWrist";
+  wrong.point.x() = 2;
+  expect_rejected(wrong, "within 1 m");
+  wrong = command("drag");
+  wrong.link = "LWrist";
+  wrong.target.z() = nan;
+  expect_rejected(wrong, "target (0, 0, nan)");
   wrong = command("push");
   wrong.link = "Tail";
   expect_rejected(wrong, "no link \"Tail\"");
@@ -193,6 +230,137 @@ TEST(SimCore, RunsAtTheControlPeriodOfItsOptions) {
     options.tick_ms = invalid;
     EXPECT_THROW(SimCore{options}, ConfigError) << invalid;
   }
+}
+
+TEST_F(SimCoreTest, ObeysLightCommandsForEachRobotAndForgetsThemWithAReset) {
+  const auto index = [&](const std::string& name) {
+    const std::vector<std::string>& names = core_.lights(0).names();
+    return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const LightColor red{1, 0, 0};
+  const LightColor blue{0, 0, 1};
+  const LightColor dark{};
+  EXPECT_EQ(core_.lights(0).color(index("chest")), dark);
+  EXPECT_EQ(core_.take_light_command(0, {{"chest"}, {red}, 0}), std::nullopt);
+  EXPECT_EQ(core_.take_light_command(0, {{"left-eye"}, {blue}, 0.1}), std::nullopt);
+  EXPECT_EQ(core_.take_light_command(0, {{"tail"}, {red}, 0})->code, "light-unknown");
+  run(0.05);
+  EXPECT_EQ(core_.lights(0).color(index("chest")), red);
+  EXPECT_EQ(core_.lights(0).color(index("left-eye")), blue);
+  EXPECT_EQ(core_.lights(1).color(index("chest")), dark);
+  run(0.1);
+  EXPECT_EQ(core_.lights(0).color(index("left-eye")), dark);
+  EXPECT_EQ(execute(command("reset")), "");
+  EXPECT_EQ(core_.lights(0).color(index("chest")), dark);
+}
+
+TEST(SimCore, HasTwoTeamsThatFaceEachOtherAndTheBallBetweenThem) {
+  SimOptions options;
+  options.robots = {{"NAO1", "nao"}, {"NAO2", "nao"}, {"NAO3", "nao"}, {"NAO4", "nao"}};
+  const SimCore core(options);
+  EXPECT_EQ(core.world().ball().position.head<2>(), Eigen::Vector2d::Zero());
+  for (int i = 0; i < 4; ++i) {
+    const RobotOption& player = core.options().robots[static_cast<size_t>(i)];
+    EXPECT_EQ(player.team, i / 2);
+    EXPECT_EQ(player.number, i % 2 + 1);
+    const TreeState& state = core.world().robot(i).state();
+    const double toward_center = (state.orientation * Eigen::Vector3d::UnitX()).x();
+    EXPECT_NEAR(toward_center, i < 2 ? 1 : -1, 0.01);
+    EXPECT_LT(toward_center * state.position.x(), -0.8);
+  }
+}
+
+TEST(SimCore, AddsAndRemovesRobotsWhileItRuns) {
+  SimOptions options;
+  options.ideal_sensors = true;
+  options.lock_step = true;
+  options.robots = {{"A", "nao"}, {"B", "nao"}, {"C", "nao"}};
+  SimCore core(options);
+  int64_t last_id = 0;
+  const auto execute = [&](const std::string& name, const std::string& robot, double x,
+                           const std::string& model = "") {
+    WorldCommand command;
+    command.source = "test";
+    command.id = ++last_id;
+    command.name = name;
+    command.robot = robot;
+    command.model = model;
+    command.position.x() = x;
+    core.take_world_command(command, 0);
+    return core.last_world_command().error;
+  };
+  // Every robot answers.
+  const auto run = [&](int num_ticks) {
+    for (int i = 0; i < num_ticks; ++i) {
+      for (int robot = 0; robot < core.world().num_robots(); ++robot) {
+        const int64_t tick = core.world().sensors(robot).tick;
+        ASSERT_EQ(tick, core.world().tick());
+        ASSERT_FALSE(core.may_tick());
+        ASSERT_FALSE(core.take_joint_command(robot, {tick, {}, {}, {}}, 0));
+      }
+      ASSERT_TRUE(core.may_tick());
+      core.run_tick(0);
+    }
+  };
+  run(50);
+  EXPECT_EQ(execute("add-robot", "D", 2, "t1"), "");
+  EXPECT_EQ(execute("add-robot", "E", -2), "");
+  ASSERT_EQ(core.world().num_robots(), 5);
+  EXPECT_EQ(core.world().sensors(3).time, core.world().sensors(0).time);
+  run(50);
+  EXPECT_EQ(execute("remove-robot", "B", 0), "");
+  EXPECT_EQ(execute("remove-robot", "A", 0), "");
+  ASSERT_EQ(core.world().num_robots(), 3);
+  EXPECT_EQ(core.find_robot("C"), 0);
+  EXPECT_EQ(core.find_robot("D"), 1);
+  EXPECT_EQ(core.find_robot("A"), -1);
+  const double place = core.world().robot(1).state().position.x();
+  run(200);
+  EXPECT_NEAR(core.world().robot(1).state().position.x(), place, 0.02);
+  EXPECT_GT(core.world().robot(0).state().position.z(), 0.3);
+  EXPECT_GT(core.world().robot(1).state().position.z(), 0.5);
+  EXPECT_GT(core.world().robot(2).state().position.z(), 0.3);
+  EXPECT_FALSE(core.world().contacts().empty());
+  // The same name again, at the place of another one that has left.
+  EXPECT_EQ(execute("add-robot", "A", 0), "");
+  run(100);
+  EXPECT_EQ(execute("reset", "", 0), "");
+  run(20);
+  EXPECT_NEAR(core.world().robot(1).state().position.x(), 2, 0.1);
+
+  EXPECT_NE(execute("add-robot", "D", 4), "") << "the name is taken";
+  EXPECT_NE(execute("add-robot", "lower case", 4), "");
+  EXPECT_NE(execute("add-robot", "F", 2.1), "") << "D stands there";
+  EXPECT_NE(execute("add-robot", "F", 4, "../robots/nao"), "");
+  EXPECT_NE(execute("add-robot", "F", 4, "r2d2"), "");
+  EXPECT_NE(execute("remove-robot", "F", 0), "");
+  EXPECT_NE(execute("remove-robot", "", 0), "");
+  for (const char* name : {"C", "D", "E"}) EXPECT_EQ(execute("remove-robot", name, 0), "");
+  EXPECT_NE(execute("remove-robot", "A", 0), "") << "the last one";
+  run(20);
+}
+
+TEST(SimCore, HasRobotsOfDifferentModelsThatStand) {
+  SimOptions options;
+  options.robots = {{"A", "nao"}, {"B", "t1"}, {"C", "nao_v6"}};
+  SimCore core(options);
+  const auto height = [&](int robot) { return core.world().robot(robot).state().position.z(); };
+  const double before[] = {height(0), height(1), height(2)};
+  for (int tick = 0; tick < 200; ++tick) core.run_tick(0.01 * (tick + 1));
+  for (int robot = 0; robot < 3; ++robot) EXPECT_NEAR(height(robot), before[robot], 0.02);
+  EXPECT_NE(core.world().robot(0).model().num_motors(), core.world().robot(1).model().num_motors());
+
+  WorldCommand push;
+  push.source = "test";
+  push.id = 1;
+  push.name = "push";
+  push.robot = "B";
+  push.impulse = {5, 0, 0};
+  core.take_world_command(push, 2);
+  EXPECT_EQ(core.last_world_command().error, "");
+  core.run_tick(2.01);
+  EXPECT_GT(core.world().robot(1).state().velocity[3], 0.05);
+  EXPECT_LT(std::abs(core.world().robot(0).state().velocity[3]), 0.01);
 }
 
 }  // namespace

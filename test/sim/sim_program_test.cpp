@@ -4,12 +4,14 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <naolcm/daemon_status_t.hpp>
 #include <naolcm/joint_command_t.hpp>
 #include <naolcm/sensor_state_t.hpp>
 #include <naolcm/world_command_t.hpp>
 #include <naolcm/world_truth_t.hpp>
 #include <optional>
+#include <string>
 
 #include "common/bus.h"
 #include "common/channels.h"
@@ -318,7 +320,85 @@ TEST_F(SimProgram, RunsAtAnotherControlPeriod) {
   EXPECT_EQ(truth_->robots.at(0).model, "nao");
 }
 
+TEST_F(SimProgram, AnswersEveryRobotOnItsOwnChannels) {
+  start({"--lock-step", "--robot", "NAO", "--robot", "NAO2", "--robot", "BIG:t1"});
+  std::map<std::string, naolcm::sensor_state_t> others;
+  const auto answer = [&](const std::string& robot, const naolcm::sensor_state_t& sensed) {
+    bus_.publish(RobotChannels(robot).joint_command, command(sensed.tick, {}, {}, {}));
+  };
+  on_sensors_ = [&](const naolcm::sensor_state_t& sensed) { answer("NAO", sensed); };
+  bool is_last_answered = false;
+  for (const std::string robot : {"NAO2", "BIG"}) {
+    bus_.subscribe<naolcm::sensor_state_t>(RobotChannels(robot).sensor_state, Bus::Queue::kAll,
+                                           [&, robot](const naolcm::sensor_state_t& sensed) {
+                                             others[robot] = sensed;
+                                             if (robot != "BIG" || is_last_answered)
+                                               answer(robot, sensed);
+                                           });
+  }
+  ASSERT_TRUE(
+      wait_for([&] { return status_ && status_->detail == "waiting for BIG_JOINT_COMMAND"; }));
+  EXPECT_EQ(truth_->tick, 0);
+  is_last_answered = true;
+  ASSERT_TRUE(wait_for([&] { return truth_->tick > 100; }));
+  EXPECT_NE(others["BIG"].num_joints, sensors_->num_joints);
+  ASSERT_EQ(truth_->num_robots, 3);
+  EXPECT_EQ(truth_->robots[1].robot, "NAO2");
+  EXPECT_EQ(truth_->robots[1].model, "nao");
+  EXPECT_EQ(truth_->robots[2].model, "t1");
+  EXPECT_EQ(truth_->robots[2].number, 0) << "no match";
+
+  naolcm::world_command_t message{};
+  message.command = "place-robot";
+  message.robot = "NAO2";
+  message.position_in_world[0] = 2;
+  EXPECT_EQ(ask(message), "");
+  EXPECT_EQ(truth_->robots[1].position_torso_in_world[0], 2);
+  EXPECT_NEAR(truth_->robots[0].position_torso_in_world[0], 0, 0.05);
+  message.robot = "NAO3";
+  EXPECT_NE(ask(message), "");
+}
+
+TEST_F(SimProgram, AddsARobotThatObeysAndRemovesIt) {
+  start({});
+  ASSERT_TRUE(wait_for([&] { return truth_ && truth_->tick > 10; }));
+  naolcm::world_command_t message{};
+  message.command = "add-robot";
+  message.robot = "NEW";
+  message.position_in_world[0] = -1;
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_EQ(ask(message), "");
+    ASSERT_EQ(truth_->num_robots, 2);
+    EXPECT_EQ(truth_->robots[1].robot, "NEW");
+    ASSERT_TRUE(wait_for([&] {
+      bus_.publish(RobotChannels("NEW").joint_command, command(0, {"HeadYaw"}, {0.7}, {1}));
+      return truth_->robots[1].joint_position[0] > 0.6;
+    }));
+    EXPECT_NEAR(truth_->robots[0].joint_position[0], 0, 0.05);
+    naolcm::world_command_t removal{};
+    removal.command = "remove-robot";
+    removal.robot = "NEW";
+    EXPECT_EQ(ask(removal), "");
+    EXPECT_EQ(truth_->num_robots, 1);
+    bus_.publish(RobotChannels("NEW").joint_command, command(0, {"HeadYaw"}, {0.7}, {1}));
+    const int64_t tick = truth_->tick;
+    ASSERT_TRUE(wait_for([&] { return truth_->tick > tick + 20; }));
+  }
+}
+
+TEST_F(SimProgram, PublishesTeamsAndNumbers) {
+  start({"--robot", "A:nao:0:7", "--robot", "B:nao:1:2"});
+  ASSERT_TRUE(wait_for([&] { return truth_.has_value(); }));
+  EXPECT_EQ(truth_->robots[0].team, 0);
+  EXPECT_EQ(truth_->robots[0].number, 7);
+  EXPECT_EQ(truth_->robots[1].team, 1);
+  EXPECT_EQ(truth_->robots[1].number, 2);
+}
+
 TEST_F(SimProgram, ReportsAnInvalidCommandLine) {
+  EXPECT_EQ(ChildProgram("nao-sim", {"--robot", "A", "--robot", "A"}).wait(), 1);
+  EXPECT_EQ(ChildProgram("nao-sim", {"--robot", "nao 1"}).wait(), 2);
+
   EXPECT_NE(ChildProgram("nao-sim", {"--lcm-url", private_bus_url(), "--tick-ms", "11"}).wait(), 0);
   EXPECT_EQ(ChildProgram("nao-sim", {"--pace", "-1"}).wait(), 2);
   EXPECT_EQ(ChildProgram("nao-sim", {"--lcm-url", private_bus_url(), "--scene", "moon"}).wait(), 1);

@@ -44,10 +44,12 @@ inline const char* ideal_motor() {
          "viscous_friction: 0, stiffness_gain: 100, damping_gain: 1}";
 }
 
-/** A block of 1 kg, 0.2 x 0.2 x 0.05 m, its frame at the center of its lower side. */
-inline std::shared_ptr<const RobotModel> make_block() {
+/** A block, 0.2 x 0.2 x 0.05 m, its frame at the center of its lower side. @param mass  kg. */
+inline std::shared_ptr<const RobotModel> make_block(const std::string& mass = "1") {
   return make_robot(R"(<robot name="block"><link name="torso">
-    <inertial><origin xyz="0 0 0.025"/><mass value="1"/>
+    <inertial><origin xyz="0 0 0.025"/><mass value=")" +
+                        mass +
+                        R"("/>
       <inertia ixx="0.00354" iyy="0.00354" izz="0.00667" ixy="0" ixz="0" iyz="0"/></inertial>
     <collision name="block"><origin xyz="0 0 0.025"/>
       <geometry><box size="0.2 0.2 0.05"/></geometry></collision>

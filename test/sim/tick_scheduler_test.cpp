@@ -47,7 +47,9 @@ TEST(TickScheduler, WaitsInLockStepForAllRobots) {
   TickScheduler scheduler(2, kPeriod, true, 1);
   EXPECT_EQ(scheduler.pace(), 0);
   EXPECT_FALSE(scheduler.may_run(0));
+  EXPECT_EQ(scheduler.awaited_robot(0), 0);
   scheduler.note_command(0, 0, 0);
+  EXPECT_EQ(scheduler.awaited_robot(0), 1);
   EXPECT_FALSE(scheduler.may_run(0));
   scheduler.note_command(1, 0, 0);
   EXPECT_TRUE(scheduler.may_run(0));

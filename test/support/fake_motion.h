@@ -25,8 +25,12 @@ namespace nao {
  * rest in any. */
 class FakeMotion {
  public:
-  FakeMotion(Bus& bus, std::vector<std::string> joint_names)
-      : bus_(bus), joint_names_(std::move(joint_names)), joint_position_(joint_names_.size()) {
+  /** @param robot  Prefix of its channels. */
+  FakeMotion(Bus& bus, std::vector<std::string> joint_names, const std::string& robot = "NAO")
+      : bus_(bus),
+        channels_(robot),
+        joint_names_(std::move(joint_names)),
+        joint_position_(joint_names_.size()) {
     bus_.subscribe<naolcm::posture_command_t>(
         channels_.posture_command, Bus::Queue::kAll, [this](const auto& command) {
           if (!accept("posture", command.source, command.command_id)) return;

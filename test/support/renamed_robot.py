@@ -145,6 +145,8 @@ def main():
     rewrite(source / "postures.yaml", target / "postures.yaml",
             lambda data: [rename_posture(posture, names) for posture in data["postures"]])
     rewrite(source / "robot.yaml", target / "robot.yaml", lambda data: rename_robot(data, names))
+    rewrite(source / "lights.yaml", target / "lights.yaml",
+            lambda data: {"lights": [{**light, "link": names.of("link", light["link"])} for light in data["lights"]]})
     for file, key in KEYFRAME_FILES:
         rewrite(source / file, target / file,
                 lambda data, key=key: [rename_keyframes(entry, names) for entry in data[key]])

@@ -12,7 +12,7 @@ class Commands(unittest.TestCase):
     def setUpClass(cls):
         cls.stack = Stack()
         cls.addClassCleanup(cls.stack.__exit__)
-        cls.stack.start_or_fail("--only", "sim,motion")
+        cls.stack.start_or_fail("--only", "sim,motion,speaker")
 
     def obeyed(self, *arguments):
         result = self.stack.nao(*arguments)
@@ -59,6 +59,54 @@ class Commands(unittest.TestCase):
         self.refused("posture", "Crouch", "--speed", "7")
         self.assertAlmostEqual(self.stack.torso_height(), before, delta=0.005)
 
+    def lights(self):
+        robot = self.stack.truth()["robots"][0]
+        return dict(zip(robot["light_names"], robot["light_rgb"]))
+
+    def test_says_a_text_and_returns_when_it_is_spoken(self):
+        begin = time.monotonic()
+        said = self.obeyed("say", "one, two, three")
+        self.assertIn("done", said)
+        # Never faster than the sound lasts.
+        self.assertGreater(time.monotonic() - begin, 0.8)
+        for language in ("de", "es-MX", "fr", "it", "zh"):
+            self.obeyed("say", "--language", language, "--rate", "2", "1")
+
+    def test_refuses_to_say_nonsense_in_words(self):
+        self.assertIn("control character U+0007", self.refused("say", "bell\a"))
+        self.assertIn("at most 1000", self.refused("say", "a" * 1001))
+        self.assertIn("xx", self.refused("say", "--language", "xx", "a"))
+        self.assertIn("2", self.refused("say", "--volume", "2", "a"))
+
+    def test_a_text_interrupts_or_follows_the_one_before(self):
+        self.obeyed("say", "--no-wait", "one two three four five six seven eight nine ten " * 10)
+        self.obeyed("say", "--rate", "2", "stop")
+        self.obeyed("say", "--no-wait", "one two three")
+        begin = time.monotonic()
+        self.obeyed("say", "--after", "four")
+        self.assertGreater(time.monotonic() - begin, 1)
+        self.obeyed("say", "--no-wait", "one two three " * 30)
+        self.obeyed("say", "--stop")
+
+    def test_the_eyes_are_lit_while_it_speaks(self):
+        self.assertNotIn("left-eye", self.lights())
+        self.obeyed("say", "--no-wait", "one two three four five six seven eight nine ten " * 3)
+        self.addCleanup(self.stack.nao, "say", "--stop")
+        deadline = time.monotonic() + DEADLINE
+        while "left-eye" not in self.lights():
+            self.assertLess(time.monotonic(), deadline)
+        self.obeyed("say", "--stop")
+        while "left-eye" in self.lights():
+            self.assertLess(time.monotonic(), deadline)
+
+    def test_sets_lights_by_name_and_color(self):
+        self.obeyed("light", "chest", "left-foot", "#ff0080")
+        self.assertEqual(self.lights()["chest"], [1, 0, 128 / 255])
+        self.assertEqual(self.lights()["left-foot"], self.lights()["chest"])
+        self.obeyed("light", "chest", "left-foot", "off")
+        self.assertNotIn("chest", self.lights())
+        self.assertIn("skull", self.refused("light", "tail", "red"))
+
     def test_stop_ends_a_motion_and_tells_its_sender(self):
         self.obeyed("posture", "Stand")
         self.obeyed("posture", "Crouch", "--speed", "0.05", "--no-wait")
@@ -84,6 +132,13 @@ class Commands(unittest.TestCase):
         self.assertAlmostEqual(ball[0], 0.5, delta=0.02)
         self.assertAlmostEqual(ball[1], 0.25, delta=0.02)
         self.assertIn("tail", self.refused("world", "push", "1", "0", "0", "--link", "tail"))
+
+    def test_places_the_robot(self):
+        self.obeyed("world", "place-robot", "0.4", "-0.3", "--posture", "Stand")
+        robot = self.stack.truth()["robots"][0]
+        self.assertAlmostEqual(robot["position_torso_in_world"][0], 0.4, delta=0.05)
+        self.assertAlmostEqual(robot["position_torso_in_world"][1], -0.3, delta=0.05)
+        self.obeyed("world", "reset")
 
     def test_every_channel_decodes(self):
         said = self.obeyed("spy", "--for", "2")

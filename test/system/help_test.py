@@ -5,6 +5,9 @@ import functools
 import os
 import re
 import shlex
+import shutil
+import subprocess
+import tempfile
 import unittest
 
 from stack import BIN_DIR, ROOT, run
@@ -71,7 +74,7 @@ def calls(line):
         if current is None and name in commands():
             current = (name, [])
             found.append(current)
-        elif word in SEPARATORS:
+        elif word in SEPARATORS or word == "--":  # after it, another program's options
             current = None
         elif current is not None:
             current[1].append(re.sub(r"^\[|\]$", "", word))
@@ -110,6 +113,13 @@ class HelpTexts(unittest.TestCase):
                     with self.subTest(document=str(document.relative_to(ROOT)), line=line):
                         self.assertIsNone(complaint(name, words))
         self.assertGreater(num_calls, 100)
+
+    def test_nao_without_its_tools_says_how_to_build_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            alone = shutil.copy(BIN_DIR / "nao", folder)
+            result = subprocess.run([alone, "log", "info", "run.lcmlog"], check=False, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(f"nao log is in the program nao-tools, which is not in {folder}; build it:", result.stderr)
 
     def test_every_option_that_is_named_alone_belongs_to_some_command(self):
         known = options("".join(help_text(file) for file in commands().values()))

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from stack import BIN_DIR, Stack, run
 
-PROGRAMS = ["nao-sim", "nao-motion", "nao-head-camera", "nao-phone-gateway"]
+PROGRAMS = ["nao-sim", "nao-motion", "nao-motion-files", "nao-head-camera", "nao-speaker", "nao-phone-gateway"]
 
 
 class Installation(unittest.TestCase):
@@ -25,7 +25,7 @@ class Installation(unittest.TestCase):
         installed.rename(self.prefix)
 
     def test_every_program_is_installed(self):
-        for name in [*PROGRAMS, "nao"]:
+        for name in [*PROGRAMS, "nao-foxglove", "nao"]:
             result = run([self.prefix / "bin" / name, "--version"])
             self.assertEqual(result.returncode, 0, result.stderr)
 
@@ -45,7 +45,7 @@ class Installation(unittest.TestCase):
         service = units / "nao-remote@.service"
         # The units name programs where the Debian package puts them.
         service.write_text(service.read_text().replace("/usr/bin", str(self.prefix / "bin")))
-        for name in ("sim", "motion", "head-camera", "phone-gateway"):
+        for name in ("sim", "motion", "motion-files", "head-camera", "phone-gateway"):
             (units / f"nao-remote@{name}.service").symlink_to(service)
         result = run(["systemd-analyze", "--user", "--man=no", "verify", units / "nao-remote.target",
                       *units.glob("nao-remote@?*.service")],

@@ -13,11 +13,13 @@ from stack import DEADLINE, Program, Stack, free_port
 PROGRAMS = {
     "nao-sim": [],
     "nao-motion": [],
+    "nao-motion-files": ["--folder", "/nowhere/motions"],
     "nao-head-camera": [],
+    "nao-speaker": ["--output", "none"],
     "nao-phone-gateway": ["--bind", "127.0.0.1", "--token", "x"],
 }
-# And those that run with other robots than the simulated one.
-ALL_PROGRAMS = {**PROGRAMS, "nao-robot": ["--lola", "/nowhere/lola"]}
+# And those that run only with an option of scripts/start.
+ALL_PROGRAMS = {**PROGRAMS, "nao-robot": ["--lola", "/nowhere/lola"], "nao-foxglove": ["--port", "0"], "nao-play": []}
 
 
 def options_of(name):
@@ -69,7 +71,8 @@ class Turns(unittest.TestCase):
             stack.start_or_fail()
             pids = stack.pids()
             priorities = {name: os.sched_getparam(pids[name]).sched_priority for name in PROGRAMS}
-        self.assertEqual(priorities, {"nao-sim": 2, "nao-motion": 2, "nao-phone-gateway": 1, "nao-head-camera": 0})
+        self.assertEqual(priorities, {"nao-sim": 2, "nao-motion": 2, "nao-phone-gateway": 1, "nao-motion-files": 0,
+                                      "nao-head-camera": 0, "nao-speaker": 0})
 
 
 class ServiceManager(unittest.TestCase):

@@ -66,6 +66,8 @@ class RealRobot(unittest.TestCase):
         self.start()
         self.check_posture_and_walk()
         self.assertEqual(self.robot()["state"], "ready")
+        result = self.stack.script("status")
+        self.assertEqual(result.returncode, 0, result.stdout)
 
         # The controller dies: the robot sits down, and goes on when it is back.
         os.kill(self.stack.pids()["nao-motion"], signal.SIGSTOP)

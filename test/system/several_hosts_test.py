@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Simulator and camera, motion, and gateway on three hosts, with a network that delays and drops datagrams."""
 
+import contextlib
 import json
 import math
 import os
@@ -67,7 +68,11 @@ class SeveralHosts(unittest.TestCase):
         return json.loads(self.part[WORLD].nao("world", "show", "--json").stdout)["robots"][0]
 
     def assert_obeys(self, posture, height):
+        deadline = time.monotonic() + DEADLINE
         result = self.part[GATEWAY].phone("posture", posture)
+        # On a busy machine sensor data may be late for longer than nao-motion waits.
+        while "no sensor data" in result.stdout + result.stderr and time.monotonic() < deadline:
+            result = self.part[GATEWAY].phone("posture", posture)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertAlmostEqual(self.truth()["position_torso_in_world"][2], height, delta=0.02)
 
@@ -89,35 +94,45 @@ class SeveralHosts(unittest.TestCase):
         self.assertGreater(position[2], 0.28, "it has fallen")
 
     def test_a_phone_walks_the_robot(self):
-        before, start = self.place()
-        result = self.part[GATEWAY].phone("walk", "-0.1", "--duration", "8")
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        after, end = self.place()
-        self.assert_upright(after)
-        self.assertGreater(end - start, 4, "the world waits for what comes late")
-        self.assertGreater(math.dist(after[:2], before[:2]), 0.3, "it should have gone 0.8 m, and takes a while to get going")
+        start = self.place()[0]
+        with self.walking():
+            self.await_distance(start, 0.5)
+            self.assert_upright(self.place()[0])
         self.assert_obeys("StandInit", 0.322)
 
-    def test_a_gateway_that_is_cut_off_while_a_phone_walks_leaves_a_robot_that_stands(self):
-        start = self.place()[0]
+    @contextlib.contextmanager
+    def walking(self):
+        """A phone that walks the robot backward."""
         walk = subprocess.Popen(self.part[GATEWAY].phone_command("walk", "-0.1", "--duration", "60"),
                                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
-            deadline = time.monotonic() + DEADLINE
-            while math.dist(self.place()[0][:2], start[:2]) < 0.15:
-                self.assertLess(time.monotonic(), deadline, "it does not walk")
-            self.hosts.cut(GATEWAY)
-            cut_at = self.place()[1]
-            while self.place()[1] < cut_at + STOP_TIME:
-                self.assertLess(time.monotonic(), deadline)
-            stopped, stopped_at = self.place()
-            while self.place()[1] < stopped_at + 2:
-                self.assertLess(time.monotonic(), deadline)
-            self.assertLess(math.dist(self.place()[0], stopped), 0.015, "it walks on")
-            self.assert_upright(stopped)
+            yield
         finally:
             walk.kill()
             walk.wait()
+
+    def await_time(self, simulated):
+        deadline = time.monotonic() + DEADLINE
+        while self.place()[1] < simulated:
+            self.assertLess(time.monotonic(), deadline)
+
+    def await_distance(self, start, distance):
+        deadline = time.monotonic() + DEADLINE
+        while math.dist(self.place()[0][:2], start[:2]) < distance:
+            self.assertLess(time.monotonic(), deadline, "it does not walk")
+
+    def test_a_gateway_that_is_cut_off_while_a_phone_walks_leaves_a_robot_that_stands(self):
+        start = self.place()[0]
+        try:
+            with self.walking():
+                self.await_distance(start, 0.15)
+                self.hosts.cut(GATEWAY)
+                self.await_time(self.place()[1] + STOP_TIME)
+                stopped, stopped_at = self.place()
+                self.await_time(stopped_at + 2)
+                self.assertLess(math.dist(self.place()[0], stopped), 0.015, "it walks on")
+                self.assert_upright(stopped)
+        finally:
             self.hosts.mend(GATEWAY)
             self.part[GATEWAY].nao("status", "--wait", "nao-sim,nao-motion", "--timeout", "60")
         self.assert_obeys("StandInit", 0.322)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from stack import DEADLINE, ROOT, Stack, run
 
-PROGRAMS = {"nao-sim", "nao-motion", "nao-head-camera", "nao-phone-gateway"}
+PROGRAMS = {"nao-sim", "nao-motion", "nao-motion-files", "nao-head-camera", "nao-speaker", "nao-phone-gateway"}
 
 
 class Start(unittest.TestCase):
@@ -32,6 +32,15 @@ class Start(unittest.TestCase):
             self.assertEqual(stopped.returncode, 0, stopped.stderr)
             self.assertEqual(stack.pids(), {})
             self.assertIn("Nothing was running", stack.stop().stdout)
+
+    def test_serves_foxglove_if_asked_to(self):
+        with Stack() as stack:
+            started = stack.start_or_fail("--only", "sim,motion", "--foxglove")
+            address = re.search(r"ws://(127\.0\.0\.1:\d+)", started.stdout)
+            self.assertIsNotNone(address, started.stdout)
+            with urllib.request.urlopen(f"http://{address[1]}/robot/robot.urdf", timeout=30) as file:
+                self.assertIn(b"<robot", file.read())
+            self.assertIn(address[0], stack.start("--foxglove").stdout, "told again")
 
     def test_the_token_is_only_in_a_file_of_its_owner(self):
         with Stack() as stack:

@@ -81,6 +81,7 @@ class ViewerMouse : public testing::Test {
   }
 
   RobotModel model_;
+  RobotModels models_{model_};
   Bus bus_;
   EglContext context_;
   gl::Framebuffer framebuffer_;
@@ -104,8 +105,8 @@ TEST_F(ViewerMouse, DragsTheBallOverTheGround) {
 
 TEST_F(ViewerMouse, PushesTheLinkThatIsDraggedWithControlHeld) {
   const auto poses =
-      link_poses_in_world(model_, decode_truth(model_, truth_).robots[0].pose_torso_in_world,
-                          decode_truth(model_, truth_).robots[0].position);
+      link_poses_in_world(model_, decode_truth(models_, truth_).robots[0].pose_torso_in_world,
+                          decode_truth(models_, truth_).robots[0].position);
   const Link& root = model_.links()[0];
   const Eigen::Vector3d center = poses[0] * root.center_of_mass;
   ImGui::GetIO().KeyCtrl = true;

@@ -96,7 +96,8 @@ naolcm::world_truth_t soccer_truth(const nao::RobotModel& model) {
 }
 
 nao::WorldState soccer_world(const nao::RobotModel& model) {
-  return nao::decode_truth(model, soccer_truth(model));
+  nao::RobotModels models(model);
+  return nao::decode_truth(models, soccer_truth(model));
 }
 
 void encode_all(const CameraFrame& frame, JpegEncoder& encoder) {

@@ -43,6 +43,7 @@ class ProjectPhysics {
     robot.height = scenario.height;
     robot.command_latency_ticks = 0;
     world_->add_robot(nao_model(), robot);
+    // The scenario's targets act on the robot from its first tick on.
     targets_ = world_->targets(0);
     if (scenario.is_limp) targets_.stiffness.setZero();
     world_->set_targets(0, targets_);
@@ -106,9 +107,10 @@ class MujocoPhysics {
 };
 #endif
 
-/** Mean square difference of all joint angles, rad. */
+/** Root mean square difference of all joint angles, rad. */
 double joint_difference(const sim::TreeState& a, const sim::TreeState& b) {
   const Eigen::VectorXd difference = a.coordinate - b.coordinate;
+  // The first six coordinates are unused (TreeState).
   return std::sqrt(difference.squaredNorm() / static_cast<double>(difference.size() - 6));
 }
 
@@ -119,6 +121,7 @@ double difference(Physics& physics, Reference& reference, int ticks) {
   for (int i = 0; i < ticks; ++i) {
     physics.tick();
     reference.tick();
+    // Sum of squares over ticks; the root is taken of their mean.
     sum += std::pow(joint_difference(physics.state(), reference.state()), 2);
   }
   return std::sqrt(sum / ticks);
@@ -151,6 +154,8 @@ double common_error(const PhysicsScenario& scenario, int ticks) {
 /** CPU time of a step of several interleaved tasks, us. */
 std::vector<double> times_in_turns(const std::vector<std::function<void()>>& ticks, int rounds,
                                    int ticks_per_round, int steps_per_tick) {
+  // Interleaved, so that other load on the machine meets all tasks alike; the median of the rounds
+  // ignores single disturbances.
   std::vector<std::vector<double>> times(ticks.size());
   for (int round = 0; round < rounds; ++round) {
     for (size_t i = 0; i < ticks.size(); ++i) {
@@ -169,6 +174,7 @@ void measure_scenario(const PhysicsScenario& scenario, int rounds, std::vector<F
   const bool is_recorded = !scenario.targets.empty();
   const int ticks = is_recorded ? static_cast<int>(scenario.targets.size()) : 100;
   ProjectPhysics ours(scenario, 0.002);
+  // A robot that was placed settles on the floor first.
   for (int i = 0; i < 300 && !is_recorded; ++i) ours.tick();
   std::vector<std::function<void()>> tasks;
   int tick_of_ours = 0;
@@ -235,6 +241,7 @@ void measure_stages(const PhysicsScenario& scenario, std::vector<Figure>& figure
   ProjectPhysics ours(scenario, 0.002);
   StageTimes times;
   for (int i = 0; i < 300; ++i) ours.tick();
+  // The probe is called once after each stage.
   // Reading the clock takes about as long as a stage: the duration of the readings is subtracted.
   constexpr int kReadings = 100000;
   const double start = processor_seconds();
@@ -287,6 +294,7 @@ void measure_robots(std::vector<Figure>& figures) {
       RobotOptions robot;
       robot.name = "R" + std::to_string(i);
       const int row = i / 2;
+      // In two rows, far enough apart not to touch.
       robot.position = {-2.0 + row, i % 2 == 0 ? -1 : 1};
       all.back()->add_robot(nao_model(), robot);
     }
@@ -321,6 +329,7 @@ void measure(int rounds, const std::string& json_file) {
   measure_scenario(walk, std::max(3, rounds / 10), figures);
   measure_scenario(lying, rounds, figures);
   figures.push_back({"physics.step_us", step_us, "us", "", 0});
+  // A step is 2000 us of simulated time.
   figures.push_back({"physics.real_time_factor", 2000 / step_us, "", "", 0});
   measure_stages(standing, figures);
   measure_contacts(standing, figures);

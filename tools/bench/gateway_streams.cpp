@@ -14,7 +14,7 @@
 namespace nao::bench {
 namespace {
 
-/** Chosen: the most clients that the gateway admits (GatewayLimits). */
+/** Chosen: a classroom; nao-bench-crowd measures 100. */
 constexpr int kNumClients = 32;
 
 /** What the clients saw in some seconds. */

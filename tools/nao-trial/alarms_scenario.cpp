@@ -42,6 +42,7 @@ std::vector<RunResult> AlarmsScenario::run(const ScenarioOptions& options, uint6
   ClosedLoop trial(options.trial, seed);
   int num_alarms = 0;
   bool was_falling = false;
+  // Counts rising edges: one false alarm is one fall, however long it lasts.
   trial.on_tick([&] {
     const bool is_falling = trial.core().motion_state().mode == Mode::kFalling;
     num_alarms += is_falling && !was_falling ? 1 : 0;

@@ -28,6 +28,7 @@ class FirstTime {
   double time_ = std::numeric_limits<double>::quiet_NaN();
 };
 
+// Horizontal distance of the soles in the truth of the simulator, m.
 double stance_width(ClosedLoop& trial) {
   const auto sole = [&](int link) {
     return Eigen::Vector3d(trial.world().robot(0).link_pose(link).translation());
@@ -52,11 +53,13 @@ RunResult act(const ScenarioOptions& options, uint64_t seed, const Action& actio
     const bool is_low_and_wide =
         trial.torso_height() < kLow * standing && stance_width(trial) > kWide * stance;
     reached.look(dives ? tilt > kLyingTilt : is_low_and_wide, trial.time() - start);
+    // The dive itself ends within 3 s; getting up afterwards must not count.
     if (trial.time() - start < 3) {
       width = std::max(width, stance_width(trial));
       const Eigen::Vector3d hand = trial.torso_in_world().translation();
       reach = std::max(reach, std::abs((start_torso.inverse() * hand).y()));
     }
+    // A block must keep the robot on its feet.
     fell = fell || (!dives && tilt > 0.8);
   });
   const int64_t id = trial.send_action(action.name);

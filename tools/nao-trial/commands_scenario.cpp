@@ -16,6 +16,7 @@ constexpr double kPushShare = 0.03;     // of the commands, with a push that thr
 constexpr double kRestartShare = 0.02;  // fraction of the commands after which the core restarts
 constexpr double kTimeToEnd = 150;      // s for the last command, six tries to get up included
 
+// Partly out of range, with speeds that must be refused.
 Command random_joint_change(ClosedLoop& trial) {
   JointChangeCommand change;
   const int motor = static_cast<int>(trial.random(0, trial.model().num_motors()));
@@ -78,6 +79,8 @@ class Watch {
  private:
   bool is_forgiven(int64_t id) const { return forgiven_.count(id) > 0; }
 
+  // The two claims of this scenario: no target changes faster than its motor turns, and each
+  // command gets exactly one final result.
   void tick() {
     const std::vector<double>& targets = trial_.targets();
     for (int motor = 0; motor < trial_.model().num_motors(); ++motor) {
@@ -118,6 +121,7 @@ std::vector<RunResult> CommandsScenario::run(const ScenarioOptions& options, uin
     watch.expect_result(trial.send(random_command(trial)));
     trial.run(trial.random(0.02, 2.5));
     if (trial.random(0, 1) < kPushShare) {
+      // 5 N s throws the robot over in any direction.
       const double direction = trial.random(-M_PI, M_PI);
       trial.world().push(0, 0, {5 * std::cos(direction), 5 * std::sin(direction), 0});
       ++num_pushes;

@@ -5,6 +5,7 @@
 namespace nao::trial {
 namespace {
 
+// Any part of the robot but its feet.
 bool touches_floor_with_body(ClosedLoop& trial) {
   const RobotModel& model = trial.model();
   for (const sim::Contact& contact : trial.world().contacts()) {
@@ -28,6 +29,7 @@ void FallWarning::look(ClosedLoop& trial) {
   if (touches_floor_with_body(trial)) touched_ = trial.time();
 }
 
+// -1: the robot touched the ground without a warning.
 std::optional<double> FallWarning::warning() const {
   if (!touched_) return std::nullopt;
   return told_ ? *touched_ - *told_ : -1.0;

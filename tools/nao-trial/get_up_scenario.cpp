@@ -15,6 +15,7 @@ constexpr int kMaxTries = 3;
 std::vector<RunResult> GetUpScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   ClosedLoop trial(options.trial, seed);
   RunResult result;
+  // Odd seeds are pushed over, even ones are placed on the ground: both ways to lie.
   const bool falls = seed % 2 == 1;
   result.label = falls ? "pushed" : "laid down";
   trial.run(0.5);
@@ -27,6 +28,7 @@ std::vector<RunResult> GetUpScenario::run(const ScenarioOptions& options, uint64
       return {result};
     }
   }
+  // The time counts from when the robot lies still; before, no controller could begin.
   const auto [lies_on, start] = wait_until_still(trial);
   std::string side = lies_on;
   if (side == "left" || side == "right") side = "side";

@@ -22,11 +22,13 @@ Command random_command(ClosedLoop& trial) {
       continue;
     }
     change.joint_names.push_back(name);
+    // One in five is far out of range, and is clipped or refused.
     const double size = trial.random(0, 1) < 0.2 ? 10 : 0.8;
     change.joint_position.push_back(trial.random(-size, size));
   }
   change.is_relative = trial.random(0, 1) < 0.6;
   change.speed = trial.random(0.05, 1);
+  // Names and speeds that must be refused.
   if (trial.random(0, 1) < 0.03) change.joint_names.back() = "Tail";
   if (trial.random(0, 1) < 0.03) change.speed = trial.random(-1, 3);
   return {"", 0, change};
@@ -50,6 +52,7 @@ std::vector<RunResult> JointsScenario::run(const ScenarioOptions& options, uint6
     const std::vector<double>& targets = trial.targets();
     for (int motor = 0; motor < trial.model().num_motors(); ++motor) {
       const Joint& joint = trial.model().motor_joint(motor);
+      // In every tick: speed, limits, self-contact in the truth of the simulator, and balance.
       if (std::abs(targets[motor] - last[motor]) >
           joint.max_velocity * trial.period() * (1 + 1e-9)) {
         fail(joint.name + " jumped");

@@ -41,6 +41,7 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   const Eigen::Vector3d start = trial.world().ball().position;
   double speed = 0;
   trial.on_tick([&] { speed = std::max(speed, trial.world().ball().velocity.norm()); });
+  // The robot is not told where the ball is: the kick goes to the usual place.
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const int64_t id = trial.send({"", 0, make_kick(trial.model(), is_left, nan, nan)});
   const auto end = trial.await_end(id, 10);
@@ -79,6 +80,7 @@ std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uin
   trial.run(2 + trial.random(0, 0.5));
   // Somewhere ahead, and seen with a centimetre more or less.
   const Eigen::Vector2d lies(trial.random(0.35, 0.9), trial.random(-0.1, 0.1));
+  // The difference between where the ball is and where the command says it is.
   const Eigen::Vector2d seen =
       lies + Eigen::Vector2d(trial.random(-0.01, 0.01), trial.random(-0.01, 0.01));
   const auto sole = [&](int link) { return trial.world().robot(0).link_pose(link); };
@@ -91,6 +93,7 @@ std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uin
   trial.world().place_ball({ball.x(), ball.y(), 0}, Eigen::Vector3d::Zero());
   const Eigen::Vector3d start = trial.world().ball().position;
   const int64_t id = trial.send({"", 0, make_kick(trial.model(), is_left, seen.x(), seen.y())});
+  // The claim: the kick happens without a stop of the walk.
   bool walks_on = true;
   trial.on_tick([&] { walks_on = walks_on && trial.core().motion_state().mode == Mode::kWalking; });
   const auto end = trial.await_end(id, 12);

@@ -27,9 +27,11 @@ void lay_down(ClosedLoop& trial, double side) {
     const double angle = posture.position[motor] + trial.random(-0.5, 0.5);
     posture.position[motor] = std::min(std::max(angle, joint.lower), joint.upper);
   }
+  // Torso horizontal, then rolled about its own long axis to the given side.
   const Eigen::Quaterniond orientation = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()) *
                                          Eigen::AngleAxisd(side, Eigen::Vector3d::UnitZ());
   trial.world().place_robot(0, &posture, {0, 0, 0.01}, &orientation);
+  // A robot that was placed is a new one for the controller.
   trial.restart_core();
 }
 

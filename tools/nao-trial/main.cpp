@@ -11,6 +11,9 @@
 #include "common/program.h"
 #include "tools/nao-trial/scenario.h"
 #include "tools/nao-trial/statistics.h"
+#ifdef NAO_TRIAL_HAS_VISION
+#include "tools/nao-trial/vision_scenarios.h"
+#endif
 
 namespace nao::trial {
 namespace {
@@ -47,6 +50,7 @@ Summary run_all(const Scenario& scenario, const ScenarioOptions& options,
   summary.units = scenario.units();
   for (uint64_t seed : seeds) {
     ScenarioOptions robot = options;
+    // Each robot is calibrated under its own disturbances before its run.
     if (options.num_calibration_directions > 0) {
       robot.trial.motion.calibration =
           calibrate(options.trial, seed, options.num_calibration_directions);
@@ -87,6 +91,9 @@ int main(int argc, char** argv) {
   std::string disturbances = "default";
   ScenarioOptions options;
   std::string chosen;
+#ifdef NAO_TRIAL_HAS_VISION
+  add_vision_scenarios();
+#endif
   for (const auto& scenario : scenarios()) {
     nao::CommandLine* command = app.add_subcommand(scenario->name(), scenario->summary());
     command->add_option("--seeds", seeds, "First and last seed, one run each")->show_default();
@@ -113,8 +120,10 @@ int main(int argc, char** argv) {
             "Control ticks from a joint command to the motors (0: as the disturbances say)")
         ->range(0, 10)
         ->show_default();
-    command->add_option("--trace", options.trace_file,
-                        "walk: write true and estimated pose to this file, CSV");
+    command->add_option(
+        "--trace", options.trace_file,
+        "walk, score, keep-goal: write what was true and what was known in the last seed "
+        "to this file, CSV");
     command
         ->add_option("--engine", options.trial.engine,
                      "Physics engine: fast, simbody, or mujoco where it was built")
@@ -136,6 +145,7 @@ int main(int argc, char** argv) {
   }
   return nao::run_program(app, common, argc, argv, [&] {
     for (const auto& scenario : scenarios()) {
+      // Scenarios and their subcommands have the same names.
       if (chosen != scenario->name()) continue;
       options.trial.model = std::make_shared<nao::RobotModel>(
           nao::RobotModel::load(nao::data_path() / "robots" / model_name));

@@ -30,6 +30,7 @@ struct Outcome {
 
 Outcome push(const ScenarioOptions& options, uint64_t seed, double direction, double impulse) {
   ClosedLoopOptions trial_options = options.trial;
+  // A fall must stay one: without getting up.
   trial_options.motion.gets_up = false;
   ClosedLoop trial(trial_options, seed);
   trial.run(0.5);
@@ -47,6 +48,7 @@ Outcome push(const ScenarioOptions& options, uint64_t seed, double direction, do
 /** Bisection of the greatest impulse survived, to 0.06 N s. */
 double find_boundary(const ScenarioOptions& options, uint64_t seed, double direction,
                      RunResult& result) {
+  // Invariant: the robot survived `survived` (or it is the lower bound) and fell at `lost`.
   double survived = kLeast;
   double lost = kGreatest;
   for (int i = 0; i < kNumHalvings; ++i) {

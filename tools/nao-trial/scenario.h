@@ -59,5 +59,7 @@ class Scenario {
 
 /** All scenarios, in the order in which --help lists them. */
 const std::vector<std::unique_ptr<Scenario>>& scenarios();
+/** Adds a scenario to them, of a library that not every build has. */
+void add_scenario(std::unique_ptr<Scenario> scenario);
 
 }  // namespace nao::trial

@@ -2,12 +2,15 @@
 
 #include "tools/nao-trial/block_scenario.h"
 #include "tools/nao-trial/kick_scenario.h"
+#include "tools/nao-trial/play_scenarios.h"
+#include "tools/nao-trial/teach_scenario.h"
 #include "tools/nao-trial/walk_scenarios.h"
 
 namespace nao::trial {
+namespace {
 
-const std::vector<std::unique_ptr<Scenario>>& scenarios() {
-  static const std::vector<std::unique_ptr<Scenario>> all = [] {
+std::vector<std::unique_ptr<Scenario>>& all_scenarios() {
+  static std::vector<std::unique_ptr<Scenario>> all = [] {
     std::vector<std::unique_ptr<Scenario>> list;
     list.push_back(std::make_unique<StandScenario>());
     list.push_back(std::make_unique<PostureGraphScenario>());
@@ -24,9 +27,23 @@ const std::vector<std::unique_ptr<Scenario>>& scenarios() {
     list.push_back(std::make_unique<GetUpScenario>());
     list.push_back(std::make_unique<CommandsScenario>());
     list.push_back(std::make_unique<AlarmsScenario>());
+    list.push_back(std::make_unique<TeachScenario>());
+    list.push_back(std::make_unique<TeachGoodScenario>());
+    list.push_back(std::make_unique<ScoreScenario>(false, perception_model()));
+    list.push_back(std::make_unique<KeepGoalScenario>(false, perception_model()));
     return list;
   }();
   return all;
+}
+
+}  // namespace
+
+const std::vector<std::unique_ptr<Scenario>>& scenarios() {
+  return all_scenarios();
+}
+
+void add_scenario(std::unique_ptr<Scenario> scenario) {
+  all_scenarios().push_back(std::move(scenario));
 }
 
 }  // namespace nao::trial

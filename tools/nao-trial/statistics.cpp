@@ -17,6 +17,7 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+// All values of each metric over the runs; a run may give a metric several times or not at all.
 std::map<std::string, std::vector<double>> collect(const Summary& summary) {
   std::map<std::string, std::vector<double>> values;
   for (const RunResult& run : summary.runs) {
@@ -40,10 +41,11 @@ int Summary::num_successes() const {
 MetricStatistics calc_statistics(const std::string& name, std::vector<double> values) {
   // Sorted from good to bad, so that a percentile means the same for all metrics: 95 % of the runs
   // were at least as good. Of speeds, impulses, distances and warning times more is better; of the
-  // others less.
+  // others, such as errors, less.
   std::sort(values.begin(), values.end());
-  if (ends_with(name, "_mps") || ends_with(name, "_Ns") || ends_with(name, "_m") ||
-      name.rfind("warning", 0) == 0) {
+  const bool is_error = name.find("error") != std::string::npos;
+  if (!is_error && (ends_with(name, "_mps") || ends_with(name, "_Ns") || ends_with(name, "_m") ||
+                    name.rfind("warning", 0) == 0)) {
     std::reverse(values.begin(), values.end());
   }
   const auto at_fraction = [&](double fraction) {

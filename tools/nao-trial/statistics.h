@@ -25,8 +25,8 @@ struct Summary {
 };
 
 /** Mean, median, 95th percentile and worst of values. "Worst" is the maximum; for quantities that
- * should be large (names that end in "_mps", "_Ns" or "_m", or begin with "warning") it is the
- * minimum, and p95 is the 5th percentile.
+ * should be large (names that end in "_mps", "_Ns" or "_m" without "error", or begin with
+ * "warning") it is the minimum, and p95 is the 5th percentile.
  */
 struct MetricStatistics {
   double mean = 0;

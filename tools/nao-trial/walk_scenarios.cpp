@@ -68,6 +68,7 @@ class VelocityMean {
         period_(trial.period()),
         last_(true_pose(trial)) {}
   void add(const ClosedLoop& trial) {
+    // Over a second: shorter times would measure the sway of each step.
     if (++ticks_ < ticks_per_second_) return;
     ticks_ = 0;
     const Pose2 now = true_pose(trial);
@@ -100,6 +101,7 @@ class Trace {
   explicit Trace(const ClosedLoop& trial)
       : truth_(true_pose(trial)), estimate_(estimated_pose(trial)), start_(trial.time()) {}
   void add(const ClosedLoop& trial) {
+    // Every tenth tick is enough for a plot.
     if (ticks_++ % 10 != 0) return;
     const Vector2d truth = truth_.inverse() * true_pose(trial).position;
     const Vector2d estimate = estimate_.inverse() * estimated_pose(trial).position;
@@ -130,6 +132,7 @@ class StandstillDetector {
   void look(const ClosedLoop& trial) {
     const Eigen::Isometry3d now = trial.torso_in_world();
     const double speed = (now.translation() - last_.translation()).norm() / trial.period();
+    // Rotation between two ticks: over the period it is the angular velocity.
     const double turning = Eigen::AngleAxisd(last_.linear().transpose() * now.linear()).angle();
     last_ = now;
     if (speed > kStillSpeed || turning / trial.period() > kStillTurning)
@@ -175,6 +178,7 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   const double start = trial.time();
   if (!run_upright(trial, kSpeedUp)) return {fallen(trial.time() - start)};
   VelocityMean velocity(trial);
+  // Odometry and truth are compared from the same moment on.
   const OdometryCheck odometry(trial);
   const Pose2 way_start = true_pose(trial);
   Trace trace(trial);
@@ -187,6 +191,7 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   if (!options.trace_file.empty()) trace.write(options.trace_file);
   const Vector3d mean = velocity.mean();
   const double odometry_error = odometry.error(trial);
+  // Before the stop, which is measured by itself.
   const Pose2 way_end = true_pose(trial);
 
   StandstillDetector standstill(trial);
@@ -236,6 +241,7 @@ std::vector<RunResult> SprintScenario::run(const ScenarioOptions& options, uint6
   const double start_time = trial.time();
   trial.hold_walk({trial.model().walk_limits().forward, 0, 0});
   double way = 0;
+  // Three times as long as the way should take, plus the start.
   const double timeout = 20 + 3 * distance / trial.model().walk_limits().forward;
   trial.run_until(
       [&] {
@@ -263,6 +269,7 @@ std::vector<RunResult> JoystickScenario::run(const ScenarioOptions& options, uin
   const WalkLimits limits = trial.model().walk_limits();
   trial.run(kStand);
   const double start = trial.time();
+  // Random stick positions, each held for a random time, until the duration has passed.
   while (trial.time() - start < duration) {
     const double kind = trial.random(0, 1);
     const Vector3d stick(trial.random(-1, 1), trial.random(-1, 1), trial.random(-1, 1));
@@ -297,6 +304,7 @@ std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint6
   const double distance = trial.random(0.1, 2);
   const double direction = trial.random(-M_PI, M_PI);
   const double turn = trial.random(-M_PI, M_PI);
+  // In the frame of the robot at the start, as the command is.
   const Vector2d goal = distance * Vector2d(std::cos(direction), std::sin(direction));
   const Pose2 start = true_pose(trial);
   const Pose2 estimated_start = estimated_pose(trial);
@@ -367,6 +375,7 @@ std::vector<RunResult> WalkPushScenario::run(const ScenarioOptions& options, uin
     if (fall.warning()) result.metrics.emplace_back("warning_ms", *fall.warning() * 1e3);
     return is_upright && trial.core().motion_state().mode == Mode::kWalking;
   };
+  // Bisection, as in PushScenario.
   double low = 0;
   double high = kGreatest;
   for (int i = 0; i < 5; ++i) {

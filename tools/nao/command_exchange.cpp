@@ -12,9 +12,9 @@ void CommandExchange::handle_result(ResultStatus status, const std::string& reas
 std::optional<CommandExchange::Outcome> CommandExchange::outcome(double now) const {
   if (result_ || !retry_.has_timed_out(now)) return result_;
   if (retry_.is_accepted()) {
-    return Outcome{false, "silent", "nao-motion accepted the command, then stopped publishing"};
+    return Outcome{false, "silent", program_ + " accepted the command, then stopped publishing"};
   }
-  return Outcome{false, "unanswered", "nao-motion does not answer; is it running?"};
+  return Outcome{false, "unanswered", program_ + " does not answer; is it running?"};
 }
 
 }  // namespace nao

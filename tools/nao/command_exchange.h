@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "messages/command_retry.h"
 
@@ -22,8 +23,10 @@ class CommandExchange {
     std::string reason;
   };
 
-  /** @param now  Time from which the timeout for the first answer counts. */
-  explicit CommandExchange(double now) : retry_(kTiming, now) {}
+  /** @param program  That answers, for texts.
+   * @param now  Time from which the timeout for the first answer counts. */
+  CommandExchange(std::string program, double now)
+      : program_(std::move(program)), retry_(kTiming, now) {}
 
   /** @return true once per period: the command must be sent now. */
   bool should_send(double now) { return retry_.should_send(now); }
@@ -31,7 +34,7 @@ class CommandExchange {
   /** Handles a command_result_t of this command. */
   void handle_result(ResultStatus status, const std::string& reason, double now);
 
-  /** Handles any other message of nao-motion. */
+  /** Handles any other message of the program. */
   void handle_sign_of_life(double now) { retry_.handle_sign_of_life(now); }
 
   bool is_accepted() const { return retry_.is_accepted(); }
@@ -41,10 +44,11 @@ class CommandExchange {
 
  private:
   /** The periods are the protocol's, see README.md. Timeouts, s: chosen: 30 repetitions, so that
-   * only a stopped nao-motion causes one. */
+   * only a stopped program causes one. */
   static constexpr CommandRetry::Timing kTiming{
       .repeat_period = 0.1, .confirm_period = 1.0, .answer_timeout = 3.0, .silence_timeout = 3.0};
 
+  std::string program_;
   CommandRetry retry_;
   std::optional<Outcome> result_;
 };

@@ -22,6 +22,8 @@ struct DriverOptions {
   /** Port of the gateway on this host. */
   uint16_t port = 7668;
   uint32_t client_id = 0;
+  /** Name of a robot; may be empty. */
+  std::string robot{};
   bool as_json = false;
 };
 
@@ -29,7 +31,7 @@ struct DriverOptions {
 int run_operation(const DriverOptions& options, Operate::Operation operation,
                   const std::string& name, Response& response) {
   try {
-    response = operate("127.0.0.1", options.port, operation, options.client_id);
+    response = operate("127.0.0.1", options.port, operation, options.client_id, options.robot);
   } catch (const ConnectionError& error) {
     std::fprintf(stderr, "nao: driver %s: %s; is nao-phone-gateway running on this host?\n",
                  name.c_str(), error.what());
@@ -50,6 +52,8 @@ void print_json(const naoremote::Clients& clients) {
     json.add("address", client.address());
     json.add("transport", client.transport());
     json.add("is_driver", client.is_driver());
+    json.add("robot", client.robot());
+    json.add("is_muted", client.is_muted());
     json.add("num_sent", static_cast<int64_t>(client.num_sent()));
     json.add("num_skipped", static_cast<int64_t>(client.num_skipped()));
     json.end();
@@ -60,10 +64,13 @@ void print_json(const naoremote::Clients& clients) {
 
 void print_table(const naoremote::Clients& clients) {
   std::vector<std::vector<std::string>> rows = {
-      {"client", "name", "address", "by", "drives", "sent", "skipped"}};
+      {"client", "name", "address", "by", "robot", "drives", "sent", "skipped"}};
   for (const auto& client : clients.clients()) {
     rows.push_back({std::to_string(client.client_id()), client.name(), client.address(),
-                    client.transport(), client.is_driver() ? "drives" : "",
+                    client.transport(), client.robot(),
+                    client.is_driver()  ? "drives"
+                    : client.is_muted() ? "muted"
+                                        : "",
                     std::to_string(client.num_sent()), std::to_string(client.num_skipped())});
   }
   std::printf("%s", format_table(rows).c_str());
@@ -109,11 +116,23 @@ void add_driver_commands(CommandLine& app, Invocation& invocation) {
     });
     return subcommand;
   };
-  add("take", "Take the control lease: phones are refused until release", Operate::TAKE);
-  add("release", "Release the control lease: phones may drive again", Operate::RELEASE);
-  add("kick", "Close the connection of a client", Operate::KICK)
-      ->add_option("client", options->client_id, "Client number, as printed by list")
-      ->required();
+  const auto add_client = [&](CommandLine* subcommand) {
+    subcommand->add_option("client", options->client_id, "Client number, as printed by list")
+        ->required();
+    return subcommand;
+  };
+  const char* const kEvery = "Name of one of several robots (default: every one)";
+  add("take", "Take the control lease: phones are refused until release", Operate::TAKE)
+      ->add_option("robot", options->robot, kEvery);
+  add("release", "Release the control lease: phones may drive again", Operate::RELEASE)
+      ->add_option("robot", options->robot, kEvery);
+  add_client(add("kick", "Close the connection of a client", Operate::KICK));
+  add_client(add("mute", "Let a client watch only, until unmute or its end", Operate::MUTE));
+  add_client(add("unmute", "Let a client drive again", Operate::UNMUTE));
+  add_client(add("assign", "Let a client drive a robot, also if another one drove it before",
+                 Operate::ASSIGN))
+      ->add_option("robot", options->robot,
+                   "Name of one of several robots (default: the one that it watches)");
 }
 
 }  // namespace nao

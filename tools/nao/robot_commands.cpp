@@ -1,155 +1,25 @@
-#include <unistd.h>
-
 #include <cmath>
-#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <naolcm/action_command_t.hpp>
-#include <naolcm/command_result_t.hpp>
 #include <naolcm/joint_change_command_t.hpp>
-#include <naolcm/motion_state_t.hpp>
 #include <naolcm/move_to_command_t.hpp>
 #include <naolcm/posture_command_t.hpp>
 #include <naolcm/stop_command_t.hpp>
 #include <naolcm/walk_command_t.hpp>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "common/bus.h"
-#include "common/channels.h"
 #include "common/command_line.h"
 #include "common/error.h"
-#include "common/event_loop.h"
-#include "common/wall_clock.h"
-#include "tools/nao/command_exchange.h"
+#include "tools/nao/conversation.h"
 #include "tools/nao/joint_arguments.h"
 #include "tools/nao/subcommand.h"
 
 namespace nao {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
-/** Options for waiting for a command's result. */
-struct WaitOptions {
-  /** Maximum time to wait for the final result, s. */
-  double timeout = kNever;
-  /** Return at "accepted". */
-  bool accepts_only = false;
-};
-
-/** Sends one command until it is acknowledged, and waits for its end.
- *
- * Ctrl-C ends the waiting only; the robot continues unless the command is a walk. */
-class Conversation {
- public:
-  /** @param name  The command as given by the user, for messages: "posture Crouch". */
-  Conversation(const CommonOptions& common, std::string name)
-      : name_(std::move(name)),
-        source_("nao." + std::to_string(getpid())),
-        command_id_(wall_utime()),
-        bus_(common.lcm_url),
-        channels_(common.robot),
-        exchange_(monotonic_seconds()) {
-    loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
-    bus_.subscribe<naolcm::command_result_t>(
-        channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
-          if (result.source == source_ && result.command_id == command_id_) {
-            exchange_.handle_result(static_cast<ResultStatus>(result.status), result.reason,
-                                    monotonic_seconds());
-          }
-        });
-    bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
-                                           [this](const naolcm::motion_state_t&) {
-                                             exchange_.handle_sign_of_life(monotonic_seconds());
-                                           });
-  }
-
-  const RobotChannels& channels() const { return channels_; }
-  EventLoop& loop() { return loop_; }
-
-  /** Sets the source and publishes the command. */
-  template <class Command>
-  void publish(const std::string& channel, Command& command) {
-    command.utime = 0;
-    command.wall_utime = wall_utime();
-    command.source = source_;
-    command.command_id = command_id_;
-    bus_.publish(channel, command);
-  }
-
-  /** Sends a command with a final result until its end. @return The exit status. */
-  template <class Command>
-  int run_command(const std::string& channel, Command command, const WaitOptions& wait) {
-    const double start = monotonic_seconds();
-    loop_.every(0.02, [this, &channel, &command, &wait, start] {
-      const double now = monotonic_seconds();
-      if (exchange_.should_send(now)) publish(channel, command);
-      if (exchange_.outcome(now) || (wait.accepts_only && exchange_.is_accepted())) {
-        loop_.stop("end");
-      } else if (now - start > wait.timeout) {
-        loop_.stop("timeout");
-      }
-    });
-    return report(loop_.run(), start);
-  }
-
-  /** Sends walk commands for `duration` s or until Ctrl-C, then lets the robot come to a stand.
-   * @return The exit status. */
-  int run_walk(naolcm::walk_command_t command, double duration) {
-    constexpr double kSendPeriod = 0.1;  // s, as the gateway's; a walk command expires after 0.5 s
-    const double start = monotonic_seconds();
-    double end = start + duration;
-    double last_sent = -kNever;
-    const auto step = [&] {
-      const double now = monotonic_seconds();
-      if (now >= end) command.vx = command.vy = command.wz = 0;
-      if (now - last_sent >= kSendPeriod) {
-        publish(channels_.walk_command, command);
-        last_sent = now;
-      }
-      if (exchange_.outcome(now)) loop_.stop("end");
-    };
-    loop_.every(0.02, step);
-    std::string why = loop_.run();
-    if (why != "end" && exchange_.is_accepted()) {
-      // First Ctrl-C: command zero velocity and wait until the robot stands. A second one ends the
-      // waiting.
-      end = monotonic_seconds();
-      step();
-      why = loop_.run();
-    }
-    return report(why, start);
-  }
-
- private:
-  int report(const std::string& why_ended, double start) {
-    const double now = monotonic_seconds();
-    const auto outcome = exchange_.outcome(now);
-    if (outcome && !outcome->is_success) {
-      std::fprintf(stderr, "nao: %s: %s%s%s\n", name_.c_str(), outcome->status.c_str(),
-                   outcome->reason.empty() ? "" : ": ", outcome->reason.c_str());
-      return 1;
-    }
-    if (!outcome && why_ended != "end") {
-      std::fprintf(stderr, "nao: %s: stopped waiting; \"nao stop\" ends the motion\n",
-                   name_.c_str());
-      return 1;
-    }
-    std::printf("%s: %s (%.1f s)\n", name_.c_str(), outcome ? "done" : "accepted", now - start);
-    return 0;
-  }
-
-  std::string name_;
-  std::string source_;
-  int64_t command_id_;
-  EventLoop loop_;
-  Bus bus_;
-  RobotChannels channels_;
-  CommandExchange exchange_;
-};
 
 /** Rejects a length, speed or angle that is not a finite number. @return The fault, or "". */
 std::string fault_unless_finite(const std::string& text) {
@@ -158,14 +28,9 @@ std::string fault_unless_finite(const std::string& text) {
   return *end == '\0' && std::isfinite(number) ? "" : "'" + text + "' is not a finite number";
 }
 
-void add_wait_options(CommandLine& command, WaitOptions& wait) {
-  command.add_option("--wait", wait.timeout, "Maximum time to wait for the end, s")->positive();
-  command.add_flag("--no-wait", wait.accepts_only, "Return as soon as the robot accepts it");
-}
-
 void add_walk(CommandLine& app, Invocation& invocation) {
   auto command = std::make_shared<naolcm::walk_command_t>();
-  auto duration = std::make_shared<double>(kNever);
+  auto duration = std::make_shared<double>(kForever);
   CommandLine* walk = app.add_subcommand(
       "walk", "Walk at a velocity until Ctrl-C; the command is sent ten times a second");
   walk->add_option("vx", command->vx, "Ahead, m/s")->required()->check(fault_unless_finite);
@@ -301,6 +166,14 @@ void add_stop(CommandLine& app, Invocation& invocation) {
 }
 
 }  // namespace
+
+int run_action(const CommonOptions& common, const std::string& action) {
+  naolcm::action_command_t command{};
+  command.action = action;
+  command.ball_x = command.ball_y = command.strength = std::nan("");
+  Conversation conversation(common, "action " + action);
+  return conversation.run_command(conversation.channels().action_command, command, WaitOptions());
+}
 
 void add_robot_commands(CommandLine& app, Invocation& invocation) {
   add_walk(app, invocation);

@@ -19,7 +19,7 @@
 #include "common/event_loop.h"
 #include "common/json_writer.h"
 #include "common/wall_clock.h"
-#include "tools/nao/body_report.h"
+#include "messages/body_condition.h"
 #include "tools/nao/process_usage.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/text_table.h"
@@ -30,9 +30,14 @@ namespace {
 /** Listening time, s: every program publishes once a second, so each is received at least once. */
 constexpr double kListenTime = 1.3;
 
+/** Age of a status beyond which its program has ended, s; see daemon_status_t. */
+constexpr double kSilence = 3.0;
+
 /** One running program. */
 struct ProgramReport {
   naolcm::daemon_status_t status;
+  /** When it was received, s. */
+  double time = 0;
   /** Usage at the first status and its time, s. Only for programs on this host. */
   std::optional<ProcessUsage> first_usage;
   double first_time = 0;
@@ -52,6 +57,7 @@ class StatusListener {
           const auto [entry, is_new] =
               programs_.try_emplace({status.program, status.host, status.process_id});
           entry->second.status = status;
+          entry->second.time = monotonic_seconds();
           if (is_new && status.host == host_) {
             entry->second.first_usage = read_process_usage(status.process_id);
             entry->second.first_time = monotonic_seconds();
@@ -74,6 +80,17 @@ class StatusListener {
     return newest;
   }
 
+  /** @return Number of processes of the program that are ready. */
+  int count_ready(const std::string& program) const {
+    const double now = monotonic_seconds();
+    return static_cast<int>(
+        std::count_if(programs_.begin(), programs_.end(), [&](const auto& entry) {
+          const ProgramReport& report = entry.second;
+          return report.status.program == program && report.status.state == "ready" &&
+                 now - report.time < kSilence;
+        }));
+  }
+
   std::string to_text() const {
     std::vector<std::vector<std::string>> rows{{"program", "host", "process", "state", "loop Hz",
                                                 "worst ms", "in", "out", "dropped", "cpu %",
@@ -88,7 +105,12 @@ class StatusListener {
                       std::to_string(status.num_messages_dropped), format_number(cpu, 0),
                       format_number(memory / 1e6, 0), status.detail});
     }
-    return format_table(rows) + (body_ ? body_report(robot_, *body_) : "");
+    std::string text = format_table(rows);
+    if (body_) {
+      const BodyCondition condition = summarize(*body_);
+      if (condition.is_known()) text += robot_ + ": " + to_sentence(condition) + "\n";
+    }
+    return text;
   }
 
   std::string to_json() const {
@@ -145,25 +167,29 @@ class StatusListener {
   std::map<std::tuple<std::string, std::string, int>, ProgramReport> programs_;
 };
 
-/** Waits until every program says "ready". @return The exit status. */
+/** Waits until every program says "ready", of a program that is named n times n processes.
+ * @return The exit status. */
 int wait_until_ready(StatusListener& listener, const std::vector<std::string>& wanted,
                      double timeout) {
   const double start = monotonic_seconds();
-  const auto is_ready = [&listener](const std::string& program) {
-    const auto* status = listener.find(program);
-    return status != nullptr && status->state == "ready";
-  };
+  std::map<std::string, int> num_wanted;
+  for (const std::string& program : wanted) ++num_wanted[program];
   bool all_ready = false;
   listener.loop().every(0.02, [&] {
-    all_ready = std::all_of(wanted.begin(), wanted.end(), is_ready);
+    all_ready = std::all_of(num_wanted.begin(), num_wanted.end(), [&](const auto& entry) {
+      return listener.count_ready(entry.first) >= entry.second;
+    });
     if (all_ready || monotonic_seconds() - start > timeout) listener.loop().stop("end");
   });
   listener.loop().run();
   if (all_ready) return 0;
-  for (const std::string& program : wanted) {
-    if (is_ready(program)) continue;
+  for (const auto& [program, count] : num_wanted) {
+    const int num_ready = listener.count_ready(program);
+    if (num_ready >= count) continue;
     const auto* status = listener.find(program);
-    std::fprintf(stderr, "nao: %s is not ready: %s\n", program.c_str(),
+    const std::string number =
+        count > 1 ? std::to_string(num_ready) + " of " + std::to_string(count) + ", newest: " : "";
+    std::fprintf(stderr, "nao: %s is not ready: %s%s\n", program.c_str(), number.c_str(),
                  status == nullptr ? "it publishes no status"
                                    : (status->state + ", " + status->detail).c_str());
   }
@@ -190,7 +216,8 @@ void add_status_command(CommandLine& app, Invocation& invocation) {
   status->add_flag("--json", *as_json, "As JSON, fields as in daemon_status_t");
   status
       ->add_option("--wait", *wanted,
-                   "List nothing; wait until these programs are ready: nao-sim,nao-motion")
+                   "List nothing; wait until these programs are ready: nao-sim,nao-motion; named "
+                   "twice: two processes of it")
       ->separated_by(',');
   status->add_option("--timeout", *timeout, "Longest wait, s")->positive()->show_default();
   status->on_parsed([&invocation, wanted, timeout, as_json] {

@@ -23,6 +23,9 @@ struct Invocation {
 /** Adds walk, move-to, posture, joint, action and stop. The invocation must outlive parsing. */
 void add_robot_commands(CommandLine& app, Invocation& invocation);
 
+/** Adds say and light. */
+void add_speech_commands(CommandLine& app, Invocation& invocation);
+
 /** Adds state. */
 void add_state_command(CommandLine& app, Invocation& invocation);
 
@@ -44,6 +47,10 @@ void add_spy_command(CommandLine& app, Invocation& invocation);
 /** Adds watchdog. */
 void add_watchdog_command(CommandLine& app, Invocation& invocation);
 
+/** Adds the subcommands that nao-tools executes.
+ * @param arguments  Of this program, ended by a null pointer; they are passed on. */
+void add_tools_commands(CommandLine& app, Invocation& invocation, char** arguments);
+
 /** Adds record. */
 void add_record_command(CommandLine& app, Invocation& invocation);
 
@@ -55,6 +62,18 @@ void add_robot_files_command(CommandLine& app, Invocation& invocation);
 
 /** Adds calibrate. */
 void add_calibrate_command(CommandLine& app, Invocation& invocation);
+
+/** Adds play. */
+void add_play_command(CommandLine& app, Invocation& invocation);
+
+/** Adds self-test. */
+void add_self_test_command(CommandLine& app, Invocation& invocation);
+
+/** Adds motion and its own subcommands. */
+void add_motion_command(CommandLine& app, Invocation& invocation);
+
+/** Executes an action and waits for its end. @return The exit status. */
+int run_action(const CommonOptions& common, const std::string& action);
 
 /** Adds bus. */
 void add_bus_command(CommandLine& app, Invocation& invocation);

@@ -36,7 +36,12 @@ std::string to_text(const naolcm::world_truth_t& truth) {
   text += "late: " + std::to_string(truth.num_late_ticks) + " ticks, " +
           std::to_string(truth.num_late_commands) + " joint commands\n";
   for (const naolcm::robot_truth_t& robot : truth.robots) {
-    text += robot.robot + "  torso " + point_text(robot.position_torso_in_world) + ", tilt " +
+    text += robot.robot;
+    if (robot.number != 0) {
+      text +=
+          " (team " + std::to_string(robot.team) + ", number " + std::to_string(robot.number) + ")";
+    }
+    text += "  torso " + point_text(robot.position_torso_in_world) + ", tilt " +
             format_number(tilt_of(robot.orientation_torso_in_world) * 180 / std::numbers::pi, 1) +
             " deg\n";
   }
@@ -59,6 +64,9 @@ std::string to_json(const naolcm::world_truth_t& truth) {
   for (const naolcm::robot_truth_t& robot : truth.robots) {
     json.begin_object();
     json.add("robot", robot.robot);
+    json.add("model", robot.model);
+    json.add("team", robot.team);
+    json.add("number", robot.number);
     json.add("position_torso_in_world", robot.position_torso_in_world, 3);
     json.add("orientation_torso_in_world", robot.orientation_torso_in_world, 4);
     json.add("velocity_torso_in_world", robot.velocity_torso_in_world, 3);

@@ -73,7 +73,11 @@ std::pair<CommandLine*, std::shared_ptr<naolcm::world_command_t>> add_world_comm
   CommandLine* subcommand = world.add_subcommand(name, help);
   subcommand->on_parsed([&invocation, command, complete = std::move(complete)] {
     complete(*command);
-    invocation.run = [&invocation, command] { return run_world(invocation.common, *command); };
+    invocation.run = [&invocation, command] {
+      // The simulator knows the robot by the same name as the channels.
+      if (command->robot.empty()) command->robot = invocation.common.robot;
+      return run_world(invocation.common, *command);
+    };
   });
   return {subcommand, command};
 }
@@ -131,6 +135,18 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
   ball->add_option("--height", ball_command->position_in_world[2], "Above the ground, m");
   ball->add_option("--velocity", *ball_velocity, "m/s")->count(3);
 
+  const auto [add, add_command] =
+      add_world_command(*world, invocation, "add-robot", "Add a robot, which stands");
+  add->add_option("name", add_command->robot, "Its name, which is the prefix of its channels")
+      ->required();
+  add->add_option("x", add_command->position_in_world[0], "Along the field, m")->required();
+  add->add_option("y", add_command->position_in_world[1], "To the left of it, m")->required();
+  add->add_option("--model", add_command->model,
+                  "Folder of robots/ that describes it (default: as of the first robot)");
+  const auto [remove, remove_command] =
+      add_world_command(*world, invocation, "remove-robot", "Take a robot away");
+  remove->add_option("name", remove_command->robot, "Its name")->required();
+
   auto theta = std::make_shared<double>(0);
   const auto [place, place_command] =
       add_world_command(*world, invocation, "place-robot", "Place the robot",
@@ -144,10 +160,6 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
   place->add_option("--height", place_command->position_in_world[2], "Above the ground, m");
   place->add_option("--posture", place_command->posture, "Posture of the placed robot")
       ->show_default();
-  place->on_end([&invocation, command = place_command] {
-    // The simulator knows the robot by the same name as the channels.
-    command->robot = invocation.common.robot;
-  });
 }
 
 }  // namespace nao

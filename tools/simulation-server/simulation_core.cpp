@@ -101,8 +101,6 @@ void SimulationCore::reset(const protocol::Reset& request, protocol::State& stat
     if (has_targets_) loop_->world().set_targets(0, targets_);
   });
   has_targets_ = false;
-  num_reported_results_ = 0;
-  accepted_.clear();
   // The first readings; the motion core takes the robot over.
   loop_->step();
   write_state(true, state);
@@ -148,21 +146,10 @@ void SimulationCore::set_joint_targets(const protocol::JointTargets& targets) {
 
 void SimulationCore::write_state(bool with_truth, protocol::State& state) {
   nao::simulation_server::write_state(*loop_, state);
-  write_results(state);
-  if (with_truth) write_truth(*loop_, *state.mutable_truth());
-}
-
-void SimulationCore::write_results(protocol::State& state) {
-  const auto& results = loop_->results();
-  for (; num_reported_results_ < results.size(); ++num_reported_results_) {
-    const CommandResult& result = results[num_reported_results_];
-    if (result.status == ResultStatus::kAccepted) {
-      if (!accepted_.insert(result.id).second) continue;
-    } else {
-      accepted_.erase(result.id);
-    }
+  for (const CommandResult& result : loop_->take_results()) {
     write_result(result, *state.add_results());
   }
+  if (with_truth) write_truth(*loop_, *state.mutable_truth());
 }
 
 }  // namespace nao::simulation_server

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 
@@ -41,17 +40,12 @@ class SimulationCore {
   void step(const protocol::Step& request, protocol::State& state);
   void set_joint_targets(const protocol::JointTargets& targets);
   void write_state(bool with_truth, protocol::State& state);
-  void write_results(protocol::State& state);
 
   ClosedLoopOptions options_;
   std::unique_ptr<ClosedLoop> loop_;
   /** Servo targets of the present step; valid while has_targets_. */
   sim::MotorTargets targets_;
   bool has_targets_ = false;
-  size_t num_reported_results_ = 0;
-  /** Commands whose acceptance was reported and whose end was not: the motion core accepts each
-   * repetition of a walk anew. */
-  std::set<int64_t> accepted_;
 };
 
 }  // namespace nao::simulation_server

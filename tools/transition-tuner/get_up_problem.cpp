@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/text_file.h"
 #include "daemons/motion/transitions/transition_graph.h"
-#include "tools/tuning/text_file.h"
 
 namespace nao {
 namespace {

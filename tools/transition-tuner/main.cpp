@@ -6,11 +6,10 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
+#include "common/text_file.h"
 #include "tools/transition-tuner/get_up_problem.h"
 #include "tools/tuning/search_options.h"
 #include "tools/tuning/search_run.h"
-#include "tools/tuning/text_file.h"
-#include "tools/tuning/workers.h"
 
 namespace nao {
 namespace {
@@ -46,13 +45,7 @@ void tune(const TunerOptions& options) {
   if (!options.is_check && problem.start().size() < 2) {
     throw ConfigError("--sequence must name a transition with two numbers");
   }
-  with_workers(
-      options.search.jobs, identity_of(options.search, problem),
-      [&](const Task& task) { return problem.run(task); },
-      [&](Evaluator& evaluator) {
-        if (options.is_check) return run_check(problem, evaluator);
-        run_search(options.search, problem, evaluator);
-      });
+  run_on_workers(options.search, problem, options.is_check);
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ std::vector<double> read_numbers(const YamlEntry& list) {
 
 }  // namespace
 
+// The costs of all generations, with which the search is repeated on resume (see replay());
+// candidates need not be stored.
 std::string Checkpoint::to_text() const {
   const auto add = [](JsonWriter& json, const std::string& key, const std::vector<double>& list) {
     json.add(key, list.data(), static_cast<int>(list.size()));
@@ -44,6 +46,7 @@ Checkpoint Checkpoint::parse(const std::string& text, const std::string& name) {
   }
   for (const YamlEntry& generation : whole.at("costs").items()) {
     checkpoint.costs.push_back(read_numbers(generation));
+    // A damaged file must not lead to another search without notice.
     if (checkpoint.costs.back().size() != checkpoint.costs.front().size()) {
       generation.fail("must have as many costs as the first generation");
     }
@@ -52,6 +55,7 @@ Checkpoint Checkpoint::parse(const std::string& text, const std::string& name) {
   return checkpoint;
 }
 
+// A search that goes on with other settings would be neither the one nor the other.
 void Checkpoint::require_settings(const std::map<std::string, std::string>& present,
                                   const std::string& name) const {
   std::string differences;

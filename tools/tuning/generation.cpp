@@ -22,6 +22,7 @@ void run_trials(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& candid
     for (int trial = begin; trial < end; ++trial) tasks.push_back({point, first_seed, trial});
   }
   const std::vector<Outcome> outcomes = evaluator.evaluate(tasks);
+  // Outcomes come in the order of tasks: num_each of each chosen candidate.
   const auto num_each = static_cast<size_t>(end - begin);
   for (size_t i = 0; i < outcomes.size(); ++i) {
     trials[chosen[i / num_each]].push_back(outcomes[i].figures);
@@ -43,10 +44,13 @@ EvaluatedGeneration evaluate_generation(const TuningProblem& problem, Evaluator&
   std::iota(chosen.begin(), chosen.end(), size_t{0});
   const auto cost_of = [&](size_t k) {
     const double cost = problem.cost(candidates[k], trials[k]);
+    // An infinite or NaN cost would make the ranking meaningless.
     if (!std::isfinite(cost)) throw Error(fmt::format("cost {} of a candidate", cost));
     return cost;
   };
 
+  // Screening: all candidates run some trials; the worst third of them is given up, and the others
+  // run the rest.
   const int num_trials = problem.num_trials();
   const bool is_screened = screen > 0 && screen < num_trials;
   const int first_end = is_screened ? screen : num_trials;
@@ -59,6 +63,7 @@ EvaluatedGeneration evaluate_generation(const TuningProblem& problem, Evaluator&
   const size_t num_kept = num_candidates - num_candidates / 3;
   const std::vector<size_t> given_up(chosen.begin() + static_cast<long>(num_kept), chosen.end());
   chosen.resize(num_kept);
+  // In the candidates' order again, so that seeds and tasks do not depend on the ranking.
   std::sort(chosen.begin(), chosen.end());
   run_trials(evaluator, candidates, chosen, first_seed, first_end, num_trials, trials, result);
   double worst = -std::numeric_limits<double>::infinity();

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/text_file.h"
 #include "tools/tuning/task_batch.h"
 #include "tools/tuning/task_codec.h"
-#include "tools/tuning/text_file.h"
 
 namespace nao {
 namespace {
@@ -33,6 +33,7 @@ void send(int rank, Tag tag, const Words& words) {
   MPI_Send(words.data(), static_cast<int>(words.size()), MPI_UINT64_T, rank, tag, MPI_COMM_WORLD);
 }
 
+// The next message from any process, without waiting for one.
 std::optional<Message> receive() {
   int is_there = 0;
   MPI_Status status;
@@ -54,6 +55,7 @@ std::optional<Message> receive() {
 MpiEvaluator::MpiEvaluator(int num_threads, const std::string& identity, RunTask run)
     : threads_(num_threads, std::move(run)) {
   int provided = 0;
+  // FUNNELED: only this thread calls MPI; worker threads never do.
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &num_processes_);
@@ -61,6 +63,8 @@ MpiEvaluator::MpiEvaluator(int num_threads, const std::string& identity, RunTask
 }
 
 void MpiEvaluator::gather_slots(const std::string& identity) {
+  // Threads of each process and a digest of its settings: processes with other files would give
+  // other results for the same task.
   const uint64_t own[2] = {static_cast<uint64_t>(threads_.count()), digest(identity)};
   Words all(2 * static_cast<size_t>(num_processes_));
   MPI_Gather(own, 2, MPI_UINT64_T, all.data(), 2, MPI_UINT64_T, 0, MPI_COMM_WORLD);
@@ -88,6 +92,7 @@ void MpiEvaluator::end_processes() {
   MPI_Finalize();
 }
 
+// Loop of all processes but the first, until kEnd comes.
 void MpiEvaluator::serve() {
   for (;;) {
     while (const auto outcome = threads_.poll()) send(0, kOutcome, encode_outcome(*outcome));

@@ -11,11 +11,12 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/text_file.h"
 #include "tools/tuning/checkpoint.h"
 #include "tools/tuning/cma_es.h"
 #include "tools/tuning/generation.h"
 #include "tools/tuning/stop_signal.h"
-#include "tools/tuning/text_file.h"
+#include "tools/tuning/workers.h"
 
 namespace nao {
 namespace {
@@ -55,6 +56,8 @@ Checkpoint read_checkpoint(const std::string& file,
 }
 
 /** Brings a new search to the state of the checkpoint. */
+// CMA-ES is deterministic: asking and telling the stored costs again gives the same state, without
+// storing the covariance.
 void replay(const Checkpoint& checkpoint, int population, const std::string& file, CmaEs& search) {
   for (const std::vector<double>& costs : checkpoint.costs) {
     if (costs.size() != static_cast<size_t>(population)) {
@@ -66,6 +69,7 @@ void replay(const Checkpoint& checkpoint, int population, const std::string& fil
     search.ask();
     search.tell(costs);
   }
+  // The stored mean is the check that the build computes the same numbers bit by bit.
   if (to_list(search.mean()) != checkpoint.mean) {
     throw ConfigError(
         fmt::format("the costs in {} do not lead to its mean: the checkpoint is damaged, or of "
@@ -88,8 +92,7 @@ void print_generation(const SearchOptions& options, const TuningProblem& problem
   std::fflush(stdout);
 }
 
-}  // namespace
-
+/** Text about everything that the results of the problem's trials depend on. */
 std::string identity_of(const SearchOptions& options, const TuningProblem& problem) {
   std::string text;
   for (const auto& [name, value] : settings_of(options, problem)) {
@@ -97,6 +100,8 @@ std::string identity_of(const SearchOptions& options, const TuningProblem& probl
   }
   return text;
 }
+
+}  // namespace
 
 void run_search(const SearchOptions& options, const TuningProblem& problem, Evaluator& evaluator) {
   CmaEs search(problem.start(), options.sigma, options.population, options.seed);
@@ -112,6 +117,7 @@ void run_search(const SearchOptions& options, const TuningProblem& problem, Eval
        ++generation) {
     const Clock::time_point begin = Clock::now();
     const std::vector<Eigen::VectorXd> candidates = search.ask();
+    // New seeds in each generation, so that the search does not adapt to a few of them.
     const uint64_t first_seed =
         options.seed * kSeedsPerSearch +
         static_cast<uint64_t>(generation) * static_cast<uint64_t>(problem.num_seeds());
@@ -139,6 +145,16 @@ void run_check(const TuningProblem& problem, Evaluator& evaluator) {
   const EvaluatedGeneration evaluated =
       evaluate_generation(problem, evaluator, {start}, kCheckSeed, 0);
   fmt::print("cost {:.4f}; {}\n", evaluated.costs.front(), problem.describe(evaluated.trials));
+}
+
+void run_on_workers(const SearchOptions& options, const TuningProblem& problem, bool is_check) {
+  with_workers(
+      options.jobs, identity_of(options, problem),
+      [&](const Task& task) { return problem.run(task); },
+      [&](Evaluator& evaluator) {
+        if (is_check) return run_check(problem, evaluator);
+        run_search(options, problem, evaluator);
+      });
 }
 
 }  // namespace nao

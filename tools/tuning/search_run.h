@@ -1,15 +1,10 @@
 #pragma once
 
-#include <cstdint>
-
 #include "tools/tuning/evaluator.h"
 #include "tools/tuning/search_options.h"
 #include "tools/tuning/tuning_problem.h"
 
 namespace nao {
-
-/** Text about everything that the results of the problem's trials depend on. */
-std::string identity_of(const SearchOptions& options, const TuningProblem& problem);
 
 /** Searches by CMA-ES, generation by generation: all candidates of a generation in the same trials,
  * each generation in new ones. After each generation it replaces the output and the checkpoint, and
@@ -24,5 +19,9 @@ void run_search(const SearchOptions& options, const TuningProblem& problem, Eval
 
 /** Evaluates the start of the search, in trials that no search uses, and prints a line. */
 void run_check(const TuningProblem& problem, Evaluator& evaluator);
+
+/** Runs the search, or only its check, on all workers that the options name. Throws as run_search
+ * and with_workers. */
+void run_on_workers(const SearchOptions& options, const TuningProblem& problem, bool is_check);
 
 }  // namespace nao

@@ -5,6 +5,8 @@
 #include <functional>
 #include <optional>
 
+#include "daemons/vision/field_model.h"
+
 namespace nao::vision {
 namespace {
 
@@ -54,6 +56,7 @@ class Labeller {
            const cv::Mat& named)
       : scene_(scene),
         file_(file),
+        field_(file),
         named_(named),
         geometry_(*image.calibration, image.pose_camera_in_heading),
         world_in_heading_(scene.heading_in_world.inverse()) {}
@@ -160,10 +163,10 @@ class Labeller {
     finish();
   }
 
-  void add_crossing(Kind kind, double x, double y) {
+  void add_crossing(Kind kind, const Eigen::Vector2d& position) {
     Label label;
     label.object.kind = kind;
-    label.object.position = world_in_heading_ * Eigen::Vector2d(x, y);
+    label.object.position = world_in_heading_ * position;
     if (label.object.position.norm() > kLineReach) return;
     const auto pixel = white_pixel({label.object.position.x(), label.object.position.y(), 0});
     if (!pixel) return;
@@ -177,29 +180,10 @@ class Labeller {
   }
 
   void add_lines() {
-    const FieldDimensions& f = *file_.field;
-    const double x = f.length / 2;
-    const double y = f.width / 2;
-    const auto rectangle = [&](double sign, double depth, double half) {
-      const double front = sign * (x - depth);
-      add_line({front, -half}, {front, half});
-      add_line({front, -half}, {sign * x, -half});
-      add_line({front, half}, {sign * x, half});
-      for (const double side : {-half, half}) {
-        add_crossing(Kind::kCrossingL, front, side);
-        add_crossing(Kind::kCrossingT, sign * x, side);
-      }
-    };
-    for (const double sign : {-1.0, 1.0}) {
-      add_line({sign * x, -y}, {sign * x, y});
-      add_line({-x, sign * y}, {x, sign * y});
-      rectangle(sign, f.goal_area_length, f.goal_area_width / 2);
-      rectangle(sign, f.penalty_area_length, f.penalty_area_width / 2);
-      add_crossing(Kind::kCrossingL, sign * x, y);
-      add_crossing(Kind::kCrossingL, sign * x, -y);
-      add_crossing(Kind::kCrossingT, 0, sign * y);
+    for (const FieldLine& line : field_.lines()) add_line(line.from, line.to);
+    for (const FieldCrossing& crossing : field_.crossings()) {
+      add_crossing(crossing.kind, crossing.position);
     }
-    add_line({0, -y}, {0, y});
     add_circle();
   }
 
@@ -228,40 +212,34 @@ class Labeller {
   }
 
   void add_posts() {
-    if (!file_.goals) return;
-    const GoalDimensions& goals = *file_.goals;
-    for (const double sign : {-1.0, 1.0}) {
-      for (const double side : {-0.5, 0.5}) {
-        const Eigen::Vector2d ground =
-            world_in_heading_ *
-            Eigen::Vector2d(sign * (file_.field->length / 2 + goals.post_offset),
-                            side * goals.post_distance);
-        constexpr int kNumPoints = 20;
-        int num_visible = 0;
-        bool is_foot_visible = false;
-        Eigen::Vector4d box(1e9, 1e9, -1, -1);
-        for (int i = 0; i < kNumPoints; ++i) {
-          const double z = goals.crossbar_height * i / kNumPoints;
-          const auto pixel = white_pixel({ground.x(), ground.y(), z});
-          if (!pixel) continue;
-          ++num_visible;
-          is_foot_visible |= i < 3;
-          box = {std::min<double>(box[0], pixel->x - 4), std::min<double>(box[1], pixel->y),
-                 std::max<double>(box[2], pixel->x + 4), std::max<double>(box[3], pixel->y)};
-        }
-        if (num_visible == 0 || ground.norm() > kLineReach) continue;
-        Label label;
-        label.object.kind = Kind::kGoalPost;
-        label.object.position = ground;
-        label.object.box_px = box;
-        label.visible = is_foot_visible ? 1 : 0.3;
-        labels_.push_back(label);
+    for (const Eigen::Vector2d& post : field_.goal_posts()) {
+      const Eigen::Vector2d ground = world_in_heading_ * post;
+      constexpr int kNumPoints = 20;
+      int num_visible = 0;
+      bool is_foot_visible = false;
+      Eigen::Vector4d box(1e9, 1e9, -1, -1);
+      for (int i = 0; i < kNumPoints; ++i) {
+        const double z = file_.goals->crossbar_height * i / kNumPoints;
+        const auto pixel = white_pixel({ground.x(), ground.y(), z});
+        if (!pixel) continue;
+        ++num_visible;
+        is_foot_visible |= i < 3;
+        box = {std::min<double>(box[0], pixel->x - 4), std::min<double>(box[1], pixel->y),
+               std::max<double>(box[2], pixel->x + 4), std::max<double>(box[3], pixel->y)};
       }
+      if (num_visible == 0 || ground.norm() > kLineReach) continue;
+      Label label;
+      label.object.kind = Kind::kGoalPost;
+      label.object.position = ground;
+      label.object.box_px = box;
+      label.visible = is_foot_visible ? 1 : 0.3;
+      labels_.push_back(label);
     }
   }
 
   const RandomScene& scene_;
   const SceneFile& file_;
+  FieldModel field_;
   const cv::Mat& named_;
   CameraGeometry geometry_;
   Pose2 world_in_heading_;

@@ -13,6 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// NaN becomes null in JSON, and null NaN again in vector().
 Json numbers(const Eigen::VectorXd& values) {
   Json list = Json::array();
   for (const double value : values) list.push_back(value);
@@ -67,6 +68,8 @@ void read_camera(const Json& json, LabelledImage& image) {
   }
 }
 
+// COCO's format of annotations (bounding box as x, y, width, height), with further keys for
+// positions on the ground.
 Label read_label(const Json& json) {
   Label label;
   const int category = json.at("category_id");
@@ -101,6 +104,7 @@ std::vector<LabelledImage> read_label_file(const std::filesystem::path& file) {
       index[entry.at("id")] = images.size();
       images.push_back(std::move(image));
     }
+    // Annotations refer to images by id, not by order.
     for (const Json& entry : json.at("annotations")) {
       images.at(index.at(entry.at("image_id"))).labels->push_back(read_label(entry));
     }
@@ -117,6 +121,7 @@ std::vector<LabelledImage> read_images(const std::filesystem::path& folder) {
     throw Error("there is no folder " + folder.string());
   }
   if (std::filesystem::exists(folder / kLabelFile)) return read_label_file(folder / kLabelFile);
+  // Without labels: all images of the folder, in the order of their names.
   std::vector<LabelledImage> images;
   const std::set<std::string> suffixes = {".jpg", ".jpeg", ".png", ".JPG", ".PNG"};
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

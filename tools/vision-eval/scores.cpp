@@ -26,6 +26,7 @@ Eigen::Vector2d center(const Detection& object) {
   return {0.5 * (object.box_px[0] + object.box_px[2]), 0.5 * (object.box_px[1] + object.box_px[3])};
 }
 
+// Area of the intersection over that of the union of both boxes; 0 without an intersection.
 double intersection_over_union(const Detection& a, const Detection& b) {
   const auto area = [](const Eigen::Vector4d& box) {
     return std::max(0.0, box[2] - box[0]) * std::max(0.0, box[3] - box[1]);
@@ -37,6 +38,8 @@ double intersection_over_union(const Detection& a, const Detection& b) {
   return common / (area(a.box_px) + area(b.box_px) - common + 1e-9);
 }
 
+// Whether a detection `a` is the labelled object `b`: tolerances in pixels, or on the ground, m,
+// where both have a position.
 bool matches(const Detection& a, const Detection& b) {
   const double distance = (center(a) - center(b)).norm();
   switch (a.kind) {
@@ -66,6 +69,7 @@ Kind row_kind(Kind kind) {
 double distance_to(const Eigen::Vector2d& point, const Eigen::Vector4d& line) {
   const Eigen::Vector2d a = line.head<2>();
   const Eigen::Vector2d d = line.tail<2>() - a;
+  // Parameter of the nearest point of the segment; the small number is for segments of no length.
   const double t = std::clamp((point - a).dot(d) / (d.squaredNorm() + 1e-9), 0.0, 1.0);
   return (a + t * d - point).norm();
 }
@@ -98,6 +102,7 @@ std::string percent(double part, double whole) {
 
 }  // namespace
 
+// Lines are scored by length: a detector may divide one line into several segments.
 void Scores::add_lines(const LabelledImage& image, const Detections& detections) {
   std::vector<Eigen::Vector4d> found;
   for (const Detection& d : detections) {
@@ -126,6 +131,7 @@ void Scores::add_objects(Kind kind, const LabelledImage& image, const Detections
   for (const Label& label : *image.labels) {
     if (row_kind(label.object.kind) != kind) continue;
     Row& row = rows_[{kind_name(kind), range_of(label.object)}];
+    // Objects that are hardly visible need not be found, but finding them is no fault.
     const bool is_required = label.visible >= kLeastVisible;
     row.num_labels += is_required;
     for (size_t i = 0; i < detections.size(); ++i) {
@@ -133,6 +139,7 @@ void Scores::add_objects(Kind kind, const LabelledImage& image, const Detections
           !matches(detections[i], label.object)) {
         continue;
       }
+      // Each detection counts for one label only.
       is_used[i] = true;
       if (!is_required) break;
       row.num_found += 1;
@@ -147,6 +154,7 @@ void Scores::add_objects(Kind kind, const LabelledImage& image, const Detections
       break;
     }
   }
+  // What is left belongs to no label.
   for (size_t i = 0; i < detections.size(); ++i) {
     if (is_used[i] || row_kind(detections[i].kind) != kind) continue;
     Row& row = rows_[{kind_name(kind), range_of(detections[i])}];

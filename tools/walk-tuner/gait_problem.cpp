@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tools/tuning/text_file.h"
+#include "common/text_file.h"
 #include "tools/walk-tuner/gait_file.h"
 
 namespace nao::tool {

@@ -8,10 +8,9 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
+#include "common/text_file.h"
 #include "tools/tuning/search_options.h"
 #include "tools/tuning/search_run.h"
-#include "tools/tuning/text_file.h"
-#include "tools/tuning/workers.h"
 #include "tools/walk-tuner/gait_problem.h"
 
 namespace nao::tool {
@@ -37,6 +36,10 @@ const std::vector<std::string> kNotTuned = {
     "timing.start_duration",
     "timing.stop_duration",
     "timing.raise_duration",
+    "timing.late_duration",
+    "timing.stop_horizon",
+    "swing.late_speed",
+    "swing.late_depth",
     "stance.turn_center",
     "step_limits.max_forward",
     "step_limits.max_backward",
@@ -44,10 +47,17 @@ const std::vector<std::string> kNotTuned = {
     "step_limits.min_foot_separation",
     "step_limits.max_turn_outward",
     "step_limits.max_turn_inward",
+    "step_limits.square_distance",
     "velocity.max_change_vx",
     "velocity.max_change_vy",
     "velocity.max_change_wz",
     "velocity.envelope_exponent",
+    "velocity.max_path_offset",
+    "velocity.full_speed_lag",
+    "velocity.slow_speed_lag",
+    "velocity.slow_speed",
+    "feedback.max_bias",
+    "feedback.max_com_offset",
     "kick.ball_distance",
     "kick.swing_reach",
     "kick.swing_lift",
@@ -107,13 +117,7 @@ void tune(const TunerOptions& options) {
   const GaitProblem problem(problem_options,
                             TrialConditions(options.search.engines, options.search.disturbances),
                             read_file(file), gait, parameters, choose_tuned(options, parameters));
-  with_workers(
-      options.search.jobs, identity_of(options.search, problem),
-      [&](const Task& task) { return problem.run(task); },
-      [&](Evaluator& evaluator) {
-        if (options.is_check) return run_check(problem, evaluator);
-        run_search(options.search, problem, evaluator);
-      });
+  run_on_workers(options.search, problem, options.is_check);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "messages/body_condition.h"
 #include "messages/command.h"
 #include "messages/mode.h"
 #include "robot_model/robot_model.h"
@@ -32,6 +33,17 @@ void show_motion_state(const naolcm::motion_state_t& message) {
   }
   ImGui::SameLine();
   ImGui::TextColored(kFaintColor, "  stiffness %.0f %%", 100 * message.stiffness);
+}
+
+/** A real robot's battery, hottest motor and warnings; a simulated body has none. */
+void show_body(const MessageStore& store, double now) {
+  const auto& body = store.body_state();
+  if (!body || now - body->time > kStateTimeout) return;
+  const BodyCondition condition = summarize(body->message);
+  if (!condition.is_known()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, condition.warnings.empty() ? kFaintColor : kBadColor);
+  ImGui::TextWrapped("%s", to_sentence(condition).c_str());
+  ImGui::PopStyleColor();
 }
 
 void show_posture_buttons(const RobotModel& model, CommandSender& commands, PanelState& state) {
@@ -105,6 +117,7 @@ void show_results(const MessageStore& store) {
 void draw_motion_panel(const MessageStore& store, const RobotModel& model, CommandSender* commands,
                        PanelState& state, double now) {
   place(8, 186, 296, 420);
+  // Set by the button below while it is held: a closed panel must not keep the robot walking.
   state.is_walking = false;
   if (begin_panel("Motion", state)) {
     const auto& motion = store.motion_state();
@@ -114,6 +127,7 @@ void draw_motion_panel(const MessageStore& store, const RobotModel& model, Comma
     } else {
       show_motion_state(motion->message);
     }
+    show_body(store, now);
     if (commands == nullptr) {
       show_no_commands();
     } else {

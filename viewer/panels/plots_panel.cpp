@@ -76,6 +76,7 @@ void draw_curves(const TimePlots& plots, double now, float height) {
                        corner.y + size.y * static_cast<float>((range.high - point.value) /
                                                               (range.high - range.low))});
     }
+    // One polyline for each curve; points outside of the window are left out.
     list->AddPolyline(curve.data(), static_cast<int>(curve.size()), curve_color(i), 0, 1.5f);
   }
   char text[32];
@@ -133,6 +134,7 @@ void show_legend(TimePlots& plots) {
     if (ImGui::SmallButton("x")) {
       plots.remove(i);
       ImGui::PopID();
+      // The list has changed; the others are drawn in the next frame.
       break;
     }
     tooltip("Removes this curve.");

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
-from typing import Callable
+from typing import Callable, Mapping
 
 from nao_remote import remote_pb2 as pb
 from nao_remote.address import resolve
@@ -14,6 +14,7 @@ from nao_remote.core import RobotCore
 from nao_remote.discovery import first_address
 from nao_remote.errors import ConnectionLost, Timeout
 from nao_remote.joints import Joints
+from nao_remote.lights import LIGHT_TIMEOUT, Color, Lights, make_request
 from nao_remote.messages import CommandResult, CommandStatus, Image, State
 from nao_remote.operator import Operator
 from nao_remote.streams import Stream
@@ -23,17 +24,21 @@ from nao_remote.walking import Walk
 IMAGE_POLL_PERIOD = 0.1
 # Default of timeouts for a motion, s. Chosen: getting up from the belly and sitting down takes half of it.
 MOTION_TIMEOUT = 60.0
+# For a behavior, s: longer than the search for a ball, and than any way to a goal.
+PLAY_TIMEOUT = 600.0
+# Default of timeouts for checking a taught motion, s. PROTOCOL.md: up to half a minute, and as long for one before it.
+CHECK_TIMEOUT = 120.0
 
 
 async def connect(address: str | None = None, *, token: str | None = None,
                   token_file: str | os.PathLike[str] | None = None, name: str = "Python",
                   certificate: str | os.PathLike[str] | None = None, timeout: float = 5.0, reconnect: bool = True,
-                  auto_control: bool = True) -> Robot:
+                  auto_control: bool = True, robot: str = "") -> Robot:
     """Connects to a robot's gateway. The parameters are those of nao_remote.connect()."""
     resolved = resolve(first_address() if address is None else address, token, token_file)
-    robot = Robot(Connection(resolved, name, certificate, timeout, reconnect), auto_control)
-    await robot._open()
-    return robot
+    connected = Robot(Connection(resolved, name, certificate, timeout, reconnect, robot), auto_control)
+    await connected._open()
+    return connected
 
 
 class Robot(RobotCore):
@@ -45,8 +50,9 @@ class Robot(RobotCore):
 
     def __init__(self, connection: Connection, auto_control: bool) -> None:
         super().__init__(connection, auto_control)
-        # The joints by name; the operator's console.
+        # The joints and lights by name; the operator's console.
         self.joints = Joints(self)
+        self.lights = Lights(self)
         self.operator = Operator(connection)
 
     async def __aenter__(self) -> Robot:
@@ -116,6 +122,79 @@ class Robot(RobotCore):
         if strength is not None:
             request.strength = strength
         return await self._command(wait, timeout, do_action=request)
+
+    async def play(self, behavior: str, *, target: tuple[float, float] | None = None, wait: bool = True,
+                   timeout: float = PLAY_TIMEOUT) -> Command:
+        """Lets the robot act by what it sees; needs nao-play and nao-vision on its host.
+
+        @param behavior  "go-to-ball", "kick", "dribble", "score", "keep-goal" (which goes on until it is ended) or "none", which
+        ends what runs. @param target  Where the ball shall go, m, in the odometry frame; None: the opponent's goal.
+        """
+        request = pb.Play(behavior=pb.Play.Behavior.Value(behavior.upper().replace("-", "_")))
+        if target is not None:
+            request.target_x, request.target_y = target
+        return await self._command(wait and behavior != "none", timeout, play=request)
+
+    # ---- Speech and lights ----
+
+    async def say(self, text: str, *, language: str = "", volume: float = 1.0, rate: float = 1.0, after: bool = False,
+                  wait: bool = True, timeout: float = MOTION_TIMEOUT) -> Command:
+        """Speaks a text of at most 1000 bytes; the robot may move meanwhile.
+
+        @param language  One of `description.languages`, with or without a region ("de-AT"); empty: the speaker's default.
+        @param volume  0 to 1. @param rate  Speed relative to normal, 0.5 to 2.
+        @param after  Speak it after what is being said, instead of replacing that.
+        """
+        operation = pb.Say.SAY_AFTER if after else pb.Say.SAY
+        return await self._command(wait, timeout, say=pb.Say(operation=operation, text=text, language=language,
+                                                             volume=volume, rate=rate))
+
+    async def stop_speaking(self, *, timeout: float = MOTION_TIMEOUT) -> Command:
+        """Ends what is being said, and what waits."""
+        return await self._command(True, timeout, say=pb.Say(operation=pb.Say.STOP))
+
+    async def set_lights(self, colors: Mapping[str, Color], duration: float = 0.0, *,
+                         timeout: float = LIGHT_TIMEOUT) -> Command:
+        """Sets several lights of `description.lights` at once; `robot.lights[NAME].set(color)` sets one.
+
+        @param colors  By name: "#ff8000", or red, green and blue, each 0 to 1.
+        @param duration  s, after which they show what they showed before; 0: until replaced.
+        """
+        return await self._command(True, timeout, set_lights=make_request(colors, duration))
+
+    # ---- Taught motions ----
+
+    async def motions(self) -> list[str]:
+        """@return the names of the motions that are saved on the robot's host; each is an action, too."""
+        response = await self._connection.request(list_motions=pb.ListMotions())
+        return list(response.motions.names)
+
+    async def motion(self, name: str) -> str:
+        """@return the text of a saved motion, YAML. @raise InvalidArgument  if there is none of that name."""
+        response = await self._connection.request(get_motion=pb.GetMotion(name=name))
+        return response.motion_file.yaml
+
+    async def check_motion(self, motion: str | pb.Motion, timeout: float = CHECK_TIMEOUT) -> None:
+        """Checks a motion in a simulation, which takes seconds, without saving it.
+
+        @param motion  A text as motion() returns it, or a Motion of the protocol. @raise MotionNotSafe
+        """
+        file = _motion_file(motion)
+        await self._connection.request_within(timeout, check_motion=pb.CheckMotion(motion=file))
+
+    async def save_motion(self, motion: str | pb.Motion, *, replace: bool = False, timeout: float = CHECK_TIMEOUT) -> None:
+        """Checks a motion and saves it: action() plays it by its name.
+
+        @param replace  Replace a saved motion of the same name. @raise MotionNotSafe. @raise NameInUse
+        """
+        await self._ensure_control()
+        file = _motion_file(motion)
+        await self._connection.request_within(timeout, save_motion=pb.SaveMotion(motion=file, replace=replace))
+
+    async def delete_motion(self, name: str) -> None:
+        """Deletes a saved motion. @raise InvalidArgument  if there is none of that name."""
+        await self._ensure_control()
+        await self._connection.request(delete_motion=pb.DeleteMotion(name=name))
 
     async def stop(self) -> None:
         """Ends any motion, also another client's; needs no control."""
@@ -193,3 +272,7 @@ class Robot(RobotCore):
                 if condition(state):
                     return state
         raise ConnectionLost("the stream of states ended")
+
+
+def _motion_file(motion: str | pb.Motion) -> pb.MotionFile:
+    return pb.MotionFile(yaml=motion) if isinstance(motion, str) else pb.MotionFile(motion=motion)

@@ -15,12 +15,14 @@ from typing import Any, Callable, Coroutine, Generic, Iterator, Mapping, TypeVar
 
 from nao_remote import aio
 from nao_remote import remote_pb2 as pb
-from nao_remote.aio import MOTION_TIMEOUT
+from nao_remote.aio import CHECK_TIMEOUT, MOTION_TIMEOUT, PLAY_TIMEOUT
 from nao_remote.command import Command as AsyncCommand
 from nao_remote.errors import Closed
 from nao_remote.joints import Joint as AsyncJoint
+from nao_remote.lights import LIGHT_TIMEOUT, Color
+from nao_remote.lights import Light as AsyncLight
 from nao_remote.messages import (Client, CommandResult, Control, Event, Image, JointDescription, Pong, RobotDescription,
-                                 State)
+                                 RobotEntry, State)
 from nao_remote.operator import Operator as AsyncOperator
 from nao_remote.streams import Stream as AsyncStream
 
@@ -32,7 +34,7 @@ CLOSE_TIMEOUT = 2.0
 
 def connect(address: str | None = None, *, token: str | None = None, token_file: str | os.PathLike[str] | None = None,
             name: str = "Python", certificate: str | os.PathLike[str] | None = None, timeout: float = 5.0,
-            reconnect: bool = True, auto_control: bool = True) -> Robot:
+            reconnect: bool = True, auto_control: bool = True, robot: str = "") -> Robot:
     """Connects to a robot's gateway: `with nao_remote.connect("nao.local", token="k7") as robot: robot.walk(0.1, duration=2)`.
 
     @param address  A host (`nao.local`, `192.168.1.20:8080`) or a URL: the one that the gateway prints
@@ -46,17 +48,19 @@ def connect(address: str | None = None, *, token: str | None = None, token_file:
     @param timeout  Time for the connection and for the answer to each request, s.
     @param reconnect  Connect again after the connection was lost. Until then requests raise ConnectionLost.
     @param auto_control  Take control with the first motion, if no client drives.
+    @param robot  Which robot of a gateway of several; empty: the first one that nobody drives, else the first.
+    @raise InvalidArgument  if the gateway has no robot of that name.
     @raise ConnectionLost  if there is no gateway. @raise WrongToken, WrongVersion, TooManyClients
     @raise ValueError  if the address cannot be read. @raise OSError  if a file cannot be read.
     """
     loop = LoopThread()
     try:
-        robot = loop.call(aio.connect(address, token=token, token_file=token_file, name=name, certificate=certificate,
-                                      timeout=timeout, reconnect=reconnect, auto_control=auto_control))
+        connected = loop.call(aio.connect(address, token=token, token_file=token_file, name=name, certificate=certificate,
+                                      timeout=timeout, reconnect=reconnect, auto_control=auto_control, robot=robot))
     except BaseException:
         loop.close()
         raise
-    return Robot(robot, loop)
+    return Robot(connected, loop)
 
 
 class LoopThread:
@@ -232,6 +236,43 @@ class Joints(Mapping[str, Joint]):
         return len(self._joints)
 
 
+class Light:
+    """One light; see nao_remote.lights.Light."""
+
+    def __init__(self, light: AsyncLight, loop: LoopThread) -> None:
+        self._light = light
+        self._loop = loop
+
+    @property
+    def name(self) -> str:
+        return self._light.name
+
+    def color(self) -> tuple[float, float, float]:
+        """@return red, green and blue that it shows, each 0 to 1."""
+        return self._loop.call(self._light.color())
+
+    def set(self, color: Color, duration: float = 0.0, *, timeout: float = LIGHT_TIMEOUT) -> Command:
+        """Sets its color: "#ff8000", or red, green and blue, each 0 to 1."""
+        return Command(self._loop.call(self._light.set(color, duration, timeout=timeout)), self._loop)
+
+
+class Lights(Mapping[str, Light]):
+    """All lights by name."""
+
+    def __init__(self, lights: Mapping[str, AsyncLight], loop: LoopThread) -> None:
+        self._lights = lights
+        self._loop = loop
+
+    def __getitem__(self, name: str) -> Light:
+        return Light(self._lights[name], self._loop)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._lights)
+
+    def __len__(self) -> int:
+        return len(self._lights)
+
+
 class Operator:
     """The operator's console; see nao_remote.operator.Operator."""
 
@@ -243,13 +284,25 @@ class Operator:
         """@return the gateway's clients."""
         return self._loop.call(self._operator.clients())
 
-    def take_control(self) -> None:
+    def take_control(self, robot: str = "") -> None:
         """Takes control from every client until release_control()."""
-        self._loop.call(self._operator.take_control())
+        self._loop.call(self._operator.take_control(robot))
 
-    def release_control(self) -> None:
+    def release_control(self, robot: str = "") -> None:
         """Lets clients drive again."""
-        self._loop.call(self._operator.release_control())
+        self._loop.call(self._operator.release_control(robot))
+
+    def mute(self, client_id: int) -> None:
+        """Lets a client watch only."""
+        self._loop.call(self._operator.mute(client_id))
+
+    def unmute(self, client_id: int) -> None:
+        """Lets a client drive again."""
+        self._loop.call(self._operator.unmute(client_id))
+
+    def assign(self, client_id: int, robot: str = "") -> None:
+        """Lets a client drive a robot."""
+        self._loop.call(self._operator.assign(client_id, robot))
 
     def kick(self, client_id: int) -> None:
         """Closes a client's connection."""
@@ -265,8 +318,9 @@ class Robot:
     def __init__(self, robot: aio.Robot, loop: LoopThread) -> None:
         self._robot = robot
         self._loop = loop
-        # The joints by name; the operator's console.
+        # The joints and lights by name; the operator's console.
         self.joints = Joints(robot.joints, loop)
+        self.lights = Lights(robot.lights, loop)
         self.operator = Operator(robot.operator, loop)
 
     def __enter__(self) -> Robot:
@@ -303,6 +357,15 @@ class Robot:
         """Who drives, as far as this client knows."""
         return self._robot.control
 
+    @property
+    def robots(self) -> tuple[RobotEntry, ...]:
+        """The robots of a gateway of several; empty where there is only one."""
+        return self._robot.robots
+
+    def watch(self, robot: str) -> RobotDescription:
+        """Watches another robot of the gateway."""
+        return self._loop.call(self._robot.watch(robot))
+
     def wait_until_connected(self, timeout: float = 30.0) -> None:
         """Waits until the client has connected again."""
         self._loop.call(self._robot.wait_until_connected(timeout))
@@ -315,9 +378,9 @@ class Robot:
         """Measures the time to the gateway and back; relates the clocks."""
         return self._loop.call(self._robot.ping())
 
-    def take_control(self) -> Control:
-        """Asks for control."""
-        return self._loop.call(self._robot.take_control())
+    def take_control(self, robot: str = "") -> Control:
+        """Asks for control, of another one of several robots if it is named."""
+        return self._loop.call(self._robot.take_control(robot))
 
     def release_control(self) -> Control:
         """Lets other clients drive."""
@@ -358,6 +421,46 @@ class Robot:
                wait: bool = True, timeout: float = MOTION_TIMEOUT) -> Command:
         """Performs an action of `description.actions`."""
         return self._command(self._robot.action(action, ball=ball, strength=strength, wait=wait, timeout=timeout))
+
+    def play(self, behavior: str, *, target: tuple[float, float] | None = None, wait: bool = True,
+             timeout: float = PLAY_TIMEOUT) -> Command:
+        """See aio.Robot.play()."""
+        return self._command(self._robot.play(behavior, target=target, wait=wait, timeout=timeout))
+
+    def say(self, text: str, *, language: str = "", volume: float = 1.0, rate: float = 1.0, after: bool = False,
+            wait: bool = True, timeout: float = MOTION_TIMEOUT) -> Command:
+        """Speaks a text of at most 1000 bytes; the robot may move meanwhile."""
+        return self._command(self._robot.say(text, language=language, volume=volume, rate=rate, after=after, wait=wait,
+                                             timeout=timeout))
+
+    def stop_speaking(self, *, timeout: float = MOTION_TIMEOUT) -> Command:
+        """Ends what is being said, and what waits."""
+        return self._command(self._robot.stop_speaking(timeout=timeout))
+
+    def set_lights(self, colors: Mapping[str, Color], duration: float = 0.0, *,
+                   timeout: float = LIGHT_TIMEOUT) -> Command:
+        """Sets several lights of `description.lights` at once."""
+        return self._command(self._robot.set_lights(colors, duration, timeout=timeout))
+
+    def motions(self) -> list[str]:
+        """@return the names of the motions that are saved on the robot's host; each is an action, too."""
+        return self._loop.call(self._robot.motions())
+
+    def motion(self, name: str) -> str:
+        """@return the text of a saved motion, YAML."""
+        return self._loop.call(self._robot.motion(name))
+
+    def check_motion(self, motion: str | pb.Motion, timeout: float = CHECK_TIMEOUT) -> None:
+        """Checks a motion in a simulation, which takes seconds, without saving it."""
+        self._loop.call(self._robot.check_motion(motion, timeout))
+
+    def save_motion(self, motion: str | pb.Motion, *, replace: bool = False, timeout: float = CHECK_TIMEOUT) -> None:
+        """Checks a motion and saves it: action() plays it by its name."""
+        self._loop.call(self._robot.save_motion(motion, replace=replace, timeout=timeout))
+
+    def delete_motion(self, name: str) -> None:
+        """Deletes a saved motion."""
+        self._loop.call(self._robot.delete_motion(name))
 
     def stop(self) -> None:
         """Ends any motion, also another client's; needs no control."""

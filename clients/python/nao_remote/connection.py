@@ -33,8 +33,10 @@ class Connection:
     """
 
     def __init__(self, address: Address, client_name: str, certificate: str | os.PathLike[str] | None, timeout: float,
-                 reconnects: bool) -> None:
+                 reconnects: bool, robot: str = "") -> None:
+        """@param robot  Which of several robots; empty: the gateway chooses."""
         self.address = address
+        self.robot = robot
         self.timeout = timeout
         # Called after each successful Connect, after each loss (with whether it was the last one), and with every
         # message that is no response.
@@ -84,8 +86,12 @@ class Connection:
             self.on_lost(self._error, True)
 
     async def request(self, request_id: int | None = None, **use_case: Any) -> pb.Response:
-        """As Session.request()."""
+        """As Session.request(), with the connection's timeout."""
         return await self.session.request(self.timeout, request_id, **use_case)
+
+    async def request_within(self, timeout: float, **use_case: Any) -> pb.Response:
+        """As Session.request(), for what the gateway answers late."""
+        return await self.session.request(timeout, None, **use_case)
 
     async def _connect(self) -> None:
         transport = await open_transport(self.address, self._certificate, self.timeout)
@@ -94,7 +100,7 @@ class Connection:
         try:
             response = await session.request(self.timeout, connect=pb.Connect(
                 protocol_version=PROTOCOL_VERSION, token=self.address.token, client_name=self._client_name,
-                client_software=SOFTWARE))
+                client_software=SOFTWARE, robot=self.robot))
         except BaseException:
             running.cancel()
             await asyncio.gather(running, return_exceptions=True)

@@ -10,14 +10,16 @@ from nao_remote import remote_pb2 as pb
 from nao_remote.command import Command
 from nao_remote.connection import Connection
 from nao_remote.errors import ConnectionLost
-from nao_remote.messages import (CommandResult, Connected, Control, ControlChanged, Disconnected, Event, Image, Pong,
-                                 RobotDescription, State, event_from_protocol)
+from nao_remote.messages import (CommandResult, CommandStatus, Connected, Control, ControlChanged, Disconnected, Event, Image,
+                                 Pong, RobotDescription, RobotEntry, RobotsChanged, State, event_from_protocol)
 from nao_remote.streams import Stream
 from nao_remote.subscription import Subscription
 from nao_remote.walking import Walk
 
 # Events that are kept for a reader that is late. Chosen: a minute of busy driving.
 EVENT_CAPACITY = 256
+# Use cases during which a walk goes on.
+BESIDE_A_WALK = {"change_joints", "say", "set_lights"}
 
 
 class RobotCore:
@@ -31,6 +33,7 @@ class RobotCore:
         # Another client or the operator has taken control from this one: it is not taken back by itself.
         self._is_displaced = False
         self._client_id = 0
+        self._robots: tuple[RobotEntry, ...] = ()
         self._commands: dict[int, Command] = {}
         self._walk: Walk | None = None
         self._events: set[Stream[Event]] = set()
@@ -69,6 +72,22 @@ class RobotCore:
         assert self._description is not None
         return self._description
 
+    @property
+    def robots(self) -> tuple[RobotEntry, ...]:
+        """The robots of a gateway of several; empty where there is only one."""
+        return self._robots
+
+    async def watch(self, robot: str) -> RobotDescription:
+        """Watches another robot of the gateway: control of the one before is released, and its walk ends.
+
+        @return its description. @raise InvalidArgument  if there is none of that name.
+        """
+        with self.events(self._connection.timeout) as events:
+            await self._connection.request(watch_robot=pb.WatchRobot(robot=robot))
+            while self.description.name != robot:
+                await events.next(self._connection.timeout)
+        return self.description
+
     async def wait_until_connected(self, timeout: float = 30.0) -> None:
         """Waits until the client has connected again. @raise Timeout. @raise Closed  if it has given up."""
         with self.events(timeout=None) as events:
@@ -97,9 +116,15 @@ class RobotCore:
         """Who drives, as far as this client knows."""
         return self._control
 
-    async def take_control(self) -> Control:
-        """Asks for control. @raise ControlTaken  if another client drives."""
-        response = await self._connection.request(take_control=pb.TakeControl())
+    async def take_control(self, robot: str = "") -> Control:
+        """Asks for control. @param robot  Another one of several robots, which is watched from then on.
+
+        @raise ControlTaken  if another client drives.
+        """
+        with self.events(self._connection.timeout) as events:
+            response = await self._connection.request(take_control=pb.TakeControl(robot=robot))
+            while robot and self.description.name != robot:
+                await events.next(self._connection.timeout)
         self._control = Control.from_protocol(response.control)
         self._is_displaced = False
         return self._control
@@ -149,7 +174,7 @@ class RobotCore:
 
     async def _command(self, wait: bool, timeout: float, **use_case: Any) -> Command:
         await self._ensure_control()
-        if self._walk is not None and "change_joints" not in use_case:
+        if self._walk is not None and not use_case.keys() & BESIDE_A_WALK:
             walk, self._walk = self._walk, None
             walk.abandon()
         with self._new_command() as command:
@@ -164,6 +189,10 @@ class RobotCore:
         self._client_id = connected.client_id
         self._control = Control.from_protocol(connected.control)
         self._is_displaced = False
+        self._robots = RobotEntry.from_protocol(connected.robots)
+        if self._robots:
+            # After a lost connection the same one.
+            self._connection.robot = connected.robot.name
         self._subscription.handle_connected()
         if not is_first:
             self._publish(Connected(f"connected to {self._connection.address} again"))
@@ -189,11 +218,29 @@ class RobotCore:
         elif kind == "image":
             self._subscription.put_image(Image.from_protocol(message.image))
         elif kind == "notice":
+            if message.notice.kind == pb.Notice.ROBOT_CHANGED:
+                self._handle_robot_changed(message.notice)
             event = event_from_protocol(message.notice)
             if event is not None:
                 self._handle_event(event)
 
+    def _handle_robot_changed(self, notice: pb.Notice) -> None:
+        self._description = RobotDescription.from_protocol(notice.robot)
+        self._connection.robot = notice.robot.name
+        self._control = Control.from_protocol(notice.control)
+        self._is_displaced = False
+        if self._walk is not None:
+            self._walk.abandon()
+            self._walk = None
+        # The gateway reports nothing more of the robot before.
+        commands, self._commands = self._commands, {}
+        for command in commands.values():
+            command.handle(CommandResult(notice.message, notice.reason_code, tuple(notice.reason_arguments),
+                                         command.request_id, CommandStatus.INTERRUPTED))
+
     def _handle_event(self, event: Event) -> None:
+        if isinstance(event, RobotsChanged):
+            self._robots = event.robots
         if isinstance(event, ControlChanged):
             if self._control.is_mine and not event.control.is_mine and event.control.driver_id != 0:
                 self._is_displaced = True

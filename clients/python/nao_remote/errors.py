@@ -1,11 +1,12 @@
 """Exceptions of this package.
 
-Every exception has the robot's sentence as its text. Where the robot gave a reason code (PROTOCOL.md, section 7), it is
+Every exception has the robot's sentence as its text. Where the robot gave a reason code (PROTOCOL.md, section 8), it is
 in `reason_code`, with the values of the sentence in `reason_arguments`.
 """
 
 from __future__ import annotations
 
+import re
 from typing import Sequence
 
 from nao_remote import remote_pb2 as pb
@@ -35,7 +36,8 @@ class Timeout(NaoError, TimeoutError):
 
 
 class Refused(NaoError):
-    """The gateway answered a request with an error. There is one subclass for each ErrorCode of the protocol."""
+    """The gateway answered a request with an error. Each ErrorCode of the protocol has the subclass of its name: WRONG_TOKEN
+    is WrongToken. `error_code` is the code."""
 
     error_code: int = pb.INVALID_REQUEST
 
@@ -43,74 +45,68 @@ class Refused(NaoError):
 class InvalidRequest(Refused):
     """The gateway does not know the request: it is older than this package."""
 
-    error_code = pb.INVALID_REQUEST
-
 
 class NotConnected(Refused):
     """A request before Connect."""
-
-    error_code = pb.NOT_CONNECTED
 
 
 class WrongVersion(Refused):
     """The gateway speaks another version of the protocol."""
 
-    error_code = pb.WRONG_VERSION
-
 
 class WrongToken(Refused):
     """The token is wrong or missing."""
-
-    error_code = pb.WRONG_TOKEN
 
 
 class InvalidArgument(Refused):
     """A value is out of range or not finite, or names something that the robot does not have. Nothing moves."""
 
-    error_code = pb.INVALID_ARGUMENT
-
 
 class NoControl(Refused):
     """No client has control: call take_control() first."""
 
-    error_code = pb.NO_CONTROL
-
 
 class ControlTaken(Refused):
     """Another client or the operator has control; `driver_name` names it."""
-
-    error_code = pb.CONTROL_TAKEN
     driver_name = ""
 
 
 class TooManyRequests(Refused):
     """More requests in a second than the gateway accepts."""
 
-    error_code = pb.TOO_MANY_REQUESTS
-
 
 class TooManyClients(Refused):
     """The gateway has as many clients as it accepts."""
-
-    error_code = pb.TOO_MANY_CLIENTS
 
 
 class RobotUnavailable(Refused):
     """The motion program or the robot does not answer."""
 
-    error_code = pb.ROBOT_UNAVAILABLE
-
 
 class NotAllowed(Refused):
     """Only programs on the gateway's own host may do this."""
-
-    error_code = pb.NOT_ALLOWED
 
 
 class Stopped(Refused):
     """A client sent Stop during this walk. The next walk() after 0.5 s is accepted."""
 
-    error_code = pb.STOPPED
+
+class NameInUse(Refused):
+    """A motion of this name is saved, or an action of the robot's own has it."""
+
+    error_code = pb.NAME_IN_USE
+
+
+class MotionNotSafe(InvalidArgument):
+    """A taught motion would make the robot fall, touch itself or exceed a limit. Nothing is saved.
+
+    `keyframe` is the one at which the fault shows, from 0; -1: none in particular. `repaired` is a changed motion without the
+    fault, or None, and `repair` says what was changed: "slowed-down" or "clipped".
+    """
+
+    keyframe = -1
+    repair = ""
+    repaired: pb.Motion | None = None
 
 
 class CommandFailed(NaoError):
@@ -129,15 +125,25 @@ class SimulationError(NaoError):
     """The simulation's server refused a request, or has ended."""
 
 
-REFUSALS: dict[int, type[Refused]] = {kind.error_code: kind for kind in Refused.__subclasses__()}
+def _code_of(kind: type[Refused]) -> int:
+    return int(pb.ErrorCode.Value(re.sub("(?<=[a-z])(?=[A-Z])", "_", kind.__name__).upper()))
+
+
+REFUSALS: dict[int, type[Refused]] = {_code_of(kind): kind for kind in Refused.__subclasses__()}
 
 
 def refusal(response: pb.Response) -> Refused:
     """@return the exception for a response whose error is not OK."""
     kind = REFUSALS.get(response.error, Refused)
+    if kind is InvalidArgument and response.HasField("motion_report"):
+        kind = MotionNotSafe
     message = response.message or f"error {response.error}"
     error = kind(message, response.reason_code, response.reason_arguments)
     error.error_code = response.error
     if isinstance(error, ControlTaken):
         error.driver_name = response.control.driver_name
+    if isinstance(error, MotionNotSafe):
+        report = response.motion_report
+        error.keyframe, error.repair = report.keyframe, report.repair
+        error.repaired = report.repaired if report.HasField("repaired") else None
     return error

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import enum
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Mapping, Union
 
 from nao_remote import remote_pb2 as pb
+from nao_remote.lights import from_rgb
 
 
 class Mode(enum.IntEnum):
@@ -121,8 +122,11 @@ class RobotDescription:
     rest_posture: str
     # Group that turns the first camera; empty: none.
     camera_group: str
-    # Words of people: (kind, name, language) to text; kind is "posture", "action", "group" or "camera".
+    # Words of people: (kind, name, language) to text; kind is "posture", "action", "group", "camera" or "light".
     labels: Mapping[tuple[str, str, str], str]
+    # Languages that it speaks, as BCP 47 tags; names of its lights.
+    languages: tuple[str, ...] = ()
+    lights: tuple[str, ...] = ()
 
     @staticmethod
     def from_protocol(message: pb.RobotDescription) -> RobotDescription:
@@ -139,7 +143,8 @@ class RobotDescription:
             cameras=tuple(message.cameras), max_vx=message.max_vx, min_vx=message.min_vx, max_vy=message.max_vy,
             max_wz=message.max_wz, ready_posture=message.ready_posture, stand_posture=message.stand_posture,
             rest_posture=message.rest_posture, camera_group=message.camera_group,
-            labels={(label.kind, label.name, label.language): label.text for label in message.labels})
+            labels={(label.kind, label.name, label.language): label.text for label in message.labels},
+            languages=tuple(message.languages), lights=tuple(light.name for light in message.lights))
 
 
 @dataclass(frozen=True)
@@ -151,6 +156,30 @@ class Activity:
     name: str
     # The robot has tried to get up without success.
     needs_help: bool
+
+
+@dataclass(frozen=True)
+class Body:
+    """Condition of a real robot's body."""
+
+    # Charge of the battery, 0 to 1; None: unknown.
+    battery_charge: float | None
+    is_charging: bool
+    # Joint of the hottest motor; empty: unknown. Its temperature, degrees Celsius.
+    hottest_joint: str
+    hottest_temperature: float
+    # "battery-low", "battery-hot", "joint-hot", "joint-dead", "sensor-dead".
+    warnings: tuple[str, ...]
+    # Joints whose motor is hot, limited or dead.
+    faulty_joints: tuple[str, ...]
+
+    @staticmethod
+    def from_protocol(message: pb.Body) -> Body:
+        return Body(
+            battery_charge=message.battery_charge if message.HasField("battery_charge") else None,
+            is_charging=message.is_charging, hottest_joint=message.hottest_joint,
+            hottest_temperature=message.hottest_temperature, warnings=tuple(message.warnings),
+            faulty_joints=tuple(message.faulty_joints))
 
 
 @dataclass(frozen=True)
@@ -177,6 +206,10 @@ class State:
     wz: float
     # Mean motor stiffness, 0 to 1.
     stiffness: float
+    # What the lights show, by name: red, green, blue, each 0 to 1. Empty: unknown.
+    light_rgb: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
+    # None: unknown, as of a simulated body.
+    body: Body | None = None
 
     @staticmethod
     def from_protocol(message: pb.State, robot: RobotDescription) -> State:
@@ -189,7 +222,9 @@ class State:
             joint_position=dict(zip(robot.joints, message.joint_position)),
             torso_orientation=tuple(message.torso_orientation), torso_position=tuple(message.torso_position),
             mode=_member(Mode, message.mode, Mode.MOVING), posture=message.posture, activity=activity,
-            progress=message.progress, vx=message.vx, vy=message.vy, wz=message.wz, stiffness=message.stiffness)
+            progress=message.progress, vx=message.vx, vy=message.vy, wz=message.wz, stiffness=message.stiffness,
+            light_rgb={name: from_rgb(rgb) for name, rgb in zip(robot.lights, message.light_rgb)},
+            body=Body.from_protocol(message.body) if message.HasField("body") else None)
 
 
 @dataclass(frozen=True)
@@ -245,10 +280,33 @@ class Control:
     driver_id: int = 0
     driver_name: str = ""
     is_mine: bool = False
+    # The operator lets this client watch only.
+    is_muted: bool = False
 
     @staticmethod
     def from_protocol(message: pb.Control) -> Control:
-        return Control(message.driver_id, message.driver_name, message.is_mine)
+        return Control(message.driver_id, message.driver_name, message.is_mine, message.is_muted)
+
+
+@dataclass(frozen=True)
+class RobotEntry:
+    """A robot of a gateway of several."""
+
+    name: str
+    model: str
+    # Team, 0 or 1, and number on the shirt; None and 0: none.
+    team: int | None
+    number: int
+    # Who drives it; 0: no client.
+    driver_id: int
+    driver_name: str
+    # The robot answers.
+    is_available: bool
+
+    @staticmethod
+    def from_protocol(message: pb.RobotList) -> tuple[RobotEntry, ...]:
+        return tuple(RobotEntry(robot.name, robot.model, robot.team if robot.HasField("team") else None, robot.number,
+                                robot.driver_id, robot.driver_name, robot.is_available) for robot in message.robots)
 
 
 @dataclass(frozen=True)
@@ -264,11 +322,14 @@ class Client:
     # Messages sent; states and images skipped because the client was slow.
     num_sent: int
     num_skipped: int
+    # The robot that it watches, of several; it may only watch.
+    robot: str = ""
+    is_muted: bool = False
 
     @staticmethod
     def from_protocol(message: pb.Clients.Client) -> Client:
         return Client(message.client_id, message.name, message.address, message.transport, message.is_driver,
-                      message.num_sent, message.num_skipped)
+                      message.num_sent, message.num_skipped, message.robot, message.is_muted)
 
 
 @dataclass(frozen=True)
@@ -296,6 +357,20 @@ class ControlChanged(Reason):
 
 
 @dataclass(frozen=True)
+class RobotChanged(Reason):
+    """This client watches another robot: `Robot.description` is that one's."""
+
+    robot: str = ""
+
+
+@dataclass(frozen=True)
+class RobotsChanged(Reason):
+    """The list of the gateway's robots has changed."""
+
+    robots: tuple[RobotEntry, ...] = ()
+
+
+@dataclass(frozen=True)
 class ComponentChanged(Reason):
     """A program has become available or unavailable."""
 
@@ -315,7 +390,7 @@ class Disconnected(Reason):
     is_final: bool = False
 
 
-Event = Union[CommandResult, ControlChanged, ComponentChanged, Connected, Disconnected]
+Event = Union[CommandResult, ControlChanged, ComponentChanged, RobotChanged, RobotsChanged, Connected, Disconnected]
 
 
 def event_from_protocol(notice: pb.Notice) -> Event | None:
@@ -325,6 +400,10 @@ def event_from_protocol(notice: pb.Notice) -> Event | None:
         return CommandResult(*reason, notice.request_id, _member(CommandStatus, notice.status, CommandStatus.FAILED))
     if notice.kind == pb.Notice.CONTROL_CHANGED:
         return ControlChanged(*reason, Control.from_protocol(notice.control))
+    if notice.kind == pb.Notice.ROBOT_CHANGED:
+        return RobotChanged(*reason, notice.robot.name)
+    if notice.kind == pb.Notice.ROBOTS_CHANGED:
+        return RobotsChanged(*reason, RobotEntry.from_protocol(notice.robots))
     component = _member(Component, notice.component, None)
     if notice.kind == pb.Notice.COMPONENT_CHANGED and component is not None:
         return ComponentChanged(*reason, component, notice.is_available)

@@ -13,7 +13,7 @@ from nao_remote.transport import Transport
 
 PROTOCOL_VERSION = 1
 
-# PROTOCOL.md, section 5, s: a request at least once a second; lost after 5 s without a message.
+# PROTOCOL.md, section 6, s: a request at least once a second; lost after 5 s without a message.
 PING_PERIOD = 1.0
 SILENCE_TIMEOUT = 5.0
 # How often both are looked at, s. Chosen: far below them.

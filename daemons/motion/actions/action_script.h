@@ -9,15 +9,19 @@
 
 namespace nao::motion {
 
-/** An action from a stand that is kept as data: robots/NAME/actions/keeper.yaml, which says what
- * each key means. */
+/** An action that is kept as data: the robot's own from a stand, robots/NAME/actions/keeper.yaml,
+ * which says what each key means; or one that people taught (TaughtMotionText). */
 struct ActionScript {
-  enum class End { kOnFeet, kGetsUp };
+  /** kHolds: of taught motions; the robot holds its last keyframe. */
+  enum class End { kOnFeet, kGetsUp, kHolds };
 
   KeyframeSequence sequence;
   /** Share of the capture point's error that the ankles' torque answers; 0: keyframes alone. */
   double balance_gain = 0;
   End end = End::kOnFeet;
+  /** Of taught motions: posture that it starts from, and how often its keyframes are played. */
+  std::string start;
+  int num_repetitions = 1;
 
   /** @throws ModelError  naming the line and what is wrong with it. */
   static std::vector<ActionScript> load(const RobotModel& model, const std::filesystem::path& file);

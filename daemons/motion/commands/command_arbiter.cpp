@@ -28,9 +28,12 @@ Reason replaced_by(const Assignment& newer) {
 
 }  // namespace
 
+// Checks in this order: sender, repetition, the command itself, the robot's mode, and what the
+// motion itself finds. Each command gets exactly one answer here, accepted or refused, and if
+// accepted a final one later.
 void CommandArbiter::receive(const Command& command, const MotionContext& context,
                              const JointTargets& targets, Mode mode) {
-  if (const auto fault = find_sender_fault(command)) {
+  if (const auto fault = check_sender(command.source, command.id)) {
     // Not remembered: source and number do not identify the command.
     last_refusal_ = *fault;
     results_.push_back(
@@ -42,7 +45,7 @@ void CommandArbiter::receive(const Command& command, const MotionContext& contex
     repeat_result(command, *known);
     return;
   }
-  if (const auto fault = find_fault(*model_, command)) {
+  if (const auto fault = find_value_fault(command)) {
     answer(command, ResultStatus::kRefused, *fault);
     return;
   }
@@ -63,15 +66,24 @@ void CommandArbiter::receive(const Command& command, const MotionContext& contex
   assign({std::move(std::get<std::unique_ptr<MotionGenerator>>(plan)), command, describe(command)});
 }
 
+std::optional<Reason> CommandArbiter::find_value_fault(const Command& command) const {
+  auto fault = find_fault(*model_, command);
+  const auto* action = std::get_if<ActionCommand>(&command.request);
+  const bool is_taught = action != nullptr && fault && fault->code == "action-unknown" &&
+                         factory_->has_taught(action->action);
+  return is_taught ? std::nullopt : fault;
+}
+
 void CommandArbiter::repeat_result(const Command& command, const CommandResult& known) {
   // A walk is repeated with new velocities as long as the operator holds the joystick.
-  if (!find_fault(*model_, command)) {
+  if (!find_value_fault(command)) {
     if (executes(running_, command)) running_->generator->adopt(command);
     if (executes(waiting_, command)) waiting_->generator->adopt(command);
   }
   results_.push_back(known);
 }
 
+// A new walk command changes the velocity of the walk that runs, without a stop in between.
 bool CommandArbiter::adopt_walk(const Command& command) {
   const auto* walk = std::get_if<WalkCommand>(&command.request);
   if (walk == nullptr || waiting_) return false;
@@ -118,6 +130,7 @@ bool CommandArbiter::overlay_walk(const Command& command, const MotionContext& c
   std::fill(start.velocity.begin(), start.velocity.end(), 0.0);
   for (const std::string& name : change->joint_names) {
     const int motor = model_->find_motor(name);
+    // A leg joint cannot be overlaid: false leads to a motion that replaces the walk.
     if (carries_body(context, motor)) return false;
     start.velocity[motor] = targets.velocity[motor];
   }
@@ -137,6 +150,7 @@ void CommandArbiter::assign(Assignment assignment) {
   waiting_ = std::move(assignment);
 }
 
+// A fall, or a robot that is gone: every command that is not finished gets its final result.
 void CommandArbiter::abort_all(const Reason& reason) {
   end_running(ResultStatus::kFailed, reason);
   end_overlay(ResultStatus::kFailed, reason);
@@ -154,6 +168,7 @@ void CommandArbiter::start(Assignment assignment, const MotionContext& context,
 
 void CommandArbiter::start_waiting(const MotionContext& context, const JointTargets& targets) {
   if (!waiting_) return;
+  // Safe postures are between the steps of a walk, not within; finish() asks for the next one.
   if (running_ && !running_->generator->can_be_replaced()) {
     // A motion that cannot be left at once (a step, a get-up) comes to its next safe posture first.
     running_->generator->finish();
@@ -181,6 +196,7 @@ std::optional<Reason> CommandArbiter::find_new_danger(const MotionContext& conte
 
 std::optional<CommandArbiter::EndedMotion> CommandArbiter::step(const MotionContext& context,
                                                                 JointTargets& targets) {
+  // The overlay starts from the targets before this tick's motion wrote its own.
   const JointTargets last = targets;
   const std::optional<EndedMotion> ended = step_running(context, targets);
   watch_kick();
@@ -199,6 +215,7 @@ std::optional<CommandArbiter::EndedMotion> CommandArbiter::step_running(
   return ended;
 }
 
+// The kick during a walk has no motion of its own: the walk's state tells its end.
 void CommandArbiter::watch_kick() {
   if (!walk_kick_) return;
   const auto strike = running_ ? running_->generator->strike() : MotionGenerator::Strike::kNone;
@@ -224,7 +241,7 @@ void CommandArbiter::step_overlay(const MotionContext& context, const JointTarge
   // The overlay's joints keep their angles until the walk ends: then the next motion starts from
   // them.
   if (!has_overlay() && !is_walking()) overlay_.release();
-  overlay_.write(targets.position);
+  overlay_.write(targets);
 }
 
 void CommandArbiter::end_running(ResultStatus status, const Reason& reason) {

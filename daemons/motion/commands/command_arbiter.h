@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "daemons/motion/commands/command_ledger.h"
 #include "daemons/motion/commands/walk_overlay.h"
 #include "daemons/motion/generators/motion_generator.h"
 #include "daemons/motion/guards/joint_change_guard.h"
 #include "daemons/motion/motion_factory.h"
 #include "messages/command.h"
+#include "messages/command_ledger.h"
 #include "messages/mode.h"
 #include "messages/reason.h"
 
@@ -84,6 +84,8 @@ class CommandArbiter {
   const Reason& last_refusal() const { return last_refusal_; }
 
  private:
+  /** find_fault(); taught motions are actions, too. */
+  std::optional<Reason> find_value_fault(const Command& command) const;
   void repeat_result(const Command& command, const CommandResult& known);
   /** Passes a walk command to the walk that runs. A walk command without velocity starts no walk.
    * @return false if the command needs a motion of its own. */

@@ -9,9 +9,6 @@ namespace {
 
 using Fault = std::optional<Reason>;
 
-// Characters. Chosen: a host name and a program name fit in.
-constexpr size_t kMaxSourceLength = 64;
-
 /** Names joined by commas. */
 template <class Items, class NameOf>
 std::string list_names(const Items& items, NameOf name_of) {
@@ -25,6 +22,8 @@ Fault find_speed_fault(double speed) {
   return Reason("speed-out-of-range", {to_argument(speed)});
 }
 
+// One overload for each kind of command; find_fault() chooses by the variant's type. They check
+// what the model knows, before any motion is planned.
 Fault find_fault_in(const RobotModel& /*model*/, const WalkCommand& walk) {
   if (std::isfinite(walk.vx) && std::isfinite(walk.vy) && std::isfinite(walk.wz)) {
     return std::nullopt;
@@ -59,6 +58,7 @@ Fault find_fault_in(const RobotModel& model, const JointChangeCommand& change) {
   // Only the faults are of interest here; the values stay in the command.
   std::vector<double> position;
   std::vector<double> stiffness;
+  // NaN: the joint keeps its stiffness.
   const std::vector<double> keep_stiffness(change.joint_names.size(), std::nan(""));
   const auto& joint_stiffness =
       change.joint_stiffness.empty() ? keep_stiffness : change.joint_stiffness;
@@ -84,6 +84,7 @@ Fault find_fault_in(const RobotModel& model, const ActionCommand& action) {
                    list_names(model.actions(), [](const Action& known) { return known.name; })});
   }
   if (std::isinf(action.ball_x) || std::isinf(action.ball_y)) return Reason("ball-not-finite");
+  // NaN leaves the strength to the robot's kick file.
   if (!std::isnan(action.strength) && !(action.strength > 0 && action.strength <= 1)) {
     return Reason("strength-out-of-range", {to_argument(action.strength)});
   }
@@ -99,16 +100,6 @@ Fault find_fault_in(const RobotModel& /*model*/, const StopCommand& /*stop*/) {
 std::optional<Reason> find_fault(const RobotModel& model, const Command& command) {
   return std::visit([&](const auto& request) { return find_fault_in(model, request); },
                     command.request);
-}
-
-std::optional<Reason> find_sender_fault(const Command& command) {
-  if (command.source.empty()) return Reason("source-missing");
-  if (command.source.size() > kMaxSourceLength) {
-    return Reason("source-too-long",
-                  {std::to_string(command.source.size()), std::to_string(kMaxSourceLength)});
-  }
-  if (command.id == 0) return Reason("command-id-zero");
-  return std::nullopt;
 }
 
 }  // namespace nao::motion

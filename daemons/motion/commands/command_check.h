@@ -13,8 +13,4 @@ namespace nao::motion {
  * @return What is wrong; nothing if the command is well formed. */
 std::optional<Reason> find_fault(const RobotModel& model, const Command& command);
 
-/** Checks source and number of a command. With a fault in them no result can be remembered.
- * @return What is wrong; nothing if they are well formed. */
-std::optional<Reason> find_sender_fault(const Command& command);
-
 }  // namespace nao::motion

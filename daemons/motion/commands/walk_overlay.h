@@ -35,8 +35,8 @@ class WalkOverlay {
    * @return Remark of the change if it is done with this step. */
   std::optional<Reason> step(const MotionContext& context, const JointTargets& last);
 
-  /** Overwrites the angles of the changed joints. @param position  rad, (num_motors). */
-  void write(std::vector<double>& position) const;
+  /** Overwrites the angles of the changed joints, and the stiffness that changes now. */
+  void write(JointTargets& targets) const;
 
  private:
   struct Change {
@@ -48,6 +48,8 @@ class WalkOverlay {
   std::optional<Change> change_;
   /** Target angle of each motor that changes during this walk have turned, rad. */
   std::map<int, double> held_;
+  /** Stiffness of the motors of the change in progress. */
+  std::map<int, double> stiffness_;
 };
 
 }  // namespace nao::motion

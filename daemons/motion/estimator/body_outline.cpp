@@ -8,6 +8,7 @@ namespace nao::motion {
 BodyOutline::BodyOutline(const RobotModel& model) {
   add_sole(model.left_sole(), model.left_sole_outline());
   add_sole(model.right_sole(), model.right_sole_outline());
+  // The link that carries the sole's frame.
   const auto foot_of = [&](int sole) {
     return model.joints()[model.links()[sole].parent_joint].parent_link;
   };
@@ -20,6 +21,7 @@ BodyOutline::BodyOutline(const RobotModel& model) {
 }
 
 void BodyOutline::add_sole(int link, const std::vector<Eigen::Vector2d>& outline) {
+  // Soles have points of radius 0 at the corners of their outlines.
   for (const Eigen::Vector2d& corner : outline) {
     points_.push_back({link, {corner.x(), corner.y(), 0}, 0});
   }
@@ -41,6 +43,7 @@ void BodyOutline::add_shape(int link, const Shape& shape, bool is_foot) {
       const Eigen::Vector3d half = shape.size / 2;
       for (double x : {-half.x(), half.x()}) {
         for (double y : {-half.y(), half.y()}) {
+          // Lower corners of a foot's box are left out: the sole's outline stands for them.
           if (!is_foot) add(x, y, -half.z(), 0);
           add(x, y, half.z(), 0);
         }
@@ -54,6 +57,7 @@ void BodyOutline::add_shape(int link, const Shape& shape, bool is_foot) {
 }
 
 double BodyOutline::calc_lowest(const Kinematics& kinematics, const Eigen::Matrix3d& R_OT) const {
+  // Third row of R_OT: the vertical of odometry in the torso frame. Only heights are needed.
   const Eigen::Vector3d up = R_OT.row(2).transpose();
   double lowest = std::numeric_limits<double>::infinity();
   for (const Point& point : points_) {

@@ -46,17 +46,23 @@ void OrientationFilter::update(const Eigen::Vector3d& gyroscope,
   }
   if (is_at_rest) {
     recover(accelerometer);
-    bias_ += (gyroscope - bias_) * std::min(1.0, dt / kRestTimeConstant);
+    // The mean of all measurements at first, then of the latest.
+    learnt_time_ = std::min(learnt_time_ + dt, kRestTimeConstant);
+    bias_ += (gyroscope - bias_) * std::min(1.0, dt / learnt_time_);
   }
   const double norm = accelerometer.norm();
+  // 1 at |a| = g, falling linearly: an accelerating robot does not measure the vertical.
   const double weight = std::max(0.0, 1 - std::abs(norm - kGravity) / kZeroWeightDeviation);
   Eigen::Vector3d correction = Eigen::Vector3d::Zero();
   if (weight > 0) {
     const Eigen::Vector3d up_in_torso = orientation_.conjugate() * Eigen::Vector3d::UnitZ();
+    // Axis, scaled with the sine of the angle, about which the estimate must rotate in the torso's
+    // axes: measured times estimated vertical (Mahony's error term).
     const Eigen::Vector3d error = (accelerometer / norm).cross(up_in_torso);
     correction = kTiltGain * weight * error;
     bias_ -= kBiasGain * weight * error * dt;
   }
+  // Clamped: a bias that runs away would turn the robot's heading without end.
   bias_ = bias_.cwiseMax(-kMaxBias).cwiseMin(kMaxBias);
   angular_velocity_ = gyroscope - bias_;
   // Exponential map of the step's rotation vector.
@@ -77,6 +83,7 @@ void OrientationFilter::start(const Eigen::Vector3d& gyroscope,
   const Eigen::Matrix3d R = orientation_.toRotationMatrix();
   const double heading = heading_of(R);
   orientation_ = Eigen::AngleAxisd(-heading, Eigen::Vector3d::UnitZ()) * orientation_;
+  // Without a measurement of gravity (a robot that falls) the given orientation stays.
   angular_velocity_ = gyroscope - bias_;
   is_started_ = true;
 }

@@ -55,6 +55,8 @@ class OrientationFilter {
   Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();
   Eigen::Vector3d angular_velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d bias_ = Eigen::Vector3d::Zero();
+  /** For which the bias has been learnt at rest, s; not more than the time constant. */
+  double learnt_time_ = 0;
 };
 
 }  // namespace nao::motion

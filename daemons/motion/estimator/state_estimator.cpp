@@ -14,9 +14,6 @@ namespace {
 // Factor by which the force on a foot must exceed the contact threshold to make contact after none.
 // Chosen: above the noise of the force sensors, so that the contact does not flicker.
 constexpr double kContactHysteresis = 1.5;
-// Difference of load at which the other foot becomes the support foot, N. Chosen: a tenth of
-// NAO's weight, so that the support foot does not alternate in double support.
-constexpr double kSupportSwitchForce = 5.0;
 // Velocities below which the robot rests, rad/s. Chosen: above the noise and bias of the gyroscope
 // and of differentiated encoders, below any motion.
 constexpr double kRestAngularVelocity = 0.06;
@@ -42,24 +39,26 @@ bool is_on_foot_of(const RobotModel& model, int link, int sole) {
 
 }  // namespace
 
-StateEstimator::StateEstimator(const RobotModel& model, double contact_force)
-    : model_(&model), contact_force_(contact_force), kinematics_(model), outline_(model) {
+StateEstimator::StateEstimator(const RobotModel& model)
+    : model_(&model),
+      contact_forces_(model.references().contact_forces),
+      kinematics_(model),
+      outline_(model) {
   bool has_right = false;
   bool has_left = false;
+  // Forces of both feet from one source: the sensors only if both feet have some.
   for (int link : model.foot_sensors()) {
     is_left_sensor_.push_back(is_on_foot_of(model, link, model.left_sole()));
     (is_left_sensor_.back() ? has_left : has_right) = true;
   }
-  state_.has_foot_force_sensors = has_left && has_right;
+  if (!has_left || !has_right) ground_reaction_.emplace(model);
 }
 
 void StateEstimator::reset() {
-  const bool has_foot_force_sensors = state_.has_foot_force_sensors;
   is_started_ = false;
   rest_time_ = 0;
   torso_velocity_in_odometry_.setZero();
   state_ = RobotState();
-  state_.has_foot_force_sensors = has_foot_force_sensors;
 }
 
 void StateEstimator::update(const Sensors& sensors, double dt) {
@@ -67,6 +66,8 @@ void StateEstimator::update(const Sensors& sensors, double dt) {
   state_.tick = sensors.tick;
   state_.joint_position = sensors.position;
   state_.joint_velocity = sensors.velocity;
+  // Order: orientation needs rest, position needs orientation and support foot, velocity needs
+  // position.
   kinematics_.update(sensors.position);
   detect_rest(sensors, dt);
   estimate_orientation(sensors, dt);
@@ -79,6 +80,7 @@ void StateEstimator::update(const Sensors& sensors, double dt) {
 }
 
 void StateEstimator::detect_rest(const Sensors& sensors, double dt) {
+  // Rest ends with the first axis, of the gyroscope or a joint, that moves.
   bool is_at_rest =
       (sensors.gyroscope_torso - orientation_.bias()).cwiseAbs().maxCoeff() < kRestAngularVelocity;
   for (double velocity : sensors.velocity) {
@@ -89,6 +91,7 @@ void StateEstimator::detect_rest(const Sensors& sensors, double dt) {
 }
 
 void StateEstimator::estimate_orientation(const Sensors& sensors, double dt) {
+  // Simulators and robots give an orientation; only its first value is taken, as a start.
   if (!is_started_) orientation_.reset(sensors.orientation_torso_in_world);
   orientation_.update(sensors.gyroscope_torso, sensors.accelerometer_torso,
                       rest_time_ > kSettlingTime, dt);
@@ -99,13 +102,21 @@ void StateEstimator::estimate_orientation(const Sensors& sensors, double dt) {
 void StateEstimator::measure_foot_forces(const Sensors& sensors) {
   state_.left_foot_force = 0;
   state_.right_foot_force = 0;
-  for (size_t i = 0; i < sensors.foot_force.size(); ++i) {
-    (is_left_sensor_[i] ? state_.left_foot_force : state_.right_foot_force) +=
-        sensors.foot_force[i];
+  if (ground_reaction_) {
+    const Eigen::Vector3d up = state_.torso_in_odometry.linear().row(2);
+    reactions_ = ground_reaction_->estimate(kinematics_, sensors.torque, up);
+    state_.left_foot_force = reactions_[0].force;
+    state_.right_foot_force = reactions_[1].force;
+  } else {
+    for (size_t i = 0; i < sensors.foot_force.size(); ++i) {
+      (is_left_sensor_[i] ? state_.left_foot_force : state_.right_foot_force) +=
+          sensors.foot_force[i];
+    }
   }
-  if (!state_.has_foot_force_sensors) return;
+  // Hysteresis: contact is made at a larger force than it is lost.
   const auto carries = [&](bool carried, double force) {
-    return force > (carried ? contact_force_ : contact_force_ * kContactHysteresis);
+    const double least = contact_forces_.contact;
+    return force > (carried ? least : least * kContactHysteresis);
   };
   state_.left_foot_carries = carries(state_.left_foot_carries, state_.left_foot_force);
   state_.right_foot_carries = carries(state_.right_foot_carries, state_.right_foot_force);
@@ -115,12 +126,15 @@ void StateEstimator::update_support_foot() {
   const Eigen::Matrix3d& R_OT = state_.torso_in_odometry.linear();
   if (!is_started_) {
     is_left_support_ = state_.left_foot_force >= state_.right_foot_force;
+    // The support sole is under the torso by forward kinematics; odometry begins at the torso.
     support_sole_in_odometry_ = (R_OT * sole(is_left_support_).translation()).head<2>();
   }
   const double more_on_left = state_.left_foot_force - state_.right_foot_force;
-  const bool is_other_support =
-      is_left_support_ ? more_on_left < -kSupportSwitchForce : more_on_left > kSupportSwitchForce;
+  const bool is_other_support = is_left_support_ ? more_on_left < -contact_forces_.support_switch
+                                                 : more_on_left > contact_forces_.support_switch;
   if (!is_other_support) return;
+  // Vector between the soles in odometry: the new support sole is placed where kinematics says it
+  // is now. Odometry is this sum over all steps; slip of a foot is not measured.
   const Eigen::Vector3d step =
       R_OT * (sole(!is_left_support_).translation() - sole(is_left_support_).translation());
   support_sole_in_odometry_ += step.head<2>();
@@ -129,6 +143,8 @@ void StateEstimator::update_support_foot() {
 
 void StateEstimator::estimate_position() {
   const Eigen::Matrix3d& R_OT = state_.torso_in_odometry.linear();
+  // The support sole is fixed in odometry, so that the torso is where the kinematic chain from that
+  // sole ends. The height is the lowest point of the body on the floor.
   Eigen::Vector3d position = -(R_OT * sole(is_left_support_).translation());
   position.head<2>() += support_sole_in_odometry_;
   position.z() = -outline_.calc_lowest(kinematics_, R_OT);
@@ -144,6 +160,7 @@ void StateEstimator::estimate_velocity(double dt) {
     torso_velocity_in_odometry_.setZero();
     state_.center_of_mass_velocity_in_odometry.setZero();
   } else if (dt > 0) {
+    // Difference quotients through a first-order low-pass filter.
     const double weight = std::min(1.0, dt / kVelocityTimeConstant);
     torso_velocity_in_odometry_ +=
         weight * ((position - last_torso_position_) / dt - torso_velocity_in_odometry_);
@@ -155,11 +172,13 @@ void StateEstimator::estimate_velocity(double dt) {
   last_center_of_mass_ = state_.center_of_mass_in_odometry;
   const Eigen::Matrix3d& R_OT = state_.torso_in_odometry.linear();
   const double heading = heading_of(R_OT);
+  // In the heading frame: what a joystick's velocity is measured against.
   state_.velocity_torso_in_heading =
       Eigen::AngleAxisd(-heading, Eigen::Vector3d::UnitZ()) * torso_velocity_in_odometry_;
 }
 
 void StateEstimator::find_support(const Sensors& sensors) {
+  // Corners of all soles that carry, projected on the floor; their hull is the support polygon.
   std::vector<Eigen::Vector2d> corners;
   const auto add = [&](const std::vector<Eigen::Vector2d>& outline, const Eigen::Isometry3d& sole) {
     for (const Eigen::Vector2d& corner : outline) {
@@ -172,19 +191,33 @@ void StateEstimator::find_support(const Sensors& sensors) {
   state_.balance_margin = margin_in_polygon(state_.support_polygon_in_odometry,
                                             state_.center_of_mass_in_odometry.head<2>());
 
-  double force_sum = 0;
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (size_t i = 0; i < sensors.foot_force.size(); ++i) {
-    force_sum += sensors.foot_force[i];
-    moment +=
-        sensors.foot_force[i] * kinematics_.link_pose(model_->foot_sensors()[i]).translation();
-  }
   if (state_.left_foot_carries || state_.right_foot_carries) {
     state_.center_of_pressure_in_odometry =
-        (state_.torso_in_odometry * (moment / force_sum)).head<2>();
+        (state_.torso_in_odometry * calc_center_of_pressure(sensors)).head<2>();
   } else {
+    // Without contact there is none; NaN says so to all users.
     state_.center_of_pressure_in_odometry.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
+}
+
+// In the torso frame: the mean of the sensors' positions, or of the feet's centers of pressure,
+// weighted by force.
+Eigen::Vector3d StateEstimator::calc_center_of_pressure(const Sensors& sensors) const {
+  double force_sum = 0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  if (ground_reaction_) {
+    for (const FootReaction& reaction : reactions_) {
+      force_sum += reaction.force;
+      moment += reaction.force * reaction.point;
+    }
+  } else {
+    for (size_t i = 0; i < sensors.foot_force.size(); ++i) {
+      force_sum += sensors.foot_force[i];
+      moment +=
+          sensors.foot_force[i] * kinematics_.link_pose(model_->foot_sensors()[i]).translation();
+    }
+  }
+  return moment / force_sum;
 }
 
 }  // namespace nao::motion

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "daemons/motion/estimator/body_outline.h"
+#include "daemons/motion/estimator/ground_reaction.h"
 #include "daemons/motion/estimator/orientation_filter.h"
 #include "daemons/motion/robot_state.h"
 #include "daemons/motion/sensors.h"
@@ -16,7 +18,8 @@ namespace nao::motion {
  * - Orientation R_OT: OrientationFilter.
  * - Contact: a foot carries weight when the sum of its force sensors exceeds a threshold (with
  *   hysteresis). The sensors are assigned to the feet by the links that carry them; a foot may have
- *   any number of them.
+ *   any number of them. If a foot has none, forces and center of pressure come from the joint
+ *   torques (GroundReaction).
  * - Position: leg odometry. The foot with more load is the support foot and does not move: with its
  *   sole origin p_TS from forward kinematics and p_OS constant,
  *       p_OT = p_OS - R_OT p_TS        (x and y),
@@ -28,8 +31,8 @@ namespace nao::motion {
  *   is the distance of the center of mass's ground projection to its edge. */
 class StateEstimator {
  public:
-  /** @param model  Must outlive this. @param contact_force  Least force on a foot in contact, N. */
-  StateEstimator(const RobotModel& model, double contact_force);
+  /** @param model  Must outlive this. */
+  explicit StateEstimator(const RobotModel& model);
 
   /** Restarts: the next update() places the odometry frame below the torso. */
   void reset();
@@ -50,14 +53,18 @@ class StateEstimator {
   void estimate_position();
   void estimate_velocity(double dt);
   void find_support(const Sensors& sensors);
+  Eigen::Vector3d calc_center_of_pressure(const Sensors& sensors) const;
   const Eigen::Isometry3d& sole(bool is_left) const {
     return is_left ? kinematics_.left_sole() : kinematics_.right_sole();
   }
 
   const RobotModel* model_;
-  double contact_force_;
+  ContactForces contact_forces_;
   /** For each foot force sensor whether it is on the left foot. */
   std::vector<bool> is_left_sensor_;
+  /** For a robot without force sensors, and what it found in the last update. */
+  std::optional<GroundReaction> ground_reaction_;
+  std::array<FootReaction, 2> reactions_;
   Kinematics kinematics_;
   BodyOutline outline_;
   OrientationFilter orientation_;

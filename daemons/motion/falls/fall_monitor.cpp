@@ -36,6 +36,7 @@ double calc_tilt(double cosine) {
 }  // namespace
 
 Eigen::Vector2d calc_capture_point(const RobotState& state) {
+  // Capture point c + c' sqrt(h / g) of the linear inverted pendulum.
   const double height = std::max(kMinHeight, state.center_of_mass_in_odometry.z());
   return state.center_of_mass_in_odometry.head<2>() +
          std::sqrt(height / kGravity) * state.center_of_mass_velocity_in_odometry.head<2>();

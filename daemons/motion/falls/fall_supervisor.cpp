@@ -10,6 +10,7 @@ void FallSupervisor::begin(const RobotState& state) {
 
 FallSupervisor::Action FallSupervisor::update(const RobotState& state, const Activity& activity,
                                               double dt) {
+  // Protection comes before everything: the caller aborts what runs.
   if (predict_fall(state, activity, dt)) {
     monitor_.reset();
     has_fallen_ = true;
@@ -24,9 +25,11 @@ FallSupervisor::Action FallSupervisor::update(const RobotState& state, const Act
   const bool lies = is_lying_now(state);
   if (lies && !was_lying_) has_fallen_ = true;
   was_lying_ = lies;
+  // Help is needed until somebody has put the robot on its feet.
   needs_help_ = needs_help_ && lies;
   if (!has_fallen_) return Action::kNone;
   time_fallen_ += dt;
+  // Some time on the ground before it gets up: the body comes to rest.
   if (!options_->gets_up || needs_help_ || time_fallen_ < options_->get_up_delay) {
     return Action::kNone;
   }
@@ -39,6 +42,8 @@ bool FallSupervisor::predict_fall(const RobotState& state, const Activity& activ
   return is_above_seat(*model_, state) && monitor_.update(state, activity.is_walking, dt);
 }
 
+// A motion has ended: one that succeeded (not the fall itself) leaves a known state; one that
+// failed while the robot lies after a fall makes it ask for help.
 void FallSupervisor::note_end(bool is_done, bool was_fall, const RobotState& state) {
   const bool lies = is_lying_now(state);
   if (is_done && !was_fall) {

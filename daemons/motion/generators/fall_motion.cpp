@@ -33,10 +33,12 @@ void FallMotion::start(const MotionContext& context, const JointTargets& targets
   time_ = 0;
   time_still_ = 0;
   // Up in the torso frame changes by -w x up: a fall to the front makes its x component negative.
+  // Third row of R_OT: the vertical of odometry in the torso frame.
   const Eigen::Vector3d up = context.state.torso_in_odometry.linear().row(2);
   const Eigen::Vector3d later =
       up - kPredictionTime * context.state.angular_velocity_torso.cross(up);
   const FallPoses& poses = context.model.references().fall;
+  // The largest horizontal component names the side on which the robot will land.
   if (std::abs(later.y()) > std::abs(later.x())) {
     write_pose(poses.sideways, pose_);
   } else if (later.x() < 0) {

@@ -12,6 +12,9 @@ namespace {
 
 // Difference between commanded and clipped angle below which it is rounding, rad.
 constexpr double kClippingTolerance = 1e-6;
+// Time in which the stiffness changes, s. Chosen: a raised arm sinks instead of dropping, and one
+// that becomes stiff does not jerk.
+constexpr double kStiffnessTime = 0.5;
 
 /** Angles that a change commands, before any limit. */
 std::vector<double> commanded_angles(const RobotModel& model, const JointChangeCommand& change,
@@ -39,9 +42,12 @@ void JointChangeMotion::start(const MotionContext& context, const JointTargets& 
       change_.allow_tipping
           ? joint_rates(context.model, change_.speed, context.options.max_acceleration)
           : standing_rates(context, change_.speed);
+  // Brisk only where no named joint moves the body; raises the rates of those joints.
   const JointTrajectory::Start how = choose_start(context, rates);
   // The joints that are not named stop; the named ones start from their present targets.
   stop_ = JointTrajectory::stopping(targets.position, targets.velocity, stopping_rates(context));
+  // The goal starts from where the stopping joints come to rest, so that a relative change of a
+  // joint that still moves counts from its present target.
   std::vector<double> base = stop_.goal();
   for (const std::string& name : change_.joint_names) {
     const int motor = context.model.find_motor(name);
@@ -57,13 +63,26 @@ void JointChangeMotion::start(const MotionContext& context, const JointTargets& 
     const std::string& name = context.model.motor_joint(motor).name;
     const auto& names = change_.joint_names;
     const bool is_named = std::find(names.begin(), names.end(), name) != names.end();
+    // A joint that is not named and does not move is left to whatever else writes it.
     if (!is_named && goal[motor] == base[motor]) continue;
     turning_.push_back(motor);
     start[motor] = targets.position[motor];
     velocity[motor] = targets.velocity[motor];
   }
   trajectory_ = JointTrajectory(start, velocity, goal, rates, 0, how);
+  stiffness_.clear();
+  for (size_t i = 0; i < change_.joint_stiffness.size(); ++i) {
+    if (std::isnan(change_.joint_stiffness[i])) continue;
+    const int motor = context.model.find_motor(change_.joint_names[i]);
+    stiffness_.push_back({motor, targets.stiffness[motor], change_.joint_stiffness[i]});
+  }
   time_ = 0;
+}
+
+double JointChangeMotion::duration() const {
+  const bool ramps = std::any_of(stiffness_.begin(), stiffness_.end(),
+                                 [](const StiffnessRamp& ramp) { return ramp.from != ramp.to; });
+  return std::max({stop_.duration(), trajectory_.duration(), ramps ? kStiffnessTime : 0});
 }
 
 void JointChangeMotion::note_clipping(const RobotModel& model, const std::vector<double>& commanded,
@@ -84,6 +103,8 @@ void JointChangeMotion::sample(double time, std::vector<double>& position) const
   for (int motor : turning_) position[motor] = turning[motor];
 }
 
+// The path of the motion in joint space, for the guards: sampled finely in time, and thinned out so
+// that no joint turns by more than about kAngleStep between two entries.
 std::vector<std::vector<double>> JointChangeMotion::calc_path(const RobotModel& model) const {
   constexpr double kTimeStep = 0.005;  // s
   // Chosen: the end of an arm, 0.2 m from its shoulder, then moves by 1 cm.
@@ -105,6 +126,7 @@ std::vector<std::vector<double>> JointChangeMotion::calc_path(const RobotModel& 
 
 JointTrajectory::Start JointChangeMotion::choose_start(const MotionContext& context,
                                                        std::vector<JointRates>& rates) const {
+  // A joint between a sole and the torso moves the whole body when it turns.
   for (const std::string& name : change_.joint_names) {
     if (carries_body(context, context.model.find_motor(name))) {
       return JointTrajectory::Start::kSmooth;
@@ -120,6 +142,12 @@ MotionGenerator::Phase JointChangeMotion::step(const MotionContext& context,
                                                JointTargets& targets) {
   time_ += context.dt;
   sample(time_, targets.position);
+  const double fraction = std::min(1.0, time_ / kStiffnessTime);
+  for (const StiffnessRamp& ramp : stiffness_) {
+    // Exact at the end: a limp joint has the stiffness 0.
+    targets.stiffness[ramp.motor] =
+        fraction < 1 ? ramp.from + fraction * (ramp.to - ramp.from) : ramp.to;
+  }
   return time_ < duration() ? Phase::kRunning : Phase::kDone;
 }
 

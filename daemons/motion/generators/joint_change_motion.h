@@ -10,7 +10,7 @@
 
 namespace nao::motion {
 
-/** Turns single joints to their goals and brings the others to rest.
+/** Turns single joints to their goals, changes their stiffness, and brings the others to rest.
  *
  * The two groups have trajectories of their own: joints that had to arrive together with a slow
  * change would coast far. */
@@ -34,7 +34,14 @@ class JointChangeMotion : public MotionGenerator {
   std::vector<std::vector<double>> calc_path(const RobotModel& model) const;
 
  private:
-  double duration() const { return std::max(stop_.duration(), trajectory_.duration()); }
+  /** Ramp of a motor's stiffness. */
+  struct StiffnessRamp {
+    int motor;
+    double from;
+    double to;
+  };
+
+  double duration() const;
   void sample(double time, std::vector<double>& position) const;
   /** Brisk if none of the named joints carries the body; then sets their rates accordingly. */
   JointTrajectory::Start choose_start(const MotionContext& context,
@@ -50,6 +57,7 @@ class JointChangeMotion : public MotionGenerator {
   JointTrajectory trajectory_;
   /** Motors of trajectory_. */
   std::vector<int> turning_;
+  std::vector<StiffnessRamp> stiffness_;
   double time_ = 0;
   Reason reason_;
 };

@@ -28,6 +28,8 @@ double peak_acceleration(Start how) {
   return how == Start::kBrisk ? 12 : 10 / std::sqrt(3);
 }
 
+// Smooth start: the quintic 10 s^3 - 15 s^4 + 6 s^5 of smooth_step(). Brisk start: the quartic 6
+// s^2 - 8 s^3 + 3 s^4, whose acceleration is largest at once and which still ends without one.
 /** b and its first and second derivative by s. */
 double blend(Start how, double s) {
   if (how == Start::kBrisk) return s * s * (6 + s * (-8 + s * 3));
@@ -42,6 +44,8 @@ double blend_acceleration(Start how, double s) {
   return s * (60 + s * (-180 + s * 120));
 }
 
+// c carries the initial velocity: c(0) = 0, c'(0) = 1, c''(0) = 0, and c = c' = c'' = 0 at s = 1.
+// Path: q(s) = start + (goal - start) b(s) + v0 T c(s).
 /** c and its first and second derivative by s. */
 double coast(double s) {
   return s * (1 + s * s * (-6 + s * (8 - s * 3)));
@@ -63,12 +67,14 @@ JointTrajectory::JointTrajectory(const std::vector<double>& start,
   // From rest the least duration follows from the peaks of b' and b''.
   bool starts_at_rest = true;
   for (size_t i = 0; i < start_.size(); ++i) {
+    // With distance D and duration T the peaks are D max|b'| / T and D max|b''| / T^2.
     const double distance = std::abs(goal_[i] - start_[i]);
     duration_ = std::max(duration_, peak_velocity(how) * distance / rates[i].max_velocity);
     duration_ = std::max(duration_,
                          std::sqrt(peak_acceleration(how) * distance / rates[i].max_acceleration));
     if (start_velocity_[i] != 0) {
       starts_at_rest = false;
+      // The initial velocity needs time to be braked at all.
       duration_ = std::max(duration_, std::abs(start_velocity_[i]) / rates[i].max_acceleration);
     }
   }
@@ -101,6 +107,8 @@ bool JointTrajectory::keeps(const std::vector<JointRates>& rates) const {
   for (size_t i = 0; i < start_.size(); ++i) {
     const double distance = goal_[i] - start_[i];
     const double coasting = start_velocity_[i] * duration_;
+    // A joint that is faster than its rate at the start (after a change of speed) cannot be slower
+    // at once: it may have its initial velocity.
     const double max_velocity = std::max(rates[i].max_velocity, std::abs(start_velocity_[i]));
     for (int k = 0; k <= kNumSamples; ++k) {
       const double s = static_cast<double>(k) / kNumSamples;
@@ -120,6 +128,7 @@ void JointTrajectory::sample(double time, std::vector<double>& position) const {
   position.resize(start_.size());
   const double s = duration_ > 0 ? std::clamp(time / duration_, 0.0, 1.0) : 1.0;
   for (size_t i = 0; i < start_.size(); ++i) {
+    // At the end exactly the goal, without the rounding of the polynomials.
     position[i] = s == 1.0 ? goal_[i]
                            : start_[i] + (goal_[i] - start_[i]) * blend(how_, s) +
                                  start_velocity_[i] * duration_ * coast(s);

@@ -16,7 +16,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kRateTimeConstant = 0.015;  // s, of the gyroscope
 // The servos' offsets fade in at the start and out at the end, where the targets are angles, s.
 constexpr double kFade = 0.3;
 
@@ -25,6 +24,8 @@ constexpr double kFade = 0.3;
 std::optional<Reason> KickMotion::find_obstacle(const Kick& kick, bool is_left,
                                                 const Vector2d& ball) {
   const Vector2d best(kick.ball.x(), (is_left ? 1 : -1) * kick.ball.y());
+  // Only coordinates that are given are checked; the reason tells the range in which the ball must
+  // lie, m, in the frame of the command.
   for (int i = 0; i < 2; ++i) {
     if (std::isnan(ball[i]) || std::abs(ball[i] - best[i]) <= kick.ball_reach[i]) continue;
     const Vector2d least = best - kick.ball_reach;
@@ -50,6 +51,7 @@ KickMotion::KickMotion(const RobotModel& model, const Kick& kick, const Gait& ga
       kinematics_(model) {}
 
 void KickMotion::start(const MotionContext& context, const JointTargets& targets) {
+  // From any other posture the robot stands up first, and the kick begins from there.
   is_standing_up_ = !is_walking_stance(context.model, targets.position);
   if (is_standing_up_) {
     stand_up_->start(context, targets);
@@ -62,11 +64,14 @@ void KickMotion::start_kick(const MotionContext& context, const JointTargets& ta
   time_ = 0;
   kinematics_.update(targets.position);
   trajectory_.start_from(pose_.start(kinematics_));
+  // Where the support sole was at the start: the kick's path holds over the ground even if the sole
+  // turns under the load, see hold_path_over_ground().
   start_in_odometry_ = support_in_odometry(context.state);
   reference_position_ = targets.position;
 }
 
 Pose2 KickMotion::support_in_odometry(const RobotState& state) const {
+  // Support frame S of the kick, in odometry: the sole's pose without its own heading at the start.
   const Isometry3d& sole = is_left_ ? state.right_sole_in_odometry : state.left_sole_in_odometry;
   return Pose2::from(sole) * Pose2{Vector2d::Zero(), -pose_.support_heading()};
 }
@@ -77,6 +82,7 @@ MotionGenerator::Phase KickMotion::step(const MotionContext& context, JointTarge
     if (phase == Phase::kFailed) reason_ = stand_up_->reason();
     if (phase != Phase::kDone) return phase;
     is_standing_up_ = false;
+    // A motion that shall end does not begin to kick.
     if (is_finishing_) return Phase::kDone;
     start_kick(context, targets);
     return Phase::kRunning;
@@ -94,6 +100,7 @@ void KickMotion::follow(const MotionContext& context, const KickReference& plann
   pose_.turn_torso(reference, hold_path_over_ground(trajectory_.impact(), start_in_support));
   const Isometry3d torso = pose_.torso_in_support(reference);
 
+  // The old angles first, to get velocities by difference, rad/s.
   std::vector<double> velocity = reference_position_;
   pose_.write_legs(reference, reference_position_);
   for (size_t i = 0; i < velocity.size(); ++i) {
@@ -101,7 +108,7 @@ void KickMotion::follow(const MotionContext& context, const KickReference& plann
   }
   kinematics_.update(reference_position_);
   pose_.update_com(kinematics_.center_of_mass(), context.dt);
-  rate_ += std::min(1.0, context.dt / kRateTimeConstant) * (state.angular_velocity_torso - rate_);
+  gyroscope_.update(state.angular_velocity_torso, context.dt);
 
   const std::array<FootLoad, 2> loads =
       calc_loads(reference, torso, calc_zmp_offset(state, reference));
@@ -109,6 +116,8 @@ void KickMotion::follow(const MotionContext& context, const KickReference& plann
   write_targets(feedforward_.calc_torques(kinematics_, up, loads), velocity, targets);
 }
 
+// Proportional feedback of the divergent component of motion, m: the CoP goes beyond the DCM's
+// error, which lets the error decay; bounded by the reach on the sole.
 Vector2d KickMotion::calc_zmp_offset(const RobotState& state,
                                      const KickReference& reference) const {
   const double omega = std::sqrt(kGravity / pose_.com_height());
@@ -125,9 +134,11 @@ std::array<FootLoad, 2> KickMotion::calc_loads(const KickReference& reference,
   const double foot_y = reference.foot.y();
   // In double support the CoM's place between the feet gives their load ratio.
   const double load_ratio = is_airborne ? 0.0 : std::clamp(reference.com.y() / foot_y, 0.0, 1.0);
+  // The robot stands on its load only: no horizontal force, in contrast to the walk's pendulum.
   const Vector3d weight =
       torso.linear().transpose() * Vector3d(0, 0, model_->total_mass() * kGravity);
   const Isometry3d support_in_torso = torso.inverse();
+  // The commanded CoP is under the commanded CoM: the pose is nearly static.
   const double zmp_x = reference.com.x() + zmp_offset.x();
   const double zmp_y = (is_airborne ? reference.com.y() : 0.0) + zmp_offset.y();
   const FootLoad support{(1 - load_ratio) * weight, support_in_torso * Vector3d(zmp_x, zmp_y, 0)};
@@ -139,10 +150,11 @@ std::array<FootLoad, 2> KickMotion::calc_loads(const KickReference& reference,
 void KickMotion::write_targets(const std::vector<double>& torque,
                                const std::vector<double>& velocity, JointTargets& targets) const {
   const LegKinematics& legs = pose_.legs();
+  // Feedback of the angular velocity at the ankle of the support leg, motors 4 and 5 of a leg.
   std::vector<double> balance(velocity.size(), 0.0);
   const auto& ankle = legs.motors(is_left_ ? Leg::kRight : Leg::kLeft);
-  balance[ankle[4]] = gait_->orientation.gyro_ankle_pitch * rate_.y();
-  balance[ankle[5]] = gait_->orientation.gyro_ankle_roll * rate_.x();
+  balance[ankle[4]] = gait_->orientation.gyro_ankle_pitch * gyroscope_.value().y();
+  balance[ankle[5]] = gait_->orientation.gyro_ankle_roll * gyroscope_.value().x();
   const double fade =
       smooth_step(time_ / kFade) * smooth_step((trajectory_.duration() - time_) / kFade);
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
@@ -156,6 +168,7 @@ void KickMotion::write_targets(const std::vector<double>& torque,
 }
 
 bool KickMotion::can_be_replaced() const {
+  // Within the trajectory the robot stands on one foot.
   return is_standing_up_ ? stand_up_->can_be_replaced()
                          : time_ <= 0 || time_ >= trajectory_.duration();
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "daemons/motion/actions/kick.h"
+#include "daemons/motion/estimator/gyroscope_filter.h"
 #include "daemons/motion/generators/kick_pose.h"
 #include "daemons/motion/generators/kick_trajectory.h"
 #include "daemons/motion/generators/motion_generator.h"
@@ -77,8 +78,7 @@ class KickMotion : public MotionGenerator {
   Pose2 start_in_odometry_;
   /** Of all motors, rad, without what balance and feedforward add. */
   std::vector<double> reference_position_;
-  /** Filtered angular velocity of the torso, rad/s. */
-  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
+  GyroscopeFilter gyroscope_;
   Reason reason_;
 };
 

@@ -30,6 +30,7 @@ KickReference KickPose::start(const Kinematics& kinematics) {
   const Isometry3d& left = kinematics.left_sole();
   const Isometry3d& right = kinematics.right_sole();
   const Isometry3d torso_in_sole = (is_left_ ? right : left).inverse();
+  // The torso's frame at the start defines S: heading 0, origin in the support sole.
   support_heading_ = -Pose2::from(torso_in_sole).heading;
   start_torso_ = about_z(support_heading_) * torso_in_sole;
   heading_ = exact_heading_ = impact_heading_ = 0;
@@ -42,6 +43,8 @@ KickReference KickPose::start(const Kinematics& kinematics) {
 
 void KickPose::turn_torso(const KickReference& now, const KickReference& impact) {
   exact_heading_ = find_torso_heading(now, exact_heading_);
+  // On the ground the heading that the feet need now; in the air the heading that they need at the
+  // impact, so that the torso does not turn back and forth within the strike.
   impact_heading_ = find_torso_heading(impact, impact_heading_);
   const double airborne = airborne_fraction(now.foot.z());
   heading_ = exact_heading_ + airborne * (impact_heading_ - exact_heading_);
@@ -50,6 +53,8 @@ void KickPose::turn_torso(const KickReference& now, const KickReference& impact)
 Isometry3d KickPose::torso_in_support(const KickReference& reference, double heading) const {
   Isometry3d torso = start_torso_;
   torso.linear() = about_z(heading) * torso.linear();
+  // The torso keeps the height and the inclination of the start; its horizontal place puts the CoM
+  // where the reference has it.
   const Vector3d com = torso.linear() * com_in_torso_;
   torso.translation().head<2>() = reference.com - com.head<2>();
   return torso;
@@ -68,6 +73,8 @@ std::array<Isometry3d, 2> KickPose::soles_in_torso(const KickReference& referenc
 }
 
 double KickPose::find_torso_heading(const KickReference& reference, double guess) const {
+  // f: difference of the angles that both legs ask for from their shared hip motor, rad. At its
+  // zero both soles have their exact pose.
   const auto difference = [&](double heading) {
     const auto [left, right] = soles_in_torso(reference, heading);
     return legs_.solve(Leg::kLeft, left).angles[0] - legs_.solve(Leg::kRight, right).angles[0];

@@ -31,6 +31,8 @@ KickReference hold_path_over_ground(const KickReference& planned, const Pose2& s
   const double airborne = airborne_fraction(planned.foot.z());
   const Vector2d foot = planned.foot.head<2>();
   KickReference held = planned;
+  // A foot on the ground moves with the ground; a foot in the air goes along the path that was
+  // planned from the start. smooth_step() joins the two over kClearance.
   held.foot.head<2>() += airborne * (start_in_support * foot - foot);
   held.foot_heading += airborne * wrapped(start_in_support.heading);
   return held;
@@ -39,6 +41,7 @@ KickReference hold_path_over_ground(const KickReference& planned, const Pose2& s
 KickTrajectory::KickTrajectory(const Kick& kick, bool is_left, const Vector2d& ball,
                                double strength)
     : ball_x_(std::isnan(ball.x()) ? kick.ball.x() : ball.x()), ball_contact_(kick.ball_contact) {
+  // Phases are given for a left foot that kicks; the y of a right one is negated.
   const double side = is_left ? 1 : -1;
   // The foot swings in the vertical plane that the ball lies in.
   const double sideways = std::isnan(ball.y()) ? 0 : side * ball.y() - kick.ball.y();
@@ -49,6 +52,7 @@ KickTrajectory::KickTrajectory(const Kick& kick, bool is_left, const Vector2d& b
       segment.duration =
           kick.strike_duration[0] + strength * (kick.strike_duration[1] - kick.strike_duration[0]);
     }
+    // Only where the foot is in the air: on the ground it stays.
     if (phase.foot.z() > 0) segment.end.foot.y() += sideways;
     segment.end.com.y() *= side;
     segment.end.foot.y() *= side;
@@ -57,6 +61,7 @@ KickTrajectory::KickTrajectory(const Kick& kick, bool is_left, const Vector2d& b
   }
 }
 
+// The path begins and ends in the stand that the robot is in.
 void KickTrajectory::start_from(const KickReference& stand) {
   stand_ = stand;
   for (Segment& segment : segments_) {
@@ -69,12 +74,15 @@ void KickTrajectory::start_from(const KickReference& stand) {
 }
 
 void KickTrajectory::find_impact() {
+  // x of the kicking foot in S when it meets the ball: the ball is given from the midpoint of the
+  // feet, and is met ball_contact ahead of the sole's frame.
   const double foot_x = ball_x_ + 0.5 * stand_.foot.x() - ball_contact_;
   impact_ = stand_;
   for (size_t i = 1; i < segments_.size(); ++i) {
     if (!segments_[i].is_strike) continue;
     const KickReference& from = segments_[i - 1].end;
     const KickReference& to = segments_[i].end;
+    // Fraction of the strike at which the foot is there.
     const double s = (foot_x - from.foot.x()) / (to.foot.x() - from.foot.x());
     impact_ = interpolate(from, to, std::clamp(s, 0.0, 1.0));
   }

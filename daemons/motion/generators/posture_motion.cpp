@@ -33,6 +33,7 @@ MotionGenerator::Phase PostureMotion::step(const MotionContext& context, JointTa
   time_ += context.dt;
   trajectory_.sample(time_, targets.position);
   if (time_ < trajectory_.duration()) return Phase::kRunning;
+  // The targets are at the goal; now the measured angles decide.
   const PostureDeviation deviation = deviation_from(*posture_, context.sensors.position);
   if (deviation.angle <= context.options.posture_tolerance) return Phase::kDone;
   if (time_ < trajectory_.duration() + kSettlingTime) return Phase::kRunning;

@@ -42,6 +42,7 @@ std::string body_state_in(const MotionContext& context) {
 
 }  // namespace
 
+// Limp motors get their stiffness first; the path begins from the measured state.
 void PosturePathMotion::start(const MotionContext& /*context*/, const JointTargets& targets) {
   const bool is_stiff = std::all_of(targets.stiffness.begin(), targets.stiffness.end(),
                                     [](double stiffness) { return stiffness >= 1; });
@@ -91,6 +92,8 @@ void PosturePathMotion::stiffen(double dt, std::vector<double>& stiffness) {
 
 MotionGenerator::Phase PosturePathMotion::step_resting(const MotionContext& context,
                                                        JointTargets& targets) {
+  // A motion that shall end begins no further segment: the body is at rest, and what waits replaces
+  // it.
   if (is_finishing_) return Phase::kRunning;
   if (time_ < kMaxRestTime && must_rest(context, body_state_in(context))) return Phase::kRunning;
   return choose_segment(context, targets);
@@ -114,6 +117,8 @@ void PosturePathMotion::rest() {
 }
 
 bool PosturePathMotion::must_rest(const MotionContext& context, const std::string& state) const {
+  // On feet there is nothing to wait for. Between planned transitions a moving body may go on; any
+  // other lying body must have come to rest, since its state is not known before.
   if (state == kOnFeet) return false;
   if (is_on_path_) return context.state.angular_velocity_torso.norm() > kContinueVelocity;
   return time_still_ < kStillTime;
@@ -130,6 +135,7 @@ MotionGenerator::Phase PosturePathMotion::choose_segment(const MotionContext& co
   time_ = 0;
   const std::string state = body_state_in(context);
   const std::string goal_state = state_of(*goal_);
+  // The last part of the path: a line through joint space on the feet.
   is_standing_line_ = state == kOnFeet && goal_state == state;
   if (++num_segments_ > kMaxSegments) {
     reason_ = Reason("path-too-long", {goal_->name, std::to_string(kMaxSegments)});
@@ -141,6 +147,7 @@ MotionGenerator::Phase PosturePathMotion::choose_segment(const MotionContext& co
 
 MotionGenerator::Phase PosturePathMotion::choose_segment_in_goal_state(
     const MotionContext& context, const JointTargets& targets) {
+  // Some postures need an approach transition when joints are far off; it is played once.
   const KeyframeSequence* approach = graph_->find_approach(*goal_);
   const bool is_near = deviation_from(*goal_, context.sensors.position).angle < kNearPosture;
   if (approach != nullptr && !has_approached_ && !is_near) {
@@ -159,6 +166,7 @@ MotionGenerator::Phase PosturePathMotion::choose_transition(const MotionContext&
                                                             const JointTargets& targets,
                                                             const std::string& state) {
   const std::string goal_state = state_of(*goal_);
+  // First a path without transitions that have failed; if there is none, all are tried again.
   auto path = graph_->find_path(state, goal_state, failed_);
   if (path.empty()) path = graph_->find_path(state, goal_state);
   if (path.empty()) {
@@ -166,10 +174,12 @@ MotionGenerator::Phase PosturePathMotion::choose_transition(const MotionContext&
     return Phase::kFailed;
   }
   is_from_lying_ = is_lying_state(state);
+  // Each new beginning from lying counts as an attempt; after kMaxTries the robot asks for help.
   if (is_from_lying_ && !is_on_path_ && ++num_tries_ > kMaxTries) {
     reason_ = Reason("get-up-failed", {std::to_string(kMaxTries)});
     return Phase::kFailed;
   }
+  // Alternatives of one transition take turns: a surface on which one fails may suit another.
   const int num_failed = is_from_lying_ ? num_tries_ - 1 : 0;
   play(context, graph_->find_alternative(*path.front(), num_failed), targets);
   return Phase::kRunning;
@@ -179,6 +189,7 @@ bool PosturePathMotion::bring_feet_together(const MotionContext& context,
                                             const JointTargets& targets) {
   const KeyframeSequence* sequence = graph_->find(kFeetTogether);
   const std::string state = body_state_in(context);
+  // Only where the transition starts and the goal is in the same state.
   const bool applies = sequence != nullptr && state == sequence->from && state == state_of(*goal_);
   if (!applies || num_feet_together_ >= kMaxFeetTogether) return false;
   ++num_feet_together_;
@@ -199,6 +210,9 @@ MotionGenerator::Phase PosturePathMotion::step_transition(const MotionContext& c
   const int stage = transition_.player.stage_at(time_);
   bool has_failed = false;
   if (stage != transition_.stage || is_over) {
+    // At the end of each keyframe the direction of up must be in the keyframe's range: a roll that
+    // did not happen ends the transition at once, and not after the robot has worked against the
+    // floor.
     const Keyframe& ended = transition_.sequence->keyframes[transition_.stage];
     const Eigen::Vector3d up = context.state.torso_in_odometry.linear().row(2);
     for (int axis = 0; axis < 3; ++axis) has_failed |= !ended.up[axis].has(up[axis]);

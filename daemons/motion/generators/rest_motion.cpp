@@ -17,6 +17,7 @@ MotionGenerator::Phase RestMotion::step(const MotionContext& context, JointTarge
     is_there_ = phase == Phase::kDone;
     return is_there_ ? Phase::kRunning : phase;
   }
+  // After the path to the rest posture the stiffness falls linearly to 0.
   time_ += context.dt;
   const double stiffness = std::max(0.0, 1 - time_ / kRelaxingTime);
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), stiffness);

@@ -11,7 +11,6 @@
 namespace nao::motion {
 namespace {
 
-constexpr double kRateTimeConstant = 0.015;  // s, of the gyroscope
 // Farthest that the weight may be steered on the soles, m: their half length less a margin, and as
 // far inwards as their round inner edge is flat.
 constexpr double kReachForward = 0.045;
@@ -47,6 +46,7 @@ void ScriptMotion::start_playing(const MotionContext& context, const JointTarget
 
 MotionGenerator::Phase ScriptMotion::step(const MotionContext& context, JointTargets& targets) {
   if (part_ == Part::kPlaying) return play(context, targets);
+  // Standing up before, or getting up after the script.
   MotionGenerator& way = part_ == Part::kStandingUp ? *stand_up_ : *get_up_;
   const Phase phase = way.step(context, targets);
   if (phase == Phase::kFailed) reason_ = way.reason();
@@ -60,6 +60,7 @@ MotionGenerator::Phase ScriptMotion::play(const MotionContext& context, JointTar
   player_.sample(time_, targets.position, targets.stiffness);
   if (script_->balance_gain > 0) balance(context, targets);
   if (time_ < player_.duration()) return Phase::kRunning;
+  // A script that ends on the ground (a keeper's dive) goes on with getting up.
   if (script_->end == ActionScript::End::kOnFeet) return Phase::kDone;
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
   part_ = Part::kGettingUp;
@@ -69,13 +70,16 @@ MotionGenerator::Phase ScriptMotion::play(const MotionContext& context, JointTar
 
 void ScriptMotion::balance(const MotionContext& context, JointTargets& targets) {
   const RobotState& state = context.state;
-  rate_ += std::min(1.0, context.dt / kRateTimeConstant) * (state.angular_velocity_torso - rate_);
+  gyroscope_.update(state.angular_velocity_torso, context.dt);
   if (!state.left_foot_carries || !state.right_foot_carries) return;
   const Pose2 left = Pose2::from(state.left_sole_in_odometry);
   const Pose2 right = Pose2::from(state.right_sole_in_odometry);
   const Eigen::Vector2d ahead(gait_->stance.zmp_forward, 0);
+  // Point between the feet over which the walk keeps the CoP: the same place on the soles here.
   const Eigen::Vector2d middle = 0.5 * (left * ahead + right * ahead);
   const Eigen::Vector2d error = calc_capture_point(state) - middle;
+  // Each foot is taken to carry half of the weight; the ankle torque tau = m g / 2 * x moves its
+  // CoP by x.
   const double half_weight = 0.5 * model_->total_mass() * kGravity;
   // The targets end at angles: what the ankles add fades with the last keyframe.
   const double left_time = player_.duration() - time_;
@@ -83,6 +87,7 @@ void ScriptMotion::balance(const MotionContext& context, JointTargets& targets) 
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     const Pose2& sole = leg == Leg::kLeft ? left : right;
     const Eigen::Vector2d reach(kReachForward, kReachSideways);
+    // In the axes of this sole.
     const Eigen::Vector2d steer =
         (script_->balance_gain * (Eigen::Rotation2Dd(-sole.heading) * error))
             .cwiseMax(-reach)
@@ -96,8 +101,9 @@ void ScriptMotion::balance(const MotionContext& context, JointTargets& targets) 
     };
     // Toes pressed down move the weight ahead; a sole rolled to its left moves it to its left.
     add(roles.ankle_pitch, half_weight * steer.x(),
-        gait_->orientation.gyro_ankle_pitch * rate_.y());
-    add(roles.ankle_roll, -half_weight * steer.y(), gait_->orientation.gyro_ankle_roll * rate_.x());
+        gait_->orientation.gyro_ankle_pitch * gyroscope_.value().y());
+    add(roles.ankle_roll, -half_weight * steer.y(),
+        gait_->orientation.gyro_ankle_roll * gyroscope_.value().x());
   }
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "daemons/motion/actions/action_script.h"
+#include "daemons/motion/estimator/gyroscope_filter.h"
 #include "daemons/motion/generators/motion_generator.h"
 #include "daemons/motion/walk/gait.h"
 #include "daemons/motion/walk/servo_feedforward.h"
@@ -51,7 +52,7 @@ class ScriptMotion : public MotionGenerator {
   bool is_finishing_ = false;
   KeyframePlayer player_;
   double time_ = 0;
-  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
+  GyroscopeFilter gyroscope_;
   Reason reason_;
 };
 

@@ -46,6 +46,7 @@ std::optional<Reason> find_soft_leg(const LegKinematics& legs,
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     for (int motor : legs.motors(leg)) {
       if (stiffness[motor] <= kLeastStiffness) {
+        // Percent, for people.
         return Reason("legs-too-soft", {std::to_string(std::lround(100 * stiffness[motor])),
                                         std::to_string(std::lround(100 * kLeastStiffness))});
       }
@@ -57,6 +58,7 @@ std::optional<Reason> find_soft_leg(const LegKinematics& legs,
 std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
                                          const std::vector<double>& stiffness) {
   if (auto soft = find_soft_leg(legs, stiffness)) return soft;
+  // (2, 2) is the cosine of the torso's tilt.
   if (state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
     return Reason("not-upright");
   }
@@ -69,6 +71,7 @@ std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotS
 bool is_walking_stance(const RobotModel& model, const std::vector<double>& position) {
   Kinematics kinematics(model);
   kinematics.update(position);
+  // The right sole in the frame of the left one: level, at one height, within the stance's bounds.
   const Eigen::Isometry3d right = kinematics.left_sole().inverse() * kinematics.right_sole();
   const LegKinematics legs(model);
   const Eigen::Vector3d hips = 0.5 * (legs.hip(Leg::kLeft) + legs.hip(Leg::kRight));
@@ -99,6 +102,8 @@ void WalkingMotion::start(const MotionContext& context, const JointTargets& targ
 
 std::optional<Reason> WalkingMotion::find_trouble(const MotionContext& context) {
   if (context.state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
+    // A foot that lost contact for a moment is usual in a step; the time without any contact
+    // decides.
     return Reason("balance-lost");
   }
   const bool is_in_air = !context.state.left_foot_carries && !context.state.right_foot_carries;
@@ -125,6 +130,8 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
   }
   if (const auto soft = find_soft_leg(engine_.legs(), targets.stiffness)) {
     reason_ = *soft;
+    // Soft legs do not carry a step: within a step the walk is ended by a step that brings the
+    // robot to rest, otherwise it ends at once.
     if (engine_.stage() != WalkEngine::Stage::kStepping) return Phase::kFailed;
     engine_.end();
   } else if (!is_finishing_) {
@@ -136,6 +143,8 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
   // three times as often as to catch up with a jump (nao-trial walk --vx 0.3 --late 0.03).
   const double advance = std::min(context.dt, context.sensors.period);
   if (engine_.step(context.state, context.kinematics, advance, targets)) return Phase::kRunning;
+  // The walk has ended. Why decides what comes next: soft legs failed; a motion waits; the operator
+  // gave a new velocity meanwhile; or the walk is done.
   if (!reason_.empty()) return Phase::kFailed;
   if (is_finishing_) {
     // The motion that waits takes over in the next tick.
@@ -149,6 +158,7 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
 }
 
 bool WalkingMotion::can_be_replaced() const {
+  // During the first weight transfer and after the end the robot stands on both feet.
   if (is_standing_up_) return stand_up_->can_be_replaced();
   switch (engine_.stage()) {
     case WalkEngine::Stage::kLowering:
@@ -181,12 +191,15 @@ WalkMotion::WalkMotion(const RobotModel& model, const Gait& gait,
     : WalkingMotion(model, gait, std::move(stand_up)), model_(&model), command_(command) {}
 
 bool WalkMotion::adopt(const Command& command) {
+  // A kick or a new velocity while walking is taken into the running walk. false: the command needs
+  // a motion of its own.
   if (const auto* action = std::get_if<ActionCommand>(&command.request)) {
     const Action* known = model_->find_action(action->action);
     const Side side = known != nullptr ? known->side : Side::kNone;
     if (engine().stage() != WalkEngine::Stage::kStepping) return false;
     std::optional<Eigen::Vector2d> ball;
     if (!std::isnan(action->ball_x) && !std::isnan(action->ball_y)) {
+      // Commands give the ball relative to the midpoint of the feet.
       ball = engine().midpoint_in_odometry() * Eigen::Vector2d(action->ball_x, action->ball_y);
     }
     engine().kick().request(side == Side::kLeft, ball);
@@ -215,6 +228,7 @@ MotionGenerator::Strike WalkMotion::strike() const {
 void WalkMotion::steer(const MotionContext& context) {
   age_ += context.dt;
   const Eigen::Vector3d velocity(command_.vx, command_.vy, command_.wz);
+  // Silence of the sender ends the walk: a phone that vanishes must not leave a robot walking.
   if (age_ > kCommandLifetime || velocity.isZero(0)) {
     engine().end();
   } else {
@@ -252,15 +266,19 @@ void MoveToMotion::start_steering(const MotionContext& context) {
   const Pose2 torso = Pose2::from(context.state.torso_in_odometry);
   const Pose2 body_in_torso = torso.inverse() * standing_body(context.state);
   goal_in_odometry_ = torso * Pose2{{command_.x, command_.y}, command_.theta} * body_in_torso;
+  // Length of the way, m, with 0.15 m for each rad of turning, for the progress only.
   way_ = std::hypot(command_.x, command_.y) + 0.15 * std::abs(command_.theta);
   const double turn = std::abs(wrapped(command_.theta)) + 2 * M_PI;
   time_limit_ = kPatienceAtLeast + kPatience * (std::hypot(command_.x, command_.y) /
+                                                    // The slowest direction, and a full turn on
+                                                    // top.
                                                     std::min(limits_.forward, limits_.sideways) +
                                                 turn / limits_.turning);
 }
 
 Pose2 MoveToMotion::remaining(const MotionContext& context) const {
   const bool steps = engine().stage() == WalkEngine::Stage::kStepping;
+  // While stepping, the body frame that the plan is based on; it does not sway as the torso does.
   const Pose2 body = steps ? engine().body_in_odometry() : standing_body(context.state);
   return body.inverse() * goal_in_odometry_;
 }
@@ -272,14 +290,18 @@ void MoveToMotion::steer(const MotionContext& context) {
   const double turn = wrapped(left.heading);
   const double left_way = distance + 0.15 * std::abs(turn);
   if (way_ > 0) progress_ = std::max(progress_, std::clamp(1 - left_way / way_, 0.0, 1.0));
+  // Once there, it stays there: the last steps may shift the robot by millimeters.
   is_there_ = is_there_ || (distance < kArrivedDistance && std::abs(turn) < kArrivedTurn);
   if (is_there_ || time_ > time_limit_) {
     engine().end();
     return;
   }
+  // Proportional control of the remaining pose, clipped to the limits of the walk below.
   Eigen::Vector3d velocity(kApproach * left.position.x(), kApproach * left.position.y(),
                            kApproach * turn);
   if (distance > kFar) {
+    // Far away: turn towards the goal and walk ahead; sideways it walks more slowly. The factor
+    // falls linearly to 0 at kAimed rad.
     const double aim = std::atan2(left.position.y(), left.position.x());
     velocity.z() = kApproach * aim;
     const double share = std::clamp(1 - std::abs(aim) / kAimed, 0.0, 1.0);

@@ -39,6 +39,7 @@ std::optional<Reason> JointChangeGuard::find_danger(const JointChangeCommand& ch
   if (change.allow_tipping) return std::nullopt;
   const bool is_on_feet =
       find_body_state(*model_, context.state, context.options.lying_tilt) == kOnFeet;
+  // A robot that lies or sits cannot tip over.
   return is_on_feet ? find_tipping(change, context, targets) : std::nullopt;
 }
 
@@ -50,6 +51,7 @@ std::optional<Reason> JointChangeGuard::find_self_collision(const JointChangeCom
   const std::vector<std::vector<double>> path = motion.calc_path(*model_);
   SelfCollision collision;
   const size_t last = collision_guard_.find_last_free(path, collision);
+  // The whole path is free.
   if (last + 1 == path.size()) return std::nullopt;
   return Reason("self-collision",
                 {model_->motor_joint(collision.motor).name, collision.link_a, collision.link_b,
@@ -78,6 +80,7 @@ int JointChangeGuard::find_tipping_motor(const JointChangeCommand& change,
   const Eigen::Matrix3Xd right = context.kinematics.calc_angular_jacobian(model_->right_sole());
   int tipping_motor = -1;
   double largest = -1;
+  // Of the named joints the one that turns most; legs before the upper body.
   for (const std::string& name : change.joint_names) {
     const int motor = model_->find_motor(name);
     const bool is_leg = !left.col(motor).isZero(0) || !right.col(motor).isZero(0);

@@ -9,6 +9,7 @@ void clip_to_limits(const RobotModel& model, std::vector<double>& position) {
     const Joint& joint = model.motor_joint(motor);
     position[motor] = std::clamp(position[motor], joint.lower, joint.upper);
   }
+  // After the independent limits: a coupled range depends on another joint's clipped angle.
   for (const CoupledLimit& limit : model.coupled_limits()) {
     position[limit.motor] = model.clip_to_limits(limit.motor, position[limit.motor], position);
   }

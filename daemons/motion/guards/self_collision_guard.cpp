@@ -9,11 +9,8 @@
 namespace nao::motion {
 namespace {
 
-// Least distance between two links, m. Chosen: a reserve for the servos' tracking error and the
-// encoders' resolution.
-constexpr double kClearance = 0.003;
-// Approach of links that are closer than that already, m. Chosen: a sixth of the least distance,
-// above rounding.
+// Approach of links that are closer than the clearance already, m. Chosen: a sixth of the usual
+// clearance, above rounding.
 constexpr double kTouchTolerance = 0.0005;
 // Radius of the rounded edges of boxes, m; closest_points() needs one above 0. Chosen: half of the
 // simulator's, so that the boxes reach a little farther into their corners than there.
@@ -21,7 +18,8 @@ constexpr double kEdgeRadius = 0.004;
 
 }  // namespace
 
-SelfCollisionGuard::SelfCollisionGuard(const RobotModel& model) : kinematics_(model) {
+SelfCollisionGuard::SelfCollisionGuard(const RobotModel& model, double clearance)
+    : kinematics_(model), clearance_(clearance) {
   for (int link = 0; link < static_cast<int>(model.links().size()); ++link) {
     for (const Shape& shape : model.links()[link].collisions) {
       Part part{link, rounded_box_in_link(model.links()[link], shape, kEdgeRadius), 0};
@@ -54,6 +52,7 @@ void SelfCollisionGuard::place(const std::vector<double>& position) {
 
 double SelfCollisionGuard::distance(const std::pair<int, int>& pair, double enough) const {
   const auto [a, b] = pair;
+  // Bounding spheres: a lower bound of the distance, which suffices where it is large.
   const double bound = (placed_[a].center - placed_[b].center).norm() - parts_[a].bounding_radius -
                        parts_[b].bounding_radius;
   return bound > enough ? bound : closest_points(placed_[a], placed_[b]).distance;
@@ -69,14 +68,15 @@ double SelfCollisionGuard::calc_clearance(const std::vector<double>& position) {
 size_t SelfCollisionGuard::find_last_free(const std::vector<std::vector<double>>& path,
                                           SelfCollision& collision) {
   place(path.front());
+  // Pairs that are close already in the present pose may stay as close, but come no closer.
   std::vector<double> needed;  // m, for each pair
   for (const auto& pair : pairs_) {
-    needed.push_back(std::min(kClearance, distance(pair, kClearance) - kTouchTolerance));
+    needed.push_back(std::min(clearance_, distance(pair, clearance_) - kTouchTolerance));
   }
   for (size_t k = 1; k < path.size(); ++k) {
     place(path[k]);
     for (size_t i = 0; i < pairs_.size(); ++i) {
-      if (distance(pairs_[i], kClearance) >= needed[i]) continue;
+      if (distance(pairs_[i], clearance_) >= needed[i]) continue;
       const std::vector<Link>& links = kinematics_.model().links();
       collision.link_a = links[parts_[pairs_[i].first].link].name;
       collision.link_b = links[parts_[pairs_[i].second].link].name;

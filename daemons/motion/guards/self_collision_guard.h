@@ -22,9 +22,14 @@ struct SelfCollision {
  * of its URDF. Pairs of links that may touch (RobotModel::allowed_contacts()) are not checked. */
 class SelfCollisionGuard {
  public:
-  /** @param model  Must outlive this.
+  /** Least distance of two links, m. Chosen: a reserve for the servos' tracking error and the
+   * encoders' resolution. */
+  static constexpr double kClearance = 0.003;
+
+  /** @param model      Must outlive this.
+   * @param clearance  Least distance of two links on a path, m, at least 0.
    * @throws ModelError  for a collision shape that is no box, sphere or capsule. */
-  explicit SelfCollisionGuard(const RobotModel& model);
+  explicit SelfCollisionGuard(const RobotModel& model, double clearance = kClearance);
 
   /** Least distance of all pairs of links, m; negative if two overlap.
    * @param position  rad, (num_motors). */
@@ -55,6 +60,7 @@ class SelfCollisionGuard {
   int find_mover(const std::pair<int, int>& pair, const std::vector<double>& change) const;
 
   Kinematics kinematics_;
+  double clearance_;
   std::vector<Part> parts_;
   /** Pairs of parts that are checked, as indices. */
   std::vector<std::pair<int, int>> pairs_;

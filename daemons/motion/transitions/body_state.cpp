@@ -22,6 +22,8 @@ std::string find_body_state(const RobotModel& model, const RobotState& state, do
     if (std::abs(up.y()) > std::abs(up.x())) return up.y() < 0 ? "left" : "right";
     return up.x() < 0 ? "belly" : "back";
   }
+  // Upright above a seat's height: on feet, or unknown in the air. Below it the robot sits, in the
+  // sitting posture whose joint angles are nearest.
   if (is_above_seat(model, state)) {
     return state.left_foot_carries || state.right_foot_carries ? kOnFeet : "";
   }
@@ -53,6 +55,7 @@ bool is_sitting(const RobotModel& model, const std::string& body_state) {
 
 const Posture* find_present_posture(const RobotModel& model, const std::vector<double>& position,
                                     const RobotState& state, double lying_tilt) {
+  // Angles alone do not tell a posture: a lying robot may have those of a standing one.
   for (const Posture& posture : model.postures()) {
     if (deviation_from(posture, position).angle >= kInPostureTolerance) continue;
     if (state_of(posture) == find_body_state(model, state, lying_tilt)) return &posture;

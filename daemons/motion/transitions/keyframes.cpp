@@ -4,14 +4,6 @@
 #include <cmath>
 
 namespace nao::motion {
-namespace {
-
-// Least duration of a stage relative to the distance over the maximum speed. Chosen: a spline that
-// starts and ends at rest peaks at 1.5 times its mean velocity; between 1.15 and 1.5 TargetLimiter
-// clips that peak, and the targets catch up towards the end of the stage.
-constexpr double kMinDurationRatio = 1.15;
-
-}  // namespace
 
 double KeyframeSequence::duration() const {
   double sum = 0;
@@ -23,6 +15,7 @@ std::vector<double> mirrored(const RobotModel& model, const std::vector<double>&
   std::vector<double> result = position;
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     const MirrorMotor& mirror = model.symmetry().mirrors[motor];
+    // q_mirror = sign * q of the partner, the reflection at the robot's xz plane.
     result[mirror.motor] = mirror.sign * position[motor];
   }
   return result;
@@ -36,6 +29,7 @@ KeyframeSequence mirrored(const RobotModel& model, const KeyframeSequence& seque
     for (int motor = 0; motor < model.num_motors(); ++motor) {
       keyframe.stiffness[model.symmetry().mirrors[motor].motor] = stiffness[motor];
     }
+    // The y component of up changes its sign, and with it the order of the range's ends.
     std::swap(keyframe.up[1].least, keyframe.up[1].greatest);
     keyframe.up[1].least *= -1;
     keyframe.up[1].greatest *= -1;
@@ -54,7 +48,9 @@ KeyframePlayer::KeyframePlayer(const RobotModel& model, const KeyframeSequence& 
     stage.to = last;
     double duration = keyframe.duration / speed;
     for (size_t i = 0; i < num_motors; ++i) {
+      // NaN: the joint keeps its last target.
       if (!std::isnan(keyframe.position[i])) stage.to[i] = keyframe.position[i];
+      // No stage is faster than its slowest joint; all joints arrive together.
       const double distance = std::abs(stage.to[i] - stage.from[i]);
       duration = std::max(duration, kMinDurationRatio * distance /
                                         model.motor_joint(static_cast<int>(i)).max_velocity);
@@ -69,11 +65,14 @@ KeyframePlayer::KeyframePlayer(const RobotModel& model, const KeyframeSequence& 
     last = stage.to;
     stages_.push_back(std::move(stage));
   }
+  // Velocities at the keyframes after all stages are known: each needs both neighbors.
   for (size_t k = 0; k + 1 < stages_.size(); ++k) connect(stages_[k], stages_[k + 1]);
 }
 
 void KeyframePlayer::connect(Stage& before, Stage& after) {
   if (before.end > before.arrival) return;  // The targets rest in between.
+  // Fritsch-Butland: the harmonic mean of the slopes on both sides, or 0 where they differ in sign.
+  // The piecewise cubic is then monotone between keyframes, without overshoot.
   const double duration_before = before.arrival - before.start;
   const double duration_after = after.arrival - after.start;
   if (duration_before <= 0 || duration_after <= 0) return;
@@ -99,6 +98,7 @@ void KeyframePlayer::sample(double time, std::vector<double>& position,
   const Stage& stage = stages_[stage_at(time)];
   const double duration = stage.arrival - stage.start;
   const double s = duration > 0 ? std::clamp((time - stage.start) / duration, 0.0, 1.0) : 1.0;
+  // from_slope and to_slope below contain the duration, since velocities are per second.
   // Cubic Hermite basis: h01 for the distance, h10 and h11 for the velocities at both ends.
   const double to_weight = s * s * (3 - 2 * s);
   const double from_slope = s * (1 - s) * (1 - s) * duration;

@@ -8,6 +8,11 @@
 
 namespace nao::motion {
 
+/** Least duration of a stage relative to the distance over the maximum speed. Chosen: a spline that
+ * starts and ends at rest peaks at 1.5 times its mean velocity; between 1.15 and 1.5 TargetLimiter
+ * clips that peak, and the targets catch up towards the end of the stage. */
+inline constexpr double kMinDurationRatio = 1.15;
+
 /** One keyframe of a motion that is kept as data. */
 struct Keyframe {
   /** s from the keyframe before to this one at full speed. */

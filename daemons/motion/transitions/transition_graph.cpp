@@ -26,7 +26,8 @@ Motors find_motors(const RobotModel& model, const std::string& name) {
   return pair != nullptr ? Motors{pair->left, pair->right} : Motors{};
 }
 
-void read_joints(const RobotModel& model, const YamlEntry& joints, std::vector<double>& position) {
+void read_joints(const RobotModel& model, const YamlEntry& joints, KeyframeLimits limits,
+                 std::vector<double>& position) {
   for (const auto& [name, value] : joints.entries()) {
     const Motors motors = find_motors(model, name);
     if (motors.left < 0) joints.fail("no joint " + name);
@@ -36,6 +37,8 @@ void read_joints(const RobotModel& model, const YamlEntry& joints, std::vector<d
     position[motors.left] = single[motors.left];
     if (motors.right >= 0) position[motors.right] = mirrored(model, single)[motors.right];
   }
+  if (limits == KeyframeLimits::kUnchecked) return;
+  // The limits are checked after all joints are read, posture and single joints together.
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     const Joint& joint = model.motor_joint(motor);
     if (position[motor] < joint.lower - 1e-9 || position[motor] > joint.upper + 1e-9) {
@@ -60,7 +63,7 @@ void read_stiffness(const RobotModel& model, const YamlEntry& entry,
   }
 }
 
-Keyframe read_keyframe(const RobotModel& model, const YamlEntry& entry) {
+Keyframe read_keyframe(const RobotModel& model, const YamlEntry& entry, KeyframeLimits limits) {
   entry.allow_only({"duration", "posture", "joints", "stiffness", "pause", "up"});
   Keyframe keyframe;
   keyframe.duration = entry.at("duration").number();
@@ -72,7 +75,7 @@ Keyframe read_keyframe(const RobotModel& model, const YamlEntry& entry) {
     if (posture == nullptr) entry.at("posture").fail("no such posture");
     keyframe.position = posture->position;
   }
-  if (entry.has("joints")) read_joints(model, entry.at("joints"), keyframe.position);
+  if (entry.has("joints")) read_joints(model, entry.at("joints"), limits, keyframe.position);
   if (entry.has("stiffness")) read_stiffness(model, entry.at("stiffness"), keyframe.stiffness);
   if (entry.has("pause")) keyframe.pause = entry.at("pause").number();
   if (entry.has("up")) {
@@ -88,13 +91,17 @@ Keyframe read_keyframe(const RobotModel& model, const YamlEntry& entry) {
 
 }  // namespace
 
-std::vector<Keyframe> read_keyframes(const RobotModel& model, const YamlEntry& list) {
+std::vector<Keyframe> read_keyframes(const RobotModel& model, const YamlEntry& list,
+                                     KeyframeLimits limits) {
   std::vector<Keyframe> keyframes;
-  for (const YamlEntry& entry : list.items()) keyframes.push_back(read_keyframe(model, entry));
+  for (const YamlEntry& entry : list.items()) {
+    keyframes.push_back(read_keyframe(model, entry, limits));
+  }
   if (keyframes.empty()) list.fail("has no keyframe");
   return keyframes;
 }
 
+// States of the graph: on feet, lying sides, and each sitting posture by its own name.
 std::string state_of(const Posture& posture) {
   if (posture.family == "standing" || posture.family == "crouching") return kOnFeet;
   if (posture.family == "lying-back") return "back";
@@ -115,6 +122,7 @@ TransitionGraph TransitionGraph::read(const RobotModel& model, const YamlEntry& 
   root.allow_only({"transitions"});
   std::set<std::string> states = {kOnFeet, "belly", "back", "left", "right"};
   for (const Posture& posture : model.postures()) states.insert(state_of(posture));
+  // In the file's order: a mirrored transition must stand below its original.
   for (const YamlEntry& entry : root.at("transitions").items()) {
     entry.allow_only({"name", "from", "to", "mirrors", "keyframes"});
     KeyframeSequence sequence;
@@ -145,15 +153,18 @@ const KeyframeSequence* TransitionGraph::find(const std::string& name) const {
   return nullptr;
 }
 
+// All transitions between the same two states are alternatives, in the file's order.
 const KeyframeSequence& TransitionGraph::find_alternative(const KeyframeSequence& sequence,
                                                           int num_failed) const {
   std::vector<const KeyframeSequence*> alternatives;
   for (const KeyframeSequence& other : sequences_) {
     if (other.from == sequence.from && other.to == sequence.to) alternatives.push_back(&other);
+    // Contains at least `sequence` itself, so that the modulus is not 0.
   }
   return *alternatives[static_cast<size_t>(num_failed) % alternatives.size()];
 }
 
+// Transition within a state that ends in a posture.
 const KeyframeSequence* TransitionGraph::find_approach(const Posture& posture) const {
   for (const KeyframeSequence& sequence : sequences_) {
     if (sequence.to == posture.name && sequence.from == state_of(posture)) return &sequence;

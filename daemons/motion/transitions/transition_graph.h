@@ -50,9 +50,14 @@ class TransitionGraph {
   std::vector<KeyframeSequence> sequences_;
 };
 
+/** Whether keyframes beyond a joint's limits are an error of the file, or left to whoever checks
+ * the motion. */
+enum class KeyframeLimits { kChecked, kUnchecked };
+
 /** Reads a list of keyframes: a `keyframes` entry of transitions.yaml, which documents its keys.
  * @throws ModelError  naming the line and what is wrong with it. */
-std::vector<Keyframe> read_keyframes(const RobotModel& model, const YamlEntry& list);
+std::vector<Keyframe> read_keyframes(const RobotModel& model, const YamlEntry& list,
+                                     KeyframeLimits limits = KeyframeLimits::kChecked);
 
 /** State of a posture in the graph: "on-feet" for the standing and crouching ones, "back" and
  * "belly" for the lying ones, else the posture's own name. Between two postures in one state the

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "common/constants.h"
@@ -31,7 +30,6 @@ class ComReference {
   void rest_at(const Eigen::Vector2d& com) {
     state_ = {com, Eigen::Vector2d::Zero()};
     zmp_ = com;
-    past_.fill(state_);
   }
 
   /** Moves towards the measured state with rates com_position_gain and com_velocity_gain. */
@@ -46,32 +44,13 @@ class ComReference {
   void set_zmp(const Eigen::Vector2d& zmp) { zmp_ = zmp; }
 
   /** One tick. */
-  void advance(double dt) {
-    newest_ = (newest_ + 1) % kNumPast;
-    past_[newest_] = state_;
-    state_ = motion::advance(state_, zmp_, omega_, dt);
-  }
-
-  /** State of so many ticks ago, 0 to 10, interpolated, in the present frame. m, m/s. */
-  PendulumState past(double ticks) const {
-    const double clamped = std::clamp<double>(ticks, 0, kNumPast);
-    const auto whole = static_cast<int>(clamped);
-    const double fraction = clamped - whole;
-    const PendulumState& newer = past_at(whole);
-    const PendulumState& older = past_at(std::min(whole + 1, kNumPast));
-    return {(1 - fraction) * newer.position + fraction * older.position,
-            (1 - fraction) * newer.velocity + fraction * older.velocity};
-  }
+  void advance(double dt) { state_ = motion::advance(state_, zmp_, omega_, dt); }
 
   /** Re-expresses everything in another frame. @param to_new  Old frame seen from the new one. */
   void change_frame(const Pose2& to_new) {
     state_.position = to_new * state_.position;
     state_.velocity = to_new.rotate(state_.velocity);
     zmp_ = to_new * zmp_;
-    for (PendulumState& state : past_) {
-      state.position = to_new * state.position;
-      state.velocity = to_new.rotate(state.velocity);
-    }
   }
 
   const PendulumState& state() const { return state_; }
@@ -86,18 +65,8 @@ class ComReference {
   }
 
  private:
-  // Ticks that are remembered. Chosen: the greatest lag that LagEstimator measures.
-  static constexpr int kNumPast = 10;
-
-  const PendulumState& past_at(int ticks) const {
-    return ticks == 0 ? state_ : past_[(newest_ - ticks + 1 + kNumPast) % kNumPast];
-  }
-
   const Gait::Feedback* gains_;
   PendulumState state_;
-  /** States of the last ticks, the newest at newest_. */
-  std::array<PendulumState, kNumPast> past_{};
-  int newest_ = 0;
   Eigen::Vector2d zmp_ = Eigen::Vector2d::Zero();
   double omega_ = 0;
 };

@@ -13,6 +13,7 @@ using Eigen::Vector3d;
 // Chosen: below the duration of a step, so that errors of several steps do not add up.
 constexpr double kHeightTimeConstant = 0.1;
 
+// Pose of a sole in the support frame S: level, at a height, m.
 Isometry3d level_pose(const Pose2& pose, double height) {
   Isometry3d result = Isometry3d::Identity();
   result.translation() << pose.position, height;
@@ -22,6 +23,7 @@ Isometry3d level_pose(const Pose2& pose, double height) {
 
 }  // namespace
 
+// The left foot supports first, so that S is the left sole; begin_starting() may exchange.
 void Feet::start(const Pose2& right_in_left) {
   support_is_left_ = true;
   support_height_ = 0;
@@ -34,8 +36,11 @@ Isometry3d Feet::support_sole() const {
 }
 
 Isometry3d Feet::swing_sole(const SwingOffset& offset) const {
+  // A kick moves the sole beyond its trajectory, along the foot's own axes.
   Pose2 pose = swing_.pose();
   pose.position += pose.rotate(offset.reach);
+  // The toe rises with the foot's forward velocity (rotation about -y), so that it does not touch
+  // first.
   const double toe_up = gait_->swing.toe_pitch_gain * swing_.forward_velocity();
   return level_pose(pose, swing_.height() + offset.lift) * AngleAxisd(-toe_up, Vector3d::UnitY());
 }
@@ -49,10 +54,14 @@ void Feet::level_both(double dt) {
   swing_.lower(std::min(1.0, dt / kHeightTimeConstant) * swing_.height());
 }
 
+// The swing foot becomes the support foot. Returns the pose of the old support frame in the new
+// one.
 Pose2 Feet::exchange(const Spread& spread) {
   const Pose2 to_new = swing_.pose().inverse();
   const double height = swing_.height();
   swing_.start(to_new, support_height_);
+  // Heights are exchanged as well: a foot that touched early or late keeps its height, which
+  // level_support() removes slowly.
   support_height_ = height;
   support_spread_ = spread;
   support_is_left_ = !support_is_left_;

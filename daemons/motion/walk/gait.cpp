@@ -22,6 +22,8 @@ const std::vector<Gait::Parameter>& all_parameters() {
       NAO_GAIT_PARAMETER(timing, start_duration),
       NAO_GAIT_PARAMETER(timing, stop_duration),
       NAO_GAIT_PARAMETER(timing, raise_duration),
+      NAO_GAIT_PARAMETER(timing, late_duration),
+      NAO_GAIT_PARAMETER(timing, stop_horizon),
       NAO_GAIT_PARAMETER(stance, hip_height),
       NAO_GAIT_PARAMETER(stance, torso_pitch),
       NAO_GAIT_PARAMETER(stance, foot_separation),
@@ -33,6 +35,8 @@ const std::vector<Gait::Parameter>& all_parameters() {
       NAO_GAIT_PARAMETER(swing, arrival_fraction),
       NAO_GAIT_PARAMETER(swing, toe_pitch_gain),
       NAO_GAIT_PARAMETER(swing, touchdown_load_ratio),
+      NAO_GAIT_PARAMETER(swing, late_speed),
+      NAO_GAIT_PARAMETER(swing, late_depth),
       NAO_GAIT_PARAMETER(step_limits, max_forward),
       NAO_GAIT_PARAMETER(step_limits, max_backward),
       NAO_GAIT_PARAMETER(step_limits, max_outward),
@@ -40,11 +44,16 @@ const std::vector<Gait::Parameter>& all_parameters() {
       NAO_GAIT_PARAMETER(step_limits, max_turn_outward),
       NAO_GAIT_PARAMETER(step_limits, max_turn_inward),
       NAO_GAIT_PARAMETER(step_limits, turn_inward_without_spread),
+      NAO_GAIT_PARAMETER(step_limits, square_distance),
       NAO_GAIT_PARAMETER(velocity, max_change_vx),
       NAO_GAIT_PARAMETER(velocity, max_change_vy),
       NAO_GAIT_PARAMETER(velocity, max_change_wz),
       NAO_GAIT_PARAMETER(velocity, envelope_exponent),
       NAO_GAIT_PARAMETER(velocity, path_gain),
+      NAO_GAIT_PARAMETER(velocity, max_path_offset),
+      NAO_GAIT_PARAMETER(velocity, full_speed_lag),
+      NAO_GAIT_PARAMETER(velocity, slow_speed_lag),
+      NAO_GAIT_PARAMETER(velocity, slow_speed),
       NAO_GAIT_PARAMETER(zmp, gain),
       NAO_GAIT_PARAMETER(zmp, reach_forward),
       NAO_GAIT_PARAMETER(zmp, reach_backward),
@@ -56,6 +65,8 @@ const std::vector<Gait::Parameter>& all_parameters() {
       NAO_GAIT_PARAMETER(feedback, timing_gain),
       NAO_GAIT_PARAMETER(feedback, ankle_dcm_gain),
       NAO_GAIT_PARAMETER(feedback, bias_gain),
+      NAO_GAIT_PARAMETER(feedback, max_bias),
+      NAO_GAIT_PARAMETER(feedback, max_com_offset),
       NAO_GAIT_PARAMETER(orientation, gyro_ankle_pitch),
       NAO_GAIT_PARAMETER(orientation, gyro_ankle_roll),
       NAO_GAIT_PARAMETER(orientation, gyro_hip_pitch),
@@ -65,6 +76,7 @@ const std::vector<Gait::Parameter>& all_parameters() {
       NAO_GAIT_PARAMETER(servo, lead_time),
       NAO_GAIT_PARAMETER(servo, torque_scale),
       NAO_GAIT_PARAMETER(servo, velocity_scale),
+      NAO_GAIT_PARAMETER(servo, inertia_scale),
       NAO_GAIT_PARAMETER(kick, ball_distance),
       NAO_GAIT_PARAMETER(kick, swing_reach),
       NAO_GAIT_PARAMETER(kick, swing_lift),
@@ -92,6 +104,7 @@ Gait::Parameter read_parameter(const std::string& name, const YamlEntry& entry, 
 
 }  // namespace
 
+// The file must hold all parameters and no others; each with its value inside its range.
 Gait Gait::load(const std::filesystem::path& file, std::vector<Parameter>* parameters) {
   const YamlEntry root = YamlEntry::load(file);
   Gait gait;
@@ -112,6 +125,9 @@ Gait Gait::load(const std::filesystem::path& file, std::vector<Parameter>* param
     root.at("timing")
         .at("step_duration")
         .fail("must lie between min_step_duration and max_step_duration");
+  }
+  if (gait.velocity.full_speed_lag >= gait.velocity.slow_speed_lag) {
+    root.at("velocity").at("slow_speed_lag").fail("must be above full_speed_lag");
   }
   if (parameters != nullptr) *parameters = std::move(read);
   return gait;

@@ -20,6 +20,8 @@ struct Gait {
     double start_duration = 0;
     double stop_duration = 0;
     double raise_duration = 0;
+    double late_duration = 0;
+    double stop_horizon = 0;
   };
   /** Nominal pose of torso and feet: m, rad; time constant, s. */
   struct Stance {
@@ -31,12 +33,14 @@ struct Gait {
     double zmp_inward = 0;
     double com_time_constant = 0;
   };
-  /** Trajectory of the swing foot: m, fractions, rad s/m. */
+  /** Trajectory of the swing foot: m, fractions, rad s/m, m/s. */
   struct Swing {
     double height = 0;
     double arrival_fraction = 0;
     double toe_pitch_gain = 0;
     double touchdown_load_ratio = 0;
+    double late_speed = 0;
+    double late_depth = 0;
   };
   /** Bounds of one footstep, measured from the support foot: m, rad. */
   struct StepLimits {
@@ -47,14 +51,20 @@ struct Gait {
     double max_turn_outward = 0;
     double max_turn_inward = 0;
     double turn_inward_without_spread = 0;
+    double square_distance = 0;
   };
-  /** Velocity of the steps: change per step, m/s and rad/s; exponent; 1/s. */
+  /** Velocity of the steps: change per step, m/s and rad/s; exponent; 1/s; m; lags in s and the
+   * fraction of the velocity at the longer one. */
   struct Velocity {
     double max_change_vx = 0;
     double max_change_vy = 0;
     double max_change_wz = 0;
     double envelope_exponent = 0;
     double path_gain = 0;
+    double max_path_offset = 0;
+    double full_speed_lag = 0;
+    double slow_speed_lag = 0;
+    double slow_speed = 0;
   };
   /** Control law of the zero moment point: gain and range on the sole, m. */
   struct Zmp {
@@ -63,7 +73,7 @@ struct Gait {
     double reach_backward = 0;
     double reach_sideways = 0;
   };
-  /** Feedback of the measured center of mass: s, 1/s, dimensionless gains. */
+  /** Feedback of the measured center of mass: s, 1/s, dimensionless gains, bounds in m. */
   struct Feedback {
     double initial_lag = 0;
     double com_position_gain = 0;
@@ -72,6 +82,8 @@ struct Gait {
     double timing_gain = 0;
     double ankle_dcm_gain = 0;
     double bias_gain = 0;
+    double max_bias = 0;
+    double max_com_offset = 0;
   };
   /** Feedback of the torso's angular velocity, s, and tilt, dimensionless, to joint angles. */
   struct Orientation {
@@ -87,6 +99,7 @@ struct Gait {
     double lead_time = 0;
     double torque_scale = 0;
     double velocity_scale = 0;
+    double inertia_scale = 0;
   };
   /** Kick during the walk, m. */
   struct Kick {
@@ -94,12 +107,8 @@ struct Gait {
     double swing_reach = 0;
     double swing_lift = 0;
   };
-  /** Arms: rad; swing in rad per m of stride. */
+  /** Arms: swing in rad per m of stride. */
   struct Arms {
-    double shoulder_pitch = 0;
-    double shoulder_roll = 0;
-    double elbow_yaw = 0;
-    double elbow_roll = 0;
     double swing_gain = 0;
   };
 

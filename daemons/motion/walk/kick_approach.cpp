@@ -30,9 +30,14 @@ KickApproach plan_kick_approach(const Eigen::Vector2d& offset, bool kicks_next,
   double least_cost = std::numeric_limits<double>::infinity();
   // Feet alternate: only every second number of steps ends with the kicking foot swinging.
   for (int n = kicks_next ? 2 : 1; n <= kMaxSteps; n += 2) {
+    // Constant velocity, m/s in the body frame, with which the ball is at its best place after n
+    // steps.
     const Eigen::Vector2d velocity = offset / (n * step_duration);
     const bool has_longer = n + 2 <= kMaxSteps;
+    // Slower backwards: more steps, unless there are none left.
     if (velocity.x() < -kMaxBackward && has_longer) continue;
+    // L1 distance to the operator's command plus the cost of steps: of two ways to the ball the one
+    // that changes the walk less.
     const double cost =
         std::abs(velocity.x() - commanded.x()) + std::abs(velocity.y()) + n * kStepCost;
     if (cost >= least_cost) continue;

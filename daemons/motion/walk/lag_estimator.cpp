@@ -15,7 +15,8 @@ constexpr double kLeastMotion = 2e-3;
 // The best lag must explain this fraction of the motion: a robot that is held does not follow its
 // commands, and its lag is kept.
 constexpr double kLeastExplained = 0.5;
-// Time constant with which the result follows the minimum, s. Chosen: as the sums.
+// Time constant with which the result follows the minimum, s. Chosen: below that of the
+// sums.
 constexpr double kResultTimeConstant = 0.2;
 
 }  // namespace
@@ -41,6 +42,7 @@ void LagEstimator::update(const std::vector<double>& commanded, const std::vecto
       std::fill(increments.begin(), increments.end(), 0);
     }
   }
+  // commanded_ is a ring of increments of the last kMaxTicks ticks, for each joint.
   newest_ = (newest_ + 1) % kMaxTicks;
   for (size_t i = 0; i < count; ++i) {
     const double target = commanded[joints[i]];
@@ -51,6 +53,9 @@ void LagEstimator::update(const std::vector<double>& commanded, const std::vecto
     last_measured_[i] = angle;
   }
   is_started_ = true;
+  // error_[j] is the squared difference between the measured increments and those commanded j + 1
+  // ticks ago, summed over joints and, with exponential forgetting, over time; motion_ is that of
+  // the measured increments alone. The lag is where the error is least.
   accumulate(moved_, 1 - std::min(1.0, dt / kTimeConstant));
   find_minimum(dt);
 }
@@ -71,9 +76,11 @@ void LagEstimator::accumulate(const std::vector<double>& moved, double decay) {
 
 void LagEstimator::find_minimum(double dt) {
   const auto least = std::min_element(error_.begin(), error_.end());
+  // A robot at rest tells nothing: each lag explains it.
   if (motion_ < kLeastMotion || *least > (1 - kLeastExplained) * motion_) return;
   const auto index = static_cast<int>(least - error_.begin());
   double ticks = index + 1;
+  // Between ticks: vertex of the parabola through the least error and its two neighbors.
   if (index > 0 && index < kMaxTicks - 1) {
     const double before = error_[index - 1];
     const double after = error_[index + 1];

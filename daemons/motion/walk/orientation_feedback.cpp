@@ -8,14 +8,18 @@ void add_orientation_feedback(const Gait::Orientation& gains, const LegKinematic
                               std::vector<double>& offset) {
   const Eigen::Vector3d& rate = measured.angular_velocity();
   const Eigen::Vector3d& tilt = measured.tilt();
+  // Angles in rad, in the sense of a rotation of the torso about y (pitch) and x (roll): a
+  // proportional law on tilt, a derivative law on angular velocity.
   const double ankle_pitch =
       gains.gyro_ankle_pitch * rate.y() + tilt_scale * gains.tilt_ankle_pitch * tilt.y();
   const double ankle_roll =
       gains.gyro_ankle_roll * rate.x() + tilt_scale * gains.tilt_ankle_roll * tilt.x();
+  // Joints of a leg that carries no weight do not move the torso: the swing leg is left out.
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     const bool is_support = (leg == Leg::kLeft) == support_is_left;
     if (!is_support && !is_double_support) continue;
     const LegRoles& roles = legs.roles(leg);
+    // roles.sign turns an angle about the torso's axis into the joint's own sense of rotation.
     const auto add = [&](int role, double angle) {
       offset[legs.motors(leg)[role]] += roles.sign[role] * angle;
     };

@@ -19,6 +19,9 @@ namespace nao::motion {
  * from the others, and the walk needs none of them: only x - o - p accelerates the robot. */
 class PendulumEstimator {
  public:
+  /** @param max_offset  Bound of the offset, m. */
+  explicit PendulumEstimator(double max_offset) : max_offset_(max_offset) {}
+
   /** Starts at rest. @param position  m, in the frame of the support sole. @param zmp  m. */
   void reset(const Eigen::Vector2d& position, const Eigen::Vector2d& zmp) {
     state_ = {position, Eigen::Vector2d::Zero()};
@@ -64,15 +67,13 @@ class PendulumEstimator {
   // Fraction of the difference between position and center of pressure at rest that is taken for
   // the offset. Chosen: both sensors have errors of the same size.
   static constexpr double kStandingFraction = 0.5;
-  // Bound of the offset, m. Chosen: an inertial unit tilted by 5 degrees, and more than the ZMP may
-  // move on a sole.
-  static constexpr double kMaxOffset = 0.03;
 
-  static Eigen::Vector2d limited(const Eigen::Vector2d& offset) {
-    const Eigen::Vector2d limit = Eigen::Vector2d::Constant(kMaxOffset);
+  Eigen::Vector2d limited(const Eigen::Vector2d& offset) const {
+    const Eigen::Vector2d limit = Eigen::Vector2d::Constant(max_offset_);
     return offset.cwiseMax(-limit).cwiseMin(limit);
   }
 
+  double max_offset_;
   PendulumState state_;
   Eigen::Vector2d offset_ = Eigen::Vector2d::Zero();
 };

@@ -25,6 +25,7 @@ struct FootLoad {
  * point, is an offset of the target in the same way. */
 class ServoFeedforward {
  public:
+  /** @param model  Must outlive this. */
   explicit ServoFeedforward(const RobotModel& model);
 
   /** Static joint torques, N m, (num_motors): the weight of the links less what the ground carries,
@@ -36,6 +37,10 @@ class ServoFeedforward {
   std::vector<double> calc_torques(const Kinematics& kinematics, const Eigen::Vector3d& up,
                                    const std::array<FootLoad, 2>& loads) const;
 
+  /** Inertia of all that a motor moves, about its axis in the ready posture with the rest of the
+   * robot at rest, rotor included, kg m^2: the torque per acceleration of a leg in the air. */
+  double inertia(int motor) const { return inertia_[motor]; }
+
   /** Offset of a motor's target, rad, for a torque, N m, clamped to the motor's peak, and a
    * velocity, rad/s. @param velocity_scale  Fraction of the velocity-dependent losses to
    * compensate. */
@@ -43,6 +48,7 @@ class ServoFeedforward {
 
  private:
   const RobotModel* model_;
+  std::vector<double> inertia_;
 };
 
 }  // namespace nao::motion

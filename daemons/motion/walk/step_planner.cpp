@@ -13,15 +13,12 @@ using Eigen::Vector2d;
 // Number of footsteps planned ahead. Chosen: the fifth changes the DCM of the present step by
 // e^(-4 omega T) = 0.2 % of its own displacement, which is below a millimeter.
 constexpr int kNumPlannedSteps = 5;
-// The feet are side by side if the one is within m and rad of its place beside the other. Chosen:
-// above the placement error of a step; what is left drags a foot when the robot rises to the stand.
-constexpr double kSquareDistance = 0.02;
+// The feet are side by side if the one is turned by less than this, rad, and near its place beside
+// the other (square_distance). Chosen: above the placement error of a step.
 constexpr double kSquareTurn = 0.06;
 // After this many steps that should have ended the walk it marches in place until the feet are side
 // by side. Without this 1 of 100 walks sideways did not end (nao-trial walk).
 constexpr int kMaxEndingSteps = 3;
-// Bound of the learned deviation, m. Chosen: about the reach of the ZMP on a sole.
-constexpr double kMaxBias = 0.03;
 
 }  // namespace
 
@@ -38,6 +35,8 @@ void StepPlanner::start() {
 void StepPlanner::plan(const Feet& feet, const ComReference& reference,
                        const Eigen::Vector3d& velocity, bool is_ending, double remaining) {
   const double omega = reference.omega();
+  // While walking, and after kMaxEndingSteps steps that did not end the walk, five steps are
+  // planned. To end, first one step is tried, then two: the DCM must come to its end point.
   if (!is_ending || num_ending_steps_ > kMaxEndingSteps) {
     plan_ahead(feet, omega, velocity, kNumPlannedSteps, is_ending);
     return;
@@ -53,6 +52,7 @@ void StepPlanner::plan_ahead(const Feet& feet, double omega, const Eigen::Vector
   const double duration = gait_->timing.step_duration;
   footsteps_ =
       planner_.plan(feet.support_is_left(), feet.support_spread(), velocity, duration, num_steps);
+  // The foothold of the present step, in S.
   foothold_ = footsteps_.front().pose;
   // The ZMP of each step is the nominal one of its support foot.
   std::vector<Vector2d> zmps = {feet.support_zmp()};
@@ -68,27 +68,33 @@ void StepPlanner::plan_ahead(const Feet& feet, double omega, const Eigen::Vector
 
 bool StepPlanner::can_end_in_this_step(const Feet& feet, const ComReference& reference,
                                        double remaining) const {
+  // The final DCM stands for all steps beyond the plan; its error decays on the way back to the
+  // present step, see plan_dcm().
   remaining = std::max(remaining, kMinHorizon);
+  // Whether the ZMP can bring the DCM to the planned end point in the time that remains.
   const double omega = reference.omega();
   const Vector2d zmp = control_single_support(gait_->zmp, feet.support_zmp(), reference.dcm(),
                                               dcm_.end, omega, remaining);
   const Vector2d end = advance_dcm(reference.dcm(), zmp, omega, remaining);
-  return (end - dcm_.end).norm() < kSquareDistance / 2;
+  return (end - dcm_.end).norm() < gait_->step_limits.square_distance / 2;
 }
 
 void StepPlanner::adapt_foothold(const Feet& feet, const Vector2d& end_dcm) {
   const Pose2& planned = footsteps_.front().pose;
   // The plan after this step is relative to the foothold. Moving the foothold by the deviation of
   // the DCM therefore leaves the rest of the plan valid (Englsberger et al. 2015).
+  // The learned bias is subtracted: what deviates in every step alike is no disturbance.
   deviation_ = end_dcm - dcm_.end - bias(feet);
   foothold_ =
       planner_.clip_step({planned.position + deviation_, planned.heading}, !feet.support_is_left());
 }
 
 Spread StepPlanner::end_step(const Feet& feet, const Eigen::Vector3d& velocity) {
+  // One bias for each support foot: deviations to the left and right differ in sign. Integral
+  // action with bias_gain in each step, clamped (anti-windup).
   Vector2d& bias = bias_[feet.support_is_left() ? 0 : 1];
   bias += gait_->feedback.bias_gain * deviation_;
-  const Vector2d limit = Vector2d::Constant(kMaxBias);
+  const Vector2d limit = Vector2d::Constant(gait_->feedback.max_bias);
   bias = bias.cwiseMax(-limit).cwiseMin(limit);
   return planner_.spread_for(velocity);
 }
@@ -96,7 +102,7 @@ Spread StepPlanner::end_step(const Feet& feet, const Eigen::Vector3d& velocity) 
 bool StepPlanner::is_square(const Feet& feet) const {
   const Pose2 square = planner_.square_step(feet.support_is_left());
   const Pose2& other = feet.swing().pose();
-  return (other.position - square.position).norm() < kSquareDistance &&
+  return (other.position - square.position).norm() < gait_->step_limits.square_distance &&
          std::abs(wrapped(other.heading)) < kSquareTurn;
 }
 

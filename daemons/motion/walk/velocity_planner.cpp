@@ -5,9 +5,10 @@
 namespace nao::motion {
 
 VelocityPlanner::VelocityPlanner(const RobotModel& model, const Gait& gait)
-    : gait_(&gait.velocity), limits_(model.walk_limits()) {}
+    : gait_(&gait.velocity), limits_(model.walk_limits()), path_(gait.velocity.max_path_offset) {}
 
 Eigen::Vector3d VelocityPlanner::clip(const Eigen::Vector3d& velocity) const {
+  // The envelope is not symmetric ahead and back.
   const Eigen::Vector3d limit(velocity.x() > 0 ? limits_.forward : limits_.backward,
                               limits_.sideways, limits_.turning);
   const Eigen::Vector3d max = speed_fraction_ * limit;
@@ -15,6 +16,8 @@ Eigen::Vector3d VelocityPlanner::clip(const Eigen::Vector3d& velocity) const {
   for (int i = 0; i < 3; ++i) {
     sum += std::pow(std::abs(velocity[i]) / max[i], gait_->envelope_exponent);
   }
+  // The p-norm of v_i / max_i: on the envelope it is 1, and it scales linearly, so that dividing by
+  // it gives the point of the envelope in the same direction.
   const double size = std::pow(sum, 1 / gait_->envelope_exponent);
   return size > 1 ? Eigen::Vector3d(velocity / size) : velocity;
 }
@@ -33,7 +36,10 @@ void VelocityPlanner::stop() {
 void VelocityPlanner::begin_step(const Eigen::Vector3d& commanded, const Pose2& body,
                                  bool is_ending, bool tracks_path) {
   const Eigen::Vector3d clipped = clip(commanded);
+  // The last step may stop at once: its footsteps are planned for that.
   velocity_ = is_ending ? clipped : ramp(velocity_, clipped);
+  // In place, or where something else leads (a capture step, a kick's approach), there is no path
+  // to come back to.
   if (velocity_.isZero(0) || !tracks_path) {
     path_.reset(body);
     step_velocity_ = velocity_;

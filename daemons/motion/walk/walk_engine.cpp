@@ -17,22 +17,16 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A swing foot that has not touched the ground at the end of its step is lowered: velocity, m/s,
-// greatest depth, m, greatest time, s. Chosen: depth of one swing height; after that time the step
-// ends in any case, because the DCM grows by e^(0.06 omega) = 1.4.
-constexpr double kReachSpeed = 0.08;
-constexpr double kReachDepth = 0.01;
-constexpr double kReachTime = 0.06;
 // Load on the swing foot ends a step only after this fraction of its duration. Chosen: earlier the
 // foot is not above its foothold, and the load is from lifting off.
 constexpr double kEarliestTouchdown = 0.6;
-// Time in which the DCM is brought to rest after the last step, s. Chosen: about 1 / omega.
-constexpr double kStopHorizon = 0.2;
 // The weight transfer before the first step is given up after this many times its duration.
 constexpr double kMaxStarting = 4;
 // A sideways velocity above this, m/s, decides which foot steps first; else the turn does.
 constexpr double kSidewaysStart = 0.02;
 
+// The end posture may hold the center of mass elsewhere over the soles than the walk; the last
+// steps put the feet so that it need not move when the robot rises.
 /** How much farther ahead of the sole the center of mass is in a posture than in the walk, m. */
 double calc_stand_lead(const RobotModel& model, const Gait& gait, const Posture& posture) {
   Kinematics kinematics(model);
@@ -51,6 +45,7 @@ WalkEngine::WalkEngine(const RobotModel& model, const Gait& gait, const Posture&
       steps_(model, gait, calc_stand_lead(model, gait, end_posture)),
       feet_(gait),
       reference_(gait),
+      observer_(gait),
       body_(model, gait, end_posture) {}
 
 void WalkEngine::start(const JointTargets& targets) {
@@ -74,9 +69,10 @@ void WalkEngine::start(const JointTargets& targets) {
 bool WalkEngine::step(const RobotState& state, const Kinematics& measured, double dt,
                       JointTargets& targets) {
   if (stage_ == Stage::kDone) return false;
+  // Measurements first: they refer to what was commanded up to the last tick.
   lag_.update(body_.position(), state.joint_position, body_.pose().motors(), dt);
   observer_.update(state, measured.center_of_mass(), feet_.support_is_left(), reference_,
-                   body_.pose().torso_pitch(), lag_.lag(), dt);
+                   body_.pose().torso_pitch(), dt);
   time_ += dt;
   kick_.advance(dt);
   switch (stage_) {
@@ -99,6 +95,7 @@ bool WalkEngine::step(const RobotState& state, const Kinematics& measured, doubl
     if (time_ >= gait_->timing.raise_duration) stage_ = Stage::kDone;
   }
   body_.step(body_command(), observer_, dt, targets);
+  // After the body's step, so that the last tick of stopping still is a tick of the walk.
   if (stage_ == Stage::kStopping && time_ >= gait_->timing.stop_duration) begin_raising();
   return stage_ != Stage::kDone;
 }
@@ -139,6 +136,7 @@ void WalkEngine::begin_starting() {
   const Vector3d target = velocity_.clip(commanded_);
   const double to_left = std::abs(target.y()) > kSidewaysStart ? target.y() : target.z();
   const bool swing_is_left = to_left > 0;
+  // The exchange changes which foot S belongs to, and nothing that the robot does.
   if (swing_is_left == feet_.support_is_left()) {
     reference_.change_frame(feet_.exchange(feet_.support_spread()));
   }
@@ -152,10 +150,13 @@ void WalkEngine::step_starting(double dt) {
   const Vector2d start_dcm = steps_.dcm().start;
   reference_.set_zmp(control_double_support(gait_->zmp, feet_, reference_.dcm(), start_dcm,
                                             reference_.omega(), remaining));
+  // The load follows the ZMP: its position between the nominal points of both feet.
   other_load_ratio_ = load_ratio_at_zmp(reference_.zmp(), feet_.support_zmp(), feet_.other_zmp());
   reference_.advance(dt);
   // The first step begins when the DCM has passed the point where the plan has it start.
+  // Lateral distance that the DCM still has to go, positive while it has not reached the start.
   const double to_go = feet_.side() * (start_dcm.y() - reference_.dcm().y());
+  // A robot that is held, or whose DCM does not get there, begins to step all the same.
   if (to_go > 0 && time_ < kMaxStarting * duration_) return;
   velocity_.start_path(body_in_odometry());
   begin_step();
@@ -165,16 +166,21 @@ void WalkEngine::begin_step() {
   stage_ = Stage::kStepping;
   time_ = 0;
   duration_ = gait_->timing.step_duration;
+  // Where the robot is by odometry, for path tracking and the approach to a ball.
   const Pose2 body = body_in_odometry();
   Vector3d target = Vector3d::Zero();
   if (!is_ending_) target = kick_.begin_step(commanded_, feet_.support_is_left(), body);
-  velocity_.set_speed_fraction(calc_speed_fraction(lag_.lag()));
+  // A longer lag leaves less stability: the envelope shrinks with it.
+  velocity_.set_speed_fraction(calc_speed_fraction(gait_->velocity, lag_.lag()));
   velocity_.begin_step(target, body, is_ending_, !is_capturing_ && !kick_.seeks_ball());
+  // Set before plan_steps(): the plan is that of the last step.
   is_capturing_ = is_ending_;
   steps_.begin_step(is_ending_);
   plan_steps();
 }
 
+// end() within a step: the step that has begun is planned anew with zero velocity, unless a kick is
+// under way or the step is nearly over.
 void WalkEngine::begin_capture() {
   is_capturing_ = true;
   if (kick_.is_striking() || duration_ - time_ < kMinHorizon) return;
@@ -185,6 +191,8 @@ void WalkEngine::begin_capture() {
 void WalkEngine::step_stepping(double dt) {
   if (is_ending_ && !is_capturing_) begin_capture();
   velocity_.advance(dt);
+  // The reference moves towards the measured center of mass by com_position_gain and
+  // com_velocity_gain: ZMP and plan then start from where the robot is.
   reference_.follow(observer_.com(), dt);
   control_dcm();
   reference_.advance(dt);
@@ -214,6 +222,8 @@ void WalkEngine::control_dcm() {
 }
 
 void WalkEngine::move_swing_foot(double dt) {
+  // Planned load of the swing foot, 0 in the middle of the step; double support is divided between
+  // the beginning and the end of the step.
   other_load_ratio_ = swing_load_ratio(time_, duration_, gait_->timing.double_support_duration);
   const SwingTiming swing = time_swing(*gait_, time_, duration_);
   if (swing.is_swinging) {
@@ -225,11 +235,15 @@ void WalkEngine::move_swing_foot(double dt) {
 bool WalkEngine::has_landed(double dt) {
   const bool is_loaded = observer_.swing_force() > gait_->swing.touchdown_load_ratio * weight_;
   const bool is_late = time_ >= duration_ - 1e-9;
-  if (is_late && !is_loaded && time_ < duration_ + kReachTime) {
+  // Late: no contact at the planned time (a hole, or the robot leans away). The foot is lowered
+  // towards the ground, and the step waits for contact until late_duration has passed.
+  if (is_late && !is_loaded && time_ < duration_ + gait_->timing.late_duration) {
     SwingFoot& swing = feet_.swing();
-    swing.lower(std::min(kReachSpeed * dt, std::max(0.0, kReachDepth + swing.height())));
+    swing.lower(std::min(gait_->swing.late_speed * dt,
+                         std::max(0.0, gait_->swing.late_depth + swing.height())));
     return false;
   }
+  // Early contact ends the step as well: the foot stands, and pushing it on would tip the robot.
   return is_late || (is_loaded && time_ > kEarliestTouchdown * duration_);
 }
 
@@ -237,6 +251,7 @@ void WalkEngine::change_support() {
   kick_.end_step();
   const Spread spread = steps_.end_step(feet_, velocity_.step_velocity());
   reference_.change_frame(feet_.exchange(spread));
+  // The walk is over when velocity is 0 and the feet are side by side; otherwise one more step.
   if (is_ending_ && velocity_.velocity().isZero(1e-6) && steps_.is_square(feet_)) {
     stage_ = Stage::kStopping;
     time_ = 0;
@@ -250,7 +265,7 @@ void WalkEngine::step_stopping(double dt) {
   reference_.follow(observer_.com(), dt);
   reference_.set_zmp(control_double_support(gait_->zmp, feet_, reference_.dcm(),
                                             steps_.rest_point(feet_), reference_.omega(),
-                                            kStopHorizon));
+                                            gait_->timing.stop_horizon));
   other_load_ratio_ = load_ratio_at_zmp(reference_.zmp(), feet_.support_zmp(), feet_.other_zmp());
   reference_.advance(dt);
   feet_.level_both(dt);
@@ -263,6 +278,7 @@ void WalkEngine::begin_raising() {
 }
 
 std::vector<PlannedStep> WalkEngine::footsteps_in_odometry() const {
+  // Steps are planned in S; the plan is published relative to odometry.
   const Pose2& support = observer_.sole_in_odometry(feet_.support_is_left());
   std::vector<PlannedStep> steps = steps_.footsteps();
   for (PlannedStep& step : steps) step.pose = support * step.pose;

@@ -34,6 +34,7 @@ void WalkKick::request(bool with_left, const std::optional<Vector2d>& ball) {
 
 Vector3d WalkKick::begin_step(const Vector3d& commanded, bool support_is_left, const Pose2& body) {
   if (state_ != State::kPending || is_striking_) return commanded;
+  // The kicking foot must be the swing foot of the step that begins.
   const bool kicks_next = with_left_ != support_is_left;
   if (ball_) return approach_ball(commanded, kicks_next, body);
   if (kicks_next) begin_strike(Vector2d::Zero());
@@ -45,12 +46,15 @@ Vector3d WalkKick::approach_ball(const Vector3d& commanded, bool kicks_next, con
     state_ = State::kMissed;
     return commanded;
   }
+  // Best place of the ball in the body frame: in front of the kicking foot.
   const double foot = (with_left_ ? 0.5 : -0.5) * gait_->stance.foot_separation;
   const Vector2d best_place(gait_->kick.ball_distance - gait_->stance.turn_center, foot);
   const Vector2d offset = body.inverse() * *ball_ - best_place;
+  // The operator's velocity is kept as well as the approach allows.
   const KickApproach approach =
       plan_kick_approach(offset, kicks_next, commanded.head<2>(), gait_->timing.step_duration);
   if (approach.num_steps > 0) return {approach.velocity.x(), approach.velocity.y(), 0};
+  // Near enough: the strike begins with this step, and the swing is displaced by what is left.
   begin_strike(offset);
   return {commanded.x(), 0, 0};
 }

@@ -26,15 +26,17 @@ void WalkObserver::start() {
 
 void WalkObserver::update(const RobotState& state, const Vector3d& com_in_torso,
                           bool support_is_left, const ComReference& reference, double torso_pitch,
-                          double lag, double dt) {
+                          double dt) {
   soles_in_odometry_ = {Pose2::from(state.left_sole_in_odometry),
                         Pose2::from(state.right_sole_in_odometry)};
-  estimate_com(state, com_in_torso, support_is_left, reference, lag, dt);
+  estimate_com(state, com_in_torso, support_is_left, reference, dt);
 
   // Roll and pitch of the torso in its heading frame H.
   const Matrix3d& R_OT = state.torso_in_odometry.linear();
   torso_heading_ = heading_of(R_OT);
   const Matrix3d R_HT = AngleAxisd(-torso_heading_, Vector3d::UnitZ()).toRotationMatrix() * R_OT;
+  // R_HT = Ry(pitch) Rx(roll): the heading has been taken out. Without the commanded pitch what
+  // remains is the tilt that was not commanded.
   tilt_ << std::atan2(R_HT(2, 1), R_HT(2, 2)), std::asin(std::clamp(-R_HT(2, 0), -1.0, 1.0)), 0;
   tilt_.y() -= torso_pitch;
   tilt_ = tilt_.cwiseMax(-kMaxTilt).cwiseMin(kMaxTilt);
@@ -43,15 +45,17 @@ void WalkObserver::update(const RobotState& state, const Vector3d& com_in_torso,
 }
 
 void WalkObserver::estimate_com(const RobotState& state, const Vector3d& com_in_torso,
-                                bool support_is_left, const ComReference& reference, double lag,
-                                double dt) {
+                                bool support_is_left, const ComReference& reference, double dt) {
   const Pose2& support = sole_in_odometry(support_is_left);
+  // Measured center of mass in odometry, and in S by the sole's pose in odometry.
   const Vector3d com = state.torso_in_odometry * com_in_torso;
   const Pose2 to_support = support.inverse();
   const Vector2d position = to_support * Vector2d(com.head<2>());
   // Without weight on the feet the commanded ZMP stands in for the center of pressure.
   Vector2d zmp = to_support * state.center_of_pressure_in_odometry;
   if (!zmp.allFinite()) zmp = reference.zmp();
+  // Three cases: first tick; the support foot has changed, so that position and velocity are
+  // re-expressed in the new S; usual update of the filter.
   if (!has_estimate_) {
     estimator_.reset(position, zmp);
     has_estimate_ = true;
@@ -62,13 +66,7 @@ void WalkObserver::estimate_com(const RobotState& state, const Vector3d& com_in_
   }
   support_was_left_ = support_is_left;
   support_heading_ = support.heading;
-  // The reference of the last tick is one tick old. The error is not multiplied by e^(omega lag),
-  // by which it would grow until this tick's targets take effect: that amplifies its noise, and of
-  // 20 sprints under disturbances/real.yaml 4 fell instead of 2.
-  const PendulumState past = reference.past(lag / dt - 1);
-  const PendulumState& now = estimator_.state();
-  com_ = {reference.state().position + now.position - estimator_.offset() - past.position,
-          reference.state().velocity + now.velocity - past.velocity};
+  com_ = {estimator_.state().position - estimator_.offset(), estimator_.state().velocity};
 }
 
 Pose2 WalkObserver::midpoint_in_odometry() const {

@@ -3,9 +3,10 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "daemons/motion/estimator/gyroscope_filter.h"
 #include "daemons/motion/robot_state.h"
 #include "daemons/motion/walk/com_reference.h"
-#include "daemons/motion/walk/gyroscope_filter.h"
+#include "daemons/motion/walk/gait.h"
 #include "daemons/motion/walk/pendulum_estimator.h"
 #include "kinematics/pose2.h"
 
@@ -15,6 +16,8 @@ namespace nao::motion {
  * of the torso, load on the swing foot, soles in odometry. */
 class WalkObserver {
  public:
+  explicit WalkObserver(const Gait& gait) : estimator_(gait.feedback.max_com_offset) {}
+
   /** Forgets the estimate of a previous walk. */
   void start();
 
@@ -22,17 +25,14 @@ class WalkObserver {
    * @param com_in_torso     From the measured joint angles, m.
    * @param support_is_left  The support foot now.
    * @param reference        Gives the pendulum's frequency and the commanded ZMP.
-   * @param torso_pitch      Commanded, rad.
-   * @param lag              From a command to the measurement of what it did, s. */
+   * @param torso_pitch      Commanded, rad. */
   void update(const RobotState& state, const Eigen::Vector3d& com_in_torso, bool support_is_left,
-              const ComReference& reference, double torso_pitch, double lag, double dt);
+              const ComReference& reference, double torso_pitch, double dt);
 
-  /** Center of mass in the support frame S when this tick's targets take effect: the reference plus
-   * the tracking error.
+  /** Center of mass in the support frame S, without the estimated offset of the measurement.
    *
-   * What is measured now was commanded one lag ago. The difference from the reference of that time,
-   * without the estimated offset of the measurement, is the error: commands in flight are accounted
-   * for. */
+   * What is measured now was commanded one lag ago, and is nevertheless compared with the present
+   * reference: see docs/decisions/walk-design.md. */
   const PendulumState& com() const { return com_; }
   /** Torso against its commanded orientation: roll, pitch, 0; rad. */
   const Eigen::Vector3d& tilt() const { return tilt_; }
@@ -46,7 +46,7 @@ class WalkObserver {
 
  private:
   void estimate_com(const RobotState& state, const Eigen::Vector3d& com_in_torso,
-                    bool support_is_left, const ComReference& reference, double lag, double dt);
+                    bool support_is_left, const ComReference& reference, double dt);
 
   PendulumEstimator estimator_;
   bool has_estimate_ = false;

@@ -25,6 +25,7 @@ constexpr double kMaxSlope = 1.875;
 
 WalkPose::WalkPose(const RobotModel& model, const Gait& gait)
     : gait_(&gait), legs_(model), kinematics_(model) {
+  // Arm joints that swing with the stride, from robot.yaml.
   for (const WalkingArmJoint& joint : model.references().walking_arms) {
     arms_.push_back({joint.motor, joint.angle, joint.swing * gait.arms.swing_gain});
   }
@@ -42,12 +43,14 @@ WalkPose::WalkPose(const RobotModel& model, const Gait& gait)
 void WalkPose::start(const std::vector<double>& position) {
   start_position_ = position;
   kinematics_.update(position);
+  // Torso and right sole in the frame of the left sole, which is S at the start.
   start_torso_ = kinematics_.left_sole().inverse();
   start_right_sole_ = start_torso_ * kinematics_.right_sole();
   com_in_torso_ = kinematics_.center_of_mass();
 }
 
 double WalkPose::lowering_duration() const {
+  // Duration at constant velocity; smooth_step() is faster by kMaxSlope at its middle.
   const double height = gait_->stance.hip_height;
   double duration = std::abs(start_torso_.translation().z() - height + legs_.hip(Leg::kLeft).z()) /
                     kLoweringSpeed;
@@ -59,6 +62,7 @@ double WalkPose::lowering_duration() const {
 
 Isometry3d WalkPose::torso_in_support(const ComReference& reference, const Feet& feet,
                                       double lowered) const {
+  // The torso's heading is the mean of both feet's; the support foot's is 0 in S.
   const double heading = wrapped(feet.swing().pose().heading) / 2;
   Isometry3d torso;
   torso.linear() = (AngleAxisd(heading, Vector3d::UnitZ()) *
@@ -68,6 +72,7 @@ Isometry3d WalkPose::torso_in_support(const ComReference& reference, const Feet&
   const Vector3d hips = 0.5 * (legs_.hip(Leg::kLeft) + legs_.hip(Leg::kRight));
   torso.translation() << reference.state().position - (torso.linear() * com_in_torso_).head<2>(),
       gait_->stance.hip_height - (torso.linear() * hips).z();
+  // Interpolated from the pose of the start: position linearly, orientation on the great circle.
   if (lowered >= 1) return torso;
   Isometry3d between;
   between.translation() =
@@ -91,6 +96,7 @@ void WalkPose::solve(const ComReference& reference, const Feet& feet, const Isom
   legs_.write(Leg::kLeft, solution.left, position);
   legs_.write(Leg::kRight, solution.right, position);
   // Lead of the right foot on the left one.
+  // side() is +1 for a left support foot: the swing foot is then the right one.
   const double stride = feet.swing().pose().position.x() * feet.side();
   for (const ArmJoint& joint : arms_) {
     const double angle = joint.angle + joint.swing_gain * stride;
@@ -101,6 +107,8 @@ void WalkPose::solve(const ComReference& reference, const Feet& feet, const Isom
 
 void WalkPose::update_com(const std::vector<double>& position, double dt) {
   kinematics_.update(position);
+  // The center of mass moves in the torso with legs and arms. A low-pass filter breaks the loop
+  // between the pose of the torso and the center of mass that it is computed from.
   const double time_constant = gait_->stance.com_time_constant;
   const double weight = time_constant > dt ? dt / time_constant : 1.0;
   com_in_torso_ += weight * (kinematics_.center_of_mass() - com_in_torso_);

@@ -67,6 +67,8 @@ class WholeBodyController {
   /** Angles and velocities of the commanded pose, rad, rad/s, (num_motors): without offsets. */
   std::vector<double> position_;
   std::vector<double> velocity_;
+  /** rad/s^2. */
+  std::vector<double> acceleration_;
   /** rad, (num_motors). */
   std::vector<double> start_offset_;
 };

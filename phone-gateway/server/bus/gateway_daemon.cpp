@@ -2,10 +2,10 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <naolcm/camera_command_t.hpp>
 #include <naolcm/daemon_status_t.hpp>
+#include <naolcm/match_state_t.hpp>
 
+#include "common/channels.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
 #include "phone-gateway/server/core/prometheus_text.h"
@@ -15,6 +15,7 @@ namespace {
 
 constexpr const char* kProgram = "nao-phone-gateway";
 constexpr const char* kCameraProgram = "nao-head-camera";
+constexpr const char* kSimulatorProgram = "nao-sim";
 
 /** A metric that each client has. */
 struct ClientMetric {
@@ -41,87 +42,80 @@ constexpr ClientMetric kClientMetrics[] = {
        return static_cast<double>(session.outbox.num_messages());
      }}};
 
+std::vector<std::unique_ptr<RobotLink>> make_links(
+    Bus& bus, const std::vector<naoremote::RobotDescription>& robots, const std::string& source) {
+  std::vector<std::unique_ptr<RobotLink>> links;
+  for (const auto& robot : robots) links.push_back(std::make_unique<RobotLink>(bus, robot, source));
+  return links;
+}
+
 }  // namespace
 
-GatewayDaemon::GatewayDaemon(Bus& bus, const naoremote::RobotDescription& robot,
+GatewayDaemon::GatewayDaemon(Bus& bus, const std::vector<naoremote::RobotDescription>& robots,
                              const GatewayLimits& limits, const std::string& token,
                              const std::string& audit_file)
     : bus_(bus),
-      channels_(robot.name()),
       source_("phone." + std::to_string(getpid())),
-      commands_(bus_, channels_),
-      robot_state_reader_(robot),
       status_(bus, kProgram),
       audit_log_(audit_file),
+      links_(make_links(bus, robots, source_)),
       // The clock makes command ids that no earlier gateway with the same process id has used.
-      core_(robot, limits, {version(), token, source_, wall_utime()},
-            {[this](const Command& command) { commands_.publish(command); },
-             [this](const AuditEvent& event) {
-               audit_log_.write(event, monotonic_seconds(), wall_utime());
-             }}) {
+      core_(make_setups(), limits, {version(), token, source_, wall_utime()},
+            [this](const AuditEvent& event) {
+              audit_log_.write(event, monotonic_seconds(), wall_utime());
+            }) {
+  for (size_t i = 0; i < links_.size(); ++i) links_[i]->subscribe(core_.robot(i));
   subscribe();
 }
 
+std::vector<RobotSetup> GatewayDaemon::make_setups() {
+  std::vector<RobotSetup> setups;
+  for (const auto& link : links_) setups.push_back(link->setup());
+  return setups;
+}
+
 void GatewayDaemon::subscribe() {
-  bus_.subscribe<naolcm::robot_state_t>(
-      channels_.robot_state, Bus::Queue::kLatest, [this](const naolcm::robot_state_t& message) {
-        core_.set_robot(robot_state_reader_.read(message), monotonic_seconds());
-      });
-  bus_.subscribe<naolcm::motion_state_t>(
-      channels_.motion_state, Bus::Queue::kLatest, [this](const naolcm::motion_state_t& message) {
-        core_.set_motion(read_motion_state(message), monotonic_seconds());
-      });
-  bus_.subscribe<naolcm::command_result_t>(
-      channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& message) {
-        // nao-play, nao-speaker and others send results of their own commands on this channel.
-        if (message.source.starts_with(source_)) {
-          core_.handle_result(read_result(message), monotonic_seconds());
+  bus_.subscribe<naolcm::daemon_status_t>(
+      kDaemonStatusChannel, Bus::Queue::kAll, [this](const naolcm::daemon_status_t& message) {
+        const double now = monotonic_seconds();
+        // A status names no robot. A camera that has ended beside others is found by its images.
+        for (size_t i = 0; i < core_.num_robots(); ++i) {
+          ComponentMonitor& components = core_.robot(i).components();
+          if (message.program == kCameraProgram) components.handle_camera_status(now);
+          if (message.program == kSimulatorProgram) components.handle_simulator_status(now);
         }
       });
-  // The channel carries several sizes: with kLatest one would replace another.
-  bus_.subscribe<naolcm::image_t>(channels_.head_camera_image, Bus::Queue::kAll,
-                                  [this](const naolcm::image_t& message) {
-                                    core_.add_image(read_image(message), monotonic_seconds());
-                                  });
-  bus_.subscribe<naolcm::daemon_status_t>(kDaemonStatusChannel, Bus::Queue::kAll,
-                                          [this](const naolcm::daemon_status_t& message) {
-                                            if (message.program == kCameraProgram)
-                                              core_.handle_camera_status(monotonic_seconds());
-                                          });
+  bus_.subscribe<naolcm::match_state_t>(
+      kMatchStateChannel, Bus::Queue::kLatest,
+      [this](const naolcm::match_state_t& message) { core_.set_players(read_players(message)); });
 }
 
 void GatewayDaemon::step(double now) {
   status_.tick(now);
   core_.step(now);
-  std::vector<CameraRequest> requests = core_.streams().camera_requests(now);
-  if (requests == last_requests_) return;
   // Sent at each change, so that a client's first image does not wait for the next second.
-  last_requests_ = std::move(requests);
-  send_camera_requests(last_requests_);
-}
-
-void GatewayDaemon::send_camera_requests(const std::vector<CameraRequest>& requests) {
-  for (const CameraRequest& request : requests) {
-    naolcm::camera_command_t message{};
-    message.wall_utime = wall_utime();
-    message.source = source_;
-    message.camera = request.image.camera;
-    message.width = static_cast<int32_t>(request.image.width);
-    // camera_command_t allows rates from 1/s on.
-    message.rate = std::max(1.0, request.rate);
-    message.quality = static_cast<int32_t>(request.image.quality);
-    bus_.publish(channels_.head_camera_command, message);
+  for (size_t i = 0; i < links_.size(); ++i) {
+    links_[i]->send_camera_requests(core_.robot(i), false, now);
   }
 }
 
+std::string GatewayDaemon::describe_state() const {
+  for (size_t i = 0; i < links_.size(); ++i) {
+    const GatewayRobot& robot = core_.robot(i);
+    if (robot.components().is_available(Component::kRobot)) continue;
+    return robot.components().is_available(Component::kMotion)
+               ? "waiting for the robot" + (links_.size() > 1 ? " " + robot.name() : "")
+               : "waiting for " + links_[i]->motion_state_channel();
+  }
+  return "";
+}
+
 void GatewayDaemon::publish_status(double now) {
-  const bool has_robot = core_.components().is_available(Component::kRobot);
-  const bool has_motion = core_.components().is_available(Component::kMotion);
-  status_.set_state("ready", has_robot    ? ""
-                             : has_motion ? "waiting for the robot"
-                                          : "waiting for " + channels_.motion_state);
+  status_.set_state("ready", describe_state());
   status_.publish(status_metrics());
-  send_camera_requests(core_.streams().camera_requests(now));
+  for (size_t i = 0; i < links_.size(); ++i) {
+    links_[i]->send_camera_requests(core_.robot(i), true, now);
+  }
 }
 
 void GatewayDaemon::shut_down(double now) {
@@ -141,7 +135,8 @@ std::vector<Metric> GatewayDaemon::metrics() const {
   return {
       {"clients", count(sessions.num_connected()), "Connected clients"},
       {"connections", count(sessions.all().size()), "Open connections, with or without Connect"},
-      {"driver_id", count(core_.driving().driver()), "Number of the client that drives, 0 if none"},
+      {"driver_id", count(core_.robot().driving().driver()),
+       "Number of the client that drives the first robot, 0 if none"},
       {"requests_total", count(counters.num_requests), "Requests received"},
       {"requests_refused_total", count(counters.num_refused), "Requests answered with an error"},
       {"messages_sent_total", count(counters.num_sent), "Messages sent to clients"},
@@ -162,6 +157,10 @@ std::vector<std::pair<std::string, double>> GatewayDaemon::status_metrics() cons
   return status;
 }
 
+std::string GatewayDaemon::robot_label(size_t index) const {
+  return core_.num_robots() > 1 ? ",robot=\"" + core_.robot(index).name() + "\"" : "";
+}
+
 std::string GatewayDaemon::metrics_text(const std::vector<Metric>& more) const {
   PrometheusText text;
   std::vector<Metric> all = metrics();
@@ -171,9 +170,17 @@ std::string GatewayDaemon::metrics_text(const std::vector<Metric>& more) const {
     text.add(metric.value);
   }
   text.begin("component_available", "1 if this component is available");
-  for (const Component component : kComponents) {
-    text.add(core_.components().is_available(component) ? 1 : 0,
-             std::string("{component=\"") + to_string(component) + "\"}");
+  for (size_t i = 0; i < core_.num_robots(); ++i) {
+    for (const Component component : kComponents) {
+      text.add(core_.robot(i).components().is_available(component) ? 1 : 0,
+               std::string("{component=\"") + to_string(component) + "\"" + robot_label(i) + "}");
+    }
+  }
+  if (core_.num_robots() > 1) {
+    text.begin("robot_driver_id", "Number of the client that drives this robot, 0 if none");
+    for (size_t i = 0; i < core_.num_robots(); ++i) {
+      text.add(core_.robot(i).driving().driver(), "{robot=\"" + core_.robot(i).name() + "\"}");
+    }
   }
   for (const ClientMetric& metric : kClientMetrics) {
     text.begin(std::string("client_") + metric.name, metric.help);

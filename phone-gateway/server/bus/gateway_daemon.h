@@ -1,15 +1,14 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/bus.h"
-#include "common/channels.h"
 #include "common/status_reporter.h"
 #include "phone-gateway/server/bus/audit_log.h"
-#include "phone-gateway/server/bus/bus_messages.h"
-#include "phone-gateway/server/bus/command_publisher.h"
+#include "phone-gateway/server/bus/robot_link.h"
 #include "phone-gateway/server/core/gateway_core.h"
 #include "phone-gateway/server/core/metric.h"
 
@@ -18,18 +17,18 @@ namespace nao::gateway {
 /** Connects the gateway's core to the bus: passes received messages to the core and publishes its
  * commands.
  *
- * Reads NAO_ROBOT_STATE, NAO_MOTION_STATE, NAO_COMMAND_RESULT, NAO_HEAD_CAMERA_IMAGE and
- * DAEMON_STATUS; writes the NAO_..._COMMAND channels of walk, move-to, posture, joint change,
- * action, stop and head camera, and DAEMON_STATUS. Before the first client drives it publishes no
- * motion command. */
+ * Reads and writes the channels of every robot (see RobotLink), reads MATCH_STATE and
+ * DAEMON_STATUS, and writes DAEMON_STATUS. Before the first client drives it publishes no motion
+ * command. */
 class GatewayDaemon {
  public:
-  /** @param robot       Its name is the prefix of the robot's channels.
+  /** @param robots      At least one. Their names are the prefixes of their channels.
    * @param token       Pairing token of the clients.
    * @param audit_file  File of the audit log; empty: none.
    * The bus must outlive this. */
-  GatewayDaemon(Bus& bus, const naoremote::RobotDescription& robot, const GatewayLimits& limits,
-                const std::string& token, const std::string& audit_file = "");
+  GatewayDaemon(Bus& bus, const std::vector<naoremote::RobotDescription>& robots,
+                const GatewayLimits& limits, const std::string& token,
+                const std::string& audit_file = "");
 
   GatewayCore& core() { return core_; }
 
@@ -39,7 +38,7 @@ class GatewayDaemon {
   /** To be called once a second: publishes DAEMON_STATUS and the image requests. */
   void publish_status(double now);
 
-  /** The gateway stops: the robot's walk ends, and clients are disconnected. */
+  /** The gateway stops: the robots' walks end, and clients are disconnected. */
   void shut_down(double now);
 
   /** The metrics of DAEMON_STATUS in Prometheus's text format.
@@ -48,19 +47,19 @@ class GatewayDaemon {
 
  private:
   void subscribe();
-  void send_camera_requests(const std::vector<CameraRequest>& requests);
+  std::vector<RobotSetup> make_setups();
+  std::string describe_state() const;
+  /** Label of a metric; empty if there is only one robot. */
+  std::string robot_label(size_t index) const;
   std::vector<Metric> metrics() const;
   std::vector<std::pair<std::string, double>> status_metrics() const;
 
   Bus& bus_;
-  RobotChannels channels_;
   std::string source_;
-  CommandPublisher commands_;
-  RobotStateReader robot_state_reader_;
   StatusReporter status_;
   AuditLog audit_log_;
+  std::vector<std::unique_ptr<RobotLink>> links_;
   GatewayCore core_;
-  std::vector<CameraRequest> last_requests_;
 };
 
 }  // namespace nao::gateway

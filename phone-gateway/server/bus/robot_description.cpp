@@ -1,5 +1,9 @@
 #include "phone-gateway/server/bus/robot_description.h"
 
+#include "messages/speech_command.h"
+#include "robot_model/camera_group.h"
+#include "robot_model/robot_lights.h"
+
 namespace nao::gateway {
 namespace {
 
@@ -30,17 +34,31 @@ const char* name_of(Side side) {
   return side == Side::kNone ? "" : side == Side::kLeft ? "left" : "right";
 }
 
-/** Name of the group that turns the first camera: it has the first joint between root and camera.
- */
-std::string find_camera_group(const RobotModel& model) {
-  if (model.cameras().empty()) return "";
-  for (const int joint : model.find_chain(model.cameras().front().link)) {
-    const int motor = model.motor_of(joint);
-    for (const JointGroup& group : model.joint_groups()) {
-      if (motor >= 0 && (group.yaw_motor == motor || group.pitch_motor == motor)) return group.name;
+void add_label(naoremote::RobotDescription& robot, const std::string& kind, const std::string& name,
+               const std::string& language, const std::string& text) {
+  naoremote::Label& label = *robot.add_labels();
+  label.set_kind(kind);
+  label.set_name(name);
+  label.set_language(language);
+  label.set_text(text);
+}
+
+void describe_lights(const RobotModel& model, naoremote::RobotDescription& robot) {
+  for (const RobotLight& light : load_robot_lights(model)) {
+    naoremote::Light& described = *robot.add_lights();
+    described.set_name(light.name);
+    described.set_link(model.links()[static_cast<size_t>(light.link)].name);
+    for (const RobotLight::Disc& disc : light.discs) {
+      naoremote::Light::Disc& described_disc = *described.add_discs();
+      for (const double x : disc.center) described_disc.add_center(static_cast<float>(x));
+      for (const double x : disc.normal) described_disc.add_normal(static_cast<float>(x));
+      described_disc.set_radius(static_cast<float>(disc.radius));
+      described_disc.set_inner_radius(static_cast<float>(disc.inner_radius));
+    }
+    for (const auto& [language, text] : light.labels) {
+      add_label(robot, "light", light.name, language, text);
     }
   }
-  return "";
 }
 
 void describe_words(const RobotModel& model, naoremote::RobotDescription& robot) {
@@ -48,7 +66,7 @@ void describe_words(const RobotModel& model, naoremote::RobotDescription& robot)
   robot.set_ready_posture(references.ready);
   robot.set_stand_posture(references.stand);
   robot.set_rest_posture(references.rest);
-  robot.set_camera_group(find_camera_group(model));
+  if (const JointGroup* group = find_camera_group(model)) robot.set_camera_group(group->name);
   for (const Action& action : model.actions()) {
     naoremote::ActionRole& role = *robot.add_action_roles();
     role.set_name(action.name);
@@ -57,11 +75,7 @@ void describe_words(const RobotModel& model, naoremote::RobotDescription& robot)
   }
   for (const Label& label : model.labels()) {
     for (const auto& [language, text] : label.texts) {
-      naoremote::Label& described = *robot.add_labels();
-      described.set_kind(label.kind);
-      described.set_name(label.name);
-      described.set_language(language);
-      described.set_text(text);
+      add_label(robot, label.kind, label.name, language, text);
     }
   }
 }
@@ -80,6 +94,9 @@ naoremote::RobotDescription describe_robot(const std::string& name, const RobotM
     described.set_lower(joint.lower);
     described.set_upper(joint.upper);
     described.set_max_velocity(joint.max_velocity);
+    const MirrorMotor& mirror = model.symmetry().mirrors[static_cast<size_t>(motor)];
+    described.set_mirror_joint(motor_name(model, mirror.motor));
+    described.set_mirror_sign(mirror.sign);
   }
   for (const Posture& posture : model.postures()) robot.add_postures(posture.name);
   for (const Action& action : model.actions()) robot.add_actions(action.name);
@@ -97,6 +114,10 @@ naoremote::RobotDescription describe_robot(const std::string& name, const RobotM
   robot.set_min_vx(-limits.backward);
   robot.set_max_vy(limits.sideways);
   robot.set_max_wz(limits.turning);
+  for (const std::string_view language : kSpeechLanguages) {
+    robot.add_languages(std::string(language));
+  }
+  describe_lights(model, robot);
   describe_words(model, robot);
   return robot;
 }

@@ -18,10 +18,13 @@ Refusal refuse(naoremote::ErrorCode error, GatewayReasonCode code,
 }  // namespace
 
 bool Admission::is_right_token(const Endpoint& endpoint, const std::string& token) const {
+  // Programs on the gateway's own host need no token.
   if (endpoint.is_local && token.empty()) return true;
   return !token_.empty() && equals_secret(token, token_);
 }
 
+// Order: version, pause after wrong tokens, token, and the limits of clients; the first fault is
+// the answer.
 std::optional<Refusal> Admission::check(const Endpoint& endpoint, const naoremote::Connect& request,
                                         const Sessions& sessions, double now) {
   if (request.protocol_version() != kProtocolVersion) {
@@ -36,6 +39,8 @@ std::optional<Refusal> Admission::check(const Endpoint& endpoint, const naoremot
                   {to_argument(limits_.wrong_token_pause)});
   }
   if (!is_right_token(endpoint, request.token())) {
+    // All counts are dropped rather than memory grows: an attacker with many addresses gains a few
+    // more guesses, against tokens of 80 bits.
     if (wrong_tokens_.size() >= kMaxCountedAddresses) wrong_tokens_.clear();
     WrongTokens& wrong = wrong_tokens_[endpoint.address];
     // After the pause the count begins again.
@@ -49,6 +54,7 @@ std::optional<Refusal> Admission::check(const Endpoint& endpoint, const naoremot
     return refuse(naoremote::TOO_MANY_CLIENTS, "too-many-clients",
                   {std::to_string(limits_.max_clients)});
   }
+  // One address must not take all places; the own host may.
   if (!endpoint.is_local &&
       sessions.num_connected_from(endpoint.address) >= limits_.max_clients_per_address) {
     return refuse(naoremote::TOO_MANY_CLIENTS, "too-many-clients-of-address",

@@ -14,6 +14,23 @@ constexpr double kWalkRefusalPeriod = 2.0;
 
 }  // namespace
 
+naoremote::ServerMessage make_result_notice(uint32_t request_id, ResultStatus status,
+                                            const Reason& reason, const std::string& sentence,
+                                            const std::string& command) {
+  naoremote::ServerMessage message;
+  naoremote::Notice& notice = *message.mutable_notice();
+  notice.set_kind(naoremote::Notice::COMMAND_RESULT);
+  notice.set_request_id(request_id);
+  notice.set_status(static_cast<naoremote::Notice::Status>(status));
+  if (sentence.empty() && status == ResultStatus::kDone) {
+    write_reason(gateway_reason("command-done", {command}), notice);
+  } else {
+    write_reason(reason, notice);
+    notice.set_message(sentence);
+  }
+  return message;
+}
+
 Command ClientCommands::make(uint32_t client, decltype(Command::request) request) {
   return {source_ + "." + std::to_string(client), next_id_++, std::move(request)};
 }
@@ -26,6 +43,7 @@ void ClientCommands::send(uint32_t client, uint32_t request_id, const Command& c
 
 void ClientCommands::track(uint32_t client, uint32_t request_id, const Command& command,
                            double now) {
+  // A newer command replaces what was not accepted yet: it must not be repeated any more.
   for (const CommandTracker::Entry& entry : tracker_.supersede(kind_of(command))) {
     report(entry, ResultStatus::kInterrupted, Reason("replaced-before-start"), now);
   }
@@ -46,6 +64,7 @@ void ClientCommands::fail_all(const Reason& reason, double now) {
   }
 }
 
+// Repeats commands that are unanswered, and reports those that stay so.
 void ClientCommands::step(double now) {
   for (const Command& command : tracker_.take_due(now)) transmit_(command);
   for (const CommandTracker::Entry& entry : tracker_.take_timed_out(now)) {
@@ -61,24 +80,15 @@ void ClientCommands::report(const CommandTracker::Entry& entry, ResultStatus sta
 
 void ClientCommands::report(const CommandTracker::Entry& entry, ResultStatus status,
                             const Reason& reason, const std::string& sentence, double now) {
+  // The client may have left, or watch another robot.
   ClientSession* session = sessions_.find(entry.client);
   if (session == nullptr) return;
   const bool is_walk = kind_of(entry.command) == CommandKind::kWalk;
   if (is_walk && status == ResultStatus::kRefused && is_repeated_walk_refusal(sentence, now)) {
     return;
   }
-  naoremote::ServerMessage message;
-  naoremote::Notice& notice = *message.mutable_notice();
-  notice.set_kind(naoremote::Notice::COMMAND_RESULT);
-  notice.set_request_id(entry.request_id);
-  notice.set_status(static_cast<naoremote::Notice::Status>(status));
-  if (sentence.empty() && status == ResultStatus::kDone) {
-    write_reason(gateway_reason("command-done", {describe(entry.command)}), notice);
-  } else {
-    write_reason(reason, notice);
-    notice.set_message(sentence);
-  }
-  session->send(message);
+  session->send(
+      make_result_notice(entry.request_id, status, reason, sentence, describe(entry.command)));
 }
 
 bool ClientCommands::is_repeated_walk_refusal(const std::string& sentence, double now) {

@@ -9,9 +9,16 @@
 #include "phone-gateway/server/core/command_tracker.h"
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/gateway_reasons.h"
-#include "phone-gateway/server/core/sessions.h"
+#include "phone-gateway/server/core/robot_sessions.h"
 
 namespace nao::gateway {
+
+/** Notice of a command's result.
+ * @param sentence  English sentence for the reason; may be empty if done.
+ * @param command   What was done, in short. */
+naoremote::ServerMessage make_result_notice(uint32_t request_id, ResultStatus status,
+                                            const Reason& reason, const std::string& sentence,
+                                            const std::string& command);
 
 /** Sends the clients' commands to nao-motion and reports their results to the clients. */
 class ClientCommands {
@@ -20,7 +27,7 @@ class ClientCommands {
    * @param first_id  Number of the first command.
    * @param transmit  Puts a command on the bus.
    * `sessions` must outlive this. */
-  ClientCommands(const GatewayLimits& limits, Sessions& sessions, std::string source,
+  ClientCommands(const GatewayLimits& limits, const RobotSessions& sessions, std::string source,
                  int64_t first_id, std::function<void(const Command&)> transmit)
       : sessions_(sessions),
         source_(std::move(source)),
@@ -63,7 +70,7 @@ class ClientCommands {
               const std::string& sentence, double now);
   bool is_repeated_walk_refusal(const std::string& sentence, double now);
 
-  Sessions& sessions_;
+  const RobotSessions& sessions_;
   std::string source_;
   int64_t next_id_;
   std::function<void(const Command&)> transmit_;

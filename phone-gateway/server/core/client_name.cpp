@@ -22,6 +22,7 @@ std::string clean_client_name(const std::string& requested) {
   int num_characters = 0;
   for (const char c : requested) {
     if (is_control(static_cast<unsigned char>(c))) continue;
+    // Counted in characters, not bytes; the limit never cuts a character in two.
     if (!is_continuation(static_cast<unsigned char>(c)) && ++num_characters > kMaxCharacters) break;
     name.push_back(c);
   }

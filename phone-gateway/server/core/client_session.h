@@ -71,6 +71,21 @@ struct ClientSession {
     wake();
   }
 
+  void request_play_state() {
+    outbox.request_play_state();
+    wake();
+  }
+  void request_vision() {
+    outbox.request_vision();
+    wake();
+  }
+
+  void send_audio(MessageBytes piece) {
+    if (is_closing) return;
+    outbox.push_audio(std::move(piece));
+    wake();
+  }
+
   ClientCounters calc_counters() const {
     return {num_requests, num_refused, num_sent, outbox.num_skipped()};
   }
@@ -82,6 +97,10 @@ struct ClientSession {
   std::string name;
   /** Connect has succeeded, and the client has not disconnected. */
   bool is_connected = false;
+  /** Index of the robot that it watches. */
+  size_t robot = 0;
+  /** The operator lets it watch only. */
+  bool is_muted = false;
   /** Its Connect was refused. */
   bool is_refused = false;
   /** Queued messages are still sent, then the connection closes; requests are ignored. */

@@ -7,7 +7,7 @@
 namespace nao::gateway {
 namespace {
 
-/** Chosen: at 100 requests a second of 32 clients and an answer within one control tick, about 32
+/** Chosen: at 100 requests a second of 128 clients and an answer within one control tick, about 128
  * commands are unanswered at a time. The bound limits memory while nao-motion does not answer. */
 constexpr size_t kMaxEntries = 256;
 
@@ -31,6 +31,7 @@ bool is_walk(const CommandTracker::Entry& entry) {
 }  // namespace
 
 void CommandTracker::add(uint32_t client, uint32_t request_id, const Command& command, double now) {
+  // Walks are repeated by their own stream (WalkStream), with new velocities; they have no timeout.
   CommandRetry::Timing timing;
   const bool repeats = kind_of(command) != CommandKind::kWalk;
   timing.repeat_period = repeats ? limits_.repeat_period : CommandRetry::kNever;
@@ -39,12 +40,14 @@ void CommandTracker::add(uint32_t client, uint32_t request_id, const Command& co
   // The caller transmits the command for the first time.
   (void)retry.should_send(now);
   entries_.push_back({client, request_id, command, retry});
+  // The oldest is forgotten: its client gets no result.
   if (entries_.size() > kMaxEntries) entries_.pop_front();
 }
 
 std::vector<CommandTracker::Entry> CommandTracker::supersede(CommandKind newer) {
   return take_if(entries_, [&](const Entry& entry) {
     if (entry.retry.is_accepted() || is_walk(entry)) return false;
+    // Joint changes add up: two of them may run one after the other.
     const bool add_up =
         newer == CommandKind::kJointChange && kind_of(entry.command) == CommandKind::kJointChange;
     return !add_up;
@@ -64,6 +67,8 @@ std::optional<CommandTracker::Entry> CommandTracker::handle_result(const std::st
   return entry;
 }
 
+// The commands go on; only their results have no receiver any more. Tells whether a move-to is
+// among them: the robot would go on walking without its driver.
 bool CommandTracker::forget_client(uint32_t client) {
   bool has_move_to = false;
   for (Entry& entry : entries_) {

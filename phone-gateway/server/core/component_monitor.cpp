@@ -42,10 +42,12 @@ void ComponentMonitor::handle_motion_state(bool has_robot, double now) {
 }
 
 void ComponentMonitor::set_images_requested(bool are_requested, double now) {
+  // The camera's time starts with the first request, not with the last image of long ago.
   if (are_requested && !are_images_requested_) images_requested_since_ = now;
   are_images_requested_ = are_requested;
 }
 
+// Changes since the last call, each once.
 std::vector<ComponentMonitor::Change> ComponentMonitor::step(double now) {
   std::vector<Change> changes;
   for (const Component component : kComponents) {

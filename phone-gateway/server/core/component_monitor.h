@@ -39,6 +39,11 @@ class ComponentMonitor {
   void handle_image(double now) { last_image_ = now; }
   /** The camera's DAEMON_STATUS was received. */
   void handle_camera_status(double now) { last_camera_status_ = now; }
+  /** The simulator's DAEMON_STATUS was received: the robot is a simulated one. */
+  void handle_simulator_status(double now) { last_simulator_status_ = now; }
+  bool is_simulated(double now) const {
+    return now - last_simulator_status_ <= limits_.simulator_timeout;
+  }
   /** Whether a client requests images, so that the camera must send them. */
   void set_images_requested(bool are_requested, double now);
 
@@ -63,6 +68,7 @@ class ComponentMonitor {
   double last_robot_state_ = kNever;
   double last_image_ = kNever;
   double last_camera_status_ = kNever;
+  double last_simulator_status_ = kNever;
 };
 
 }  // namespace nao::gateway

@@ -8,83 +8,92 @@ namespace nao::gateway {
 
 // ---- Control ------------------------------------------------------------------------------------
 
-std::string Driving::driver_name() const {
-  if (lease_.driver() == kOperatorId) return kOperatorName;
-  const ClientSession* session = sessions_.find(lease_.driver());
-  return session == nullptr ? "" : session->name;
-}
-
-naoremote::Control Driving::describe_control(const ClientSession& session) const {
-  naoremote::Control control;
-  control.set_driver_id(lease_.driver());
-  control.set_driver_name(driver_name());
-  control.set_is_mine(lease_.driver() == session.id);
-  return control;
-}
-
-void Driving::send_control_changed(const Reason& reason) const {
-  for (const auto& [id, session] : sessions_.all()) {
-    if (!session->is_connected) continue;
-    naoremote::ServerMessage message;
-    naoremote::Notice& notice = *message.mutable_notice();
-    notice.set_kind(naoremote::Notice::CONTROL_CHANGED);
-    write_reason(reason, notice);
-    *notice.mutable_control() = describe_control(*session);
-    session->send(message);
-  }
-}
-
-Refusal Driving::refuse_control() const {
-  return {naoremote::CONTROL_TAKEN, gateway_reason("control-taken", {driver_name()})};
-}
-
+// nullopt: the client drives now. The walk of the driver before ends with its control.
 std::optional<Refusal> Driving::take_control(const ClientSession& session, double now) {
-  const uint32_t previous = lease_.driver();
-  if (!lease_.take(session.id, now)) return refuse_control();
+  if (auto refusal = control_.check_taking(session, now)) return refusal;
+  const uint32_t previous = control_.driver();
+  control_.assign(session.id, now);
   if (previous == session.id) return std::nullopt;
-  end_walk(now);
+  end_motion(now);
   is_walk_blocked_ = false;
-  sessions_.audit("drives", session, "");
-  send_control_changed(gateway_reason("driver-changed", {session.name}));
+  control_.audit("drives", session, "");
+  control_.tell_all(gateway_reason("driver-changed", {session.name}));
   return std::nullopt;
 }
 
 void Driving::release_control(const ClientSession& session, double now) {
-  if (lease_.driver() != session.id) return;
-  end_walk(now);
-  lease_.release(session.id);
-  sessions_.audit("released", session, "");
-  send_control_changed(gateway_reason("control-released", {session.name}));
+  if (control_.driver() != session.id) return;
+  end_motion(now);
+  control_.release(session.id);
+  control_.audit("released", session, "");
+  control_.tell_all(gateway_reason("control-released", {session.name}));
+}
+
+void Driving::assign_control(const ClientSession& session, double now) {
+  if (control_.driver() == session.id) return;
+  if (control_.driver() != 0) stop_move_of(control_.driver(), session, now);
+  end_motion(now);
+  control_.assign(session.id, now);
+  // A joystick that is held for another robot must not walk this one.
+  is_walk_blocked_ = true;
+  last_walk_turn_ = now;
+  control_.audit("drives", session, "assigned");
+  control_.tell_all(gateway_reason("driver-changed", {session.name}));
 }
 
 void Driving::take_control_as_operator(const ClientSession& console, double now) {
-  if (lease_.driver() == kOperatorId) return;
-  if (lease_.driver() != 0) stop_move_of(lease_.driver(), console, now);
-  end_walk(now);
-  lease_.take(kOperatorId, now);
-  sessions_.audit("operator", console, "takes control");
-  send_control_changed(gateway_reason("driver-changed", {kOperatorName}));
+  if (control_.driver() == kOperatorId) return;
+  // The operator at the console takes over from any driver, and what it started ends.
+  if (control_.driver() != 0) stop_move_of(control_.driver(), console, now);
+  end_motion(now);
+  control_.assign(kOperatorId, now);
+  control_.audit("operator", console, "takes control");
+  control_.tell_all(gateway_reason("driver-changed", {kOperatorName}));
 }
 
 void Driving::release_control_as_operator(const ClientSession& console) {
-  if (!lease_.release(kOperatorId)) return;
-  sessions_.audit("operator", console, "releases control");
-  send_control_changed(gateway_reason("control-released", {kOperatorName}));
+  if (!control_.release(kOperatorId)) return;
+  control_.audit("operator", console, "releases control");
+  control_.tell_all(gateway_reason("control-released", {kOperatorName}));
 }
 
+// A phone that vanishes stops the robot: walk and move-to end.
 void Driving::handle_disconnect(const ClientSession& session, double now) {
   stop_move_of(session.id, session, now);
-  if (lease_.driver() != session.id) return;
-  end_walk(now);
-  lease_.release(session.id);
-  send_control_changed(gateway_reason("driver-disconnected", {session.name}));
+  if (control_.driver() != session.id) return;
+  end_motion(now);
+  control_.release(session.id);
+  control_.tell_all(gateway_reason("driver-disconnected", {session.name}));
+}
+
+// As a disconnection: the client no longer sees what the robot does.
+void Driving::handle_departure(const ClientSession& session, const std::string& next_robot,
+                               double now) {
+  stop_move_of(session.id, session, now);
+  if (control_.driver() != session.id) return;
+  end_motion(now);
+  control_.release(session.id);
+  control_.audit("released", session, "");
+  control_.tell_all(gateway_reason("driver-left", {session.name, next_robot}));
 }
 
 // ---- Commands -----------------------------------------------------------------------------------
 
+std::optional<Refusal> Driving::check_control(const ClientSession& session, double now) {
+  if (auto refusal = control_.check(session)) return refusal;
+  control_.refresh(now);
+  return std::nullopt;
+}
+
+std::optional<Refusal> Driving::check_driving(const ClientSession& session, double now) {
+  if (auto refusal = check_driver(session)) return refusal;
+  control_.refresh(now);
+  return std::nullopt;
+}
+
 std::optional<Refusal> Driving::check_driver(const ClientSession& session) const {
-  if (lease_.driver() == 0) return Refusal{naoremote::NO_CONTROL, gateway_reason("no-driver")};
-  if (lease_.driver() != session.id) return refuse_control();
+  if (auto refusal = control_.check(session)) return refusal;
+  // Only now: without control the client learns nothing about the robot's state here.
   if (components_.is_available(Component::kRobot)) return std::nullopt;
   const bool has_motion = components_.is_available(Component::kMotion);
   return Refusal{naoremote::ROBOT_UNAVAILABLE,
@@ -94,7 +103,7 @@ std::optional<Refusal> Driving::check_driver(const ClientSession& session) const
 std::optional<Refusal> Driving::walk(const ClientSession& session, uint32_t request_id,
                                      const WalkCommand& velocity, double now) {
   if (auto refusal = check_driver(session)) return refusal;
-  lease_.refresh(now);
+  control_.refresh(now);
   const bool was_released = now - last_walk_turn_ >= limits_.walk_timeout;
   last_walk_turn_ = now;
   if (velocity.vx == 0 && velocity.vy == 0 && velocity.wz == 0) {
@@ -107,6 +116,7 @@ std::optional<Refusal> Driving::walk(const ClientSession& session, uint32_t requ
   if (was_released) is_walk_blocked_ = false;
   if (is_walk_blocked_) return Refusal{naoremote::STOPPED, gateway_reason("walk-stopped")};
   if (!walk_.is_walking()) {
+    play_.abandon();
     const Command begun = commands_.make(session.id, velocity);
     walk_.begin(begun.source, begun.id);
     commands_.track(session.id, request_id, begun, now);
@@ -118,25 +128,44 @@ std::optional<Refusal> Driving::walk(const ClientSession& session, uint32_t requ
 std::optional<Refusal> Driving::command(const ClientSession& session, uint32_t request_id,
                                         decltype(Command::request) request, double now) {
   if (auto refusal = check_driver(session)) return refusal;
-  lease_.refresh(now);
+  control_.refresh(now);
   // Head and arms may move during a walk; any other command replaces it. The walk is abandoned, not
   // ended: a zero velocity after the new command would end that one.
   if (!std::holds_alternative<JointChangeCommand>(request)) walk_.abandon();
+  // Any command ends a behavior: nao-play listens, too.
+  play_.abandon();
   commands_.send(session.id, request_id, commands_.make(session.id, std::move(request)), now);
+  return std::nullopt;
+}
+
+std::optional<Refusal> Driving::play(const ClientSession& session, uint32_t request_id,
+                                     const PlayCommand& command, double now) {
+  if (auto refusal = check_driver(session)) return refusal;
+  control_.refresh(now);
+  if (command.behavior == Behavior::kNone) {
+    play_.end(now);
+    return std::nullopt;
+  }
+  // Without zeros, which would end the behavior's walk.
+  walk_.abandon();
+  play_.begin(session.id, request_id, command, now);
   return std::nullopt;
 }
 
 std::optional<Refusal> Driving::stop(const ClientSession& session, uint32_t request_id,
                                      double now) {
-  if (lease_.driver() == session.id) lease_.refresh(now);
+  if (control_.driver() == session.id) control_.refresh(now);
   if (walk_.is_walking()) is_walk_blocked_ = true;
+  // A stop needs no control: whoever sees the robot in danger may stop it.
   walk_.abandon();
+  play_.end(now);
   // Sent even if nao-motion seems to be unavailable: it may still receive.
   commands_.send(session.id, request_id, commands_.make(session.id, StopCommand{}), now);
   if (components_.is_available(Component::kMotion)) return std::nullopt;
   return Refusal{naoremote::ROBOT_UNAVAILABLE, availability_reason(Component::kMotion, false)};
 }
 
+// No client waits for the result: 0.
 void Driving::stop_move_of(uint32_t client, const ClientSession& sender, double now) {
   if (!commands_.forget_client(client)) return;
   commands_.send(0, 0, commands_.make(sender.id, StopCommand{}), now);
@@ -155,7 +184,15 @@ void Driving::end_walk(double now) {
   step(now);
 }
 
+void Driving::end_motion(double now) {
+  end_walk(now);
+  play_.end(now);
+}
+
+// More than one command may be due after a delay.
 void Driving::step(double now) {
+  // A client whose robot acts by itself drives it.
+  if (play_.is_active()) control_.refresh(now);
   while (const auto command = walk_.step(now)) commands_.transmit(*command);
 }
 

@@ -7,33 +7,33 @@
 #include "messages/command.h"
 #include "phone-gateway/server/core/client_commands.h"
 #include "phone-gateway/server/core/component_monitor.h"
-#include "phone-gateway/server/core/driving_lease.h"
+#include "phone-gateway/server/core/control_state.h"
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/gateway_reasons.h"
-#include "phone-gateway/server/core/sessions.h"
+#include "phone-gateway/server/core/play_stream.h"
+#include "phone-gateway/server/core/robot_sessions.h"
 #include "phone-gateway/server/core/walk_stream.h"
 
 namespace nao::gateway {
 
-/** Who drives, and what the driver may do: the control lease, the driver's walk, and the rules that
- * end it. Every change of control is sent to all clients as a notice. */
+/** Who drives, and what the driver may do: the control lease, the driver's walk and behavior, and
+ * the rules that end them. Every change of control is sent to all clients that watch the robot. */
 class Driving {
  public:
   /** The other objects must outlive this. */
-  Driving(const GatewayLimits& limits, Sessions& sessions, const ComponentMonitor& components,
-          ClientCommands& commands)
+  Driving(const GatewayLimits& limits, const RobotSessions& sessions,
+          const ComponentMonitor& components, ClientCommands& commands, PlayStream& play)
       : limits_(limits),
-        sessions_(sessions),
         components_(components),
         commands_(commands),
-        lease_(limits.lease_idle_timeout),
+        play_(play),
+        control_(sessions, limits.lease_idle_timeout),
         walk_(limits) {}
 
   /** Client that drives; 0 if none. */
-  uint32_t driver() const { return lease_.driver(); }
-
-  /** Who has control, as one client sees it. */
-  naoremote::Control describe_control(const ClientSession& session) const;
+  uint32_t driver() const { return control_.driver(); }
+  /** Who has control, and the notices of it. */
+  const ControlState& control() const { return control_; }
 
   // Use cases. Each returns why the request is refused, or nothing.
 
@@ -43,6 +43,9 @@ class Driving {
   /** Sends a command of the driver. */
   [[nodiscard]] std::optional<Refusal> command(const ClientSession& session, uint32_t request_id,
                                                decltype(Command::request) request, double now);
+  /** Begins or (none) ends a behavior. */
+  [[nodiscard]] std::optional<Refusal> play(const ClientSession& session, uint32_t request_id,
+                                            const PlayCommand& command, double now);
   /** Stops the robot, for any client. */
   [[nodiscard]] std::optional<Refusal> stop(const ClientSession& session, uint32_t request_id,
                                             double now);
@@ -52,18 +55,31 @@ class Driving {
   /** The operator takes control from any client, or releases it. @param console  For the log. */
   void take_control_as_operator(const ClientSession& console, double now);
   void release_control_as_operator(const ClientSession& console);
+  /** The operator gives control to a client, also if another one has it. */
+  void assign_control(const ClientSession& session, double now);
+
+  /** Whether a client may do what needs control but no robot. Its lease is refreshed. */
+  [[nodiscard]] std::optional<Refusal> check_control(const ClientSession& session, double now);
+  /** The same for what moves the robot, too, without being a command of nao-motion. */
+  [[nodiscard]] std::optional<Refusal> check_driving(const ClientSession& session, double now);
 
   // Events.
 
   /** A client has disconnected: its walk ends, its control is released. */
   void handle_disconnect(const ClientSession& session, double now);
+  /** A client watches another robot from now on: the same. */
+  void handle_departure(const ClientSession& session, const std::string& next_robot, double now);
   /** A final result of the walk ends it here, too. */
   void handle_result(const CommandResult& result);
-  /** nao-motion has become unavailable: the walk is not continued when it is available again. */
-  void abandon_walk() { walk_.abandon(); }
+  /** nao-motion has become unavailable: walk and behavior are not continued when it is available
+   * again. */
+  void abandon_motion() {
+    walk_.abandon();
+    play_.abandon();
+  }
 
-  /** Ends the walk now, if there is one. */
-  void end_walk(double now);
+  /** Ends walk and behavior now, if there are any. */
+  void end_motion(double now);
 
   /** Transmits the walk command that is due. */
   void step(double now);
@@ -71,17 +87,15 @@ class Driving {
  private:
   /** Whether a client drives and the robot is available. */
   std::optional<Refusal> check_driver(const ClientSession& session) const;
-  Refusal refuse_control() const;
+  void end_walk(double now);
   /** Stops a MoveTo that a client without control has left behind. */
   void stop_move_of(uint32_t client, const ClientSession& sender, double now);
-  std::string driver_name() const;
-  void send_control_changed(const Reason& reason) const;
 
   GatewayLimits limits_;
-  Sessions& sessions_;
   const ComponentMonitor& components_;
   ClientCommands& commands_;
-  DrivingLease lease_;
+  PlayStream& play_;
+  ControlState control_;
   WalkStream walk_;
   /** Stop was sent during a walk: no new walk until the driver releases the joystick. */
   bool is_walk_blocked_ = false;

@@ -18,14 +18,24 @@ class DrivingLease {
   /** Client that drives; 0 if none. */
   uint32_t driver() const { return driver_; }
 
-  /** @return true if `client` drives from now on. */
-  bool take(uint32_t client, double now) {
+  /** Whether `client` would get the lease. */
+  bool can_take(uint32_t client, double now) const {
     const bool is_free = driver_ == 0 || driver_ == client;
     const bool is_idle = driver_ != kOperatorId && now - last_command_ > idle_timeout_;
-    if (!is_free && !is_idle && client != kOperatorId) return false;
+    return is_free || is_idle || client == kOperatorId;
+  }
+
+  /** @return true if `client` drives from now on. */
+  bool take(uint32_t client, double now) {
+    if (!can_take(client, now)) return false;
+    assign(client, now);
+    return true;
+  }
+
+  /** Gives the lease to a client, also if another one has it. */
+  void assign(uint32_t client, double now) {
     driver_ = client;
     last_command_ = now;
-    return true;
   }
 
   /** The driver sent a command. */

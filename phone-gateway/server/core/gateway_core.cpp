@@ -13,25 +13,22 @@ constexpr double kReadPause = 0.02;
 
 }  // namespace
 
-GatewayCore::GatewayCore(naoremote::RobotDescription robot, const GatewayLimits& limits,
-                         const GatewayIdentity& identity, GatewayOutputs outputs)
+GatewayCore::GatewayCore(std::vector<RobotSetup> robots, const GatewayLimits& limits,
+                         const GatewayIdentity& identity,
+                         std::function<void(const AuditEvent&)> audit)
     : limits_(limits),
-      audit_(outputs.audit),
-      sessions_(limits, std::move(outputs.audit)),
-      components_(limits),
-      streams_(limits, sessions_, components_),
-      commands_(limits, sessions_, identity.source, identity.first_command_id,
-                std::move(outputs.send)),
-      driving_(limits, sessions_, components_, commands_),
-      requests_(limits, std::move(robot), identity.server_version, identity.token,
-                {sessions_, components_, driving_, streams_}) {
+      audit_(audit),
+      sessions_(limits, std::move(audit)),
+      robots_(limits, sessions_, identity, std::move(robots)),
+      requests_(limits, identity.server_version, identity.token, sessions_, robots_) {
   sessions_.on_disconnect([this](const ClientSession& session, double now) {
-    driving_.handle_disconnect(session, now);
+    robots_.of(session).driving().handle_disconnect(session, now);
   });
 }
 
 // ---- Connections --------------------------------------------------------------------------------
 
+// Handles one message of a client; returns for how long, s, its connection shall not be read.
 double GatewayCore::receive(uint32_t client, std::string_view message, double now) {
   ClientSession* session = sessions_.find(client);
   if (session == nullptr || session->is_closing) return 0;
@@ -44,9 +41,11 @@ double GatewayCore::receive(uint32_t client, std::string_view message, double no
   const bool is_request = message.size() <= kMaxRequestBytes &&
                           request.ParseFromArray(message.data(), static_cast<int>(message.size()));
   if (is_request) response.set_request_id(request.request_id());
+  // A stop is carried out even above the request rate.
   const bool has_budget = session->budget.take(now);
   // A request may cause notices to the same client. The answer goes before them.
   const size_t position = session->outbox.num_messages();
+  bool is_answered = true;
   if (!is_request) {
     response.set_error(naoremote::INVALID_REQUEST);
     write_reason(gateway_reason("not-a-request"), response);
@@ -55,17 +54,19 @@ double GatewayCore::receive(uint32_t client, std::string_view message, double no
     write_reason(gateway_reason("too-many-requests", {to_argument(limits_.max_request_rate)}),
                  response);
   } else {
-    requests_.handle(*session, request, response, now);
+    is_answered = requests_.handle(*session, request, response, now);
   }
   if (response.error() != naoremote::OK) ++session->num_refused;
-  session->outbox.insert(position, encode(answer));
+  if (is_answered) session->outbox.insert(position, encode(answer));
   session->wake();
+  // Garbage now and then is answered; a client that sends nothing else is closed.
   if (!is_request && ++session->num_malformed > limits_.max_malformed_requests) {
     sessions_.close(*session,
                     gateway_reason("too-many-malformed-requests",
                                    {std::to_string(limits_.max_malformed_requests)}),
                     now);
   }
+  // A client that does not read its messages is not read either.
   const bool is_congested = session->outbox.num_messages() > limits_.congested_outbox_messages;
   return !has_budget || is_congested ? kReadPause : 0;
 }
@@ -82,9 +83,12 @@ void GatewayCore::close(uint32_t client, const Reason& reason, double now) {
   if (ClientSession* session = sessions_.find(client)) sessions_.close(*session, reason, now);
 }
 
+// The next message for the client's connection, made at this moment: states and images are encoded
+// when they can be sent, and so are never old.
 MessageBytes GatewayCore::next_message(uint32_t client, double now) {
   ClientSession* session = sessions_.find(client);
   if (session == nullptr) return nullptr;
+  GatewayRobot& robot = robots_.of(*session);
   while (true) {
     MessageBytes message;
     switch (session->outbox.next()) {
@@ -93,13 +97,25 @@ MessageBytes GatewayCore::next_message(uint32_t client, double now) {
       case Outbox::Next::kMessage:
         message = session->outbox.take_message();
         break;
+      case Outbox::Next::kPlayState:
+        session->outbox.take_play_state();
+        if (!session->is_closing) message = robot.perception().make_play_state_message();
+        break;
+      case Outbox::Next::kVision:
+        session->outbox.take_vision();
+        if (!session->is_closing) message = robot.perception().make_vision_message();
+        break;
       case Outbox::Next::kState:
         session->outbox.take_state();
-        if (!session->is_closing) message = streams_.make_state_message(now);
+        if (!session->is_closing) message = robot.streams().make_state_message(now);
+        break;
+      case Outbox::Next::kAudio:
+        message = session->outbox.take_audio();
+        if (session->is_closing) message.reset();
         break;
       case Outbox::Next::kImage:
         session->outbox.take_image();
-        if (!session->is_closing) message = streams_.make_image_message(*session, now);
+        if (!session->is_closing) message = robot.streams().make_image_message(*session, now);
         break;
     }
     // A state or image that was due may no longer exist.
@@ -109,9 +125,11 @@ MessageBytes GatewayCore::next_message(uint32_t client, double now) {
   }
 }
 
-bool GatewayCore::is_image_next(uint32_t client) const {
+bool GatewayCore::is_long_next(uint32_t client) const {
   const ClientSession* session = sessions_.find(client);
-  return session != nullptr && session->outbox.next() == Outbox::Next::kImage;
+  if (session == nullptr) return false;
+  const Outbox::Next next = session->outbox.next();
+  return next == Outbox::Next::kImage || next == Outbox::Next::kAudio;
 }
 
 bool GatewayCore::is_connected(uint32_t client) const {
@@ -124,55 +142,19 @@ bool GatewayCore::is_closing(uint32_t client) const {
   return session == nullptr || session->is_closing;
 }
 
-// ---- Robot --------------------------------------------------------------------------------------
-
-void GatewayCore::set_robot(const RobotSnapshot& robot, double now) {
-  components_.handle_robot_state(now);
-  streams_.set_robot(robot, now);
-}
-
-void GatewayCore::set_motion(const MotionSnapshot& motion, double now) {
-  components_.handle_motion_state(motion.mode != Mode::kNoRobot, now);
-  streams_.set_motion(motion);
-}
-
-void GatewayCore::add_image(CachedImage image, double now) {
-  components_.handle_image(now);
-  streams_.add_image(std::move(image), now);
-}
-
-void GatewayCore::handle_result(const CommandResult& result, double now) {
-  commands_.handle_result(result, now);
-  driving_.handle_result(result);
-}
-
 // ---- Time ---------------------------------------------------------------------------------------
 
 void GatewayCore::step(double now) {
-  driving_.step(now);
-  commands_.step(now);
-  step_components(now);
+  robots_.step(now);
   sessions_.step(now);
-  streams_.step(now);
-}
-
-void GatewayCore::step_components(double now) {
-  components_.set_images_requested(!streams_.camera_requests(now).empty(), now);
-  for (const ComponentMonitor::Change& change : components_.step(now)) {
-    sessions_.broadcast(make_component_notice(change));
-    streams_.handle_component_change();
-    if (change.component != Component::kMotion || change.is_available) continue;
-    // The motion that it executed has ended, and is not continued when it is available again.
-    driving_.abandon_walk();
-    commands_.fail_all(availability_reason(Component::kMotion, false), now);
-  }
 }
 
 void GatewayCore::shut_down(double now) {
+  // Clients are told before the connections end, and the robots stop.
   for (const auto& [id, session] : sessions_.all()) {
     sessions_.close(*session, gateway_reason("gateway-stopping"), now);
   }
-  driving_.end_walk(now);
+  for (size_t i = 0; i < robots_.size(); ++i) robots_.at(i).driving().end_motion(now);
 }
 
 }  // namespace nao::gateway

@@ -4,48 +4,30 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "messages/command.h"
 #include "phone-gateway/server/core/audit_event.h"
-#include "phone-gateway/server/core/client_commands.h"
-#include "phone-gateway/server/core/component_monitor.h"
-#include "phone-gateway/server/core/driving.h"
+#include "phone-gateway/server/core/gateway_identity.h"
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/message_bytes.h"
 #include "phone-gateway/server/core/request_handler.h"
+#include "phone-gateway/server/core/robots.h"
 #include "phone-gateway/server/core/sessions.h"
-#include "phone-gateway/server/core/streams.h"
 
 namespace nao::gateway {
 
-/** Identity of the gateway towards clients and on the bus. */
-struct GatewayIdentity {
-  std::string server_version;
-  /** Pairing token that clients of other hosts send in Connect. */
-  std::string token;
-  /** Prefix of the sources of its commands, unique on the bus: "phone.4711". */
-  std::string source;
-  /** Number of its first command. Greater than those of every earlier run, since nao-motion
-   * executes each number only once. */
-  int64_t first_command_id = 1;
-};
-
-/** Receivers of the gateway's commands and audit events. */
-struct GatewayOutputs {
-  std::function<void(const Command&)> send;
-  std::function<void(const AuditEvent&)> audit;
-};
-
-/** The behaviour of the gateway: joins the objects for sessions, driving, streams and requests.
+/** The behaviour of the gateway: joins sessions, robots and requests.
  *
  * It has no socket, bus, clock, file or log: connections pass in the messages that they received
  * and take out those to be sent; every call has its time, s of a clock that never runs backwards.
  * Nothing that a client sends makes it throw. */
 class GatewayCore {
  public:
-  GatewayCore(naoremote::RobotDescription robot, const GatewayLimits& limits,
-              const GatewayIdentity& identity, GatewayOutputs outputs);
+  /** @param robots  At least one, with different names.
+   * @param audit   Receives the events for the audit log. */
+  GatewayCore(std::vector<RobotSetup> robots, const GatewayLimits& limits,
+              const GatewayIdentity& identity, std::function<void(const AuditEvent&)> audit);
   // The members refer to one another.
   GatewayCore(const GatewayCore&) = delete;
   GatewayCore& operator=(const GatewayCore&) = delete;
@@ -83,46 +65,38 @@ class GatewayCore {
   /** Next message for a connection that can take one; null if there is none. */
   [[nodiscard]] MessageBytes next_message(uint32_t client, double now);
 
-  /** True if that message is an image. */
-  bool is_image_next(uint32_t client) const;
+  /** True if that message is long: an image, or a piece of audio. */
+  bool is_long_next(uint32_t client) const;
   /** True from a successful Connect until the client disconnects. */
   bool is_connected(uint32_t client) const;
   /** True if the connection must close as soon as next_message() returns null. */
   bool is_closing(uint32_t client) const;
 
-  // ---- Robot ----
+  // ---- Robots ----
 
-  void set_robot(const RobotSnapshot& robot, double now);
-  void set_motion(const MotionSnapshot& motion, double now);
-  void add_image(CachedImage image, double now);
-  void handle_camera_status(double now) { components_.handle_camera_status(now); }
-  void handle_result(const CommandResult& result, double now);
+  /** In the order of the constructor. */
+  GatewayRobot& robot(size_t index = 0) { return robots_.at(index); }
+  const GatewayRobot& robot(size_t index = 0) const { return robots_.at(index); }
+  size_t num_robots() const { return robots_.size(); }
+  void set_players(std::vector<PlayerLabel> players) { robots_.set_players(std::move(players)); }
 
   // ---- Time ----
 
   /** Repetitions, timeouts and availability. Call it 50 times a second. */
   void step(double now);
 
-  /** The gateway stops: the walk ends, and all connections are closed. */
+  /** The gateway stops: walks end, and all connections are closed. */
   void shut_down(double now);
 
   // ---- State ----
 
   const Sessions& sessions() const { return sessions_; }
-  const ComponentMonitor& components() const { return components_; }
-  const Streams& streams() const { return streams_; }
-  const Driving& driving() const { return driving_; }
 
  private:
-  void step_components(double now);
-
   GatewayLimits limits_;
   std::function<void(const AuditEvent&)> audit_;
   Sessions sessions_;
-  ComponentMonitor components_;
-  Streams streams_;
-  ClientCommands commands_;
-  Driving driving_;
+  Robots robots_;
   RequestHandler requests_;
 };
 

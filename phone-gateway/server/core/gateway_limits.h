@@ -8,9 +8,9 @@ namespace nao::gateway {
  * Times in s, rates in 1/s. One struct has all of them, so that a test can change any. */
 struct GatewayLimits {
   /** Connected clients. */
-  int max_clients = 32;
+  int max_clients = 128;
   /** Connected clients of one address that is not this host's. */
-  int max_clients_per_address = 8;
+  int max_clients_per_address = 32;
   /** Requests of one client; also the size of its first burst. */
   double max_request_rate = 100;
   /** Messages of one connection that are no Request; one more closes it. */
@@ -29,6 +29,12 @@ struct GatewayLimits {
   double silence_timeout = 5;
   /** From the last WalkTurn to the end of the walk. nao-motion uses the same value. */
   double walk_timeout = 0.5;
+  /** From a driver's last request of any kind to the end of a behavior that it has begun: two of
+   * its pings may be late. */
+  double play_timeout = 2.5;
+  /** Between two transmissions of a play command that was accepted: two may be lost within the 2 s
+   * after which nao-play ends the behavior. */
+  double play_period = 0.5;
   /** Between two transmissions of a walk command, or of an unanswered command, on the bus. */
   double repeat_period = 0.1;
   /** From sending a command to reporting that nao-motion does not answer. */
@@ -44,6 +50,18 @@ struct GatewayLimits {
   double robot_timeout = 1.0;
   double image_timeout = 1.5;
   double camera_status_timeout = 1.8;
+  /** Of nao-motion-files, which lists its motions once a second: three may be lost. */
+  double motion_files_timeout = 3.5;
+  /** Of nao-sim's DAEMON_STATUS, which says that the robot is simulated. */
+  double simulator_timeout = 3.5;
+
+  /** Taught motions that a client may have under way. */
+  int max_motion_requests = 4;
+  /** Between two transmissions of an unanswered command about motions, which may be long. */
+  double motion_file_repeat_period = 1.0;
+  /** From a request about motions to reporting that it is not answered: a long motion is simulated
+   * for half a minute, and a motion of another client before it. */
+  double motion_file_timeout = 120;
 
   /** States and images that a client may subscribe to. */
   double max_state_rate = 60;

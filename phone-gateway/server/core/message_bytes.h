@@ -35,7 +35,7 @@ class SharedEncoding {
 
  private:
   /** Largest error of the age in a reused message, s. Chosen: one tenth of the 10 ms control tick;
-   * 32 clients are served within 0.5 ms. */
+   * 32 clients are served within 0.5 ms (measured). */
   static constexpr double kReuseTime = 0.001;
 
   MessageBytes bytes_;

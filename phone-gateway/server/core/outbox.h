@@ -9,12 +9,16 @@
 
 namespace nao::gateway {
 
-/** Messages to be sent to one client: responses and notices in order, and at most one state and one
- * image. State and image are only marked as due here; they are encoded when the connection can take
- * them, so that a slow client receives fewer of them, but always the newest. */
+/** Messages to be sent to one client: responses and notices in order, at most one each of state,
+ * image, play state and vision, and pieces of audio in order. All but the audio are only marked as
+ * due here; they are encoded when the connection can take them, so that a slow client receives
+ * fewer of them, but always the newest. Of audio a slow client loses the oldest pieces. */
 class Outbox {
  public:
-  enum class Next { kNothing, kMessage, kState, kImage };
+  enum class Next { kNothing, kMessage, kPlayState, kVision, kState, kAudio, kImage };
+
+  /** Pieces of audio that wait; of more, the oldest are dropped. Chosen: 4 s of speech. */
+  static constexpr size_t kMaxAudio = 16;
 
   void push(MessageBytes message) { messages_.push_back(std::move(message)); }
   /** Inserts a message before those that were pushed after num_messages() was `position`. */
@@ -24,39 +28,73 @@ class Outbox {
   void request_state() { num_skipped_ += std::exchange(is_state_due_, true) ? 1 : 0; }
   void request_image() { num_skipped_ += std::exchange(is_image_due_, true) ? 1 : 0; }
 
-  /** What the connection must send next. A state goes before an image, which is about ten times as
-   * long, but only one state: a slow client receives both streams. */
+  void request_play_state() { num_skipped_ += std::exchange(is_play_state_due_, true) ? 1 : 0; }
+  void request_vision() { num_skipped_ += std::exchange(is_vision_due_, true) ? 1 : 0; }
+
+  void push_audio(MessageBytes piece) {
+    audio_.push_back(std::move(piece));
+    if (audio_.size() <= kMaxAudio) return;
+    audio_.pop_front();
+    ++num_skipped_;
+  }
+  /** The speech has ended: what waits of it is not to be played. */
+  void clear_audio() { audio_.clear(); }
+
+  /** What the connection must send next. A state goes before audio and images, which are about ten
+   * times as long, but only one state, and one piece of audio before an image: a slow client
+   * receives all streams. */
   Next next() const {
     if (!messages_.empty()) return Next::kMessage;
-    if (is_state_due_ && !has_image_waited_) return Next::kState;
+    // Short, and at most 5 and 30 a second: they cannot keep a state waiting.
+    if (is_play_state_due_) return Next::kPlayState;
+    if (is_vision_due_) return Next::kVision;
+    if (is_state_due_ && !has_other_waited_) return Next::kState;
+    if (!audio_.empty() && !(was_audio_last_ && is_image_due_)) return Next::kAudio;
     return is_image_due_ ? Next::kImage : Next::kNothing;
   }
 
-  /** Removes what next() returned: the message itself, or the mark that a state or image is due. */
+  /** Removes what next() returned: the message or piece itself, or the mark that a state or image
+   * is due. */
   MessageBytes take_message() {
     MessageBytes message = std::move(messages_.front());
     messages_.pop_front();
     return message;
   }
+  void take_play_state() { is_play_state_due_ = false; }
+  void take_vision() { is_vision_due_ = false; }
   void take_state() {
     is_state_due_ = false;
-    has_image_waited_ = is_image_due_;
+    was_audio_last_ = false;
+    has_other_waited_ = is_image_due_ || !audio_.empty();
+  }
+  MessageBytes take_audio() {
+    MessageBytes piece = std::move(audio_.front());
+    audio_.pop_front();
+    was_audio_last_ = true;
+    has_other_waited_ = is_image_due_;
+    return piece;
   }
   void take_image() {
     is_image_due_ = false;
-    has_image_waited_ = false;
+    was_audio_last_ = false;
+    has_other_waited_ = false;
   }
 
   size_t num_messages() const { return messages_.size(); }
-  /** States and images that a newer one replaced before they could be sent. */
+  /** States and images that a newer one replaced before they could be sent, and pieces of audio
+   * that were dropped. */
   uint64_t num_skipped() const { return num_skipped_; }
 
  private:
   std::deque<MessageBytes> messages_;
+  std::deque<MessageBytes> audio_;
   bool is_state_due_ = false;
   bool is_image_due_ = false;
-  /** A state was sent while an image was due: the image is next. */
-  bool has_image_waited_ = false;
+  bool is_play_state_due_ = false;
+  bool is_vision_due_ = false;
+  /** A state was sent while audio or an image waited: that is next. */
+  bool has_other_waited_ = false;
+  bool was_audio_last_ = false;
   uint64_t num_skipped_ = 0;
 };
 

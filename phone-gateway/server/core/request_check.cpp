@@ -98,7 +98,9 @@ std::optional<Refusal> add_group(const naoremote::JointGroup& group,
       return refuse("joint-change-out-of-range",
                     {axis.name, to_argument(axis.change), to_argument(kMaxJointChange)});
     }
-    if (axis.change == 0) continue;
+    // With a stiffness all joints of the group are meant.
+    const bool is_meant = axis.change != 0 || (request.has_stiffness() && !axis.joint.empty());
+    if (!is_meant) continue;
     if (axis.joint.empty()) return refuse("axis-missing", {group.name(), axis.name});
     if (contains(command.joint_names, axis.joint)) continue;
     command.joint_names.push_back(axis.joint);
@@ -152,6 +154,9 @@ std::variant<JointChangeCommand, Refusal> check(const naoremote::ChangeJoints& r
   command.is_relative = true;
   command.speed = std::get<double>(speed);
   command.allow_tipping = request.allow_tipping();
+  if (request.has_stiffness() && !is_within(request.stiffness(), 0, 1)) {
+    return refuse("stiffness-out-of-range", {to_argument(request.stiffness())});
+  }
   if (auto refusal = add_group(*group, request, 1, command)) return *std::move(refusal);
   if (request.both_sides()) {
     const naoremote::JointGroup* other = find_group(robot, mirrored_name(group->name()));
@@ -160,6 +165,9 @@ std::variant<JointChangeCommand, Refusal> check(const naoremote::ChangeJoints& r
     }
   }
   if (command.joint_names.empty()) return refuse("joint-change-zero");
+  if (request.has_stiffness()) {
+    command.joint_stiffness.assign(command.joint_names.size(), request.stiffness());
+  }
   return command;
 }
 
@@ -183,6 +191,49 @@ std::variant<ActionCommand, Refusal> check(const naoremote::DoAction& request,
       return refuse(Reason("strength-out-of-range", {to_argument(request.strength())}));
     }
     command.strength = request.strength();
+  }
+  return command;
+}
+
+std::variant<SpeechCommand, Refusal> check(const naoremote::Say& request) {
+  SpeechCommand command;
+  command.operation = static_cast<SpeechCommand::Operation>(request.operation());
+  command.text = request.text();
+  command.language = request.language();
+  if (request.has_volume()) command.volume = request.volume();
+  if (request.rate() != 0) command.rate = request.rate();
+  if (auto fault = nao::check(command)) return refuse(*std::move(fault));
+  return command;
+}
+
+std::variant<LightCommand, Refusal> check(const naoremote::SetLights& request,
+                                          const naoremote::RobotDescription& robot) {
+  if (request.light_names_size() != request.light_rgb_size()) {
+    return refuse("light-lists-unequal", {std::to_string(request.light_names_size()),
+                                          std::to_string(request.light_rgb_size())});
+  }
+  LightCommand command;
+  command.duration = request.duration();
+  for (int i = 0; i < request.light_names_size(); ++i) {
+    const uint32_t rgb = request.light_rgb(i);
+    // Part by part; what is above 0xffffff makes red larger than 1.
+    command.light_names.push_back(request.light_names(i));
+    command.light_rgb.push_back(
+        {(rgb >> 16) / 255.0, (rgb >> 8 & 0xff) / 255.0, (rgb & 0xff) / 255.0});
+  }
+  std::vector<std::string> known_names;
+  for (const naoremote::Light& light : robot.lights()) known_names.push_back(light.name());
+  if (auto fault = nao::check(command, known_names)) return refuse(*std::move(fault));
+  return command;
+}
+
+std::variant<PlayCommand, Refusal> check(const naoremote::Play& request) {
+  PlayCommand command;
+  command.behavior = static_cast<Behavior>(request.behavior());
+  if (request.has_target_x() != request.has_target_y()) return refuse("target-incomplete", {});
+  if (request.has_target_x()) command.target_in_odometry = {request.target_x(), request.target_y()};
+  if (auto fault = nao::check(command)) {
+    return Refusal{naoremote::INVALID_ARGUMENT, *std::move(fault)};
   }
   return command;
 }
@@ -220,8 +271,9 @@ std::variant<Subscription, Refusal> check(const naoremote::Subscribe& request,
   }
   auto image = check(request.image(), robot);
   if (auto* refusal = std::get_if<Refusal>(&image)) return std::move(*refusal);
-  return Subscription{request.state_rate(), request.image_rate(),
-                      std::get<ImageSelection>(std::move(image))};
+  return Subscription{
+      request.state_rate(), request.image_rate(), std::get<ImageSelection>(std::move(image)),
+      request.audio(),      request.play_state(), request.vision()};
 }
 
 }  // namespace nao::gateway

@@ -5,6 +5,9 @@
 #include <variant>
 
 #include "messages/command.h"
+#include "messages/light_command.h"
+#include "messages/play_command.h"
+#include "messages/speech_command.h"
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/gateway_reasons.h"
 #include "remote.pb.h"
@@ -12,7 +15,7 @@
 namespace nao::gateway {
 
 // Each function checks every field of one use case: finite, in range, naming something that the
-// robot has. The result is safe to send to nao-motion.
+// robot has. The result is safe to send to the program that executes it.
 
 /** Clips the velocity to the robot's limits. */
 [[nodiscard]] std::variant<WalkCommand, Refusal> check(const naoremote::WalkTurn& request,
@@ -25,6 +28,12 @@ namespace nao::gateway {
     const naoremote::ChangeJoints& request, const naoremote::RobotDescription& robot);
 [[nodiscard]] std::variant<ActionCommand, Refusal> check(const naoremote::DoAction& request,
                                                          const naoremote::RobotDescription& robot);
+
+[[nodiscard]] std::variant<SpeechCommand, Refusal> check(const naoremote::Say& request);
+[[nodiscard]] std::variant<LightCommand, Refusal> check(const naoremote::SetLights& request,
+                                                        const naoremote::RobotDescription& robot);
+
+[[nodiscard]] std::variant<PlayCommand, Refusal> check(const naoremote::Play& request);
 
 /** The images that a client requests: checked, with the defaults filled in. */
 struct ImageSelection {
@@ -48,6 +57,11 @@ struct Subscription {
   double state_rate = 0;
   double image_rate = 0;
   ImageSelection image;
+  /** What the robot says. */
+  bool has_audio = false;
+  /** What nao-play does, and what nao-vision sees. */
+  bool has_play_state = false;
+  bool has_vision = false;
 };
 
 [[nodiscard]] std::variant<Subscription, Refusal> check(const naoremote::Subscribe& request,

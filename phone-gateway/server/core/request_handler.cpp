@@ -1,5 +1,6 @@
 #include "phone-gateway/server/core/request_handler.h"
 
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -21,26 +22,18 @@ std::optional<Refusal> execute_checked(std::variant<Checked, Refusal> checked, E
 
 }  // namespace
 
-naoremote::ServerMessage make_component_notice(const ComponentMonitor::Change& change) {
-  naoremote::ServerMessage message;
-  naoremote::Notice& notice = *message.mutable_notice();
-  notice.set_kind(naoremote::Notice::COMPONENT_CHANGED);
-  write_reason(availability_reason(change.component, change.is_available), notice);
-  notice.set_component(static_cast<naoremote::Notice::Component>(change.component));
-  notice.set_is_available(change.is_available);
-  return message;
-}
-
-void RequestHandler::handle(ClientSession& session, const Request& request, Response& response,
+bool RequestHandler::handle(ClientSession& session, const Request& request, Response& response,
                             double now) {
+  is_answered_later_ = false;
   const auto refusal = execute(session, request, response, now);
-  if (!refusal) return;
+  if (!refusal) return !is_answered_later_;
   response.set_error(refusal->error);
   write_reason(refusal->reason, response);
   // So that the app can say who drives.
-  if (refusal->error == naoremote::CONTROL_TAKEN) {
-    *response.mutable_control() = objects_.driving.describe_control(session);
+  if (refusal->error == naoremote::CONTROL_TAKEN && !response.has_control()) {
+    *response.mutable_control() = robots_.of(session).driving().control().describe(session);
   }
+  return true;
 }
 
 std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Request& request,
@@ -51,10 +44,17 @@ std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Req
       request.use_case_case() != Request::USE_CASE_NOT_SET) {
     return Refusal{naoremote::NOT_CONNECTED, gateway_reason("not-connected")};
   }
-  Driving& driving = objects_.driving;
+  GatewayRobot& robot = robots_.of(session);
+  Driving& driving = robot.driving();
+  const naoremote::RobotDescription& description = robot.description();
   const uint32_t id = request.request_id();
   const auto send_command = [&](auto command) {
     return driving.command(session, id, std::move(command), now);
+  };
+  const auto send_service = [&](auto command) -> std::optional<Refusal> {
+    if (auto refusal = driving.check_control(session, now)) return refusal;
+    robot.services().send(session.id, id, std::move(command), now);
+    return std::nullopt;
   };
   switch (request.use_case_case()) {
     case Request::kConnect:
@@ -64,36 +64,152 @@ std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Req
     case Request::kSubscribe:
       return subscribe(session, request.subscribe());
     case Request::kWalkTurn:
-      return execute_checked(check(request.walk_turn(), robot_), [&](const WalkCommand& velocity) {
-        return driving.walk(session, id, velocity, now);
-      });
+      return execute_checked(
+          check(request.walk_turn(), description),
+          [&](const WalkCommand& velocity) { return driving.walk(session, id, velocity, now); });
     case Request::kMoveTo:
       return execute_checked(check(request.move_to()), send_command);
     case Request::kGoToPosture:
-      return execute_checked(check(request.go_to_posture(), robot_), send_command);
+      return execute_checked(check(request.go_to_posture(), description), send_command);
     case Request::kChangeJoints:
-      return execute_checked(check(request.change_joints(), robot_), send_command);
+      return execute_checked(check(request.change_joints(), description), send_command);
     case Request::kDoAction:
-      return execute_checked(check(request.do_action(), robot_), send_command);
+      // A taught motion has neither ball nor strength.
+      if (robot.motions().has(request.do_action().action())) {
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        return send_command(ActionCommand{request.do_action().action(), nan, nan, nan});
+      }
+      return execute_checked(check(request.do_action(), description), send_command);
+    case Request::kSay:
+      return execute_checked(check(request.say()), send_service);
+    case Request::kSetLights:
+      return execute_checked(check(request.set_lights(), description), send_service);
+    case Request::kPlay:
+      return execute_checked(check(request.play()), [&](const PlayCommand& command) {
+        return driving.play(session, id, command, now);
+      });
     case Request::kStop:
       return driving.stop(session, id, now);
     case Request::kTakeControl:
-      if (auto refusal = driving.take_control(session, now)) return refusal;
-      *response.mutable_control() = driving.describe_control(session);
-      return std::nullopt;
     case Request::kReleaseControl:
-      driving.release_control(session, now);
-      *response.mutable_control() = driving.describe_control(session);
-      return std::nullopt;
+    case Request::kWatchRobot:
+      return execute_control_request(session, request, response, now);
     case Request::kPing:
-      ping(request.ping(), *response.mutable_pong(), now);
+      ping(session, request.ping(), *response.mutable_pong(), now);
       return std::nullopt;
     case Request::kOperate:
-      return operate(session, request.operate(), response, now);
+      return console_.execute(session, request.operate(), response, now);
+    case Request::kListMotions:
+    case Request::kGetMotion:
+    case Request::kCheckMotion:
+    case Request::kSaveMotion:
+    case Request::kDeleteMotion:
+      return execute_motion_request(session, request, response, now);
+    case Request::kDrag:
+      return drag(session, request.drag(), now);
     case Request::USE_CASE_NOT_SET:
       break;
   }
   return Refusal{naoremote::INVALID_REQUEST, gateway_reason("use-case-unknown")};
+}
+
+std::optional<Refusal> RequestHandler::execute_control_request(ClientSession& session,
+                                                               const Request& request,
+                                                               Response& response, double now) {
+  if (request.has_take_control()) {
+    return take_control(session, request.take_control().robot(), response, now);
+  }
+  if (request.has_watch_robot()) {
+    const auto index = robots_.find(request.watch_robot().robot());
+    if (!index) return robots_.refuse_unknown(request.watch_robot().robot());
+    robots_.change(session, *index, now);
+  } else {
+    robots_.of(session).driving().release_control(session, now);
+  }
+  *response.mutable_control() = robots_.of(session).driving().control().describe(session);
+  return std::nullopt;
+}
+
+std::optional<Refusal> RequestHandler::take_control(ClientSession& session,
+                                                    const std::string& robot, Response& response,
+                                                    double now) {
+  const std::optional<size_t> index = robot.empty() ? session.robot : robots_.find(robot);
+  if (!index) return robots_.refuse_unknown(robot);
+  Driving& driving = robots_.at(*index).driving();
+  // First: a client that does not get the other robot keeps its own.
+  auto refusal = driving.control().check_taking(session, now);
+  if (!refusal) {
+    robots_.change(session, *index, now);
+    refusal = driving.take_control(session, now);
+  }
+  if (!refusal || refusal->error == naoremote::CONTROL_TAKEN) {
+    *response.mutable_control() = driving.control().describe(session);
+  }
+  return refusal;
+}
+
+std::optional<Refusal> RequestHandler::execute_motion_request(ClientSession& session,
+                                                              const Request& request,
+                                                              Response& response, double now) {
+  const uint32_t id = request.request_id();
+  GatewayRobot& robot = robots_.of(session);
+  const bool changes_files = request.has_save_motion() || request.has_delete_motion();
+  if (changes_files) {
+    if (auto refusal = robot.driving().check_control(session, now)) return refusal;
+  }
+  MotionFileCommand command;
+  switch (request.use_case_case()) {
+    case Request::kListMotions:
+      response.mutable_motions();
+      for (const std::string& name : robot.motions().listed()) {
+        response.mutable_motions()->add_names(name);
+      }
+      return std::nullopt;
+    case Request::kGetMotion:
+      command.operation = MotionFileOperation::kGet;
+      command.name = request.get_motion().name();
+      break;
+    case Request::kDeleteMotion:
+      command.operation = MotionFileOperation::kDelete;
+      command.name = request.delete_motion().name();
+      break;
+    default: {
+      const bool saves = request.has_save_motion();
+      auto checked = check(saves ? request.save_motion().motion() : request.check_motion().motion(),
+                           robot.description());
+      if (auto* refusal = std::get_if<Refusal>(&checked)) return std::move(*refusal);
+      command = std::get<MotionFileCommand>(std::move(checked));
+      command.operation = saves ? MotionFileOperation::kSave : MotionFileOperation::kCheck;
+      command.may_replace = saves && request.save_motion().replace();
+      return pass_on(session, id, std::move(command), now);
+    }
+  }
+  if (!is_motion_name(command.name)) {
+    return Refusal{naoremote::INVALID_ARGUMENT,
+                   Reason("motion-name-invalid", {nao::quoted(command.name)})};
+  }
+  return pass_on(session, id, std::move(command), now);
+}
+
+std::optional<Refusal> RequestHandler::pass_on(ClientSession& session, uint32_t request_id,
+                                               MotionFileCommand command, double now) {
+  auto refusal =
+      robots_.of(session).motions().request(session.id, request_id, std::move(command), now);
+  is_answered_later_ = !refusal;
+  return refusal;
+}
+
+std::optional<Refusal> RequestHandler::drag(ClientSession& session, const naoremote::Drag& request,
+                                            double now) {
+  GatewayRobot& robot = robots_.of(session);
+  if (auto refusal = robot.driving().check_driving(session, now)) return refusal;
+  if (!robot.components().is_simulated(now)) {
+    return Refusal{naoremote::ROBOT_UNAVAILABLE, gateway_reason("not-simulated")};
+  }
+  return execute_checked(check(request), [&](const DragCommand& command) -> std::optional<Refusal> {
+    robot.drag(command);
+    return std::nullopt;
+  });
 }
 
 std::optional<Refusal> RequestHandler::connect(ClientSession& session,
@@ -101,37 +217,41 @@ std::optional<Refusal> RequestHandler::connect(ClientSession& session,
                                                Response& response, double now) {
   if (session.is_connected)
     return Refusal{naoremote::INVALID_ARGUMENT, gateway_reason("already-connected")};
-  if (auto refusal = admission_.check(session.endpoint, request, objects_.sessions, now)) {
+  if (auto refusal = admission_.check(session.endpoint, request, sessions_, now)) {
     // The answer with the reason is sent before the connection closes.
-    objects_.sessions.refuse(session, request, refusal->reason, now);
+    sessions_.refuse(session, request, refusal->reason, now);
     return refusal;
   }
-  objects_.sessions.connect(session, request);
+  const std::optional<size_t> index =
+      request.robot().empty() ? robots_.choose() : robots_.find(request.robot());
+  // The connection stays open: the client may choose another one.
+  if (!index) return robots_.refuse_unknown(request.robot());
+  session.robot = *index;
+  const GatewayRobot& robot = robots_.of(session);
+  sessions_.connect(session, request);
   naoremote::Connected& connected = *response.mutable_connected();
   connected.set_protocol_version(kProtocolVersion);
   connected.set_server_version(server_version_);
   connected.set_client_id(session.id);
   connected.set_client_name(session.name);
-  *connected.mutable_robot() = robot_;
-  *connected.mutable_control() = objects_.driving.describe_control(session);
-  for (const Component component : kComponents) {
-    // A new client is told once what is missing; later changes come as notices to all.
-    if (!objects_.components.is_available(component)) {
-      session.send(make_component_notice({component, false}));
-    }
-  }
+  *connected.mutable_robot() = robot.describe(now);
+  *connected.mutable_control() = robot.driving().control().describe(session);
+  if (robots_.size() > 1) *connected.mutable_robots() = robots_.list();
+  // A new client is told once what is missing; later changes come as notices to all.
+  robot.report_missing_components(session);
   return std::nullopt;
 }
 
 std::optional<Refusal> RequestHandler::get_state(ClientSession& session,
                                                  const naoremote::GetState& request,
                                                  Response& response, double now) {
-  auto checked = check(request.image(), robot_);
+  GatewayRobot& robot = robots_.of(session);
+  auto checked = check(request.image(), robot.description());
   if (auto* refusal = std::get_if<Refusal>(&checked)) return std::move(*refusal);
   naoremote::StateAndImage result;
   const ImageSelection* selection =
       request.with_image() ? &std::get<ImageSelection>(checked) : nullptr;
-  if (!objects_.streams.get(session, selection, now, result)) {
+  if (!robot.streams().get(session, selection, now, result)) {
     return Refusal{naoremote::ROBOT_UNAVAILABLE, gateway_reason("no-state-yet")};
   }
   *response.mutable_state_and_image() = std::move(result);
@@ -140,63 +260,21 @@ std::optional<Refusal> RequestHandler::get_state(ClientSession& session,
 
 std::optional<Refusal> RequestHandler::subscribe(ClientSession& session,
                                                  const naoremote::Subscribe& request) {
-  return execute_checked(check(request, robot_, limits_),
+  GatewayRobot& robot = robots_.of(session);
+  return execute_checked(check(request, robot.description(), limits_),
                          [&](const Subscription& subscription) -> std::optional<Refusal> {
-                           objects_.streams.subscribe(session, subscription);
+                           robot.streams().subscribe(session, subscription);
                            return std::nullopt;
                          });
 }
 
-void RequestHandler::ping(const naoremote::Ping& request, naoremote::Pong& pong, double now) const {
+void RequestHandler::ping(const ClientSession& session, const naoremote::Ping& request,
+                          naoremote::Pong& pong, double now) {
   pong.set_client_utime(request.client_utime());
   // With the round-trip time a client computes the age of states without a common clock.
-  pong.set_robot_utime(static_cast<uint64_t>(objects_.streams.calc_robot_utime(now)));
-  pong.set_num_clients(static_cast<uint32_t>(objects_.sessions.num_connected()));
-}
-
-std::optional<Refusal> RequestHandler::operate(ClientSession& session,
-                                               const naoremote::Operate& request,
-                                               Response& response, double now) {
-  if (!session.endpoint.is_local) {
-    return Refusal{naoremote::NOT_ALLOWED, gateway_reason("operator-only")};
-  }
-  switch (request.operation()) {
-    case naoremote::Operate::LIST:
-      list_clients(*response.mutable_clients());
-      return std::nullopt;
-    case naoremote::Operate::TAKE:
-      objects_.driving.take_control_as_operator(session, now);
-      return std::nullopt;
-    case naoremote::Operate::RELEASE:
-      objects_.driving.release_control_as_operator(session);
-      return std::nullopt;
-    case naoremote::Operate::KICK: {
-      ClientSession* other = objects_.sessions.find(request.client_id());
-      if (other == nullptr || !other->is_connected) {
-        return Refusal{naoremote::INVALID_ARGUMENT,
-                       gateway_reason("client-unknown", {std::to_string(request.client_id())})};
-      }
-      objects_.sessions.audit("operator", *other, "closes the connection of this client");
-      objects_.sessions.close(*other, gateway_reason("closed-by-operator"), now);
-      return std::nullopt;
-    }
-    default:
-      return Refusal{naoremote::INVALID_ARGUMENT, gateway_reason("operation-unknown")};
-  }
-}
-
-void RequestHandler::list_clients(naoremote::Clients& clients) const {
-  for (const auto& [id, session] : objects_.sessions.all()) {
-    if (!session->is_connected) continue;
-    naoremote::Clients::Client& client = *clients.add_clients();
-    client.set_client_id(id);
-    client.set_name(session->name);
-    client.set_address(session->endpoint.address);
-    client.set_transport(session->endpoint.transport);
-    client.set_is_driver(objects_.driving.driver() == id);
-    client.set_num_sent(session->num_sent);
-    client.set_num_skipped(session->outbox.num_skipped());
-  }
+  const Streams& streams = robots_.of(session).streams();
+  pong.set_robot_utime(static_cast<uint64_t>(streams.calc_robot_utime(now)));
+  pong.set_num_clients(static_cast<uint32_t>(sessions_.num_connected()));
 }
 
 }  // namespace nao::gateway

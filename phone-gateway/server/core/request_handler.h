@@ -5,60 +5,65 @@
 #include <string>
 
 #include "phone-gateway/server/core/admission.h"
-#include "phone-gateway/server/core/component_monitor.h"
-#include "phone-gateway/server/core/driving.h"
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/gateway_reasons.h"
+#include "phone-gateway/server/core/operator_console.h"
+#include "phone-gateway/server/core/robots.h"
 #include "phone-gateway/server/core/sessions.h"
-#include "phone-gateway/server/core/streams.h"
 
 namespace nao::gateway {
 
 /** Answers the requests of the clients: one function for each use case of remote.proto. */
 class RequestHandler {
  public:
-  /** The objects that requests act on. They must outlive the handler. */
-  struct Objects {
-    Sessions& sessions;
-    const ComponentMonitor& components;
-    Driving& driving;
-    Streams& streams;
-  };
-
-  RequestHandler(const GatewayLimits& limits, naoremote::RobotDescription robot,
-                 std::string server_version, const std::string& token, const Objects& objects)
+  /** `sessions` and `robots` must outlive this. */
+  RequestHandler(const GatewayLimits& limits, std::string server_version, const std::string& token,
+                 Sessions& sessions, Robots& robots)
       : limits_(limits),
-        robot_(std::move(robot)),
         server_version_(std::move(server_version)),
-        objects_(objects),
+        sessions_(sessions),
+        robots_(robots),
+        console_(sessions, robots),
         admission_(limits, token) {}
 
-  /** Executes a request. @param response  Gets the answer; its request_id is set already. */
-  void handle(ClientSession& session, const naoremote::Request& request,
+  /** Executes a request. @param response  Gets the answer; its request_id is set already.
+   * @return Whether it is answered now; otherwise MotionLibrary answers later. */
+  bool handle(ClientSession& session, const naoremote::Request& request,
               naoremote::Response& response, double now);
 
  private:
-  /** As handle(), but returns the refusal instead of writing it into the response. */
+  /** As handle(), but returns the refusal instead of writing it into the response, and sets
+   * is_answered_later_. */
   std::optional<Refusal> execute(ClientSession& session, const naoremote::Request& request,
                                  naoremote::Response& response, double now);
+  /** Requests about taught motions. */
+  std::optional<Refusal> execute_motion_request(ClientSession& session,
+                                                const naoremote::Request& request,
+                                                naoremote::Response& response, double now);
+  std::optional<Refusal> pass_on(ClientSession& session, uint32_t request_id,
+                                 MotionFileCommand command, double now);
+  std::optional<Refusal> drag(ClientSession& session, const naoremote::Drag& request, double now);
   std::optional<Refusal> connect(ClientSession& session, const naoremote::Connect& request,
                                  naoremote::Response& response, double now);
   std::optional<Refusal> get_state(ClientSession& session, const naoremote::GetState& request,
                                    naoremote::Response& response, double now);
   std::optional<Refusal> subscribe(ClientSession& session, const naoremote::Subscribe& request);
-  std::optional<Refusal> operate(ClientSession& session, const naoremote::Operate& request,
-                                 naoremote::Response& response, double now);
-  void list_clients(naoremote::Clients& clients) const;
-  void ping(const naoremote::Ping& request, naoremote::Pong& pong, double now) const;
+  /** Requests about control and about the robot that is watched. */
+  std::optional<Refusal> execute_control_request(ClientSession& session,
+                                                 const naoremote::Request& request,
+                                                 naoremote::Response& response, double now);
+  std::optional<Refusal> take_control(ClientSession& session, const std::string& robot,
+                                      naoremote::Response& response, double now);
+  void ping(const ClientSession& session, const naoremote::Ping& request, naoremote::Pong& pong,
+            double now);
 
   GatewayLimits limits_;
-  naoremote::RobotDescription robot_;
   std::string server_version_;
-  Objects objects_;
+  Sessions& sessions_;
+  Robots& robots_;
+  OperatorConsole console_;
   Admission admission_;
+  bool is_answered_later_ = false;
 };
-
-/** Notice that a component has become available or unavailable. */
-naoremote::ServerMessage make_component_notice(const ComponentMonitor::Change& change);
 
 }  // namespace nao::gateway

@@ -12,6 +12,7 @@ static_assert(kNumModes == naoremote::Mode_ARRAYSIZE);
 
 }  // namespace
 
+// The robot's clock now, from its last state and the time since.
 int64_t RobotMirror::calc_robot_utime(double now) const {
   if (!has_state_) return 0;
   return robot_.utime + std::llround((now - received_at_) * 1e6);
@@ -28,11 +29,14 @@ void RobotMirror::write(naoremote::State& state, bool is_available, double now) 
     state.add_torso_orientation(static_cast<float>(w));
   }
   for (const double x : robot_.torso_position) state.add_torso_position(static_cast<float>(x));
+  state.mutable_light_rgb()->Assign(light_rgb_.begin(), light_rgb_.end());
+  // The last pose stays visible; what the robot does is not known.
   if (!is_available) {
     state.set_mode(naoremote::MODE_NO_ROBOT);
     state.set_progress(-1);
     return;
   }
+  if (body_) *state.mutable_body() = *body_;
   state.set_mode(static_cast<naoremote::Mode>(motion_.mode));
   state.set_posture(motion_.posture);
   if (motion_.activity) *state.mutable_activity() = *motion_.activity;

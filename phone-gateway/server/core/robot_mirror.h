@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "messages/command.h"
@@ -45,6 +46,10 @@ class RobotMirror {
     has_state_ = true;
   }
   void set(const MotionSnapshot& motion) { motion_ = motion; }
+  /** @param light_rgb  0xRRGGBB, in the order of RobotDescription.lights. */
+  void set_lights(std::vector<uint32_t> light_rgb) { light_rgb_ = std::move(light_rgb); }
+  /** None: nothing is known of the robot's body. */
+  void set_body(std::optional<naoremote::Body> body) { body_ = std::move(body); }
 
   /** False until the first state of the robot has been received. */
   bool has_state() const { return has_state_; }
@@ -60,6 +65,8 @@ class RobotMirror {
  private:
   RobotSnapshot robot_;
   MotionSnapshot motion_;
+  std::vector<uint32_t> light_rgb_;
+  std::optional<naoremote::Body> body_;
   double received_at_ = 0;
   bool has_state_ = false;
 };

@@ -10,6 +10,8 @@
 
 namespace nao::gateway {
 
+// Takes the same time wherever the first difference is: otherwise the time of the answer would
+// reveal the token byte by byte.
 bool equals_secret(const std::string& received, const std::string& secret) {
   unsigned difference = received.size() == secret.size() ? 0 : 1;
   for (size_t i = 0; i < received.size(); ++i) {
@@ -28,6 +30,7 @@ std::string make_token() {
     throw Error(std::string("cannot make a token: getrandom: ") + std::strerror(errno));
   }
   std::string token;
+  // 256 is a multiple of 32: all characters are equally likely. 16 characters are 80 bits.
   for (const unsigned char byte : random) token.push_back(kAlphabet[byte % 32]);
   return token;
 }

@@ -46,6 +46,7 @@ void Sessions::refuse(ClientSession& session, const naoremote::Connect& request,
   close(session, reason, now);
 }
 
+// The connection is closed by the network once its last message is sent.
 void Sessions::close(ClientSession& session, const Reason& reason, double now) {
   if (session.is_closing) return;
   naoremote::ServerMessage message;
@@ -67,6 +68,7 @@ void Sessions::remove(uint32_t id, const std::string& why, double now) {
   sessions_.erase(id);
 }
 
+// Once for each client, whether it closes, is closed or is lost: control is released here.
 void Sessions::disconnect(ClientSession& session, const std::string& why, double now) {
   if (!session.is_connected) return;
   session.is_connected = false;
@@ -126,6 +128,7 @@ std::string Sessions::make_unique_name(const std::string& requested, uint32_t id
   std::string base = clean_client_name(requested);
   if (base.empty()) base = "phone " + std::to_string(id);
   const auto is_taken = [this](const std::string& name) {
+    // The operator's name would otherwise let a phone look like the operator.
     return name == kOperatorName ||
            std::any_of(sessions_.begin(), sessions_.end(), [&](const auto& item) {
              return item.second->is_connected && item.second->name == name;

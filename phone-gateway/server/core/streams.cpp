@@ -27,11 +27,11 @@ constexpr double kGoldenRatioFraction = 0.6180339887;
 
 void Streams::set_robot(const RobotSnapshot& robot, double now) {
   mirror_.set(robot, now);
+  // The encoding is shared by all clients, and made anew for a new state.
   state_encoding_.reset();
-  for (const auto& [id, session] : sessions_.all()) {
-    if (!session->is_connected || !session->streams.state_throttle.allow(now)) continue;
-    session->request_state();
-  }
+  sessions_.for_each([now](ClientSession& session) {
+    if (session.streams.state_throttle.allow(now)) session.request_state();
+  });
 }
 
 void Streams::set_motion(const MotionSnapshot& motion) {
@@ -39,14 +39,46 @@ void Streams::set_motion(const MotionSnapshot& motion) {
   state_encoding_.reset();
 }
 
+void Streams::set_body(std::optional<naoremote::Body> body) {
+  mirror_.set_body(std::move(body));
+}
+
+void Streams::set_lights(std::vector<uint32_t> light_rgb) {
+  mirror_.set_lights(std::move(light_rgb));
+  state_encoding_.reset();
+}
+
+void Streams::add_audio(const SpeechPiece& piece) {
+  if (piece.source != speech_source_ || piece.command_id != speech_command_id_) {
+    speech_source_ = piece.source;
+    speech_command_id_ = piece.command_id;
+    ++speech_number_;
+  }
+  naoremote::ServerMessage message;
+  naoremote::Audio& audio = *message.mutable_audio();
+  audio.set_speech(speech_number_);
+  audio.set_sample_rate(piece.sample_rate);
+  audio.set_first_sample(piece.first_sample);
+  audio.set_is_last(piece.is_last);
+  audio.set_samples(piece.samples);
+  const MessageBytes bytes = encode(message);
+  sessions_.for_each([&](ClientSession& session) {
+    if (!session.streams.subscription.has_audio) return;
+    // The speech was stopped: what waits is not to be played.
+    if (piece.samples.empty()) session.outbox.clear_audio();
+    session.send_audio(bytes);
+  });
+}
+
 void Streams::add_image(CachedImage image, double now) {
   const ImageSelection received{image.camera, image.width, 0};
   images_.put(std::move(image), now);
-  for (const auto& [id, session] : sessions_.all()) {
-    ClientStreams& streams = session->streams;
-    if (!session->is_connected || !streams.subscription.image.is_same_stream(received)) continue;
-    if (streams.image_throttle.allow(now)) session->request_image();
-  }
+  sessions_.for_each([&](ClientSession& session) {
+    ClientStreams& streams = session.streams;
+    // Clients of other cameras or sizes wait for theirs.
+    if (!streams.subscription.image.is_same_stream(received)) return;
+    if (streams.image_throttle.allow(now)) session.request_image();
+  });
 }
 
 void Streams::subscribe(ClientSession& session, const Subscription& subscription) const {
@@ -59,6 +91,21 @@ void Streams::subscribe(ClientSession& session, const Subscription& subscription
   streams.image_throttle = StreamThrottle(subscription.image_rate);
 }
 
+// What the client subscribed to goes on with this robot.
+void Streams::adopt(ClientSession& session, const naoremote::RobotDescription& robot) const {
+  ClientStreams& streams = session.streams;
+  streams.last_image = 0;
+  streams.last_poll = -1e9;
+  session.outbox.clear_audio();
+  Subscription subscription = streams.subscription;
+  const auto& cameras = robot.cameras();
+  const bool has_camera =
+      std::find(cameras.begin(), cameras.end(), subscription.image.camera) != cameras.end();
+  if (!has_camera) subscription.image.camera = cameras.empty() ? "" : cameras[0];
+  subscribe(session, subscription);
+}
+
+// Polling: the answer to GetState, with an image that this client has not had yet.
 bool Streams::get(ClientSession& session, const ImageSelection* selection, double now,
                   naoremote::StateAndImage& result) {
   ClientStreams& streams = session.streams;
@@ -113,6 +160,8 @@ void Streams::write_image(const CachedImage& cached, naoremote::Image& image, do
   image.set_jpeg(cached.jpeg);
 }
 
+// What the head camera is asked for: one request for each camera and width, with the highest rate
+// and quality that a client wants.
 std::vector<CameraRequest> Streams::camera_requests(double now) const {
   std::vector<CameraRequest> requests;
   const auto add = [&requests](const ImageSelection& image, double rate) {
@@ -124,25 +173,24 @@ std::vector<CameraRequest> Streams::camera_requests(double now) const {
     }
     requests.push_back({image, rate});
   };
-  for (const auto& [id, session] : sessions_.all()) {
-    if (!session->is_connected) continue;
-    const ClientStreams& streams = session->streams;
+  sessions_.for_each([&](const ClientSession& session) {
+    const ClientStreams& streams = session.streams;
     if (streams.subscription.image_rate > 0) {
       add(streams.subscription.image, streams.subscription.image_rate);
     }
     if (now - streams.last_poll < limits_.poll_timeout) add(streams.polled_image, kPolledImageRate);
-  }
+  });
   return requests;
 }
 
+// While no states come, clients still get the last one now and then, with its age.
 void Streams::step(double now) {
   images_.drop_before(now - kImageLifetime);
   if (components_.is_available(Component::kRobot) || now < next_stale_state_) return;
   next_stale_state_ = now + kStaleStatePeriod;
-  for (const auto& [id, session] : sessions_.all()) {
-    if (!session->is_connected || session->streams.subscription.state_rate <= 0) continue;
-    session->request_state();
-  }
+  sessions_.for_each([](ClientSession& session) {
+    if (session.streams.subscription.state_rate > 0) session.request_state();
+  });
 }
 
 }  // namespace nao::gateway

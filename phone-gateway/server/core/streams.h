@@ -1,12 +1,15 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "phone-gateway/server/core/component_monitor.h"
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/image_cache.h"
 #include "phone-gateway/server/core/robot_mirror.h"
-#include "phone-gateway/server/core/sessions.h"
+#include "phone-gateway/server/core/robot_sessions.h"
 
 namespace nao::gateway {
 
@@ -22,21 +25,42 @@ struct CameraRequest {
   }
 };
 
+/** A piece of what the robot says; speech_audio_t documents every field. */
+struct SpeechPiece {
+  std::string source;
+  int64_t command_id = 0;
+  uint32_t sample_rate = 0;
+  uint64_t first_sample = 0;
+  bool is_last = false;
+  /** Signed 16-bit, low byte first. */
+  std::string samples;
+};
+
 /** Distributes the robot's states and the camera's images to the clients, each at the rate that the
  * client subscribed to. Messages are encoded once and shared. */
 class Streams {
  public:
   /** The other objects must outlive this. */
-  Streams(const GatewayLimits& limits, const Sessions& sessions, const ComponentMonitor& components)
+  Streams(const GatewayLimits& limits, const RobotSessions& sessions,
+          const ComponentMonitor& components)
       : limits_(limits), sessions_(sessions), components_(components) {}
 
   void set_robot(const RobotSnapshot& robot, double now);
   void set_motion(const MotionSnapshot& motion);
+  /** @param light_rgb  0xRRGGBB, in the order of RobotDescription.lights. */
+  void set_lights(std::vector<uint32_t> light_rgb);
+  /** None: nothing is known of the robot's body. */
+  void set_body(std::optional<naoremote::Body> body);
   void add_image(CachedImage image, double now);
+  void add_audio(const SpeechPiece& piece);
   /** A component has become available or unavailable. */
   void handle_component_change() { state_encoding_.reset(); }
 
   void subscribe(ClientSession& session, const Subscription& subscription) const;
+
+  /** A client that watched another robot watches this one: its subscription goes on, with the first
+   * camera if this robot has none of that name. */
+  void adopt(ClientSession& session, const naoremote::RobotDescription& robot) const;
 
   /** Answers a GetState.
    * @param selection  The images that the client polls; nullptr: none.
@@ -62,11 +86,15 @@ class Streams {
   void write_image(const CachedImage& cached, naoremote::Image& image, double now) const;
 
   GatewayLimits limits_;
-  const Sessions& sessions_;
+  const RobotSessions& sessions_;
   const ComponentMonitor& components_;
   RobotMirror mirror_;
   SharedEncoding state_encoding_;
   ImageCache images_;
+  /** Command that is being spoken, and the number that clients get of it. */
+  std::string speech_source_;
+  int64_t speech_command_id_ = 0;
+  uint32_t speech_number_ = 0;
   double next_stale_state_ = 0;
 };
 

@@ -11,6 +11,7 @@ constexpr int kNumZeros = 3;
 
 }  // namespace
 
+// All velocities of one walk have one command number, see walk_command_t.
 void WalkStream::begin(std::string source, int64_t command_id) {
   source_ = std::move(source);
   command_id_ = command_id;
@@ -32,12 +33,14 @@ void WalkStream::end(double now) {
   next_repeat_ = now;
 }
 
+// Without zeros: what comes next has replaced the walk already.
 void WalkStream::abandon() {
   is_walking_ = false;
   num_zeros_left_ = 0;
 }
 
 std::optional<Command> WalkStream::step(double now) {
+  // The driver is silent: the walk ends as if it had sent zero.
   if (is_walking_ && now - last_update_ >= limits_.walk_timeout) end(now);
   if (now < next_repeat_) return std::nullopt;
   if (is_walking_) {

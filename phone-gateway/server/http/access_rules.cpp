@@ -46,6 +46,8 @@ std::string host_without_port(std::string_view header) {
 
 }  // namespace
 
+// Against DNS rebinding: a page of another site may make a browser send requests here under that
+// site's name. Addresses are no names, and cannot be rebound.
 bool AccessRules::is_known_host(std::string_view host_header) const {
   const std::string host = lower_case(host_without_port(host_header));
   if (host.empty()) return false;
@@ -54,6 +56,8 @@ bool AccessRules::is_known_host(std::string_view host_header) const {
                      [&](const std::string& name) { return host == lower_case(name); });
 }
 
+// Against pages of other sites that open a WebSocket: browsers always send the Origin (RFC 6455,
+// 10.2). Clients that are no browsers send none.
 bool AccessRules::is_known_origin(std::string_view origin, std::string_view host_header,
                                   bool is_secure) const {
   if (origin.empty()) return true;

@@ -15,6 +15,7 @@ std::string gzip(std::string_view bytes) {
                    Z_DEFAULT_STRATEGY) != Z_OK) {
     throw Error("cannot compress: deflateInit2 failed");
   }
+  // Upper bound of the compressed size: one call of deflate() suffices.
   std::string compressed(deflateBound(&stream, bytes.size()), '\0');
   // zlib does not change its input, but declares it without const.
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));

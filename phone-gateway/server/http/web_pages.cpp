@@ -55,6 +55,7 @@ const FileType* find_type(const fs::path& file) {
   return found == kFileTypes.end() ? nullptr : &*found;
 }
 
+// -1 for what is no hexadecimal digit.
 int hex_value(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -62,6 +63,7 @@ int hex_value(char c) {
   return -1;
 }
 
+// RFC 3986, 2.1. nullopt if a '%' is not followed by two digits.
 std::optional<std::string> decode_percent(std::string_view text) {
   std::string decoded;
   for (size_t i = 0; i < text.size(); ++i) {
@@ -124,6 +126,7 @@ std::string mime_type(const fs::path& file) {
 }
 
 std::optional<std::string> clean_path(std::string_view target) {
+  // Query and fragment name no file.
   auto path = decode_percent(target.substr(0, target.find_first_of("?#")));
   if (!path || path->empty() || path->front() != '/') return std::nullopt;
   for (const char c : *path) {
@@ -137,6 +140,7 @@ std::optional<std::string> clean_path(std::string_view target) {
 }
 
 PageResponse WebPages::respond(const PageRequest& request) {
+  // RFC 9110, 15.5.6: a 405 response lists the allowed methods.
   if (request.method != "GET" && request.method != "HEAD") {
     PageResponse response = plain_response(405, "Only GET and HEAD are supported.");
     response.headers.emplace_back("Allow", "GET, HEAD");
@@ -163,6 +167,7 @@ PageResponse WebPages::respond(const PageRequest& request) {
       {"Cache-Control",
        is_named_after_content(*path) ? "public, max-age=31536000, immutable" : "no-cache"},
       {"Vary", "Accept-Encoding"}};
+  // RFC 9110, 13.1.2: the browser has this version already.
   if (request.if_none_match.find(file->tag) != std::string::npos) {
     response.status = 304;
     response.body = std::make_shared<const std::string>();
@@ -178,11 +183,13 @@ PageResponse WebPages::respond(const PageRequest& request) {
 }
 
 std::optional<fs::path> WebPages::find_file(const std::string& path) const {
+  // Robots and scenes are read by the app as well; they are beside it in the data folder.
   const bool is_data = path.rfind("/robots/", 0) == 0 || path.rfind("/scenes/", 0) == 0;
   const fs::path folder = is_data ? data_ : data_ / "web";
   fs::path file = folder / fs::path(path).relative_path();
   std::error_code error;
   if (path.back() == '/') file /= "index.html";
+  // canonical() also fails for files that do not exist.
   const fs::path real_file = fs::canonical(file, error);
   if (error || !fs::is_regular_file(real_file, error)) return std::nullopt;
   return real_file;
@@ -194,6 +201,7 @@ const WebPages::File* WebPages::read(const fs::path& path) {
   const uintmax_t size = error ? 0 : fs::file_size(path, error);
   if (error || size > kMaxFileBytes) return nullptr;
   File& file = files_[path.string()];
+  // Unchanged on disk: served from memory.
   if (file.bytes && file.changed == changed && file.size == size) return &file;
 
   std::ifstream stream(path, std::ios::binary);
@@ -206,6 +214,7 @@ const WebPages::File* WebPages::read(const fs::path& path) {
   file.zipped = nullptr;
   const FileType* type = find_type(path);
   if (type != nullptr && type->is_compressible) {
+    // Compressed once, and kept only where that makes the file smaller.
     std::string zipped = gzip(bytes);
     if (zipped.size() < bytes.size()) {
       file.zipped = std::make_shared<const std::string>(std::move(zipped));

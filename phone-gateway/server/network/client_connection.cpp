@@ -21,10 +21,13 @@ constexpr std::chrono::seconds kWriteTimeout{30};
 ClientConnection::ClientConnection(ConnectionContext& context)
     : context_(context), pause_(context.io), deadline_timer_(context.io) {}
 
+// The end of the connection's last operation.
 ClientConnection::~ClientConnection() {
   if (!context_.is_shutting_down) finish("connection lost");
 }
 
+// Registers the connection with the core. Until its Connect is accepted it counts as a handshake,
+// of which an address has a limited number.
 void ClientConnection::open(const Endpoint& endpoint) {
   const std::weak_ptr<ClientConnection> weak = weak_from_this();
   is_in_handshake_ = true;
@@ -67,9 +70,9 @@ void ClientConnection::reject(const Reason& reason) {
 }
 
 void ClientConnection::flush_in_turn() {
-  // Images wait in a queue for their turn (FairQueue): a client with large ones must not delay the
-  // states of others.
-  if (is_writing_ || !context_.core.is_image_next(id_)) {
+  // Images and audio wait in a queue for their turn (FairQueue): a client with large ones must not
+  // delay the states of others.
+  if (is_writing_ || !context_.core.is_long_next(id_)) {
     flush();
   } else if (!std::exchange(is_image_queued_, true)) {
     context_.image_queue.add([weak = weak_from_this()] {
@@ -82,6 +85,7 @@ void ClientConnection::flush_in_turn() {
 }
 
 void ClientConnection::flush() {
+  // One message is sent at a time; the next is made when this one has left.
   if (is_writing_ || is_finished_) return;
   const auto message = context_.core.next_message(id_, monotonic_seconds());
   if (message) {
@@ -89,6 +93,7 @@ void ClientConnection::flush() {
     set_deadline(is_closing() ? kClosingTimeout : kWriteTimeout);
     write(message);
   } else if (is_closing() && !std::exchange(is_shut_down_, true)) {
+    // All messages are sent, the last of them CLOSING.
     set_deadline(kClosingTimeout);
     shut_down();
   }
@@ -127,6 +132,7 @@ void ClientConnection::wait_for_deadline() {
   });
 }
 
+// At once, without a last message: the other end does not read or has gone.
 void ClientConnection::abort(const std::string& why) {
   finish(why);
   pause_.cancel();

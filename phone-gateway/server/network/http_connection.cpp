@@ -55,6 +55,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   HttpConnection(ConnectionContext& context, WebStream stream, beast::flat_buffer buffer)
       : context_(context), stream_(std::move(stream)), buffer_(std::move(buffer)) {}
 
+  // The first request, or TLS handshake, must come within kRequestTimeout: connections that send
+  // nothing are not kept.
   void start() {
     endpoint_ = make_endpoint(stream_.next_layer().socket(), "websocket");
     const auto weak = weak_from_this();
@@ -96,6 +98,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
   void on_bad_request(const error_code& error) {
+    // A browser that keeps a connection open without further requests is no fault.
     if (error == beast::error::timeout && !has_requested_) note_refusal(kNoRequest);
     const bool is_http_error =
         error.category() == http::make_error_code(http::error::bad_method).category();
@@ -113,6 +116,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     has_requested_ = true;
     ++context_.counters.num_http_requests;
     const WebRequest& request = parser_->get();
+    // RFC 9112, 9.3: the client may ask to close the connection after the response.
     keeps_alive_ = request.keep_alive();
     is_head_ = request.method() == http::verb::head;
     const std::string_view host = view(request[http::field::host]);
@@ -145,6 +149,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     WebRequest request = parser_->release();
     if (!beast::websocket::is_upgrade(request)) {
       PageResponse response = refusal(426, "This path is for WebSockets only.");
+      // RFC 9110, 15.5.22: a 426 response names the protocol.
       response.headers.emplace_back("Upgrade", "websocket");
       send(std::move(response));
       return;

@@ -34,6 +34,7 @@ Tcp::acceptor listen(asio::io_context& io, const std::string& address, uint16_t 
   const Tcp::endpoint endpoint(ip, port);
   Tcp::acceptor acceptor(io);
   acceptor.open(endpoint.protocol());
+  // A gateway that starts again must not wait for the old connections' TIME_WAIT.
   acceptor.set_option(Tcp::acceptor::reuse_address(true));
   acceptor.bind(endpoint, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
@@ -48,6 +49,7 @@ Tcp::acceptor listen(asio::io_context& io, const std::string& address, uint16_t 
 std::unique_ptr<asio::ssl::context> load_tls(const NetworkOptions& options) {
   if (options.certificate_file.empty()) return nullptr;
   auto tls = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_server);
+  // TLS 1.2 at least (RFC 8996 deprecates 1.0 and 1.1).
   tls->set_options(asio::ssl::context::default_workarounds | asio::ssl::context::no_sslv2 |
                    asio::ssl::context::no_sslv3 | asio::ssl::context::no_tlsv1 |
                    asio::ssl::context::no_tlsv1_1);
@@ -83,6 +85,7 @@ Endpoint make_endpoint(const Tcp::socket& socket, const std::string& transport) 
   Endpoint endpoint;
   endpoint.transport = transport;
   endpoint.address = remote_error ? "unknown" : remote.to_string();
+  // A connection from one of the host's own addresses to the same address is local, too.
   endpoint.is_local = !remote_error && !local_error && (remote.is_loopback() || remote == local);
   return endpoint;
 }
@@ -94,6 +97,7 @@ void note_eviction(ConnectionContext& context, const std::string& address) {
 
 void prepare_socket(Tcp::socket& socket) {
   error_code ignored;
+  // Commands and states are small and must not wait (Nagle's algorithm).
   socket.set_option(Tcp::no_delay(true), ignored);
   setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kMaxUnsentBytes,
              sizeof kMaxUnsentBytes);
@@ -103,6 +107,7 @@ double measure_round_trip_time(Tcp::socket& socket) {
   tcp_info info{};
   socklen_t size = sizeof info;
   if (getsockopt(socket.native_handle(), IPPROTO_TCP, TCP_INFO, &info, &size) != 0) return 0;
+  // Microseconds, the kernel's smoothed estimate.
   return info.tcpi_rtt * 1e-6;
 }
 
@@ -136,6 +141,7 @@ struct Network::Impl {
   };
   void accept(Listener& listener) {
     listener.acceptor.async_accept([this, &listener](const error_code& error, Tcp::socket socket) {
+      // The acceptor was closed: the gateway ends.
       if (error == asio::error::operation_aborted) return;
       if (error) {
         listener.pause.expires_after(kAcceptPause);
@@ -175,6 +181,8 @@ struct Network::Impl {
     std::function<void()> handler;
   };
   void wait(Timer& timer) {
+    // From the planned time, so that the period is kept; never in the past, so that a delay is not
+    // followed by a burst.
     const auto next = timer.timer.expiry() + timer.period;
     timer.timer.expires_at(std::max(next, asio::steady_timer::clock_type::now()));
     timer.timer.async_wait([this, &timer](const error_code& error) {
@@ -256,6 +264,7 @@ void Network::stop(const std::string& reason) {
   impl_->stop(reason);
 }
 
+// Connections are closed by the core; this gives them time to send their last messages.
 void Network::drain(double time) {
   impl_->http.acceptor.close();
   impl_->tcp.acceptor.close();

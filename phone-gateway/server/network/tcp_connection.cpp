@@ -42,6 +42,8 @@ class TcpConnection : public ClientConnection {
   }
 
   void resume_reading() override {
+    // A received block may hold several messages. receive() says no when the client is to be
+    // paused; it calls this function again then.
     while (!is_closing()) {
       const std::optional<std::string> message = reader_.next();
       if (!message) break;
@@ -57,6 +59,7 @@ class TcpConnection : public ClientConnection {
   void write(MessageBytes message) override {
     outgoing_ = std::move(message);
     length_ = frame_length(outgoing_->size());
+    // Length and message in one call, without copying both into one buffer.
     asio::async_write(
         socket_, std::array<asio::const_buffer, 2>{asio::buffer(length_), asio::buffer(*outgoing_)},
         [self = self()](const error_code& error, size_t) { self->on_written(error.failed()); });

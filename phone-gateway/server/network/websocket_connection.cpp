@@ -29,7 +29,9 @@ class WebSocketConnection : public ClientConnection {
     socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
       response.set(http::field::server, std::string("nao-phone-gateway/") + version());
     }));
+    // Larger messages end the connection with close code 1009 (RFC 6455, 7.4.1).
     socket_.read_message_max(kMaxRequestBytes);
+    // One message is one frame; the protocol's messages are small.
     socket_.auto_fragment(false);
     socket_.binary(true);
     request_ = std::move(request);
@@ -67,6 +69,7 @@ class WebSocketConnection : public ClientConnection {
   }
 
   void on_message() {
+    // RFC 6455, 7.4.1: code 1003 for a type of data that is not accepted.
     if (!socket_.got_binary()) {
       close_code_ = websocket::close_code::unknown_data;
       reject(gateway_reason("text-message"));
@@ -89,6 +92,7 @@ class WebSocketConnection : public ClientConnection {
   }
 
   void shut_down() override {
+    // The closing handshake; its end, or its timeout, ends the connection.
     socket_.async_close(websocket::close_reason(close_code_), [self = self()](const error_code&) {
       self->abort("closed by the gateway");
     });

@@ -152,15 +152,4 @@ std::string certificate_fingerprint(const std::filesystem::path& path) {
   return text;
 }
 
-std::filesystem::path state_folder() {
-  if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state != '\0') {
-    return std::filesystem::path(state) / "nao-remote";
-  }
-  const char* home = std::getenv("HOME");
-  if (home == nullptr || *home == '\0') {
-    throw Error("neither HOME nor XDG_STATE_HOME is set: use --tls-dir");
-  }
-  return std::filesystem::path(home) / ".local" / "state" / "nao-remote";
-}
-
 }  // namespace nao::gateway

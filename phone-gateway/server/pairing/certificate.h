@@ -32,8 +32,4 @@ CertificateFiles own_certificate(const std::filesystem::path& folder,
  * @throws Error  if the file is no certificate. */
 std::string certificate_fingerprint(const std::filesystem::path& certificate);
 
-/** Folder of files that programs keep between runs: XDG_STATE_HOME/nao-remote, usually
- * ~/.local/state/nao-remote. @throws Error  if neither XDG_STATE_HOME nor HOME is set. */
-std::filesystem::path state_folder();
-
 }  // namespace nao::gateway

@@ -31,6 +31,7 @@ std::vector<InterfaceAddress> interface_addresses() {
   ifaddrs* interfaces = nullptr;
   if (getifaddrs(&interfaces) != 0) return all;
   for (const ifaddrs* it = interfaces; it != nullptr; it = it->ifa_next) {
+    // IPv4 only: addresses that people can type.
     if (it->ifa_addr == nullptr || it->ifa_addr->sa_family != AF_INET) continue;
     if ((it->ifa_flags & IFF_LOOPBACK) != 0 || (it->ifa_flags & IFF_UP) == 0) continue;
     std::array<char, INET_ADDRSTRLEN> text{};
@@ -49,6 +50,7 @@ std::string own_host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
+// `table` has the form of /proc/net/route; the default route with the smallest metric wins.
 std::string default_interface(std::istream& table) {
   std::string best;
   unsigned long best_metric = std::numeric_limits<unsigned long>::max();
@@ -73,10 +75,12 @@ std::vector<std::string> reachable_addresses(const std::vector<InterfaceAddress>
                                              const std::string& first) {
   std::vector<InterfaceAddress> kept;
   for (const InterfaceAddress& address : all) {
+    // 169.254/16 is link-local (RFC 3927): no phone on the network reaches it.
     if (!is_within_host(address.interface) && !begins_with(address.address, "169.254.")) {
       kept.push_back(address);
     }
   }
+  // The default interface first: its address is the one in the QR code.
   std::stable_partition(kept.begin(), kept.end(), [&](const InterfaceAddress& address) {
     return address.interface == first;
   });

@@ -14,6 +14,7 @@ std::vector<std::string> phone_urls(const PhoneAddress& at,
   for (const std::string& address : addresses) {
     // RFC 3986, 3.2.2: an IPv6 address stands in brackets.
     const bool is_v6 = address.find(':') != std::string::npos;
+    // The token stands in the fragment, which browsers do not send: it is in no server's log.
     urls.push_back(scheme + (is_v6 ? "[" + address + "]" : address) + ":" +
                    std::to_string(at.port) + "/#token=" + at.token);
   }

@@ -45,6 +45,7 @@ std::string deflate_all(const std::string& bytes) {
 }  // namespace
 
 QrCode make_qr_code(const std::string& text) {
+  // Version 0: the smallest that holds the text. Level M corrects 15 % of the codewords.
   const std::unique_ptr<QRcode, decltype(&QRcode_free)> encoded(
       QRcode_encodeString(text.c_str(), 0, QR_ECLEVEL_M, QR_MODE_8, 1), QRcode_free);
   if (!encoded) throw Error("the text is too long for a QR code: " + text);
@@ -56,6 +57,7 @@ QrCode make_qr_code(const std::string& text) {
   return code;
 }
 
+// Two rows of modules in one line of text, by half blocks.
 std::string draw_on_terminal(const QrCode& code) {
   std::string text;
   for (int row = -kTerminalBorder; row < code.width + kTerminalBorder; row += 2) {

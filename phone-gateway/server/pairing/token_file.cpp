@@ -13,6 +13,7 @@
 
 namespace nao::gateway {
 
+// Reads the token of an earlier start, or creates the file, readable by its owner only.
 std::string token_from_file(const std::filesystem::path& path) {
   // O_EXCL: of two programs that start at once, one creates the file.
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);

@@ -1,27 +1,24 @@
 /** The app: which screen is seen, and how the parts hang together. */
 import {Commander} from "./commander";
 import {Connection} from "./connection";
-import {sticksFromPad, driveFromKeys, stickFromKeys} from "./controls/keys";
+import {HeldControls} from "./controls/held_controls";
 import type {PadButton} from "./controls/keys";
-import {Gamepads, listenToKeys} from "./controls/held_keys";
 import {JointDriver} from "./controls/joint_driver";
 import {ImageView} from "./controls/image_view";
-import {driveFromSticks} from "./controls/stick";
 import type {Drive} from "./controls/stick";
 import {TiltSensor} from "./controls/tilt_sensor";
 import {WalkSender} from "./controls/walk_sender";
 import {exposeAutomation} from "./automation";
 import {el} from "./dom";
+import {Lobby} from "./lobby";
 import {Messages} from "./messages";
 import {registerOfflineShell} from "./offline";
 import {Mode} from "./protocol/generated/remote_pb";
-import type {Connected} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
-import {JointBalls} from "./robot/joint_balls";
+import {Perception} from "./play/perception";
+import {PlayStrip} from "./play/play_strip";
 import {loadFieldLines} from "./robot/load_field";
-import {loadRobot} from "./robot/load_robot";
-import {PoseMirror} from "./robot/pose_mirror";
-import type {RobotTree} from "./robot/robot_tree";
+import {RobotView} from "./robot/robot_view";
 import {kDriveView, kJointsView, Stage} from "./robot/stage";
 import {attachGestures} from "./robot/stage_gestures";
 import {ConnectionScreen} from "./screens/connection_screen";
@@ -29,12 +26,18 @@ import type {ConnectionForm} from "./screens/connection_screen";
 import {ControllerScreen, linkInWords, linkQuality} from "./screens/controller_screen";
 import {JointsPanel} from "./screens/joints_panel";
 import {LoadingScreen} from "./screens/loading_screen";
+import {messageList} from "./screens/message_list";
 import {MenuSheet} from "./screens/menu_sheet";
+import {Tour} from "./screens/tour";
 import {WalkHere} from "./screens/walk_here";
 import {pageUrl, remember, saveSettings, tokenFromUrl} from "./settings";
 import type {Settings} from "./settings";
+import {Speech} from "./speech/speech";
 import {storage} from "./storage";
 import {Store} from "./store";
+import {Teach} from "./teach/teach";
+import {bodyInWords} from "./text/body";
+import {findGateways} from "./nearby";
 import {say} from "./text/texts";
 import type {Language} from "./text/texts";
 import {WebSocketTransport} from "./transport";
@@ -49,7 +52,7 @@ const kTapPattern = 12;
 const kLimitPattern = 30;
 const kRefusalPattern = [25, 60, 25];
 
-type ScreenName = "loading" | "connection" | "controller";
+type ScreenName = "loading" | "connection" | "lobby" | "controller";
 
 export class App {
   private readonly store = new Store();
@@ -60,29 +63,36 @@ export class App {
   private readonly stage: Stage;
   private readonly image = new ImageView(() => this.subscribe(), (yaw, pitch) =>
       this.turnCamera(yaw, pitch));
-  private readonly jointDriver = new JointDriver((change) =>
-      this.commander.stream(useCases.changeJoints(change)));
+  private readonly jointDriver = new JointDriver((change) => {
+    this.teach.turned(change);
+    this.commander.stream(useCases.changeJoints(change));
+  });
   private readonly tilt = new TiltSensor();
-  private readonly gamepads = new Gamepads();
+  private readonly held: HeldControls;
+  private readonly view: RobotView;
+  private readonly teach: Teach;
+  private readonly tour: Tour;
   private readonly walkHere: WalkHere;
   private readonly menu: MenuSheet;
+  private readonly lobby: Lobby;
+  private readonly speech: Speech;
+  private readonly play: PlayStrip;
+  private readonly perception: Perception;
   private readonly connectionScreen: ConnectionScreen;
   private readonly controllerScreen: ControllerScreen;
   private token = "";
-  private robot: RobotTree | null = null;
-  private robotPath = "";
-  private mirror: PoseMirror | null = null;
-  private balls: JointBalls | null = null;
-  private isPadHeld = false;
   private isShown = false;
 
   constructor(private readonly root: HTMLElement, private settings: Settings) {
     this.connection = new Connection(
         new WebSocketTransport(new URL(location.href)), this.store, {
-          connected: (connected) => void this.connected(connected),
+          connected: () => void this.connected(),
+          robotChanged: () => {
+            this.lobby.robotChanged();
+            void this.showRobot();
+          },
           state: (state) => {
-            this.mirror?.setTarget(state);
-            this.stage.wake();
+            this.view.setTarget(state);
             this.store.set({state});
           },
           image: (image) => {
@@ -90,6 +100,9 @@ export class App {
             this.image.show(image);
           },
           notice: (notice) => this.commander.notice(notice),
+          audio: (audio) => this.speech.play(audio),
+          playState: (playState) => this.store.set({playState}),
+          vision: (vision) => this.store.set({vision}),
         });
     this.commander = new Commander(this.connection, this.store, this.messages);
     this.walk = new WalkSender((drive) => this.sendWalk(drive));
@@ -98,24 +111,35 @@ export class App {
     this.stage = new Stage(canvas);
     this.stage.onFrame = (dt) => this.frame(dt);
     this.stage.orbit.isGliding = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-    attachGestures(this.stage, (x, y) => this.tapped(x, y));
+    this.view = new RobotView(this.store, this.stage);
+    this.held = new HeldControls(this.store, this.walk, this.jointDriver, (button) => this.pressed(button));
+    this.teach = new Teach(this.store, this.commander, this.messages, this.view, storage(), () => this.stop());
+    attachGestures(this.stage, (x, y) => this.tapped(x, y), (x, y) => this.teach.grab(x, y));
     this.jointDriver.isInFront = () => this.stage.orbit.isInFront;
     this.walkHere = new WalkHere(this.stage, ({x, y, theta}) =>
         void this.commander.command(useCases.moveTo(x, y, theta)));
     this.commander.onRefusal = () => vibrate(kRefusalPattern);
+    this.speech = new Speech(this.store, this.commander, this.stage, storage(), () => this.subscribe());
     this.connectionScreen = new ConnectionScreen(this.store, {
       connect: (form) => this.connect(form),
       cancel: () => this.connection.disconnect(),
       retryNow: () => this.connection.retryNow(),
     });
-    const joints = new JointsPanel(this.store, this.jointDriver, {
-      reset: () => this.goToPosture(this.store.get().robot?.readyPosture),
+    const joints = new JointsPanel(this.store, this.jointDriver, this.teach.bar, {
+      reset: () => void this.teach.leave().then(() => this.goToPosture(this.store.get().robot?.readyPosture)),
+      relax: (group) => void this.teach.relax(group),
       select: (selectedGroup) => this.store.set({selectedGroup}),
       atLimit: () => vibrate(kLimitPattern),
     });
+    this.play = new PlayStrip(this.store, this.commander, this.messages);
+    this.perception = new Perception(this.store, this.stage, this.image, this.play, settings.hasBoxes,
+                                     (hasBoxes) => this.keep({hasBoxes}));
     this.controllerScreen = new ControllerScreen(this.store, this.commander, this.walk, this.image,
-                                                 joints, this.tilt, this.walkHere.element, {
+                                                 joints, this.tilt, this.walkHere.element, this.play,
+                                                 this.perception.map.element, {
       openMenu: () => this.openMenu(),
+      openSpeech: () => this.openSpeech(),
+      changeRobot: () => this.lobby.open(),
       setJointsMode: (isJointsMode) => this.setJointsMode(isJointsMode),
       stop: () => this.stop(),
       explainLink: () => this.explainLink(),
@@ -128,30 +152,34 @@ export class App {
         this.controllerScreen.setSwapped(isSwapped);
       },
       setLanguage: (language) => this.setLanguage(language),
+      startTour: () => this.tour.start(),
+      changeRobot: () => this.lobby.open(),
       leave: () => this.leave(),
     });
-    root.append(new LoadingScreen(this.store, () => void this.prepareRobot()).element,
-                this.connectionScreen.element, this.controllerScreen.element, this.menu.element);
+    this.tour = new Tour(root, {
+      isJointsMode: () => this.store.get().isJointsMode,
+      setJointsMode: (isOn) => this.setJointsMode(isOn),
+      ended: () => this.keep({isTourSeen: true}),
+    });
+    this.lobby = new Lobby(this.store, this.commander, this.messages, {
+      letGo: () => this.leaveControls(),
+      subscribe: () => this.subscribe(),
+      leave: () => this.leave(),
+    });
+    root.append(new LoadingScreen(this.store, () => void this.view.load()).element,
+                this.connectionScreen.element, this.lobby.screen.element, this.controllerScreen.element,
+                messageList(this.store), this.menu.element,
+                this.speech.sheet.element, this.teach.sheet.element, this.perception.choice.element,
+                this.tour.element);
     this.controllerScreen.observeFreeArea((area) => this.stage.setFreeArea(area));
   }
 
   start(): void {
-    exposeAutomation(this.store, this.stage, this.image, () => this.robot, () => this.balls);
-    listenToKeys(() => this.root.dataset["screen"] === "controller", {
-      heldChanged: (held, isSlow) => this.keysChanged(held, isSlow),
-      pressed: (button) => this.pressed(button),
-    });
-    this.store.watch((state) => state.isJointsMode, (isOn) => {
-      this.balls?.show(isOn);
-      this.stage.outdate();
-    });
+    exposeAutomation(this.store, this.stage, this.image, this.view, this.perception.objects);
+    this.held.listen(() => this.root.dataset["screen"] === "controller");
     // Another motion replaces the walk to the marked spot.
     this.store.watch((state) => state.state?.activity?.name ?? "", (activity) => {
       if (activity) this.walkHere.clear();
-    });
-    this.store.watch((state) => state.selectedGroup, (group) => {
-      this.balls?.select(group);
-      this.stage.outdate();
     });
     this.store.watch((state) => state.state?.mode ?? Mode.NO_ROBOT, (mode) => {
       if (mode === Mode.FALLING || mode === Mode.FALLEN) this.messages.show("info", say("fall.calm"));
@@ -159,14 +187,22 @@ export class App {
     void loadFieldLines(location.href).then((lines) => {
       if (!lines) return;
       this.stage.floor.setField(lines);
+      this.perception.setField(lines);
       this.stage.outdate();
     });
-    this.store.watch((state) => `${state.phase} ${state.loading.done} ${state.loading.error}`,
+    this.store.watch((state) => `${state.phase} ${state.isChoosingRobot} ${state.loading.done} ${state.loading.error}`,
                      () => this.chooseScreen());
     window.addEventListener("online", () => this.connection.retryNow());
     document.addEventListener("visibilitychange", () => this.visibilityChanged());
-    window.addEventListener("pagehide", () => this.letGo());
+    window.addEventListener("pagehide", () => this.hidden());
     this.openFromUrl();
+    this.store.watch((state) => state.phase, (phase) => {
+      if (phase === "idle" || phase === "waiting") void this.showNearby();
+    });
+  }
+
+  private async showNearby(): Promise<void> {
+    this.connectionScreen.showNearby(await findGateways(location.href));
   }
 
   /** A link with a token, or an address used before, connects at once. */
@@ -199,64 +235,47 @@ export class App {
     this.connection.disconnect();
   }
 
-  private async connected({robot}: Connected): Promise<void> {
+  private async connected(): Promise<void> {
     this.keep(remember(this.settings, location.host, this.token));
     this.connectionScreen.fill(location.host, this.token, this.settings);
-    this.image.setCameras(robot?.cameras ?? []);
+    await this.showRobot();
+  }
+
+  private async showRobot(): Promise<void> {
+    this.image.setCameras(this.store.get().robot?.cameras ?? []);
     this.subscribe();
-    if (robot && robot.urdfPath !== this.robotPath) await this.prepareRobot();
-    else this.makeMirror();
+    await this.view.showConnected();
   }
 
-  private async prepareRobot(): Promise<void> {
-    const path = this.store.get().robot?.urdfPath ?? "";
-    this.store.set({loading: {done: 0, total: 0, error: ""}});
-    try {
-      const robot = await loadRobot(new URL(path, location.href), this.stage.surface, (done, total) =>
-          this.store.set({loading: {done, total, error: ""}}));
-      this.robot = robot;
-      this.robotPath = path;
-      this.stage.setRobot(robot);
-      this.balls = new JointBalls(robot, this.stage.surface,
-                                 this.store.get().robot?.jointGroups ?? []);
-      this.balls.show(this.store.get().isJointsMode);
-      this.makeMirror();
-    } catch (error) {
-      const why = error instanceof Error ? error.message : String(error);
-      this.store.set({loading: {done: 0, total: 0, error: why}});
-    }
-  }
-
-  private makeMirror(): void {
-    const {robot, state} = this.store.get();
-    if (!robot || !this.robot) return;
-    this.mirror = new PoseMirror(this.robot, robot.joints);
-    if (state) this.mirror.setTarget(state);
+  /** Drive mode, with nothing held. */
+  private leaveControls(): void {
+    if (this.store.get().isJointsMode) this.setJointsMode(false);
+    this.letGo();
+    this.walkHere.clear();
   }
 
   private subscribe(): void {
     if (this.store.get().phase !== "connected") return;
-    const isHidden = document.visibilityState === "hidden";
+    // Nothing is seen of the robot in the list of robots either.
+    const isHidden = document.visibilityState === "hidden" || this.store.get().isChoosingRobot;
     const request = {camera: this.image.camera, width: this.image.isLarge ? 640 : 320};
     void this.connection.request(useCases.subscribe(isHidden ? 0 : kStateRateHz,
-                                                    isHidden ? 0 : kImageRateHz, request));
+                                                    isHidden ? 0 : kImageRateHz, request,
+                                                    {audio: this.speech.isPlaying, playState: true,
+                                                     vision: !isHidden}));
   }
 
   private visibilityChanged(): void {
-    if (document.visibilityState === "hidden") this.letGo();
+    if (document.visibilityState === "hidden") this.hidden();
     else this.connection.retryNow();
     this.subscribe();
   }
 
   /** @return true if the robot looks different from the last frame. */
   private frame(dt: number): boolean {
-    if (this.mirror?.hasPose && !this.isShown) this.markShown();
-    const axes = this.gamepads.poll((button) => this.pressed(button));
-    // One that was unplugged is at rest: what it held must not go on.
-    this.padMoved(axes ?? []);
-    const hasMoved = this.mirror?.step(dt) ?? false;
-    if (hasMoved) this.balls?.update();
-    return hasMoved;
+    if (this.view.hasPose && !this.isShown) this.markShown();
+    this.held.poll();
+    return this.view.step(dt);
   }
 
   /** The robot is drawn in its pose for the first time. The mark is for measurements. */
@@ -267,9 +286,12 @@ export class App {
   }
 
   private tapped(x: number, y: number): void {
-    if (!this.store.get().isJointsMode) return this.walkHere.tapped(x, y);
-    const {width, height} = this.stage.size;
-    const group = this.balls?.pick(x, y, this.stage.camera, width, height) ?? "";
+    if (!this.store.get().isJointsMode) {
+      if (this.perception.tapped(x, y)) this.walkHere.clear();
+      else this.walkHere.tapped(x, y);
+      return;
+    }
+    const group = this.view.ballAt(x, y);
     if (group) {
       vibrate(kTapPattern);
       this.store.set({selectedGroup: group});
@@ -281,6 +303,8 @@ export class App {
     this.walkHere.clear();
     this.store.set({isJointsMode, selectedGroup: ""});
     this.stage.orbit.setView(isJointsMode ? kJointsView : kDriveView);
+    if (!isJointsMode) void this.teach.leave();
+    else if (!this.tour.isRunning) this.teach.explain();
   }
 
   /** Scales fractions of the controls' range by the limits of the robot's walk. */
@@ -293,26 +317,9 @@ export class App {
 
   private stop(): void {
     this.letGo();
+    this.teach.cancel();
     vibrate(kTapPattern);
     void this.commander.stop();
-  }
-
-  private keysChanged(held: ReadonlySet<string>, isSlow: boolean): void {
-    const isJointsMode = this.store.get().isJointsMode;
-    this.jointDriver.setStick(isJointsMode ? stickFromKeys(held, isSlow) : null);
-    this.walk.set("keys", isJointsMode ? null : driveFromKeys(held, isSlow));
-  }
-
-  private padMoved(axes: readonly number[]): void {
-    const {walk, turn} = sticksFromPad(axes);
-    const drive = driveFromSticks(walk, turn);
-    const isHeld = drive.x !== 0 || drive.y !== 0 || drive.theta !== 0;
-    const isJointsMode = this.store.get().isJointsMode;
-    if (isHeld || this.isPadHeld) {
-      this.walk.set("gamepad", isHeld && !isJointsMode ? drive : null);
-      if (isJointsMode) this.jointDriver.setStick(isHeld ? walk : null);
-    }
-    this.isPadHeld = isHeld;
   }
 
   private pressed(button: PadButton): void {
@@ -345,7 +352,13 @@ export class App {
 
   private openMenu(): void {
     this.letGo();
-    this.menu.open();
+    const {state, robot, robots} = this.store.get();
+    this.menu.open(bodyInWords(state?.body, robot), robots.length > 1);
+  }
+
+  private openSpeech(): void {
+    this.letGo();
+    this.speech.sheet.open();
   }
 
   private async setTilt(isOn: boolean): Promise<boolean> {
@@ -380,17 +393,27 @@ export class App {
     this.walk.release();
   }
 
+  /** Nobody sees the robot any more: it does nothing by itself either. */
+  private hidden(): void {
+    this.letGo();
+    this.play.letGo();
+  }
+
   private chooseScreen(): void {
-    const {phase, loading} = this.store.get();
+    const {phase, loading, isChoosingRobot} = this.store.get();
     const isLoaded = loading.total > 0 && loading.done === loading.total;
-    const screen: ScreenName = phase !== "connected" ? "connection" :
+    const screen: ScreenName = phase !== "connected" ? "connection" : isChoosingRobot ? "lobby" :
         isLoaded ? "controller" : "loading";
     if (this.root.dataset["screen"] === screen) return;
     this.root.dataset["screen"] = screen;
-    if (screen === "controller") this.stage.start();
-    else {
+    if (screen === "controller") {
+      this.stage.start();
+      if (!this.settings.isTourSeen) this.tour.start();
+    } else {
       this.letGo();
       this.stage.stop();
+      this.teach.sheet.element.close();
+      this.tour.leave();
     }
   }
 }

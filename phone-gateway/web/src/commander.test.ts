@@ -3,7 +3,7 @@ import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
 import {Commander} from "./commander";
 import {Messages} from "./messages";
 import type {UseCase} from "./protocol/codec";
-import {ControlSchema, ErrorCode, Notice_Component, Notice_Kind, Notice_Status, NoticeSchema, ResponseSchema} from "./protocol/generated/remote_pb";
+import {ControlSchema, ErrorCode, Notice_Component, Notice_Kind, Notice_Status, NoticeSchema, ResponseSchema, RobotDescriptionSchema} from "./protocol/generated/remote_pb";
 import type {Response} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import {Store} from "./store";
@@ -51,6 +51,21 @@ describe("Commander", () => {
                        commander.command(useCases.goToPosture("Stand"))]);
     expect(asked).toEqual(["takeControl", "walkTurn", "goToPosture"]);
     expect(store.get().control?.isMine).toBe(true);
+  });
+
+  it("sends no command while the operator lets it watch only, and says so", async () => {
+    store.set({control: create(ControlSchema, {isMuted: true})});
+    expect(await commander.command(useCases.goToPosture("Stand"))).toBe(false);
+    expect(asked).toEqual([]);
+    expect(texts()).toEqual(["You may only watch"]);
+  });
+
+  it("keeps its own control when another robot is refused", async () => {
+    store.set({control: mine, robot: create(RobotDescriptionSchema, {name: "NAO1"})});
+    answer = () => ({error: ErrorCode.CONTROL_TAKEN, result: {case: "control", value: bens}});
+    expect(await commander.takeControl("NAO2")).toBe(false);
+    expect(store.get().control?.isMine).toBe(true);
+    expect(texts()).toEqual(["Ben drives"]);
   });
 
   it("sends no command while another client drives, and names it", async () => {

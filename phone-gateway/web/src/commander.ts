@@ -35,6 +35,17 @@ export class Commander {
     return this.report(await this.requester.request(useCase));
   }
 
+  /** Sends a request that needs control and returns its answer, refusals among them; null if it was not sent or the
+   * link broke. */
+  async ask(useCase: UseCase): Promise<Response | null> {
+    return (await this.haveControl()) ? this.requester.request(useCase) : null;
+  }
+
+  /** Sends a request that every client may send, whether it drives or not. */
+  fetch(useCase: UseCase): Promise<Response | null> {
+    return this.requester.request(useCase);
+  }
+
   /** Sends a command of a repeated stream; skipped while the link is congested. The end of a walk is
    * never skipped, since it is sent once. */
   stream(useCase: UseCase): void {
@@ -46,10 +57,21 @@ export class Commander {
     return this.report(await this.requester.request(useCases.stop()));
   }
 
-  /** Requests control, also while another client has it. */
-  async takeControl(): Promise<boolean> {
-    const response = await this.requester.request(useCases.takeControl());
+  /** Requests control, also while another client has it.
+   * @param robot  name of another robot than the one that is watched. */
+  async takeControl(robot = ""): Promise<boolean> {
+    const response = await this.requester.request(useCases.takeControl(robot));
+    // Who drives a robot that is not watched is no matter of the controls.
+    if (response && response.error !== ErrorCode.OK && robot && robot !== this.store.get().robot?.name) {
+      this.refused(this.inWords(response));
+      return false;
+    }
     return this.report(response);
+  }
+
+  /** Watches another robot. */
+  async watchRobot(robot: string): Promise<boolean> {
+    return this.report(await this.requester.request(useCases.watchRobot(robot)));
   }
 
   async releaseControl(): Promise<boolean> {
@@ -62,6 +84,7 @@ export class Commander {
       case Notice_Kind.COMMAND_RESULT: this.commandResult(notice); break;
       case Notice_Kind.CONTROL_CHANGED: this.controlChanged(notice); break;
       case Notice_Kind.COMPONENT_CHANGED: this.componentChanged(notice); break;
+      case Notice_Kind.MOTIONS_CHANGED: this.store.set({savedMotions: notice.motions?.names ?? []}); break;
       case Notice_Kind.CLOSING: this.messages.show("bad", reasonInWords(notice)); break;
     }
   }
@@ -69,6 +92,10 @@ export class Commander {
   private haveControl(): Promise<boolean> {
     const control = this.store.get().control;
     if (control?.isMine) return Promise.resolve(true);
+    if (control?.isMuted) {
+      this.messages.show("info", say("control.muted"));
+      return Promise.resolve(false);
+    }
     if (control && control.driverId !== 0) {
       this.messages.show("info", say("control.other", {name: control.driverName}));
       return Promise.resolve(false);
@@ -78,7 +105,8 @@ export class Commander {
     return this.taking;
   }
 
-  private report(response: Response | null): boolean {
+  /** Shows why a request was refused. @return true if it was not. */
+  report(response: Response | null): boolean {
     if (!response) return false;
     if (response.result.case === "control") this.store.set({control: response.result.value});
     if (response.error === ErrorCode.OK) return true;
@@ -125,6 +153,10 @@ export class Commander {
     const before = this.store.get().control;
     const control = notice.control ?? null;
     this.store.set({control});
+    if (control && control.isMuted !== (before?.isMuted ?? false)) {
+      this.messages.show("info", reasonInWords(notice));
+      return;
+    }
     if (control?.isMine && !before?.isMine) this.messages.show("good", say("control.taken"));
     if (before?.isMine && control && !control.isMine && control.driverId !== 0) {
       this.messages.show("info", say("control.lost", {name: control.driverName}));

@@ -2,7 +2,7 @@ import {create} from "@bufbuild/protobuf";
 import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
 import {FakeTransport} from "../test_support/fake_transport";
 import {Connection, kOpenTimeoutMs, kSilenceMs} from "./connection";
-import {ErrorCode, Mode, PongSchema, StateSchema} from "./protocol/generated/remote_pb";
+import {ConnectedSchema, ErrorCode, Mode, PongSchema, StateSchema} from "./protocol/generated/remote_pb";
 import type {State} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import {Store} from "./store";
@@ -53,6 +53,50 @@ describe("Connection", () => {
   it("is connected once the gateway says so", async () => {
     await welcome();
     expect(store.get()).toMatchObject({phase: "connected", clientId: 7, problem: null});
+  });
+
+  it("lets the person choose where there are several robots, and not where there is one", async () => {
+    await welcome();
+    expect(store.get()).toMatchObject({robots: [], isChoosingRobot: false});
+    transport.broken(true);
+    await pass(600);
+    transport.welcome("NAO", ["NAO2"]);
+    await pass(0);
+    expect(store.get().robots.map(({name}) => name)).toEqual(["NAO", "NAO2"]);
+    expect(store.get().isChoosingRobot).toBe(false);
+    connection.disconnect();
+    connection.connect(kIdentity);
+    transport.welcome("NAO", ["NAO2"]);
+    await pass(0);
+    expect(store.get().isChoosingRobot).toBe(true);
+  });
+
+  it("knows nothing of the robot before after a change", async () => {
+    transport.welcome("NAO", ["NAO2"]);
+    await pass(0);
+    store.set({state: create(StateSchema, {mode: Mode.HOLDING}), unavailableComponents: [1]});
+    transport.changeRobot("NAO2");
+    expect(store.get()).toMatchObject({state: null, unavailableComponents: [], savedMotions: ["bow"]});
+    expect(store.get().robot?.name).toBe("NAO2");
+    expect(store.get().control?.driverName).toBe("Ben");
+  });
+
+  it("comes back to the same robot after a lost link, and to any if that is gone", async () => {
+    transport.welcome("NAO", ["NAO2"]);
+    await pass(0);
+    store.set({isChoosingRobot: false});
+    transport.changeRobot("NAO2");
+    transport.broken(true);
+    await pass(600);
+    transport.opened();
+    expect(transport.sent.at(-1)!.useCase.value).toMatchObject({robot: "NAO2"});
+    transport.answer("connect", ErrorCode.INVALID_ARGUMENT, "The gateway has no robot NAO2.");
+    await pass(0);
+    expect(transport.sent.at(-1)!.useCase.value).toMatchObject({robot: ""});
+    transport.answer("connect", ErrorCode.OK, "", {case: "connected", value: create(
+        ConnectedSchema, {clientId: 8, robot: {name: "NAO"}})});
+    await pass(0);
+    expect(store.get()).toMatchObject({phase: "connected", clientId: 8});
   });
 
   it("gives up on a wrong token and says so", async () => {

@@ -2,8 +2,10 @@
 import {retryDelayMs} from "./backoff";
 import {decodeServerMessage, encodeRequest} from "./protocol/codec";
 import type {UseCase} from "./protocol/codec";
-import {ErrorCode} from "./protocol/generated/remote_pb";
-import type {Connected, Notice, Image, Response, State} from "./protocol/generated/remote_pb";
+import {ErrorCode, Notice_Kind} from "./protocol/generated/remote_pb";
+import type {
+  Audio, Connected, Control, Notice, Image, PlayState, Response, RobotDescription, State, Vision,
+} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import type {Problem, Store} from "./store";
 import {setLabels} from "./text/texts";
@@ -23,9 +25,14 @@ const kMaxBacklogBytes = 16384;
 /** Receives the events of a connection. */
 export interface ConnectionListener {
   connected(connected: Connected): void;
+  /** Another robot is watched from now on; the store has it already. */
+  robotChanged?(): void;
   state(state: State): void;
   image(image: Image): void;
   notice(notice: Notice): void;
+  audio?(audio: Audio): void;
+  playState?(state: PlayState): void;
+  vision?(vision: Vision): void;
 }
 
 export interface Identity {
@@ -39,6 +46,8 @@ const kFinalProblems: readonly Problem[] = ["wrong-token", "wrong-version"];
 
 export class Connection {
   private identity: Identity = {token: "", clientName: "", clientSoftware: ""};
+  /** The robot to watch again after a lost link; empty: the gateway chooses. */
+  private robotName = "";
   private nextRequestId = 1;
   private readonly pending = new Map<number, (response: Response | null) => void>();
   private readonly latencySamples: number[] = [];
@@ -59,6 +68,7 @@ export class Connection {
   /** Connects now and stays connected until disconnect(). */
   connect(identity: Identity): void {
     this.identity = identity;
+    this.robotName = "";
     this.store.set({attempts: 0});
     this.open();
   }
@@ -109,10 +119,15 @@ export class Connection {
   private async greet(attempt: number): Promise<void> {
     this.lastReceivedMs = this.now();
     const {token, clientName, clientSoftware} = this.identity;
-    const response = await this.request(useCases.connect(token, clientName, clientSoftware));
+    const robot = this.robotName;
+    const response = await this.request(useCases.connect(token, clientName, clientSoftware, robot));
     if (!response || attempt !== this.attempt) return;
     if (response.error === ErrorCode.OK && response.result.case === "connected") {
       this.welcome(response.result.value);
+    } else if (response.error === ErrorCode.INVALID_ARGUMENT && robot) {
+      // The gateway was started again without that robot.
+      this.robotName = "";
+      void this.greet(attempt);
     } else {
       this.failed(problemOf(response.error), response.message);
     }
@@ -121,16 +136,28 @@ export class Connection {
   private welcome(connected: Connected): void {
     this.stopTimers();
     this.latencySamples.length = 0;
-    setLabels(connected.robot?.labels ?? []);
+    const robots = connected.robots?.robots ?? [];
+    // After a lost link the person goes on with the same robot.
+    const isChoosingRobot = robots.length > 1 && (this.robotName === "" || this.store.get().isChoosingRobot);
+    this.adopt(connected.robot, connected.control);
     this.store.set({
       phase: "connected", problem: null, problemDetail: "", attempts: 0,
-      clientId: connected.clientId, clientName: connected.clientName,
-      robot: connected.robot ?? null, control: connected.control ?? null,
-      state: null, unavailableComponents: [], latencyMs: -1,
+      clientId: connected.clientId, clientName: connected.clientName, robots, isChoosingRobot, latencyMs: -1,
     });
     this.ping();
     this.checkTimer = setInterval(() => this.check(), kCheckPeriodMs);
     this.listener.connected(connected);
+  }
+
+  /** What the store knows of a robot is that of this one from now on. */
+  private adopt(robot: RobotDescription | undefined, control: Control | undefined): void {
+    this.robotName = robot?.name ?? "";
+    setLabels(robot?.labels ?? []);
+    this.store.set({
+      robot: robot ?? null, control: control ?? null,
+      state: null, playState: null, vision: null, unavailableComponents: [],
+      savedMotions: robot?.savedMotions ?? [], isCheckingMotion: false,
+    });
   }
 
   private check(): void {
@@ -167,8 +194,24 @@ export class Connection {
       }
       case "state": this.listener.state(message.value); break;
       case "image": this.listener.image(message.value); break;
-      case "notice": this.listener.notice(message.value); break;
+      case "notice": this.noticed(message.value); break;
+      case "audio": this.listener.audio?.(message.value); break;
+      case "playState": this.listener.playState?.(message.value); break;
+      case "vision": this.listener.vision?.(message.value); break;
       case undefined: break;
+    }
+  }
+
+  private noticed(notice: Notice): void {
+    switch (notice.kind) {
+      case Notice_Kind.ROBOT_CHANGED:
+        this.adopt(notice.robot, notice.control);
+        this.listener.robotChanged?.();
+        break;
+      case Notice_Kind.ROBOTS_CHANGED:
+        this.store.set({robots: notice.robots?.robots ?? []});
+        break;
+      default: this.listener.notice(notice);
     }
   }
 

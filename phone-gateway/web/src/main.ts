@@ -1,6 +1,9 @@
 /** Makes the parts and joins them. */
 import "./styles/app.css";
 import "./styles/controller.css";
+import "./styles/lobby.css";
+import "./styles/speech.css";
+import "./styles/teach.css";
 import {App} from "./app";
 import {el} from "./dom";
 import {CannotDraw} from "./robot/drawing_context";

@@ -15,12 +15,16 @@ export interface Settings {
   language: string;
   /** True: walk on the right, turn on the left. */
   isSwapped: boolean;
+  /** The tour was seen or skipped. */
+  isTourSeen: boolean;
+  /** Boxes are drawn over the image around what the robot sees. */
+  hasBoxes: boolean;
   /** Newest first. */
   recent: Recent[];
 }
 
 const kDefaults: Settings = {
-  clientName: "", language: "", isSwapped: false, recent: [],
+  clientName: "", language: "", isSwapped: false, isTourSeen: false, hasBoxes: true, recent: [],
 };
 
 /** Reads the settings; those that another version wrote badly count as not there. */

@@ -1,7 +1,9 @@
 /** The state of the app; everything on screen is drawn from it. */
 import type {
-  Control, Joint, Notice, Notice_Component, Image, RobotDescription, State,
+  Control, Joint, Motion, Notice, Notice_Component, Image, PlayState, RobotDescription, RobotList_Robot, State, Vision,
 } from "./protocol/generated/remote_pb";
+import {kEmptyDraft} from "./teach/motion_draft";
+import type {MotionDraft, Pose} from "./teach/motion_draft";
 
 /** Phase of the connection to the gateway. */
 export type LinkPhase =
@@ -33,6 +35,19 @@ export interface Loading {
   error: string;
 }
 
+/** Why a motion was not played or saved. */
+export interface MotionFault {
+  /** Keyframe at which it shows, from 0; -1: none in particular. */
+  keyframe: number;
+  text: string;
+  /** What `repaired` does about it, as a button says it. */
+  repairText: string;
+  /** The motion without the fault; null if none was found. */
+  repaired: Motion | null;
+  /** True: the fault is in a file that was chosen, not in the draft. */
+  isUpload: boolean;
+}
+
 export interface AppState {
   phase: LinkPhase;
   problem: Problem | null;
@@ -44,8 +59,13 @@ export interface AppState {
   attempts: number;
   clientId: number;
   clientName: string;
+  /** The robot that is watched, and who drives it. */
   robot: RobotDescription | null;
   control: Control | null;
+  /** Every robot of the gateway; empty where there is only one. */
+  robots: readonly RobotList_Robot[];
+  /** True while the person chooses one of them. */
+  isChoosingRobot: boolean;
   state: State | null;
   image: Image | null;
   loading: Loading;
@@ -62,6 +82,20 @@ export interface AppState {
   isJointsMode: boolean;
   /** Name of the joint group in hand; empty: none. */
   selectedGroup: string;
+  /** Names of the motions saved on the robot's host. */
+  savedMotions: readonly string[];
+  /** The motion being taught. */
+  draft: MotionDraft;
+  canUndoDraft: boolean;
+  /** True while the robot's host checks a motion. */
+  isCheckingMotion: boolean;
+  motionFault: MotionFault | null;
+  /** Joint groups without stiffness, to be moved by hand. */
+  relaxedGroups: readonly string[];
+  /** What the robot does by itself; null: its host does not run nao-play. */
+  playState: PlayState | null;
+  /** What the robot sees in its newest analysed image; null: none was analysed. */
+  vision: Vision | null;
 }
 
 const kInitialState: AppState = {
@@ -74,6 +108,8 @@ const kInitialState: AppState = {
   clientName: "",
   robot: null,
   control: null,
+  robots: [],
+  isChoosingRobot: false,
   state: null,
   image: null,
   loading: {done: 0, total: 0, error: ""},
@@ -84,6 +120,14 @@ const kInitialState: AppState = {
   numClients: 0,
   isJointsMode: false,
   selectedGroup: "",
+  savedMotions: [],
+  draft: kEmptyDraft,
+  canUndoDraft: false,
+  isCheckingMotion: false,
+  motionFault: null,
+  relaxedGroups: [],
+  playState: null,
+  vision: null,
 };
 
 interface Watcher {
@@ -126,4 +170,9 @@ export class Store {
 export function jointPosition(joints: readonly Joint[], state: State, name: string): number {
   const index = joints.findIndex((joint) => joint.name === name);
   return state.jointPosition[index] ?? NaN;
+}
+
+/** The pose in a state, by joint name. */
+export function poseOf(joints: readonly Joint[], state: State): Pose {
+  return Object.fromEntries(joints.map(({name}, i) => [name, state.jointPosition[i] ?? 0]));
 }

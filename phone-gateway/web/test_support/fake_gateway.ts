@@ -10,16 +10,31 @@ import type {AddressInfo} from "node:net";
 import {WebSocketServer} from "ws";
 import type {WebSocket} from "ws";
 import * as pb from "../src/protocol/generated/remote_pb";
+import {FakeMotions} from "./fake_motions";
 
 const kStatePeriodMs = 33;
 const kImagePeriodMs = 100;
+const kPlayPeriodMs = 200;
+/** The imaginary ball, m, in the odometry frame. */
+const kBall = {x: 0.5, y: -0.2};
 /** Speed of the imaginary joints, rad/s. */
 const kJointSpeed = 1.5;
+/** Time that checking a motion takes, ms. */
+const kCheckMs = 300;
 const kTypes: Record<string, string> = {
   ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml",
   ".png": "image/png", ".webmanifest": "application/manifest+json", ".glb": "model/gltf-binary",
   ".urdf": "application/xml", ".yaml": "text/yaml",
 };
+
+const kLights = [
+  {name: "left-eye", link: "Head", discs: [{center: [0.0528, 0.0285, 0.0479], normal: [0.915, 0.3975, -0.0696],
+                                           radius: 0.0126, innerRadius: 0.0087}]},
+  {name: "right-eye", link: "Head", discs: [{center: [0.0528, -0.0285, 0.0479], normal: [0.915, -0.3975, -0.0696],
+                                            radius: 0.0126, innerRadius: 0.0087}]},
+  {name: "chest", link: "torso", discs: [{center: [0.0631, 0, 0.0531], normal: [0.9977, 0, -0.0685],
+                                         radius: 0.0063}]},
+];
 
 /** Where the imaginary robot can go: joint angles, rad, and torso height, m. */
 export interface FakePosture {
@@ -31,7 +46,8 @@ export interface FakeGatewayOptions {
   /** Folder that holds web/, robots/ and scenes/, as share/nao-remote does. */
   dataDir: string;
   token: string;
-  joints: {name: string; lower: number; upper: number}[];
+  joints: {name: string; lower: number; upper: number; maxVelocity?: number; mirrorJoint?: string;
+           mirrorSign?: number}[];
   jointGroups: {name: string; yawJoint?: string; pitchJoint?: string; rollJoint?: string;
                 isOpening?: boolean}[];
   postures: Record<string, FakePosture>;
@@ -39,6 +55,8 @@ export interface FakeGatewayOptions {
   labels: {kind: string; name: string; language: string; text: string}[];
   /** JPEG of the head image for a time in s; without it no images are sent. */
   image?: (time: number) => Uint8Array;
+  /** True: it sees a ball, and plays as far as it is told to. */
+  plays?: boolean;
 }
 
 interface Phone {
@@ -57,6 +75,10 @@ export class FakeGateway {
   posture = "";
   /** Refusal for the next command, if any. */
   refuseNext: {error: pb.ErrorCode; message: string} | null = null;
+  private readonly motions = new FakeMotions();
+  /** Action being executed, and since when, s. */
+  private playing = {name: "", since: 0};
+  private behavior = pb.Play_Behavior.NONE;
   private readonly http: Server;
   private readonly sockets: WebSocketServer;
   private readonly phones = new Set<Phone>();
@@ -71,6 +93,7 @@ export class FakeGateway {
   private driverId = 0;
   private nextId = 1;
   private time = 0;
+  private readonly lightRgb = kLights.map(() => 0);
   private readonly timers: ReturnType<typeof setInterval>[] = [];
 
   constructor(private readonly options: FakeGatewayOptions) {
@@ -89,6 +112,7 @@ export class FakeGateway {
     await new Promise<void>((resolve) => this.http.listen(port, "127.0.0.1", resolve));
     this.timers.push(setInterval(() => this.tick(), kStatePeriodMs),
                      setInterval(() => this.sendImage(), kImagePeriodMs));
+    if (this.options.plays) this.timers.push(setInterval(() => this.sendPlay(), kPlayPeriodMs));
     return `http://127.0.0.1:${this.port}/#token=${this.options.token}`;
   }
 
@@ -161,11 +185,35 @@ export class FakeGateway {
         if (this.driverId === phone.id) this.setDriver(0);
         return answer(pb.ErrorCode.OK, "", {case: "control", value: this.control(phone)});
       case "stop":
+        this.playing.name = "";
+        this.behavior = pb.Play_Behavior.NONE;
+        this.target.splice(0, this.target.length, ...this.angle);
         this.drive = {vx: 0, vy: 0, wz: 0};
         return answer(pb.ErrorCode.OK);
+      case "listMotions":
+        return answer(pb.ErrorCode.OK, "", {case: "motions", value: create(pb.MotionListSchema, {names: this.motions.names})});
+      case "getMotion": {
+        const file = this.motions.get(useCase.value.name);
+        return file ? answer(pb.ErrorCode.OK, "", {case: "motionFile", value: file})
+            : answer(pb.ErrorCode.INVALID_ARGUMENT, "There is no such motion.");
+      }
       default:
         return this.move(phone, request, answer);
     }
+  }
+
+  /** Answers later than other requests, as the real gateway does: checking takes some time. */
+  private saveMotion(phone: Phone, requestId: number, request: pb.SaveMotion): void {
+    setTimeout(() => {
+      const {report, ...rest} = this.motions.save(request);
+      send(phone, {case: "response", value: create(pb.ResponseSchema, {
+        requestId, ...rest, result: {case: "motionReport", value: report}})});
+      this.tellMotions();
+    }, kCheckMs);
+  }
+
+  private tellMotions(): void {
+    this.notice({kind: pb.Notice_Kind.MOTIONS_CHANGED, motions: {names: this.motions.names}});
   }
 
   private move(phone: Phone, {useCase, requestId}: pb.Request,
@@ -200,12 +248,49 @@ export class FakeGateway {
         this.posture = "";
         break;
       }
+      case "setLights":
+        useCase.value.lightNames.forEach((name, i) =>
+            this.lightRgb[kLights.findIndex((light) => light.name === name)] = useCase.value.lightRgb[i] ?? 0);
+        break;
+      case "saveMotion": return this.saveMotion(phone, requestId, useCase.value);
+      case "deleteMotion":
+        if (!this.motions.delete(useCase.value.name)) return answer(pb.ErrorCode.INVALID_ARGUMENT, "There is no such motion.");
+        this.tellMotions();
+        break;
+      case "play":
+        this.behavior = useCase.value.behavior;
+        break;
+      case "doAction":
+        this.playing = {name: useCase.value.action, since: this.time};
+        break;
       default: break;
     }
     answer(pb.ErrorCode.OK);
-    if (useCase.case === "goToPosture" || useCase.case === "doAction") {
+    if (useCase.case === "goToPosture" || useCase.case === "doAction" || useCase.case === "say") {
       send(phone, {case: "notice", value: create(pb.NoticeSchema, {
         kind: pb.Notice_Kind.COMMAND_RESULT, requestId, status: pb.Notice_Status.ACCEPTED})});
+    }
+  }
+
+  /** The ball to the right ahead, a robot beside it, a line, and a pose in the own half. */
+  private sendPlay(): void {
+    const utime = BigInt(Math.round(this.time * 1e6));
+    const isPlaying = this.behavior !== pb.Play_Behavior.NONE;
+    const playState = create(pb.PlayStateSchema, {
+      utime, behavior: this.behavior, phase: isPlaying ? pb.PlayState_Phase.APPROACH : pb.PlayState_Phase.IDLE});
+    const kind = pb.Vision_Detection_Kind;
+    const vision = create(pb.VisionSchema, {
+      utime, camera: "top",
+      detections: [{kind: kind.BALL, box: [0.6, 0.6, 0.7, 0.74], position: [0.5, -0.2]},
+                   {kind: kind.ROBOT, box: [0.1, 0.2, 0.3, 0.8], position: [0.7, 0.4], covariance: [0.01, 0, 0.002]},
+                   {kind: kind.LINE, box: [0, 0.4, 1, 0.5], line: [0, 0.5, 1, 0.4], position: [0.6, 0.5, 0.8, -0.5]}],
+      ball: {...kBall, age: 0.1, covariance: [0.004, 0, 0.001]},
+      fieldPose: {x: this.x - 2, y: this.y, theta: this.heading, covariance: [0.02, 0.005, 0.01, 0.001]},
+    });
+    for (const phone of this.phones) {
+      if (!phone.isConnected) continue;
+      send(phone, {case: "playState", value: playState});
+      send(phone, {case: "vision", value: vision});
     }
   }
 
@@ -229,10 +314,12 @@ export class FakeGateway {
       protocolVersion: 1, serverVersion: "fake", clientId: phone.id, clientName: phone.name,
       control: this.control(phone),
       robot: {name: "NAO", urdfPath: "/robots/nao/nao.urdf", joints, jointGroups, actionRoles,
-              labels, actions: actionRoles.map(({name}) => name), readyPosture, standPosture,
+              labels, actions: actionRoles.map(({name}) => name), savedMotions: this.motions.names,
+              isSimulated: true, readyPosture, standPosture,
               restPosture, cameraGroup: jointGroups[0]?.name ?? "",
               postures: Object.keys(postures), maxVx: 0.2, minVx: -0.2, maxVy: 0.15, maxWz: 1,
-              model: "nao", cameras: ["top", "bottom"]},
+              model: "nao", cameras: ["top", "bottom"], languages: ["en", "de", "es", "fr", "it", "pt"],
+              lights: kLights},
     })});
   }
 
@@ -257,6 +344,7 @@ export class FakeGateway {
   private tick(): void {
     const dt = kStatePeriodMs / 1000;
     this.time += dt;
+    const activity = this.play();
     this.target.forEach((target, i) => {
       const step = kJointSpeed * dt;
       this.angle[i]! += Math.min(Math.max(target - this.angle[i]!, -step), step);
@@ -272,9 +360,23 @@ export class FakeGateway {
       torsoOrientation: [Math.cos(this.heading / 2), 0, 0, Math.sin(this.heading / 2)],
       torsoPosition: [this.x, this.y, this.height],
       mode: isWalking ? pb.Mode.WALKING : this.mode, posture: isWalking ? "" : this.posture,
-      progress: -1, stiffness: 1,
+      ...activity, stiffness: 1, lightRgb: this.lightRgb,
     });
     for (const phone of this.phones) if (phone.states) send(phone, {case: "state", value: state});
+  }
+
+  /** Sends the joints to the keyframe that the action is at. @return how it is told in a state. */
+  private play(): {progress: number; mode?: pb.Mode; activity?: {kind: pb.CommandKind; name: string}} {
+    const {name, since} = this.playing;
+    const time = this.time - since;
+    const keyframe = this.motions.keyframeAt(name, time);
+    if (!keyframe) return {progress: -1};
+    for (const [i, joint] of keyframe.jointNames.entries()) {
+      const index = this.options.joints.findIndex((one) => one.name === joint);
+      if (index >= 0) this.target[index] = keyframe.jointPosition[i]!;
+    }
+    return {progress: time / this.motions.timeOf(name), mode: pb.Mode.ACTING,
+            activity: {kind: pb.CommandKind.ACTION, name}};
   }
 
   private sendImage(): void {

@@ -61,11 +61,18 @@ export class FakeTransport implements Transport {
                   value: create(pb.ResponseSchema, {requestId, error, message, result})});
   }
 
-  /** Lets the app in as client 7. */
-  welcome(): void {
+  /** Lets the app in as client 7. @param others  robots beside the one that it watches. */
+  welcome(robot = "NAO", others: readonly string[] = []): void {
     this.opened();
+    const robots = others.length > 0 ? {robots: [robot, ...others].map((name) => ({name}))} : undefined;
     this.answer("connect", pb.ErrorCode.OK, "", {case: "connected", value: create(
         pb.ConnectedSchema, {protocolVersion: 1, clientId: 7, clientName: "Ana",
-                             control: {driverId: 0}, robot: {name: "NAO"}})});
+                             control: {driverId: 0}, robot: {name: robot}, robots})});
+  }
+
+  /** The gateway tells that the app watches another robot. */
+  changeRobot(name: string): void {
+    this.receive({case: "notice", value: create(pb.NoticeSchema, {
+      kind: pb.Notice_Kind.ROBOT_CHANGED, robot: {name, savedMotions: ["bow"]}, control: {driverId: 3, driverName: "Ben"}})});
   }
 }

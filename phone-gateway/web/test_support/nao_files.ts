@@ -12,14 +12,24 @@ export function readUrdf(folder: string): Urdf {
   return parseUrdf(new DOMParser().parseFromString(text, "application/xml") as unknown as Document);
 }
 
-/** Motor joints in the URDF file's order. */
+/** Speed of the fake joints, rad/s: any that is not 0, for times of keyframes. */
+const kMaxVelocity = 6;
+
+/** Motor joints in the URDF file's order, with their mirror images: lines like "- {name: Hand, left: LHand,
+ * right: RHand, sign: 1}" in robot.yaml. */
 export function readJoints(folder: string): FakeGatewayOptions["joints"] {
   const order = [...readFileSync(join(folder, "nao.urdf"), "utf8").matchAll(/<joint name="(\w+)"/g)]
       .map((match) => match[1]!);
+  const mirrors = new Map<string, {mirrorJoint: string; mirrorSign: number}>();
+  const text = readFileSync(join(folder, "robot.yaml"), "utf8");
+  for (const [, left, right = left, sign] of text.matchAll(/\{name: \w+, left: (\w+)(?:, right: (\w+))?, sign: (-?1)\}/g)) {
+    mirrors.set(left!, {mirrorJoint: right!, mirrorSign: Number(sign)});
+    mirrors.set(right!, {mirrorJoint: left!, mirrorSign: Number(sign)});
+  }
   return readUrdf(folder).joints
       .filter((joint) => joint.type === "revolute" && !joint.mimic)
       .sort((a, b) => order.indexOf(a.name) - order.indexOf(b.name))
-      .map(({name, lower, upper}) => ({name, lower, upper}));
+      .map(({name, lower, upper}) => ({name, lower, upper, maxVelocity: kMaxVelocity, ...mirrors.get(name)}));
 }
 
 /** Joint groups: lines like "- {name: head, yaw: HeadYaw, pitch: HeadPitch}" in robot.yaml. */

@@ -61,12 +61,16 @@ class Addresses(unittest.TestCase):
         with mock.patch.dict(os.environ, clear=True):
             self.assertEqual(resolve("nao.local").token, "")
 
+    def test_without_an_address_no_robot_of_the_network_is_taken(self):
+        with mock.patch.dict(os.environ, clear=True), mock.patch.object(discovery, "from_network", lambda timeout: ["http://b"]):
+            self.assertEqual(discovery.first_address(), "localhost")
+
     def test_finders_are_asked_in_order(self):
         with mock.patch.dict(os.environ, {"NAO_REMOTE_URL": "http://a"}), \
                 mock.patch.object(discovery, "FINDERS", [discovery.from_environment, lambda timeout: ["http://b", "http://a"]]):
             self.assertEqual(discovery.discover(), ["http://a", "http://b"])
             self.assertEqual(discovery.first_address(), "http://a")
-        with mock.patch.dict(os.environ, clear=True):
+        with mock.patch.dict(os.environ, clear=True), mock.patch.object(discovery, "FINDERS", [discovery.from_environment]):
             self.assertEqual(discovery.discover(), [])
             self.assertEqual(discovery.first_address(), "localhost")
 

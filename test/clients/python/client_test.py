@@ -15,9 +15,10 @@ from unittest import mock
 
 import built_package  # noqa: F401
 import nao_remote
-from fake_gateway import DEADLINE, FakeGateway, refuse, result, state, wait_until
+from fake_gateway import FakeGateway, description, refuse, result, state
 from nao_remote import aio, connection, session
 from nao_remote import remote_pb2 as pb
+from programs import DEADLINE, wait_until
 
 USE_CASES = {field.name for field in pb.Request.DESCRIPTOR.oneofs_by_name["use_case"].fields}
 
@@ -33,6 +34,77 @@ class WithGateway(unittest.TestCase):
         return self.enterContext(nao_remote.connect(address or self.gateway.address, **{"timeout": DEADLINE, **options}))
 
 
+class SeveralRobots(WithGateway):
+    """A gateway with the robots NAO and NAO2."""
+
+    def setUp(self):
+        super().setUp()
+        self.robots = pb.RobotList()
+        self.robots.robots.add(name="NAO", model="nao", is_available=True)
+        self.robots.robots.add(name="NAO2", model="t1", team=1, number=4, driver_id=9, driver_name="Ana")
+        self.watched = "NAO"
+        self.gateway.answers["connect"] = self.answer_connect
+        self.gateway.answers["watch_robot"] = lambda request: self.answer_change(request, request.watch_robot.robot, False)
+        self.gateway.answers["take_control"] = lambda request: self.answer_change(request, request.take_control.robot, True)
+
+    def answer_connect(self, request):
+        name = request.connect.robot or "NAO"
+        connected = pb.Connected(protocol_version=1, client_id=3, robot=self.describe(name), robots=self.robots)
+        return [pb.ServerMessage(response=pb.Response(request_id=request.request_id, connected=connected))]
+
+    def answer_change(self, request, name, is_mine):
+        if name not in ("", "NAO", "NAO2"):
+            return [refuse(request, pb.INVALID_ARGUMENT, "There is no such robot.", "robot-unknown")]
+        control = pb.Control(driver_id=3 if is_mine else 0, is_mine=is_mine)
+        messages = [pb.ServerMessage(response=pb.Response(request_id=request.request_id, control=control))]
+        if name not in ("", self.watched):
+            self.watched = name
+            messages.append(pb.ServerMessage(notice=pb.Notice(kind=pb.Notice.ROBOT_CHANGED, robot=self.describe(name))))
+        return messages
+
+    @staticmethod
+    def describe(name):
+        robot = description()
+        robot.name = name
+        return robot
+
+    def test_are_listed_with_team_and_driver(self):
+        robot = self.connect()
+        self.assertEqual([entry.name for entry in robot.robots], ["NAO", "NAO2"])
+        self.assertEqual((robot.robots[1].team, robot.robots[1].number, robot.robots[1].driver_name), (1, 4, "Ana"))
+        self.assertIsNone(robot.robots[0].team)
+        self.robots.robots[1].driver_id = 0
+        with robot.events(DEADLINE) as events:
+            self.gateway.send(notice=pb.Notice(kind=pb.Notice.ROBOTS_CHANGED, robots=self.robots))
+            self.assertEqual(next(events).robots[1].driver_id, 0)
+        self.assertEqual(robot.robots[1].driver_id, 0)
+
+    def test_one_is_chosen_at_the_connection_and_again_after_its_loss(self):
+        robot = self.connect(robot="NAO2")
+        self.assertEqual(robot.description.name, "NAO2")
+        self.gateway.drop()
+        wait_until(lambda: [request.robot for request in self.gateway.received("connect")] == ["NAO2", "NAO2"],
+                   "a connection to the same robot")
+
+    def test_another_one_is_watched_and_driven(self):
+        robot = self.connect()
+        self.assertEqual(robot.watch("NAO2").name, "NAO2")
+        self.assertTrue(robot.take_control("NAO").is_mine)
+        self.assertEqual(robot.description.name, "NAO")
+        self.assertTrue(robot.control.is_mine)
+        with self.assertRaises(nao_remote.InvalidArgument):
+            robot.watch("NAO9")
+
+    def test_a_command_to_the_robot_before_is_interrupted(self):
+        self.gateway.answers["move_to"] = lambda request: [
+            pb.ServerMessage(response=pb.Response(request_id=request.request_id)), result(request.request_id, pb.Notice.ACCEPTED)]
+        robot = self.connect()
+        moving = robot.move_to(1, 0, 0, wait=False)
+        robot.watch("NAO2")
+        with self.assertRaises(nao_remote.CommandInterrupted):
+            moving.wait(DEADLINE)
+
+
 class Requests(WithGateway):
     def test_every_request_of_the_protocol_is_reachable(self):
         robot = self.connect()
@@ -44,10 +116,20 @@ class Requests(WithGateway):
         robot.posture("Sit")
         robot.joints["HeadYaw"].move_by(0.3)
         robot.action("wave")
+        robot.play("score")
+        robot.say("hello")
+        robot.lights["chest"].set("#ff0000")
+        robot.motions()
+        robot.motion("bow")
+        robot.check_motion(pb.Motion(name="bow"))
+        robot.save_motion(pb.Motion(name="bow"))
+        robot.delete_motion("bow")
+        robot.request(drag=pb.Drag(link="LWrist"))
         robot.stop()
         robot.release_control()
         robot.ping()
         robot.operator.clients()
+        robot.request(watch_robot=pb.WatchRobot(robot="NAO"))
         with robot.states() as states:
             wait_until(lambda: self.gateway.received("subscribe"), "the subscription")
             self.gateway.send(state=state())
@@ -74,6 +156,34 @@ class Requests(WithGateway):
             pb.DoAction(action="kick-left", ball_x=0.2, ball_y=0.1, strength=0.5), pb.DoAction(action="wave")])
         self.assertEqual(self.gateway.received("get_state")[0].image, pb.ImageRequest(camera="bottom", width=640, quality=90))
         self.assertEqual(self.gateway.received("operate"), [pb.Operate(operation=pb.Operate.KICK, client_id=7)])
+
+    def test_taught_motions_are_saved_read_and_deleted(self):
+        robot = self.connect()
+        self.gateway.answers["list_motions"] = lambda request: [pb.ServerMessage(response=pb.Response(
+            request_id=request.request_id, motions=pb.MotionList(names=["bow"])))]
+        self.gateway.answers["get_motion"] = lambda request: [pb.ServerMessage(response=pb.Response(
+            request_id=request.request_id, motion_file=pb.MotionFile(yaml="actions: ...")))]
+        self.assertEqual(robot.motions(), ["bow"])
+        self.assertEqual(robot.motion("bow"), "actions: ...")
+        robot.save_motion("actions: ...", replace=True)
+        robot.check_motion(pb.Motion(name="bow"))
+        robot.delete_motion("bow")
+        self.assertEqual(self.gateway.received("save_motion"), [pb.SaveMotion(
+            motion=pb.MotionFile(yaml="actions: ..."), replace=True)])
+        self.assertEqual(self.gateway.received("check_motion")[0].motion.motion.name, "bow")
+        self.assertEqual(self.gateway.received("delete_motion"), [pb.DeleteMotion(name="bow")])
+        self.assertEqual(len(self.gateway.received("take_control")), 1)
+
+    def test_a_motion_that_is_not_safe_says_where_and_offers_a_repair(self):
+        robot = self.connect()
+        report = pb.MotionReport(keyframe=2, repair="slowed-down", repaired=pb.Motion(name="bow"))
+        self.gateway.answers["check_motion"] = lambda request: [
+            refuse(request, pb.INVALID_ARGUMENT, "The robot would fall.", "motion-fall", motion_report=report)]
+        with self.assertRaises(nao_remote.MotionNotSafe) as unsafe:
+            robot.check_motion("actions: ...")
+        self.assertEqual((unsafe.exception.keyframe, unsafe.exception.repair), (2, "slowed-down"))
+        self.assertEqual(unsafe.exception.repaired.name, "bow")
+        self.assertEqual(unsafe.exception.reason_code, "motion-fall")
 
     def test_the_operator_takes_and_releases_control(self):
         robot = self.connect()
@@ -108,8 +218,8 @@ class Requests(WithGateway):
             self.assertEqual((Path(folder) / "view.jpg").read_bytes(), b"JPEG")
 
     def test_the_blocking_face_has_every_method_of_the_asyncio_face(self):
-        from nao_remote import blocking, joints, operator
-        for asynchronous, face in ((aio.Robot, blocking.Robot), (joints.Joint, blocking.Joint),
+        from nao_remote import blocking, joints, lights, operator
+        for asynchronous, face in ((aio.Robot, blocking.Robot), (joints.Joint, blocking.Joint), (lights.Light, blocking.Light),
                                    (operator.Operator, blocking.Operator)):
             for name, member in inspect.getmembers(asynchronous, inspect.isfunction):
                 if name.startswith("_"):
@@ -127,6 +237,56 @@ class Requests(WithGateway):
                 for method_name, method in inspect.getmembers(member, inspect.isfunction):
                     if not method_name.startswith("_") and method.__module__.startswith("nao_remote"):
                         self.assertTrue(inspect.getdoc(method) or method_name == "from_protocol", f"{name}.{method_name}")
+
+
+class SpeechAndLights(WithGateway):
+    def test_a_text_is_spoken_with_its_language_volume_and_rate(self):
+        robot = self.connect()
+        robot.say("Guten Tag", language="de", volume=0.5, rate=1.5)
+        said = self.gateway.received("say")[-1]
+        self.assertEqual((said.operation, said.text, said.language, said.volume, said.rate),
+                         (pb.Say.SAY, "Guten Tag", "de", 0.5, 1.5))
+        robot.say("and then", after=True)
+        self.assertEqual(self.gateway.received("say")[-1].operation, pb.Say.SAY_AFTER)
+        robot.stop_speaking()
+        self.assertEqual(self.gateway.received("say")[-1].operation, pb.Say.STOP)
+        self.assertEqual(robot.description.languages, ("en", "de"))
+
+    def test_silence_is_a_volume(self):
+        self.connect().say("hello", volume=0)
+        self.assertTrue(self.gateway.received("say")[-1].HasField("volume"))
+
+    def test_lights_are_set_and_read_by_name(self):
+        robot = self.connect()
+        self.assertEqual(list(robot.lights), ["left-eye", "chest"])
+        self.assertEqual(robot.lights["left-eye"].color(), (1, 0, 0.2))
+        robot.lights["chest"].set("#ff8000", 2)
+        sent = self.gateway.received("set_lights")[-1]
+        self.assertEqual((list(sent.light_names), list(sent.light_rgb), sent.duration), (["chest"], [0xff8000], 2))
+        robot.set_lights({"left-eye": (0, 1, 0.2), "chest": (0, 0, 0)})
+        self.assertEqual(list(self.gateway.received("set_lights")[-1].light_rgb), [0x00ff33, 0])
+        with self.assertRaises(KeyError):
+            robot.lights["tail"].set("#ff8000")
+
+    def test_states_have_the_condition_of_the_body(self):
+        body = self.connect().state().body
+        self.assertEqual((body.battery_charge, body.is_charging, body.warnings), (0.5, False, ("battery-low",)))
+        self.assertEqual((body.hottest_joint, body.hottest_temperature, body.faulty_joints), ("HeadYaw", 40, ()))
+
+    def test_what_is_no_color_is_refused(self):
+        robot = self.connect()
+        for color in ("red", "#12345", "#12345g", "", (1, 1), (0, 0, 2), (0, 0, float("nan"))):
+            with self.subTest(color=color), self.assertRaises(ValueError):
+                robot.lights["chest"].set(color)
+
+    def test_a_walk_goes_on_while_it_speaks(self):
+        robot = self.connect()
+        robot.walk(0.1)
+        robot.say("hello")
+        robot.lights["chest"].set("#ff8000")
+        before = len(self.gateway.received("walk_turn"))
+        wait_until(lambda: len(self.gateway.received("walk_turn")) > before, "the walk goes on")
+        robot.walk()
 
 
 class Joints(WithGateway):

@@ -7,27 +7,13 @@ ways.
 import asyncio
 import struct
 import threading
-import time
 
 import websockets
 
 from nao_remote import remote_pb2 as pb
+from programs import DEADLINE
 
-# s. Long, since the machine may be busy; nothing here measures time.
-DEADLINE = 30
-
-MOTIONS = ("move_to", "go_to_posture", "change_joints", "do_action")
-
-
-def wait_until(condition, what, timeout=DEADLINE):
-    """Calls condition() until its result is true. @return the result."""
-    deadline = time.monotonic() + timeout
-    while time.monotonic() < deadline:
-        answer = condition()
-        if answer:
-            return answer
-        time.sleep(0.01)
-    raise AssertionError(f"not within {timeout} s: {what}")
+MOTIONS = ("move_to", "go_to_posture", "change_joints", "do_action", "play", "say", "set_lights")
 
 
 def description():
@@ -39,6 +25,9 @@ def description():
     robot.joint_groups.add(name="head", yaw_joint="HeadYaw", pitch_joint="HeadPitch")
     robot.action_roles.add(name="kick-left", kind="kick", side="left")
     robot.labels.add(kind="posture", name="Sit", language="de", text="Sitzen")
+    robot.languages.extend(["en", "de"])
+    for name in ("left-eye", "chest"):
+        robot.lights.add(name=name)
     return robot
 
 
@@ -198,7 +187,10 @@ class FakeGateway:
 
 def state(**fields):
     return pb.State(utime=1000, age_ms=1, joint_position=[0.5, -0.25, 0], torso_orientation=[1, 0, 0, 0],
-                    torso_position=[0, 0, 0.3], mode=pb.MODE_HOLDING, posture="Stand", **fields)
+                    torso_position=[0, 0, 0.3], mode=pb.MODE_HOLDING, posture="Stand",
+                    light_rgb=[0xff0033, 0],
+                    body=pb.Body(battery_charge=0.5, hottest_joint="HeadYaw", hottest_temperature=40,
+                                 warnings=["battery-low"]), **fields)
 
 
 def image(wanted):

@@ -24,6 +24,7 @@ class WithRobot(unittest.TestCase):
     def setUpClass(cls):
         cls.stack = Robot(scene="soccer")
         cls.enterClassContext(cls.stack)
+        cls.stack.start_speaker()
         cls.stack.stand()
 
     @property
@@ -148,6 +149,9 @@ class Examples(WithRobot):
         self.assertEqual(len(corners), 4)
         begin, across = (tuple(map(float, corners[i])) for i in (3, 1))
         self.assertGreater(math.dist(begin, across), 0.25, "opposite corners")
+
+    def test_greet(self):
+        self.example("greet")
 
     def test_dance(self):
         output, _ = self.example("dance")

@@ -2,9 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
 #include <chrono>
@@ -18,19 +16,11 @@
 #include "common/channels.h"
 #include "common/data_path.h"
 #include "common/wall_clock.h"
+#include "test/daemons/head-camera/running_camera.h"
 #include "test/daemons/head-camera/truth.h"
 
 namespace nao {
 namespace {
-
-std::string program() {
-  return std::filesystem::canonical("/proc/self/exe").parent_path() / "nao-head-camera";
-}
-
-/** A bus that only this process uses. */
-std::string private_url() {
-  return "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 10000) + "?ttl=0";
-}
 
 struct Outcome {
   int status;
@@ -50,55 +40,35 @@ Outcome run(const std::string& command) {
 TEST(HeadCameraProgram, ReportsAMissingOpenGlDriver) {
   // Without a vendor library the EGL dispatcher finds no driver.
   const Outcome outcome = run("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent timeout 60 " +
-                              program() + " --lcm-url '" + private_url() + "'");
+                              camera_program() + " --lcm-url '" + private_url() + "'");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.text, testing::HasSubstr("no OpenGL without a screen"));
   EXPECT_THAT(outcome.text, testing::HasSubstr("libegl-mesa0"));
 }
 
 TEST(HeadCameraProgram, RejectsAWrongCommandLine) {
-  EXPECT_EQ(run(program() + " --wide").status, 2);
-  const Outcome size = run(program() + " --always --width 641");
+  EXPECT_EQ(run(camera_program() + " --wide").status, 2);
+  const Outcome size = run(camera_program() + " --always --width 641");
   EXPECT_EQ(size.status, 1);
   EXPECT_THAT(size.text, testing::HasSubstr("640, 320 or 160"));
-  const Outcome camera = run(program() + " --always --camera tail");
+  const Outcome camera = run(camera_program() + " --always --camera tail");
   EXPECT_EQ(camera.status, 1);
   EXPECT_THAT(camera.text, testing::HasSubstr("its cameras are: top, bottom"));
-  const Outcome distortion = run(program() + " --p1 3");
+  const Outcome distortion = run(camera_program() + " --p1 3");
   EXPECT_EQ(distortion.status, 1);
   EXPECT_THAT(distortion.text, testing::HasSubstr("outside -2 to 2"));
+  const Outcome file = run(camera_program() + " --source v4l2 --lcm-url '" + private_url() + "'");
+  EXPECT_EQ(file.status, 1);
+  EXPECT_THAT(file.text, testing::HasSubstr("head_cameras.yaml"));
+  const Outcome device = run(camera_program() + " --source v4l2 --device tail=/dev/video0");
+  EXPECT_EQ(device.status, 1);
+  EXPECT_THAT(device.text, testing::HasSubstr("its cameras are: top, bottom"));
+  EXPECT_EQ(run(camera_program() + " --source film").status, 2);
   const Outcome platform =
-      run(program() + " --egl-platform moon --lcm-url '" + private_url() + "'");
+      run(camera_program() + " --egl-platform moon --lcm-url '" + private_url() + "'");
   EXPECT_EQ(platform.status, 1);
   EXPECT_THAT(platform.text, testing::HasSubstr("moon"));
 }
-
-/** The program, running during the lifetime of this object. */
-class RunningCamera {
- public:
-  explicit RunningCamera(const std::string& url) : process_(fork()) {
-    if (process_ != 0) return;
-    const std::string name = program();
-    execl(name.c_str(), name.c_str(), "--always", "--rate", "30", "--lcm-url", url.c_str(),
-          static_cast<char*>(nullptr));
-    _exit(127);
-  }
-  ~RunningCamera() {
-    if (process_ > 0) stop();
-  }
-
-  /** Sends SIGTERM. @return The exit status. */
-  int stop() {
-    kill(process_, SIGTERM);
-    int status = 0;
-    waitpid(process_, &status, 0);
-    process_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
- private:
-  pid_t process_;
-};
 
 TEST(HeadCameraProgram, SendsImagesInOrderAndEndsOnSigterm) {
   const std::string url = private_url();
@@ -114,7 +84,7 @@ TEST(HeadCameraProgram, SendsImagesInOrderAndEndsOnSigterm) {
   const auto model = RobotModel::load(data_path() / "robots" / "nao");
   naolcm::world_truth_t truth = make_truth(model, "StandInit", 0.32);
 
-  RunningCamera camera(url);
+  RunningCamera camera({"--always", "--rate", "30", "--lcm-url", url});
   const double deadline = monotonic_seconds() + 60;
   while (utimes.size() < 20 && monotonic_seconds() < deadline) {
     truth.utime += 10000;

@@ -19,7 +19,8 @@ constexpr int kHeight = 480;
 class HeadCameraTest : public testing::Test {
  protected:
   HeadCameraTest() : model_(RobotModel::load(data_path() / "robots" / "nao")) {
-    world_ = decode_truth(model_, make_truth(model_, "StandInit", 0.32));
+    RobotModels models(model_);
+    world_ = decode_truth(models, make_truth(model_, "StandInit", 0.32));
     world_.utime = 5 * kStep;
     world_.pose_ball_in_world = Eigen::Translation3d(1.0, 0, 0.05) * Eigen::Isometry3d::Identity();
     earlier_ = world_;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/error.h"
+#include "messages/result_message.h"
 #include "test/daemons/motion/sensor_message.h"
 
 namespace nao::motion {

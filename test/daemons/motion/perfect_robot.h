@@ -34,13 +34,15 @@ class PerfectRobot {
   void lie_on_belly() { lies_on_belly_ = true; }
 
   /** One control step of robot and core together. */
-  Output step(MotionCore& core, std::vector<Command> commands = {}) {
+  Output step(MotionCore& core, std::vector<Command> commands = {},
+              std::vector<TaughtChange> taught = {}) {
     update_accelerometer();
     sensors_.utime += std::lround(sensors_.period * 1e6);
     ++sensors_.tick;
     Input input;
     input.sensors = sensors_;
     input.commands = std::move(commands);
+    input.taught = std::move(taught);
     Output output = core.step(input, sensors_.period);
     for (size_t i = 0; i < sensors_.position.size(); ++i) {
       const double position = output.joint_targets->position[i];

@@ -41,7 +41,7 @@ class RobotAtRest {
  private:
   MotionOptions options_;
   Sensors sensors_;
-  StateEstimator estimator_{nao_model(), MotionOptions().foot_contact_force};
+  StateEstimator estimator_{nao_model()};
   JointTargets targets_;
 };
 

@@ -87,22 +87,14 @@ TEST(RobotCore, EyesShowTheStateAndFaultsWin) {
   EXPECT_THAT(eyes(false, false), near(eye_color(EyeState::kNoClient)));
   EXPECT_THAT(eyes(true, false), near(eye_color(EyeState::kReady)));
   EXPECT_THAT(eyes(true, true), near(eye_color(EyeState::kDriver)));
-  core.lights().set("left-eye", {1, 0, 1}, 0.05);
+  core.lights().set({{"left-eye"}, {{1, 0, 1}}, 0.05});
   EXPECT_THAT(eyes(true, true), near({1, 0, 1}));
   for (int i = 0; i < 5; ++i) eyes(true, true);
   EXPECT_THAT(eyes(true, true), near(eye_color(EyeState::kDriver)));
-  core.lights().set("left-eye", {1, 0, 1}, 0);
+  core.lights().set({{"left-eye"}, {{1, 0, 1}}, 0});
   frame.battery[0] = 0;
   for (int i = 0; i < 50; ++i) eyes(true, true);
   EXPECT_THAT(eyes(true, true), near(eye_color(EyeState::kFault)));
-}
-
-TEST(RobotCore, ChecksLightsByNameAndRange) {
-  RobotCore core(nao_model(), nao_map(), false);
-  EXPECT_TRUE(core.lights().check("skull", {0, 0.5, 1}));
-  EXPECT_FALSE(core.lights().check("tail", {0, 0, 0}));
-  EXPECT_FALSE(core.lights().check("skull", {0, 0, 1.5}));
-  EXPECT_FALSE(core.lights().check("skull", {0, 0, std::nan("")}));
 }
 
 }  // namespace

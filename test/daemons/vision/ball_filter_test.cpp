@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "common/random.h"
 
 namespace nao::vision {
@@ -31,6 +33,21 @@ TEST(BallFilter, EstimatesTheVelocityOfARollingBall) {
   EXPECT_TRUE(filter.estimate().is_rolling);
   EXPECT_NEAR(filter.estimate().state[2], v, 0.15);
   EXPECT_NEAR(filter.estimate().state[3], 0, 0.15);
+}
+
+TEST(BallFilter, KnowsTheVelocityOfAKickedBallAfterFourImages) {
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    BallFilter filter;
+    Random random(seed);
+    const double dt = 1e-6 * kPeriod;
+    for (int i = 0; i < 64; ++i) {
+      const double rolled = 1.4 * dt * std::max(0, i - 59);
+      filter.predict(kPeriod * (i + 1));
+      filter.update({1.5 - rolled + 0.02 * random.normal(), 0.02 * random.normal()}, kCovariance);
+    }
+    EXPECT_TRUE(filter.estimate().is_rolling) << seed;
+    EXPECT_NEAR(filter.estimate().state[2], -1.4, 0.5) << seed;
+  }
 }
 
 TEST(BallFilter, BallAtRestDoesNotRoll) {

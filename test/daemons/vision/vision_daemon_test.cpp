@@ -8,6 +8,7 @@
 #include <naolcm/robot_state_t.hpp>
 #include <naolcm/vision_state_t.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "common/bus.h"
 #include "common/data_path.h"
@@ -73,9 +74,16 @@ class VisionDaemonTest : public testing::Test {
     return image;
   }
 
-  void deliver() {
-    while (bus_.handle_for(0)) {
-    }
+  void deliver() { deliver(bus_, daemon_); }
+
+  static void deliver(Bus& bus, VisionDaemon& daemon) {
+    const auto handle = [&] {
+      while (bus.handle_for(0)) {
+      }
+    };
+    handle();
+    daemon.process_images();
+    handle();
   }
 
   RobotModel model_;
@@ -122,7 +130,7 @@ TEST_F(VisionDaemonTest, DropsDamagedImagesAndWrongIntrinsics) {
   bus_.publish("NAO_HEAD_CAMERA_IMAGE", image);
   deliver();
   EXPECT_TRUE(states_.empty());
-  EXPECT_EQ(bus_.counters().num_dropped, 2);
+  EXPECT_EQ(daemon_.num_refused(), 2);
 }
 
 TEST_F(VisionDaemonTest, ProcessesOneImageOfEachTime) {
@@ -132,6 +140,60 @@ TEST_F(VisionDaemonTest, ProcessesOneImageOfEachTime) {
   bus_.publish("NAO_HEAD_CAMERA_IMAGE", image);
   deliver();
   EXPECT_EQ(states_.size(), 1u);
+}
+
+TEST_F(VisionDaemonTest, ProcessesTheNewestOfSeveralWaitingImages) {
+  for (int i = 0; i < 5; ++i) {
+    bus_.publish("NAO_HEAD_CAMERA_IMAGE", ball_image({0.55, 0.05}, kTime + 33000 * i));
+  }
+  deliver();
+  ASSERT_EQ(states_.size(), 1u);
+  EXPECT_EQ(states_[0].utime, kTime + 33000 * 4);
+}
+
+TEST_F(VisionDaemonTest, LeavesNarrowImagesOutWhileWideOnesOfTheCameraCome) {
+  const auto narrow = [&](int64_t utime) {
+    naolcm::image_t image = ball_image({0.55, 0.05}, utime);
+    cv::Mat half;
+    cv::resize(cv::imdecode(image.data, cv::IMREAD_COLOR), half, {}, 0.5, 0.5, cv::INTER_AREA);
+    cv::imencode(".jpg", half, image.data);
+    image.size_bytes = static_cast<int32_t>(image.data.size());
+    image.width /= 2;
+    image.height /= 2;
+    for (double* length : {&image.fx, &image.fy, &image.cx, &image.cy}) *length /= 2;
+    return image;
+  };
+  bus_.publish("NAO_HEAD_CAMERA_IMAGE", ball_image({0.55, 0.05}, kTime));
+  deliver();
+  bus_.publish("NAO_HEAD_CAMERA_IMAGE", narrow(kTime + 66000));
+  deliver();
+  EXPECT_EQ(states_.size(), 1u);
+  bus_.publish("NAO_HEAD_CAMERA_IMAGE", narrow(kTime + 600000));
+  deliver();
+  EXPECT_EQ(states_.size(), 2u);
+}
+
+TEST_F(VisionDaemonTest, ReportsThePoseOnTheFieldWithAStartPose) {
+  VisionOptions options;
+  options.field_start = {FieldModel(SceneFile::find("soccer")), Pose2{{-2, 1}, M_PI / 2}};
+  Bus bus("memq://");
+  VisionDaemon daemon(bus, model_, options);
+  std::vector<naolcm::vision_state_t> states;
+  bus.subscribe<naolcm::vision_state_t>(
+      "NAO_VISION_STATE", Bus::Queue::kAll,
+      [&](const naolcm::vision_state_t& state) { states.push_back(state); });
+  bus.publish("NAO_ROBOT_STATE", robot_state(kTime - 5000));
+  bus.publish("NAO_ROBOT_STATE", robot_state(kTime + 5000));
+  deliver(bus, daemon);
+  bus.publish("NAO_HEAD_CAMERA_IMAGE", ball_image({0.55, 0.05}, kTime));
+  deliver(bus, daemon);
+  ASSERT_EQ(states.size(), 1u);
+  ASSERT_EQ(states[0].has_field_pose, 1);
+  // robot_state() is 1 m ahead of the start.
+  EXPECT_NEAR(states[0].torso_in_field[0], -2, 0.2);
+  EXPECT_NEAR(states[0].torso_in_field[1], 2, 0.2);
+  EXPECT_NEAR(states[0].torso_in_field[2], M_PI / 2, 0.1);
+  EXPECT_GT(states[0].field_pose_covariance[0][0], 0);
 }
 
 TEST_F(VisionDaemonTest, ReportsItsStatus) {

@@ -24,6 +24,7 @@ USE_CASES = {
     "go_to_posture": dict(go_to_posture=pb.GoToPosture(posture="Crouch", speed=0.5)),
     "change_joints": dict(change_joints=pb.ChangeJoints(group="head", yaw=0.1, pitch=0.1)),
     "do_action": dict(do_action=pb.DoAction(action="wave", ball_x=0.2, ball_y=0, strength=1)),
+    "play": dict(play=pb.Play(behavior=pb.Play.KICK, target_x=1, target_y=0.5)),
     "stop": dict(stop=pb.Stop()),
     "release_control": dict(release_control=pb.ReleaseControl()),
     "ping": dict(ping=pb.Ping(client_utime=1)),

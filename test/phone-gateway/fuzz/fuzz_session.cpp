@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "phone-gateway/server/core/gateway_core.h"
 #include "test/phone-gateway/server/core/test_robot.h"
@@ -39,12 +40,8 @@ void check(const Command& command) {
 class FuzzedGateway {
  public:
   FuzzedGateway()
-      : core_(make_test_robot(), GatewayLimits{}, {"0.1.0", "k", "phone.1", 1},
-              {[this](const Command& command) {
-                 check(command);
-                 last_ = command;
-               },
-               [](const AuditEvent&) {}}) {
+      : core_(make_robots(), GatewayLimits{}, {"0.1.0", "k", "phone.1", 1},
+              [](const AuditEvent&) {}) {
     for (int i = 0; i < 2; ++i) open(i);
   }
 
@@ -62,7 +59,7 @@ class FuzzedGateway {
       result.kind = kind_of(last_);
       result.status = static_cast<ResultStatus>((events >> 4) % 5);
       result.sentence = "because";
-      core_.handle_result(result, now_);
+      core_.robot().handle_result(result, now_);
     }
     if (core_.is_closing(ids_[client])) {
       collect(client);
@@ -72,6 +69,15 @@ class FuzzedGateway {
   }
 
  private:
+  std::vector<RobotSetup> make_robots() {
+    const auto send = [this](const Command& command) {
+      check(command);
+      last_ = command;
+    };
+    std::vector<RobotSetup> robots{{make_test_robot(), {send}}, {make_test_robot(), {send}}};
+    robots[1].description.set_name("NAO2");
+    return robots;
+  }
   void open(int client) {
     const Endpoint endpoint{client == 0 ? "127.0.0.1" : "10.0.0.1", "tcp", client == 0};
     ids_[client] = core_.open(
@@ -82,16 +88,18 @@ class FuzzedGateway {
     MotionSnapshot motion;
     motion.mode = Mode::kHolding;
     motion.stiffness = 1;
-    core_.set_motion(motion, now_);
     RobotSnapshot robot;
     robot.utime = static_cast<int64_t>(now_ * 1e6);
     robot.joint_position.assign(4, 0);
-    core_.set_robot(robot, now_);
+    for (size_t i = 0; i < core_.num_robots(); ++i) {
+      core_.robot(i).set_motion(motion, now_);
+      core_.robot(i).set_state(robot, now_);
+    }
     CachedImage image;
     image.camera = "top";
     image.width = 320;
     image.jpeg = "jpeg";
-    core_.add_image(image, now_);
+    core_.robot().add_image(image, now_);
     core_.step(now_);
   }
   void collect(int client) {

@@ -78,9 +78,9 @@ const tilt = (beta) => phone.page.evaluate((beta) => window.dispatchEvent(
     new DeviceOrientationEvent("deviceorientation", {alpha: 0, beta, gamma: 0})), beta);
 
 test("tilting the phone walks, only while the pad is touched", async () => {
-  await phone.page.locator(".corner .round").nth(1).tap();
-  await phone.page.locator(".menu [role=switch]").first().tap();
-  await phone.page.locator(".menu header .round").tap();
+  await phone.page.locator(".menu-button").tap();
+  await phone.page.locator(".menu[open] [role=switch]").first().tap();
+  await phone.page.locator(".menu[open] header .round").tap();
   await tilt(40);
   await tilt(15);
   assert.deepEqual(await executedWalk(), [0, 0, 0], "it walks without a touch");
@@ -91,9 +91,9 @@ test("tilting the phone walks, only while the pad is touched", async () => {
   await walks("a tilt walks ahead", (vx) => vx > 0.01);
   await phone.fingers("touchEnd", []);
   await stops();
-  await phone.page.locator(".corner .round").nth(1).tap();
-  await phone.page.locator(".menu [role=switch]").first().tap();
-  await phone.page.locator(".menu header .round").tap();
+  await phone.page.locator(".menu-button").tap();
+  await phone.page.locator(".menu[open] [role=switch]").first().tap();
+  await phone.page.locator(".menu[open] header .round").tap();
 });
 
 test("a drag on the image turns the head, as if it moved what is seen", async () => {
@@ -122,17 +122,17 @@ test("a tap on the image enlarges it, another makes it small; the other camera i
 
 test("left-handed people get the pads the other way round", async () => {
   const before = await phone.middleOf(".joystick-walk");
-  await phone.page.locator(".corner .round").nth(1).tap();
-  await phone.page.locator(".menu [role=switch]").nth(1).tap();
-  await phone.page.locator(".menu header .round").tap();
+  await phone.page.locator(".menu-button").tap();
+  await phone.page.locator(".menu[open] [role=switch]").nth(1).tap();
+  await phone.page.locator(".menu[open] header .round").tap();
   const after = await phone.middleOf(".joystick-walk");
   assert.ok(before.x < 206 && after.x > 206, `${before.x} and ${after.x}`);
 });
 
 for (const [language, stop] of [["pt", "Parar"], ["de", "Stopp"], ["en", "Stop"]]) {
   test(`the language ${language} is remembered, and the app comes back by itself`, async () => {
-    await phone.page.locator(".corner .round").nth(1).tap();
-    await Promise.all([phone.page.waitForEvent("load"), phone.page.locator(".menu select").selectOption(language)]);
+    await phone.page.locator(".menu-button").tap();
+    await Promise.all([phone.page.waitForEvent("load"), phone.page.locator(".menu[open] select").selectOption(language)]);
     await phone.sees("controller");
     assert.equal((await phone.page.locator(".stop").textContent()).trim(), stop);
     assert.equal(await phone.page.evaluate("document.documentElement.lang"), language);

@@ -15,7 +15,7 @@ test("a wrong code is refused in words, and the right one typed in connects", as
   await ana.page.getByText("The pairing code is not the right one.").waitFor();
   await ana.page.locator('[name="token"]').fill(stack.token);
   await ana.page.locator('[name="client-name"]').fill("Ana");
-  await ana.page.locator('[type="submit"]').tap();
+  await ana.page.locator('.card [type="submit"]').tap();
   await ana.sees("controller");
 });
 

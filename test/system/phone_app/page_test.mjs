@@ -1,24 +1,15 @@
 // The page itself: accessible, small, quiet, and nothing over anything else.
 import assert from "node:assert/strict";
-import {readFileSync} from "node:fs";
 import {test} from "node:test";
+import {violations} from "./accessibility.mjs";
 import {Air} from "./air.mjs";
-import {requireFromApp} from "./phone.mjs";
-import {kWebDir, setUp} from "./set_up.mjs";
+import {setUp} from "./set_up.mjs";
 import {until} from "./stack.mjs";
 
 /** All that a phone fetches on its first visit, as it goes over the air. */
 const kMaxBytes = 400_000;
 
 const {stack, openPhone} = setUp({scene: "soccer", hasPhone: false});
-
-/** Violations of the accessibility rules, one line each. */
-async function violations(phone) {
-  const axe = readFileSync(requireFromApp(kWebDir).resolve("axe-core/axe.min.js"), "utf8");
-  await phone.page.evaluate(axe);
-  const {violations} = await phone.page.evaluate("axe.run()");
-  return violations.flatMap(({id, nodes}) => nodes.map((node) => `${id}: ${node.html} ${node.failureSummary}`));
-}
 
 /** When the robot was first drawn, ms since the link was followed. */
 const robotShown = (phone) => until("the robot is drawn", () => phone.page.evaluate(
@@ -70,7 +61,7 @@ test("a browser without 3D gets a message", async () => {
 /** Every control lies within the screen, and none over another. */
 async function lieApart(phone, size, mode) {
   const boxes = await phone.page.evaluate(() => [".image-main", ".lock", ".stop", ".joystick-walk",
-    ".joystick-turn", ".joystick-joint", ".joint-card", ".strips", ".joints-panel .strip"].map((selector) => {
+    ".joystick-turn", ".joystick-joint", ".joint-card", ".strips", ".teach-bar", ".joints-panel .strip"].map((selector) => {
     const {left, top, right, bottom, width} = document.querySelector(selector).getBoundingClientRect();
     return {selector, left, top, right, bottom, width};
   }).filter(({width}) => width > 0));
@@ -94,7 +85,7 @@ for (const size of [{width: 360, height: 640}, {width: 412, height: 915}, {width
     await phone.page.locator(".problem").waitFor();
     assert.deepEqual(await violations(phone), []);
     await phone.page.locator('[name="token"]').fill(stack.token);
-    await phone.tap('[type="submit"]');
+    await phone.tap('.card [type="submit"]');
     await phone.sees("controller");
     assert.deepEqual(await violations(phone), []);
     await lieApart(phone, size, "drive");
@@ -102,8 +93,17 @@ for (const size of [{width: 360, height: 640}, {width: 412, height: 915}, {width
     await phone.page.locator('[data-name="left hip"]').tap();
     assert.deepEqual(await violations(phone), []);
     await lieApart(phone, size, "joints");
-    await phone.page.locator(".corner .round").nth(1).tap();
-    await phone.page.locator(".menu").waitFor();
+    await phone.tap(".teach-add");
+    await lieApart(phone, size, "joints");
+    await phone.tap(".teach-open");
+    await phone.page.locator(".pose-title").tap();
+    assert.deepEqual(await violations(phone), []);
+    await phone.page.locator(".motions header .round").tap();
+    await phone.page.locator(".menu-button").tap();
+    await phone.page.locator(".menu[open]").waitFor();
+    assert.deepEqual(await violations(phone), []);
+    await phone.tap(".tour-again");
+    await phone.page.locator(".tour-bubble").waitFor();
     assert.deepEqual(await violations(phone), []);
     // A wrong code answers with a close that the console reports; nothing else may be there.
     assert.deepEqual(phone.errors, []);

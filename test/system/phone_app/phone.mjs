@@ -17,6 +17,26 @@ export async function openBrowser(webDir) {
   return chromium.launch({executablePath: kChromium, args: kOptions});
 }
 
+/** In the page: the app remembers that its tour was seen. */
+function forgoTour() {
+  try {
+    const settings = JSON.parse(localStorage.getItem("nao-remote") ?? "{}");
+    localStorage.setItem("nao-remote", JSON.stringify({...settings, isTourSeen: true}));
+  } catch {
+    // about:blank keeps nothing.
+  }
+}
+
+/** In the page: the app remembers what the person is called. */
+function setName(clientName) {
+  try {
+    const settings = JSON.parse(localStorage.getItem("nao-remote") ?? "{}");
+    localStorage.setItem("nao-remote", JSON.stringify({...settings, clientName}));
+  } catch {
+    // about:blank keeps nothing.
+  }
+}
+
 export class Phone {
   #isTouched = false;
   /** Complaints of the page: errors, and what it wrote to the console as one. */
@@ -28,10 +48,13 @@ export class Phone {
     return phone;
   }
 
-  /** @param size  CSS pixels: {width, height}. */
-  async open(browser, url, size = {width: 412, height: 915}, options = {}) {
+  /** @param size  CSS pixels: {width, height}.
+   * @param options  of Playwright's context; hasTour: the phone has not seen the tour yet; name: what others see. */
+  async open(browser, url, size = {width: 412, height: 915}, {hasTour = false, name = "", ...options} = {}) {
     this.context = await browser.newContext({
       viewport: size, deviceScaleFactor: 1, isMobile: true, hasTouch: true, locale: "en-US", ...options});
+    if (!hasTour) await this.context.addInitScript(forgoTour);
+    if (name) await this.context.addInitScript(setName, name);
     this.page = await this.context.newPage();
     this.page.on("pageerror", (error) => this.errors.push(error.message));
     this.page.on("console", (message) => {
@@ -45,7 +68,7 @@ export class Phone {
     await this.context.close();
   }
 
-  /** Waits until a screen is seen: loading, connection or controller. */
+  /** Waits until a screen is seen: loading, connection, lobby or controller. */
   async sees(screen, ms = 60_000) {
     await this.page.locator(`#app[data-screen="${screen}"]`).waitFor({timeout: ms});
   }

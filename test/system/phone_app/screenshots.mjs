@@ -55,7 +55,7 @@ const screens = {
     // One file that does not come: the loading screen stays for its image.
     let release;
     await phone.page.route("**/Head.glb", (route) => release = () => route.continue());
-    await phone.tap('[type="submit"]');
+    await phone.tap('.card [type="submit"]');
     await until("the rest is loaded", () => release !== undefined);
     await take(phone, `loading-${name}`);
     release();
@@ -77,11 +77,43 @@ const screens = {
     await take(phone, `joints-${name}`);
     await phone.tap(".lock");
   },
+  async teach(phone, name) {
+    await phone.tap(".lock");
+    await phone.tap(".teach-add");
+    await phone.tap(".teach-open");
+    await take(phone, `teach-${name}`);
+    await phone.tap(".motions header .round");
+    await phone.tap(".lock");
+  },
+  async speech(phone, name) {
+    await phone.tap(".speech-button");
+    await take(phone, `speech-${name}`);
+    await phone.tap(".speech-sheet header .round");
+  },
   async menu(phone, name) {
-    await phone.page.locator(".corner .round").nth(1).tap();
+    await phone.page.locator(".menu-button").tap();
     await take(phone, `menu-${name}`);
   },
 };
+
+/** The robots of a match of two against two: one is driven, one is away. */
+async function takeLobby(browser) {
+  if (wantedScreens.length > 0 && !wantedScreens.includes("lobby")) return;
+  await stack.stop();
+  const robots = [0, 0, 1, 1].map((team, i) => ({name: `NAO${i + 1}`, model: "nao", team, number: 2 + i % 2, isAbsent: i > 2}));
+  await stack.startSeveral(robots);
+  const driver = await Phone.open(browser, stack.url, undefined, {name: "Ana"});
+  await driver.page.locator('[data-robot="NAO1"][data-driver="free"] .robot-drive').tap();
+  await driver.sees("controller");
+  for (const [name, [width, height]] of Object.entries(kSizes)) {
+    if (wantedSizes.length > 0 && !wantedSizes.includes(name)) continue;
+    const phone = await Phone.open(browser, stack.url, {width, height}, {name: "Ben"});
+    await phone.page.locator('[data-robot="NAO1"][data-driver="other"]').waitFor();
+    await take(phone, `lobby-${name}`);
+    await phone.close();
+  }
+  await driver.close();
+}
 
 try {
   await stack.start();
@@ -94,6 +126,7 @@ try {
     for (const screen of Object.values(screens)) await screen(phone, name);
     await phone.close();
   }
+  await takeLobby(browser);
   await browser.close();
 } finally {
   await stack.stop();

@@ -1,5 +1,6 @@
 // What the tests of a file share from before the first to after the last: the programs, a browser, a phone.
-// NAO_BIN_DIR and NAO_WEB_SOURCE_DIR say where the programs and the app's package.json are.
+// NAO_BIN_DIR and NAO_WEB_SOURCE_DIR say where the programs and the app's package.json are. With NAO_PHONE_URL no
+// program is started: the phones open that page, such as the one of `npm run fake`.
 import {after, before} from "node:test";
 import {openBrowser, Phone} from "./phone.mjs";
 import {Stack} from "./stack.mjs";
@@ -7,15 +8,20 @@ import {Stack} from "./stack.mjs";
 export const kWebDir = process.env.NAO_WEB_SOURCE_DIR;
 
 /** @param scene  the simulated world; null: the tests start the programs themselves.
+ * @param robots  several robots, as Stack.startSeveral() takes them; none: one robot of `model`.
+ * @param pace  simulated seconds per second, of several robots.
+ * @param model  the robot, a folder of robots/.
  * @param hasPhone  true: `phone` sees the controller before the first test.
  * @param prepare  what it does then, still before the first test.
  * @return {stack, phone, openPhone}; openPhone(url, size, options) opens one more. */
-export function setUp({scene = "empty", hasPhone = true, prepare = () => {}} = {}) {
-  const stack = new Stack(process.env.NAO_BIN_DIR);
+export function setUp({scene = "empty", model = "nao", robots = [], pace = 1, hasPhone = true, prepare = () => {}} = {}) {
+  const url = process.env.NAO_PHONE_URL;
+  const stack = url ? {url, start: () => {}, stop: () => {}} : new Stack(process.env.NAO_BIN_DIR);
   const phone = new Phone();
   let browser;
   before(async () => {
-    if (scene) await stack.start({scene});
+    if (robots.length > 0) await stack.startSeveral(robots, {scene, pace});
+    else if (scene) await stack.start({scene, model});
     browser = await openBrowser(kWebDir);
     if (!hasPhone) return;
     await phone.open(browser, stack.url);

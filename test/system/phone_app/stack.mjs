@@ -28,11 +28,19 @@ export async function until(what, ask, ms = kReadyMs) {
   throw new Error(`waited ${ms / 1000} s in vain until ${what}${failure}`);
 }
 
+const robotOption = ({name, model, team, number}) => ["--robot", `${name}:${model}:${team}:${number}`];
+
 export class Stack {
   token = "system-test";
   httpPort = 0;
+  tcpPort = 0;
   #programs = new Map();
   #binDir;
+  #model = [];
+  /** --robot of the gateway, where there are several. */
+  #robots = [];
+  /** Folder of the taught motions. */
+  #motions = "";
 
   /** @param binDir  folder of the programs. */
   constructor(binDir) {
@@ -41,24 +49,48 @@ export class Stack {
     this.lcmUrl = `udpm://239.255.76.67:${20000 + (process.pid % 10000)}?ttl=0`;
   }
 
-  /** Starts simulation, motion, camera and gateway; returns when a phone can drive. */
+  /** Starts simulation, motion, taught motions, camera and gateway; returns when a phone can drive.
+   * @param options  scene; model: a folder of robots/; plays: also what sees and acts; pace: simulated seconds per second. */
   async start(options = {}) {
-    this.run("nao-sim", ["--scene", options.scene ?? "soccer"]);
-    this.run("nao-motion");
-    this.run("nao-head-camera");
+    this.#model = ["--model", options.model ?? "nao"];
+    const pace = options.pace ? ["--pace", String(options.pace)] : [];
+    this.run("nao-sim", [...this.#model, "--scene", options.scene ?? "soccer", ...pace]);
+    this.run("nao-motion", this.#model);
+    this.#motions = await mkdtemp(join(tmpdir(), "nao-motions-"));
+    this.run("nao-motion-files", [...this.#model, "--folder", this.#motions]);
+    this.run("nao-head-camera", this.#model);
+    const more = options.plays ? ["nao-vision", "nao-play"] : [];
+    for (const program of more) this.run(program, this.#model);
     await this.startGateway();
-    await until("every program is ready", () => this.nao(
-        "status", "--wait", "nao-sim,nao-motion,nao-head-camera,nao-phone-gateway", "--timeout", "60"));
+    const programs = ["nao-sim", "nao-motion", "nao-motion-files", "nao-head-camera", "nao-phone-gateway", ...more];
+    await until("every program is ready", () => this.nao("status", "--wait", programs.join(","), "--timeout", "60"));
+  }
+
+  /** Starts a world with several robots: for each of them motion and camera, and one gateway.
+   * @param robots  {name, model, team, number} each; isAbsent: only the gateway knows of it.
+   * @param options  scene; pace: simulated seconds per second. */
+  async startSeveral(robots, options = {}) {
+    this.#robots = robots.flatMap(robotOption);
+    const pace = options.pace ? ["--pace", String(options.pace)] : [];
+    const present = robots.filter(({isAbsent}) => !isAbsent);
+    this.run("nao-sim", [...present.flatMap(robotOption), "--scene", options.scene ?? "soccer", ...pace]);
+    for (const {name, model} of present) {
+      this.run("nao-motion", ["--robot", name, "--model", model], `nao-motion of ${name}`);
+      this.run("nao-head-camera", ["--robot", name, "--model", model], `nao-head-camera of ${name}`);
+    }
+    await this.startGateway();
+    await until("every program is ready", () =>
+        this.nao("status", "--wait", "nao-sim,nao-motion,nao-head-camera,nao-phone-gateway", "--timeout", "60"));
   }
 
   /** Starts the gateway, on the same port as before if it ran already. */
   async startGateway() {
     const program = this.run("nao-phone-gateway", [
-      "--bind", "127.0.0.1", "--http-port", String(this.httpPort), "--tcp-port", "0",
+      ...this.#model, ...this.#robots, "--bind", "127.0.0.1", "--http-port", String(this.httpPort), "--tcp-port", "0",
       "--token", this.token]);
-    this.httpPort = await until("the gateway listens", () => {
-      const port = /HTTP and WebSocket on 127\.0\.0\.1:(\d+)/.exec(program.log);
-      if (port) return Number(port[1]);
+    [this.httpPort, this.tcpPort] = await until("the gateway listens", () => {
+      const ports = /HTTP and WebSocket on 127\.0\.0\.1:(\d+), TCP on 127\.0\.0\.1:(\d+)/.exec(program.log);
+      if (ports) return ports.slice(1).map(Number);
       if (program.exited) throw new Error(program.log);
       return undefined;
     });
@@ -69,7 +101,8 @@ export class Stack {
     return `http://127.0.0.1:${this.httpPort}/#token=${this.token}`;
   }
 
-  run(name, options = []) {
+  /** Starts a program. @param label  Name for program() and end(), where two of one name run. */
+  run(name, options = [], label = name) {
     const child = spawn(join(this.#binDir, name), ["--lcm-url", this.lcmUrl, ...options],
                         {stdio: ["ignore", "ignore", "pipe"]});
     const program = {child, log: "", exited: false};
@@ -79,7 +112,7 @@ export class Stack {
       program.log += error.message;
       program.exited = true;
     });
-    this.#programs.set(name, program);
+    this.#programs.set(label, program);
     return program;
   }
 
@@ -97,6 +130,12 @@ export class Stack {
 
   async stop() {
     await Promise.all([...this.#programs.keys()].map((name) => this.end(name)));
+    if (this.#motions) await rm(this.#motions, {recursive: true, force: true});
+  }
+
+  /** Runs an operation of the operator, `nao driver`. @return what it prints; throws what it complains. */
+  driver(...words) {
+    return this.nao("driver", "--port", String(this.tcpPort), ...words);
   }
 
   /** Runs the client `nao` on this bus. @return what it prints; throws what it complains. */
@@ -107,10 +146,11 @@ export class Stack {
     });
   }
 
-  /** The true state of the world: time s; torso m, and (w, x, y, z); angles rad by joint name. */
-  async truth() {
+  /** The true state of the world: time s; torso m, and (w, x, y, z); angles rad by joint name.
+   * @param name  of the robot; by default the first. */
+  async truth(name = "") {
     const world = JSON.parse(await this.nao("world", "show", "--json"));
-    const robot = world.robots[0];
+    const robot = name ? world.robots.find(({robot}) => robot === name) : world.robots[0];
     return {
       time: world.utime * 1e-6,
       torso: robot.position_torso_in_world,

@@ -6,7 +6,7 @@ namespace nao {
 namespace {
 
 TEST(CommandExchange, RepeatsQuicklyUntilAnsweredThenSlowly) {
-  CommandExchange exchange(0);
+  CommandExchange exchange("nao-motion", 0);
   int num_sent = 0;
   for (int i = 0; i < 100; ++i) num_sent += exchange.should_send(i * 0.01) ? 1 : 0;
   EXPECT_EQ(num_sent, 10);
@@ -18,7 +18,7 @@ TEST(CommandExchange, RepeatsQuicklyUntilAnsweredThenSlowly) {
 }
 
 TEST(CommandExchange, HasNoOutcomeUntilTheFinalResult) {
-  CommandExchange exchange(0);
+  CommandExchange exchange("nao-motion", 0);
   EXPECT_FALSE(exchange.outcome(0.1));
   exchange.handle_result(ResultStatus::kAccepted, "", 0.2);
   EXPECT_TRUE(exchange.is_accepted());
@@ -29,7 +29,7 @@ TEST(CommandExchange, HasNoOutcomeUntilTheFinalResult) {
 }
 
 TEST(CommandExchange, KeepsTheReasonOfARefusal) {
-  CommandExchange exchange(0);
+  CommandExchange exchange("nao-motion", 0);
   exchange.handle_result(ResultStatus::kRefused, "no posture Handstand", 0.1);
   ASSERT_TRUE(exchange.outcome(0.1));
   EXPECT_FALSE(exchange.outcome(0.1)->is_success);
@@ -38,7 +38,7 @@ TEST(CommandExchange, KeepsTheReasonOfARefusal) {
 }
 
 TEST(CommandExchange, TimesOutUnansweredEvenIfMotionPublishes) {
-  CommandExchange exchange(0);
+  CommandExchange exchange("nao-motion", 0);
   for (int i = 0; i < 29; ++i) exchange.handle_sign_of_life(i * 0.1);
   EXPECT_FALSE(exchange.outcome(2.9));
   ASSERT_TRUE(exchange.outcome(3.1));
@@ -46,7 +46,7 @@ TEST(CommandExchange, TimesOutUnansweredEvenIfMotionPublishes) {
 }
 
 TEST(CommandExchange, WaitsForAnAcceptedCommandWhileMotionPublishes) {
-  CommandExchange exchange(0);
+  CommandExchange exchange("nao-motion", 0);
   exchange.handle_result(ResultStatus::kAccepted, "", 0.1);
   for (double now = 1; now < 600; now += 1) {
     exchange.handle_sign_of_life(now);
@@ -57,7 +57,7 @@ TEST(CommandExchange, WaitsForAnAcceptedCommandWhileMotionPublishes) {
 }
 
 TEST(CommandExchange, KeepsItsFirstFinalResult) {
-  CommandExchange exchange(0);
+  CommandExchange exchange("nao-motion", 0);
   exchange.handle_result(ResultStatus::kInterrupted, "a newer command came", 0.1);
   exchange.handle_result(ResultStatus::kDone, "", 0.2);
   EXPECT_EQ(exchange.outcome(0.2)->status, "interrupted");

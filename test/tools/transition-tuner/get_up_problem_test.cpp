@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "tools/tuning/text_file.h"
+#include "common/text_file.h"
 
 namespace nao {
 namespace {

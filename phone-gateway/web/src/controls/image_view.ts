@@ -15,8 +15,18 @@ const kLookPeriodMs = 60;
 
 const kCameraIcon = "M4 8h3l2-2h6l2 2h3v11H4zM12 16.5a3.5 3.5 0 1 0 0-7 3.5 3.5 0 0 0 0 7z";
 
+/** A tap on the image: fractions of its size, and px on the page. */
+export interface ImageTap {
+  x: number;
+  y: number;
+  pageX: number;
+  pageY: number;
+}
+
 export class ImageView {
   readonly element: HTMLElement;
+  /** A tap that this handles does not change the image's size. */
+  onTap: (tap: ImageTap) => boolean = () => false;
   /** Images drawn so far. */
   numImages = 0;
   isLarge = false;
@@ -48,6 +58,12 @@ export class ImageView {
     this.element = el("section", {class: "image", "aria-label": say("drive.image")},
                       this.enlarge, this.switcher);
     this.relabel();
+  }
+
+  /** Puts a drawing over the image, and a button on it. */
+  addMarks(marks: HTMLCanvasElement, button: HTMLButtonElement): void {
+    this.canvas.after(marks);
+    this.element.append(button);
   }
 
   /** Sets the cameras of the connected robot; keeps the selected one if the robot has it. */
@@ -103,7 +119,11 @@ export class ImageView {
 
   /** Detects a tap by the finger's travel: browsers suppress the click of a tap right after a drag. */
   private lifted(event: PointerEvent): void {
-    if (this.drag && event.pointerId === this.drag.pointer && this.drag.travel < kTapTravel) this.toggleSize();
+    if (!this.drag || event.pointerId !== this.drag.pointer || this.drag.travel >= kTapTravel) return;
+    const box = this.canvas.getBoundingClientRect();
+    const tap = {x: (event.clientX - box.left) / box.width, y: (event.clientY - box.top) / box.height,
+                 pageX: event.clientX, pageY: event.clientY};
+    if (!this.onTap(tap)) this.toggleSize();
   }
 
   private clicked(event: MouseEvent): void {

@@ -10,16 +10,25 @@ export interface ImageRequest {
   width: number;
 }
 
-export function connect(token: string, clientName: string, clientSoftware: string): UseCase {
+/** @param robot  name of the robot to watch; empty: the gateway chooses. */
+export function connect(token: string, clientName: string, clientSoftware: string, robot = ""): UseCase {
   const value = create(pb.ConnectSchema,
-                       {protocolVersion: kProtocolVersion, token, clientName, clientSoftware});
+                       {protocolVersion: kProtocolVersion, token, clientName, clientSoftware, robot});
   return {case: "connect", value};
 }
 
+/** What is streamed beside states and images: what the robot says, does by itself, and sees. */
+export interface MoreStreams {
+  audio?: boolean;
+  playState?: boolean;
+  vision?: boolean;
+}
+
 /** @param stateRate states a second, @param imageRate images a second. */
-export function subscribe(stateRate: number, imageRate: number, request: ImageRequest): UseCase {
+export function subscribe(stateRate: number, imageRate: number, request: ImageRequest,
+                          more: MoreStreams = {}): UseCase {
   const image = create(pb.ImageRequestSchema, request);
-  return {case: "subscribe", value: create(pb.SubscribeSchema, {stateRate, imageRate, image})};
+  return {case: "subscribe", value: create(pb.SubscribeSchema, {stateRate, imageRate, image, ...more})};
 }
 
 /** Commanded velocity: m/s forward, m/s to the left, rad/s to the left. */
@@ -50,13 +59,64 @@ export function changeJoints(change: JointChange): UseCase {
   return {case: "changeJoints", value: create(pb.ChangeJointsSchema, change)};
 }
 
+/** Stiffness of a group's joints, 0 (limp) to 1, without turning them. */
+export function setStiffness(group: string, stiffness: number): UseCase {
+  return {case: "changeJoints", value: create(pb.ChangeJointsSchema, {group, stiffness})};
+}
+
+/** Three coordinates, m. */
+export type Point = readonly [x: number, y: number, z: number];
+
+/** Pulls a point fixed to a link of a simulated robot to a target in the torso's frame. */
+export function drag(link: string, [pointX, pointY, pointZ]: Point, [targetX, targetY, targetZ]: Point): UseCase {
+  return {case: "drag", value: create(pb.DragSchema, {link, pointX, pointY, pointZ, targetX, targetY, targetZ})};
+}
+
+export function getMotion(name: string): UseCase {
+  return {case: "getMotion", value: create(pb.GetMotionSchema, {name})};
+}
+
+/** A motion as keyframes, or as the text of a file. */
+export type MotionSource = {motion: pb.Motion} | {yaml: string};
+
+/** @param replace  true: also if a motion of this name is saved. */
+export function saveMotion(source: MotionSource, replace: boolean): UseCase {
+  return {case: "saveMotion", value: create(pb.SaveMotionSchema, {motion: source, replace})};
+}
+
+export function deleteMotion(name: string): UseCase {
+  return {case: "deleteMotion", value: create(pb.DeleteMotionSchema, {name})};
+}
+
 export function doAction(action: string): UseCase {
   return {case: "doAction", value: create(pb.DoActionSchema, {action})};
 }
 
+/** @param target  where the ball shall go, m, in the odometry frame; none: the opponent's goal. */
+export function play(behavior: pb.Play_Behavior, target?: {x: number; y: number}): UseCase {
+  return {case: "play", value: create(pb.PlaySchema, {behavior, targetX: target?.x, targetY: target?.y})};
+}
+
+/** @param language  BCP 47 tag; empty: the speaker's default. */
+export function sayText(text: string, language: string): UseCase {
+  return {case: "say", value: create(pb.SaySchema, {text, language})};
+}
+
+export const stopSpeaking = (): UseCase =>
+    ({case: "say", value: create(pb.SaySchema, {operation: pb.Say_Operation.STOP})});
+
+/** One colour, 0xRRGGBB, for several lights, until it is replaced. */
+export function setLights(names: readonly string[], rgb: number): UseCase {
+  return {case: "setLights", value: create(pb.SetLightsSchema,
+                                           {lightNames: [...names], lightRgb: names.map(() => rgb)})};
+}
+
 export const stop = (): UseCase => ({case: "stop", value: create(pb.StopSchema)});
-export const takeControl = (): UseCase =>
-    ({case: "takeControl", value: create(pb.TakeControlSchema)});
+/** @param robot  name of the robot; empty: the one that is watched. */
+export const takeControl = (robot = ""): UseCase =>
+    ({case: "takeControl", value: create(pb.TakeControlSchema, {robot})});
+export const watchRobot = (robot: string): UseCase =>
+    ({case: "watchRobot", value: create(pb.WatchRobotSchema, {robot})});
 export const releaseControl = (): UseCase =>
     ({case: "releaseControl", value: create(pb.ReleaseControlSchema)});
 

@@ -103,6 +103,11 @@ export class JointBalls {
     return nearest;
   }
 
+  /** The link that a group's ball is fixed to; null if there is no such ball. */
+  linkOf(name: string): Object3D | null {
+    return this.balls.find((ball) => ball.group.name === name)?.mesh.parent ?? null;
+  }
+
   /** Where each ball is on the canvas, px; for tests and automation. */
   places(camera: Camera, width: number, height: number): Record<string, [number, number]> {
     return Object.fromEntries(this.balls.map(({group, mesh}) => {

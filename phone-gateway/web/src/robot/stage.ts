@@ -85,6 +85,11 @@ export class Stage {
     this.resize();
   }
 
+  /** The robot that is shown; null before the first. */
+  get robotTree(): RobotTree | null {
+    return this.robot;
+  }
+
   setRobot(robot: RobotTree): void {
     if (this.robot) this.robotAxes.remove(this.robot.torso);
     this.robot = robot;

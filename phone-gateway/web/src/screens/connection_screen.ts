@@ -1,5 +1,6 @@
 /** Where to connect to, and why it does not work just now. */
 import {el} from "../dom";
+import type {Gateway} from "../nearby";
 import type {Settings} from "../settings";
 import type {AppState, Problem, Store} from "../store";
 import {say} from "../text/texts";
@@ -28,6 +29,7 @@ export class ConnectionScreen {
   private readonly submit = el("button", {class: "button primary", type: "submit"});
   private readonly cancel: HTMLButtonElement;
   private readonly recent = el("ul", {class: "recent"});
+  private readonly nearby = el("ul", {class: "recent nearby", hidden: true});
   private countdown: ReturnType<typeof setInterval> | undefined;
 
   constructor(private readonly store: Store, private readonly actions: ConnectionActions) {
@@ -42,7 +44,7 @@ export class ConnectionScreen {
       labelled(say("connection.token"), this.token, say("connection.tokenHelp")),
       labelled(say("connection.name"), this.clientName),
       el("div", {class: "buttons"}, this.cancel, this.submit),
-      this.recent);
+      this.nearby, this.recent);
     this.element = el("section", {class: "screen connection-screen"}, form);
     store.watch((state) => `${state.phase} ${state.problem} ${state.nextAttemptMs}`,
                 () => this.update());
@@ -61,6 +63,17 @@ export class ConnectionScreen {
     this.recent.replaceChildren(...items);
     this.recent.hidden = items.length === 0;
     this.recent.setAttribute("aria-label", say("connection.recent"));
+  }
+
+  /** Other robots in the network; each opens its own page. */
+  showNearby(gateways: readonly Gateway[]): void {
+    this.nearby.hidden = gateways.length === 0;
+    this.nearby.setAttribute("aria-label", say("connection.nearby"));
+    this.nearby.replaceChildren(el("li", {class: "quiet"}, say("connection.nearby")), ...gateways.map(
+        ({name, address}) => el("li", {}, el("button", {
+          class: "button quiet", type: "button",
+          onclick: () => this.actions.connect({address, token: "", clientName: this.clientName.value}),
+        }, `${name} (${address})`))));
   }
 
   private submitted(event: Event): void {

@@ -12,13 +12,18 @@ import type {WalkSender} from "../controls/walk_sender";
 import {el, icon} from "../dom";
 import type {Control, State} from "../protocol/generated/remote_pb";
 import * as useCases from "../protocol/use_cases";
+import type {PlayStrip} from "../play/play_strip";
+import {playInWords} from "../play/play_words";
 import type {FreeArea} from "../robot/stage";
 import type {AppState, Store} from "../store";
 import {activityInWords, kModeNames, modeInWords} from "../text/activity";
+import {batteryInWords, warningsInWords} from "../text/body";
 import {say, sayName} from "../text/texts";
+import {kStopIcon} from "./icons";
 import type {JointsPanel} from "./joints_panel";
+import {shirt} from "./robot_tag";
+import {kSpeechIcon} from "./speech_sheet";
 
-const kStopIcon = "M8 3h8l5 5v8l-5 5H8l-5-5V8z";
 const kLockIcon = "M7 11V8a5 5 0 0 1 10 0v3M5 11h14v9H5zM12 14.5v2";
 const kUnlockIcon = "M7 11V8a5 5 0 0 1 9.6-2M5 11h14v9H5zM12 14.5v2";
 const kMenuIcon = "M4 7h16M4 12h16M4 17h16";
@@ -26,6 +31,9 @@ const kNoStick = {right: 0, up: 0};
 
 export interface ControllerActions {
   openMenu(): void;
+  openSpeech(): void;
+  /** Shows the robots to choose from. */
+  changeRobot(): void;
   setJointsMode(isOn: boolean): void;
   stop(): void;
   /** Explains the link sign. */
@@ -41,12 +49,15 @@ export class ControllerScreen {
   private readonly mode = el("strong", {class: "mode"});
   private readonly activity = el("span", {class: "activity"});
   private readonly progress = el("progress", {max: 1, hidden: true, "aria-label": say("drive.progress")});
+  private readonly body = el("div", {class: "body", hidden: true});
+  private readonly battery = el("span", {class: "battery"});
+  private readonly warning = el("span", {class: "body-warning", role: "status"});
   private readonly driver = el("span", {class: "driver-name"});
   private readonly driverButton: HTMLButtonElement;
   private readonly lock: HTMLButtonElement;
   private readonly link: HTMLButtonElement;
   private readonly linkText = el("span");
-  private readonly messages = el("div", {class: "messages", role: "status", "aria-live": "polite"});
+  private readonly robot: HTMLButtonElement;
   private readonly bottom: HTMLElement;
   private readonly status: HTMLElement;
   private tiltNeutral: Tilt | null = null;
@@ -54,7 +65,8 @@ export class ControllerScreen {
   constructor(private readonly store: Store, private readonly commander: Commander,
               private readonly walk: WalkSender, private readonly image: ImageView,
               private readonly joints: JointsPanel, private readonly tilt: TiltSensor,
-              walkHere: HTMLElement, private readonly act: ControllerActions) {
+              walkHere: HTMLElement, play: PlayStrip, map: HTMLElement,
+              private readonly act: ControllerActions) {
     this.walkStick = new Joystick(say("drive.walk"), "walk", false, () => this.sticksChanged());
     this.turnStick = new Joystick(say("drive.turn"), "turn", true, () => this.sticksChanged());
     this.tilt.onChange = () => this.sticksChanged();
@@ -71,12 +83,14 @@ export class ControllerScreen {
     this.link = el("button", {class: "link", onclick: () => act.explainLink()},
                    el("span", {class: "bars", "aria-hidden": "true"}, el("i"), el("i"), el("i")),
                    this.linkText);
+    this.robot = el("button", {class: "robot-tag", hidden: true, onclick: () => act.changeRobot()});
     this.status = el("div", {class: "status"},
       el("div", {class: "status-line", role: "status"}, this.mode, this.activity),
-      this.progress,
-      el("div", {class: "driver"}, this.driver, this.driverButton));
+      this.progress, this.body,
+      el("div", {class: "driver"}, this.robot, this.driver, this.driverButton), map);
+    this.body.append(this.battery, this.warning);
     this.bottom = el("footer", {class: "bottom"},
-      el("div", {class: "strips"}, this.postures.element, this.actions.element),
+      el("div", {class: "strips"}, play.element, this.postures.element, this.actions.element),
       this.walkStick.element,
       stop,
       this.turnStick.element, joints.element);
@@ -84,10 +98,12 @@ export class ControllerScreen {
       walkHere,
       el("header", {class: "top"}, image.element, this.status,
          el("div", {class: "corner"}, this.lock,
-            el("button", {class: "round", "aria-label": say("drive.menu"), onclick: () => act.openMenu()},
+            el("button", {class: "round speech-button", "aria-label": say("speech.open"),
+                          onclick: () => act.openSpeech()}, icon(kSpeechIcon)),
+            el("button", {class: "round menu-button", "aria-label": say("drive.menu"), onclick: () => act.openMenu()},
                icon(kMenuIcon)),
             this.link)),
-      this.messages, this.bottom);
+      this.bottom);
     this.watch();
   }
 
@@ -131,7 +147,7 @@ export class ControllerScreen {
 
   /** Upper edge of the elements between the joysticks in landscape, px. */
   private centreTop(): number {
-    const middle = this.store.get().isJointsMode ? this.joints.strip.element : this.postures.element;
+    const middle = this.store.get().isJointsMode ? this.joints.teachBar.buttons : this.postures.element;
     return middle.getBoundingClientRect().top;
   }
 
@@ -140,14 +156,23 @@ export class ControllerScreen {
     store.watch((state) => state.robot, (robot) => {
       this.postures.setChoices((robot?.postures ?? []).map(
           (name) => ({name, label: sayName("posture", name)})));
-      this.actions.setChoices((robot?.actions ?? []).map(
-          (name) => ({name, label: sayName("action", name)})));
     });
+    store.watch((state) => state.robot, () => this.showActions());
+    store.watch((state) => state.savedMotions, () => this.showActions());
     store.watch((state) => state.state, (state) => this.showState(state));
+    store.watch((state) => state.playState, () => this.showState(store.get().state));
     store.watch((state) => state.control, (control) => this.showDriver(control));
-    store.watch((state) => state.messages, () => this.showMessages());
+    store.watch((state) => state.robots, () => this.showRobot());
+    store.watch((state) => state.robot, () => this.showRobot());
     store.watch((state) => state.latencyMs, () => this.showLink());
     store.watch((state) => state.isJointsMode, (isOn) => this.showMode(isOn));
+  }
+
+  /** The robot's own actions, and the motions that people have saved. */
+  private showActions(): void {
+    const {robot, savedMotions} = this.store.get();
+    const own = (robot?.actions ?? []).filter((name) => !robot?.savedMotions.includes(name));
+    this.actions.setChoices([...own, ...savedMotions].map((name) => ({name, label: sayName("action", name)})));
   }
 
   private sticksChanged(): void {
@@ -189,11 +214,14 @@ export class ControllerScreen {
 
   private showState(state: State | null): void {
     setText(this.mode, state ? modeInWords(state.mode) : say("mode.waiting"));
-    setText(this.activity, activityInWords(state?.activity));
+    setText(this.activity, playInWords(this.store.get().playState) || activityInWords(state?.activity));
     const progress = state?.activity ? state.progress : -1;
     this.progress.hidden = !(progress >= 0);
     if (progress >= 0) this.progress.value = progress;
     this.postures.mark(state?.posture ?? "");
+    this.body.hidden = !state?.body;
+    setText(this.battery, batteryInWords(state?.body));
+    setText(this.warning, warningsInWords(state?.body, this.store.get().robot).join(" "));
     const mode = state ? kModeNames[state.mode] ?? "" : "";
     if (this.status.dataset["mode"] !== mode) this.status.dataset["mode"] = mode;
   }
@@ -203,14 +231,19 @@ export class ControllerScreen {
     this.element.dataset["control"] = who;
     setText(this.driver, who === "mine" ? say("control.mine") :
             who === "other" ? say("control.other", {name: control!.driverName}) :
-            say("control.free"));
-    this.driverButton.hidden = who === "free";
+            say(control?.isMuted ? "control.muted" : "control.free"));
+    this.driverButton.hidden = who === "free" || (control?.isMuted ?? false);
     setText(this.driverButton, say(who === "mine" ? "control.release" : "control.ask"));
   }
 
-  private showMessages(): void {
-    this.messages.replaceChildren(...this.store.get().messages.map(
-        (message) => el("p", {class: `message ${message.kind}`}, message.text)));
+  /** Which of several robots this is. */
+  private showRobot(): void {
+    const {robots, robot} = this.store.get();
+    const shown = robots.find(({name}) => name === robot?.name);
+    this.robot.hidden = !shown;
+    if (!shown) return;
+    this.robot.replaceChildren(shirt(shown), shown.name);
+    this.robot.setAttribute("aria-label", `${shown.name}: ${say("lobby.open")}`);
   }
 
   private showLink(): void {

@@ -1,4 +1,5 @@
-/** Joints mode's controls: which joint, how far it is, a pad for yaw and pitch, a slider for roll. */
+/** Joints mode's controls: which joint, how far it is, a pad for yaw and pitch, a slider for roll; whether its limb
+ * is limp; and the bar for teaching. */
 import {ChoiceStrip} from "../controls/choice_strip";
 import {JointDriver} from "../controls/joint_driver";
 import {Joystick} from "../controls/joystick";
@@ -10,6 +11,7 @@ import type {Axis} from "../robot/joint_balls";
 import {jointPosition} from "../store";
 import type {Store} from "../store";
 import {say, sayName} from "../text/texts";
+import type {TeachBar} from "./teach_bar";
 
 /** This near to a limit a joint is at its end, rad. */
 const kAtLimit = 0.012;
@@ -17,6 +19,8 @@ const kAtLimit = 0.012;
 export interface JointsActions {
   reset(): void;
   select(group: string): void;
+  /** Makes the limb of a group limp, or stiff again. */
+  relax(group: string): void;
   /** A joint has come to the end of its range. */
   atLimit(): void;
 }
@@ -24,23 +28,27 @@ export interface JointsActions {
 export class JointsPanel {
   readonly element: HTMLElement;
   private readonly stick: Joystick;
-  readonly strip: ChoiceStrip;
+  private readonly strip: ChoiceStrip;
   private readonly name = el("strong", {class: "joint-name"});
   private readonly angles = el("dl", {class: "angles"});
   private readonly roll = el("input", {type: "range", step: "any", "aria-label": say("joints.roll")});
   private readonly rollRow: HTMLElement;
   private readonly both: HTMLButtonElement;
+  private readonly relax: HTMLButtonElement;
   /** Roll that was sent last while the slider is held, rad; NaN while it is free. */
   private heldRoll = NaN;
   private limitNow = "";
   private groups: readonly JointGroup[] = [];
 
   constructor(private readonly store: Store, private readonly driver: JointDriver,
+              readonly teachBar: TeachBar,
               private readonly actions: JointsActions) {
     this.stick = new Joystick(say("joints.move"), "joint", false, () => driver.setStick(this.stick.value));
     this.strip = new ChoiceStrip(say("joints.groups"), (name) => actions.select(name));
     this.both = el("button", {class: "button small", "aria-pressed": "false"}, say("joints.both"));
     onPress(this.both, () => this.toggleBoth());
+    this.relax = el("button", {class: "button small relax", title: say("teach.relaxHelp")}, say("teach.relax"));
+    onPress(this.relax, () => driver.group && actions.relax(driver.group.name));
     const reset = el("button", {class: "button small"}, say("joints.reset"));
     onPress(reset, () => actions.reset());
     this.rollRow = paint("roll", el("label", {class: "roll"},
@@ -51,13 +59,14 @@ export class JointsPanel {
       this.roll.addEventListener(type, () => this.heldRoll = NaN);
     }
     this.element = el("div", {class: "joints-panel"},
-      this.strip.element,
+      teachBar.element, this.strip.element,
       el("div", {class: "joint-card"}, this.name, this.angles, this.rollRow,
-         el("div", {class: "joint-buttons"}, this.both, reset)),
+         el("div", {class: "joint-buttons"}, this.both, reset, this.relax)),
       this.stick.element);
     store.watch((state) => state.robot, (robot) => this.setGroups(robot?.jointGroups ?? []));
     store.watch((state) => state.selectedGroup, (name) => this.select(name));
     store.watch((state) => state.state, (state) => this.showState(state));
+    store.watch((state) => state.relaxedGroups, () => this.showRelaxed());
   }
 
   release(): void {
@@ -89,7 +98,14 @@ export class JointsPanel {
       this.roll.max = String(limits.upper);
     }
     this.stick.element.classList.toggle("idle", !group || (!group.yawJoint && !group.pitchJoint));
+    this.showRelaxed();
     this.showState(this.store.get().state);
+  }
+
+  private showRelaxed(): void {
+    const name = this.driver.group?.name ?? "";
+    this.relax.disabled = name === "";
+    this.relax.setAttribute("aria-pressed", String(this.store.get().relaxedGroups.includes(name)));
   }
 
   private showState(state: State | null): void {

@@ -13,11 +13,17 @@ export interface MenuActions {
   setTilt(isOn: boolean): Promise<boolean>;
   setSwapped(isSwapped: boolean): void;
   setLanguage(language: Language): void;
+  /** Shows the tour. */
+  startTour(): void;
+  changeRobot(): void;
   leave(): void;
 }
 
 export class MenuSheet {
   readonly element: HTMLDialogElement;
+  private readonly condition = el("ul", {class: "help-list condition"});
+  private readonly change = el("button", {class: "button wide change-robot", hidden: true,
+                                          onclick: () => this.changeRobot()}, say("lobby.open"));
 
   constructor(isSwapped: boolean, private readonly actions: MenuActions) {
     const language = el("select", {onchange: () => actions.setLanguage(language.value as Language)},
@@ -30,17 +36,34 @@ export class MenuSheet {
       this.tiltSwitch(),
       switchRow(say("menu.swap"), "", isSwapped, false, (input) => actions.setSwapped(input.checked)),
       el("label", {class: "row"}, el("span", {}, say("menu.language")), language),
+      el("h3", {}, say("body.title")), this.condition,
       el("h3", {}, say("menu.help")),
       el("ul", {class: "help-list"}, ...kHelp.map((key) => el("li", {}, say(key)))),
-      el("button", {class: "button wide", onclick: () => this.leave()}, say("drive.leave")));
+      el("div", {class: "menu-buttons"}, this.change,
+         el("button", {class: "button wide tour-again", onclick: () => this.startTour()}, say("tour.again")),
+         el("button", {class: "button wide", onclick: () => this.leave()}, say("drive.leave"))));
     // A tap beside the sheet closes it, as people expect.
     this.element.addEventListener("click", (event) => {
       if (event.target === this.element) this.element.close();
     });
   }
 
-  open(): void {
+  /** @param condition  Of the robot's body, one sentence each.
+   * @param hasSeveralRobots  There are others to choose. */
+  open(condition: readonly string[], hasSeveralRobots: boolean): void {
+    this.change.hidden = !hasSeveralRobots;
+    this.condition.replaceChildren(...condition.map((line) => el("li", {}, line)));
     this.element.showModal();
+  }
+
+  private changeRobot(): void {
+    this.element.close();
+    this.actions.changeRobot();
+  }
+
+  private startTour(): void {
+    this.element.close();
+    this.actions.startTour();
   }
 
   private leave(): void {

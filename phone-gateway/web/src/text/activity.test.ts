@@ -14,6 +14,7 @@ describe("activityInWords", () => {
     setLanguage("de");
     expect(inWords(CommandKind.POSTURE, "StandInit")).toBe("Startklar");
     expect(inWords(CommandKind.ACTION, "kick-left")).toBe("Schuss links");
+    expect(inWords(CommandKind.ACTION, "_draft")).toBe("Neue Bewegung");
     setLanguage("en");
     expect(inWords(CommandKind.POSTURE, "Headstand")).toBe("Headstand");
   });

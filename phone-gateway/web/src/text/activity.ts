@@ -1,6 +1,7 @@
 /** Mode and activity of the robot in the page's language; pure. */
 import {CommandKind, Mode} from "../protocol/generated/remote_pb";
 import type {Activity} from "../protocol/generated/remote_pb";
+import {kTemporaryName} from "../teach/motion_name";
 import {say, sayName} from "./texts";
 
 /** The last parts of the text keys "mode.NAME"; also the values of the status element's data-mode. */
@@ -26,7 +27,8 @@ export function activityInWords(activity: Activity | undefined): string {
   if (activity.needsHelp) return say("activity.needsHelp");
   switch (activity.kind) {
     case CommandKind.POSTURE: return sayName("posture", activity.name);
-    case CommandKind.ACTION: return sayName("action", activity.name);
+    case CommandKind.ACTION:
+      return activity.name === kTemporaryName ? say("teach.draftName") : sayName("action", activity.name);
     case CommandKind.MOVE_TO: return say("activity.moveTo");
     case CommandKind.JOINT_CHANGE: return say("activity.joints");
     default: return "";

@@ -1,10 +1,19 @@
 /** All texts of the app, in every language; one row per text. Placeholders are written {name}. */
+import {kBodyTexts} from "./body_texts";
+import {kLobbyTexts} from "./lobby_texts";
+import {kPlayTexts} from "./play_texts";
+import {kSpeechTexts} from "./speech_texts";
+import {kTeachTexts} from "./teach_texts";
 
 export const kLanguages = ["en", "pt", "de"] as const;
 export type Language = (typeof kLanguages)[number];
-type Row = readonly [en: string, pt: string, de: string];
+export type Row = readonly [en: string, pt: string, de: string];
 
 const kTexts = {
+  ...kBodyTexts,
+  ...kLobbyTexts,
+  ...kPlayTexts,
+  ...kTeachTexts,
   // Loading.
   "loading.app": ["Starting", "A iniciar", "Startet"],
   "loading.robot": ["Getting the robot", "A carregar o robô", "Der Roboter wird geladen"],
@@ -32,6 +41,7 @@ const kTexts = {
   "connection.now": ["Try now", "Tentar agora", "Jetzt versuchen"],
   "connection.retry": ["Trying again in {seconds} s", "Nova tentativa em {seconds} s",
                        "Nächster Versuch in {seconds} s"],
+  "connection.nearby": ["Other robots in this Wi-Fi", "Outros robôs nesta rede Wi-Fi", "Andere Roboter in diesem WLAN"],
   "connection.recent": ["Used before", "Usados antes", "Früher benutzt"],
   "problem.unreachable": ["Nothing answers at this address.", "Nada responde neste endereço.",
                           "Unter dieser Adresse antwortet nichts."],
@@ -77,6 +87,7 @@ const kTexts = {
   "control.ask": ["Ask to drive", "Pedir para conduzir", "Selbst steuern"],
   "control.release": ["Hand over", "Passar a vez", "Abgeben"],
   "control.taken": ["You drive now.", "Agora é você que conduz.", "Du steuerst jetzt."],
+  "control.muted": ["You may only watch", "Só pode ver", "Du darfst nur zusehen"],
   "control.lost": ["{name} drives now.", "Agora conduz {name}.", "Jetzt steuert {name}."],
   // What the robot does.
   "mode.relaxed": ["Relaxed", "Relaxado", "Entspannt"],
@@ -145,7 +156,7 @@ const kTexts = {
   "joints.pitch": ["Pitch", "Inclinação", "Nicken"],
   "joints.opening": ["Open", "Aberta", "Offen"],
   "joints.both": ["Both sides", "Ambos os lados", "Beide Seiten"],
-  "joints.reset": ["Reset pose", "Repor pose", "Grundhaltung"],
+  "joints.reset": ["Reset pose", "Repor pose", "Grund\u00adhaltung"],
   "joints.limit": ["End of its range", "Fim do curso", "Anschlag"],
   // Menu.
   "menu.title": ["Settings and help", "Definições e ajuda", "Einstellungen und Hilfe"],
@@ -179,6 +190,7 @@ const kTexts = {
   "menu.helpPad": ["Gamepad: sticks walk and turn, A ready, B stop, X crouch, Y stand, shoulders kick.",
                    "Gamepad: manípulos andam e viram, A pronto, B parar, X agachar, Y de pé, L/R chutam.",
                    "Gamepad: Sticks gehen und drehen, A startklar, B Stopp, X hocken, Y stehen, Schultertasten schießen."],
+  ...kSpeechTexts,
   "result.failed": ["That did not work.", "Não resultou.", "Das hat nicht geklappt."],
 } as const satisfies Record<string, Row>;
 
@@ -215,7 +227,7 @@ export function isText(key: string): key is TextKey {
   return key in kTexts;
 }
 
-/** What the connected robot calls its postures, actions, joint groups and cameras: by "posture.Crouch",
+/** What the connected robot calls its postures, actions, joint groups, cameras and lights: by "posture.Crouch",
  * then by language. */
 let labels: ReadonlyMap<string, ReadonlyMap<string, string>> = new Map();
 
@@ -230,7 +242,7 @@ export function setLabels(list: readonly {kind: string; name: string; language: 
 }
 
 /** A name from the robot ("posture", "Crouch") as a person says it; unknown names as they are. */
-export function sayName(family: "posture" | "action" | "group" | "camera", name: string): string {
+export function sayName(family: "posture" | "action" | "group" | "camera" | "light", name: string): string {
   const known = labels.get(`${family}.${name}`);
   return known?.get(language) ?? known?.get("en") ?? name.replace(/[-_]/g, " ");
 }

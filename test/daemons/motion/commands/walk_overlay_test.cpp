@@ -31,24 +31,25 @@ TEST_F(WalkOverlayTest, HoldsTheAngleAfterTheChangeUntilTheWalkEnds) {
   EXPECT_EQ(run(), Reason());
   overlay_.stop();
   EXPECT_EQ(overlay_.command(), nullptr);
-  std::vector<double> walk = nao_posture("StandInit");
-  walk[head_] = -0.1;
+  JointTargets walk = robot_.targets();
+  walk.position[head_] = -0.1;
   overlay_.write(walk);
-  EXPECT_DOUBLE_EQ(walk[head_], 0.4);
+  EXPECT_DOUBLE_EQ(walk.position[head_], 0.4);
   overlay_.release();
-  walk[head_] = -0.1;
+  walk.position[head_] = -0.1;
   overlay_.write(walk);
-  EXPECT_DOUBLE_EQ(walk[head_], -0.1);
+  EXPECT_DOUBLE_EQ(walk.position[head_], -0.1);
 }
 
 TEST_F(WalkOverlayTest, WritesOnlyTheJointsOfTheChange) {
   start_head_turn(0.4);
   run();
-  const std::vector<double> walk(nao_model().num_motors(), 0.05);
-  std::vector<double> written = walk;
+  JointTargets walk = robot_.targets();
+  walk.position.assign(nao_model().num_motors(), 0.05);
+  JointTargets written = walk;
   overlay_.write(written);
   for (int motor = 0; motor < nao_model().num_motors(); ++motor) {
-    EXPECT_EQ(written[motor] != walk[motor], motor == head_);
+    EXPECT_EQ(written.position[motor] != walk.position[motor], motor == head_);
   }
 }
 

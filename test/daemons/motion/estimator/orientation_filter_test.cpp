@@ -78,6 +78,13 @@ TEST(OrientationFilter, LearnsTheBiasAtRestAboutAllAxes) {
   EXPECT_LT(filter.angular_velocity().norm(), 1e-4);
 }
 
+TEST(OrientationFilter, KnowsTheBiasAfterTheFirstMomentsOfRest) {
+  OrientationFilter filter;
+  const Vector3d bias(0.01, -0.02, 0.03);
+  for (int i = 0; i < 20; ++i) filter.update(bias, {0, 0, kGravity}, true, 0.01);
+  EXPECT_LT((filter.bias() - bias).norm(), 1e-3);
+}
+
 TEST(OrientationFilter, LearnsTheBiasAboutLevelAxesWhileMoving) {
   OrientationFilter filter;
   const Vector3d bias(0.01, 0, 0.01);

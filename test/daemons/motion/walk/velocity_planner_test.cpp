@@ -35,14 +35,16 @@ TEST_F(VelocityPlannerTest, ClipsToAFractionOfTheLimits) {
 }
 
 TEST(SpeedFraction, FallsWithTheLag) {
-  EXPECT_DOUBLE_EQ(calc_speed_fraction(0.02), 1);
-  EXPECT_DOUBLE_EQ(calc_speed_fraction(0.1), calc_speed_fraction(0.06));
+  EXPECT_DOUBLE_EQ(calc_speed_fraction(nao_gait().velocity, 0.02), 1);
+  EXPECT_DOUBLE_EQ(calc_speed_fraction(nao_gait().velocity, 0.1),
+                   calc_speed_fraction(nao_gait().velocity, 0.06));
   double last = 1;
   for (double lag = 0.02; lag < 0.08; lag += 0.001) {
-    EXPECT_LE(calc_speed_fraction(lag), last);
-    last = calc_speed_fraction(lag);
+    EXPECT_LE(calc_speed_fraction(nao_gait().velocity, lag), last);
+    last = calc_speed_fraction(nao_gait().velocity, lag);
   }
-  EXPECT_LT(last, 0.8);
+  EXPECT_DOUBLE_EQ(last, nao_gait().velocity.slow_speed);
+  EXPECT_LT(last, 1);
 }
 
 TEST_F(VelocityPlannerTest, ChangesVelocityByALimitedAmountPerStep) {

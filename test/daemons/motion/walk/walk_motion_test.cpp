@@ -26,7 +26,7 @@ class WalkMotionTest : public testing::Test {
   }
 
   const Gait gait_ = ideal_gait();
-  const MotionOptions options_;
+  const MotionOptions options_{};
   const WalkCommand command_{0.15, 0, 0};
   Sensors sensors_;
 };

@@ -110,7 +110,7 @@ TEST_F(WalkPhysicsTest, TurnsAsFastAsItsLimitsSay) {
 }
 
 TEST_F(WalkPhysicsTest, TheToeOfAFootInTheAirStaysUp) {
-  // Out of a quick turn into full speed, where the swing is the fastest. The foot is lifted by 10
+  // Out of a quick turn into full speed, where the swing is the fastest. The foot is lifted by 18
   // mm, the toe 100 mm ahead.
   ClosedLoop& trial = begin(5);
   double lowest = 0;
@@ -266,7 +266,7 @@ TEST_F(WalkPhysicsTest, ContinuesWhenTheJoystickIsTouchedAgainAtOnce) {
 }
 
 TEST_F(WalkPhysicsTest, TellsAFallWellBeforeTheImpact) {
-  int num_falls = 0;
+  std::vector<double> warnings;
   for (int i = 0; i < 8; ++i) {
     const double direction = i * M_PI / 4;
     ClosedLoop& trial = begin(21 + i);
@@ -276,11 +276,13 @@ TEST_F(WalkPhysicsTest, TellsAFallWellBeforeTheImpact) {
     FallWarning fall;
     trial.on_tick([&] { fall.look(trial); });
     if (!trial.run_until([&] { return fall.has_touched(); }, 4)) continue;
-    ++num_falls;
-    // The sample is one fall in each direction; most are told 150 ms before.
-    EXPECT_GE(*fall.warning(), 0.115) << direction;
+    // The sample is one fall in each direction.
+    EXPECT_GE(*fall.warning(), 0.09) << direction;
+    warnings.push_back(*fall.warning());
   }
-  EXPECT_GE(num_falls, 5);
+  ASSERT_GE(warnings.size(), 5);
+  std::sort(warnings.begin(), warnings.end());
+  EXPECT_GE(warnings[warnings.size() / 2], 0.15);
 }
 
 TEST_F(WalkPhysicsTest, AHopDoesNotEndTheWalk) {

@@ -59,6 +59,22 @@ TEST_F(RobotDescriptionTest, SaysWhatTheRobotsNamesMean) {
   }
 }
 
+TEST_F(RobotDescriptionTest, NamesTheMirrorImageOfEachJoint) {
+  const auto robot = describe_robot("NAO", RobotModel::load(folder_));
+  for (const naoremote::Joint& joint : robot.joints()) {
+    if (joint.name() == "LElbowYaw") {
+      EXPECT_EQ(joint.mirror_joint(), "RElbowYaw");
+      EXPECT_EQ(joint.mirror_sign(), -1);
+    } else if (joint.name() == "RHipPitch") {
+      EXPECT_EQ(joint.mirror_joint(), "LHipPitch");
+      EXPECT_EQ(joint.mirror_sign(), 1);
+    } else if (joint.name() == "HeadYaw") {
+      EXPECT_EQ(joint.mirror_joint(), "HeadYaw");
+      EXPECT_EQ(joint.mirror_sign(), -1);
+    }
+  }
+}
+
 TEST_F(RobotDescriptionTest, HasTheWordsOfLabelsYaml) {
   write_text(folder_ / "labels.yaml", "postures:\n  Crouch: {en: Crouch, de: Hocken}\n");
   const auto robot = describe_robot("NAO", RobotModel::load(folder_));

@@ -56,7 +56,7 @@ TEST_F(GatewayDriving, IsReleasedByDisconnecting) {
   Client ana = connect_driver("Ana");
   Client ben = connect("Ben");
   core_->closed(ana.id, "test", now_);
-  EXPECT_EQ(core_->driving().driver(), 0u);
+  EXPECT_EQ(core_->robot().driving().driver(), 0u);
   EXPECT_EQ(notices(ben, Notice::CONTROL_CHANGED).size(), 1u);
   EXPECT_EQ(take_control(ben).error(), naoremote::OK);
 }
@@ -88,7 +88,7 @@ TEST_F(GatewayDriving, LetsTheOperatorListAndDisconnectClients) {
   EXPECT_TRUE(clients.clients(0).is_driver());
   EXPECT_EQ(operate(console, naoremote::Operate::KICK, ana.id).error(), naoremote::OK);
   EXPECT_TRUE(core_->is_closing(ana.id));
-  EXPECT_EQ(core_->driving().driver(), 0u);
+  EXPECT_EQ(core_->robot().driving().driver(), 0u);
   EXPECT_EQ(operate(console, naoremote::Operate::KICK, 99).error(), naoremote::INVALID_ARGUMENT);
 }
 
@@ -248,7 +248,7 @@ TEST_F(GatewayCommands, HaveTheReasonsOfNaoMotionInTheirResults) {
   result.id = sent_.back().id;
   result.status = ResultStatus::kRefused;
   result.reason = Reason("no-path", {"Sit", "Crouch"});
-  core_->handle_result(result, now_);
+  core_->robot().handle_result(result, now_);
   const auto results = notices(ana, Notice::COMMAND_RESULT);
   ASSERT_EQ(results.size(), 1u);
   EXPECT_EQ(results[0].reason_code(), "no-path");

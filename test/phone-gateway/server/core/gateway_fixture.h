@@ -42,10 +42,18 @@ class GatewayFixture : public testing::Test {
   }
 
   void restart(const GatewayLimits& limits) {
+    start(
+        {{make_test_robot(),
+          {.send = [this](const Command& command) { sent_.push_back(command); },
+           .send_service = [this](const ServiceCommand& command) { services_.push_back(command); },
+           .send_play = [this](const SentPlayCommand& command) { plays_.push_back(command); }}}},
+        limits);
+  }
+
+  void start(std::vector<RobotSetup> robots, const GatewayLimits& limits) {
     core_ = std::make_unique<GatewayCore>(
-        make_test_robot(), limits, GatewayIdentity{"0.1.0", "secret", "phone.1", 1000},
-        GatewayOutputs{[this](const Command& command) { sent_.push_back(command); },
-                       [this](const AuditEvent& event) { audit_.push_back(event); }});
+        std::move(robots), limits, GatewayIdentity{"0.1.0", "secret", "phone.1", 1000},
+        [this](const AuditEvent& event) { audit_.push_back(event); });
     pass(0.1);
   }
 
@@ -54,20 +62,27 @@ class GatewayFixture : public testing::Test {
     const double end = now_ + time;
     while (now_ < end - 1e-9) {
       now_ += 0.02;
-      if (has_motion_) {
-        MotionSnapshot motion;
-        motion.mode = has_robot_ ? Mode::kHolding : Mode::kNoRobot;
-        core_->set_motion(motion, now_);
+      for (size_t i = 0; i < core_->num_robots(); ++i) {
+        if (i != absent_robot_) receive_state(core_->robot(i));
       }
-      if (has_motion_ && has_robot_) {
-        RobotSnapshot robot;
-        robot.utime = static_cast<int64_t>(now_ * 1e6);
-        robot.joint_position = {0.1, 0.2, 0.3, 0.4};
-        core_->set_robot(robot, now_);
-      }
-      if (has_camera_) core_->handle_camera_status(now_);
       core_->step(now_);
     }
+  }
+
+  /** Messages of one robot, as far as its components are there. */
+  void receive_state(GatewayRobot& robot) {
+    if (has_motion_) {
+      MotionSnapshot motion;
+      motion.mode = has_robot_ ? Mode::kHolding : Mode::kNoRobot;
+      robot.set_motion(motion, now_);
+    }
+    if (has_motion_ && has_robot_) {
+      RobotSnapshot state;
+      state.utime = static_cast<int64_t>(now_ * 1e6);
+      state.joint_position = {0.1, 0.2, 0.3, 0.4};
+      robot.set_state(state, now_);
+    }
+    if (has_camera_) robot.components().handle_camera_status(now_);
   }
 
   Client open(bool is_local = true, const std::string& address = "127.0.0.1") {
@@ -174,7 +189,7 @@ class GatewayFixture : public testing::Test {
     image.width = width;
     image.height = width * 3 / 4;
     image.jpeg = "jpeg " + std::to_string(utime);
-    core_->add_image(image, now_);
+    core_->robot().add_image(image, now_);
   }
 
   /** Sends a result of the last command, as nao-motion does. */
@@ -186,7 +201,7 @@ class GatewayFixture : public testing::Test {
     result.kind = kind_of(sent_.back());
     result.status = status;
     result.sentence = reason;
-    core_->handle_result(result, now_);
+    core_->robot().handle_result(result, now_);
   }
 
   std::vector<naoremote::Notice> notices(Client& client, naoremote::Notice::Kind kind) {
@@ -237,7 +252,11 @@ class GatewayFixture : public testing::Test {
   bool has_motion_ = true;
   bool has_robot_ = true;
   bool has_camera_ = true;
+  /** Index of a robot that sends no messages; by default none. */
+  size_t absent_robot_ = SIZE_MAX;
   std::vector<Command> sent_;
+  std::vector<ServiceCommand> services_;
+  std::vector<SentPlayCommand> plays_;
   std::vector<AuditEvent> audit_;
   std::unique_ptr<GatewayCore> core_;
 };

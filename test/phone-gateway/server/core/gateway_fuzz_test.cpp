@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "test/phone-gateway/server/core/gateway_fixture.h"
 
@@ -13,6 +15,16 @@ namespace {
 
 class GatewayFuzz : public GatewayFixture {
  protected:
+  GatewayFuzz() {
+    const RobotOutputs outputs{
+        .send = [this](const Command& command) { sent_.push_back(command); },
+        .send_service = [this](const ServiceCommand& command) { services_.push_back(command); },
+    };
+    std::vector<RobotSetup> robots{{make_test_robot(), outputs}, {make_test_robot(), outputs}};
+    robots[1].description.set_name("NAO2");
+    start(std::move(robots), GatewayLimits{});
+  }
+
   /** A double that is likely to reveal an error. */
   double odd_double() {
     static constexpr double kOdd[] = {0,    -0.0, 1,  -1,  0.5,      1e-310,   1e308,
@@ -21,27 +33,20 @@ class GatewayFuzz : public GatewayFixture {
   }
 
   std::string odd_name() {
-    static const std::vector<std::string> kNames = {"head",
-                                                    "left hand",
-                                                    "Crouch",
-                                                    "Stand",
-                                                    "wave",
-                                                    "",
-                                                    "tail",
-                                                    "\x1b[2J",
-                                                    "%n%s",
-                                                    "../../etc",
-                                                    std::string(5000, 'x')};
+    static const std::vector<std::string> kNames = {
+        "head", "left hand", "Crouch",  "Stand", "wave",      "NAO2",
+        "",     "tail",      "\x1b[2J", "%n%s",  "../../etc", std::string(5000, 'x')};
     return kNames[random_() % kNames.size()];
   }
 
   naoremote::Request odd_request() {
     naoremote::Request request;
     request.set_request_id(random_());
-    switch (random_() % 14) {
+    switch (random_() % 17) {
       case 0:
         request.mutable_connect()->set_protocol_version(random_() % 3);
         request.mutable_connect()->set_client_name(random_() % 2 ? odd_name() : "");
+        if (random_() % 4 == 0) request.mutable_connect()->set_robot(odd_name());
         break;
       case 1:
         request.mutable_get_state()->set_with_image(random_() % 2);
@@ -81,6 +86,7 @@ class GatewayFuzz : public GatewayFixture {
         break;
       case 9:
         request.mutable_take_control();
+        if (random_() % 4 == 0) request.mutable_take_control()->set_robot(odd_name());
         break;
       case 10:
         request.mutable_release_control();
@@ -90,8 +96,28 @@ class GatewayFuzz : public GatewayFixture {
         break;
       case 12:
         request.mutable_operate()->set_operation(
-            static_cast<naoremote::Operate::Operation>(random_() % 6));
+            static_cast<naoremote::Operate::Operation>(random_() % 9));
         request.mutable_operate()->set_client_id(random_() % 20);
+        if (random_() % 4 == 0) request.mutable_operate()->set_robot(odd_name());
+        break;
+      case 13:
+        request.mutable_say()->set_operation(static_cast<naoremote::Say::Operation>(random_() % 5));
+        request.mutable_say()->set_text(odd_name());
+        request.mutable_say()->set_language(random_() % 2 ? "de" : odd_name());
+        if (random_() % 2) request.mutable_say()->set_volume(odd_double());
+        request.mutable_say()->set_rate(odd_double());
+        break;
+      case 14:
+        for (unsigned i = 0; i < random_() % 3; ++i) {
+          request.mutable_set_lights()->add_light_names(random_() % 2 ? "chest" : odd_name());
+        }
+        for (unsigned i = 0; i < random_() % 3; ++i) {
+          request.mutable_set_lights()->add_light_rgb(random_() >> random_() % 32);
+        }
+        request.mutable_set_lights()->set_duration(odd_double());
+        break;
+      case 15:
+        request.mutable_watch_robot()->set_robot(random_() % 2 ? "NAO" : odd_name());
         break;
       default:
         break;
@@ -116,6 +142,16 @@ class GatewayFuzz : public GatewayFixture {
       }
     }
     sent_.clear();
+    for (const ServiceCommand& sent : services_) {
+      EXPECT_NE(sent.id, 0);
+      if (const auto* speech = std::get_if<SpeechCommand>(&sent.request)) {
+        EXPECT_EQ(nao::check(*speech), std::nullopt);
+      } else {
+        EXPECT_EQ(nao::check(std::get<LightCommand>(sent.request), {"left-eye", "chest"}),
+                  std::nullopt);
+      }
+    }
+    services_.clear();
   }
 
   std::mt19937 random_{20240607};

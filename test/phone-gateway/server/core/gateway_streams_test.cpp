@@ -35,7 +35,7 @@ TEST_F(GatewayStreams, SpreadStatesOverClientsThatSubscribedTogether) {
     now_ += 0.01;
     RobotSnapshot robot;
     robot.utime = static_cast<int64_t>(now_ * 1e6);
-    core_->set_robot(robot, now_);
+    core_->robot().set_state(robot, now_);
     num_served.push_back(0);
     for (const Client& client : clients) {
       while (core_->next_message(client.id, now_)) ++num_served.back();
@@ -111,18 +111,18 @@ TEST_F(GatewayStreams, HaveTheAgeOfAnImageSinceItsExposure) {
 }
 
 TEST_F(GatewayStreams, RequestTheHighestRateOfAllClientsFromTheCamera) {
-  EXPECT_TRUE(core_->streams().camera_requests(now_).empty());
+  EXPECT_TRUE(core_->robot().streams().camera_requests(now_).empty());
   Client ana = connect("Ana");
   Client ben = connect("Ben");
   subscribe(ana, 0, 10);
   subscribe(ben, 0, 20);
-  auto requests = core_->streams().camera_requests(now_);
+  auto requests = core_->robot().streams().camera_requests(now_);
   ASSERT_EQ(requests.size(), 1u);
   EXPECT_EQ(requests[0].rate, 20);
   EXPECT_EQ(requests[0].image.width, 320u);
   core_->closed(ben.id, "test", now_);
   subscribe(ana, 10, 0);
-  EXPECT_TRUE(core_->streams().camera_requests(now_).empty());
+  EXPECT_TRUE(core_->robot().streams().camera_requests(now_).empty());
 }
 
 TEST_F(GatewayStreams, RepeatTheLastStateOnceASecondWithoutARobot) {
@@ -156,13 +156,13 @@ TEST_F(GatewayStreams, CanBePolled) {
   EXPECT_EQ(polled.state().joint_position_size(), 4);
   EXPECT_EQ(polled.state().mode(), naoremote::MODE_HOLDING);
   EXPECT_FALSE(polled.has_image());
-  EXPECT_EQ(core_->streams().camera_requests(now_).size(), 1u) << "polling requests images";
+  EXPECT_EQ(core_->robot().streams().camera_requests(now_).size(), 1u) << "polling requests images";
   receive_image(5);
   polled = ask(ana, get_state()).state_and_image();
   EXPECT_EQ(polled.image().jpeg(), "jpeg 5");
   EXPECT_FALSE(ask(ana, get_state()).state_and_image().has_image()) << "it has been sent already";
   pass(2.1);
-  EXPECT_TRUE(core_->streams().camera_requests(now_).empty());
+  EXPECT_TRUE(core_->robot().streams().camera_requests(now_).empty());
 }
 
 TEST_F(GatewayStreams, HaveNoStateBeforeTheFirstOneIsReceived) {

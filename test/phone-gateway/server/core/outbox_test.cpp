@@ -33,6 +33,42 @@ TEST(Outbox, InsertsAMessageBeforeLaterOnes) {
   for (const char* text : {"first", "second", "third"}) EXPECT_EQ(*outbox.take_message(), text);
 }
 
+TEST(Outbox, ServesStatesAudioAndImagesOfASlowClientInTurn) {
+  Outbox outbox;
+  const auto piece = std::make_shared<const std::string>("piece");
+  for (int i = 0; i < 3; ++i) outbox.push_audio(piece);
+  std::string order;
+  for (int i = 0; i < 9; ++i) {
+    outbox.request_state();
+    outbox.request_image();
+    switch (outbox.next()) {
+      case Outbox::Next::kState:
+        outbox.take_state();
+        order += 's';
+        break;
+      case Outbox::Next::kAudio:
+        (void)outbox.take_audio();
+        order += 'a';
+        break;
+      default:
+        outbox.take_image();
+        order += 'i';
+    }
+  }
+  EXPECT_EQ(order, "saisaisai");
+}
+
+TEST(Outbox, DropsTheOldestAudioOfASlowClient) {
+  Outbox outbox;
+  for (int i = 0; i < 20; ++i) {
+    outbox.push_audio(std::make_shared<const std::string>(std::to_string(i)));
+  }
+  EXPECT_EQ(outbox.num_skipped(), 4u);
+  EXPECT_EQ(*outbox.take_audio(), "4");
+  outbox.clear_audio();
+  EXPECT_EQ(outbox.next(), Outbox::Next::kNothing);
+}
+
 TEST(Outbox, CountsStatesAndImagesThatWereNotSentInTime) {
   Outbox outbox;
   for (int i = 0; i < 3; ++i) outbox.request_state();

@@ -30,6 +30,7 @@ inline naoremote::RobotDescription make_test_robot() {
   naoremote::JointGroup* hand = robot.add_joint_groups();
   hand->set_name("left hand");
   hand->set_pitch_joint("LHand");
+  for (const char* name : {"left-eye", "chest"}) robot.add_lights()->set_name(name);
   return robot;
 }
 

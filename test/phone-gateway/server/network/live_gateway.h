@@ -50,7 +50,7 @@ class LiveGateway {
     try {
       Bus bus("memq://");
       FakeMotion motion(bus, {"HeadYaw", "HeadPitch", "LShoulderRoll", "LHand"});
-      GatewayDaemon daemon(bus, make_test_robot(), options.limits, "secret");
+      GatewayDaemon daemon(bus, {make_test_robot()}, options.limits, "secret");
       TemporaryFolder data;
       std::filesystem::create_directories(data.path() / "web");
       write_text(data.path() / "web" / "index.html", "<p>app</p>");
@@ -70,7 +70,7 @@ class LiveGateway {
         daemon.step(monotonic_seconds());
         num_sessions_ = static_cast<int>(daemon.core().sessions().all().size());
         if (is_stopping_) network.stop("test");
-        if (!has_started && daemon.core().components().is_available(Component::kRobot)) {
+        if (!has_started && daemon.core().robot().components().is_available(Component::kRobot)) {
           has_started = true;
           is_ready.set_value();
         }

@@ -290,7 +290,7 @@ TEST_F(LiveGatewayTest, ExecutesTheOperatorsRequests) {
 
 TEST(LiveGateway, NamesThePortThatIsInUse) {
   LiveGateway gateway;
-  GatewayCore core(make_test_robot(), GatewayLimits{}, {}, {});
+  GatewayCore core({{make_test_robot(), {}}}, GatewayLimits{}, {}, {});
   WebPages pages("/");
   NetworkOptions options;
   options.bind = "127.0.0.1";

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "daemons/head-camera/head_camera.h"
+
+namespace nao {
+class EventLoop;
+}
+
+namespace nao::camera {
+
+/** Where the images of the head cameras come from: a renderer, or cameras. */
+class ImageSource {
+ public:
+  ImageSource() = default;
+  virtual ~ImageSource() = default;
+  ImageSource(const ImageSource&) = delete;
+  ImageSource& operator=(const ImageSource&) = delete;
+
+  /** Registers with the loop what the source waits for. @param on_image  To be called whenever an
+   * image of the camera that it names can be taken. */
+  virtual void attach(EventLoop& loop, std::function<void(const std::string&)> on_image) = 0;
+  /** Why no camera has an image, in words; empty if one has. @param now  s, monotonic. */
+  virtual std::string missing_input(double now) const = 0;
+  /** Whether take() has an image of this camera that is not outdated. @param now  s, monotonic. */
+  virtual bool has_image(const std::string& camera, double now) const = 0;
+  /** Robot time of what take() would show, microseconds. */
+  virtual int64_t utime(const std::string& camera) const = 0;
+  /** The newest image. @param min_width  Sizes below this width are not computed.
+   * @return Valid until the next call. @throws Error  if has_image() is false. */
+  virtual const CameraFrame& take(const std::string& camera, int min_width) = 0;
+  /** What went wrong since the last call, one sentence each. */
+  virtual std::vector<std::string> take_problems() = 0;
+  /** What the images are made with, for the log. */
+  virtual std::string description() const = 0;
+};
+
+}  // namespace nao::camera

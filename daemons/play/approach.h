@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "kinematics/pose2.h"
+#include "messages/command.h"
+#include "robot_model/robot_description.h"
+
+namespace nao::play {
+
+/** A pose of the feet behind a ball. */
+struct ApproachGoal {
+  /** m; frames of all: odometry. */
+  Eigen::Vector2d ball = Eigen::Vector2d::Zero();
+  /** Heading at the goal, rad: the direction in which the ball is to go. */
+  double heading = 0;
+  /** Ball seen from the feet at the goal, m, ahead and to the left. */
+  Eigen::Vector2d ball_in_feet = Eigen::Vector2d::Zero();
+
+  /** The feet at the goal. */
+  Pose2 feet() const;
+};
+
+/** Where the feet are relative to the goal: ahead and left, m, in the goal's frame, and rad. */
+Pose2 calc_approach_error(const ApproachGoal& goal, const Pose2& feet);
+
+/** Velocity that leads the feet to the goal on a curve that does not touch the ball: tangentially
+ * around a circle about it, then straight ahead to the goal. Far from the ball the robot looks
+ * where it walks, near it at the ball and then along the goal's heading. */
+WalkCommand plan_approach(const ApproachGoal& goal, const Pose2& feet, const WalkLimits& limits);
+
+/** Velocity that leads the feet straight to a pose, turning to it on the way. */
+WalkCommand plan_walk_to(const Pose2& pose, const Pose2& feet, const WalkLimits& limits);
+
+}  // namespace nao::play

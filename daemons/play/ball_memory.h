@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "daemons/play/situation.h"
+
+namespace nao::play {
+
+/** Tells a ball from what was taken for one in a single image: counts how often it was seen about
+ * one place. */
+class BallMemory {
+ public:
+  /** To be called in every step, with the ball as perception tracks it. */
+  void take(const std::optional<Ball>& ball, const Pose2& feet_in_odometry);
+  /** The ball of the last take() was seen several times. */
+  bool is_confirmed() const;
+  /** It was not, but shortly before `time`: worth a look. @param time  Robot time, s. */
+  bool is_candidate(double time) const;
+
+ private:
+  std::optional<Ball> last_;
+  int num_seen_ = 0;
+};
+
+}  // namespace nao::play

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+
+#include "daemons/play/situation.h"
+
+namespace nao::play {
+
+/** Looks for the ball: where it was, then all around with the head, then by turning, then by
+ * walking to another place of the own half, and again. */
+class BallSearch {
+ public:
+  /** Begins anew. @param last  Where it was last known, m, in the odometry frame. */
+  void start(const std::optional<Eigen::Vector2d>& last, const Situation& situation);
+
+  bool is_active() const { return is_active_; }
+  void stop() { is_active_ = false; }
+
+  /** s since the start. */
+  double duration(const Situation& situation) const { return situation.time - start_; }
+
+  /** One step; start() must have been called. */
+  Decision step(const Situation& situation, const PlayConstants& constants);
+
+ private:
+  enum class Stage { kScan, kTurn, kRoam };
+
+  void enter(Stage stage, const Situation& situation);
+  void scan(const Situation& situation, Decision& decision);
+  void turn(const Situation& situation, const PlayConstants& constants, Decision& decision);
+  void roam(const Situation& situation, const PlayConstants& constants, Decision& decision);
+
+  bool is_active_ = false;
+  Stage stage_ = Stage::kScan;
+  double start_ = 0;
+  double stage_start_ = 0;
+  std::optional<Eigen::Vector2d> last_;
+  /** 1: to the left. */
+  double direction_ = 1;
+  /** Turned so far, rad, and the heading in the last step. */
+  double turned_ = 0;
+  double heading_ = 0;
+  int num_roams_ = 0;
+};
+
+}  // namespace nao::play

@@ -1,0 +1,151 @@
+#include "daemons/play/keeper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "daemons/play/approach.h"
+
+namespace nao::play {
+namespace {
+
+using Eigen::Vector2d;
+
+/** Deceleration of a rolling ball, m/s^2, as in sim/world_options.h. */
+constexpr double kDeceleration = 0.3;
+/** A ball that was not seen for this long is looked for, s. */
+constexpr double kForgetBall = 4;
+/** Distance of the feet before the middle of the goal line, m: out far enough to cover more of the
+ * goal's mouth, near enough that a dive comes in time. */
+constexpr double kOut = 0.5;
+/** Hysteresis of the place: stops within the first, walks beyond the second, m and rad. */
+constexpr double kInPlace = 0.06;
+constexpr double kOutOfPlace = 0.2;
+constexpr double kTurned = 0.15;
+constexpr double kTurnedAway = 0.4;
+/** Slower balls are not shots, m/s. */
+constexpr double kShotSpeed = 0.25;
+/** Half of the width that a block covers, and the greatest that a dive reaches, m. */
+constexpr double kBlockHalf = 0.2;
+constexpr double kDiveReach = 0.85;
+/** s before the ball comes at which the robot moves: a dive is on the ground after 0.66 s, a block
+ * after 0.21 s (nao-trial block), and the decision is later by images and bus. */
+constexpr double kDiveTime = 1.0;
+constexpr double kBlockTime = 0.6;
+/** A ball that passes beside a post by this, m, is left alone. */
+constexpr double kPostMargin = 0.15;
+/** Greatest speed of a step aside, m/s. */
+constexpr double kAsideSpeed = 0.14;
+/** Ball ahead of the feet's line at which a foot stops it, m. */
+constexpr double kFootLength = 0.1;
+/** Least time between two actions, s: the second one would answer the same shot. */
+constexpr double kActionPause = 1;
+
+}  // namespace
+
+std::optional<Shot> predict_shot(const Vector2d& ball, const Vector2d& velocity) {
+  const double speed = velocity.norm();
+  if (speed < kShotSpeed || velocity.x() >= 0) return std::nullopt;
+  const double ahead = ball.x() - kFootLength;
+  if (ahead < 0) return std::nullopt;
+  // Along its straight path: s = v t - a t^2 / 2.
+  const double path = ahead * speed / -velocity.x();
+  const double root = speed * speed - 2 * kDeceleration * path;
+  if (root <= 0) return std::nullopt;
+  return Shot{(speed - std::sqrt(root)) / kDeceleration, ball.y() + velocity.y() * path / speed};
+}
+
+Pose2 Keeper::calc_place(const std::optional<Vector2d>& ball, const Situation& situation) const {
+  const Pose2& field = situation.field_in_odometry;
+  const Vector2d goal(-0.5 * constants_.field.length, 0);
+  Vector2d way(1, 0);
+  if (ball) {
+    const Vector2d seen = field.inverse() * *ball - goal;
+    // Never behind the goal line.
+    if (seen.norm() > 0.1) way = Vector2d(std::max(seen.x(), 0.1), seen.y()).normalized();
+  }
+  Vector2d place = goal + kOut * way;
+  place.x() = std::max(place.x(), goal.x() + 0.2);
+  return {field * place, wrapped(field.heading + std::atan2(way.y(), way.x()))};
+}
+
+bool Keeper::is_towards_goal(const Ball& ball, const Situation& situation) const {
+  const Pose2 in_field = situation.field_in_odometry.inverse();
+  const Vector2d position = in_field * ball.position;
+  const Vector2d velocity = in_field.rotate(ball.velocity);
+  if (velocity.x() >= 0) return false;
+  const double way = position.x() + 0.5 * constants_.field.length;
+  if (way < 0) return false;
+  const double y = position.y() + velocity.y() * way / -velocity.x();
+  return std::abs(y) < 0.5 * constants_.field.goal_width + kPostMargin;
+}
+
+std::optional<Decision> Keeper::answer_shot(const Ball& ball, const Situation& situation) {
+  if (!ball.is_rolling || situation.time - last_action_ < kActionPause) return std::nullopt;
+  const Pose2 in_feet = situation.robot.feet_in_odometry.inverse();
+  const auto shot = predict_shot(in_feet * ball.position, in_feet.rotate(ball.velocity));
+  if (!shot || !is_towards_goal(ball, situation)) return std::nullopt;
+  Decision decision;
+  decision.gaze.point = ball.position;
+  decision.phase = PlayPhase::kBlock;
+  const double aside = std::abs(shot->aside);
+  const ActionNames& names = constants_.actions;
+  const bool needs_dive = aside > kBlockHalf;
+  const std::string& action = !needs_dive       ? names.block
+                              : shot->aside > 0 ? names.dive_left
+                                                : names.dive_right;
+  const bool is_due = shot->time < (needs_dive ? kDiveTime : kBlockTime);
+  if (is_due && aside < kDiveReach && !action.empty()) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    decision.action = ActionCommand{action, nan, nan, nan};
+    last_action_ = situation.time;
+    return decision;
+  }
+  // There is time to step aside.
+  if (aside > 0.5 * kBlockHalf && shot->time > kDiveTime) {
+    const double most = std::min(kAsideSpeed, constants_.walk_limits.sideways);
+    decision.walk.vy = std::clamp(shot->aside, -most, most);
+  }
+  return decision;
+}
+
+Decision Keeper::guard(const std::optional<Ball>& ball, const Situation& situation) {
+  const Pose2& feet = situation.robot.feet_in_odometry;
+  const std::optional<Vector2d> position =
+      ball ? std::optional<Vector2d>(ball->position) : std::nullopt;
+  const Pose2 place = calc_place(position, situation);
+  const double distance = (place.position - feet.position).norm();
+  const double turn = std::abs(wrapped(place.heading - feet.heading));
+  if (distance < kInPlace && turn < kTurned) is_in_place_ = true;
+  if (distance > kOutOfPlace || turn > kTurnedAway) is_in_place_ = false;
+  Decision decision;
+  decision.phase = PlayPhase::kGuard;
+  decision.target = place.position;
+  if (!is_in_place_) decision.walk = plan_walk_to(place, feet, constants_.walk_limits);
+  if (ball) {
+    decision.gaze.point = ball->position;
+    return decision;
+  }
+  // The head looks for the ball; the feet stay before the goal.
+  decision.reason = Reason("ball-not-in-sight");
+  if (!search_.is_active()) search_.start(std::nullopt, situation);
+  decision.gaze = search_.step(situation, constants_).gaze;
+  if (search_.duration(situation) > 4) search_.stop();
+  return decision;
+}
+
+Decision Keeper::step(const Situation& situation) {
+  if (situation.is_performing) {
+    Decision decision;
+    decision.phase = PlayPhase::kBlock;
+    return decision;
+  }
+  std::optional<Ball> ball = situation.ball;
+  if (ball && situation.time - ball->seen_time > kForgetBall) ball.reset();
+  if (!ball) return guard(ball, situation);
+  search_.stop();
+  if (auto decision = answer_shot(*ball, situation)) return *decision;
+  return guard(ball, situation);
+}
+
+}  // namespace nao::play

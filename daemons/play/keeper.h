@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "daemons/play/ball_search.h"
+#include "daemons/play/situation.h"
+
+namespace nao::play {
+
+/** A ball that rolls towards the robot. */
+struct Shot {
+  /** s until it passes the line through the feet, at right angles to the heading. */
+  double time = 0;
+  /** Where it passes, m to the left of the feet. */
+  double aside = 0;
+};
+
+/** Prediction of a rolling ball with constant deceleration.
+ * @param ball, velocity  In F. @return Nothing if it does not come or stops before. */
+std::optional<Shot> predict_shot(const Eigen::Vector2d& ball, const Eigen::Vector2d& velocity);
+
+/** Keeps the own goal: stands between ball and goal, steps aside to a slow ball, blocks a shot at
+ * the body and dives for one beside it. */
+class Keeper : public BehaviorMachine {
+ public:
+  /** @param constants  Must outlive this. */
+  explicit Keeper(const PlayConstants& constants) : constants_(constants) {}
+
+  Decision step(const Situation& situation) override;
+  void restart() override { search_.stop(); }
+
+ private:
+  /** Where the feet are to be, in the odometry frame. */
+  Pose2 calc_place(const std::optional<Eigen::Vector2d>& ball, const Situation& situation) const;
+  bool is_towards_goal(const Ball& ball, const Situation& situation) const;
+  std::optional<Decision> answer_shot(const Ball& ball, const Situation& situation);
+  Decision guard(const std::optional<Ball>& ball, const Situation& situation);
+
+  const PlayConstants& constants_;
+  BallSearch search_;
+  bool is_in_place_ = false;
+  double last_action_ = -1e9;
+};
+
+}  // namespace nao::play

@@ -1,0 +1,48 @@
+// nao-play: behaviors of the robot. See README.md.
+#include <cmath>
+#include <vector>
+
+#include "common/bus.h"
+#include "common/command_line.h"
+#include "common/data_path.h"
+#include "common/event_loop.h"
+#include "common/logger.h"
+#include "common/program.h"
+#include "common/wall_clock.h"
+#include "daemons/play/play_daemon.h"
+#include "robot_model/robot_model.h"
+
+int main(int argc, char** argv) {
+  nao::CommandLine app("Lets the robot act by what it sees: go to the ball, score, keep the goal",
+                       "nao-play");
+  nao::CommonOptions common;
+  nao::play::PlayOptions options;
+  nao::add_common_options(app, common);
+  std::string model_name = "nao";
+  std::vector<double> start_pose = {0, 0, 0};
+  app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
+      ->show_default();
+  app.add_option("--scene", options.scene, "Scene with the field's measures")->show_default();
+  app.add_option(
+         "--start-pose", start_pose,
+         "X,Y,HEADING: pose of the robot on the field when nao-motion starts, used until "
+         "nao-vision says where it is; m and degrees; x towards the opponent's goal, y left "
+         "(default: 0,0,0)")
+      ->separated_by(',')
+      ->count(3);
+  return nao::run_program(app, common, argc, argv, [&] {
+    options.robot = common.robot;
+    options.start_in_field = {{start_pose[0], start_pose[1]}, start_pose[2] * M_PI / 180};
+    const auto model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
+    nao::EventLoop loop;
+    nao::Bus bus(common.lcm_url);
+    nao::logger::info("version {}, bus {}, robot {} from {}, scene {}", nao::version(),
+                      common.lcm_url, options.robot, model.folder().string(), options.scene);
+    nao::play::PlayDaemon daemon(bus, model, options);
+    daemon.attach(loop);
+    const std::string reason = loop.run();
+    daemon.shut_down(nao::monotonic_seconds());
+    nao::logger::info("{}: {} messages in, {} out, {} dropped", reason, bus.counters().num_in,
+                      bus.counters().num_out, bus.counters().num_dropped);
+  });
+}

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "messages/command.h"
+#include "messages/command_retry.h"
+
+namespace nao::play {
+
+/** Commands nao-motion: a walk, one action at a time, and the head meanwhile. Repeats what is not
+ * answered, and ends what it began. Time: robot time, s. */
+class MotionDriver {
+ public:
+  /** @param head_joints  Yaw and pitch; an empty name: no such joint. */
+  MotionDriver(std::string source, int64_t first_id, std::vector<std::string> head_joints)
+      : source_(std::move(source)), next_id_(first_id), head_joints_(std::move(head_joints)) {}
+
+  const std::string& source() const { return source_; }
+
+  /** Walks at a velocity; all zero ends the walk. */
+  void walk(const WalkCommand& velocity, double time);
+  /** Begins an action; the walk ends with it. */
+  void perform(const ActionCommand& action, double time);
+  /** Turns the head: absolute angles, rad, in the order of the joints. */
+  void turn_head(const std::vector<double>& angles, double time);
+  /** Ends the walk, or the action where that is possible. */
+  void stop(double time);
+  /** Forgets everything without a command: another sender moves the robot, or it has fallen. */
+  void abandon();
+
+  void handle_result(const CommandResult& result, double time);
+  /** @return What is to be sent now. */
+  std::vector<Command> step(double time);
+
+  bool is_walking() const { return walk_id_ != 0; }
+  bool is_performing() const { return action_.has_value(); }
+  /** How the last action ended, once. */
+  std::optional<CommandResult> take_ended();
+
+ private:
+  /** A command that is sent until it is answered. */
+  struct Event {
+    Command command;
+    CommandRetry retry;
+  };
+
+  Event make_event(decltype(Command::request) request, double confirm_period, double time);
+
+  std::string source_;
+  int64_t next_id_;
+  std::vector<std::string> head_joints_;
+  /** Number of the walk that is being commanded; 0: none. */
+  int64_t walk_id_ = 0;
+  WalkCommand velocity_;
+  int num_zeros_left_ = 0;
+  int64_t last_walk_id_ = 0;
+  double last_walk_sent_ = -1e9;
+  std::optional<Event> action_;
+  std::optional<Event> stop_;
+  std::optional<Event> head_;
+  std::vector<double> head_angles_;
+  double last_head_ = -1e9;
+  std::optional<CommandResult> ended_;
+};
+
+}  // namespace nao::play

@@ -1,0 +1,183 @@
+#include "daemons/play/play_daemon.h"
+
+#include <unistd.h>
+
+#include <naolcm/action_command_t.hpp>
+#include <naolcm/camera_command_t.hpp>
+#include <naolcm/command_result_t.hpp>
+#include <naolcm/joint_change_command_t.hpp>
+#include <naolcm/motion_state_t.hpp>
+#include <naolcm/move_to_command_t.hpp>
+#include <naolcm/play_command_t.hpp>
+#include <naolcm/posture_command_t.hpp>
+#include <naolcm/stop_command_t.hpp>
+#include <naolcm/walk_command_t.hpp>
+#include <utility>
+
+#include "common/bus.h"
+#include "common/event_loop.h"
+#include "common/logger.h"
+#include "common/wall_clock.h"
+#include "messages/result_message.h"
+
+namespace nao::play {
+namespace {
+
+const char* const kProgram = "nao-play";
+/** s. */
+constexpr double kStatusPeriod = 1;
+/** Silence of nao-motion after which there is no robot, s: robot_state_t. */
+constexpr double kRobotTimeout = 0.5;
+/** The camera's requests are valid for 2 s. */
+constexpr double kRequestPeriod = 1;
+/** Size and rate of the requested images: what nao-vision is made for, at half of its greatest
+ * rate. Chosen: two cameras in turn, and a host that renders them, too. */
+constexpr int kWidth = 640;
+constexpr double kRate = 15;
+
+PlayConstants make_constants(const RobotModel& model, const PlayOptions& options) {
+  PlayConstants constants = load_constants(model, options.scene);
+  constants.start_in_field = options.start_in_field;
+  return constants;
+}
+
+CommandResult read_result(const naolcm::command_result_t& message) {
+  CommandResult result{message.source, message.command_id,
+                       static_cast<CommandKind>(message.command_kind),
+                       static_cast<ResultStatus>(message.status)};
+  result.reason.code = message.reason_code;
+  result.reason.arguments = message.reason_arguments;
+  return result;
+}
+
+}  // namespace
+
+PlayDaemon::PlayDaemon(Bus& bus, const RobotModel& model, const PlayOptions& options,
+                       std::function<double()> clock)
+    : bus_(bus),
+      model_(model),
+      clock_(std::move(clock)),
+      channels_(options.robot),
+      status_(bus, kProgram),
+      commands_(bus_, channels_),
+      viewer_(model),
+      source_("play." + std::to_string(getpid())),
+      // Numbers that no earlier process with the same id has used.
+      core_(make_constants(model, options), viewer_.head_limits(), viewer_.head_joints(), source_,
+            wall_utime()) {
+  subscribe();
+  publish_status(clock_());
+}
+
+void PlayDaemon::subscribe() {
+  bus_.subscribe<naolcm::play_command_t>(
+      channels_.play_command, Bus::Queue::kAll, [this](const naolcm::play_command_t& message) {
+        input_.requests.push_back({message.source, message.command_id, to_play_command(message)});
+      });
+  bus_.subscribe<naolcm::robot_state_t>(
+      channels_.robot_state, Bus::Queue::kLatest, [this](const naolcm::robot_state_t& message) {
+        const RobotPose pose = decode_pose(model_, message);
+        input_.robot = viewer_.look(pose.torso_in_odometry, pose.position);
+        torso_.add(message.utime, input_.robot->torso_in_odometry);
+        utime_ = message.utime;
+        last_robot_ = clock_();
+      });
+  bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
+                                         [this](const naolcm::motion_state_t& message) {
+                                           input_.mode = static_cast<Mode>(message.mode);
+                                           input_.needs_help = message.needs_help != 0;
+                                           last_motion_ = clock_();
+                                         });
+  bus_.subscribe<naolcm::vision_state_t>(channels_.vision_state, Bus::Queue::kLatest,
+                                         [this](const naolcm::vision_state_t& message) {
+                                           input_.vision = decode_vision(message, torso_);
+                                         });
+  bus_.subscribe<naolcm::command_result_t>(channels_.command_result, Bus::Queue::kAll,
+                                           [this](const naolcm::command_result_t& message) {
+                                             if (message.source == source_)
+                                               input_.results.push_back(read_result(message));
+                                           });
+  watch_commands<naolcm::walk_command_t>(channels_.walk_command, CommandKind::kWalk);
+  watch_commands<naolcm::move_to_command_t>(channels_.move_to_command, CommandKind::kMoveTo);
+  watch_commands<naolcm::posture_command_t>(channels_.posture_command, CommandKind::kPosture);
+  watch_commands<naolcm::joint_change_command_t>(channels_.joint_change_command,
+                                                 CommandKind::kJointChange);
+  watch_commands<naolcm::action_command_t>(channels_.action_command, CommandKind::kAction);
+  watch_commands<naolcm::stop_command_t>(channels_.stop_command, CommandKind::kStop);
+}
+
+template <class Message>
+void PlayDaemon::watch_commands(const std::string& channel, CommandKind kind) {
+  bus_.subscribe<Message>(channel, Bus::Queue::kAll, [this, kind](const Message& message) {
+    if (message.source != source_) input_.other_command = kind;
+  });
+}
+
+void PlayDaemon::attach(EventLoop& loop) {
+  loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
+  loop.every(kStepPeriod, [this] { step(clock_()); });
+  loop.every(kStatePeriod, [this] { publish_state(); });
+  loop.every(kStatusPeriod, [this] { publish_status(clock_()); });
+}
+
+void PlayDaemon::step(double now) {
+  status_.tick(now);
+  input_.now = now;
+  input_.time = 1e-6 * static_cast<double>(utime_);
+  if (now - last_robot_ > kRobotTimeout || now - last_motion_ > kRobotTimeout) {
+    input_.robot.reset();
+  }
+  const PlayOutput output = core_.step(input_);
+  input_.requests.clear();
+  input_.results.clear();
+  input_.other_command.reset();
+  for (const Command& command : output.commands) commands_.publish(command);
+  for (const CommandResult& result : output.results) {
+    bus_.publish(channels_.command_result, to_message(result, utime_));
+  }
+  request_camera(output.camera, now);
+}
+
+// Repeated, as requests expire.
+void PlayDaemon::request_camera(const std::string& camera, double now) {
+  const bool is_due = camera != camera_ || now - last_camera_request_ >= kRequestPeriod;
+  camera_ = camera;
+  if (camera.empty() || !is_due) return;
+  last_camera_request_ = now;
+  naolcm::camera_command_t command{};
+  command.utime = utime_;
+  command.wall_utime = wall_utime();
+  command.source = source_;
+  command.camera = camera;
+  command.width = kWidth;
+  command.rate = kRate;
+  bus_.publish(channels_.head_camera_command, command);
+}
+
+void PlayDaemon::publish_state() {
+  bus_.publish(channels_.play_state, encode_state(core_.state(), utime_));
+}
+
+void PlayDaemon::publish_status(double now) {
+  status_.tick(now);
+  const std::string detail = core_.is_active()
+                                 ? std::string(to_string(core_.state().behavior)) + ", " +
+                                       std::string(to_string(core_.state().phase))
+                                 : "";
+  status_.set_state("ready", detail);
+  status_.publish({{"is_active", core_.is_active() ? 1.0 : 0.0}});
+}
+
+void PlayDaemon::shut_down(double now) {
+  if (!core_.is_active()) return;
+  PlayRequest request{source_, wall_utime(), {}};
+  input_.requests = {request};
+  step(now);
+  // The bus may lose a message: the three zeros of an ended walk.
+  for (int i = 1; i <= 3; ++i) {
+    utime_ += 100000;
+    step(now + 0.1 * i);
+  }
+}
+
+}  // namespace nao::play

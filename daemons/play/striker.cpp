@@ -1,0 +1,391 @@
+#include "daemons/play/striker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nao::play {
+namespace {
+
+using Eigen::Vector2d;
+
+/** A ball that was not seen for this long is looked for, s; near the feet, where the robot's own
+ * steps move the image, longer. Chosen. */
+constexpr double kForgetAfter = 5;
+constexpr double kForgetAfterNear = 8;
+constexpr double kNear = 0.6;
+/** The search is given up after this time, s. */
+constexpr double kSearchTimeout = 120;
+/** Distance, m, that a kick moves the ball: nao-trial kick measures 4.8 (docs/performance.md). */
+constexpr double kKickDistance = 4.5;
+/** Deceleration of a rolling ball, m/s^2: SPL carpet, as in sim/world_options.h. */
+constexpr double kRollingDeceleration = 0.3;
+/** Of the kick's direction, rad: its worst error (1.7 degrees) and that of the heading. */
+constexpr double kDirectionError = 0.06;
+constexpr double kLeastTolerance = 0.06;
+constexpr double kGreatestTolerance = 0.3;
+/** Least tolerance of a kick that does not reach the goal, rad: 0.9 m aside at its end, where the
+ * next kick is aimed anew. Chosen. */
+constexpr double kFarTolerance = 0.2;
+/** Margin, m, to a goal post: the ball's radius and some of the pose's error. */
+constexpr double kPostMargin = 0.15;
+/** Parts of the kick's reach at which the walk stops: the last step and the settling move the
+ * feet by about a centimetre. */
+constexpr double kStopFraction = 0.55;
+constexpr double kKickFraction = 0.9;
+/** s for which the robot stands before it judges the place of the ball, and the longest time that
+ * it waits for an image. */
+constexpr double kSettleTime = 0.3;
+constexpr double kSettleTimeout = 2.0;
+/** s from the start of a kick until the foot has struck: phases of robots/nao/actions/kick.yaml. */
+constexpr double kStrikeTime = 1.2;
+/** After a kick: s that the robot looks before its feet, in case that it missed, and after the
+ * ball. */
+constexpr double kLookDown = 0.6;
+constexpr double kWatchTime = 1.4;
+/** Of the dribbled ball, m/s and m. */
+constexpr double kPushSpeed = 0.16;
+constexpr double kPushReach = 0.45;
+constexpr double kTargetReached = 0.3;
+/** A ball seen this far behind the goal line, m, has passed it: its radius, half of the line's
+ * width, and some of the pose's error. A ball that lies nearer is kicked once more. */
+constexpr double kBehindLine = 0.12;
+/** Where the ball has gone is judged from nearer than this, m: an error of the camera's tilt of one
+ * degree moves a ball at 2 m by 0.16 m, one at 4 m by 0.6 m. */
+constexpr double kJudgeDistance = 2;
+/** Go to the ball: distance of the feet from it at the end, m. */
+constexpr double kBeforeBall = 0.25;
+/** A robot that walks far looks for landmarks every kLandmarkPeriod s, for kLandmarkTime s, while
+ * the ball is beyond kLandmarkDistance m. Chosen. */
+constexpr double kLandmarkPeriod = 4;
+constexpr double kLandmarkTime = 0.9;
+constexpr double kLandmarkDistance = 1.2;
+/** Depression, rad, of the first camera's axis for landmarks. */
+constexpr double kLandmarkDepression = 0.2;
+
+}  // namespace
+
+void Striker::restart() {
+  stage_ = Stage::kApproach;
+  still_since_.reset();
+  search_.stop();
+}
+
+Decision Striker::step(const Situation& situation) {
+  memory_.take(situation.ball, situation.robot.feet_in_odometry);
+  if (situation.ended) handle_end(*situation.ended, situation);
+  if (situation.is_performing) {
+    Decision decision;
+    decision.phase = PlayPhase::kKick;
+    decision.target = calc_aim(kicked_ball_, situation).target;
+    decision.gaze.point = kicked_ball_;
+    return decision;
+  }
+  std::optional<Ball> ball = find_ball(situation);
+  if (!memory_.is_confirmed()) {
+    const bool is_looked_at = ball && memory_.is_candidate(situation.time);
+    if (is_looked_at && stage_ != Stage::kWatch) return look_at_candidate(*ball);
+    ball.reset();
+  }
+  if (stage_ == Stage::kWatch) {
+    const bool is_over = situation.time - stage_start_ > kWatchTime;
+    if (task_ == Task::kKick || (!is_over && !ball)) return watch(situation);
+    stage_ = Stage::kApproach;
+  }
+  if (!ball) {
+    stage_ = Stage::kApproach;
+    return look_for_ball(situation);
+  }
+  search_.stop();
+  // Out of sight again, as after a kick, it is looked for where it rolls to.
+  const Vector2d way = ball->position - situation.robot.feet_in_odometry.position;
+  expected_.reset();
+  if (way.norm() > kLandmarkDistance) expected_ = ball->position;
+  if (auto end = find_end(*ball, situation)) return *end;
+  switch (stage_) {
+    case Stage::kSettle:
+      return settle(*ball, situation);
+    case Stage::kPush:
+      return push(*ball, situation);
+    default:
+      return approach(*ball, situation);
+  }
+}
+
+void Striker::handle_end(const CommandResult& result, const Situation& situation) {
+  stage_start_ = situation.time;
+  still_since_.reset();
+  if (result.status != ResultStatus::kDone) {
+    // Refused or failed: the ball has moved, or the robot stood badly.
+    stage_ = Stage::kApproach;
+    return;
+  }
+  stage_ = Stage::kWatch;
+  num_settles_ = 0;
+  side_ = 0;
+  ignore_before_ = kick_start_ + kStrikeTime;
+  expected_ =
+      kicked_ball_ + kKickDistance * Vector2d(std::cos(kick_heading_), std::sin(kick_heading_));
+  // It does not leave the goal again.
+  Vector2d in_field = situation.field_in_odometry.inverse() * *expected_;
+  const Field& field = constants_.field;
+  const double most = 0.5 * field.length + 0.5 * field.goal_depth;
+  in_field = in_field.cwiseMax(Vector2d(-most, -0.5 * field.width));
+  in_field = in_field.cwiseMin(Vector2d(most, 0.5 * field.width));
+  expected_ = situation.field_in_odometry * in_field;
+}
+
+std::optional<Ball> Striker::find_ball(const Situation& situation) const {
+  if (!situation.ball || situation.ball->seen_time < ignore_before_) return std::nullopt;
+  Ball ball = *situation.ball;
+  const double distance = (ball.position - situation.robot.feet_in_odometry.position).norm();
+  const double age = situation.time - ball.seen_time;
+  if (age > (distance < kNear ? kForgetAfterNear : kForgetAfter)) return std::nullopt;
+  const double speed = ball.velocity.norm();
+  if (ball.is_rolling && speed > 0) {
+    const double path = std::min(speed * speed / (2 * kRollingDeceleration), kKickDistance);
+    ball.position += ball.velocity / speed * path;
+  }
+  return ball;
+}
+
+Striker::Aim Striker::calc_aim_at_goal(const Vector2d& ball, const Situation& situation) const {
+  const Pose2& field = situation.field_in_odometry;
+  const Vector2d in_field = field.inverse() * ball;
+  const double goal_x = 0.5 * constants_.field.length;
+  const double half = std::max(0.2, 0.5 * constants_.field.goal_width - kPostMargin);
+  // From a ball on the goal line the opening has no direction: a little before it.
+  const double depth = std::max(0.15, goal_x - in_field.x());
+  const double left = std::atan2(half - in_field.y(), depth);
+  const double right = std::atan2(-half - in_field.y(), depth);
+  Aim aim;
+  aim.heading = wrapped(field.heading + 0.5 * (left + right));
+  aim.tolerance =
+      std::clamp(0.5 * (left - right) - kDirectionError, kLeastTolerance, kGreatestTolerance);
+  const bool is_far = (Vector2d(goal_x, 0) - in_field).norm() > kKickDistance;
+  if (is_far) aim.tolerance = std::max(aim.tolerance, kFarTolerance);
+  aim.target = field * Vector2d(goal_x, 0);
+  return aim;
+}
+
+Striker::Aim Striker::calc_aim(const Vector2d& ball, const Situation& situation) const {
+  const Vector2d& feet = situation.robot.feet_in_odometry.position;
+  Aim aim;
+  if (task_ == Task::kGoToBall) {
+    const Vector2d way = ball - feet;
+    aim = {std::atan2(way.y(), way.x()), kGreatestTolerance, ball};
+  } else if (target_) {
+    const Vector2d way = *target_ - ball;
+    aim = {std::atan2(way.y(), way.x()), kLeastTolerance, *target_};
+  } else {
+    aim = calc_aim_at_goal(ball, situation);
+  }
+  // A robot that could not stop well enough several times is content with less.
+  aim.tolerance =
+      std::min(kGreatestTolerance, aim.tolerance + 0.04 * std::max(0, num_settles_ - 2));
+  return aim;
+}
+
+ApproachGoal Striker::make_goal(const Vector2d& ball, const Aim& aim, const Pose2& feet) {
+  if (task_ == Task::kGoToBall) return {ball, aim.heading, {kBeforeBall, 0}};
+  const Vector2d place = constants_.kick ? constants_.kick->ball : Vector2d(kBeforeBall, 0);
+  // The foot on whose side the feet are: with the ball to their left, the left one. With
+  // hysteresis, m, and no change near the ball.
+  const Pose2 ball_in_odometry{ball, aim.heading};
+  const Vector2d from_ball = ball_in_odometry.inverse() * feet.position;
+  const bool may_change = from_ball.norm() > 0.4 && std::abs(from_ball.y()) > 0.1;
+  if (side_ == 0 || may_change) side_ = from_ball.y() > 0 ? -1 : 1;
+  return {ball, aim.heading, {place.x(), side_ * place.y()}};
+}
+
+std::optional<Decision> Striker::find_end(const Ball& ball, const Situation& situation) const {
+  Decision decision;
+  decision.gaze.point = ball.position;
+  decision.phase = PlayPhase::kDone;
+  decision.is_done = true;
+  const Field& field = constants_.field;
+  const Vector2d seen = situation.field_in_odometry.inverse() * situation.ball->position;
+  const double distance = (ball.position - situation.robot.feet_in_odometry.position).norm();
+  if (task_ == Task::kScore) {
+    if (distance > kJudgeDistance) return std::nullopt;
+    const bool is_behind_line = seen.x() > 0.5 * field.length + kBehindLine;
+    const double opening = 0.5 * field.goal_width + 0.1;
+    if (is_behind_line && std::abs(seen.y()) < opening) return decision;
+    const bool is_beside =
+        is_behind_line || std::abs(seen.y()) > 0.5 * field.width + kTargetReached;
+    if (!is_beside || ball.is_rolling) return std::nullopt;
+    decision.has_failed = true;
+    decision.reason = Reason("ball-out");
+    return decision;
+  }
+  if (task_ == Task::kDribble && target_ && !ball.is_rolling &&
+      (ball.position - *target_).norm() < kTargetReached) {
+    return decision;
+  }
+  return std::nullopt;
+}
+
+// Standing: what is no ball is not seen again.
+Decision Striker::look_at_candidate(const Ball& ball) {
+  Decision decision;
+  decision.phase = PlayPhase::kSearch;
+  decision.reason = Reason("ball-not-in-sight");
+  decision.gaze.point = ball.position;
+  return decision;
+}
+
+Decision Striker::look_for_ball(const Situation& situation) {
+  const Pose2& feet = situation.robot.feet_in_odometry;
+  if (expected_) {
+    if ((*expected_ - feet.position).norm() > 1.0) {
+      Decision decision;
+      decision.phase = PlayPhase::kSearch;
+      decision.reason = Reason("ball-not-in-sight");
+      decision.target = expected_;
+      const Vector2d way = *expected_ - feet.position;
+      decision.walk =
+          plan_walk_to({*expected_, std::atan2(way.y(), way.x())}, feet, constants_.walk_limits);
+      decision.gaze.point = expected_;
+      return decision;
+    }
+    search_.start(expected_, situation);
+    expected_.reset();
+  }
+  if (!search_.is_active()) {
+    std::optional<Vector2d> last;
+    if (situation.ball && situation.ball->seen_time >= ignore_before_) {
+      last = situation.ball->position;
+    }
+    search_.start(last, situation);
+  }
+  Decision decision = search_.step(situation, constants_);
+  if (search_.duration(situation) > kSearchTimeout) {
+    decision = {};
+    decision.phase = PlayPhase::kDone;
+    decision.is_done = true;
+    decision.has_failed = true;
+    decision.reason = Reason("ball-not-found", {to_argument(kSearchTimeout)});
+  }
+  return decision;
+}
+
+void Striker::look_at(const Ball& ball, const Situation& situation, Decision& decision) const {
+  const Pose2& feet = situation.robot.feet_in_odometry;
+  const double distance = (ball.position - feet.position).norm();
+  const bool looks_around = distance > kLandmarkDistance &&
+                            situation.time - situation.ball->seen_time < 1 &&
+                            std::fmod(situation.time, kLandmarkPeriod) < kLandmarkTime;
+  if (!looks_around) {
+    decision.gaze.point = ball.position;
+    return;
+  }
+  decision.gaze.depression = kLandmarkDepression;
+}
+
+Decision Striker::approach(const Ball& ball, const Situation& situation) {
+  const Pose2& feet = situation.robot.feet_in_odometry;
+  const Aim aim = calc_aim(ball.position, situation);
+  const ApproachGoal goal = make_goal(ball.position, aim, feet);
+  const Pose2 error = calc_approach_error(goal, feet);
+  const double distance = (ball.position - feet.position).norm();
+  Decision decision;
+  decision.phase = distance < kNear ? PlayPhase::kAlign : PlayPhase::kApproach;
+  decision.target = task_ == Task::kGoToBall ? ball.position : aim.target;
+  look_at(ball, situation, decision);
+  decision.walk = plan_approach(goal, feet, constants_.walk_limits);
+  const bool is_before_ball = task_ == Task::kGoToBall && distance < kBeforeBall + 0.08;
+  const Vector2d reach =
+      kStopFraction * (constants_.kick ? constants_.kick->reach : Vector2d(0.05, 0.025));
+  // Where the ball is seen from the feet, also where the aim is met only roughly.
+  const Vector2d off = (feet.inverse() * ball.position - goal.ball_in_feet).cwiseAbs();
+  const bool is_in_place =
+      off.x() < reach.x() && off.y() < reach.y() && std::abs(error.heading) < 0.8 * aim.tolerance;
+  if (!is_before_ball && !is_in_place) return decision;
+  stage_start_ = situation.time;
+  still_since_.reset();
+  if (task_ == Task::kDribble) {
+    stage_ = Stage::kPush;
+    return push(ball, situation);
+  }
+  stage_ = Stage::kSettle;
+  return settle(ball, situation);
+}
+
+Decision Striker::settle(const Ball& ball, const Situation& situation) {
+  const Pose2& feet = situation.robot.feet_in_odometry;
+  Decision decision;
+  decision.phase = PlayPhase::kAlign;
+  decision.gaze.point = ball.position;
+  const Aim aim = calc_aim(ball.position, situation);
+  decision.target = aim.target;
+  if (!situation.is_still) {
+    still_since_.reset();
+    if (situation.time - stage_start_ > 3 * kSettleTimeout) stage_ = Stage::kApproach;
+    return decision;
+  }
+  if (!still_since_) still_since_ = situation.time;
+  const double still = situation.time - *still_since_;
+  const bool has_seen = ball.seen_time > *still_since_ + 0.5 * kSettleTime;
+  if (still < kSettleTime || (!has_seen && still < kSettleTimeout)) return decision;
+  if (task_ == Task::kGoToBall) {
+    decision.phase = PlayPhase::kDone;
+    decision.is_done = true;
+    return decision;
+  }
+  ++num_settles_;
+  stage_ = Stage::kApproach;
+  if (!constants_.kick) {
+    decision.is_done = true;
+    decision.has_failed = true;
+    decision.reason = Reason("no-kick", {"robot"});
+    return decision;
+  }
+  const Vector2d in_feet = feet.inverse() * ball.position;
+  const double side = in_feet.y() > 0 ? 1 : -1;
+  const Vector2d place(constants_.kick->ball.x(), side * constants_.kick->ball.y());
+  const Vector2d off = (in_feet - place).cwiseAbs();
+  const Vector2d reach = kKickFraction * constants_.kick->reach;
+  const bool is_aimed = std::abs(wrapped(aim.heading - feet.heading)) < aim.tolerance;
+  if (off.x() > reach.x() || off.y() > reach.y() || !is_aimed || ball.is_rolling) return decision;
+  decision.phase = PlayPhase::kKick;
+  decision.action =
+      ActionCommand{side > 0 ? constants_.actions.kick_left : constants_.actions.kick_right,
+                    in_feet.x(), in_feet.y(), std::numeric_limits<double>::quiet_NaN()};
+  kicked_ball_ = ball.position;
+  kick_heading_ = feet.heading;
+  kick_start_ = situation.time;
+  return decision;
+}
+
+Decision Striker::push(const Ball& ball, const Situation& situation) {
+  const Pose2& feet = situation.robot.feet_in_odometry;
+  const Aim aim = calc_aim(situation.ball->position, situation);
+  const Vector2d in_feet = feet.inverse() * situation.ball->position;
+  Decision decision;
+  decision.phase = PlayPhase::kKick;
+  decision.target = aim.target;
+  decision.gaze.point = ball.position;
+  const double aside = in_feet.y() - side_ * (constants_.kick ? constants_.kick->ball.y() : 0);
+  const double turn = wrapped(aim.heading - feet.heading);
+  decision.walk = {std::min(kPushSpeed, constants_.walk_limits.forward), 1.2 * aside, turn};
+  if (in_feet.norm() > kPushReach || std::abs(aside) > 0.1 || std::abs(turn) > 0.5) {
+    stage_ = Stage::kApproach;
+  }
+  return decision;
+}
+
+Decision Striker::watch(const Situation& situation) {
+  Decision decision;
+  decision.phase = PlayPhase::kKick;
+  const double time = situation.time - stage_start_;
+  decision.gaze.point = time < kLookDown ? kicked_ball_
+                                         : kicked_ball_ + 2 * Vector2d(std::cos(kick_heading_),
+                                                                       std::sin(kick_heading_));
+  if (task_ == Task::kKick && time > kLookDown) {
+    decision.phase = PlayPhase::kDone;
+    decision.is_done = true;
+  }
+  return decision;
+}
+
+}  // namespace nao::play

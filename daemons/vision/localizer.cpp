@@ -1,0 +1,131 @@
+#include "daemons/vision/localizer.h"
+
+#include <cmath>
+
+namespace nao::vision {
+namespace {
+
+/** Standard deviations of the start pose, m and rad. Chosen: placed by hand. */
+constexpr double kStartPosition = 0.1;
+constexpr double kStartHeading = 0.09;
+/** More than this between two images, m and m/s, was not walked. Chosen: twice the fastest walk. */
+constexpr double kJumpDistance = 0.3;
+constexpr double kJumpSpeed = 0.7;
+/** Standard deviations after such a jump, m and rad: the robot may have moved meanwhile. */
+constexpr double kJumpPosition = 0.15;
+constexpr double kJumpHeading = 0.2;
+/** Standard deviations after a fall, m and rad. Chosen: half of the robot's height. */
+constexpr double kFallPosition = 0.3;
+constexpr double kFallHeading = 0.25;
+/** Standard deviations of a found pose, m and rad. */
+constexpr double kFoundPosition = 0.2;
+constexpr double kFoundHeading = 0.1;
+
+/** Observations are kept this far apart, microseconds, and so many of them. */
+constexpr int64_t kKeepPeriod = 200000;
+constexpr size_t kKeep = 40;
+/** The newest so many decide whether the pose fits, if they have this much to see, m. */
+constexpr size_t kRecent = 8;
+constexpr double kLeastLength = 3.0;
+/** Below this score the pose does not fit; so many times in succession it is lost. */
+constexpr double kMisfitScore = 0.35;
+constexpr int kMostMisfits = 4;
+/** Above this score no other pose is searched. */
+constexpr double kGoodScore = 0.6;
+/** Another pose replaces a tracked one if its score is better by this. */
+constexpr double kBetter = 0.25;
+/** Between two searches, microseconds: each takes about as long as an image. */
+constexpr int64_t kLostSearchPeriod = 600000;
+constexpr int64_t kSearchPeriod = 2000000;
+
+}  // namespace
+
+Localizer::Localizer(const FieldModel& field, const Pose2& start)
+    : field_(field), start_(start), filter_(field_), search_(field_) {}
+
+void Localizer::restart(const Pose2& heading_in_odometry) {
+  is_started_ = true;
+  is_lost_ = false;
+  num_misfits_ = 0;
+  window_.clear();
+  remembered_utime_ = searched_utime_ = 0;
+  filter_.start(start_, kStartPosition, kStartHeading);
+  // What was walked before this program started adds its uncertainty.
+  filter_.predict(heading_in_odometry, 0);
+}
+
+void Localizer::predict(int64_t utime, const Pose2& heading_in_odometry, bool is_upright) {
+  if (!is_started_ || utime < utime_) {
+    restart(heading_in_odometry);
+  } else {
+    const double dt = 1e-6 * static_cast<double>(utime - utime_);
+    const Pose2 step = odometry_.inverse() * heading_in_odometry;
+    if (step.position.norm() > kJumpDistance + kJumpSpeed * dt) {
+      filter_.spread(kJumpPosition, kJumpHeading);
+      window_.clear();
+    } else {
+      filter_.predict(step, dt);
+    }
+    if (is_upright && !is_upright_) {
+      filter_.spread(kFallPosition, kFallHeading);
+      window_.clear();
+    }
+  }
+  is_upright_ = is_upright;
+  utime_ = utime;
+  odometry_ = heading_in_odometry;
+}
+
+FieldPose Localizer::estimate() const {
+  return {is_started_ && !is_lost_, filter_.pose(), filter_.covariance()};
+}
+
+void Localizer::observe(const FieldObservation& observation) {
+  if (!is_started_ || !is_upright_) return;
+  if (!is_lost_) filter_.update(observation);
+  if (utime_ - remembered_utime_ < kKeepPeriod) return;
+  if (observation.lines.empty() && !observation.circle) return;
+  remembered_utime_ = utime_;
+  remember(observation.tilted(filter_.tilt()));
+  check();
+}
+
+void Localizer::remember(const FieldObservation& observation) {
+  window_.push_back(observation);
+  if (window_.size() > kKeep) window_.erase(window_.begin());
+}
+
+std::vector<FieldObservation> Localizer::newest(size_t count) const {
+  std::vector<FieldObservation> result;
+  const size_t first = window_.size() > count ? window_.size() - count : 0;
+  for (size_t i = first; i < window_.size(); ++i) result.push_back(window_[i].moved_to(odometry_));
+  return result;
+}
+
+void Localizer::check() {
+  const std::vector<FieldObservation> recent = newest(kRecent);
+  double length = 0;
+  for (const FieldObservation& observation : recent) length += observation.length();
+  if (length < kLeastLength) return;
+  const double score = search_.score(filter_.pose(), recent);
+  if (!is_lost_) {
+    num_misfits_ = score < kMisfitScore ? num_misfits_ + 1 : 0;
+    if (num_misfits_ >= kMostMisfits) {
+      is_lost_ = true;
+      // What was seen before belongs to where the robot was before.
+      window_.erase(window_.begin(), window_.end() - static_cast<std::ptrdiff_t>(recent.size()));
+    }
+    if (!is_lost_ && score > kGoodScore) return;
+  }
+  if (utime_ - searched_utime_ < (is_lost_ ? kLostSearchPeriod : kSearchPeriod)) return;
+  searched_utime_ = utime_;
+  const std::vector<FieldObservation> all = newest(kKeep);
+  const auto found = search_.find(all, filter_.pose().heading);
+  if (!found) return;
+  if (!is_lost_ && found->score < search_.score(filter_.pose(), all) + kBetter) return;
+  filter_.start(found->pose, kFoundPosition, kFoundHeading);
+  is_lost_ = false;
+  num_misfits_ = 0;
+}
+
+}  // namespace nao::vision

@@ -1,0 +1,246 @@
+#include "daemons/vision/pose_filter.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nao::vision {
+namespace {
+
+/** Random walk of the odometry's error: m and rad for each root of a meter, rad for each root of a
+ * radian and of a second. The distance error of a walk is 1 to 2 % of its length, and the drift to
+ * the side 60 to 200 mm in 5 m (docs/performance.md); a gyroscope's offset is 0.5 degrees/s under
+ * `moderate`. Chosen larger, since errors of successive steps are alike. */
+constexpr double kPositionPerWay = 0.04;
+constexpr double kPositionPerTurn = 0.01;
+constexpr double kHeadingPerWay = 0.04;
+constexpr double kHeadingPerTurn = 0.05;
+constexpr double kHeadingPerTime = 0.01;
+constexpr double kPositionPerTime = 0.004;
+
+/** Standard deviation, rad, and correlation time, s, of the tilt's error. `moderate` adds up to 0.5
+ * degrees. */
+constexpr double kTiltSigma = 0.010;
+constexpr double kTiltTime = 10;
+/** Standard deviation of the tilt's noise in an image, rad; walking sways. Larger than the noise of
+ * a single image, since images in succession see the same phase of a step. */
+constexpr double kTiltNoise = 0.012;
+/** Standard deviation of a line's ends across it: pixels, and m on the ground. */
+constexpr double kPixelSigma = 1.2;
+constexpr double kLineSigma = 0.010;
+/** Of the circle's center, m and for each m of its distance. */
+constexpr double kCircleSigma = 0.02;
+constexpr double kCircleSigmaPerDistance = 0.01;
+/** Of a post's foot: relative error of the distance, and m across the view. */
+constexpr double kPostDistanceSigma = 0.12;
+constexpr double kPostSideSigma = 0.06;
+
+/** 99.9 % of the chi-square distribution with two degrees of freedom. */
+constexpr double kGate = 13.8;
+/** The next best field line must be worse by this, or the line is not used. */
+constexpr double kUnique = 6.0;
+/** Largest angle between an observed line and its field line, rad, before the gate. */
+constexpr double kMostAngle = 0.45;
+/** An observed line may reach beyond the ends of its field line by this, m, more far away. */
+constexpr double kBeyond = 0.25;
+constexpr double kBeyondPerDistance = 0.05;
+/** Short lines this near to the center circle may be a part of it, m. */
+constexpr double kCircleBand = 0.2;
+constexpr double kMostChord = 1.0;
+
+double square(double x) {
+  return x * x;
+}
+
+const Eigen::Matrix2d kQuarterTurn = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
+
+}  // namespace
+
+PoseFilter::PoseFilter(const FieldModel& field) : field_(&field) {
+  start(Pose2{}, 1, 1);
+}
+
+void PoseFilter::start(const Pose2& pose, double position_sigma, double heading_sigma) {
+  state_ << pose.position, wrapped(pose.heading), 0, 0;
+  covariance_ = State(square(position_sigma), square(position_sigma), square(heading_sigma),
+                      square(kTiltSigma), square(kTiltSigma))
+                    .asDiagonal();
+}
+
+void PoseFilter::predict(const Pose2& step, double dt) {
+  const Eigen::Vector2d way = pose().rotate(step.position);
+  state_.head<2>() += way;
+  state_[2] = wrapped(state_[2] + step.heading);
+  // A heading error turns the way: d(way)/d(heading) = (-way_y, way_x).
+  Covariance transition = Covariance::Identity();
+  transition(0, 2) = -way.y();
+  transition(1, 2) = way.x();
+  const double decay = std::exp(-dt / kTiltTime);
+  transition(3, 3) = transition(4, 4) = decay;
+  state_.tail<2>() *= decay;
+  covariance_ = (transition * covariance_ * transition.transpose()).eval();
+  const double distance = way.norm();
+  const double turn = std::abs(wrapped(step.heading));
+  const double position = square(kPositionPerWay) * distance + square(kPositionPerTurn) * turn +
+                          square(kPositionPerTime) * dt;
+  const double heading = square(kHeadingPerWay) * distance + square(kHeadingPerTurn) * turn +
+                         square(kHeadingPerTime) * dt;
+  const double tilt = square(kTiltSigma) * (1 - decay * decay);
+  covariance_.diagonal() += State(position, position, heading, tilt, tilt);
+}
+
+void PoseFilter::spread(double position_sigma, double heading_sigma) {
+  covariance_.diagonal() +=
+      State(square(position_sigma), square(position_sigma), square(heading_sigma), 0, 0);
+}
+
+// Field point f = t + R(theta) (p + G (a, b)); measured is its component along `direction`.
+PoseFilter::Row PoseFilter::make_row(const CameraPlace& camera, const Eigen::Vector2d& point,
+                                     const Eigen::Vector2d& direction, double target,
+                                     double extra_variance) const {
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(state_[2]).toRotationMatrix();
+  const Eigen::Matrix2d G = tilt_jacobian(camera, point);
+  const Eigen::Vector2d corrected = point + G * state_.tail<2>();
+  Row row;
+  row.jacobian.head<2>() = direction.transpose();
+  row.jacobian[2] = direction.dot(R * kQuarterTurn * corrected);
+  row.jacobian.tail<2>() = direction.transpose() * R * G;
+  row.innovation = target - direction.dot(state_.head<2>() + R * corrected);
+  // A pixel covers (r^2 + h^2) / h along the view on the ground and sqrt(r^2 + h^2) across it.
+  const Eigen::Vector2d P = point - camera.position.head<2>();
+  const double h = camera.position.z();
+  const double square_range = P.squaredNorm() + h * h;
+  const double angle = kPixelSigma * camera.pixel_angle;
+  const Eigen::Vector2d in_heading = R.transpose() * direction;
+  const Eigen::Vector2d view =
+      P.norm() > 1e-6 ? Eigen::Vector2d(P.normalized()) : Eigen::Vector2d::UnitX();
+  const double along = square(in_heading.dot(view));
+  row.variance = along * square(angle * square_range / h) +
+                 (1 - along) * square(angle) * square_range + extra_variance;
+  return row;
+}
+
+double PoseFilter::distance(const std::vector<Row>& rows) const {
+  Eigen::Matrix<double, 2, 5> H;
+  H << rows[0].jacobian, rows[1].jacobian;
+  const Eigen::Vector2d innovation(rows[0].innovation, rows[1].innovation);
+  Eigen::Matrix2d S = H * covariance_ * H.transpose();
+  S += square(kTiltNoise) * H.rightCols<2>() * H.rightCols<2>().transpose();
+  S(0, 0) += rows[0].variance;
+  S(1, 1) += rows[1].variance;
+  return innovation.dot(S.inverse() * innovation);
+}
+
+bool PoseFilter::is_on_circle(const FieldLine& line) const {
+  if ((line.to - line.from).norm() > kMostChord) return false;
+  const double radius = field_->circle_radius();
+  const Eigen::Vector2d middle = pose() * Eigen::Vector2d(0.5 * (line.from + line.to));
+  return std::abs(middle.norm() - radius) < kCircleBand;
+}
+
+// Both ends of an observed line lie on the field line: two rows across it.
+std::vector<PoseFilter::Row> PoseFilter::match_line(const CameraPlace& camera,
+                                                    const FieldLine& line) const {
+  const Eigen::Vector2d from = pose() * line.from;
+  const Eigen::Vector2d to = pose() * line.to;
+  const Eigen::Vector2d direction = (to - from).normalized();
+  double best = std::numeric_limits<double>::infinity();
+  double second = best;
+  std::vector<Row> best_rows;
+  for (const FieldLine& candidate : field_->lines()) {
+    const Eigen::Vector2d along = (candidate.to - candidate.from).normalized();
+    if (std::abs(along.dot(direction)) < std::cos(kMostAngle)) continue;
+    const double length = (candidate.to - candidate.from).norm();
+    const double position_sigma = std::sqrt(std::max(covariance_(0, 0), covariance_(1, 1)));
+    const double beyond = kBeyond + 2 * position_sigma +
+                          kBeyondPerDistance * std::max(line.from.norm(), line.to.norm());
+    const double s = (from - candidate.from).dot(along);
+    const double t = (to - candidate.from).dot(along);
+    if (std::min(s, t) < -beyond || std::max(s, t) > length + beyond) continue;
+    const Eigen::Vector2d normal = kQuarterTurn * along;
+    const double offset = normal.dot(candidate.from);
+    const double variance = square(kLineSigma);
+    std::vector<Row> rows{make_row(camera, line.from, normal, offset, variance),
+                          make_row(camera, line.to, normal, offset, variance)};
+    const double d = distance(rows);
+    if (d < best) {
+      second = best;
+      best = d;
+      best_rows = std::move(rows);
+    } else {
+      second = std::min(second, d);
+    }
+  }
+  if (best > kGate || second < best + kUnique) return {};
+  return best_rows;
+}
+
+std::vector<PoseFilter::Row> PoseFilter::match_point(const CameraPlace& camera,
+                                                     const Eigen::Vector2d& point,
+                                                     const Eigen::Vector2d& target,
+                                                     double radial_variance,
+                                                     double tangential_variance) const {
+  // Along and across the view, in which the noise is independent.
+  const Eigen::Vector2d view = pose().rotate((point - camera.position.head<2>()).normalized());
+  const Eigen::Vector2d side = kQuarterTurn * view;
+  std::vector<Row> rows{make_row(camera, point, view, view.dot(target), radial_variance),
+                        make_row(camera, point, side, side.dot(target), tangential_variance)};
+  if (distance(rows) > kGate) return {};
+  return rows;
+}
+
+void PoseFilter::update(const FieldObservation& observation) {
+  std::vector<Row> rows;
+  const auto add = [&rows](std::vector<Row> more) {
+    rows.insert(rows.end(), more.begin(), more.end());
+  };
+  for (const FieldLine& line : observation.lines) {
+    if (!is_on_circle(line)) add(match_line(observation.camera, line));
+  }
+  const Eigen::Vector2d center = observation.camera.position.head<2>();
+  if (observation.circle) {
+    const double range = (*observation.circle - center).norm();
+    const double variance = square(kCircleSigma + kCircleSigmaPerDistance * range);
+    add(match_point(observation.camera, *observation.circle, Eigen::Vector2d::Zero(), variance,
+                    variance));
+  }
+  for (const Eigen::Vector2d& post : observation.posts) {
+    const Eigen::Vector2d seen = pose() * post;
+    const auto nearest = std::min_element(field_->goal_posts().begin(), field_->goal_posts().end(),
+                                          [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+                                            return (a - seen).norm() < (b - seen).norm();
+                                          });
+    if (nearest == field_->goal_posts().end()) continue;
+    add(match_point(observation.camera, post, *nearest,
+                    square(kPostDistanceSigma * (post - center).norm()), square(kPostSideSigma)));
+  }
+  if (!rows.empty()) apply(rows);
+}
+
+// All measurements of an image at once: the tilt's noise makes them dependent.
+void PoseFilter::apply(const std::vector<Row>& rows) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 5> H(n, 5);
+  Eigen::VectorXd innovation(n);
+  Eigen::VectorXd variance(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Row& row = rows[static_cast<size_t>(i)];
+    H.row(i) = row.jacobian;
+    innovation[i] = row.innovation;
+    variance[i] = row.variance;
+  }
+  Eigen::MatrixXd R = square(kTiltNoise) * H.rightCols<2>() * H.rightCols<2>().transpose();
+  R.diagonal() += variance;
+  const Eigen::MatrixXd S = H * covariance_ * H.transpose() + R;
+  // K = P H^T S^-1.
+  const Eigen::Matrix<double, 5, Eigen::Dynamic> gain = S.llt().solve(H * covariance_).transpose();
+  state_ += gain * innovation;
+  state_[2] = wrapped(state_[2]);
+  // Joseph form: stays symmetric and positive definite.
+  const Covariance factor = Covariance::Identity() - gain * H;
+  covariance_ = (factor * covariance_ * factor.transpose() + gain * R * gain.transpose()).eval();
+}
+
+}  // namespace nao::vision

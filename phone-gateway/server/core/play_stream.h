@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "messages/command.h"
+#include "messages/command_retry.h"
+#include "messages/play_command.h"
+#include "phone-gateway/server/core/gateway_limits.h"
+#include "phone-gateway/server/core/robot_sessions.h"
+
+namespace nao::gateway {
+
+/** A play command with its sender and number. */
+struct SentPlayCommand {
+  std::string source;
+  int64_t id = 0;
+  PlayCommand command;
+};
+
+/** The driver's behavior: its command is repeated while the driver is heard of, and its results are
+ * reported. nao-play ends the behavior 2 s after the last repetition; to end it at once, a command
+ * with the behavior "none" is transmitted, three times, since the bus may lose a message. */
+class PlayStream {
+ public:
+  /** @param source    Prefix of the commands' sources, unique on the bus: "phone.4711".
+   * @param first_id  Number of the first command.
+   * @param transmit  Puts a command on the bus.
+   * `sessions` must outlive this. */
+  PlayStream(const GatewayLimits& limits, const RobotSessions& sessions, std::string source,
+             int64_t first_id, std::function<void(const SentPlayCommand&)> transmit)
+      : limits_(limits),
+        sessions_(sessions),
+        source_(std::move(source)),
+        next_id_(first_id),
+        transmit_(std::move(transmit)) {}
+
+  /** Begins a behavior instead of the one that runs. */
+  void begin(uint32_t client, uint32_t request_id, const PlayCommand& command, double now);
+  /** Ends the behavior at once, if there is one. */
+  void end(double now);
+  /** Another command replaces the behavior: nothing more is transmitted. */
+  void abandon();
+
+  /** True from begin() to its end; false while "none" is transmitted. */
+  bool is_active() const { return active_.has_value(); }
+
+  void handle_result(const CommandResult& result, double now);
+  void step(double now);
+
+ private:
+  struct Entry {
+    uint32_t client = 0;
+    uint32_t request_id = 0;
+    SentPlayCommand sent;
+    CommandRetry retry;
+  };
+
+  SentPlayCommand make(uint32_t client, const PlayCommand& command);
+  /** The client was heard of lately. */
+  bool is_heard(uint32_t client, double now) const;
+  void transmit(const SentPlayCommand& command) const;
+  void report(const Entry& entry, ResultStatus status, const Reason& reason,
+              const std::string& sentence) const;
+
+  GatewayLimits limits_;
+  const RobotSessions& sessions_;
+  std::string source_;
+  int64_t next_id_;
+  std::function<void(const SentPlayCommand&)> transmit_;
+  std::optional<Entry> active_;
+  /** Whose results are still to be reported after the end. */
+  std::optional<Entry> ended_;
+  SentPlayCommand none_;
+  int num_nones_left_ = 0;
+  double next_none_ = 0;
+};
+
+}  // namespace nao::gateway

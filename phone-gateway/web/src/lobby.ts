@@ -1,0 +1,60 @@
+/** Which of several robots the person drives or watches: the list of robots, and changes to another one. */
+import type {Commander} from "./commander";
+import type {Messages} from "./messages";
+import {LobbyScreen} from "./screens/lobby_screen";
+import type {Store} from "./store";
+import {say} from "./text/texts";
+
+export interface LobbyHost {
+  /** Ends all driving and joints mode. */
+  letGo(): void;
+  /** What is streamed depends on whether the list is seen. */
+  subscribe(): void;
+  leave(): void;
+}
+
+export class Lobby {
+  readonly screen: LobbyScreen;
+  /** Name of the robot that the person has asked for last. */
+  private chosen = "";
+
+  constructor(private readonly store: Store, commander: Commander, private readonly messages: Messages,
+              private readonly host: LobbyHost) {
+    this.screen = new LobbyScreen(store, {
+      drive: (robot) => void this.choose(robot, commander.takeControl(robot)),
+      watch: (robot) => void this.choose(robot, commander.watchRobot(robot)),
+      leave: () => host.leave(),
+    });
+    // Also when the operator has assigned a robot to this phone.
+    store.watch((state) => state.control?.isMine ?? false, (isMine) => {
+      if (isMine) this.close();
+    });
+  }
+
+  /** Shows the robots. The watched one is kept until another one is chosen. */
+  open(): void {
+    this.host.letGo();
+    this.store.set({isChoosingRobot: true});
+    this.host.subscribe();
+  }
+
+  /** The watched robot is another one, by choice or by the operator: nothing of the one before goes on. */
+  robotChanged(): void {
+    // Its limp limbs belong to the robot before.
+    this.store.set({relaxedGroups: []});
+    this.host.letGo();
+    const {robot} = this.store.get();
+    if (robot && robot.name !== this.chosen) this.messages.show("info", say("lobby.changed", {name: robot.name}));
+  }
+
+  private async choose(robot: string, isGranted: Promise<boolean>): Promise<void> {
+    this.chosen = robot;
+    if (await isGranted) this.close();
+  }
+
+  private close(): void {
+    if (!this.store.get().isChoosingRobot) return;
+    this.store.set({isChoosingRobot: false});
+    this.host.subscribe();
+  }
+}

@@ -1,0 +1,56 @@
+/** What the robot sees, wherever the app shows it: on the stage, over the image, on the map; and taps on the ball. */
+import type {ImageView} from "../controls/image_view";
+import {Play_Behavior} from "../protocol/generated/remote_pb";
+import type {FieldLines} from "../robot/floor";
+import type {Stage} from "../robot/stage";
+import type {Store} from "../store";
+import {BallChoice} from "./ball_choice";
+import {FieldMap} from "./field_map";
+import {ImageMarks} from "./image_marks";
+import type {PlayStrip} from "./play_strip";
+import {isBallAt, isBallInImage} from "./seen";
+import {SeenObjects} from "./seen_objects";
+
+export class Perception {
+  readonly map = new FieldMap();
+  readonly choice: BallChoice;
+  readonly objects: SeenObjects;
+  private readonly marks: ImageMarks;
+
+  /** @param keepBoxes  remembers whether boxes are shown over the image. */
+  constructor(private readonly store: Store, private readonly stage: Stage, image: ImageView, play: PlayStrip,
+              hasBoxes: boolean, keepBoxes: (isOn: boolean) => void) {
+    this.objects = new SeenObjects(stage);
+    this.marks = new ImageMarks(hasBoxes, keepBoxes);
+    this.choice = new BallChoice((behavior: Play_Behavior) => play.begin(behavior));
+    image.addMarks(this.marks.canvas, this.marks.button);
+    image.onTap = ({x, y, pageX, pageY}) => this.canPlay && isBallInImage(this.store.get().vision, x, y) &&
+        this.offer(pageX, pageY + 60);
+    store.watch((state) => state.vision, (vision) => {
+      this.objects.show(vision, store.get().state);
+      this.marks.show(vision, image.camera);
+      this.map.show(vision, store.get().state);
+    });
+    store.watch((state) => state.playState?.behavior ?? Play_Behavior.NONE, () => this.choice.clear());
+  }
+
+  setField(lines: FieldLines): void {
+    this.map.setField(lines);
+  }
+
+  /** A tap on the stage, px from its top left. @return true if it met the ball. */
+  tapped(x: number, y: number): boolean {
+    this.choice.clear();
+    const spot = this.stage.groundAt(x, y);
+    return this.canPlay && spot !== null && isBallAt(this.store.get().vision, spot) && this.offer(x, y);
+  }
+
+  private get canPlay(): boolean {
+    return this.store.get().playState !== null;
+  }
+
+  private offer(x: number, y: number): true {
+    this.choice.offer(x, y);
+    return true;
+  }
+}

@@ -1,0 +1,33 @@
+import {create} from "@bufbuild/protobuf";
+import {afterEach, describe, expect, it} from "vitest";
+import {Play_Behavior, PlayState_Phase, PlayStateSchema} from "../protocol/generated/remote_pb";
+import {setLanguage} from "../text/texts";
+import {findBehavior, kBehaviorNames, playInWords} from "./play_words";
+
+const state = create(PlayStateSchema, {behavior: Play_Behavior.SCORE, phase: PlayState_Phase.APPROACH});
+
+afterEach(() => setLanguage("en"));
+
+describe("playInWords", () => {
+  it("says behaviour and phase", () => {
+    expect(playInWords(state)).toBe("Score: walks to the ball");
+    setLanguage("de");
+    expect(playInWords(state)).toBe("Tor schießen: geht zum Ball");
+  });
+  it("says why the robot waits", () => {
+    const waits = create(PlayStateSchema, {behavior: Play_Behavior.SCORE, phase: PlayState_Phase.SEARCH,
+                                           reasonCode: "vision-unavailable", reason: "No images are analysed."});
+    expect(playInWords(waits)).toBe("Score: looks for the ball. No images are analysed.");
+    setLanguage("pt");
+    expect(playInWords(waits)).toContain("imagens");
+  });
+  it("is silent without a behaviour", () => {
+    expect(playInWords(null)).toBe("");
+    expect(playInWords(create(PlayStateSchema, {phase: PlayState_Phase.DONE}))).toBe("");
+  });
+});
+
+it("finds every behaviour by its name", () => {
+  for (const [value, name] of Object.entries(kBehaviorNames)) expect(findBehavior(name)).toBe(Number(value));
+  expect(findBehavior("moon-walk")).toBeUndefined();
+});

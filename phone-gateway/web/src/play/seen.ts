@@ -1,0 +1,77 @@
+/** Where things are that the robot sees; pure. */
+import {Vision_Detection_Kind} from "../protocol/generated/remote_pb";
+import type {State, Vision, Vision_Detection} from "../protocol/generated/remote_pb";
+
+/** Of the ellipses that show an uncertainty: two standard deviations, which hold 86 % of all places. */
+const kSigmas = 2;
+/** A finger meets a ball in the image within its box and this fraction of the image around it. */
+const kImageReach = 0.04;
+/** A finger meets a ball on the ground within this distance, m. */
+const kGroundReach = 0.25;
+/** A ball that was not seen for this long is not shown, s. */
+const kShownAge = 5;
+
+export interface Place {
+  x: number;
+  y: number;
+}
+
+/** An ellipse: half axes, m, and direction of the first one, rad. */
+export interface Ellipse {
+  a: number;
+  b: number;
+  angle: number;
+}
+
+/** @param covariance  xx, xy, yy, m^2; empty: unknown. @return null if it is unknown. */
+export function ellipseOf(covariance: readonly number[]): Ellipse | null {
+  const [xx, xy, yy] = covariance;
+  if (xx === undefined || xy === undefined || yy === undefined) return null;
+  // Eigenvalues of a symmetric 2x2 matrix: mean +- root((xx - yy)^2 / 4 + xy^2).
+  const mean = (xx + yy) / 2;
+  const root = Math.hypot((xx - yy) / 2, xy);
+  return {
+    a: kSigmas * Math.sqrt(Math.max(mean + root, 0)),
+    b: kSigmas * Math.sqrt(Math.max(mean - root, 0)),
+    angle: Math.atan2(2 * xy, xx - yy) / 2,
+  };
+}
+
+/** Heading of a torso's orientation (w, x, y, z), rad. */
+export function headingOf([w = 1, x = 0, y = 0, z = 0]: readonly number[]): number {
+  return Math.atan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z));
+}
+
+/** A place ahead and left of the torso, m, in the odometry frame. */
+export function toOdometry({x, y}: Place, state: State): Place {
+  const heading = headingOf(state.torsoOrientation);
+  const [torsoX = 0, torsoY = 0] = state.torsoPosition;
+  const c = Math.cos(heading);
+  const s = Math.sin(heading);
+  return {x: torsoX + c * x - s * y, y: torsoY + s * x + c * y};
+}
+
+/** The tracked ball, if it was seen lately. */
+export function ballOf(vision: Vision | null): NonNullable<Vision["ball"]> | null {
+  return vision?.ball && vision.ball.age < kShownAge ? vision.ball : null;
+}
+
+/** Whether a ball is seen at a point of the image. @param x,y  fractions of its size. */
+export function isBallInImage(vision: Vision | null, x: number, y: number): boolean {
+  return (vision?.detections ?? []).some(({kind, box}) => {
+    const [left = 1, top = 1, right = 0, bottom = 0] = box;
+    return kind === Vision_Detection_Kind.BALL && x > left - kImageReach && x < right + kImageReach &&
+        y > top - kImageReach && y < bottom + kImageReach;
+  });
+}
+
+/** Whether the tracked ball lies at a spot, m in the odometry frame. */
+export function isBallAt(vision: Vision | null, spot: Place): boolean {
+  const ball = ballOf(vision);
+  return ball !== null && Math.hypot(spot.x - ball.x, spot.y - ball.y) < kGroundReach;
+}
+
+/** Objects of a kind whose place is known. */
+export function placedOf(vision: Vision, kind: Vision_Detection_Kind): Vision_Detection[] {
+  return vision.detections.filter((seen) => seen.kind === kind && seen.position.length >= 2);
+}

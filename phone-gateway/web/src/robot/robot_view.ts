@@ -1,0 +1,96 @@
+/** The connected robot on the stage: loads it, lets it follow the state, and finds its balls. */
+import type {State} from "../protocol/generated/remote_pb";
+import type {Store} from "../store";
+import {JointBalls} from "./joint_balls";
+import {LinkDrag} from "./link_drag";
+import {loadRobot} from "./load_robot";
+import {PoseMirror} from "./pose_mirror";
+import type {RobotTree} from "./robot_tree";
+import type {Stage} from "./stage";
+
+export class RobotView {
+  tree: RobotTree | null = null;
+  balls: JointBalls | null = null;
+  private path = "";
+  private mirror: PoseMirror | null = null;
+
+  constructor(private readonly store: Store, private readonly stage: Stage) {
+    store.watch((state) => state.isJointsMode, (isOn) => {
+      this.balls?.show(isOn);
+      stage.outdate();
+    });
+    store.watch((state) => state.selectedGroup, (group) => {
+      this.balls?.select(group);
+      stage.outdate();
+    });
+  }
+
+  /** True once the robot is drawn in its pose. */
+  get hasPose(): boolean {
+    return this.mirror?.hasPose ?? false;
+  }
+
+  /** Shows the robot of the description in the store. */
+  async showConnected(): Promise<void> {
+    const {robot} = this.store.get();
+    if (robot && robot.urdfPath !== this.path) await this.load();
+    else this.makeMirror();
+  }
+
+  /** Fetches the robot's files; the store knows how far it is, and why it failed. */
+  async load(): Promise<void> {
+    const path = this.store.get().robot?.urdfPath ?? "";
+    this.store.set({loading: {done: 0, total: 0, error: ""}});
+    try {
+      const isWanted = (): boolean => path === this.store.get().robot?.urdfPath;
+      const tree = await loadRobot(new URL(path, location.href), this.stage.surface, (done, total) => {
+        if (isWanted()) this.store.set({loading: {done, total, error: ""}});
+      });
+      // Another robot was chosen meanwhile: its own loading shows it.
+      if (!isWanted()) return;
+      this.tree = tree;
+      this.path = path;
+      this.stage.setRobot(this.tree);
+      this.balls = new JointBalls(this.tree, this.stage.surface, this.store.get().robot?.jointGroups ?? []);
+      this.balls.show(this.store.get().isJointsMode);
+      this.makeMirror();
+    } catch (error) {
+      const why = error instanceof Error ? error.message : String(error);
+      this.store.set({loading: {done: 0, total: 0, error: why}});
+    }
+  }
+
+  setTarget(state: State): void {
+    this.mirror?.setTarget(state);
+    this.stage.wake();
+  }
+
+  /** @param dt  s since the last frame. @return true if the robot looks different from the last frame. */
+  step(dt: number): boolean {
+    const hasMoved = this.mirror?.step(dt) ?? false;
+    if (hasMoved) this.balls?.update();
+    return hasMoved;
+  }
+
+  /** Group of the ball under a finger; empty if there is none. @param x,y  px from the canvas's top left. */
+  ballAt(x: number, y: number): string {
+    const {width, height} = this.stage.size;
+    return this.balls?.pick(x, y, this.stage.camera, width, height) ?? "";
+  }
+
+  /** The link of the ball under a finger, if it is one of `groups`. */
+  holdBall(x: number, y: number, groups: readonly string[]): {link: string; drag: LinkDrag} | null {
+    const group = this.ballAt(x, y);
+    const link = groups.includes(group) ? this.balls?.linkOf(group) : null;
+    if (!link || !this.tree) return null;
+    const {width, height} = this.stage.size;
+    return {link: link.name, drag: new LinkDrag(link, this.tree.torso, this.stage.camera, width, height, x, y)};
+  }
+
+  private makeMirror(): void {
+    const {robot, state} = this.store.get();
+    if (!robot || !this.tree) return;
+    this.mirror = new PoseMirror(this.tree, robot.joints);
+    if (state) this.mirror.setTarget(state);
+  }
+}

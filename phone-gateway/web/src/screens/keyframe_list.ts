@@ -1,0 +1,120 @@
+/** The poses of the draft as rows: times at sight, the rest opens with a tap on a row's name. Rows stay in place
+ * while values change, so that the keyboard's and the screen reader's focus stays, too. */
+import {onPress} from "../controls/press";
+import {Stepper} from "../controls/stepper";
+import {el, icon} from "../dom";
+import type {Store} from "../store";
+import type {DraftEditor} from "../teach/draft_editor";
+import {changeKeyframe, kMinDuration, moveKeyframe, removeKeyframe} from "../teach/motion_draft";
+import type {DraftKeyframe} from "../teach/motion_draft";
+import {say} from "../text/texts";
+import {kDeleteIcon, kDownIcon, kPlayIcon, kUpIcon, kAddIcon} from "./icons";
+
+/** Times below this are changed by the small step, s. */
+const kCoarse = 2;
+const kSmallStep = 0.1;
+const kLargeStep = 0.5;
+
+export interface KeyframeActions {
+  /** Takes the pose that the robot is in. */
+  capture(index: number): void;
+  /** Lets the robot go to the pose. */
+  show(index: number): void;
+}
+
+/** The next shorter or longer time, s. @param direction -1 or 1. */
+export function steppedTime(time: number, direction: number): number {
+  const step = time + direction * kSmallStep / 2 < kCoarse ? kSmallStep : kLargeStep;
+  return Math.max(0, Math.round((time + direction * step) * 10) / 10);
+}
+
+interface Row {
+  element: HTMLElement;
+  up: HTMLButtonElement;
+  down: HTMLButtonElement;
+  update(keyframe: DraftKeyframe, isOpen: boolean, isBad: boolean): void;
+}
+
+export class KeyframeList {
+  readonly element = el("ol", {class: "keyframes"});
+  private readonly rows: Row[] = [];
+  private opened = -1;
+
+  constructor(private readonly store: Store, private readonly editor: DraftEditor,
+              private readonly act: KeyframeActions) {
+    store.watch((state) => state.draft, () => this.show());
+    store.watch((state) => state.motionFault, () => this.show());
+  }
+
+  private show(): void {
+    const {draft: {keyframes}, motionFault} = this.store.get();
+    while (this.rows.length < keyframes.length) this.rows.push(this.makeRow(this.rows.length));
+    this.rows.length = keyframes.length;
+    if (this.element.childElementCount !== keyframes.length) {
+      this.element.replaceChildren(...this.rows.map((row) => row.element));
+    }
+    if (this.opened >= keyframes.length) this.opened = -1;
+    const bad = motionFault && !motionFault.isUpload ? motionFault.keyframe : -1;
+    for (const [i, row] of this.rows.entries()) row.update(keyframes[i]!, i === this.opened, i === bad);
+  }
+
+  private open(index: number): void {
+    this.opened = this.opened === index ? -1 : index;
+    this.show();
+  }
+
+  /** The row's number goes with the pose, and the finger stays on its button. */
+  private move(index: number, by: number): void {
+    const to = index + by;
+    const row = this.rows[to];
+    if (!row) return;
+    this.opened = to;
+    this.editor.change(moveKeyframe(this.editor.draft, index, by));
+    (by < 0 ? row.up : row.down).focus();
+  }
+
+  private setTime(index: number, name: "duration" | "pause", direction: number): void {
+    const keyframe = this.editor.draft.keyframes[index];
+    if (!keyframe) return;
+    const least = name === "duration" ? kMinDuration : 0;
+    const time = Math.max(least, steppedTime(keyframe[name], direction));
+    this.editor.change(changeKeyframe(this.editor.draft, index, {[name]: time}));
+  }
+
+  private makeRow(index: number): Row {
+    const number = index + 1;
+    const title = el("button", {class: "pose-title", "aria-expanded": "false"}, say("teach.pose", {number}));
+    onPress(title, () => this.open(index));
+    const duration = new Stepper("", (direction) => this.setTime(index, "duration", direction));
+    const pause = new Stepper("", (direction) => this.setTime(index, "pause", direction));
+    const up = this.makeButton("motion.earlier", kUpIcon, () => this.move(index, -1));
+    const down = this.makeButton("motion.later", kDownIcon, () => this.move(index, 1));
+    const more = el("div", {class: "pose-more"},
+      el("div", {class: "row"}, el("span", {}, say("motion.pause")), pause.element),
+      el("div", {class: "pose-buttons"}, up, down,
+         this.makeButton("motion.show", kPlayIcon, () => this.act.show(index)),
+         this.makeButton("motion.capture", kAddIcon, () => this.act.capture(index)),
+         this.makeButton("motion.remove", kDeleteIcon, () =>
+             this.editor.change(removeKeyframe(this.editor.draft, index)))));
+    const element = el("li", {}, el("div", {class: "pose-row"}, title, duration.element), more);
+    return {element, up, down, update: (keyframe, isOpen, isBad) => {
+      title.setAttribute("aria-expanded", String(isOpen));
+      element.classList.toggle("bad", isBad);
+      more.hidden = !isOpen;
+      showTime(duration, keyframe.duration, say("motion.duration", {number}));
+      showTime(pause, keyframe.pause, say("motion.pause"));
+    }};
+  }
+
+  private makeButton(key: "motion.earlier" | "motion.later" | "motion.show" | "motion.capture" | "motion.remove",
+                     path: string, act: () => void): HTMLButtonElement {
+    const button = el("button", {class: "button small"}, icon(path), el("span", {}, say(key)));
+    onPress(button, act);
+    return button;
+  }
+}
+
+function showTime(stepper: Stepper, seconds: number, what: string): void {
+  stepper.show(say("motion.seconds", {value: seconds.toFixed(1)}), say("motion.shorter", {what}),
+               say("motion.longer", {what}), what);
+}

@@ -1,0 +1,170 @@
+/** The sheet of motions: names, changes and saves the draft, and lists what is saved. Stop is at hand. */
+import {onPress, onPressDown} from "../controls/press";
+import {Stepper} from "../controls/stepper";
+import {el, icon} from "../dom";
+import type {MotionFault, Store} from "../store";
+import type {DraftEditor} from "../teach/draft_editor";
+import {mirror, setRepetitions, setSpeed, timeOf, toMotion} from "../teach/motion_draft";
+import type {MotionDraft} from "../teach/motion_draft";
+import type {MotionHost} from "../teach/motion_host";
+import {freeName, motionName} from "../teach/motion_name";
+import {say, sayName} from "../text/texts";
+import {kCloseIcon, kMirrorIcon, kPlayIcon, kStopIcon, kUndoIcon} from "./icons";
+import {KeyframeList} from "./keyframe_list";
+import type {KeyframeActions} from "./keyframe_list";
+import {SavedList} from "./saved_list";
+import {faultInWords} from "./teach_bar";
+
+const kSpeedStep = 0.1;
+
+export interface MotionSheetActions extends KeyframeActions {
+  play(): void;
+  repair(): void;
+  stop(): void;
+}
+
+export class MotionSheet {
+  readonly element: HTMLDialogElement;
+  private readonly name = el("input", {name: "motion-name", maxlength: 40, autocomplete: "off", enterkeyhint: "done"});
+  private readonly save: HTMLButtonElement;
+  private readonly note = el("div", {class: "note", role: "alert", hidden: true});
+  private readonly draft: HTMLElement;
+  private readonly none = el("p", {class: "quiet"}, say("motion.none"));
+  private readonly speed = new Stepper(say("motion.speed"), (direction) => this.changeSpeed(direction));
+  private readonly repeat = new Stepper(say("motion.repeat"), (direction) => this.changeRepetitions(direction));
+  private readonly undo: HTMLButtonElement;
+  private readonly length = el("small", {class: "quiet"});
+  private readonly isDraftShown = () => this.store.get().draft.keyframes.length > 0;
+
+  constructor(private readonly store: Store, private readonly editor: DraftEditor, private readonly host: MotionHost,
+              private readonly act: MotionSheetActions) {
+    this.save = el("button", {class: "button primary", type: "submit"}, say("teach.save"));
+    this.name.addEventListener("input", () => this.editor.note({...this.editor.draft, name: this.name.value}));
+    this.undo = this.makeButton(say("motion.undo"), kUndoIcon, () => editor.undo());
+    this.draft = this.makeDraft();
+    const saved = new SavedList(store, editor, host, () => this.element.close(), () => this.opened());
+    const stop = el("button", {class: "button small stop-small"}, icon(kStopIcon), say("drive.stop"));
+    onPressDown(stop, () => act.stop());
+    this.element = el("dialog", {class: "menu motions", "aria-label": say("motion.title")},
+      el("header", {}, el("h2", {}, say("motion.title")), stop,
+         el("button", {class: "round", "aria-label": say("menu.close"),
+                       onclick: () => this.element.close()}, icon(kCloseIcon))),
+      this.none, this.draft, saved.element);
+    this.element.addEventListener("click", (event) => {
+      if (event.target === this.element) this.element.close();
+    });
+    store.watch((state) => state.draft, (draft) => this.show(draft));
+    store.watch((state) => state.canUndoDraft, () => this.show(store.get().draft));
+    store.watch((state) => state.isCheckingMotion, (isChecking) => {
+      this.save.disabled = isChecking;
+      this.save.textContent = say(isChecking ? "teach.checking" : "teach.save");
+    });
+    store.watch((state) => state.motionFault, (fault) => this.showFault(fault));
+  }
+
+  open(): void {
+    const {draft, savedMotions} = this.store.get();
+    if (draft.keyframes.length > 0 && !draft.name) {
+      const name = freeName(say("teach.draftName"), savedMotions);
+      this.editor.note({...draft, name: name.replaceAll("-", " ")});
+    }
+    this.element.showModal();
+    this.element.scrollTop = 0;
+  }
+
+  private makeDraft(): HTMLElement {
+    const {editor, act} = this;
+    const form = el("form", {class: "motion-name", onsubmit: (event: Event) => {
+      event.preventDefault();
+      void this.saveDraft(false);
+    }}, el("label", {}, el("span", {class: "label"}, say("motion.name")), this.name), this.save);
+    const play = this.makeButton(say("teach.play"), kPlayIcon, () => {
+      this.element.close();
+      act.play();
+    });
+    const mirrorButton = this.makeButton(say("motion.mirror"), kMirrorIcon, () =>
+        editor.change(mirror(editor.draft, this.store.get().robot?.joints ?? [])));
+    const clear = this.makeButton(say("motion.clear"), kCloseIcon, () => editor.clear());
+    const list = new KeyframeList(this.store, editor, {
+      capture: (index) => act.capture(index),
+      show: (index) => {
+        this.element.close();
+        act.show(index);
+      },
+    });
+    return el("section", {class: "draft", "aria-label": say("motion.new")}, form, this.note, list.element,
+      el("div", {class: "row"}, el("span", {}, say("motion.speed"), this.length), this.speed.element),
+      el("div", {class: "row"}, el("span", {}, say("motion.repeat")), this.repeat.element),
+      el("div", {class: "draft-buttons"}, play, mirrorButton, this.undo, clear));
+  }
+
+  private makeButton(text: string, path: string, act: () => void): HTMLButtonElement {
+    const button = el("button", {class: "button small"}, icon(path), el("span", {}, text));
+    onPress(button, act);
+    return button;
+  }
+
+  private show(draft: MotionDraft): void {
+    const {canUndoDraft} = this.store.get();
+    const isShown = this.isDraftShown() || canUndoDraft;
+    this.draft.hidden = !isShown;
+    this.draft.classList.toggle("empty", !this.isDraftShown());
+    this.none.hidden = this.isDraftShown();
+    this.undo.disabled = !canUndoDraft;
+    if (this.name.value !== draft.name) this.name.value = draft.name;
+    const speed = say("motion.speed");
+    this.speed.show(say("motion.percent", {value: Math.round(draft.speed * 100)}),
+                    say("motion.less", {what: speed}), say("motion.more", {what: speed}));
+    const repeat = say("motion.repeat");
+    this.repeat.show(say("motion.times", {value: draft.repetitions}),
+                     say("motion.less", {what: repeat}), say("motion.more", {what: repeat}));
+    this.length.textContent = say("motion.seconds", {value: (timeOf(draft) * draft.repetitions).toFixed(1)});
+  }
+
+  private showFault(fault: MotionFault | null): void {
+    this.note.hidden = true;
+    if (!fault || fault.isUpload) return;
+    this.tell(faultInWords(fault), fault.repaired ? fault.repairText : "", () => this.act.repair());
+  }
+
+  private tell(text: string, button = "", act: () => void = () => {}): void {
+    const remedy = button ? el("button", {class: "button small", type: "button"}, button) : null;
+    if (remedy) onPress(remedy, act);
+    this.note.className = "note bad";
+    this.note.hidden = false;
+    this.note.replaceChildren(el("p", {}, text), ...(remedy ? [remedy] : []));
+  }
+
+  private async saveDraft(isReplacing: boolean): Promise<void> {
+    const {draft, robot, savedMotions} = this.store.get();
+    const name = motionName(draft.name);
+    const isSaved = savedMotions.includes(name);
+    this.note.hidden = true;
+    if (!name) return this.tell(say("motion.nameMissing"));
+    if (!isSaved && robot?.actions.includes(name)) return this.tell(say("motion.nameBuiltIn"));
+    const askToReplace = (): void => this.tell(say("motion.nameInUse", {name: sayName("action", name)}),
+                                               say("motion.replace"), () => void this.saveDraft(true));
+    if (isSaved && !isReplacing) return askToReplace();
+    const result = await this.host.save({motion: toMotion(draft, name)}, isReplacing);
+    if (result === "name-in-use") return isReplacing ? this.tell(say("motion.nameBuiltIn")) : askToReplace();
+    if (result !== "saved") return;
+    this.note.className = "note good";
+    this.note.hidden = false;
+    this.note.replaceChildren(el("p", {}, say("motion.saved", {name: sayName("action", name)})));
+  }
+
+  /** Another motion is the draft now. */
+  private opened(): void {
+    this.element.scrollTop = 0;
+  }
+
+  private changeSpeed(direction: number): void {
+    const {draft} = this.editor;
+    this.editor.change(setSpeed(draft, Math.round((draft.speed + direction * kSpeedStep) * 10) / 10));
+  }
+
+  private changeRepetitions(direction: number): void {
+    const {draft} = this.editor;
+    this.editor.change(setRepetitions(draft, draft.repetitions + direction));
+  }
+}

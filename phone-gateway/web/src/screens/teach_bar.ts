@@ -1,0 +1,98 @@
+/** Joints mode's bar for teaching: adds poses, plays them, opens the sheet of motions, and shows why a
+ * motion is not safe. */
+import {onPress} from "../controls/press";
+import {el, icon} from "../dom";
+import {CommandKind} from "../protocol/generated/remote_pb";
+import type {State} from "../protocol/generated/remote_pb";
+import type {MotionFault, Store} from "../store";
+import {keyframeAt} from "../teach/motion_draft";
+import {kTemporaryName} from "../teach/motion_name";
+import {say} from "../text/texts";
+import {kAddIcon, kCloseIcon, kListIcon, kPlayIcon, kSaveIcon} from "./icons";
+
+export interface TeachBarActions {
+  addPose(): void;
+  play(): void;
+  /** Opens the sheet of motions. */
+  open(): void;
+  /** Takes the repaired motion of the fault shown. */
+  repair(): void;
+}
+
+export class TeachBar {
+  readonly element: HTMLElement;
+  /** What is always there; the rest comes and goes above it. */
+  readonly buttons: HTMLElement;
+  private readonly fault = el("div", {class: "teach-fault", role: "alert", hidden: true});
+  private readonly dots = el("ol", {class: "pose-dots", "aria-label": say("teach.poses")});
+  private readonly status = el("p", {class: "unseen", role: "status"});
+  private readonly play: HTMLButtonElement;
+  private readonly playText = el("span", {}, say("teach.play"));
+  private readonly open: HTMLButtonElement;
+  private current = -1;
+
+  constructor(private readonly store: Store, private readonly act: TeachBarActions) {
+    const add = el("button", {class: "button small teach-add"}, icon(kAddIcon), el("span", {}, say("teach.add")));
+    onPress(add, () => act.addPose());
+    this.play = el("button", {class: "button small teach-play"}, icon(kPlayIcon), this.playText);
+    onPress(this.play, () => act.play());
+    this.open = el("button", {class: "button small teach-open"});
+    onPress(this.open, () => act.open());
+    this.buttons = el("div", {class: "teach-buttons"}, add, this.play, this.open);
+    this.element = el("section", {class: "teach-bar", "aria-label": say("teach.bar")},
+                      this.fault, this.status, this.dots, this.buttons);
+    store.watch((state) => state.draft.keyframes.length, (number) => this.showNumber(number));
+    store.watch((state) => state.isCheckingMotion, (isChecking) => this.showChecking(isChecking));
+    store.watch((state) => state.motionFault, (fault) => this.showFault(fault));
+    store.watch((state) => state.state, (state) => this.showProgress(state));
+  }
+
+  private showNumber(number: number): void {
+    // Seen by the dots; said to those who do not see them.
+    if (number > this.dots.childElementCount) this.status.textContent = say("teach.added", {number});
+    this.dots.replaceChildren(...Array.from({length: number}, (_, i) => el("li", {}, String(i + 1))));
+    this.dots.hidden = number === 0;
+    this.dots.scrollLeft = this.dots.scrollWidth;
+    this.current = -1;
+    this.play.hidden = number === 0;
+    this.open.replaceChildren(icon(number > 0 ? kSaveIcon : kListIcon),
+                              el("span", {}, say(number > 0 ? "teach.save" : "teach.motions")));
+  }
+
+  private showChecking(isChecking: boolean): void {
+    this.playText.textContent = say(isChecking ? "teach.checking" : "teach.play");
+    this.play.setAttribute("aria-busy", String(isChecking));
+    this.play.disabled = isChecking;
+  }
+
+  private showFault(fault: MotionFault | null): void {
+    // One of a file is shown in the sheet, where the file was chosen.
+    const isShown = fault !== null && !fault.isUpload;
+    this.fault.hidden = !isShown;
+    for (const [i, dot] of [...this.dots.children].entries()) {
+      dot.classList.toggle("bad", isShown && i === fault.keyframe);
+    }
+    if (!isShown) return;
+    const close = el("button", {class: "round", "aria-label": say("teach.dismiss")}, icon(kCloseIcon));
+    onPress(close, () => this.store.set({motionFault: null}));
+    const repair = fault.repaired ? el("button", {class: "button small primary"}, fault.repairText) : null;
+    if (repair) onPress(repair, () => this.act.repair());
+    this.fault.replaceChildren(el("p", {}, faultInWords(fault)), close, ...(repair ? [repair] : []));
+  }
+
+  /** Marks the pose that the robot goes to while the draft is played. */
+  private showProgress(state: State | null): void {
+    const activity = state?.activity;
+    const isPlaying = activity?.kind === CommandKind.ACTION && activity.name === kTemporaryName;
+    const current = isPlaying ? keyframeAt(this.store.get().draft, state!.progress) : -1;
+    if (current === this.current) return;
+    this.dots.children[this.current]?.classList.remove("current");
+    this.dots.children[current]?.classList.add("current");
+    this.current = current;
+  }
+}
+
+/** A fault with the pose at which it shows. */
+export function faultInWords({keyframe, text}: MotionFault): string {
+  return keyframe < 0 ? text : say("teach.faultAt", {number: keyframe + 1, text});
+}

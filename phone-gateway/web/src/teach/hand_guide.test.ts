@@ -1,0 +1,31 @@
+import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
+import type {Commander} from "../commander";
+import type {UseCase} from "../protocol/codec";
+import {Store} from "../store";
+import {HandGuide, kDragPeriodMs} from "./hand_guide";
+
+describe("HandGuide", () => {
+  let sent: UseCase[];
+  let guide: HandGuide;
+
+  beforeEach(() => {
+    vi.useFakeTimers();
+    sent = [];
+    guide = new HandGuide(new Store(), {stream: (useCase: UseCase) => sent.push(useCase)} as unknown as Commander);
+  });
+  afterEach(() => {
+    vi.useRealTimers();
+  });
+
+  it("repeats a pull while the finger holds it, at the finger's last place", () => {
+    guide.drag("wrist", [0, 0, 0], [0.1, 0.2, 0.3]);
+    guide.drag("wrist", [0, 0, 0], [0.4, 0.2, 0.3]);
+    expect(sent).toHaveLength(1);
+    vi.advanceTimersByTime(2 * kDragPeriodMs);
+    expect(sent).toHaveLength(3);
+    expect(sent[2]).toMatchObject({case: "drag", value: {link: "wrist", targetX: 0.4, targetZ: 0.3}});
+    guide.endDrag();
+    vi.advanceTimersByTime(10 * kDragPeriodMs);
+    expect(sent).toHaveLength(3);
+  });
+});

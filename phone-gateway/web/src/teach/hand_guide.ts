@@ -1,0 +1,54 @@
+/** Moves limbs by hand: makes them limp or stiff, and pulls them in a simulation. */
+import type {Commander} from "../commander";
+import * as useCases from "../protocol/use_cases";
+import type {Point} from "../protocol/use_cases";
+import type {Store} from "../store";
+
+/** A pull ends 0.2 s after the last request, and wants one every 0.1 s. */
+export const kDragPeriodMs = 50;
+
+export class HandGuide {
+  private timer: ReturnType<typeof setInterval> | undefined;
+  private pull: {link: string; point: Point; target: Point} | null = null;
+
+  constructor(private readonly store: Store, private readonly commander: Commander) {}
+
+  /** Makes the groups of a limb limp, or stiff if the first of them is limp. */
+  async toggle(groups: readonly string[]): Promise<void> {
+    const isLimp = groups[0] !== undefined && this.store.get().relaxedGroups.includes(groups[0]);
+    await this.setStiffness(groups, isLimp ? 1 : 0);
+  }
+
+  /** Makes all limbs stiff that were relaxed. */
+  async stiffen(): Promise<void> {
+    await this.setStiffness(this.store.get().relaxedGroups, 1);
+  }
+
+  /** Pulls a link until endDrag(). @param point  fixed to the link, in its frame, m.
+   * @param target  where it goes, in the torso's frame, m. */
+  drag(link: string, point: Point, target: Point): void {
+    const isFirst = this.pull === null;
+    this.pull = {link, point, target};
+    if (!isFirst) return;
+    this.send();
+    this.timer = setInterval(() => this.send(), kDragPeriodMs);
+  }
+
+  endDrag(): void {
+    clearInterval(this.timer);
+    this.pull = null;
+  }
+
+  private send(): void {
+    if (this.pull) this.commander.stream(useCases.drag(this.pull.link, this.pull.point, this.pull.target));
+  }
+
+  private async setStiffness(groups: readonly string[], stiffness: number): Promise<void> {
+    for (const group of groups) {
+      // Refused for one joint of a limb: told once, and the others are left as they are.
+      if (!(await this.commander.command(useCases.setStiffness(group, stiffness)))) return;
+      const others = this.store.get().relaxedGroups.filter((one) => one !== group);
+      this.store.set({relaxedGroups: stiffness === 0 ? [...others, group] : others});
+    }
+  }
+}

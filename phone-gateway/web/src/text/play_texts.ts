@@ -1,0 +1,23 @@
+/** Texts of behaviours and perception: English, Portuguese, German, as in texts.ts. */
+export const kPlayTexts = {
+  "play.strip": ["By itself", "Sozinho", "Von allein"],
+  "play.none": ["Stop", "Parar", "Stopp"],
+  "play.go-to-ball": ["Go to the ball", "Ir até à bola", "Zum Ball gehen"],
+  "play.kick": ["Kick the ball", "Chutar a bola", "Ball schießen"],
+  "play.dribble": ["Dribble", "Driblar", "Dribbeln"],
+  "play.score": ["Score", "Marcar golo", "Tor schießen"],
+  "play.keep-goal": ["Keep goal", "Defender a baliza", "Tor hüten"],
+  "phase.idle": ["waits", "espera", "wartet"],
+  "phase.search": ["looks for the ball", "procura a bola", "sucht den Ball"],
+  "phase.approach": ["walks to the ball", "anda até à bola", "geht zum Ball"],
+  "phase.align": ["takes aim", "faz pontaria", "zielt"],
+  "phase.kick": ["kicks", "chuta", "schießt"],
+  "phase.guard": ["guards the goal", "guarda a baliza", "bewacht das Tor"],
+  "phase.block": ["stops the ball", "para a bola", "hält den Ball"],
+  "phase.recover": ["gets up", "levanta-se", "steht auf"],
+  "phase.done": ["done", "feito", "fertig"],
+  "play.boxes": ["What the robot sees", "O que o robô vê", "Was der Roboter sieht"],
+  "play.map": ["Where the robot is on the field", "Onde o robô está no campo", "Wo der Roboter auf dem Feld ist"],
+  "play.ball": ["The ball", "A bola", "Der Ball"],
+  "play.done": ["{what}: done", "{what}: feito", "{what}: fertig"],
+} as const;

@@ -1,0 +1,12 @@
+// The accessibility rules of axe-core, on what a phone shows.
+import {readFileSync} from "node:fs";
+import {requireFromApp} from "./phone.mjs";
+import {kWebDir} from "./set_up.mjs";
+
+/** Violations of the rules, one line each. */
+export async function violations(phone) {
+  const axe = readFileSync(requireFromApp(kWebDir).resolve("axe-core/axe.min.js"), "utf8");
+  await phone.page.evaluate(axe);
+  const {violations} = await phone.page.evaluate("axe.run()");
+  return violations.flatMap(({id, nodes}) => nodes.map((node) => `${id}: ${node.html} ${node.failureSummary}`));
+}

@@ -1,0 +1,80 @@
+// What the robot sees and does by itself, on the page: with the fake gateway, which sees a ball.
+import assert from "node:assert/strict";
+import {spawn} from "node:child_process";
+import {after, before, test} from "node:test";
+import {join} from "node:path";
+import {openBrowser, Phone} from "./phone.mjs";
+import {kWebDir} from "./set_up.mjs";
+import {until} from "./stack.mjs";
+
+// play_command_t's BEHAVIOR_*.
+const kGoToBall = 1;
+const kScore = 4;
+const kDataDir = process.env.NAO_DATA_DIR ?? join(process.env.NAO_BIN_DIR ?? "", "../share/nao-remote");
+
+let fake;
+let browser;
+const phone = new Phone();
+
+before(async () => {
+  fake = spawn("node", ["node_modules/.bin/vite-node", "test_support/serve_fake.ts", kDataDir],
+               {cwd: kWebDir, env: {...process.env, NAO_PLAYS: "1"}, stdio: ["ignore", "pipe", "inherit"]});
+  let said = "";
+  fake.stdout.on("data", (text) => said += text);
+  const url = await until("the fake gateway listens", () => /http:\S+/.exec(said)?.[0]);
+  browser = await openBrowser(kWebDir);
+  await phone.open(browser, url);
+  await phone.sees("controller");
+});
+after(async () => {
+  await browser?.close();
+  fake?.kill();
+});
+
+const behavior = () => phone.look("state.playState.behavior");
+const activity = () => phone.page.locator(".activity").textContent();
+
+test("a tap on Score begins it, the status says what the robot does, and a second tap ends it", async () => {
+  await phone.tap('.play-strip [data-name="score"]');
+  await until("the robot plays", async () => (await behavior()) === kScore);
+  await until("the status says so", async () => (await activity()) === "Score: walks to the ball");
+  await phone.tap('.play-strip [data-name="score"]');
+  await until("it has ended", async () => (await behavior()) === 0);
+});
+
+test("a hidden page ends what the robot does by itself", async () => {
+  await phone.tap('.play-strip [data-name="keep-goal"]');
+  await until("the robot plays", async () => (await behavior()) !== 0);
+  await phone.hide();
+  await until("it has ended", async () => (await behavior()) === 0);
+  await phone.unhide();
+});
+
+test("the ball is drawn where the robot takes it to be, and a tap on it offers to go there", async () => {
+  const ball = await until("the ball is drawn", async () => (await phone.look("soccerBall()")) ?? undefined);
+  assert.ok(Math.hypot(ball.x - 0.5, ball.y + 0.2) < 0.01);
+  const [x, y] = await phone.look("pagePlace(0.5, -0.2)");
+  await phone.page.touchscreen.tap(x, y);
+  await phone.tap('.ball-choice [data-name="go-to-ball"]');
+  await until("the robot goes to the ball", async () => (await behavior()) === kGoToBall);
+  await phone.tap('.play-strip [data-name="go-to-ball"]');
+  await until("it has ended", async () => (await behavior()) === 0);
+});
+
+test("boxes are drawn over the image until they are switched off", async () => {
+  const numDrawn = () => phone.page.evaluate(() => {
+    const canvas = document.querySelector(".image-marks");
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return data.filter((value, i) => i % 4 === 3 && value > 0).length;
+  });
+  await until("boxes are drawn", async () => (await numDrawn()) > 100);
+  await phone.tap(".image-boxes");
+  await until("they are gone", async () => (await numDrawn()) === 0);
+  await phone.tap(".image-boxes");
+});
+
+test("the map is there while the robot knows its place, and nothing complains", async () => {
+  assert.ok(await phone.page.locator(".field-map").isVisible());
+  if (process.env.NAO_SCREENSHOT) await phone.page.screenshot({path: process.env.NAO_SCREENSHOT});
+  assert.deepEqual(phone.errors, []);
+});

@@ -1,0 +1,30 @@
+#pragma once
+
+// <utility> first: Boost 1.74's coroutine headers rely on it with GCC 12.
+#include <utility>
+//
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/foxglove/asset_folder.h"
+#include "tools/foxglove/server_core.h"
+
+namespace nao::foxglove {
+
+/** What all connections share. */
+struct ConnectionContext {
+  boost::asio::io_context& io;
+  ServerCore& core;
+  AssetFolder& files;
+  std::vector<std::string> origins;
+  size_t num_connections = 0;
+  /** The core must no longer be called. */
+  bool is_shutting_down = false;
+};
+
+/** Serves an accepted connection until it ends: files over HTTP, or a WebSocket. */
+void serve(ConnectionContext& context, boost::asio::ip::tcp::socket socket);
+
+}  // namespace nao::foxglove

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/foxglove/asset_folder.h"
+#include "tools/foxglove/server_core.h"
+
+namespace nao::foxglove {
+
+struct NetworkOptions {
+  /** Address to listen on. */
+  std::string bind = "127.0.0.1";
+  /** 0: the system chooses, see Network::port(). Default: as other servers of the protocol. */
+  uint16_t port = 8765;
+  /** Sites whose pages may connect, such as "https://app.foxglove.dev"; empty: all. */
+  std::vector<std::string> origins;
+};
+
+/** Sockets and main loop: WebSockets and, on the same port, the robot's files over HTTP; timers,
+ * other file descriptors, SIGINT and SIGTERM, in one thread. */
+class Network {
+ public:
+  /** Starts to listen. Core and files must outlive this.
+   * @throws Error  naming the port or address that cannot be used. */
+  Network(const NetworkOptions& options, ServerCore& core, AssetFolder& files);
+  ~Network();
+  Network(const Network&) = delete;
+  Network& operator=(const Network&) = delete;
+
+  uint16_t port() const;
+  /** Calls `handler` whenever `descriptor` is readable. The caller keeps it open. */
+  void on_readable(int descriptor, std::function<void()> handler);
+  /** Calls `handler` every `period` seconds. */
+  void every(double period, std::function<void()> handler);
+  /** Runs until a signal. @return "SIGINT" or "SIGTERM". */
+  std::string run();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace nao::foxglove

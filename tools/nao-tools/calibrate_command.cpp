@@ -1,0 +1,237 @@
+// nao calibrate: learns how this robot's joints and sensors differ from its model.
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <naolcm/command_result_t.hpp>
+#include <naolcm/joint_change_command_t.hpp>
+#include <naolcm/motion_state_t.hpp>
+#include <naolcm/move_to_command_t.hpp>
+#include <naolcm/posture_command_t.hpp>
+#include <naolcm/sensor_state_t.hpp>
+#include <optional>
+#include <string>
+
+#include "calibration/calibration_run.h"
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/command_line.h"
+#include "common/data_path.h"
+#include "common/error.h"
+#include "common/event_loop.h"
+#include "common/wall_clock.h"
+#include "messages/named_joints.h"
+#include "tools/nao/command_exchange.h"
+#include "tools/nao/subcommand.h"
+#include "tools/nao/tools_subcommands.h"
+
+namespace nao {
+namespace {
+
+struct CalibrateOptions {
+  std::string model = "nao";
+  std::string file = "calibration.yaml";
+  int num_stations = 4;
+};
+
+// Greatest time between two sensor states that counts as measured, s: a pause of the simulator is
+// longer.
+constexpr double kMaxInterval = 0.1;
+
+std::string now_as_text() {
+  const std::time_t now = wall_utime() / 1000000;
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", std::gmtime(&now));
+  return text;
+}
+
+/** A calibration on the bus: sends the run's commands, and gives it results and sensors. */
+class CalibrationSession {
+ public:
+  CalibrationSession(const CommonOptions& common, const RobotModel& model, int num_stations)
+      : model_(model),
+        run_(model, num_stations),
+        source_("nao-calibrate." + std::to_string(getpid())),
+        bus_(common.lcm_url),
+        channels_(common.robot) {
+    loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
+    bus_.subscribe<naolcm::command_result_t>(
+        channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
+          if (!exchange_ || result.source != source_ || result.command_id != command_id_) return;
+          exchange_->handle_result(static_cast<ResultStatus>(result.status), result.reason,
+                                   monotonic_seconds());
+        });
+    bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
+                                           [this](const naolcm::motion_state_t&) {
+                                             if (exchange_)
+                                               exchange_->handle_sign_of_life(monotonic_seconds());
+                                           });
+    bus_.subscribe<naolcm::sensor_state_t>(
+        channels_.sensor_state, Bus::Queue::kAll,
+        [this](const naolcm::sensor_state_t& message) { measure(message); });
+  }
+
+  /** @return Whether all poses were measured; Ctrl-C, silence and repeated faults end it before. */
+  bool execute() {
+    loop_.every(0.02, [this] { step(); });
+    const std::string reason = loop_.run();
+    if (reason != "end") fault_ = "stopped by " + reason;
+    if (fault_.empty()) fault_ = run_.fault();
+    return fault_.empty();
+  }
+
+  const std::string& fault() const { return fault_; }
+  CalibrationEstimator& estimator() { return run_.estimator(); }
+
+ private:
+  void step() {
+    const double now = monotonic_seconds();
+    if (!exchange_) {
+      command_ = run_.next_command();
+      if (command_) {
+        command_id_ = wall_utime();
+        exchange_.emplace("nao-motion", now);
+        std::printf("\r%3.0f %%", 100 * run_.progress());
+        std::fflush(stdout);
+      }
+    }
+    if (exchange_) {
+      if (exchange_->should_send(now)) send();
+      if (const auto outcome = exchange_->outcome(now)) {
+        exchange_.reset();
+        if (outcome->status == "unanswered" || outcome->status == "silent") {
+          fault_ = outcome->reason;
+          loop_.stop("end");
+          return;
+        }
+        run_.end_command(outcome->is_success ? "" : outcome->status + ": " + outcome->reason);
+      }
+    }
+    if (run_.is_done()) loop_.stop("end");
+  }
+
+  template <class Message>
+  void publish(const std::string& channel, Message message) {
+    message.utime = 0;
+    message.wall_utime = wall_utime();
+    message.source = source_;
+    message.command_id = command_id_;
+    bus_.publish(channel, message);
+  }
+
+  void send() {
+    if (const auto* posture = std::get_if<PostureCommand>(&*command_)) {
+      naolcm::posture_command_t message;
+      message.posture = posture->posture;
+      message.speed = posture->speed;
+      publish(channels_.posture_command, message);
+    } else if (const auto* move_to = std::get_if<MoveToCommand>(&*command_)) {
+      naolcm::move_to_command_t message;
+      message.x = move_to->x;
+      message.y = move_to->y;
+      message.theta = move_to->theta;
+      publish(channels_.move_to_command, message);
+    } else if (const auto* change = std::get_if<JointChangeCommand>(&*command_)) {
+      naolcm::joint_change_command_t message;
+      message.num_joints = static_cast<int32_t>(change->joint_names.size());
+      message.joint_names = change->joint_names;
+      message.joint_position = change->joint_position;
+      message.joint_stiffness.assign(change->joint_names.size(),
+                                     std::numeric_limits<double>::quiet_NaN());
+      message.is_relative = 0;
+      message.speed = change->speed;
+      message.allow_tipping = change->allow_tipping ? 1 : 0;
+      publish(channels_.joint_change_command, message);
+    }
+  }
+
+  void measure(const naolcm::sensor_state_t& message) {
+    const double interval = static_cast<double>(message.utime - last_utime_) * 1e-6;
+    last_utime_ = message.utime;
+    if (interval <= 0 || interval > kMaxInterval) return;
+    StandingSample sample;
+    if (read_named_joints(model_.motor_names(), message.joint_names,
+                          {{"position", message.joint_position, sample.position}})) {
+      return;
+    }
+    sample.accelerometer = Eigen::Vector3d(message.accelerometer_torso);
+    sample.gyroscope = Eigen::Vector3d(message.gyroscope_torso);
+    for (const int link : model_.foot_sensors()) {
+      for (int i = 0; i < message.num_foot_sensors; ++i) {
+        if (message.foot_sensor_names[i] == model_.links()[link].name) {
+          sample.foot_force.push_back(message.foot_force[i]);
+        }
+      }
+    }
+    const bool is_complete = sample.foot_force.size() == model_.foot_sensors().size();
+    bool is_finite = sample.accelerometer.allFinite() && sample.gyroscope.allFinite();
+    for (const double force : sample.foot_force) is_finite = is_finite && std::isfinite(force);
+    if (is_complete && is_finite) run_.measure(sample, interval);
+  }
+
+  const RobotModel& model_;
+  CalibrationRun run_;
+  std::string source_;
+  EventLoop loop_;
+  Bus bus_;
+  RobotChannels channels_;
+  std::optional<CalibrationCommand> command_;
+  int64_t command_id_ = 0;
+  std::optional<CommandExchange> exchange_;
+  int64_t last_utime_ = 0;
+  std::string fault_;
+};
+
+int calibrate(const CommonOptions& common, const CalibrateOptions& options) {
+  const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
+  CalibrationSession session(common, model, options.num_stations);
+  const bool is_complete = session.execute();
+  std::printf("\n");
+  if (!is_complete) {
+    std::fprintf(stderr, "nao: calibrate: %s; wrote nothing\n", session.fault().c_str());
+    return 1;
+  }
+  CalibrationEstimator& estimator = session.estimator();
+  Calibration calibration = estimator.solve();
+  calibration.date = now_as_text();
+  std::ofstream file(options.file);
+  file << calibration.to_yaml(model);
+  file.close();
+  if (!file) throw Error("cannot write " + options.file);
+  for (const int sensor : estimator.dead_sensors()) {
+    std::printf("foot sensor %s reads nothing: it is dead\n",
+                model.links()[model.foot_sensors()[sensor]].name.c_str());
+  }
+  std::printf("%d stands; the weight acts %.1f mm beside the center of mass, %.1f mm corrected\n",
+              estimator.num_samples(), 1e3 * estimator.pressure_error_before(),
+              1e3 * estimator.pressure_error_after());
+  std::printf("wrote %s; start nao-motion with --calibration %s\n", options.file.c_str(),
+              options.file.c_str());
+  return 0;
+}
+
+}  // namespace
+
+void add_calibrate_command(CommandLine& app, Invocation& invocation) {
+  const auto options = std::make_shared<CalibrateOptions>();
+  CommandLine* command = app.add_subcommand(kCalibrateSubcommand.name, kCalibrateSubcommand.help);
+  command->add_option("--output", options->file, "File to write")->show_default();
+  command->add_option("--model", options->model, "Folder of robots/ that describes the robot")
+      ->show_default();
+  command
+      ->add_option("--directions", options->num_stations,
+                   "Directions in which it stands; with 1 it does not walk, and takes a slope of "
+                   "the floor for an error of its own")
+      ->range(1, 8)
+      ->show_default();
+  command->on_parsed([&invocation, options] {
+    invocation.run = [&invocation, options] { return calibrate(invocation.common, *options); };
+  });
+}
+
+}  // namespace nao

@@ -1,0 +1,388 @@
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <regex>
+#include <string>
+
+#include "common/command_line.h"
+#include "common/data_path.h"
+#include "common/error.h"
+#include "common/json_writer.h"
+#include "common/log_reader.h"
+#include "inspection/foxglove_converter.h"
+#include "inspection/foxglove_schemas.h"
+#include "inspection/message_json.h"
+#include "message_reflection/message_types.h"
+#include "robot_model/robot_model.h"
+#include "tools/nao-tools/log_statistics.h"
+#include "tools/nao-tools/mcap_writer.h"
+#include "tools/nao-tools/message_table.h"
+#include "tools/nao/subcommand.h"
+#include "tools/nao/tools_subcommands.h"
+
+namespace nao {
+namespace {
+
+struct LogOptions {
+  std::string file;
+  std::string output;
+  std::string channel;
+  std::string channels = ".*";
+  bool as_json = false;
+  double from = 0;
+  double to = std::numeric_limits<double>::infinity();
+  std::vector<std::string> renames;
+  std::string model = "nao";
+  /** Of the options of all subcommands. */
+  std::string robot;
+};
+
+/** Opens a log and reads its first event, so that a file of another format is rejected at once. */
+class Log {
+ public:
+  explicit Log(const std::string& file) : file_(file), reader_(file), next_(next_message()) {
+    if (!next_)
+      throw Error(file + " contains no message: it is empty, or not a log of scripts/record");
+    start_ = next_->wall_utime;
+  }
+
+  /** @param event  Receives the next event. @return false at the end. */
+  bool read(LogEvent& event) {
+    if (!next_) return false;
+    event = std::move(*next_);
+    next_ = next_message();
+    return true;
+  }
+
+  /** Time since the log's first event, s. */
+  double time_of(const LogEvent& event) const {
+    return static_cast<double>(event.wall_utime - start_) * 1e-6;
+  }
+
+  void warn_about_damage() const {
+    if (reader_.num_bytes_skipped() == 0) return;
+    std::fprintf(
+        stderr,
+        "nao: log: %s: skipped %ld damaged bytes (a killed recorder truncates its last message)\n",
+        file_.c_str(), static_cast<long>(reader_.num_bytes_skipped()));
+  }
+
+ private:
+  std::optional<LogEvent> next_message() {
+    auto event = reader_.next();
+    // LCM's own self-test message, sent whenever a program opens the bus.
+    while (event && event->channel == "LCM_SELF_TEST") event = reader_.next();
+    return event;
+  }
+
+  std::string file_;
+  LogReader reader_;
+  std::optional<LogEvent> next_;
+  int64_t start_ = 0;
+};
+
+const MessageLayout* layout_of(const LogEvent& event) {
+  const MessageType* type =
+      find_message_type(event.data.data(), static_cast<int>(event.data.size()));
+  return type != nullptr ? find_message_layout(type->name) : nullptr;
+}
+
+/** Number of undecodable messages by channel, reported at the end. */
+class Undecodable {
+ public:
+  void add(const std::string& channel) { ++counts_[channel]; }
+  void warn() const {
+    for (const auto& [channel, count] : counts_) {
+      std::fprintf(
+          stderr,
+          "nao: log: %s: skipped %ld messages of unknown types; they were recorded by another "
+          "version, whose nao can read them\n",
+          channel.c_str(), count);
+    }
+  }
+
+ private:
+  std::map<std::string, long> counts_;
+};
+
+std::regex compiled(const std::string& expression) {
+  try {
+    return std::regex(expression, std::regex::extended);
+  } catch (const std::regex_error& fault) {
+    throw ConfigError("--channels " + expression + " is not a regular expression: " + fault.what());
+  }
+}
+
+/** Standard output, or a file if one is named. */
+class Output {
+ public:
+  explicit Output(const std::string& file) : file_(file) {
+    if (!file.empty()) stream_.open(file, std::ios::binary);
+    if (!file.empty() && !stream_) throw Error("cannot write " + file);
+  }
+  std::ostream& stream() { return file_.empty() ? std::cout : stream_; }
+  void finish() {
+    if (!stream().flush()) throw Error("cannot write all of " + (file_.empty() ? "stdout" : file_));
+  }
+
+ private:
+  std::string file_;
+  std::ofstream stream_;
+};
+
+int show_info(const LogOptions& options) {
+  Log log(options.file);
+  LogStatistics statistics;
+  LogEvent event;
+  while (log.read(event)) statistics.add(event);
+  std::cout << (options.as_json ? statistics.to_json() + "\n" : statistics.to_text());
+  log.warn_about_damage();
+  return 0;
+}
+
+/** Layout of the type of a channel's first message. */
+const MessageLayout& find_layout_of_channel(const LogOptions& options) {
+  Log log(options.file);
+  LogEvent event;
+  while (log.read(event)) {
+    if (event.channel != options.channel) continue;
+    const MessageLayout* layout = layout_of(event);
+    if (layout != nullptr) return *layout;
+    throw Error(
+        options.channel + " in " + options.file +
+        " has a type unknown to this version: the messages have changed since the recording. "
+        "Read it with the nao of that version, or record again");
+  }
+  throw Error(options.file + " contains no message on " + options.channel +
+              "; list its channels: nao log info " + options.file);
+}
+
+/** Reports skipped messages and bytes after the log's end. @return Exit status. */
+int end_reading(const Log& log, const Undecodable& undecodable) {
+  undecodable.warn();
+  log.warn_about_damage();
+  return 0;
+}
+
+int write_csv(const LogOptions& options) {
+  MessageTable table(find_layout_of_channel(options));
+  LogEvent event;
+  {
+    Log log(options.file);
+    while (log.read(event)) {
+      if (event.channel == options.channel) table.see(event.data);
+    }
+  }
+  Output output(options.output);
+  output.stream() << "log_time_s," << table.heading() << "\n";
+  Log log(options.file);
+  Undecodable undecodable;
+  while (log.read(event)) {
+    if (event.channel != options.channel) continue;
+    const std::string row = table.row(event.data);
+    if (row.empty()) {
+      undecodable.add(event.channel);
+      continue;
+    }
+    output.stream() << std::to_string(log.time_of(event)) << "," << row << "\n";
+  }
+  output.finish();
+  return end_reading(log, undecodable);
+}
+
+/** Reads a log to its end and passes the messages of selected channels on: event, layout, JSON
+ * text. @return Statistics of undecodable messages. */
+template <class Take>
+Undecodable read_as_json(Log& log, const std::regex& selected, Take take) {
+  Undecodable undecodable;
+  LogEvent event;
+  while (log.read(event)) {
+    if (!std::regex_match(event.channel, selected)) continue;
+    const MessageLayout* layout = layout_of(event);
+    const auto message = layout != nullptr ? message_to_json(*layout, event.data) : std::nullopt;
+    if (message) {
+      take(event, *layout, *message);
+    } else {
+      undecodable.add(event.channel);
+    }
+  }
+  return undecodable;
+}
+
+int write_json(const LogOptions& options) {
+  const std::regex selected = compiled(options.channels);
+  Log log(options.file);
+  Output output(options.output);
+  const auto write = [&](const LogEvent& event, const MessageLayout& layout,
+                         const std::string& message) {
+    JsonWriter head;
+    head.begin_object();
+    head.add("log_wall_utime", int64_t{event.wall_utime});
+    head.add("channel", event.channel);
+    head.add("type", layout.name);
+    head.end();
+    std::string line = head.text();
+    line.pop_back();
+    output.stream() << line << ",\"message\":" << message << "}\n";
+  };
+  const Undecodable undecodable = read_as_json(log, selected, write);
+  output.finish();
+  return end_reading(log, undecodable);
+}
+
+/** Channels of an MCAP file, which begin at their first message. */
+class McapChannels {
+ public:
+  explicit McapChannels(McapWriter& mcap) : mcap_(mcap) {}
+
+  /** @param schema  Makes the JSON Schema, where the file does not have it yet. */
+  uint16_t find(const std::string& topic, const std::string& schema_name,
+                const std::function<std::string()>& schema) {
+    // A channel whose type changed during the recording becomes two channels of the file.
+    const auto [channel, is_new] = channels_.try_emplace({topic, schema_name});
+    if (is_new) {
+      const auto [number, is_new_schema] = schemas_.try_emplace(schema_name);
+      if (is_new_schema) number->second = mcap_.add_schema(schema_name, schema());
+      channel->second = mcap_.add_channel(topic, number->second);
+    }
+    return channel->second;
+  }
+
+ private:
+  McapWriter& mcap_;
+  std::map<std::string, uint16_t> schemas_;
+  std::map<std::pair<std::string, std::string>, uint16_t> channels_;
+};
+
+int write_mcap(const LogOptions& options) {
+  const std::regex selected = compiled(options.channels);
+  const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
+  FoxgloveConverter converter(model, options.robot);
+  Log log(options.file);
+  McapWriter mcap(options.output);
+  McapChannels channels(mcap);
+  const auto write = [&](const LogEvent& event, const MessageLayout& layout,
+                         const std::string& message) {
+    const uint16_t channel = channels.find(event.channel, "naolcm." + layout.name,
+                                           [&] { return json_schema_of(layout); });
+    mcap.add_message(channel, event.wall_utime, message);
+    converter.convert(
+        event.channel, event.data, [](size_t) { return true; },
+        [&](size_t output, const std::string& json) {
+          const FoxgloveConverter::Output& known = converter.outputs()[output];
+          mcap.add_message(channels.find(known.topic, known.schema,
+                                         [&] { return foxglove_schema(known.schema); }),
+                           event.wall_utime, json);
+        });
+  };
+  const Undecodable undecodable = read_as_json(log, selected, write);
+  mcap.finish();
+  return end_reading(log, undecodable);
+}
+
+std::map<std::string, std::string> parse_renames(const std::vector<std::string>& renames) {
+  std::map<std::string, std::string> names;
+  for (const std::string& rename : renames) {
+    const size_t middle = rename.find('=');
+    if (middle == std::string::npos || middle == 0 || middle + 1 == rename.size()) {
+      throw ConfigError("--rename " + rename + ": give OLD=NEW");
+    }
+    names[rename.substr(0, middle)] = rename.substr(middle + 1);
+  }
+  return names;
+}
+
+int write_cut(const LogOptions& options) {
+  const std::regex selected = compiled(options.channels);
+  const auto names = parse_renames(options.renames);
+  Log log(options.file);
+  Output output(options.output);
+  LogEvent event;
+  int64_t number = 0;
+  while (log.read(event)) {
+    const double time = log.time_of(event);
+    if (time < options.from || time > options.to) continue;
+    if (!std::regex_match(event.channel, selected)) continue;
+    const auto name = names.find(event.channel);
+    if (name != names.end()) event.channel = name->second;
+    event.number = number++;
+    const auto bytes = encode_log_event(event);
+    output.stream().write(reinterpret_cast<const char*>(bytes.data()),
+                          static_cast<std::streamsize>(bytes.size()));
+  }
+  output.finish();
+  log.warn_about_damage();
+  if (number == 0) throw Error(options.file + " contains no message between these times");
+  return 0;
+}
+
+CommandLine* add_log_subcommand(CommandLine& log, Invocation& invocation,
+                                const std::shared_ptr<LogOptions>& options, const std::string& name,
+                                const std::string& description, int (*run)(const LogOptions&)) {
+  CommandLine* command = log.add_subcommand(name, description);
+  command->add_option("file", options->file, "Log of scripts/record")->required();
+  command->on_parsed([&invocation, options, run] {
+    invocation.run = [&invocation, options, run] {
+      options->robot = invocation.common.robot;
+      return run(*options);
+    };
+  });
+  return command;
+}
+
+}  // namespace
+
+void add_log_command(CommandLine& app, Invocation& invocation) {
+  CommandLine* log = app.add_subcommand(kLogSubcommand.name, kLogSubcommand.help);
+  log->require_subcommand();
+  const auto options = std::make_shared<LogOptions>();
+  const auto add_channels = [&](CommandLine* command) {
+    command
+        ->add_option("--channels", options->channels,
+                     "Only channels whose whole name matches this (extended) regular expression")
+        ->show_default();
+  };
+  const auto add_output = [&](CommandLine* command) {
+    command->add_option("--output", options->output, "File to write (default: stdout)");
+  };
+
+  CommandLine* info = add_log_subcommand(
+      *log, invocation, options, "info",
+      "Channels with type, rate, longest gap, size and lost messages", show_info);
+  info->add_flag("--json", options->as_json, "As JSON");
+
+  CommandLine* csv =
+      add_log_subcommand(*log, invocation, options, "csv",
+                         "One channel as a table for pandas or a spreadsheet", write_csv);
+  csv->add_option("channel", options->channel, "Such as NAO_ROBOT_STATE")->required();
+  add_output(csv);
+
+  CommandLine* json = add_log_subcommand(*log, invocation, options, "json",
+                                         "One line of JSON for every message", write_json);
+  add_channels(json);
+  add_output(json);
+
+  CommandLine* mcap = add_log_subcommand(
+      *log, invocation, options, "mcap",
+      "An MCAP file with JSON schemas, for Foxglove and PlotJuggler; transforms, images and scene "
+      "in Foxglove's own schemas",
+      write_mcap);
+  mcap->add_option("output", options->output, "File to write, such as run.mcap")->required();
+  mcap->add_option("--model", options->model, "Folder of robots/ that describes the robot")
+      ->show_default();
+  add_channels(mcap);
+
+  CommandLine* cut = add_log_subcommand(*log, invocation, options, "cut",
+                                        "A part of a log, as a log of its own", write_cut);
+  cut->add_option("output", options->output, "File to write")->required();
+  cut->add_option("--from", options->from, "Since the log's first message, s");
+  cut->add_option("--to", options->to, "Since the log's first message, s");
+  cut->add_option("--rename", options->renames, "OLD=NEW: give a channel another name");
+  add_channels(cut);
+}
+
+}  // namespace nao

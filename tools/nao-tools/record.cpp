@@ -1,0 +1,121 @@
+#include <cstdio>
+#include <lcm/lcm-cpp.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <regex>
+#include <string>
+
+#include "common/command_line.h"
+#include "common/error.h"
+#include "common/event_loop.h"
+#include "common/wall_clock.h"
+#include "tools/nao-tools/log_writer.h"
+#include "tools/nao/subcommand.h"
+#include "tools/nao/tools_subcommands.h"
+
+namespace nao {
+namespace {
+
+// Maximum duration of the recording that a killed recorder loses, s.
+constexpr double kFlushPeriod = 0.1;
+// LCM's default queue holds 30 messages, about 60 ms of this bus; later ones are dropped. This
+// queue holds minutes.
+constexpr int kQueueCapacity = 100'000;
+// Requested size of the socket's buffer, bytes; the kernel limits it to net.core.rmem_max.
+constexpr const char* kReceiveBuffer = "recv_buf_size=8388608";
+
+struct RecordOptions {
+  std::string file;
+  std::string channels = ".*";
+  std::string without;
+  double duration = std::numeric_limits<double>::infinity();
+  double split_mb = 0;
+  int num_kept = 0;
+};
+
+std::string with_receive_buffer(const std::string& url) {
+  if (!url.starts_with("udpm://") || url.find("recv_buf_size") != std::string::npos) return url;
+  return url + (url.find('?') == std::string::npos ? "?" : "&") + kReceiveBuffer;
+}
+
+/** Writes every selected message to the log. */
+struct Recorder {
+  LogWriter writer;
+  std::optional<std::regex> without;
+  /** Error of the last write; an exception must not propagate through LCM's C code. */
+  std::string fault;
+
+  void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    // LCM's own self-test message, sent whenever a program opens the bus.
+    if (channel == "LCM_SELF_TEST") return;
+    if (without && std::regex_match(channel, *without)) return;
+    const auto* data = static_cast<const uint8_t*>(buffer->data);
+    try {
+      writer.write({0, buffer->recv_utime, channel, {data, data + buffer->data_size}});
+    } catch (const Error& error) {
+      fault = error.what();
+    }
+  }
+};
+
+int run_record(const CommonOptions& common, const RecordOptions& options) {
+  EventLoop loop;
+  // nao::Bus decodes one known type per channel; a recorder takes raw messages, as spy.cpp does.
+  lcm::LCM lcm(with_receive_buffer(common.lcm_url));
+  if (!lcm.good()) {
+    throw BusError("cannot open the message bus " + common.lcm_url + "; try: nao bus");
+  }
+  std::optional<std::regex> without;
+  if (!options.without.empty()) without.emplace(options.without, std::regex::extended);
+  Recorder recorder{
+      LogWriter(options.file, {static_cast<int64_t>(options.split_mb * 1e6), options.num_kept}),
+      std::move(without),
+      {}};
+  lcm::Subscription* subscription = lcm.subscribe(options.channels, &Recorder::receive, &recorder);
+  subscription->setQueueCapacity(kQueueCapacity);
+  loop.on_readable(lcm.getFileno(), [&lcm] {
+    while (lcm.handleTimeout(0) > 0) {
+    }
+  });
+  const double end = monotonic_seconds() + options.duration;
+  loop.every(kFlushPeriod, [&] {
+    recorder.writer.flush();
+    if (!recorder.fault.empty()) throw Error(recorder.fault);
+    if (monotonic_seconds() >= end) loop.stop("end");
+  });
+  loop.run();
+  lcm.unsubscribe(subscription);
+  recorder.writer.flush();
+  std::fprintf(stderr, "%ld messages recorded\n", static_cast<long>(recorder.writer.num_events()));
+  return 0;
+}
+
+}  // namespace
+
+void add_record_command(CommandLine& app, Invocation& invocation) {
+  const auto options = std::make_shared<RecordOptions>();
+  CommandLine* record = app.add_subcommand(kRecordSubcommand.name, kRecordSubcommand.help);
+  record->add_option("file", options->file, "Log to write; must not exist")->required();
+  record
+      ->add_option("--channels", options->channels,
+                   "Only channels whose whole name matches this regular expression")
+      ->show_default();
+  record->add_option("--without", options->without, "Exclude channels that match this one");
+  record->add_option("--for", options->duration, "Duration of the recording, s")->positive();
+  CommandLine::Option* split =
+      record
+          ->add_option("--split-mb", options->split_mb,
+                       "Begin a new file, FILE.00, FILE.01 ..., at this size")
+          ->positive();
+  record
+      ->add_option("--rotate", options->num_kept,
+                   "Keep only this many files, FILE.0 being the newest")
+      ->positive()
+      ->needs(split);
+  record->on_parsed([&invocation, options] {
+    invocation.run = [&invocation, options] { return run_record(invocation.common, *options); };
+  });
+}
+
+}  // namespace nao

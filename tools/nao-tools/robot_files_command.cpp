@@ -1,0 +1,86 @@
+// nao robot: imports and checks the files of a robot.
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "common/command_line.h"
+#include "common/data_path.h"
+#include "common/error.h"
+#include "robot_import/robot_import.h"
+#include "tools/nao/subcommand.h"
+#include "tools/nao/tools_subcommands.h"
+
+namespace nao {
+namespace {
+
+const char* name_of(Finding::Severity severity) {
+  switch (severity) {
+    case Finding::Severity::kNote:
+      return "note";
+    case Finding::Severity::kRepaired:
+      return "repaired";
+    case Finding::Severity::kMissing:
+      return "missing";
+  }
+  return "";
+}
+
+void print(const Findings& findings) {
+  for (const Finding& finding : findings) {
+    std::printf("%-9s %s\n", name_of(finding.severity), to_line(finding).c_str());
+  }
+}
+
+/** A name that is one folder's, "t1". */
+std::filesystem::path folder_of(const std::filesystem::path& robots, const std::string& name) {
+  if (name.empty() || name == "." || name == ".." ||
+      std::filesystem::path(name).filename() != name) {
+    throw ConfigError("the robot's name \"" + name + "\" is not a folder's name, such as t1");
+  }
+  return robots / name;
+}
+
+}  // namespace
+
+void add_robot_files_command(CommandLine& app, Invocation& invocation) {
+  CommandLine* robot = app.add_subcommand(kRobotSubcommand.name, kRobotSubcommand.help);
+  robot->require_subcommand();
+
+  struct Options {
+    std::string urdf;
+    std::string name;
+    std::string folder = (data_path() / "robots").string();
+  };
+  const auto options = std::make_shared<Options>();
+  CommandLine* import = robot->add_subcommand(
+      "import", "Make robots/NAME from a URDF; lists what it repaired, assumed and misses");
+  import->add_option("urdf", options->urdf, "The URDF; of xacro its output")->required();
+  import->add_option("--name", options->name, "Name of the robot's folder")->required();
+  import->add_option("--folder", options->folder, "Folder of the robots")->show_default();
+  import->on_parsed([&invocation, options] {
+    invocation.run = [options] {
+      const auto folder = folder_of(options->folder, options->name);
+  print(import_robot(options->urdf, folder));
+  std::printf("wrote %s\n", folder.c_str());
+  return 0;
+};
+}  // namespace nao
+);
+
+CommandLine* check = robot->add_subcommand(
+    "check", "List what a robot misses for standing, walking, postures and kicks");
+check->add_option("name", options->name, "Name of the robot's folder")->required();
+check->add_option("--folder", options->folder, "Folder of the robots")->show_default();
+check->on_parsed([&invocation, options] {
+  invocation.run = [options] {
+    const Findings findings = check_robot(folder_of(options->folder, options->name));
+    print(findings);
+    if (findings.empty()) std::printf("%s has everything\n", options->name.c_str());
+    return 0;
+  };
+});
+}
+
+}  // namespace nao

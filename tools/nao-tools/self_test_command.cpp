@@ -1,0 +1,246 @@
+// nao self-test: moves each joint a little and looks at every sensor.
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <naolcm/body_state_t.hpp>
+#include <naolcm/camera_command_t.hpp>
+#include <naolcm/command_result_t.hpp>
+#include <naolcm/image_t.hpp>
+#include <naolcm/joint_change_command_t.hpp>
+#include <naolcm/motion_state_t.hpp>
+#include <naolcm/sensor_state_t.hpp>
+#include <optional>
+#include <string>
+
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/command_line.h"
+#include "common/data_path.h"
+#include "common/event_loop.h"
+#include "common/wall_clock.h"
+#include "messages/named_joints.h"
+#include "tools/nao-tools/self_test.h"
+#include "tools/nao/command_exchange.h"
+#include "tools/nao/subcommand.h"
+#include "tools/nao/tools_subcommands.h"
+
+namespace nao {
+namespace {
+
+/** Greatest time between two sensor states that counts as measured, s: a pause is longer. */
+constexpr double kLongestInterval = 0.1;
+/** Silence of the sensors after which there is no robot, s. */
+constexpr double kSilence = 3;
+/** Of the images that it asks for: enough to see whether a camera works. */
+constexpr int kImageWidth = 320;
+constexpr double kImageRate = 5;
+
+/** A self-test on the bus: sends its commands, and gives it results, sensors and images. */
+class SelfTestSession {
+ public:
+  SelfTestSession(const CommonOptions& common, const RobotModel& model)
+      : model_(model),
+        test_(model),
+        source_("nao-self-test." + std::to_string(getpid())),
+        bus_(common.lcm_url),
+        channels_(common.robot) {
+    loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
+    bus_.subscribe<naolcm::command_result_t>(
+        channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
+          if (!exchange_ || result.source != source_ || result.command_id != command_id_) return;
+          exchange_->handle_result(static_cast<ResultStatus>(result.status), result.reason,
+                                   monotonic_seconds());
+        });
+    bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
+                                           [this](const naolcm::motion_state_t&) {
+                                             if (exchange_)
+                                               exchange_->handle_sign_of_life(monotonic_seconds());
+                                           });
+    bus_.subscribe<naolcm::sensor_state_t>(
+        channels_.sensor_state, Bus::Queue::kAll,
+        [this](const naolcm::sensor_state_t& message) { measure(message); });
+    bus_.subscribe<naolcm::body_state_t>(
+        channels_.body_state, Bus::Queue::kAll,
+        [this](const naolcm::body_state_t& message) { measure(message); });
+    bus_.subscribe<naolcm::image_t>(channels_.head_camera_image, Bus::Queue::kAll,
+                                    [this](const naolcm::image_t& image) {
+                                      // Other receivers' images of other sizes say nothing more.
+                                      if (image.width != kImageWidth) return;
+                                      test_.add_image(image.camera, image.size_bytes);
+                                    });
+  }
+
+  /** @return Why it could not be done; empty: it is done. */
+  std::string execute() {
+    last_sensors_ = monotonic_seconds();
+    request_images();
+    loop_.every(1.0, [this] { request_images(); });
+    loop_.every(0.02, [this] { step(); });
+    const std::string reason = loop_.run();
+    return reason == "end" ? fault_ : "stopped by " + reason;
+  }
+
+  const SelfTest& test() const { return test_; }
+
+ private:
+  void step() {
+    const double now = monotonic_seconds();
+    if (now - last_sensors_ > kSilence) return fail("no robot answers");
+    if (!exchange_) {
+      command_ = test_.next_command();
+      if (command_) {
+        command_id_ = wall_utime();
+        exchange_.emplace("nao-motion", now);
+        std::fprintf(stderr, "\r%3.0f %%", 100 * test_.progress());
+      }
+    }
+    if (exchange_) {
+      if (exchange_->should_send(now)) send();
+      if (const auto outcome = exchange_->outcome(now)) {
+        exchange_.reset();
+        if (outcome->status == "unanswered" || outcome->status == "silent") {
+          return fail(outcome->reason);
+        }
+        test_.end_command(outcome->is_success ? "" : outcome->status + ": " + outcome->reason);
+      }
+    }
+    if (test_.is_done()) loop_.stop("end");
+  }
+
+  void fail(const std::string& fault) {
+    fault_ = fault;
+    loop_.stop("end");
+  }
+
+  void send() {
+    naolcm::joint_change_command_t message{};
+    message.wall_utime = wall_utime();
+    message.source = source_;
+    message.command_id = command_id_;
+    message.num_joints = static_cast<int32_t>(command_->joint_names.size());
+    message.joint_names = command_->joint_names;
+    message.joint_position = command_->joint_position;
+    message.joint_stiffness.assign(command_->joint_names.size(),
+                                   std::numeric_limits<double>::quiet_NaN());
+    message.is_relative = command_->is_relative ? 1 : 0;
+    message.speed = command_->speed;
+    bus_.publish(channels_.joint_change_command, message);
+  }
+
+  void request_images() {
+    for (const CameraModel& camera : model_.cameras()) {
+      naolcm::camera_command_t message{};
+      message.wall_utime = wall_utime();
+      message.source = source_;
+      message.camera = camera.name;
+      message.width = kImageWidth;
+      message.rate = kImageRate;
+      bus_.publish(channels_.head_camera_command, message);
+    }
+  }
+
+  void measure(const naolcm::sensor_state_t& message) {
+    last_sensors_ = monotonic_seconds();
+    const double interval = static_cast<double>(message.utime - last_utime_) * 1e-6;
+    last_utime_ = message.utime;
+    if (interval <= 0 || interval > kLongestInterval) return;
+    SelfTestSample sample;
+    if (read_named_joints(model_.motor_names(), message.joint_names,
+                          {{.quantity = "position",
+                            .values = message.joint_position,
+                            .result = sample.position,
+                            .allows_nan = true},
+                           {.quantity = "target",
+                            .values = message.joint_target_position,
+                            .result = sample.target_position,
+                            .allows_nan = true}})) {
+      return;
+    }
+    sample.accelerometer = Eigen::Vector3d(message.accelerometer_torso);
+    sample.gyroscope = Eigen::Vector3d(message.gyroscope_torso);
+    const double* q = message.orientation_torso_in_world;
+    sample.orientation_torso_in_world = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    for (const int link : model_.foot_sensors()) {
+      double force = std::nan("");
+      for (size_t i = 0; i < message.foot_sensor_names.size(); ++i) {
+        if (message.foot_sensor_names[i] == model_.links()[static_cast<size_t>(link)].name) {
+          force = message.foot_force[i];
+        }
+      }
+      sample.foot_force.push_back(force);
+    }
+    test_.measure(sample, interval);
+  }
+
+  void measure(const naolcm::body_state_t& message) {
+    const std::vector<std::string> names = model_.motor_names();
+    SelfTestMotors motors;
+    if (message.joint_status.size() != names.size() ||
+        read_named_joints(names, message.joint_names,
+                          {{.quantity = "current",
+                            .values = message.joint_current,
+                            .result = motors.current,
+                            .allows_nan = true},
+                           {.quantity = "temperature",
+                            .values = message.joint_temperature,
+                            .result = motors.temperature,
+                            .allows_nan = true}})) {
+      return;  // a simulated body has lights only
+    }
+    // read_named_joints() reads numbers of type double; the order of the names may differ.
+    motors.status.assign(names.size(), 0);
+    for (size_t i = 0; i < names.size(); ++i) {
+      const int motor = model_.find_motor(message.joint_names[i]);
+      motors.status[static_cast<size_t>(motor)] = message.joint_status[i];
+    }
+    test_.measure(motors);
+  }
+
+  const RobotModel& model_;
+  SelfTest test_;
+  std::string source_;
+  EventLoop loop_;
+  Bus bus_;
+  RobotChannels channels_;
+  std::optional<JointChangeCommand> command_;
+  int64_t command_id_ = 0;
+  std::optional<CommandExchange> exchange_;
+  int64_t last_utime_ = 0;
+  double last_sensors_ = 0;
+  std::string fault_;
+};
+
+int run_self_test(const CommonOptions& common, const std::string& model_name) {
+  const RobotModel model = RobotModel::load(data_path() / "robots" / model_name);
+  SelfTestSession session(common, model);
+  const std::string fault = session.execute();
+  std::fprintf(stderr, "\r     \r");
+  if (!fault.empty()) {
+    std::fprintf(stderr, "nao: self-test: %s\n", fault.c_str());
+    return 1;
+  }
+  const std::vector<SelfTestFinding> findings = session.test().findings();
+  std::fputs(to_table(findings).c_str(), stdout);
+  for (const SelfTestFinding& finding : findings) {
+    if (finding.verdict == SelfTestFinding::Verdict::kFault) return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_self_test_command(CommandLine& app, Invocation& invocation) {
+  const auto model = std::make_shared<std::string>("nao");
+  CommandLine* command = app.add_subcommand(kSelfTestSubcommand.name, kSelfTestSubcommand.help);
+  command->add_option("--model", *model, "Folder of robots/ that describes the robot")
+      ->show_default();
+  command->on_parsed([&invocation, model] {
+    invocation.run = [&invocation, model] { return run_self_test(invocation.common, *model); };
+  });
+}
+
+}  // namespace nao

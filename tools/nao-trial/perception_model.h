@@ -1,0 +1,69 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "common/random.h"
+#include "daemons/vision/ball_filter.h"
+#include "kinematics/kinematics.h"
+#include "tools/nao-trial/trial_perception.h"
+
+namespace nao::trial {
+
+/** Errors of perception, which stand for rendered images and nao-vision. Sources: docs/vision.md,
+ * unless a value says otherwise. */
+struct PerceptionErrors {
+  /** Images a second: what nao-play requests. */
+  double rate = 15;
+  /** Probability that a ball in the image is found, to 3 m and to 5 m; beyond: never. */
+  double recall_near = 0.79;
+  double recall_far = 0.14;
+  /** Probability of a false ball in an image without one. */
+  double false_balls = 0.01;
+  /** Standard deviations of the ball's direction, rad: to the side, and of its depression, which
+   * becomes an error of distance. Chosen above the measured 0.1 degrees with the exact pose of the
+   * camera: while walking the pose comes from the estimated state. */
+  double bearing = 0.008;
+  double depression = 0.012;
+  /** Of the pose on the field: m in each direction, and rad; both change slowly. Chosen: half of
+   * what localisation is to reach (6 cm and 3 degrees in the median). */
+  double position = 0.05;
+  double heading = 0.035;
+  /** s in which these errors change. Chosen. */
+  double time_constant = 10;
+};
+
+/** What the robot would see: from the truth, with errors. The ball goes through nao-vision's own
+ * filter. */
+class PerceptionModel : public TrialPerception {
+ public:
+  /** @param trial  Must outlive this. */
+  PerceptionModel(ClosedLoop& trial, const PerceptionErrors& errors, uint64_t seed);
+
+  const play::Vision& step(const std::string& camera) override;
+
+ private:
+  struct Pending {
+    double due = 0;
+    play::Vision vision;
+  };
+
+  void take_image(const CameraModel& camera);
+  /** Where the ball is seen, m, in the odometry frame; nothing: it is not. */
+  std::optional<Eigen::Vector2d> measure(const CameraModel& camera);
+  void update_ball(const Eigen::Vector2d& seen);
+  void drift(double dt);
+
+  ClosedLoop& trial_;
+  PerceptionErrors errors_;
+  Random random_;
+  Kinematics kinematics_;
+  vision::BallFilter filter_;
+  play::Vision known_;
+  std::deque<Pending> pending_;
+  /** s since the last image. */
+  double since_image_ = 0;
+  Eigen::Vector3d field_error_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace nao::trial

@@ -1,0 +1,179 @@
+#include "tools/nao-trial/play_scenarios.h"
+
+#include <cmath>
+#include <utility>
+
+#include "tools/nao-trial/perception_model.h"
+#include "tools/nao-trial/play_trial.h"
+
+namespace nao::trial {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kTimeLimit = 90;
+/** m from the lines at which ball and robot are placed at least. */
+constexpr double kMargin = 0.3;
+/** m between ball and robot at least. */
+constexpr double kApart = 0.4;
+/** Of a shot: distance from the goal's middle, m; greatest speed at the goal line, m/s; s in which
+ * the keeper takes its place before. */
+constexpr double kShotDistance = 2;
+constexpr double kShotSpeed = 1.5;
+constexpr double kPreparation = 8;
+constexpr double kShotTimeout = 12;
+/** Slowest shot at the goal line, m/s: a ball that stops there is no shot. Chosen. */
+constexpr double kLeastShotSpeed = 0.15;
+/** Placement has numbers of its own: it does not change with what else is drawn. */
+constexpr uint64_t kPlacementSeed = 0x51ed270b;
+
+/** s between the lines of a trace. */
+constexpr double kTracePeriod = 0.1;
+/** The whole ball has passed the line: its radius and half of the line's width, m. */
+constexpr double kBehindLine = 0.075;
+
+/** @param side  1: the opponent's goal, -1: the own one. */
+bool is_in_goal(const Vector2d& ball, const play::Field& field, double side) {
+  return side * ball.x() > 0.5 * field.length + kBehindLine &&
+         std::abs(ball.y()) < 0.5 * field.goal_width;
+}
+
+/** Steps, with a trace if one is wanted. */
+class TracedSteps {
+ public:
+  TracedSteps(PlayTrial& play, const ScenarioOptions& options)
+      : play_(play), file_(options.trace_file) {}
+
+  void step() {
+    play_.step();
+    if (file_.empty() || play_.trial().time() < next_) return;
+    next_ = play_.trial().time() + kTracePeriod - 1e-6;
+    play_.trace();
+  }
+  void finish() const {
+    if (!file_.empty()) play_.write_trace(file_);
+  }
+
+ private:
+  PlayTrial& play_;
+  std::string file_;
+  double next_ = 0;
+};
+
+std::string describe_end(const PlayTrial& play) {
+  const CommandResult& end = play.result();
+  if (end.status != ResultStatus::kAccepted) {
+    return std::string(to_string(end.status)) + " " + end.reason.code;
+  }
+  const play::PlayState& state = play.core().state();
+  return "too slow, " + std::string(to_string(state.phase)) + " " + state.reason.code;
+}
+
+}  // namespace
+
+PlayScenario::PlayScenario(const std::string& name, const std::string& summary, bool is_rendered,
+                           PerceptionFactory perception)
+    : perception_(std::move(perception)),
+      name_(is_rendered ? name : name + "-error-model"),
+      summary_(is_rendered ? summary : summary + ", with an error model instead of images") {}
+
+ScoreScenario::ScoreScenario(bool is_rendered, PerceptionFactory perception)
+    : PlayScenario("score",
+                   "Score within --duration (90 s), ball and robot anywhere in the own half",
+                   is_rendered, std::move(perception)) {}
+
+KeepGoalScenario::KeepGoalScenario(bool is_rendered, PerceptionFactory perception)
+    : PlayScenario("keep-goal",
+                   "Keep out a shot from 2 m, up to 1.5 m/s at the goal line, aimed anywhere at "
+                   "the goal's mouth",
+                   is_rendered, std::move(perception)) {}
+
+std::vector<RunResult> ScoreScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  const double limit = options.duration > 0 ? options.duration : kTimeLimit;
+  const play::Field field = play::load_constants(*options.trial.model, scene()).field;
+  Random random(seed ^ kPlacementSeed);
+  const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
+  const auto anywhere = [&] {
+    const double x = random.uniform(-0.5 * field.length + kMargin, -kMargin);
+    return Vector2d(x, random.uniform(-0.5 * field.width + kMargin, 0.5 * field.width - kMargin));
+  };
+  const Vector2d position = anywhere();
+  const Pose2 robot{position, random.uniform(-M_PI, M_PI)};
+  Vector2d ball = anywhere();
+  while ((ball - robot.position).norm() < kApart) ball = anywhere();
+  PlayTrial play(options.trial, seed, perception_, robot, told_start(robot, uniform), ball);
+  TracedSteps steps(play, options);
+  play.command(Behavior::kScore);
+  const double start = play.trial().time();
+  const auto ball_now = [&] { return play.trial().world().ball(); };
+  bool has_scored = false;
+  while (!has_scored && play.trial().time() - start < limit) {
+    steps.step();
+    has_scored = is_in_goal(ball_now().position.head<2>(), field, 1);
+    const bool has_ended = !play.core().is_active() && play.trial().time() - start > 1;
+    if (has_ended && ball_now().velocity.norm() < 0.01) break;
+  }
+  steps.finish();
+  RunResult result;
+  result.is_success = has_scored;
+  if (!has_scored) result.failure = describe_end(play);
+  result.metrics = {{"time_s", play.trial().time() - start},
+                    {"kicks", static_cast<double>(play.num_actions())},
+                    {"falls", static_cast<double>(play.num_falls())}};
+  return {result};
+}
+
+std::vector<RunResult> KeepGoalScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+  const play::Field field = play::load_constants(*options.trial.model, scene()).field;
+  Random random(seed ^ kPlacementSeed);
+  const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
+  const Vector2d goal(-0.5 * field.length, 0);
+  const double bearing = random.uniform(-M_PI / 4, M_PI / 4);
+  const double aim = random.uniform(-0.5 * field.goal_width, 0.5 * field.goal_width);
+  const double speed = random.uniform(kLeastShotSpeed, kShotSpeed);
+  const Vector2d ball = goal + kShotDistance * Vector2d(std::cos(bearing), std::sin(bearing));
+  // The keeper stands before its goal, about in its middle.
+  const double aside = random.uniform(-0.3, 0.3);
+  const Pose2 robot{goal + Vector2d(0.5, aside), random.uniform(-0.3, 0.3)};
+  PlayTrial play(options.trial, seed, perception_, robot, told_start(robot, uniform), ball);
+  TracedSteps steps(play, options);
+  play.command(Behavior::kKeepGoal);
+  const double start = play.trial().time();
+  while (play.trial().time() - start < kPreparation) steps.step();
+  // v0^2 = v1^2 + 2 a s: the speed at the ball's place for the drawn one at the goal line.
+  const Vector2d way = goal + Vector2d(0, aim) - ball;
+  const double deceleration = play.trial().world().options().materials.ball_rolling_deceleration;
+  const double first = std::sqrt(speed * speed + 2 * deceleration * way.norm());
+  const Vector2d velocity = first * way.normalized();
+  play.trial().world().place_ball({ball.x(), ball.y(), 0}, {velocity.x(), velocity.y(), 0});
+  const Pose2 torso = Pose2::from(play.trial().torso_in_world());
+  // Where the robot's line across its heading is crossed, to its left.
+  const Vector2d seen = torso.inverse() * ball;
+  const Vector2d going = torso.inverse().rotate(way.normalized());
+  const double crossing = seen.y() - going.y() * seen.x() / going.x();
+  const double shot = play.trial().time();
+  bool is_in = false;
+  while (!is_in && play.trial().time() - shot < kShotTimeout) {
+    steps.step();
+    const sim::BallState& now = play.trial().world().ball();
+    is_in = is_in_goal(now.position.head<2>(), field, -1);
+    if (now.velocity.norm() < 0.02 && play.trial().time() - shot > 0.5) break;
+  }
+  steps.finish();
+  RunResult result;
+  result.is_success = !is_in;
+  if (is_in) {
+    result.failure = play.num_actions() > 0 ? "goal, in spite of an action" : "goal, no action";
+  }
+  result.metrics = {
+      {"time_s", play.trial().time() - shot}, {"shot_mps", speed}, {"aside_m", std::abs(crossing)}};
+  return {result};
+}
+
+PerceptionFactory perception_model() {
+  return [](ClosedLoop& trial, const SceneFile&, const Pose2&, uint64_t seed) {
+    return std::make_unique<PerceptionModel>(trial, PerceptionErrors{}, seed);
+  };
+}
+
+}  // namespace nao::trial
