@@ -80,7 +80,7 @@ test("a joystick moves its own robot only", async () => {
 test("a spectator sees another one's robot and moves nothing", async () => {
   await watch(cid, "NAO1");
   await cid.sees("controller");
-  assert.equal(await driverText(cid), "Ana drives");
+  await until("Cid sees who drives", async () => (await driverText(cid)) === "Ana drives");
   await until("images of NAO1 come", async () => (await cid.look("numImages")) > 0);
   await cid.tap('[data-name="Crouch"]');
   await cid.page.locator(".message", {hasText: "Ana drives"}).waitFor();
