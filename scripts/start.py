@@ -129,6 +129,10 @@ def parse_options():
                      "connects it as it would a real one; robot: this runs on a real NAO V6 (default: sim)")
     line.option("--any-posture", action="store_true", help="with --backend robot: also if the robot is not seated")
     line.option("--lock-step", action="store_true", help="simulate as fast as possible and deterministically")
+    line.option("--disturbances", metavar="NAMES", default="",
+                help="how the simulated robot and floor differ from their models: none, default, moderate, real, or entries of "
+                     "real such as backlash,floor_slope (default: sensor noise only)")
+    line.option("--seed", metavar="NUMBER", type=int, default=1, help="of the simulation's noise and disturbances (default: 1)")
     line.option("--http-port", metavar="PORT", type=port,
                 help=f"for the app (default: {HTTP_PORT}, or the next free one)")
     line.option("--tcp-port", metavar="PORT", type=port,
@@ -316,7 +320,9 @@ def command_of(process, stack, settings, options, robots):
     else:
         words = [program, *bus, "--robot", robot.name, "--model", robot.model]
     if program == SIM:
-        words += ["--scene", settings["scene"], *(["--lola", stack.lola_socket] if options.backend == "lola" else [])]
+        words += ["--scene", settings["scene"], "--seed", options.seed,
+                  *(["--disturbances", options.disturbances] if options.disturbances else []),
+                  *(["--lola", stack.lola_socket] if options.backend == "lola" else [])]
     elif program == ROBOT:
         words[0] = ROBOT_WATCHDOG
         if options.backend == "robot":

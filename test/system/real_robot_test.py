@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The stack with nao-robot in nao-sim's place, over LoLA: postures, a walk, and what happens when programs die."""
+"""The stack with nao-robot in nao-sim's place, over LoLA: postures, walks, joystick sessions, and what happens when programs die."""
 
 import json
 import math
@@ -8,6 +8,7 @@ import signal
 import time
 import unittest
 
+import robot_drive
 from stack import DEADLINE, Stack
 
 
@@ -57,6 +58,16 @@ class RealRobot(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr + self.stack.logs())
         end = self.stack.truth()["robots"][0]["position_torso_in_world"]
         self.assertAlmostEqual(math.dist(start[:2], end[:2]), 0.3, delta=0.1)
+
+    def test_joystick_session_in_lock_step(self):
+        session = robot_drive.run_session(seed=2, duration=60, disturbances="real")
+        self.assertEqual(session.fault, "")
+        self.assertGreaterEqual(session.driven, 60)
+
+    def test_joystick_session_in_real_time(self):
+        session = robot_drive.run_session(seed=2, duration=10, disturbances="real", is_real_time=True)
+        self.assertEqual(session.fault, "")
+        self.assertGreaterEqual(session.driven, 10)
 
     def test_lock_step(self):
         self.start("--lock-step")
