@@ -27,7 +27,8 @@ struct BusCounters {
  * second, and dropped. No exception propagates through LCM's C code. Not thread-safe. */
 class Bus {
  public:
-  /** Queue of one subscription: kLatest keeps the newest message only, kAll every message. */
+  /** Queue of one subscription: with kLatest one message waits for handle(), and LCM drops those
+   * that arrive meanwhile; with kAll every message waits. */
   enum class Queue { kLatest, kAll };
 
   /** @param url  LCM URL: "udpm://239.255.76.67:7667?ttl=0"; "memq://" for tests in one process.
@@ -46,7 +47,7 @@ class Bus {
   void publish_raw(const std::string& channel, std::span<const uint8_t> message);
 
   /** Calls `handler(message)` for every message on a channel, inside handle().
-   * @param queue  kLatest for states (older ones are skipped), kAll for events. */
+   * @param queue  kLatest for states, of which the next one will do, kAll for events. */
   template <class Message>
   void subscribe(const std::string& channel, Queue queue,
                  std::function<void(const Message&)> handler) {

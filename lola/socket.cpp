@@ -51,7 +51,7 @@ UnixSocket& UnixSocket::operator=(UnixSocket&& other) noexcept {
   return *this;
 }
 
-// A socket's file outlives its program. If nobody answers at it, it is removed; if somebody does,
+// A socket's file outlives its program. If no program answers at it, it is removed; if one does,
 // that program must not be cut off.
 UnixSocket UnixSocket::listen(const std::string& path) {
   const sockaddr_un address = address_of(path);

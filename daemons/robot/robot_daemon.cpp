@@ -199,7 +199,7 @@ void RobotDaemon::publish(const CommandResult& result) {
   bus_.publish(channels_.command_result, to_message(result, session_ ? session_->stamp.utime : 0));
 }
 
-// The eyes show whether somebody drives: from the gateway's status.
+// The eyes show whether a client drives: from the gateway's status.
 void RobotDaemon::take_status(const naolcm::daemon_status_t& message) {
   if (message.program != "nao-phone-gateway") return;
   for (int i = 0; i < message.num_metrics; ++i) {

@@ -60,7 +60,7 @@ void add_options(CommandLine& app, Options& options) {
       ->range(1, 1000)
       ->show_default();
   app.add_flag("--allow-commands", options.allow_commands,
-               "Clients may publish commands: whoever connects can then move the robot");
+               "Clients may publish commands: any of them can then move the robot");
   app.add_option("--allow-origin", options.network.origins,
                  "Site whose pages may connect, such as https://app.foxglove.dev (repeatable; "
                  "default: all)");

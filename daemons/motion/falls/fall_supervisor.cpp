@@ -25,7 +25,7 @@ FallSupervisor::Action FallSupervisor::update(const RobotState& state, const Act
   const bool lies = is_lying_now(state);
   if (lies && !was_lying_) has_fallen_ = true;
   was_lying_ = lies;
-  // Help is needed until somebody has put the robot on its feet.
+  // Help is needed until a person has put the robot on its feet.
   needs_help_ = needs_help_ && lies;
   if (!has_fallen_) return Action::kNone;
   time_fallen_ += dt;

@@ -78,6 +78,7 @@ Keyframe read_keyframe(const RobotModel& model, const YamlEntry& entry, Keyframe
   if (entry.has("joints")) read_joints(model, entry.at("joints"), limits, keyframe.position);
   if (entry.has("stiffness")) read_stiffness(model, entry.at("stiffness"), keyframe.stiffness);
   if (entry.has("pause")) keyframe.pause = entry.at("pause").number();
+  if (keyframe.pause < 0) entry.at("pause").fail("must not be negative");
   if (entry.has("up")) {
     const YamlEntry up = entry.at("up");
     up.allow_only({"x", "y", "z"});

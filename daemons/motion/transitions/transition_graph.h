@@ -50,8 +50,8 @@ class TransitionGraph {
   std::vector<KeyframeSequence> sequences_;
 };
 
-/** Whether keyframes beyond a joint's limits are an error of the file, or left to whoever checks
- * the motion. */
+/** Whether keyframes beyond a joint's limits are an error of the file, or left to the caller that
+ * checks the motion. */
 enum class KeyframeLimits { kChecked, kUnchecked };
 
 /** Reads a list of keyframes: a `keyframes` entry of transitions.yaml, which documents its keys.

@@ -156,7 +156,7 @@ std::optional<Refusal> Driving::stop(const ClientSession& session, uint32_t requ
                                      double now) {
   if (control_.driver() == session.id) control_.refresh(now);
   if (walk_.is_walking()) is_walk_blocked_ = true;
-  // A stop needs no control: whoever sees the robot in danger may stop it.
+  // A stop needs no control: any client that sees the robot in danger may stop it.
   walk_.abandon();
   play_.end(now);
   // Sent even if nao-motion seems to be unavailable: it may still receive.

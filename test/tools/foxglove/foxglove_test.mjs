@@ -294,7 +294,7 @@ describe("nao log mcap", () => {
   test("the format's own reader decodes all messages, which fit their schemas", async () => {
     const folder = await mkdtemp(join(tmpdir(), "nao-mcap-"));
     try {
-      const watcher = new PlainClient();  // images are on the bus only while somebody watches
+      const watcher = new PlainClient();  // images are on the bus only while a client watches
       await watcher.opened;
       await until("there are channels", () => watcher.channels.size > 0);
       const images = [...watcher.channels.values()].find((channel) => channel.topic === "/NAO/camera/top/image");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/error.h"
 #include "test/daemons/motion/nao_model.h"
 
 namespace nao::motion {
@@ -33,6 +34,14 @@ TEST(TransitionGraph, AvoidsExcludedTransitions) {
   EXPECT_EQ(names(graph.find_path("back", "on-feet", {graph.find("up")})),
             (std::vector<std::string>{"roll", "push"}));
   EXPECT_TRUE(graph.find_path("back", "on-feet", {graph.find("up"), graph.find("push")}).empty());
+}
+
+TEST(TransitionGraph, RefusesTimesBelowZero) {
+  for (const char* keyframe : {"{duration: -1}", "{duration: 1, pause: -0.5}"}) {
+    const std::string text = "transitions:\n  - {name: up, from: back, to: on-feet, keyframes: [" +
+                             std::string(keyframe) + "]}\n";
+    EXPECT_THROW(TransitionGraph::parse(nao_model(), text), ConfigError) << keyframe;
+  }
 }
 
 }  // namespace
