@@ -79,7 +79,7 @@ class Robot:
         self.walker = subprocess.Popen(
             [str(BIN_DIR / "nao-phone"), "--port", str(self.stack.tcp_port), "walk", "0.1", "0", "0", "--duration", "60"],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        wait(lambda: self.stack.state()["motion_state"]["mode"] == 3, "it does not walk")
+        wait(lambda: self.stack.state()["motion_state"]["mode"] == "walking", "it does not walk")
 
     def stop_walking(self):
         if self.walker is not None:
