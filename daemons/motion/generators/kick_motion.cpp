@@ -64,6 +64,7 @@ void KickMotion::start_kick(const MotionContext& context, const JointTargets& ta
   time_ = 0;
   kinematics_.update(targets.position);
   trajectory_.start_from(pose_.start(kinematics_));
+  last_planned_com_ = trajectory_.at(0).com;
   // Where the support sole was at the start: the kick's path holds over the ground even if the sole
   // turns under the load, see hold_path_over_ground().
   start_in_odometry_ = support_in_odometry(context.state);
@@ -97,6 +98,10 @@ void KickMotion::follow(const MotionContext& context, const KickReference& plann
   const RobotState& state = context.state;
   const Pose2 start_in_support = support_in_odometry(state).inverse() * start_in_odometry_;
   const KickReference reference = hold_path_over_ground(planned, start_in_support);
+  const Vector2d com_velocity = (planned.com - last_planned_com_) / context.dt;
+  last_planned_com_ = planned.com;
+  const Vector2d zmp_offset = calc_zmp_offset(state, reference, com_velocity);
+
   pose_.turn_torso(reference, hold_path_over_ground(trajectory_.impact(), start_in_support));
   const Isometry3d torso = pose_.torso_in_support(reference);
 
@@ -110,20 +115,20 @@ void KickMotion::follow(const MotionContext& context, const KickReference& plann
   pose_.update_com(kinematics_.center_of_mass(), context.dt);
   gyroscope_.update(state.angular_velocity_torso, context.dt);
 
-  const std::array<FootLoad, 2> loads =
-      calc_loads(reference, torso, calc_zmp_offset(state, reference));
+  const std::array<FootLoad, 2> loads = calc_loads(reference, torso, zmp_offset);
   const Vector3d up = torso.linear().transpose() * Vector3d::UnitZ();
   write_targets(feedforward_.calc_torques(kinematics_, up, loads), velocity, targets);
 }
 
 // Proportional feedback of the divergent component of motion, m: the CoP goes beyond the DCM's
 // error, which lets the error decay; bounded by the reach on the sole.
-Vector2d KickMotion::calc_zmp_offset(const RobotState& state,
-                                     const KickReference& reference) const {
+Vector2d KickMotion::calc_zmp_offset(const RobotState& state, const KickReference& reference,
+                                     const Vector2d& com_velocity) const {
   const double omega = std::sqrt(kGravity / pose_.com_height());
   const Vector2d dcm = state.center_of_mass_in_odometry.head<2>() +
                        state.center_of_mass_velocity_in_odometry.head<2>() / omega;
-  const Vector2d error = support_in_odometry(state).inverse() * dcm - reference.com;
+  const Vector2d planned_dcm = reference.com + com_velocity / omega;
+  const Vector2d error = support_in_odometry(state).inverse() * dcm - planned_dcm;
   return (kick_->balance_gain * error).cwiseMax(-kick_->zmp_reach).cwiseMin(kick_->zmp_reach);
 }
 

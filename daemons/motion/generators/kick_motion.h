@@ -51,8 +51,10 @@ class KickMotion : public MotionGenerator {
   /** S in the odometry frame. */
   Pose2 support_in_odometry(const RobotState& state) const;
   void follow(const MotionContext& context, const KickReference& planned, JointTargets& targets);
-  /** From the reference of the CoM to the ZMP, m, in S, that corrects the measured DCM. */
-  Eigen::Vector2d calc_zmp_offset(const RobotState& state, const KickReference& reference) const;
+  /** From the reference of the CoM to the ZMP, m, in S, that corrects the measured DCM.
+   * @param com_velocity  Of the reference, m/s. */
+  Eigen::Vector2d calc_zmp_offset(const RobotState& state, const KickReference& reference,
+                                  const Eigen::Vector2d& com_velocity) const;
   /** Forces of the ground on the left and the right foot, in the torso frame. */
   std::array<FootLoad, 2> calc_loads(const KickReference& reference, const Eigen::Isometry3d& torso,
                                      const Eigen::Vector2d& zmp_offset) const;
@@ -74,6 +76,8 @@ class KickMotion : public MotionGenerator {
 
   /** s since the start of the kick. */
   double time_ = 0;
+  /** Reference of the CoM in the step before, m. */
+  Eigen::Vector2d last_planned_com_ = Eigen::Vector2d::Zero();
   /** S at the start. */
   Pose2 start_in_odometry_;
   /** Of all motors, rad, without what balance and feedforward add. */

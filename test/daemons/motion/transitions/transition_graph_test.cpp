@@ -40,7 +40,7 @@ TEST(TransitionGraph, RefusesTimesBelowZero) {
   for (const char* keyframe : {"{duration: -1}", "{duration: 1, pause: -0.5}"}) {
     const std::string text = "transitions:\n  - {name: up, from: back, to: on-feet, keyframes: [" +
                              std::string(keyframe) + "]}\n";
-    EXPECT_THROW(TransitionGraph::parse(nao_model(), text), ConfigError) << keyframe;
+    EXPECT_THROW(TransitionGraph::parse(nao_model(), text), Error) << keyframe;
   }
 }
 
