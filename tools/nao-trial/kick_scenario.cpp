@@ -24,7 +24,11 @@ ActionCommand make_kick(const RobotModel& model, bool is_left, double ball_x, do
 
 std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   constexpr double kLeastWay = 2.5;  // m, of the ball
+  constexpr double kStartX = -4;     // m, in the world: half a metre before the own goal line
   ClosedLoop trial(options.trial, seed);
+  // Far from the goal, whose net would end the ball's way.
+  trial.world().place_robot(0, &trial.model().ready_posture(), {kStartX, 0, 0});
+  trial.restart_core();
   const bool is_left = seed % 2 == 1;
   // Where a robot that sees and walks would have it, a centimetre more or less.
   const Eigen::Vector2d seen(0.18, is_left ? 0.05 : -0.05);
