@@ -56,6 +56,7 @@ const std::vector<std::string> kNotTuned = {
     "velocity.full_speed_lag",
     "velocity.slow_speed_lag",
     "velocity.slow_speed",
+    "velocity.slow_envelope_exponent",
     "feedback.max_bias",
     "feedback.max_com_offset",
     "kick.ball_distance",

@@ -65,6 +65,7 @@ struct Gait {
     double full_speed_lag = 0;
     double slow_speed_lag = 0;
     double slow_speed = 0;
+    double slow_envelope_exponent = 0;
   };
   /** Control law of the zero moment point: gain and range on the sole, m. */
   struct Zmp {

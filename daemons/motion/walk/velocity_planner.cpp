@@ -11,14 +11,16 @@ Eigen::Vector3d VelocityPlanner::clip(const Eigen::Vector3d& velocity) const {
   // The envelope is not symmetric ahead and back.
   const Eigen::Vector3d limit(velocity.x() > 0 ? limits_.forward : limits_.backward,
                               limits_.sideways, limits_.turning);
-  const Eigen::Vector3d max = speed_fraction_ * limit;
+  const Eigen::Vector3d max = std::lerp(1.0, gait_->slow_speed, slowness_) * limit;
+  const double exponent =
+      std::lerp(gait_->envelope_exponent, gait_->slow_envelope_exponent, slowness_);
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
-    sum += std::pow(std::abs(velocity[i]) / max[i], gait_->envelope_exponent);
+    sum += std::pow(std::abs(velocity[i]) / max[i], exponent);
   }
   // The p-norm of v_i / max_i: on the envelope it is 1, and it scales linearly, so that dividing by
   // it gives the point of the envelope in the same direction.
-  const double size = std::pow(sum, 1 / gait_->envelope_exponent);
+  const double size = std::pow(sum, 1 / exponent);
   return size > 1 ? Eigen::Vector3d(velocity / size) : velocity;
 }
 

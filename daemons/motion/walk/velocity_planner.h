@@ -17,8 +17,9 @@ class VelocityPlanner {
  public:
   VelocityPlanner(const RobotModel& model, const Gait& gait);
 
-  /** Sets the fraction of the robot's limits that the envelope has from now on, above 0 to 1. */
-  void set_speed_fraction(double fraction) { speed_fraction_ = fraction; }
+  /** @param slowness  0: the envelope has the robot's limits and envelope_exponent; 1: slow_speed
+   * of the limits and slow_envelope_exponent; linear between. */
+  void set_slowness(double slowness) { slowness_ = slowness; }
 
   /** The greatest velocity along the direction of the given one that lies in the envelope
    * sum (|v_i| / max_i)^p <= 1, or the given one if it does. */
@@ -51,7 +52,7 @@ class VelocityPlanner {
  private:
   const Gait::Velocity* gait_;
   WalkLimits limits_;
-  double speed_fraction_ = 1;
+  double slowness_ = 0;
   PathTracker path_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d step_velocity_ = Eigen::Vector3d::Zero();

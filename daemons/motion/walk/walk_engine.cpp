@@ -171,7 +171,7 @@ void WalkEngine::begin_step() {
   Vector3d target = Vector3d::Zero();
   if (!is_ending_) target = kick_.begin_step(commanded_, feet_.support_is_left(), body);
   // A longer lag leaves less stability: the envelope shrinks with it.
-  velocity_.set_speed_fraction(calc_speed_fraction(gait_->velocity, lag_.lag()));
+  velocity_.set_slowness(calc_slowness(gait_->velocity, lag_.lag()));
   velocity_.begin_step(target, body, is_ending_, !is_capturing_ && !kick_.seeks_ball());
   // Set before plan_steps(): the plan is that of the last step.
   is_capturing_ = is_ending_;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "daemons/motion/walk/speed_limit.h"
 #include "test/daemons/motion/walk/nao_gait.h"
 
@@ -27,24 +29,35 @@ TEST_F(VelocityPlannerTest, ClipsAVelocityAlongItsDirection) {
   EXPECT_EQ(planner_.clip(small), small);
 }
 
-TEST_F(VelocityPlannerTest, ClipsToAFractionOfTheLimits) {
-  planner_.set_speed_fraction(0.5);
+TEST_F(VelocityPlannerTest, ClipsToAFractionOfTheLimitsWhenSlow) {
+  planner_.set_slowness(1);
   const WalkLimits& limits = nao_model().walk_limits();
-  EXPECT_TRUE(planner_.clip({9, 0, 0}).isApprox(Vector3d(0.5 * limits.forward, 0, 0)));
-  EXPECT_TRUE(planner_.clip({0, 0, 9}).isApprox(Vector3d(0, 0, 0.5 * limits.turning)));
+  const double slow = nao_gait().velocity.slow_speed;
+  EXPECT_TRUE(planner_.clip({9, 0, 0}).isApprox(Vector3d(slow * limits.forward, 0, 0)));
+  EXPECT_TRUE(planner_.clip({0, 0, 9}).isApprox(Vector3d(0, 0, slow * limits.turning)));
 }
 
-TEST(SpeedFraction, FallsWithTheLag) {
-  EXPECT_DOUBLE_EQ(calc_speed_fraction(nao_gait().velocity, 0.02), 1);
-  EXPECT_DOUBLE_EQ(calc_speed_fraction(nao_gait().velocity, 0.1),
-                   calc_speed_fraction(nao_gait().velocity, 0.06));
-  double last = 1;
+TEST_F(VelocityPlannerTest, CombinesLessOfEachDirectionWhenSlow) {
+  const WalkLimits& limits = nao_model().walk_limits();
+  const Vector3d commanded(limits.forward, limits.sideways, limits.turning);
+  // As a part of the limits, each of three equal parts has the size 3^(-1/p).
+  const auto& gait = nao_gait().velocity;
+  EXPECT_NEAR(planner_.clip(commanded).x() / limits.forward,
+              std::pow(3, -1 / gait.envelope_exponent), 1e-12);
+  planner_.set_slowness(1);
+  EXPECT_NEAR(planner_.clip(commanded).x() / limits.forward,
+              gait.slow_speed * std::pow(3, -1 / gait.slow_envelope_exponent), 1e-12);
+}
+
+TEST(Slowness, RisesWithTheLag) {
+  double last = 0;
   for (double lag = 0.02; lag < 0.08; lag += 0.001) {
-    EXPECT_LE(calc_speed_fraction(nao_gait().velocity, lag), last);
-    last = calc_speed_fraction(nao_gait().velocity, lag);
+    EXPECT_GE(calc_slowness(nao_gait().velocity, lag), last);
+    last = calc_slowness(nao_gait().velocity, lag);
   }
-  EXPECT_DOUBLE_EQ(last, nao_gait().velocity.slow_speed);
-  EXPECT_LT(last, 1);
+  EXPECT_DOUBLE_EQ(calc_slowness(nao_gait().velocity, 0.02), 0);
+  EXPECT_DOUBLE_EQ(last, 1);
+  EXPECT_LT(nao_gait().velocity.slow_speed, 1);
 }
 
 TEST_F(VelocityPlannerTest, ChangesVelocityByALimitedAmountPerStep) {
