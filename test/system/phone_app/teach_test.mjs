@@ -13,6 +13,9 @@ const kMoved = 0.15;
 const kHanging = 1.4;
 /** Fingers: least size of what is tapped, px. */
 const kTouch = 44;
+/** How far the forearm swings to its last pose, rad: at the shortest time of a pose, 0.1 s, beyond the joint's
+ * speed limit of 8.3 rad/s. */
+const kSwing = 1.2;
 /** What a person does in a test of two minutes, at 3 s a tap. */
 const kMaxTaps = 40;
 /** A motion is simulated six times, at low priority beside a browser that draws in software. */
@@ -77,7 +80,7 @@ async function teachWave(phone) {
   await choose(phone, "right elbow");
   await turn(phone, "RElbowYaw", -0.9, 0, 0.5);
   await addPose(phone);
-  await turn(phone, "RElbowYaw", 0.9, 0, 0.5);
+  await turn(phone, "RElbowYaw", 0.9, 0, kSwing);
   await addPose(phone);
 }
 
