@@ -97,6 +97,8 @@ constexpr std::array kRows = {
     Row{"slow_speed_lag", Scale::kTime, 0.33, 0.07, 1.4, ""},
     Row{"slow_speed", Scale::kOne, 0.65, 0.2, 1, "fraction of the limits at slow_speed_lag"},
     Row{"slow_envelope_exponent", Scale::kOne, 1, 1, 4, "envelope_exponent at slow_speed_lag"},
+    Row{"dead_sensor_speed", Scale::kOne, 0.7, 0.2, 1,
+        "fraction of the limits with a dead foot sensor"},
     Row{"zmp", {}, 0, 0, 0, "Control law of the zero moment point: 1, m."},
     Row{"gain", Scale::kOne, 1.04, 0, 1.5, ""},
     Row{"reach_forward", Scale::kToe, 0.37, 0, 0.8, "from the nominal point"},

@@ -224,7 +224,6 @@ std::string SimCore::set_pace(const WorldCommand& command, double now) {
   if (!(command.pace >= 0 && command.pace <= kMaxPace)) {
     return fmt::format("pace {} is outside [0, {}]", command.pace, kMaxPace);
   }
-  if (options_.lock_step) return "the pace cannot be set in lock-step";
   scheduler_.set_pace(command.pace, now);
   return "";
 }

@@ -154,7 +154,7 @@ void SimDaemon::take_world_command(const naolcm::world_command_t& message) {
     if (message.command == "reset" || message.command == "add-robot") publish_sensors();
     if (message.command == "set-pace") {
       // A simulator that never waits must not run at real-time priority.
-      if (core_.scheduler().pace() > 0) {
+      if (core_.scheduler().pace() > 0 && !core_.scheduler().is_lock_step()) {
         request_realtime_scheduling(RealtimePriority::kControl);
       } else {
         use_normal_scheduling();

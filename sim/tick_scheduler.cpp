@@ -21,7 +21,7 @@ constexpr double kActive = 0.1;
 
 TickScheduler::TickScheduler(int num_robots, double period, bool is_lock_step, double pace)
     : period_(period), is_lock_step_(is_lock_step), pacer_(period), commands_(num_robots) {
-  // In lock-step commands set the pace; the pacer never waits.
+  // In lock-step the answers decide; the pacer waits only if set_pace() says so.
   pacer_.set_pace(is_lock_step ? 0 : pace, 0);
 }
 
@@ -84,7 +84,7 @@ double TickScheduler::next_time(int64_t tick, double now) const {
 
 double TickScheduler::begin_tick(int64_t tick, double now) {
   const double delay = pacer_.delay(now);
-  if (delay > kLateTick) ++num_late_ticks_;
+  if (delay > kLateTick && !is_lock_step_) ++num_late_ticks_;
   // A late command is counted once per tick for every robot that is under control.
   for (Commands& commands : commands_) {
     const bool is_active = commands.has_any && now - commands.time < kSilence;

@@ -19,15 +19,15 @@ namespace nao::sim {
  * slow the world down for good. */
 class TickScheduler {
  public:
-  /** The clock begins at 0. @param period  Control period, s. @param pace  As set_pace(); ignored
-   * in lock-step. */
+  /** The clock begins at 0. @param period  Control period, s. @param pace  As set_pace(); in
+   * lock-step 0. */
   TickScheduler(int num_robots, double period, bool is_lock_step, double pace);
 
   /** The next tick is due one period from now. */
   void restart(double now) { pacer_.restart(now); }
 
   bool is_lock_step() const { return is_lock_step_; }
-  /** Simulated seconds per wall second, 0 for as fast as possible. */
+  /** Simulated seconds per wall second, 0 for as fast as possible; in lock-step the greatest. */
   double pace() const { return pacer_.pace(); }
   void set_pace(double pace, double now) { pacer_.set_pace(pace, now); }
   bool is_paused() const { return is_paused_; }

@@ -1,6 +1,7 @@
 #include "daemons/motion/sensor_correction.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace nao::motion {
 namespace {
@@ -39,6 +40,8 @@ void SensorCorrection::correct(Sensors& sensors) const {
     sensors.foot_force[i] = scale > 0 ? sensors.foot_force[i] / scale : 0;
   }
   pressure_.replace_dead(is_dead_, sensors.foot_force);
+  sensors.has_dead_foot_sensor =
+      std::find(is_dead_.begin(), is_dead_.end(), true) != is_dead_.end();
 }
 
 }  // namespace nao::motion

@@ -210,11 +210,19 @@ TEST(SimCore, RunsInLockStepWithTheJointCommands) {
     EXPECT_LE(core.next_tick(0), 0);
     core.run_tick(0);
   }
+  // A pace is a limit: programs with timers of the wall clock drive at, say, three times real time.
   WorldCommand pace;
   pace.name = "set-pace";
-  pace.pace = 1;
+  pace.pace = 4;
   core.take_world_command(pace, 0);
-  EXPECT_NE(core.last_world_command().error, "");
+  EXPECT_EQ(core.last_world_command().error, "");
+  EXPECT_FALSE(core.may_tick());
+  ASSERT_FALSE(core.take_joint_command(0, {10, {}, {}, {}}, 0));
+  ASSERT_TRUE(core.may_tick());
+  EXPECT_DOUBLE_EQ(core.next_tick(0), 0.0025);
+  // An answer that comes later than that delays the tick, which is not late.
+  core.run_tick(0.02);
+  EXPECT_EQ(core.scheduler().num_late_ticks(), 0);
 }
 
 TEST(SimCore, RunsAtTheControlPeriodOfItsOptions) {

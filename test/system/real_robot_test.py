@@ -63,11 +63,13 @@ class RealRobot(unittest.TestCase):
         session = robot_drive.run_session(seed=2, duration=60, disturbances="real")
         self.assertEqual(session.fault, "")
         self.assertGreaterEqual(session.driven, 60)
+        self.assertGreater(session.walking, 0.6)
 
     def test_joystick_session_in_real_time(self):
         session = robot_drive.run_session(seed=2, duration=10, disturbances="real", is_real_time=True)
         self.assertEqual(session.fault, "")
         self.assertGreaterEqual(session.driven, 10)
+        self.assertGreater(session.walking, 0.4)
 
     def test_lock_step(self):
         self.start("--lock-step")

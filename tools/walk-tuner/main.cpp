@@ -57,6 +57,7 @@ const std::vector<std::string> kNotTuned = {
     "velocity.slow_speed_lag",
     "velocity.slow_speed",
     "velocity.slow_envelope_exponent",
+    "velocity.dead_sensor_speed",
     "feedback.max_bias",
     "feedback.max_com_offset",
     "kick.ball_distance",

@@ -64,6 +64,7 @@ void StateEstimator::reset() {
 void StateEstimator::update(const Sensors& sensors, double dt) {
   state_.utime = sensors.utime;
   state_.tick = sensors.tick;
+  state_.has_dead_foot_sensor = sensors.has_dead_foot_sensor;
   state_.joint_position = sensors.position;
   state_.joint_velocity = sensors.velocity;
   // Order: orientation needs rest, position needs orientation and support foot, velocity needs

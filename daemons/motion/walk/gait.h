@@ -54,7 +54,7 @@ struct Gait {
     double square_distance = 0;
   };
   /** Velocity of the steps: change per step, m/s and rad/s; exponent; 1/s; m; lags in s and the
-   * fraction of the velocity at the longer one. */
+   * fraction of the velocity at the longer one; fraction of it with a dead foot sensor. */
   struct Velocity {
     double max_change_vx = 0;
     double max_change_vy = 0;
@@ -66,6 +66,7 @@ struct Gait {
     double slow_speed_lag = 0;
     double slow_speed = 0;
     double slow_envelope_exponent = 0;
+    double dead_sensor_speed = 0;
   };
   /** Control law of the zero moment point: gain and range on the sole, m. */
   struct Zmp {

@@ -11,7 +11,8 @@ Eigen::Vector3d VelocityPlanner::clip(const Eigen::Vector3d& velocity) const {
   // The envelope is not symmetric ahead and back.
   const Eigen::Vector3d limit(velocity.x() > 0 ? limits_.forward : limits_.backward,
                               limits_.sideways, limits_.turning);
-  const Eigen::Vector3d max = std::lerp(1.0, gait_->slow_speed, slowness_) * limit;
+  const Eigen::Vector3d max =
+      speed_fraction_ * std::lerp(1.0, gait_->slow_speed, slowness_) * limit;
   const double exponent =
       std::lerp(gait_->envelope_exponent, gait_->slow_envelope_exponent, slowness_);
   double sum = 0;

@@ -63,10 +63,13 @@ TEST(DeadFootSensors, ASensorThatHasBeenLoadedNeedsMoreEvidence) {
 
 TEST(DeadFootSensors, ASensorThatReadsAgainIsAlive) {
   DeadFootSensors sensors(nao_model());
+  EXPECT_FALSE(sensors.has_dead_sensor());
   after(sensors, without(kStanding, 4), 1);
   EXPECT_TRUE(sensors.is_dead()[4]);
+  EXPECT_TRUE(sensors.has_dead_sensor());
   EXPECT_EQ(after(sensors, kStanding, 0.02), kStanding);
   EXPECT_FALSE(sensors.is_dead()[4]);
+  EXPECT_FALSE(sensors.has_dead_sensor());
 }
 
 TEST(DeadFootSensors, WithTwoDeadSensorsOnAFootNothingIsInvented) {

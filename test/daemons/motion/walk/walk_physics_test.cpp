@@ -22,11 +22,13 @@ std::shared_ptr<const RobotModel> nao_robot() {
 class WalkPhysicsTest : public testing::Test {
  protected:
   /** A robot that stands; noise, latency and a physics of its own for each seed. */
-  ClosedLoop& begin(uint64_t seed, double late_share = 0) {
+  ClosedLoop& begin(uint64_t seed, double late_share = 0, const char* disturbances = "default") {
     ClosedLoopOptions options;
     options.model = nao_robot();
     options.scene = SceneFile::load(std::filesystem::path(NAO_TEST_DATA) / "scenes" / "empty.yaml");
     options.missed_tick_probability = late_share;
+    options.disturbances =
+        std::make_shared<const sim::DisturbanceSet>(sim::DisturbanceSet::find(disturbances));
     trial_ = std::make_unique<ClosedLoop>(options, seed);
     trial_->run(0.5);
     return *trial_;
@@ -218,6 +220,19 @@ TEST_F(WalkPhysicsTest, KeepsStraightAndToItsSpeed) {
   trial.run(10);
   EXPECT_NEAR((place() - start).x(), 2.5, 0.25);
   EXPECT_NEAR(place().y(), start.y(), 0.2);
+}
+
+TEST_F(WalkPhysicsTest, WalksSlowerWithADeadFootSensor) {
+  // The sensor of seed 1 is dead.
+  ClosedLoop& trial = begin(1, 0, "foot_sensor_dead_probability");
+  ASSERT_EQ(trial.world().sensors(0).foot_force.minCoeff(), 0);
+  const double limit = trial.model().walk_limits().forward;
+  trial.hold_walk({limit, 0, 0});
+  trial.run(2);
+  const Eigen::Vector2d start = place();
+  trial.run(5);
+  EXPECT_NEAR((place() - start).norm() / 5, 0.7 * limit, 0.03);
+  EXPECT_EQ(mode(), Mode::kWalking);
 }
 
 TEST_F(WalkPhysicsTest, StopsFromFullSpeedInShortOrder) {
