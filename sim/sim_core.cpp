@@ -316,7 +316,7 @@ std::string SimCore::add_robot(const WorldCommand& command) {
   if (!world_.can_change_robots()) {
     return fmt::format("the engine {} takes no further robots", options_.engine);
   }
-  if (const std::string fault = fault_of_robot_name(command.robot); !fault.empty()) return fault;
+  if (std::string fault = fault_of_robot_name(command.robot); !fault.empty()) return fault;
   if (find_robot(command.robot) >= 0) return fmt::format("there is a robot {}", command.robot);
   if (options_.robots.size() >= kMaxRobots) return fmt::format("there are {} robots", kMaxRobots);
   const std::string& model = command.model.empty() ? options_.robots[0].model : command.model;

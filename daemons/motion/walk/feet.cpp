@@ -57,7 +57,7 @@ void Feet::level_both(double dt) {
 // The swing foot becomes the support foot. Returns the pose of the old support frame in the new
 // one.
 Pose2 Feet::exchange(const Spread& spread) {
-  const Pose2 to_new = swing_.pose().inverse();
+  Pose2 to_new = swing_.pose().inverse();
   const double height = swing_.height();
   swing_.start(to_new, support_height_);
   // Heights are exchanged as well: a foot that touched early or late keeps its height, which

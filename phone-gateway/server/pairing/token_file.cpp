@@ -18,7 +18,7 @@ std::string token_from_file(const std::filesystem::path& path) {
   // O_EXCL: of two programs that start at once, one creates the file.
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
   if (file >= 0) {
-    const std::string token = make_token();
+    std::string token = make_token();
     const std::string line = token + "\n";
     const bool is_written = write(file, line.data(), line.size()) == ssize_t(line.size());
     if (close(file) != 0 || !is_written) throw Error("cannot write " + path.string());
