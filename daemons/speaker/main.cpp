@@ -7,6 +7,7 @@
 #include "common/program.h"
 #include "daemons/speaker/audio_output.h"
 #include "daemons/speaker/espeak_synthesizer.h"
+#include "daemons/speaker/isolated_synthesizer.h"
 #include "daemons/speaker/speaker_daemon.h"
 #include "robot_model/robot_lights.h"
 #include "robot_model/robot_model.h"
@@ -39,7 +40,8 @@ int main(int argc, char** argv) {
       if (light.is_eye) options.eyes.push_back(light.name);
     }
     nao::EventLoop loop;
-    nao::speaker::EspeakSynthesizer synthesizer;
+    nao::speaker::EspeakSynthesizer espeak;
+    nao::speaker::IsolatedSynthesizer synthesizer(espeak);
     auto audio_output = nao::speaker::make_audio_output(output);
     nao::Bus bus(common.lcm_url);
     nao::logger::info("version {}, bus {}, robot {}, sound on this host: {}", nao::version(),

@@ -1,5 +1,7 @@
 #include "test/daemons/speaker/odd_texts.h"
 
+#include <random>
+
 namespace nao::speaker {
 namespace {
 
@@ -238,6 +240,16 @@ std::vector<std::string> odd_texts() {
   texts.push_back(all_bytes);
   // A character of each of many blocks.
   for (unsigned code = 0xa1; code < 0xd800; code += 0x97) texts.push_back(encoded(code) + " a");
+  // Words of letters, marks and symbols of everywhere.
+  std::mt19937 random(1);
+  for (int i = 0; i < 60; ++i) {
+    std::string text;
+    for (int j = 0; j < 30; ++j) {
+      const unsigned code = static_cast<unsigned>(random()) % (j % 2 == 0 ? 0x3000 : 0xd800);
+      text += code < 0xa0 ? " " : encoded(code);
+    }
+    texts.push_back(text);
+  }
   return texts;
 }
 
