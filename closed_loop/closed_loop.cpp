@@ -61,12 +61,24 @@ motion::Sensors to_core(const sim::SensorReadings& readings, const sim::MotorTar
 
 }  // namespace
 
+std::shared_ptr<sim::World> ClosedLoop::make_world(const ClosedLoopOptions& options,
+                                                   uint64_t seed) {
+  return std::make_shared<sim::World>(options.scene, world_options(options, seed));
+}
+
 ClosedLoop::ClosedLoop(const ClosedLoopOptions& options, uint64_t seed)
-    : options_(options), world_(options.scene, world_options(options, seed)), random_(seed) {
+    : ClosedLoop(options, seed, make_world(options, seed)) {}
+
+ClosedLoop::ClosedLoop(const ClosedLoopOptions& options, uint64_t seed,
+                       std::shared_ptr<sim::World> world)
+    : options_(options),
+      world_(std::move(world)),
+      robot_(world_->num_robots()),
+      random_(seed + static_cast<uint64_t>(robot_)) {
   sim::RobotOptions robot;
   robot.posture = options.posture;
   const sim::DisturbanceSet& disturbances = disturbances_of(options);
-  draw_robot(disturbances, seed, 0, *options.model, world_.options(), robot);
+  draw_robot(disturbances, seed, robot_, *options.model, world_->options(), robot);
   if (!disturbances.is_none()) {
     // The disturbances have taken the first numbers of the same sequence.
     for (int i = 0; i < sim::kNumSharedDraws; ++i) random_.next();
@@ -74,7 +86,7 @@ ClosedLoop::ClosedLoop(const ClosedLoopOptions& options, uint64_t seed)
       robot.command_latency_ticks = options.command_latency_ticks;
     }
   }
-  world_.add_robot(options.model, robot);
+  world_->add_robot(options.model, robot);
   restart_core();
 }
 
@@ -127,9 +139,13 @@ void ClosedLoop::release_walk(bool sends_stop) {
   walk_.reset();
 }
 
-// One control tick: physics with the last targets, then the motion core with the new readings.
+// Physics with the last targets, then the motion core with the new readings.
 void ClosedLoop::step() {
-  world_.step_tick();
+  world_->step_tick();
+  step_core();
+}
+
+void ClosedLoop::step_core() {
   if (walk_ && ++ticks_since_walk_ > ticks_per_walk_command()) {
     commands_.push_back(*walk_);
     ticks_since_walk_ = 1;
@@ -141,12 +157,12 @@ void ClosedLoop::step() {
     ticks_to_miss_ = 1 + static_cast<int>(random(0, 4));
   }
   // A crashed core is not stepped; the servos go on holding.
-  if (ticks_to_miss_ > 0 || world_.are_readings_lost(0)) {
+  if (ticks_to_miss_ > 0 || world_->are_readings_lost(robot_)) {
     ticks_to_miss_ = std::max(0, ticks_to_miss_ - 1);
     ++missed_ticks_;
   } else if (!is_core_crashed_) {
     motion::Input input;
-    input.sensors = to_core(world_.sensors(0), world_.targets(0), period());
+    input.sensors = to_core(world_->sensors(robot_), world_->targets(robot_), period());
     input.commands = std::exchange(commands_, {});
     input.taught = std::exchange(taught_, {});
     const double begin = clock_ != nullptr ? clock_() : 0;
@@ -160,7 +176,7 @@ void ClosedLoop::step() {
     const auto& stiffness = output.joint_targets->stiffness;
     targets.position = Eigen::VectorXd::Map(targets_.data(), model().num_motors());
     targets.stiffness = Eigen::VectorXd::Map(stiffness.data(), model().num_motors());
-    world_.set_targets(0, targets);
+    world_->set_targets(robot_, targets);
   }
   if (on_tick_) on_tick_();
 }
@@ -206,7 +222,7 @@ std::optional<CommandResult> ClosedLoop::await_end(int64_t id, double timeout) {
 }
 
 Eigen::Isometry3d ClosedLoop::torso_in_world() const {
-  return world_.robot(0).link_pose(0);
+  return world_->robot(robot_).link_pose(0);
 }
 
 double ClosedLoop::torso_tilt() const {
@@ -214,11 +230,11 @@ double ClosedLoop::torso_tilt() const {
 }
 
 double ClosedLoop::deviation_from(const Posture& posture, std::string* joint) const {
-  const Eigen::VectorXd& position = world_.robot(0).motor_position();
+  const Eigen::VectorXd& position = world_->robot(robot_).motor_position();
   double largest = 0;
   for (int motor = 0; motor < model().num_motors(); ++motor) {
     // Openings of hands have no part in a posture of the body.
-    if (world_.robot(0).is_opening(motor)) continue;
+    if (world_->robot(robot_).is_opening(motor)) continue;
     const double deviation = std::abs(position[motor] - posture.position[motor]);
     if (deviation <= largest) continue;
     largest = deviation;

@@ -53,9 +53,16 @@ class ClosedLoop {
  public:
   /** @throws ConfigError  if an option is outside its range. */
   ClosedLoop(const ClosedLoopOptions& options, uint64_t seed);
+  /** One more robot of a world that several share: call the world's step_tick(), then step_core()
+   * of each. @param world  Of make_world(). */
+  ClosedLoop(const ClosedLoopOptions& options, uint64_t seed, std::shared_ptr<sim::World> world);
+  /** A world without robots, disturbed as the options say. */
+  static std::shared_ptr<sim::World> make_world(const ClosedLoopOptions& options, uint64_t seed);
 
   const RobotModel& model() const { return *options_.model; }
-  sim::World& world() { return world_; }
+  sim::World& world() { return *world_; }
+  /** Index of the robot in the world. */
+  int robot() const { return robot_; }
   const motion::MotionCore& core() const { return *core_; }
   /** Replaces the motion core by a new one, as when nao-motion is restarted. */
   void restart_core();
@@ -65,7 +72,7 @@ class ClosedLoop {
   /** Uniform in [low, high), by the seed. */
   double random(double low, double high) { return random_.uniform(low, high); }
   /** Control period, s. */
-  double period() const { return world_.options().period(); }
+  double period() const { return world_->options().period(); }
 
   /** Queues a command for the next tick. @return Its number. */
   int64_t send(Command command);
@@ -85,6 +92,8 @@ class ClosedLoop {
 
   /** One tick of world and core. */
   void step();
+  /** One tick of the core, after one of the world. */
+  void step_core();
   /** Steps for a duration, s. */
   void run(double duration);
   /** Steps until the command has ended. @return Its final result, or nothing after `timeout` s. */
@@ -112,7 +121,7 @@ class ClosedLoop {
 
   // The true state.
   /** s since the start. */
-  double time() const { return world_.time(); }
+  double time() const { return world_->time(); }
   Eigen::Isometry3d torso_in_world() const;
   double torso_height() const { return torso_in_world().translation().z(); }
   /** Angle between the torso's z axis and up, rad. */
@@ -126,7 +135,8 @@ class ClosedLoop {
   void keep(const std::vector<CommandResult>& results);
 
   ClosedLoopOptions options_;
-  sim::World world_;
+  std::shared_ptr<sim::World> world_;
+  int robot_ = 0;
   std::unique_ptr<motion::MotionCore> core_;
   Random random_;
   bool is_core_crashed_ = false;

@@ -8,6 +8,8 @@ namespace nao {
 inline constexpr const char* kWorldTruthChannel = "WORLD_TRUTH";
 inline constexpr const char* kWorldCommandChannel = "WORLD_COMMAND";
 inline constexpr const char* kMatchStateChannel = "MATCH_STATE";
+inline constexpr const char* kMatchCommandChannel = "MATCH_COMMAND";
+inline constexpr const char* kMatchCommandResultChannel = "MATCH_COMMAND_RESULT";
 inline constexpr const char* kDaemonStatusChannel = "DAEMON_STATUS";
 
 /** Channels of one robot. Every name begins with the robot's name, so that several robots can share

@@ -32,6 +32,8 @@ const char* to_string(CommandKind kind) {
       return "speech";
     case CommandKind::kLight:
       return "light";
+    case CommandKind::kMatch:
+      return "match";
   }
   return "unknown";
 }

@@ -83,6 +83,8 @@ enum class CommandKind {
   kPlay,
   kSpeech,
   kLight,
+  // Executed by nao-referee; the values between are of messages that are answered otherwise.
+  kMatch = 11,
 };
 
 /** Those that nao-motion executes: the first ones. */

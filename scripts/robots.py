@@ -66,6 +66,23 @@ def choose_robots(line, options):
     return given
 
 
+def choose_autonomous(line, options):
+    """Names of the robots that play by themselves; for them the programs of --vision run."""
+    if options.match and options.scene == "empty":
+        line.error("--match needs a field: leave --scene empty out")
+    if not options.autonomous:
+        return []
+    if not options.match:
+        line.error("--autonomous needs --match")
+    names = [words.partition(":")[0] for words in options.robot_words]
+    chosen = names if options.autonomous == "all" else re.split("[, ]+", options.autonomous.strip(", "))
+    for name in chosen:
+        if name not in names:
+            line.error(f"--autonomous: no robot '{name}'; there are: {' '.join(names)}")
+    options.vision = True
+    return chosen
+
+
 def place_robots(options, bin_dir):
     """@return The robots, with their teams and places."""
     if len(options.robot_words) == 1:

@@ -27,6 +27,8 @@ LOLA_SOCKET = "/tmp/robocup"
 CAMERA = "nao-head-camera"
 # With --foxglove one more: the bus for Foxglove and Lichtblick.
 FOXGLOVE = "nao-foxglove"
+# With --match one more: the referee.
+REFEREE = "nao-referee"
 # With --vision two more: perception in the head camera's images, and behaviors that use it.
 VISION = "nao-vision"
 PLAY = "nao-play"

@@ -11,10 +11,10 @@ import sys
 from argparse import ArgumentTypeError
 from pathlib import Path
 
-from robots import (MAX_ROBOTS, Process, choose_processes, choose_robots, number_of_robots, place_robots, team_sizes)
+from robots import (MAX_ROBOTS, Process, choose_autonomous, choose_processes, choose_robots, number_of_robots, place_robots, team_sizes)
 from seat import check_seated
 from stack import (CALL, CAMERA, COMPANIONS, FOXGLOVE, LOLA_SOCKET, OPTIONAL, PLAY, PROGRAMS, ROBOT, ROBOT_PROGRAMS,
-                   ROBOT_WATCHDOG, ROOT, SIM, VISION, CommandLine, Failure, Stack, run_as_root, run_script, warn)
+                   REFEREE, ROBOT_WATCHDOG, ROOT, SIM, VISION, CommandLine, Failure, Stack, run_as_root, run_script, warn)
 
 # Ports that are tried first. 8080: registered for HTTP alternatives (IANA); 7668: next to LCM's 7667; 8765: what
 # Foxglove proposes.
@@ -105,6 +105,9 @@ def parse_options():
     line.option("--match", metavar="TEAMS", type=team_sizes,
                 help="two teams that face each other, such as 2v2 (1 to 5 robots each): NAO1, NAO2 ... of team 0, which plays "
                      "along x, then those of team 1")
+    line.option("--autonomous", metavar="LIST",
+                help="with --match: robots that play by themselves by what they see, such as NAO2,NAO4, or all; anybody may "
+                     "take them over")
     line.option("--model", metavar="NAME", default="nao",
                 help="folder of robots/ that describes robots without a model: nao, a V5, or nao_v6 (default: nao)")
     line.option("--only", metavar="LIST",
@@ -148,6 +151,7 @@ def parse_options():
     line.run_dir_option("for logs and settings; one for each stack")
     options = line.parse()
     options.robot_words = choose_robots(line, options)
+    options.autonomous_names = choose_autonomous(line, options)
     options.programs = choose_programs(line, options)
     if len(options.robot_words) > 1 and options.start_pose != DEFAULT_START_POSE:
         line.error("--start-pose is for one robot; several start where the simulator places them")
@@ -169,6 +173,8 @@ def choose_programs(line, options):
                 line.error(f"no program '{name}'; there are: {known}")
     if options.no_camera:
         programs = [program for program in programs if program != CAMERA]
+    if options.match:
+        programs.append(REFEREE)
     if options.vision:
         # Behaviors need a field.
         programs += [VISION] if options.scene == "empty" else [VISION, PLAY]
@@ -313,7 +319,7 @@ def command_of(process, stack, settings, options, robots):
     bus = ["--lcm-url", settings["lcm_url"]]
     if program == "nao-watchdog":
         words = ["nao", "watchdog", *bus]
-    elif program in (SIM, GATEWAY) and (len(robots) > 1 or robot.team):
+    elif program in (SIM, GATEWAY, REFEREE) and (len(robots) > 1 or robot.team):
         words = [program, *bus]
         for one in robots:
             words += ["--robot", one.words()]
@@ -343,6 +349,11 @@ def command_of(process, stack, settings, options, robots):
             words += [f"--start-pose={robot.start_pose}", "--scene", settings["scene"]]
     elif program == PLAY:
         words += [f"--start-pose={robot.start_pose}", "--scene", settings["scene"]]
+        words += ["--autonomous"] if robot.name in options.autonomous_names else []
+    elif program == REFEREE:
+        words += ["--scene", settings["scene"], "--state-file", stack.run_dir / "match.json",
+                  "--events-file", stack.logs / "match.jsonl"]
+        words += ["--start"] if options.autonomous_names and len(options.autonomous_names) == len(robots) else []
     elif program == FOXGLOVE:
         words += ["--port", settings["foxglove_port"]]
     if options.lock_step and program in (SIM, ROBOT):
@@ -472,6 +483,7 @@ def main():
     processes = choose_processes(options, robots)
     settings = choose_settings(options, bin_dir, robots, processes)
     check_bus(bin_dir, options.lcm_url)
+    (stack.run_dir / "match.json").unlink(missing_ok=True)  # a new stack plays a new match
     stack.token_file.unlink(missing_ok=True)  # the gateway creates a new one
     if options.token:
         stack.token_file.write_text(options.token + "\n")

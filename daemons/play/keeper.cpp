@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "daemons/play/approach.h"
-
 namespace nao::play {
 namespace {
 
@@ -18,11 +16,6 @@ constexpr double kForgetBall = 4;
 /** Distance of the feet before the middle of the goal line, m: out far enough to cover more of the
  * goal's mouth, near enough that a dive comes in time. */
 constexpr double kOut = 0.5;
-/** Hysteresis of the place: stops within the first, walks beyond the second, m and rad. */
-constexpr double kInPlace = 0.06;
-constexpr double kOutOfPlace = 0.2;
-constexpr double kTurned = 0.15;
-constexpr double kTurnedAway = 0.4;
 /** Slower balls are not shots, m/s. */
 constexpr double kShotSpeed = 0.25;
 /** Half of the width that a block covers, and the greatest that a dive reaches, m. */
@@ -110,28 +103,9 @@ std::optional<Decision> Keeper::answer_shot(const Ball& ball, const Situation& s
 }
 
 Decision Keeper::guard(const std::optional<Ball>& ball, const Situation& situation) {
-  const Pose2& feet = situation.robot.feet_in_odometry;
   const std::optional<Vector2d> position =
       ball ? std::optional<Vector2d>(ball->position) : std::nullopt;
-  const Pose2 place = calc_place(position, situation);
-  const double distance = (place.position - feet.position).norm();
-  const double turn = std::abs(wrapped(place.heading - feet.heading));
-  if (distance < kInPlace && turn < kTurned) is_in_place_ = true;
-  if (distance > kOutOfPlace || turn > kTurnedAway) is_in_place_ = false;
-  Decision decision;
-  decision.phase = PlayPhase::kGuard;
-  decision.target = place.position;
-  if (!is_in_place_) decision.walk = plan_walk_to(place, feet, constants_.walk_limits);
-  if (ball) {
-    decision.gaze.point = ball->position;
-    return decision;
-  }
-  // The head looks for the ball; the feet stay before the goal.
-  decision.reason = Reason("ball-not-in-sight");
-  if (!search_.is_active()) search_.start(std::nullopt, situation);
-  decision.gaze = search_.step(situation, constants_).gaze;
-  if (search_.duration(situation) > 4) search_.stop();
-  return decision;
+  return positioner_.step(calc_place(position, situation), position, situation);
 }
 
 Decision Keeper::step(const Situation& situation) {
@@ -143,7 +117,6 @@ Decision Keeper::step(const Situation& situation) {
   std::optional<Ball> ball = situation.ball;
   if (ball && situation.time - ball->seen_time > kForgetBall) ball.reset();
   if (!ball) return guard(ball, situation);
-  search_.stop();
   if (auto decision = answer_shot(*ball, situation)) return *decision;
   return guard(ball, situation);
 }

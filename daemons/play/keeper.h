@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "daemons/play/ball_search.h"
+#include "daemons/play/positioner.h"
 #include "daemons/play/situation.h"
 
 namespace nao::play {
@@ -24,10 +24,10 @@ std::optional<Shot> predict_shot(const Eigen::Vector2d& ball, const Eigen::Vecto
 class Keeper : public BehaviorMachine {
  public:
   /** @param constants  Must outlive this. */
-  explicit Keeper(const PlayConstants& constants) : constants_(constants) {}
+  explicit Keeper(const PlayConstants& constants) : constants_(constants), positioner_(constants) {}
 
   Decision step(const Situation& situation) override;
-  void restart() override { search_.stop(); }
+  void restart() override { positioner_.stop_search(); }
 
  private:
   /** Where the feet are to be, in the odometry frame. */
@@ -37,8 +37,7 @@ class Keeper : public BehaviorMachine {
   Decision guard(const std::optional<Ball>& ball, const Situation& situation);
 
   const PlayConstants& constants_;
-  BallSearch search_;
-  bool is_in_place_ = false;
+  Positioner positioner_;
   double last_action_ = -1e9;
 };
 

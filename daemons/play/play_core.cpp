@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "daemons/play/auto_player.h"
 #include "daemons/play/keeper.h"
 #include "daemons/play/striker.h"
 
@@ -41,6 +42,9 @@ PlayOutput PlayCore::step(const PlayInput& input) {
   output.results = reminder_.due(last_step_ > 0 ? input.now - last_step_ : 0);
   last_step_ = input.now;
   if (input.vision.field_in_odometry) last_field_ = input.vision.field_in_odometry;
+  if (input.vision.time != last_image_) robots_.add(input.vision.robots, input.time);
+  last_image_ = input.vision.time;
+  robots_.forget(input.time);
   for (const CommandResult& result : input.results) motion_.handle_result(result, input.time);
   // Before the requests: what another sender commanded has ended the old behavior, not the new one.
   if (behavior_) end_if_necessary(input, output);
@@ -131,8 +135,10 @@ std::unique_ptr<BehaviorMachine> PlayCore::make_behavior(const PlayCommand& comm
       return std::make_unique<Striker>(constants_, Striker::Task::kScore, std::nullopt);
     case Behavior::kKeepGoal:
       return std::make_unique<Keeper>(constants_);
+    case Behavior::kAuto:
+      if (!kicks) return nullptr;
+      return std::make_unique<AutoPlayer>(constants_);
     default:
-      // Matches are not played yet.
       return nullptr;
   }
 }
@@ -204,11 +210,13 @@ void PlayCore::run(const PlayInput& input, PlayOutput& output) {
   situation.field_in_odometry = field_in_odometry();
   situation.is_still = input.mode == Mode::kHolding || input.mode == Mode::kMoving;
   situation.is_performing = motion_.is_performing();
+  situation.match = input.match;
+  situation.robots = find_robots(input);
   const auto obstacle = find_obstacle(input);
   if (!obstacle || situation.is_performing) {
     waits_since_.reset();
     situation.ended = motion_.take_ended();
-    execute(behavior_->step(situation), input, output);
+    execute(behavior_->step(situation), situation, input, output);
     return;
   }
   // Without images: stand, ask for them, and go on when they come.
@@ -222,9 +230,11 @@ void PlayCore::run(const PlayInput& input, PlayOutput& output) {
   }
 }
 
-void PlayCore::execute(const Decision& decision, const PlayInput& input, PlayOutput& output) {
+void PlayCore::execute(const Decision& decision, const Situation& situation, const PlayInput& input,
+                       PlayOutput& output) {
   state_.phase = decision.phase;
   state_.reason = decision.reason;
+  if (decision.role) state_.role = *decision.role;
   if (decision.target) {
     state_.target_in_field = field_in_odometry().inverse() * *decision.target;
   }
@@ -241,8 +251,18 @@ void PlayCore::execute(const Decision& decision, const PlayInput& input, PlayOut
   if (decision.action) {
     motion_.perform(*decision.action, input.time);
   } else {
-    motion_.walk(decision.walk, input.time);
+    motion_.walk(keep_clear(decision.walk, situation.robots, input.robot->feet_in_odometry),
+                 input.time);
   }
+}
+
+std::vector<Eigen::Vector2d> PlayCore::find_robots(const PlayInput& input) const {
+  std::vector<Eigen::Vector2d> result = robots_.positions();
+  if (!input.match) return result;
+  for (const Teammate& mate : input.match->teammates) {
+    if (mate.seen.position) result.push_back(field_in_odometry() * *mate.seen.position);
+  }
+  return result;
 }
 
 // Until the robot is localised: it began where the options say.

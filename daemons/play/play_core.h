@@ -8,6 +8,7 @@
 
 #include "daemons/play/head_control.h"
 #include "daemons/play/motion_driver.h"
+#include "daemons/play/robot_memory.h"
 #include "daemons/play/situation.h"
 #include "messages/command_ledger.h"
 #include "messages/mode.h"
@@ -38,6 +39,8 @@ struct PlayInput {
   /** Nothing: no fresh state of the robot. */
   std::optional<RobotView> robot{};
   Vision vision{};
+  /** Nothing: no match, or it is without this robot. */
+  std::optional<MatchView> match{};
 };
 
 /** What play_state_t says; it documents every field. */
@@ -92,8 +95,11 @@ class PlayCore {
   /** Why the behavior must wait now, with the robot standing. */
   std::optional<Reason> find_obstacle(const PlayInput& input);
   void run(const PlayInput& input, PlayOutput& output);
-  void execute(const Decision& decision, const PlayInput& input, PlayOutput& output);
+  void execute(const Decision& decision, const Situation& situation, const PlayInput& input,
+               PlayOutput& output);
   Pose2 field_in_odometry() const;
+  /** Where other robots are, m, in the odometry frame: seen, or told by teammates. */
+  std::vector<Eigen::Vector2d> find_robots(const PlayInput& input) const;
 
   PlayConstants constants_;
   HeadControl head_;
@@ -109,6 +115,9 @@ class PlayCore {
   /** Robot time, s, since which the behavior waits for images; nothing: it does not. */
   std::optional<double> waits_since_;
   std::optional<Pose2> last_field_;
+  RobotMemory robots_;
+  /** Robot time of the last image whose robots are remembered, s. */
+  double last_image_ = -1e9;
 };
 
 }  // namespace nao::play

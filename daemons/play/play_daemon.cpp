@@ -2,10 +2,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <naolcm/action_command_t.hpp>
 #include <naolcm/camera_command_t.hpp>
 #include <naolcm/command_result_t.hpp>
 #include <naolcm/joint_change_command_t.hpp>
+#include <naolcm/match_state_t.hpp>
 #include <naolcm/motion_state_t.hpp>
 #include <naolcm/move_to_command_t.hpp>
 #include <naolcm/play_command_t.hpp>
@@ -30,6 +32,14 @@ constexpr double kStatusPeriod = 1;
 constexpr double kRobotTimeout = 0.5;
 /** The camera's requests are valid for 2 s. */
 constexpr double kRequestPeriod = 1;
+/** A match that nobody tells of for so long is over, s: ten of nao-referee's messages. */
+constexpr double kMatchTimeout = 2;
+/** A robot plays by itself again so long after another sender's last command, s; after a stop it
+ * waits longer. Chosen: a person who drives commands far more often. */
+constexpr double kDrivenTimeout = 5;
+constexpr double kStoppedTimeout = 30;
+/** Between two repetitions of the own play command, s: less than its timeout. */
+constexpr double kAutoPeriod = 0.5;
 /** Size and rate of the requested images: what nao-vision is made for, at half of its greatest
  * rate. Chosen: two cameras in turn, and a host that renders them, too. */
 constexpr int kWidth = 640;
@@ -64,7 +74,10 @@ PlayDaemon::PlayDaemon(Bus& bus, const RobotModel& model, const PlayOptions& opt
       source_("play." + std::to_string(getpid())),
       // Numbers that no earlier process with the same id has used.
       core_(make_constants(model, options), viewer_.head_limits(), viewer_.head_joints(), source_,
-            wall_utime()) {
+            wall_utime()),
+      robot_(options.robot),
+      is_autonomous_(options.is_autonomous),
+      auto_id_(wall_utime()) {
   subscribe();
   publish_status(clock_());
 }
@@ -92,6 +105,12 @@ void PlayDaemon::subscribe() {
                                          [this](const naolcm::vision_state_t& message) {
                                            input_.vision = decode_vision(message, torso_);
                                          });
+  bus_.subscribe<naolcm::match_state_t>(kMatchStateChannel, Bus::Queue::kLatest,
+                                        [this](const naolcm::match_state_t& message) {
+                                          match_ = to_match_state(message);
+                                          last_match_ = clock_();
+                                          watch_teammates(*match_);
+                                        });
   bus_.subscribe<naolcm::command_result_t>(channels_.command_result, Bus::Queue::kAll,
                                            [this](const naolcm::command_result_t& message) {
                                              if (message.source == source_)
@@ -109,8 +128,47 @@ void PlayDaemon::subscribe() {
 template <class Message>
 void PlayDaemon::watch_commands(const std::string& channel, CommandKind kind) {
   bus_.subscribe<Message>(channel, Bus::Queue::kAll, [this, kind](const Message& message) {
-    if (message.source != source_) input_.other_command = kind;
+    if (message.source == source_) return;
+    input_.other_command = kind;
+    const double pause = kind == CommandKind::kStop ? kStoppedTimeout - kDrivenTimeout : 0;
+    last_other_ = std::max(last_other_, clock_() + pause);
   });
+}
+
+// Subscriptions end with the program: a robot that has left the match is ignored.
+void PlayDaemon::watch_teammates(const MatchState& state) {
+  const MatchPlayer* own = find_player(state, robot_);
+  if (own == nullptr) return;
+  for (const MatchPlayer& player : state.players) {
+    if (player.team != own->team || player.robot == robot_) continue;
+    if (!watched_.insert(player.robot).second) continue;
+    bus_.subscribe<naolcm::vision_state_t>(
+        RobotChannels(player.robot).vision_state, Bus::Queue::kLatest,
+        [this, name = player.robot](const naolcm::vision_state_t& message) {
+          const TeamObservation seen = decode_observation(message);
+          // An image without the ball does not take back what the one before has shown.
+          TeamObservation& kept = teammates_[name];
+          const bool keeps_ball = !seen.ball && seen.time - kept.time < 1;
+          const auto ball = keeps_ball ? kept.ball : seen.ball;
+          kept = seen;
+          kept.ball = ball;
+        });
+  }
+}
+
+void PlayDaemon::request_auto(double now) {
+  const bool is_match_on = input_.match && input_.match->phase != MatchPhase::kInitial &&
+                           input_.match->phase != MatchPhase::kFinished;
+  if (!is_autonomous_ || !is_match_on || now - last_auto_ < kAutoPeriod) return;
+  const bool is_own = core_.state().command_source == source_;
+  if (!core_.is_active()) {
+    if (now - last_other_ < kDrivenTimeout || !input_.robot) return;
+    ++auto_id_;
+  } else if (!is_own) {
+    return;
+  }
+  last_auto_ = now;
+  input_.requests.push_back({source_, auto_id_, {Behavior::kAuto}});
 }
 
 void PlayDaemon::attach(EventLoop& loop) {
@@ -127,6 +185,11 @@ void PlayDaemon::step(double now) {
   if (now - last_robot_ > kRobotTimeout || now - last_motion_ > kRobotTimeout) {
     input_.robot.reset();
   }
+  input_.match.reset();
+  if (match_ && now - last_match_ < kMatchTimeout) {
+    input_.match = view_match(*match_, robot_, input_.time, teammates_);
+  }
+  request_auto(now);
   const PlayOutput output = core_.step(input_);
   input_.requests.clear();
   input_.results.clear();

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,11 +30,14 @@ struct PlayOptions {
   std::string scene = "soccer";
   /** Where the robot stood on the field when nao-motion started, m and rad. */
   Pose2 start_in_field{};
+  /** Plays by itself in a match, unless somebody drives the robot. */
+  bool is_autonomous = false;
 };
 
 /** Connects PlayCore to the bus: receives NAO_PLAY_COMMAND, NAO_VISION_STATE, NAO_ROBOT_STATE,
- * NAO_MOTION_STATE, NAO_COMMAND_RESULT and the motion commands of others; publishes motion
- * commands, NAO_HEAD_CAMERA_COMMAND while a behavior runs, NAO_PLAY_STATE and NAO_COMMAND_RESULT.
+ * MATCH_STATE, the teammates' NAO_VISION_STATE, NAO_MOTION_STATE, NAO_COMMAND_RESULT and the motion
+ * commands of others; publishes motion commands, NAO_HEAD_CAMERA_COMMAND while a behavior runs,
+ * NAO_PLAY_STATE and NAO_COMMAND_RESULT.
  */
 class PlayDaemon {
  public:
@@ -60,6 +65,9 @@ class PlayDaemon {
   void subscribe();
   template <class Message>
   void watch_commands(const std::string& channel, CommandKind kind);
+  void watch_teammates(const MatchState& state);
+  /** The command to play by itself, if it is time for one. */
+  void request_auto(double now);
   void request_camera(const std::string& camera, double now);
 
   Bus& bus_;
@@ -78,6 +86,18 @@ class PlayDaemon {
   /** s, monotonic: when state and motion state were received last. */
   double last_robot_ = -1e9;
   double last_motion_ = -1e9;
+  std::string robot_;
+  bool is_autonomous_;
+  std::optional<MatchState> match_;
+  std::map<std::string, TeamObservation> teammates_;
+  /** Robots whose messages are received. */
+  std::set<std::string> watched_;
+  /** s, monotonic: of the last match state, another sender's last command, and the last command to
+   * play by itself. */
+  double last_match_ = -1e9;
+  double last_other_ = -1e9;
+  double last_auto_ = -1e9;
+  int64_t auto_id_ = 0;
   std::string camera_;
   double last_camera_request_ = -1e9;
 };

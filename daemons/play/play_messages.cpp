@@ -57,7 +57,7 @@ std::optional<Pose2> TorsoHistory::find(int64_t utime) const {
 Vision decode_vision(const naolcm::vision_state_t& message, const TorsoHistory& torso) {
   Vision vision;
   vision.time = 1e-6 * static_cast<double>(message.utime);
-  vision.image_status = message.image_status;
+  vision.image_status = static_cast<int>(message.image_status);
   if (message.has_ball != 0) {
     Ball ball;
     ball.position = Eigen::Vector2d(message.ball_position_in_odometry);
@@ -69,17 +69,41 @@ Vision decode_vision(const naolcm::vision_state_t& message, const TorsoHistory& 
     }
     vision.ball = ball;
   }
+  // Without the state of that time nothing can be related to the odometry.
+  const auto then = torso.find(message.utime);
+  for (const naolcm::detection_t& detection : message.detections) {
+    const Eigen::Vector2d place(detection.position_in_heading);
+    if (then && detection.kind == detection.KIND_ROBOT && place.allFinite()) {
+      vision.robots.push_back(*then * place);
+    }
+  }
   if (message.has_field_pose == 0) return vision;
   const double(&pose)[3] = message.torso_in_field;
   if (!(std::isfinite(pose[0]) && std::isfinite(pose[1]) && std::isfinite(pose[2]))) {
     throw Error("the pose on the field is not finite");
   }
-  // Without the state of that time the pose cannot be related to the odometry.
-  if (const auto then = torso.find(message.utime)) {
+  if (then) {
     const Pose2 torso_in_field{{pose[0], pose[1]}, pose[2]};
     vision.field_in_odometry = *then * torso_in_field.inverse();
   }
   return vision;
+}
+
+TeamObservation decode_observation(const naolcm::vision_state_t& message) {
+  TeamObservation seen;
+  seen.time = 1e-6 * static_cast<double>(message.utime);
+  if (message.has_field_pose == 0) return seen;
+  const Pose2 torso{{message.torso_in_field[0], message.torso_in_field[1]},
+                    message.torso_in_field[2]};
+  if (!torso.position.allFinite() || !std::isfinite(torso.heading)) {
+    throw Error("the pose on the field is not finite");
+  }
+  seen.position = torso.position;
+  for (const naolcm::detection_t& detection : message.detections) {
+    const Eigen::Vector2d place(detection.position_in_heading);
+    if (detection.kind == detection.KIND_BALL && place.allFinite()) seen.ball = torso * place;
+  }
+  return seen;
 }
 
 naolcm::play_state_t encode_state(const PlayState& state, int64_t utime) {

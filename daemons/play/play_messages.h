@@ -39,6 +39,10 @@ class TorsoHistory {
 /** @throws Error  for a number that is not finite. */
 Vision decode_vision(const naolcm::vision_state_t& message, const TorsoHistory& torso);
 
+/** What a teammate's vision says of itself and the ball.
+ * @throws Error  for a number that is not finite. */
+TeamObservation decode_observation(const naolcm::vision_state_t& message);
+
 /** @param utime  Robot time, microseconds. */
 naolcm::play_state_t encode_state(const PlayState& state, int64_t utime);
 

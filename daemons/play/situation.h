@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "daemons/play/match_view.h"
 #include "kinematics/pose2.h"
 #include "messages/command.h"
 #include "messages/play_command.h"
@@ -57,6 +58,8 @@ struct Vision {
   /** Field frame in the odometry frame; nothing: not localised. Field frame: origin at the center,
    * x towards the opponent's goal, y left. */
   std::optional<Pose2> field_in_odometry{};
+  /** Other robots in the last image, m, in the odometry frame. */
+  std::vector<Eigen::Vector2d> robots{};
 };
 
 /** Lengths of the field that the behaviors need, m. */
@@ -103,12 +106,16 @@ struct Situation {
   /** As last seen; a behavior decides how old it may be. */
   std::optional<Ball> ball{};
   Pose2 field_in_odometry;
+  /** Other robots as seen lately or told by teammates, m, in the odometry frame. */
+  std::vector<Eigen::Vector2d> robots{};
   /** No motion is in progress but, perhaps, that of the head. */
   bool is_still = false;
   /** An action that the behavior commanded is in progress. */
   bool is_performing = false;
   /** How that action ended, once. */
   std::optional<CommandResult> ended{};
+  /** Nothing: there is no match. */
+  std::optional<MatchView> match{};
 };
 
 /** Where the cameras look. */
@@ -132,6 +139,8 @@ struct Decision {
   Gaze gaze{};
   /** Where the robot walks to or the ball shall go, m, in the odometry frame. */
   std::optional<Eigen::Vector2d> target{};
+  /** Of a behavior that has several. */
+  std::optional<PlayRole> role{};
   /** The behavior has reached its aim, or (with a reason) cannot. */
   bool is_done = false;
   bool has_failed = false;

@@ -43,6 +43,19 @@ constexpr double kStrikeTime = 1.2;
  * ball. */
 constexpr double kLookDown = 0.6;
 constexpr double kWatchTime = 1.4;
+/** A robot nearer than this to the middle of the goal line, m, keeps the goal: the shot goes beside
+ * it, by half the width that a standing keeper covers, m. */
+constexpr double kKeeperDistance = 1.3;
+constexpr double kKeeperHalf = 0.25;
+/** A robot nearer to the ball than this, m, and in the direction of the kick within the angle, rad,
+ * would stop it. The kick goes past it by that angle. Chosen: shoulders are 0.3 m wide. */
+constexpr double kBlockingDistance = 1.0;
+constexpr double kBlockingAngle = 0.6;
+/** Tolerance of such a kick, rad: it is to get the ball away. */
+constexpr double kPastTolerance = 0.25;
+/** A ball that rolls past the feet nearer than this, m, is stopped by them. Chosen: half the width
+ * of a stance and the ball's radius. */
+constexpr double kStoppedByFeet = 0.2;
 /** Of the dribbled ball, m/s and m. */
 constexpr double kPushSpeed = 0.16;
 constexpr double kPushReach = 0.45;
@@ -100,7 +113,7 @@ Decision Striker::step(const Situation& situation) {
   // Out of sight again, as after a kick, it is looked for where it rolls to.
   const Vector2d way = ball->position - situation.robot.feet_in_odometry.position;
   expected_.reset();
-  if (way.norm() > kLandmarkDistance) expected_ = ball->position;
+  if (way.norm() > kLandmarkDistance) expected_ = into_field(ball->position, 0, situation);
   if (auto end = find_end(*ball, situation)) return *end;
   switch (stage_) {
     case Stage::kSettle:
@@ -127,12 +140,15 @@ void Striker::handle_end(const CommandResult& result, const Situation& situation
   expected_ =
       kicked_ball_ + kKickDistance * Vector2d(std::cos(kick_heading_), std::sin(kick_heading_));
   // It does not leave the goal again.
-  Vector2d in_field = situation.field_in_odometry.inverse() * *expected_;
+  expected_ = into_field(*expected_, -0.5 * constants_.field.goal_depth, situation);
+}
+
+Vector2d Striker::into_field(const Vector2d& point, double margin,
+                             const Situation& situation) const {
   const Field& field = constants_.field;
-  const double most = 0.5 * field.length + 0.5 * field.goal_depth;
-  in_field = in_field.cwiseMax(Vector2d(-most, -0.5 * field.width));
-  in_field = in_field.cwiseMin(Vector2d(most, 0.5 * field.width));
-  expected_ = situation.field_in_odometry * in_field;
+  const Vector2d most(0.5 * field.length - margin, 0.5 * field.width - std::max(0.0, margin));
+  const Vector2d in_field = situation.field_in_odometry.inverse() * point;
+  return situation.field_in_odometry * in_field.cwiseMax(-most).cwiseMin(most);
 }
 
 std::optional<Ball> Striker::find_ball(const Situation& situation) const {
@@ -144,7 +160,12 @@ std::optional<Ball> Striker::find_ball(const Situation& situation) const {
   const double speed = ball.velocity.norm();
   if (ball.is_rolling && speed > 0) {
     const double path = std::min(speed * speed / (2 * kRollingDeceleration), kKickDistance);
-    ball.position += ball.velocity / speed * path;
+    const Vector2d way = ball.velocity / speed;
+    const Vector2d to_feet = situation.robot.feet_in_odometry.position - ball.position;
+    const double along = to_feet.dot(way);
+    const bool meets_feet =
+        along > 0 && along < path && (to_feet - along * way).norm() < kStoppedByFeet;
+    ball.position += (meets_feet ? along - kStoppedByFeet : path) * way;
   }
   return ball;
 }
@@ -156,8 +177,25 @@ Striker::Aim Striker::calc_aim_at_goal(const Vector2d& ball, const Situation& si
   const double half = std::max(0.2, 0.5 * constants_.field.goal_width - kPostMargin);
   // From a ball on the goal line the opening has no direction: a little before it.
   const double depth = std::max(0.15, goal_x - in_field.x());
-  const double left = std::atan2(half - in_field.y(), depth);
-  const double right = std::atan2(-half - in_field.y(), depth);
+  double left = std::atan2(half - in_field.y(), depth);
+  double right = std::atan2(-half - in_field.y(), depth);
+  // The wider side beside the keeper.
+  for (const Vector2d& robot : situation.robots) {
+    const Vector2d keeper = field.inverse() * robot;
+    const Vector2d way = keeper - in_field;
+    const bool is_keeper = (keeper - Vector2d(goal_x, 0)).norm() < kKeeperDistance &&
+                           way.x() > 0.3 && way.norm() > kKeeperHalf;
+    if (!is_keeper) continue;
+    const double bearing = std::atan2(way.y(), way.x());
+    const double cover = std::asin(kKeeperHalf / way.norm());
+    if (bearing + cover < right || bearing - cover > left) continue;
+    const bool is_left_wider = left - (bearing + cover) > (bearing - cover) - right;
+    if (is_left_wider) {
+      right = std::min(bearing + cover, left - 0.02);
+    } else {
+      left = std::max(bearing - cover, right + 0.02);
+    }
+  }
   Aim aim;
   aim.heading = wrapped(field.heading + 0.5 * (left + right));
   aim.tolerance =
@@ -165,6 +203,23 @@ Striker::Aim Striker::calc_aim_at_goal(const Vector2d& ball, const Situation& si
   const bool is_far = (Vector2d(goal_x, 0) - in_field).norm() > kKickDistance;
   if (is_far) aim.tolerance = std::max(aim.tolerance, kFarTolerance);
   aim.target = field * Vector2d(goal_x, 0);
+  return aim;
+}
+
+Striker::Aim Striker::aim_past_robots(const Aim& aim, const Vector2d& ball,
+                                      const Situation& situation) const {
+  for (const Vector2d& robot : situation.robots) {
+    const Vector2d way = robot - ball;
+    const double bearing = wrapped(std::atan2(way.y(), way.x()) - aim.heading);
+    if (way.norm() > kBlockingDistance || std::abs(bearing) > kBlockingAngle) continue;
+    // To the side on which more of the field is, unless the robot leaves one side open.
+    const double middle = (situation.field_in_odometry.inverse() * ball).y() > 0 ? -1 : 1;
+    const double side = std::abs(bearing) < 0.3 * kBlockingAngle ? middle : (bearing > 0 ? -1 : 1);
+    Aim past = aim;
+    past.heading = wrapped(aim.heading + bearing + side * kBlockingAngle);
+    past.tolerance = kPastTolerance;
+    return past;
+  }
   return aim;
 }
 
@@ -178,7 +233,7 @@ Striker::Aim Striker::calc_aim(const Vector2d& ball, const Situation& situation)
     const Vector2d way = *target_ - ball;
     aim = {std::atan2(way.y(), way.x()), kLeastTolerance, *target_};
   } else {
-    aim = calc_aim_at_goal(ball, situation);
+    aim = aim_past_robots(calc_aim_at_goal(ball, situation), ball, situation);
   }
   // A robot that could not stop well enough several times is content with less.
   aim.tolerance =

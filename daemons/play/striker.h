@@ -41,6 +41,12 @@ class Striker : public BehaviorMachine {
   std::optional<Ball> find_ball(const Situation& situation) const;
   Aim calc_aim(const Eigen::Vector2d& ball, const Situation& situation) const;
   Aim calc_aim_at_goal(const Eigen::Vector2d& ball, const Situation& situation) const;
+  /** The aim turned past a robot that stands before the ball. */
+  Aim aim_past_robots(const Aim& aim, const Eigen::Vector2d& ball,
+                      const Situation& situation) const;
+  /** The nearest point of the field, m, in the odometry frame. @param margin  From its lines, m. */
+  Eigen::Vector2d into_field(const Eigen::Vector2d& point, double margin,
+                             const Situation& situation) const;
   ApproachGoal make_goal(const Eigen::Vector2d& ball, const Aim& aim, const Pose2& feet);
   std::optional<Decision> find_end(const Ball& ball, const Situation& situation) const;
   static Decision look_at_candidate(const Ball& ball);

@@ -19,7 +19,8 @@ PROGRAMS = {
     "nao-phone-gateway": ["--bind", "127.0.0.1", "--token", "x"],
 }
 # And those that run only with an option of scripts/start.
-ALL_PROGRAMS = {**PROGRAMS, "nao-robot": ["--lola", "/nowhere/lola"], "nao-foxglove": ["--port", "0"], "nao-play": []}
+ALL_PROGRAMS = {**PROGRAMS, "nao-robot": ["--lola", "/nowhere/lola"], "nao-foxglove": ["--port", "0"], "nao-play": [],
+                "nao-referee": ["--robot", "NAO1:nao:0:1", "--robot", "NAO2:nao:1:1"]}
 
 
 def options_of(name):

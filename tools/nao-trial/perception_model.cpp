@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "match/formation.h"
+
 namespace nao::trial {
 namespace {
 
@@ -25,8 +27,13 @@ Vector2d direction_in(const Eigen::Isometry3d& camera, const Eigen::Vector3d& po
 
 }  // namespace
 
-PerceptionModel::PerceptionModel(ClosedLoop& trial, const PerceptionErrors& errors, uint64_t seed)
-    : trial_(trial), errors_(errors), random_(seed ^ kSeedOffset), kinematics_(trial.model()) {
+PerceptionModel::PerceptionModel(ClosedLoop& trial, const PerceptionErrors& errors, uint64_t seed,
+                                 int team)
+    : trial_(trial),
+      errors_(errors),
+      field_in_world_(team_in_field(team)),
+      random_((seed ^ kSeedOffset) + static_cast<uint64_t>(trial.robot())),
+      kinematics_(trial.model()) {
   field_error_ = {errors_.position * random_.normal(), errors_.position * random_.normal(),
                   errors_.heading * random_.normal()};
 }
@@ -42,7 +49,7 @@ void PerceptionModel::drift(double dt) {
 }
 
 std::optional<Vector2d> PerceptionModel::measure(const CameraModel& camera) {
-  const Eigen::Isometry3d truth = trial_.world().robot(0).link_pose(camera.link);
+  const Eigen::Isometry3d truth = trial_.world().robot(trial_.robot()).link_pose(camera.link);
   const Vector2d ball = trial_.world().ball().position.head<2>();
   const Eigen::Vector3d center(ball.x(), ball.y(), kBallRadius);
   const Vector2d direction = direction_in(truth, center);
@@ -101,12 +108,32 @@ void PerceptionModel::take_image(const CameraModel& camera) {
     vision.ball = play::Ball{estimate.state.head<2>(), estimate.state.tail<2>(),
                              1e-6 * static_cast<double>(estimate.seen_utime), estimate.is_rolling};
   }
-  const Pose2 torso_in_world = Pose2::from(trial_.torso_in_world());
-  const Pose2 seen_in_field{torso_in_world.position + field_error_.head<2>(),
-                            torso_in_world.heading + field_error_.z()};
+  const Pose2 torso_in_field = field_in_world_.inverse() * Pose2::from(trial_.torso_in_world());
+  const Pose2 seen_in_field{torso_in_field.position + field_error_.head<2>(),
+                            torso_in_field.heading + field_error_.z()};
   vision.field_in_odometry =
       Pose2::from(trial_.estimate().torso_in_odometry) * seen_in_field.inverse();
+  vision.robots = see_robots(camera);
   pending_.push_back({trial_.time() + kImageLatency, vision});
+}
+
+std::vector<Vector2d> PerceptionModel::see_robots(const CameraModel& camera) {
+  std::vector<Vector2d> result;
+  const Eigen::Isometry3d truth = trial_.world().robot(trial_.robot()).link_pose(camera.link);
+  const Pose2 torso = Pose2::from(trial_.torso_in_world());
+  for (int other = 0; other < trial_.world().num_robots(); ++other) {
+    if (other == trial_.robot()) continue;
+    const Eigen::Vector3d place = trial_.world().robot(other).link_pose(0).translation();
+    const double distance = (place.head<2>() - torso.position).norm();
+    const Vector2d direction = direction_in(truth, place);
+    // A robot is tall: it is in the image whenever the camera looks about its way.
+    if (distance > kNear || std::abs(direction.x()) > 0.5 * camera.horizontal_fov) continue;
+    if (random_.uniform() >= errors_.robot_recall) continue;
+    Vector2d seen = torso.inverse() * place.head<2>();
+    seen *= 1 + errors_.robot_distance * random_.normal();
+    result.push_back(Pose2::from(trial_.estimate().torso_in_odometry) * seen);
+  }
+  return result;
 }
 
 const play::Vision& PerceptionModel::step(const std::string& camera) {

@@ -29,6 +29,10 @@ struct PerceptionErrors {
    * what localisation is to reach (6 cm and 3 degrees in the median). */
   double position = 0.05;
   double heading = 0.035;
+  /** Probability that a robot nearer than 3 m is found, and standard deviation of its distance as a
+   * fraction. Chosen: worse than the ball's. */
+  double robot_recall = 0.5;
+  double robot_distance = 0.1;
   /** s in which these errors change. Chosen. */
   double time_constant = 10;
 };
@@ -37,8 +41,8 @@ struct PerceptionErrors {
  * filter. */
 class PerceptionModel : public TrialPerception {
  public:
-  /** @param trial  Must outlive this. */
-  PerceptionModel(ClosedLoop& trial, const PerceptionErrors& errors, uint64_t seed);
+  /** @param trial  Must outlive this. @param team  0: it plays along the world's x axis. */
+  PerceptionModel(ClosedLoop& trial, const PerceptionErrors& errors, uint64_t seed, int team = 0);
 
   const play::Vision& step(const std::string& camera) override;
 
@@ -52,10 +56,13 @@ class PerceptionModel : public TrialPerception {
   /** Where the ball is seen, m, in the odometry frame; nothing: it is not. */
   std::optional<Eigen::Vector2d> measure(const CameraModel& camera);
   void update_ball(const Eigen::Vector2d& seen);
+  /** Other robots, m, in the odometry frame. */
+  std::vector<Eigen::Vector2d> see_robots(const CameraModel& camera);
   void drift(double dt);
 
   ClosedLoop& trial_;
   PerceptionErrors errors_;
+  Pose2 field_in_world_;
   Random random_;
   Kinematics kinematics_;
   vision::BallFilter filter_;

@@ -16,44 +16,40 @@ constexpr double kCommandPeriod = 0.5;
 constexpr int64_t kCommandId = 1;
 const char* const kSource = "play.trial";
 
-play::PlayConstants constants_of(const ClosedLoopOptions& options, const Pose2& start) {
-  play::PlayConstants constants = play::load_constants(*options.model, options.scene.name);
+play::PlayConstants constants_of(const RobotModel& model, const std::string& scene,
+                                 const Pose2& start) {
+  play::PlayConstants constants = play::load_constants(model, scene);
   constants.start_in_field = start;
   return constants;
 }
 
-/** Turned about the vertical axis, as it stands. */
-void place(ClosedLoop& trial, const Pose2& pose) {
+}  // namespace
+
+void place_standing(ClosedLoop& trial, const Pose2& pose) {
   const Eigen::Quaterniond upright(trial.torso_in_world().linear());
   const Eigen::Quaterniond turned =
       Eigen::AngleAxisd(pose.heading, Eigen::Vector3d::UnitZ()) * upright;
-  trial.world().place_robot(0, nullptr, {pose.position.x(), pose.position.y(), 0}, &turned);
-  // Its odometry begins there.
+  trial.world().place_robot(trial.robot(), nullptr, {pose.position.x(), pose.position.y(), 0},
+                            &turned);
   trial.restart_core();
 }
 
-}  // namespace
+PlayingRobot::PlayingRobot(ClosedLoop& trial, const std::string& scene, const Pose2& start)
+    : trial_(trial),
+      viewer_(trial.model()),
+      core_(constants_of(trial.model(), scene, start), viewer_.head_limits(), viewer_.head_joints(),
+            kSource, 1) {}
 
-PlayTrial::PlayTrial(const ClosedLoopOptions& options, uint64_t seed,
-                     const PerceptionFactory& perception, const Pose2& robot_in_field,
-                     const Pose2& start, const Eigen::Vector2d& ball)
-    : trial_(options, seed),
-      viewer_(*options.model),
-      core_(constants_of(options, start), viewer_.head_limits(), viewer_.head_joints(), kSource,
-            1) {
-  place(trial_, robot_in_field);
-  trial_.world().place_ball({ball.x(), ball.y(), 0}, Eigen::Vector3d::Zero());
-  trial_.run(1);
-  trial_.take_results();
-  perception_ = perception(trial_, options.scene, start, seed);
+void PlayingRobot::set_perception(std::unique_ptr<TrialPerception> perception) {
+  perception_ = std::move(perception);
 }
 
-void PlayTrial::command(Behavior behavior) {
+void PlayingRobot::command(Behavior behavior) {
   command_.behavior = behavior;
   next_command_ = 0;
 }
 
-play::PlayInput PlayTrial::make_input() {
+play::PlayInput PlayingRobot::make_input() {
   play::PlayInput input;
   input.now = input.time = trial_.time();
   if (command_.behavior != Behavior::kNone && trial_.time() >= next_command_) {
@@ -69,11 +65,11 @@ play::PlayInput PlayTrial::make_input() {
   const motion::RobotState& state = trial_.estimate();
   input.robot = viewer_.look(state.torso_in_odometry, state.joint_position);
   input.vision = vision_;
+  input.match = match_;
   return input;
 }
 
-void PlayTrial::step() {
-  trial_.step();
+void PlayingRobot::step() {
   vision_ = perception_->step(camera_);
   const bool is_fallen = trial_.core().motion_state().mode == Mode::kFallen;
   if (is_fallen && !is_fallen_) ++num_falls_;
@@ -94,6 +90,22 @@ void PlayTrial::step() {
   for (const CommandResult& result : output.results) result_ = result;
 }
 
+PlayTrial::PlayTrial(const ClosedLoopOptions& options, uint64_t seed,
+                     const PerceptionFactory& perception, const Pose2& robot_in_field,
+                     const Pose2& start, const Eigen::Vector2d& ball)
+    : trial_(options, seed), robot_(trial_, options.scene.name, start) {
+  place_standing(trial_, robot_in_field);
+  trial_.world().place_ball({ball.x(), ball.y(), 0}, Eigen::Vector3d::Zero());
+  trial_.run(1);
+  trial_.take_results();
+  robot_.set_perception(perception(trial_, options.scene, start, seed));
+}
+
+void PlayTrial::step() {
+  trial_.step();
+  robot_.step();
+}
+
 void PlayTrial::trace() {
   if (trace_.empty()) {
     trace_ =
@@ -105,17 +117,19 @@ void PlayTrial::trace() {
   const Eigen::Vector3d ball = trial_.world().ball().position;
   const Pose2 torso = Pose2::from(trial_.estimate().torso_in_odometry);
   const double nan = std::nan("");
-  const play::Ball seen = vision_.ball.value_or(play::Ball{{nan, nan}, {nan, nan}, nan, false});
+  const play::Ball seen =
+      robot_.vision().ball.value_or(play::Ball{{nan, nan}, {nan, nan}, nan, false});
   // In the world by the true pose: what is off is the perception of the ball, not of the pose.
   const Eigen::Vector2d place = truth * (torso.inverse() * seen.position);
-  const Pose2 believed = vision_.field_in_odometry ? vision_.field_in_odometry->inverse() * torso
-                                                   : Pose2{{nan, nan}, nan};
+  const Pose2 believed = robot_.vision().field_in_odometry
+                             ? robot_.vision().field_in_odometry->inverse() * torso
+                             : Pose2{{nan, nan}, nan};
   trace_ += fmt::format(
       "{:.2f},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f},{:.2f},{:."
       "2f},"
       "{:.3f},{:.3f},{:.3f}\n",
-      trial_.time(), std::string(to_string(core_.state().phase)), core_.state().reason.code,
-      static_cast<int>(trial_.core().motion_state().mode), camera_, truth.position.x(),
+      trial_.time(), std::string(to_string(core().state().phase)), core().state().reason.code,
+      static_cast<int>(trial_.core().motion_state().mode), robot_.camera(), truth.position.x(),
       truth.position.y(), truth.heading, trial_.torso_height(), ball.x(), ball.y(), place.x(),
       place.y(), trial_.time() - seen.seen_time, seen.velocity.x(), seen.velocity.y(),
       believed.position.x(), believed.position.y(), wrapped(believed.heading));

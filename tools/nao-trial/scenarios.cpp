@@ -2,6 +2,7 @@
 
 #include "tools/nao-trial/block_scenario.h"
 #include "tools/nao-trial/kick_scenario.h"
+#include "tools/nao-trial/match_scenario.h"
 #include "tools/nao-trial/play_scenarios.h"
 #include "tools/nao-trial/teach_scenario.h"
 #include "tools/nao-trial/walk_scenarios.h"
@@ -31,6 +32,7 @@ std::vector<std::unique_ptr<Scenario>>& all_scenarios() {
     list.push_back(std::make_unique<TeachGoodScenario>());
     list.push_back(std::make_unique<ScoreScenario>(false, perception_model()));
     list.push_back(std::make_unique<KeepGoalScenario>(false, perception_model()));
+    list.push_back(std::make_unique<MatchScenario>());
     return list;
   }();
   return all;

@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   nao::add_bus_command(app, invocation);
   nao::add_motion_command(app, invocation);
   nao::add_play_command(app, invocation);
+  nao::add_match_command(app, invocation);
   nao::add_watchdog_command(app, invocation);
   nao::add_tools_commands(app, invocation, argv);
   return nao::run_program_with_status(app, invocation.common, argc, argv,

@@ -66,6 +66,9 @@ void add_calibrate_command(CommandLine& app, Invocation& invocation);
 /** Adds play. */
 void add_play_command(CommandLine& app, Invocation& invocation);
 
+/** Adds match and its own subcommands. */
+void add_match_command(CommandLine& app, Invocation& invocation);
+
 /** Adds self-test. */
 void add_self_test_command(CommandLine& app, Invocation& invocation);
 

@@ -272,17 +272,34 @@ naoremote::PlayState read_play_state(const naolcm::play_state_t& message) {
   return state;
 }
 
-std::vector<PlayerLabel> read_players(const naolcm::match_state_t& message) {
+std::vector<PlayerLabel> read_players(const MatchState& state) {
   std::vector<PlayerLabel> players;
-  for (const naolcm::player_t& player : message.players) {
-    if (player.team < 0 || player.team > 1) {
-      throw Error("unknown team " + std::to_string(player.team));
-    }
-    if (player.number < 1) throw Error("a player with the number " + std::to_string(player.number));
+  for (const MatchPlayer& player : state.players) {
     players.push_back(
         {player.robot, static_cast<uint32_t>(player.team), static_cast<uint32_t>(player.number)});
   }
   return players;
+}
+
+naoremote::Match read_match(const MatchState& state) {
+  naoremote::Match match;
+  match.set_phase(static_cast<naoremote::Match::Phase>(state.phase));
+  match.set_half(static_cast<uint32_t>(state.half));
+  match.set_time_left(static_cast<uint32_t>(std::ceil(state.time_left)));
+  match.set_score_0(static_cast<uint32_t>(state.score[0]));
+  match.set_score_1(static_cast<uint32_t>(state.score[1]));
+  match.set_event_id(static_cast<uint64_t>(state.event.id));
+  match.set_event(static_cast<naoremote::Match::Event>(state.event.kind));
+  if (state.event.team >= 0) match.set_event_team(static_cast<uint32_t>(state.event.team));
+  match.set_event_robot(state.event.robot);
+  for (const MatchPlayer& player : state.players) {
+    if (player.penalty == Penalty::kNone) continue;
+    naoremote::Match::Penalty& penalty = *match.add_penalties();
+    penalty.set_robot(player.robot);
+    penalty.set_time_left(
+        static_cast<uint32_t>(std::ceil(std::clamp(player.penalty_left, 0.0, 1e6))));
+  }
+  return match;
 }
 
 CommandResult read_result(const naolcm::command_result_t& message) {

@@ -5,7 +5,6 @@
 #include <naolcm/body_state_t.hpp>
 #include <naolcm/command_result_t.hpp>
 #include <naolcm/image_t.hpp>
-#include <naolcm/match_state_t.hpp>
 #include <naolcm/motion_state_t.hpp>
 #include <naolcm/play_state_t.hpp>
 #include <naolcm/robot_state_t.hpp>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "messages/command.h"
+#include "messages/match_state.h"
 #include "phone-gateway/server/core/image_cache.h"
 #include "phone-gateway/server/core/robot_mirror.h"
 #include "phone-gateway/server/core/robots.h"
@@ -88,8 +88,11 @@ naoremote::Vision read_vision(const naolcm::vision_state_t& message, const Image
 /** @throws Error  if an enumeration has an unknown value. */
 naoremote::PlayState read_play_state(const naolcm::play_state_t& message);
 
-/** Teams and numbers of the players. @throws Error  if one is out of range. */
-std::vector<PlayerLabel> read_players(const naolcm::match_state_t& message);
+/** Teams and numbers of the players. */
+std::vector<PlayerLabel> read_players(const MatchState& state);
+
+/** A match as clients see it, with whole seconds. */
+naoremote::Match read_match(const MatchState& state);
 
 /** @throws Error  if the kind or the status has an unknown value. */
 CommandResult read_result(const naolcm::command_result_t& message);

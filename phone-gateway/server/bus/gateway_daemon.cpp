@@ -85,9 +85,12 @@ void GatewayDaemon::subscribe() {
           if (message.program == kSimulatorProgram) components.handle_simulator_status(now);
         }
       });
-  bus_.subscribe<naolcm::match_state_t>(
-      kMatchStateChannel, Bus::Queue::kLatest,
-      [this](const naolcm::match_state_t& message) { core_.set_players(read_players(message)); });
+  bus_.subscribe<naolcm::match_state_t>(kMatchStateChannel, Bus::Queue::kLatest,
+                                        [this](const naolcm::match_state_t& message) {
+                                          const MatchState state = to_match_state(message);
+                                          core_.set_players(read_players(state));
+                                          core_.set_match(read_match(state), monotonic_seconds());
+                                        });
 }
 
 void GatewayDaemon::step(double now) {

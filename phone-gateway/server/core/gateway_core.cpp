@@ -20,7 +20,8 @@ GatewayCore::GatewayCore(std::vector<RobotSetup> robots, const GatewayLimits& li
       audit_(audit),
       sessions_(limits, std::move(audit)),
       robots_(limits, sessions_, identity, std::move(robots)),
-      requests_(limits, identity.server_version, identity.token, sessions_, robots_) {
+      match_(sessions_),
+      requests_(limits, identity.server_version, identity.token, sessions_, robots_, match_) {
   sessions_.on_disconnect([this](const ClientSession& session, double now) {
     robots_.of(session).driving().handle_disconnect(session, now);
   });
@@ -146,6 +147,7 @@ bool GatewayCore::is_closing(uint32_t client) const {
 
 void GatewayCore::step(double now) {
   robots_.step(now);
+  match_.step(now);
   sessions_.step(now);
 }
 

@@ -10,6 +10,7 @@
 #include "phone-gateway/server/core/audit_event.h"
 #include "phone-gateway/server/core/gateway_identity.h"
 #include "phone-gateway/server/core/gateway_limits.h"
+#include "phone-gateway/server/core/match_board.h"
 #include "phone-gateway/server/core/message_bytes.h"
 #include "phone-gateway/server/core/request_handler.h"
 #include "phone-gateway/server/core/robots.h"
@@ -79,6 +80,7 @@ class GatewayCore {
   const GatewayRobot& robot(size_t index = 0) const { return robots_.at(index); }
   size_t num_robots() const { return robots_.size(); }
   void set_players(std::vector<PlayerLabel> players) { robots_.set_players(std::move(players)); }
+  void set_match(naoremote::Match match, double now) { match_.set(std::move(match), now); }
 
   // ---- Time ----
 
@@ -97,6 +99,7 @@ class GatewayCore {
   std::function<void(const AuditEvent&)> audit_;
   Sessions sessions_;
   Robots robots_;
+  MatchBoard match_;
   RequestHandler requests_;
 };
 

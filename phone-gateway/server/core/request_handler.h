@@ -7,6 +7,7 @@
 #include "phone-gateway/server/core/admission.h"
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/gateway_reasons.h"
+#include "phone-gateway/server/core/match_board.h"
 #include "phone-gateway/server/core/operator_console.h"
 #include "phone-gateway/server/core/robots.h"
 #include "phone-gateway/server/core/sessions.h"
@@ -18,11 +19,12 @@ class RequestHandler {
  public:
   /** `sessions` and `robots` must outlive this. */
   RequestHandler(const GatewayLimits& limits, std::string server_version, const std::string& token,
-                 Sessions& sessions, Robots& robots)
+                 Sessions& sessions, Robots& robots, const MatchBoard& match)
       : limits_(limits),
         server_version_(std::move(server_version)),
         sessions_(sessions),
         robots_(robots),
+        match_(match),
         console_(sessions, robots),
         admission_(limits, token) {}
 
@@ -61,6 +63,7 @@ class RequestHandler {
   std::string server_version_;
   Sessions& sessions_;
   Robots& robots_;
+  const MatchBoard& match_;
   OperatorConsole console_;
   Admission admission_;
   bool is_answered_later_ = false;

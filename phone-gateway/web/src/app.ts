@@ -11,6 +11,7 @@ import {WalkSender} from "./controls/walk_sender";
 import {exposeAutomation} from "./automation";
 import {el} from "./dom";
 import {Lobby} from "./lobby";
+import {MatchEvents} from "./match/match_events";
 import {Messages} from "./messages";
 import {registerOfflineShell} from "./offline";
 import {Mode} from "./protocol/generated/remote_pb";
@@ -176,6 +177,7 @@ export class App {
 
   start(): void {
     exposeAutomation(this.store, this.stage, this.image, this.view, this.perception.objects);
+    new MatchEvents(this.store, this.messages);
     this.held.listen(() => this.root.dataset["screen"] === "controller");
     // Another motion replaces the walk to the marked spot.
     this.store.watch((state) => state.state?.activity?.name ?? "", (activity) => {

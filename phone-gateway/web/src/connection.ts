@@ -142,7 +142,8 @@ export class Connection {
     this.adopt(connected.robot, connected.control);
     this.store.set({
       phase: "connected", problem: null, problemDetail: "", attempts: 0,
-      clientId: connected.clientId, clientName: connected.clientName, robots, isChoosingRobot, latencyMs: -1,
+      clientId: connected.clientId, clientName: connected.clientName, robots,
+      match: connected.match ?? null, isChoosingRobot, latencyMs: -1,
     });
     this.ping();
     this.checkTimer = setInterval(() => this.check(), kCheckPeriodMs);
@@ -210,6 +211,9 @@ export class Connection {
         break;
       case Notice_Kind.ROBOTS_CHANGED:
         this.store.set({robots: notice.robots?.robots ?? []});
+        break;
+      case Notice_Kind.MATCH_CHANGED:
+        this.store.set({match: notice.match ?? null});
         break;
       default: this.listener.notice(notice);
     }

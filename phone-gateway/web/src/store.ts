@@ -1,6 +1,6 @@
 /** The state of the app; everything on screen is drawn from it. */
 import type {
-  Control, Joint, Motion, Notice, Notice_Component, Image, PlayState, RobotDescription, RobotList_Robot, State, Vision,
+  Control, Joint, Match, Motion, Notice, Notice_Component, Image, PlayState, RobotDescription, RobotList_Robot, State, Vision,
 } from "./protocol/generated/remote_pb";
 import {kEmptyDraft} from "./teach/motion_draft";
 import type {MotionDraft, Pose} from "./teach/motion_draft";
@@ -64,6 +64,8 @@ export interface AppState {
   control: Control | null;
   /** Every robot of the gateway; empty where there is only one. */
   robots: readonly RobotList_Robot[];
+  /** The match that is played; null: none. */
+  match: Match | null;
   /** True while the person chooses one of them. */
   isChoosingRobot: boolean;
   state: State | null;
@@ -109,6 +111,7 @@ const kInitialState: AppState = {
   robot: null,
   control: null,
   robots: [],
+  match: null,
   isChoosingRobot: false,
   state: null,
   image: null,

@@ -107,6 +107,8 @@ void ToyWorld::step() {
   input.other_command = std::exchange(other_command, std::nullopt);
   input.mode = mode;
   input.needs_help = needs_help;
+  input.match = match;
+  input.vision.robots = robots;
   if (has_robot) input.robot = view();
   if (has_images) {
     input.vision.time = time;

@@ -39,6 +39,9 @@ class ToyWorld {
   /** m from the feet. */
   double sight = 4;
   std::optional<CommandKind> other_command;
+  std::optional<MatchView> match;
+  /** Other robots, m. */
+  std::vector<Eigen::Vector2d> robots;
 
   // What happened.
   std::vector<CommandResult> results;

@@ -12,6 +12,7 @@ import type {WalkSender} from "../controls/walk_sender";
 import {el, icon} from "../dom";
 import type {Control, State} from "../protocol/generated/remote_pb";
 import * as useCases from "../protocol/use_cases";
+import {scoreboard} from "../match/scoreboard";
 import type {PlayStrip} from "../play/play_strip";
 import {playInWords} from "../play/play_words";
 import type {FreeArea} from "../robot/stage";
@@ -84,7 +85,7 @@ export class ControllerScreen {
                    el("span", {class: "bars", "aria-hidden": "true"}, el("i"), el("i"), el("i")),
                    this.linkText);
     this.robot = el("button", {class: "robot-tag", hidden: true, onclick: () => act.changeRobot()});
-    this.status = el("div", {class: "status"},
+    this.status = el("div", {class: "status"}, scoreboard(store),
       el("div", {class: "status-line", role: "status"}, this.mode, this.activity),
       this.progress, this.body,
       el("div", {class: "driver"}, this.robot, this.driver, this.driverButton), map);

@@ -1,5 +1,6 @@
 /** The robots of a gateway of several: who drives which, to drive or to watch one. */
 import {el} from "../dom";
+import {scoreboard} from "../match/scoreboard";
 import type {RobotList_Robot} from "../protocol/generated/remote_pb";
 import type {Store} from "../store";
 import {say} from "../text/texts";
@@ -57,7 +58,7 @@ export class LobbyScreen {
 
   constructor(private readonly store: Store, private readonly actions: LobbyActions) {
     this.element = el("section", {class: "screen lobby-screen"},
-      el("div", {class: "lobby"},
+      el("div", {class: "lobby"}, scoreboard(store),
          el("header", {}, el("h1", {}, say("lobby.title")), el("p", {class: "quiet"}, say("lobby.subtitle"))),
          this.list,
          el("button", {class: "button", onclick: () => actions.leave()}, say("drive.leave"))));

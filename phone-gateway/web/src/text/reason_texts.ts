@@ -141,6 +141,16 @@ export const kReasonTexts: Readonly<Record<string, readonly [pt: string, de: str
                         "Der Ball ist nicht zu sehen; der Roboter sucht ihn."],
   "ball-not-found": ["A bola não foi encontrada em {0} s.", "Der Ball wurde in {0} s nicht gefunden."],
   "ball-out": ["A bola saiu do campo.", "Der Ball hat das Feld verlassen."],
+  // Matches.
+  "match-operation-unknown": ["Operação de jogo desconhecida: {0}.", "Unbekannter Eingriff in das Spiel: {0}."],
+  "match-team-unknown": ["Não há equipa {0}; há 0 e 1.", "Es gibt kein Team {0}, nur 0 und 1."],
+  "match-robot-unknown": ["O robô {0} não participa no jogo; participam {1}.",
+                          "Der Roboter {0} spielt nicht mit; es spielen {1}."],
+  "match-operation-too-late": ["A operação {0} não é possível na fase {1}.",
+                               "Der Eingriff {0} ist in der Phase {1} nicht möglich."],
+  "match-not-played": ["Não há jogo; o árbitro não responde.",
+                       "Es läuft kein Spiel; der Schiedsrichter antwortet nicht."],
+  "match-penalty": ["O robô tem uma penalização: {0}.", "Der Roboter hat eine Strafe: {0}."],
   // Lights.
   "lights-missing": ["O comando não indica nenhuma luz.", "Der Befehl nennt kein Licht."],
   "light-unknown": ["O robô não tem a luz {0}; tem {1}.", "Der Roboter hat kein Licht {0}; er hat {1}."],

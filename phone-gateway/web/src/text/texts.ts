@@ -1,6 +1,7 @@
 /** All texts of the app, in every language; one row per text. Placeholders are written {name}. */
 import {kBodyTexts} from "./body_texts";
 import {kLobbyTexts} from "./lobby_texts";
+import {kMatchTexts} from "./match_texts";
 import {kPlayTexts} from "./play_texts";
 import {kSpeechTexts} from "./speech_texts";
 import {kTeachTexts} from "./teach_texts";
@@ -12,6 +13,7 @@ export type Row = readonly [en: string, pt: string, de: string];
 const kTexts = {
   ...kBodyTexts,
   ...kLobbyTexts,
+  ...kMatchTexts,
   ...kPlayTexts,
   ...kTeachTexts,
   // Loading.

@@ -281,24 +281,39 @@ TEST(ReadPlayState, HasATargetOnlyWhereThereIsOne) {
   EXPECT_THROW((void)read_play_state(message), Error);
 }
 
-TEST(Players, HaveATeamAndANumber) {
-  naolcm::match_state_t match{};
-  naolcm::player_t player{};
-  player.robot = "NAO2";
-  player.team = 1;
-  player.number = 3;
-  match.players = {player};
-  match.num_players = 1;
-  const std::vector<PlayerLabel> players = read_players(match);
+TEST(MatchMessages, PlayersHaveATeamAndANumber) {
+  MatchState state;
+  state.players = {{"NAO2", 1, 3}};
+  const std::vector<PlayerLabel> players = read_players(state);
   ASSERT_EQ(players.size(), 1u);
   EXPECT_EQ(players[0].robot, "NAO2");
   EXPECT_EQ(players[0].team, 1u);
   EXPECT_EQ(players[0].number, 3u);
-  match.players[0].team = 2;
-  EXPECT_THROW((void)read_players(match), Error);
-  match.players[0].team = 0;
-  match.players[0].number = 0;
-  EXPECT_THROW((void)read_players(match), Error);
+}
+
+TEST(MatchMessages, ClientsSeeScoreClockEventAndPenalties) {
+  MatchState state;
+  state.phase = MatchPhase::kPlaying;
+  state.half = 2;
+  state.time_left = 59.2;
+  state.score = {2, 1};
+  state.players = {{"NAO1", 0, 1},
+                   {"NAO2", 1, 1, PlayRole::kNone, false, Penalty::kLeftField, 12.5}};
+  state.event = {4, MatchEventKind::kGoal, 1, "", 7};
+  const naoremote::Match match = read_match(state);
+  EXPECT_EQ(match.phase(), naoremote::Match::PLAYING);
+  EXPECT_EQ(match.half(), 2u);
+  EXPECT_EQ(match.time_left(), 60u);
+  EXPECT_EQ(match.score_0(), 2u);
+  EXPECT_EQ(match.score_1(), 1u);
+  EXPECT_EQ(match.event_id(), 4u);
+  EXPECT_EQ(match.event(), naoremote::Match::GOAL);
+  EXPECT_EQ(match.event_team(), 1u);
+  ASSERT_EQ(match.penalties_size(), 1);
+  EXPECT_EQ(match.penalties(0).robot(), "NAO2");
+  EXPECT_EQ(match.penalties(0).time_left(), 13u);
+  state.event = {5, MatchEventKind::kHalfEnd, -1, "", 8};
+  EXPECT_FALSE(read_match(state).has_event_team());
 }
 
 }  // namespace

@@ -102,9 +102,17 @@ TEST_F(GatewayDaemonTest, TeamsAndNumbersComeFromTheMatch) {
   player.number = 3;
   match.players = {player};
   match.num_players = 1;
+  match.half = 1;
   bus_.publish("MATCH_STATE", match);
   ask({});
-  const naoremote::RobotList& robots = messages_.back().notice().robots();
+  const naoremote::RobotList* found = nullptr;
+  for (const naoremote::ServerMessage& message : messages_) {
+    if (message.notice().kind() == naoremote::Notice::ROBOTS_CHANGED) {
+      found = &message.notice().robots();
+    }
+  }
+  ASSERT_NE(found, nullptr);
+  const naoremote::RobotList& robots = *found;
   ASSERT_EQ(robots.robots_size(), 2);
   EXPECT_FALSE(robots.robots(0).has_team());
   EXPECT_EQ(robots.robots(1).number(), 3u);

@@ -1,0 +1,170 @@
+#include "daemons/play/auto_player.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "match/formation.h"
+
+namespace nao::play {
+namespace {
+
+using Eigen::Vector2d;
+
+/** A ball seen longer ago than this, s, may be elsewhere. */
+constexpr double kForgetBall = 4;
+/** The team that does not kick off waits until the ball has moved by this, m, or for so long, s
+ * (SPL rules, "Kick-off": 10 s). */
+constexpr double kBallMoved = 0.3;
+constexpr double kKickOffWait = 10;
+/** A supporter stands so far behind the ball, and aside, m. Chosen: it is in nobody's way, and next
+ * to the ball when the striker loses it. */
+constexpr double kBehindBall = 1.2;
+constexpr double kBesideBall = 0.9;
+/** The keeper kicks a resting ball away that is nearer to it than the first, until it is farther
+ * than the second, m, and nearer than the third to the goal line. Chosen: it is back before a shot
+ * comes. */
+constexpr double kClearDistance = 1.0;
+constexpr double kClearedDistance = 1.6;
+constexpr double kClearZone = 1.7;
+/** Least distance of a supporter from the side line, m. */
+constexpr double kFromSideLine = 0.5;
+
+}  // namespace
+
+AutoPlayer::AutoPlayer(const PlayConstants& constants)
+    : constants_(constants), positioner_(constants), keeper_(constants) {}
+
+void AutoPlayer::restart() {
+  keeper_.restart();
+  is_clearing_ = false;
+  positioner_.stop_search();
+  if (striker_) striker_->restart();
+}
+
+std::optional<Vector2d> AutoPlayer::find_ball(const Situation& situation) const {
+  std::optional<Vector2d> own;
+  if (situation.ball && situation.time - situation.ball->seen_time < kForgetBall) {
+    own = situation.field_in_odometry.inverse() * situation.ball->position;
+  }
+  return find_team_ball(*situation.match, own, situation.time);
+}
+
+Decision AutoPlayer::step(const Situation& situation) {
+  // A kick or a dive goes on to its end.
+  if (situation.is_performing || situation.ended) return play(situation);
+  if (!situation.match) return stand(situation, Reason("match-not-played"));
+  if (situation.match->penalty != Penalty::kNone) {
+    striker_.reset();
+    return stand(situation,
+                 Reason("match-penalty", {std::string(to_string(situation.match->penalty))}));
+  }
+  switch (situation.match->phase) {
+    case MatchPhase::kReady:
+      striker_.reset();
+      return take_place(situation);
+    case MatchPhase::kPlaying:
+      return play(situation);
+    default:
+      striker_.reset();
+      return stand(situation, {});
+  }
+}
+
+Decision AutoPlayer::stand(const Situation& situation, const Reason& reason) {
+  Decision decision;
+  decision.phase = PlayPhase::kGuard;
+  decision.reason = reason;
+  const bool is_kick_off = situation.match && situation.match->phase == MatchPhase::kSet;
+  if (is_kick_off) {
+    // The referee puts the ball there.
+    decision.gaze.point = situation.field_in_odometry.position;
+  } else if (situation.ball && situation.time - situation.ball->seen_time < kForgetBall) {
+    decision.gaze.point = situation.ball->position;
+  } else {
+    // Straight ahead, where the field is.
+    decision.gaze.depression = 0.3;
+  }
+  return decision;
+}
+
+Decision AutoPlayer::take_place(const Situation& situation) {
+  const MatchView& match = *situation.match;
+  const Vector2d half(0.5 * constants_.field.length, 0.5 * constants_.field.width);
+  const Pose2 place = situation.field_in_odometry *
+                      kick_off_place(match.number, match.team_size, match.kicks_off, half);
+  std::optional<Vector2d> ball;
+  if (const auto seen = find_ball(situation)) ball = situation.field_in_odometry * *seen;
+  return positioner_.step(place, ball, situation);
+}
+
+bool AutoPlayer::must_wait_for_kick_off(const Situation& situation,
+                                        const std::optional<Vector2d>& ball) const {
+  const MatchView& match = *situation.match;
+  if (match.kicks_off || match.since_kick_off < 0 || match.since_kick_off > kKickOffWait) {
+    return false;
+  }
+  return !ball || ball->norm() < kBallMoved;
+}
+
+Decision AutoPlayer::play(const Situation& situation) {
+  if (!situation.match) {
+    return role_ == PlayRole::kKeeper ? keeper_.step(situation) : strike(situation);
+  }
+  const std::optional<Vector2d> ball = find_ball(situation);
+  const Vector2d position =
+      situation.field_in_odometry.inverse() * situation.robot.feet_in_odometry.position;
+  const bool is_busy = situation.is_performing || situation.ended.has_value();
+  if (!is_busy) role_ = choose_role(*situation.match, position, ball, role_);
+  Decision decision;
+  if (!is_busy) {
+    is_clearing_ = role_ == PlayRole::kKeeper && is_to_be_cleared(situation, ball, position);
+  }
+  if (role_ == PlayRole::kKeeper && !is_clearing_) {
+    decision = keeper_.step(situation);
+  } else if (!is_busy && must_wait_for_kick_off(situation, ball)) {
+    decision = stand(situation, {});
+  } else if (role_ == PlayRole::kSupporter && ball) {
+    decision = support(situation, *ball);
+  } else {
+    decision = strike(situation);
+  }
+  if (role_ != PlayRole::kStriker && !is_clearing_) striker_.reset();
+  decision.role = role_;
+  return decision;
+}
+
+bool AutoPlayer::is_to_be_cleared(const Situation& situation, const std::optional<Vector2d>& ball,
+                                  const Vector2d& position) const {
+  if (!ball || !situation.ball || situation.ball->is_rolling) return false;
+  const double limit = is_clearing_ ? kClearedDistance : kClearDistance;
+  return (*ball - position).norm() < limit &&
+         ball->x() < -0.5 * constants_.field.length + kClearZone;
+}
+
+Decision AutoPlayer::strike(const Situation& situation) {
+  if (!striker_) {
+    striker_ = std::make_unique<Striker>(constants_, Striker::Task::kScore, std::nullopt);
+  }
+  Decision decision = striker_->step(situation);
+  // A match goes on after a goal, and with a ball that nobody has found.
+  if (decision.is_done) {
+    striker_.reset();
+    decision.is_done = false;
+    decision.has_failed = false;
+    decision.phase = PlayPhase::kSearch;
+  }
+  return decision;
+}
+
+Decision AutoPlayer::support(const Situation& situation, const Vector2d& ball) {
+  const Vector2d half(0.5 * constants_.field.length, 0.5 * constants_.field.width);
+  Vector2d place(ball.x() - kBehindBall, ball.y() + (ball.y() > 0 ? -1 : 1) * kBesideBall);
+  place.x() = std::max(place.x(), -half.x() + constants_.field.goal_depth + 1);
+  place.y() = std::clamp(place.y(), -half.y() + kFromSideLine, half.y() - kFromSideLine);
+  const Vector2d way = ball - place;
+  const Pose2 in_field{place, std::atan2(way.y(), way.x())};
+  return positioner_.step(situation.field_in_odometry * in_field,
+                          situation.field_in_odometry * ball, situation);
+}
+
+}  // namespace nao::play

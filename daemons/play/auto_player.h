@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "daemons/play/keeper.h"
+#include "daemons/play/positioner.h"
+#include "daemons/play/situation.h"
+#include "daemons/play/striker.h"
+
+namespace nao::play {
+
+/** Plays a match: takes its place for the kick-off, stands where the rules want it, and otherwise
+ * does what its role in the team is: striker, supporter or keeper. */
+class AutoPlayer : public BehaviorMachine {
+ public:
+  /** @param constants  Must outlive this. */
+  explicit AutoPlayer(const PlayConstants& constants);
+
+  Decision step(const Situation& situation) override;
+  void restart() override;
+
+ private:
+  /** Where the team knows the ball to be, m, on the field. */
+  std::optional<Eigen::Vector2d> find_ball(const Situation& situation) const;
+  Decision stand(const Situation& situation, const Reason& reason);
+  Decision take_place(const Situation& situation);
+  Decision play(const Situation& situation);
+  Decision strike(const Situation& situation);
+  Decision support(const Situation& situation, const Eigen::Vector2d& ball);
+  /** Whether the keeper leaves its place to kick a ball away that lies before it. */
+  bool is_to_be_cleared(const Situation& situation, const std::optional<Eigen::Vector2d>& ball,
+                        const Eigen::Vector2d& position) const;
+  bool must_wait_for_kick_off(const Situation& situation,
+                              const std::optional<Eigen::Vector2d>& ball) const;
+
+  const PlayConstants& constants_;
+  Positioner positioner_;
+  Keeper keeper_;
+  std::unique_ptr<Striker> striker_;
+  PlayRole role_ = PlayRole::kNone;
+  bool is_clearing_ = false;
+};
+
+}  // namespace nao::play

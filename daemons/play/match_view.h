@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinematics/pose2.h"
+#include "messages/match_state.h"
+
+namespace nao::play {
+
+/** What another robot of the own team has seen, from its messages. */
+struct TeamObservation {
+  /** Robot time, s. */
+  double time = 0;
+  /** Its feet on the field as its team sees it: x towards the opponents' goal, m. */
+  std::optional<Eigen::Vector2d> position{};
+  /** The ball, if it is in its last image, m. */
+  std::optional<Eigen::Vector2d> ball{};
+};
+
+/** Another player of the own team. */
+struct Teammate {
+  int number = 1;
+  /** Plays by itself, without a penalty. */
+  bool is_playing = false;
+  TeamObservation seen;
+};
+
+/** A match as one of its robots sees it. */
+struct MatchView {
+  MatchPhase phase = MatchPhase::kInitial;
+  Penalty penalty = Penalty::kNone;
+  int number = 1;
+  int team_size = 1;
+  bool kicks_off = false;
+  /** s since the last kick-off; less than 0: there was none. */
+  double since_kick_off = -1;
+  std::vector<Teammate> teammates{};
+};
+
+/** @param seen  By other robots, by their names. @param time  Robot time, s.
+ * @return Nothing if the robot does not take part. */
+std::optional<MatchView> view_match(const MatchState& state, const std::string& robot, double time,
+                                    const std::map<std::string, TeamObservation>& seen);
+
+/** Where a team knows the ball to be, m, on the field as the team sees it: from the robot itself,
+ * otherwise from the teammate that saw it last.
+ * @param own  Nothing: the robot itself does not know. @param time  Robot time, s. */
+std::optional<Eigen::Vector2d> find_team_ball(const MatchView& match,
+                                              const std::optional<Eigen::Vector2d>& own,
+                                              double time);
+
+/** The robot's task in its team. The highest number of those that play by themselves keeps the goal
+ * if the team has another player; of the others the one nearest to the ball is the striker.
+ * @param position  Of the robot, m. @param ball  Nothing: unknown.
+ * @param present  Its role until now, which it keeps where the distances differ little. */
+PlayRole choose_role(const MatchView& match, const Eigen::Vector2d& position,
+                     const std::optional<Eigen::Vector2d>& ball, PlayRole present);
+
+}  // namespace nao::play

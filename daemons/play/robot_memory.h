@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "kinematics/pose2.h"
+#include "messages/command.h"
+
+namespace nao::play {
+
+/** Where other robots were seen lately. */
+class RobotMemory {
+ public:
+  /** @param robots  m, in the odometry frame. @param time  Robot time, s. */
+  void add(const std::vector<Eigen::Vector2d>& robots, double time);
+  void forget(double time);
+  /** In the odometry frame, m. */
+  std::vector<Eigen::Vector2d> positions() const;
+
+ private:
+  struct Seen {
+    Eigen::Vector2d position;
+    double time = 0;
+  };
+  std::vector<Seen> seen_;
+};
+
+/** The walk without what would bring the robot into others: near a robot the velocity towards it
+ * falls to zero, and the robot passes on the side that is nearer to its way.
+ * @param robots  m, in the odometry frame. @param feet  In the odometry frame. */
+WalkCommand keep_clear(WalkCommand walk, const std::vector<Eigen::Vector2d>& robots,
+                       const Pose2& feet);
+
+}  // namespace nao::play

@@ -1,0 +1,50 @@
+// nao-referee: referee of simulated matches. See README.md.
+#include <string>
+#include <vector>
+
+#include "common/bus.h"
+#include "common/command_line.h"
+#include "common/event_loop.h"
+#include "common/logger.h"
+#include "common/program.h"
+#include "common/robot_option.h"
+#include "daemons/referee/referee_daemon.h"
+
+int main(int argc, char** argv) {
+  nao::CommandLine app("Referee of a match of simulated robots: kick-off, goals, time, penalties",
+                       "nao-referee");
+  nao::CommonOptions common;
+  nao::referee::RefereeOptions options;
+  nao::add_bus_options(app, common);
+  std::vector<std::string> robots;
+  std::string model = "nao";
+  std::string state_file;
+  std::string events_file;
+  nao::add_robot_option(app, robots);
+  app.add_option("--model", model, "Folder of robots/ that describes robots without a model")
+      ->show_default();
+  app.add_option("--scene", options.scene, "Scene with field, goals and ball")->show_default();
+  app.add_option("--half-duration", options.rules.half_duration, "Of a half, s")
+      ->range(10.0, 3600.0)
+      ->show_default();
+  app.add_flag("--start", options.starts_by_itself,
+               "Begin when all robots are there, without nao match start");
+  app.add_option("--state-file", state_file,
+                 "File that keeps the match, from which another referee goes on (default: none)");
+  app.add_option("--events-file", events_file,
+                 "File to which every event is added, a line of JSON each (default: none)");
+  return nao::run_program(app, common, argc, argv, [&] {
+    options.robots = nao::parse_robot_options(robots, model);
+    options.state_file = state_file;
+    options.events_file = events_file;
+    nao::EventLoop loop;
+    nao::Bus bus(common.lcm_url);
+    nao::logger::info("version {}, bus {}, {} robots, scene {}", nao::version(), common.lcm_url,
+                      options.robots.size(), options.scene);
+    nao::referee::RefereeDaemon daemon(bus, options);
+    daemon.attach(loop);
+    const std::string reason = loop.run();
+    nao::logger::info("{}: {} messages in, {} out, {} dropped", reason, bus.counters().num_in,
+                      bus.counters().num_out, bus.counters().num_dropped);
+  });
+}

@@ -1,0 +1,326 @@
+#include "daemons/referee/referee_core.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/error.h"
+#include "match/formation.h"
+
+namespace nao::referee {
+namespace {
+
+using Eigen::Vector2d;
+
+/** A robot is in its place within this, m. Chosen: what robots reach without stepping about. */
+constexpr double kPlaceTolerance = 0.4;
+/** Where penalised robots stand: beyond the side line, and apart from one another, m. */
+constexpr double kBesideField = 0.35;
+constexpr double kPenaltySpacing = 0.7;
+/** Time that goes on in one step at most, s: of longer gaps (the simulator was restarted or paused)
+ * nobody has seen anything. */
+constexpr double kMaxStep = 1;
+
+const RobotSighting* find_robot(const RefereeInput& input, const std::string& name) {
+  const auto found = std::find_if(input.robots.begin(), input.robots.end(),
+                                  [&](const RobotSighting& robot) { return robot.name == name; });
+  return found != input.robots.end() ? &*found : nullptr;
+}
+
+}  // namespace
+
+RefereeCore::RefereeCore(const std::vector<MatchPlayer>& players, const SceneFile& scene,
+                         const Rules& rules, int64_t match_id)
+    : scene_(scene), rules_(rules), watches_(players.size()) {
+  // Throws if the scene is not for matches.
+  (void)judge_ball(Eigen::Vector3d::Zero(), std::nullopt, scene);
+  state_.id = match_id;
+  state_.players = players;
+  state_.time_left = rules.half_duration;
+  for (int team = 0; team < 2; ++team) {
+    if (team_size(team) == 0) {
+      throw ConfigError("team " + std::to_string(team) +
+                        " has no robot; name them NAME:MODEL:TEAM:NUMBER");
+    }
+  }
+}
+
+void RefereeCore::restore(const MatchState& state) {
+  const std::vector<MatchPlayer> players = std::move(state_.players);
+  state_ = state;
+  state_.players = players;
+  for (MatchPlayer& player : state_.players) {
+    if (const MatchPlayer* before = find_player(state, player.robot)) {
+      player.penalty = before->penalty;
+      player.penalty_left = before->penalty_left;
+    }
+  }
+}
+
+int RefereeCore::team_size(int team) const {
+  return static_cast<int>(
+      std::count_if(state_.players.begin(), state_.players.end(),
+                    [&](const MatchPlayer& player) { return player.team == team; }));
+}
+
+void RefereeCore::add_event(MatchEventKind kind, int team, const std::string& robot) {
+  state_.event = {state_.event.id + 1, kind, team, robot, time_};
+  output_.events.push_back(state_.event);
+}
+
+void RefereeCore::enter(MatchPhase phase) {
+  state_.phase = phase;
+  phase_time_ = 0;
+}
+
+void RefereeCore::begin_kick_off(int team) {
+  state_.kickoff_team = team;
+  last_team_.reset();
+  exit_.reset();
+  untouched_time_ = 0;
+  enter(MatchPhase::kReady);
+}
+
+void RefereeCore::begin_half(int half) {
+  state_.half = half;
+  state_.time_left = rules_.half_duration;
+  begin_kick_off(half - 1);
+}
+
+void RefereeCore::end_half() {
+  state_.time_left = 0;
+  add_event(MatchEventKind::kHalfEnd, -1);
+  if (state_.half == 1) {
+    begin_half(2);
+    return;
+  }
+  add_event(MatchEventKind::kMatchEnd, -1);
+  enter(MatchPhase::kFinished);
+}
+
+void RefereeCore::award_goal(int team) {
+  ++state_.score[static_cast<size_t>(team)];
+  add_event(MatchEventKind::kGoal, team);
+  begin_kick_off(1 - team);
+}
+
+void RefereeCore::penalize(size_t player, Penalty penalty) {
+  MatchPlayer& who = state_.players[player];
+  who.penalty = penalty;
+  who.penalty_left = rules_.penalty_duration;
+  watches_[player] = {};
+  add_event(MatchEventKind::kPenalty, who.team, who.robot);
+  // Beside its own half, at the height of its penalty mark, facing the field.
+  const double end = who.team == 0 ? -1 : 1;
+  const FieldDimensions& field = *scene_.field;
+  const double x =
+      0.5 * field.length - field.penalty_mark_distance - kPenaltySpacing * (who.number - 1);
+  output_.placements.push_back(
+      {who.robot, {{end * x, 0.5 * field.width + kBesideField}, -M_PI / 2}});
+}
+
+void RefereeCore::release(size_t player) {
+  MatchPlayer& who = state_.players[player];
+  who.penalty = Penalty::kNone;
+  who.penalty_left = 0;
+  watches_[player] = {};
+  add_event(MatchEventKind::kPenaltyEnd, who.team, who.robot);
+}
+
+void RefereeCore::count_penalties(double dt, const RefereeInput& input) {
+  for (size_t i = 0; i < state_.players.size(); ++i) {
+    MatchPlayer& player = state_.players[i];
+    if (const RobotSighting* robot = find_robot(input, player.robot)) {
+      player.is_autonomous = robot->is_autonomous;
+      player.role = robot->role;
+    }
+    if (player.penalty == Penalty::kNone) continue;
+    player.penalty_left = std::max(0.0, player.penalty_left - dt);
+    if (player.penalty_left == 0) release(i);
+  }
+}
+
+void RefereeCore::watch_robots(double dt, const RefereeInput& input) {
+  const FieldDimensions& field = *scene_.field;
+  const Vector2d carpet =
+      Vector2d(0.5 * field.length, 0.5 * field.width).array() + field.border_strip_width;
+  for (size_t i = 0; i < state_.players.size(); ++i) {
+    const MatchPlayer& player = state_.players[i];
+    const RobotSighting* robot = find_robot(input, player.robot);
+    if (player.penalty != Penalty::kNone || robot == nullptr) continue;
+    Watch& watch = watches_[i];
+    watch.down_time = robot->is_upright ? 0 : watch.down_time + dt;
+    const bool is_outside = (robot->position.cwiseAbs() - carpet).maxCoeff() > 0;
+    watch.outside_time = is_outside ? watch.outside_time + dt : 0;
+    if (watch.outside_time > rules_.max_outside_duration) {
+      penalize(i, Penalty::kLeftField);
+    } else if (watch.down_time > rules_.max_down_duration) {
+      penalize(i, Penalty::kNotGettingUp);
+    }
+  }
+}
+
+Pose2 RefereeCore::place_of(const MatchPlayer& player) const {
+  const Vector2d half(0.5 * scene_.field->length, 0.5 * scene_.field->width);
+  return team_in_field(player.team) * kick_off_place(player.number, team_size(player.team),
+                                                     player.team == state_.kickoff_team, half);
+}
+
+bool RefereeCore::is_legal(const MatchPlayer& player, const RobotSighting& robot) const {
+  const Vector2d position = team_in_field(player.team).inverse() * robot.position;
+  const FieldDimensions& field = *scene_.field;
+  const bool is_in_own_half = position.x() < 0 && position.x() > -0.5 * field.length &&
+                              std::abs(position.y()) < 0.5 * field.width;
+  const bool is_in_circle = position.norm() < 0.5 * field.centre_circle_diameter;
+  return robot.is_upright && is_in_own_half &&
+         (!is_in_circle || player.team == state_.kickoff_team);
+}
+
+bool RefereeCore::is_in_place(const MatchPlayer& player, const RobotSighting& robot) const {
+  return is_legal(player, robot) &&
+         (!player.is_autonomous ||
+          (robot.position - place_of(player).position).norm() < kPlaceTolerance);
+}
+
+// Robots walk to their places; in the end those that are where they may not be are put there.
+void RefereeCore::prepare_kick_off(const RefereeInput& input) {
+  bool is_prepared = phase_time_ >= rules_.min_ready_duration;
+  for (const MatchPlayer& player : state_.players) {
+    const RobotSighting* robot = find_robot(input, player.robot);
+    if (robot == nullptr || player.penalty != Penalty::kNone) continue;
+    is_prepared = is_prepared && is_in_place(player, *robot);
+  }
+  if (!is_prepared && phase_time_ < rules_.max_ready_duration) return;
+  for (const MatchPlayer& player : state_.players) {
+    const RobotSighting* robot = find_robot(input, player.robot);
+    if (robot == nullptr || player.penalty != Penalty::kNone) continue;
+    if (!is_legal(player, *robot)) output_.placements.push_back({player.robot, place_of(player)});
+  }
+  output_.placements.push_back({"", {}});
+  enter(MatchPhase::kSet);
+}
+
+void RefereeCore::watch_play(double dt, const RefereeInput& input) {
+  state_.time_left = std::max(0.0, state_.time_left - dt);
+  untouched_time_ += dt;
+  for (const RobotSighting& robot : input.robots) {
+    const MatchPlayer* player = find_player(state_, robot.name);
+    if (player == nullptr || !robot.touches_ball) continue;
+    last_team_ = player->team;
+    untouched_time_ = 0;
+  }
+  watch_robots(dt, input);
+  if (exit_) {
+    return_in_ -= dt;
+    if (return_in_ <= 0) {
+      output_.placements.push_back({"", {exit_->restart, 0}});
+      exit_.reset();
+    }
+  } else if (const auto exit = judge_ball(input.ball, last_team_, scene_)) {
+    if (exit->goal_of) {
+      award_goal(*exit->goal_of);
+      return;
+    }
+    add_event(MatchEventKind::kBallOut, exit->restart_team);
+    exit_ = exit;
+    return_in_ = rules_.ball_return_delay;
+  }
+  if (state_.time_left <= 0) {
+    end_half();
+  } else if (untouched_time_ > rules_.max_untouched_duration) {
+    begin_kick_off(1 - state_.kickoff_team);
+  }
+}
+
+RefereeOutput RefereeCore::step(const RefereeInput& input) {
+  const bool is_restarted = has_time_ && input.time < time_;
+  const double dt = has_time_ ? std::clamp(input.time - time_, 0.0, kMaxStep) : 0;
+  time_ = input.time;
+  has_time_ = true;
+  const bool is_on = state_.phase != MatchPhase::kInitial && state_.phase != MatchPhase::kFinished;
+  // A new simulator has put everything to its start: the half goes on with a kick-off.
+  if (is_restarted && is_on) begin_kick_off(state_.kickoff_team);
+  phase_time_ += dt;
+  count_penalties(is_on ? dt : 0, input);
+  switch (state_.phase) {
+    case MatchPhase::kReady:
+      watch_robots(dt, input);
+      prepare_kick_off(input);
+      break;
+    case MatchPhase::kSet:
+      if (phase_time_ < rules_.set_duration) break;
+      enter(MatchPhase::kPlaying);
+      add_event(MatchEventKind::kKickOff, state_.kickoff_team);
+      break;
+    case MatchPhase::kPlaying:
+      watch_play(dt, input);
+      break;
+    default:
+      break;
+  }
+  return std::exchange(output_, {});
+}
+
+std::optional<Reason> RefereeCore::overrule(const MatchCommand& command) {
+  if (auto fault = check(command)) return fault;
+  const auto team = static_cast<size_t>(command.team);
+  size_t player = 0;
+  if (needs_robot(command.operation)) {
+    std::string known;
+    while (player < state_.players.size() && state_.players[player].robot != command.robot) {
+      known += (known.empty() ? "" : ", ") + state_.players[player].robot;
+      ++player;
+    }
+    if (player == state_.players.size())
+      return Reason("match-robot-unknown", {command.robot, known});
+  }
+  const Reason too_late("match-operation-too-late", {std::string(to_string(command.operation)),
+                                                     std::string(to_string(state_.phase))});
+  const bool is_on = state_.phase != MatchPhase::kInitial && state_.phase != MatchPhase::kFinished;
+  if (!is_on && command.operation != MatchOperation::kStart &&
+      command.operation != MatchOperation::kNewMatch) {
+    return too_late;
+  }
+  switch (command.operation) {
+    case MatchOperation::kStart:
+      if (state_.phase != MatchPhase::kInitial) return too_late;
+      begin_half(1);
+      break;
+    case MatchOperation::kKickOff:
+      begin_kick_off(command.team);
+      break;
+    case MatchOperation::kGoal:
+      award_goal(command.team);
+      break;
+    case MatchOperation::kTakeBackGoal:
+      state_.score[team] = std::max(0, state_.score[team] - 1);
+      break;
+    case MatchOperation::kPenalize:
+      penalize(player, Penalty::kOperator);
+      break;
+    case MatchOperation::kRelease:
+      if (state_.players[player].penalty != Penalty::kNone) release(player);
+      break;
+    case MatchOperation::kEndHalf:
+      end_half();
+      break;
+    case MatchOperation::kFinish:
+      add_event(MatchEventKind::kMatchEnd, -1);
+      enter(MatchPhase::kFinished);
+      break;
+    case MatchOperation::kNewMatch: {
+      MatchState fresh;
+      fresh.id = state_.id + 1;
+      fresh.players = state_.players;
+      for (MatchPlayer& each : fresh.players) each.penalty = Penalty::kNone;
+      fresh.time_left = rules_.half_duration;
+      state_ = fresh;
+      watches_.assign(state_.players.size(), {});
+      enter(MatchPhase::kInitial);
+      break;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace nao::referee

@@ -1,0 +1,28 @@
+/** Tells what happens in the match: a message, and a sound. */
+import type {Messages} from "../messages";
+import {Match_Event} from "../protocol/generated/remote_pb";
+import type {Match} from "../protocol/generated/remote_pb";
+import type {Store} from "../store";
+import {eventInWords} from "./match_words";
+import {MatchSound} from "./match_sound";
+
+export class MatchEvents {
+  private readonly sound = new MatchSound();
+  /** Number of the last event that was told; negative before the first match. */
+  private lastEvent = -1n;
+
+  constructor(store: Store, private readonly messages: Messages) {
+    store.watch((state) => state.match, (match) => this.changed(match));
+  }
+
+  private changed(match: Match | null): void {
+    const event = match?.eventId ?? -1n;
+    // What happened before this phone came, or before another match, is not told.
+    const isNew = this.lastEvent >= 0n && event > this.lastEvent;
+    this.lastEvent = event;
+    if (!match || !isNew) return;
+    const words = eventInWords(match);
+    if (words) this.messages.show(match.event === Match_Event.GOAL ? "good" : "info", words);
+    this.sound.play(match.event);
+  }
+}

@@ -1,0 +1,51 @@
+/** The referee's whistle and a goal's fanfare, made by the browser's Web Audio. */
+import {Match_Event} from "../protocol/generated/remote_pb";
+
+/** Frequency, Hz, start and duration, s, of each tone. */
+type Tone = readonly [frequency: number, start: number, duration: number];
+
+const kWhistle: readonly Tone[] = [[2300, 0, 0.45]];
+const kFinalWhistle: readonly Tone[] = [[2300, 0, 0.25], [2300, 0.35, 0.25], [2300, 0.7, 0.7]];
+// C, E, G, C.
+const kFanfare: readonly Tone[] = [[523, 0, 0.14], [659, 0.15, 0.14], [784, 0.3, 0.14], [1047, 0.45, 0.5]];
+const kVolume = 0.12;
+const kFade = 0.03;
+
+export function tonesOf(event: Match_Event): readonly Tone[] {
+  switch (event) {
+    case Match_Event.GOAL: return kFanfare;
+    case Match_Event.KICK_OFF:
+    case Match_Event.BALL_OUT: return kWhistle;
+    case Match_Event.HALF_END:
+    case Match_Event.MATCH_END: return kFinalWhistle;
+    default: return [];
+  }
+}
+
+export class MatchSound {
+  private context: AudioContext | null = null;
+
+  constructor() {
+    // Browsers allow sound only after a touch of the page.
+    document.addEventListener("pointerdown", () => {
+      if (typeof AudioContext !== "undefined") this.context ??= new AudioContext();
+    }, {once: true});
+  }
+
+  play(event: Match_Event): void {
+    const {context} = this;
+    if (context?.state !== "running") return;
+    for (const [frequency, start, duration] of tonesOf(event)) {
+      const gain = context.createGain();
+      const tone = new OscillatorNode(context, {type: "triangle", frequency});
+      const begin = context.currentTime + start;
+      gain.gain.setValueAtTime(0, begin);
+      gain.gain.linearRampToValueAtTime(kVolume, begin + kFade);
+      gain.gain.setValueAtTime(kVolume, begin + duration - kFade);
+      gain.gain.linearRampToValueAtTime(0, begin + duration);
+      tone.connect(gain).connect(context.destination);
+      tone.start(begin);
+      tone.stop(begin + duration);
+    }
+  }
+}

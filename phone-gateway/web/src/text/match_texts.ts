@@ -1,0 +1,20 @@
+/** Words of a match. */
+export const kMatchTexts = {
+  "match.board": ["Match", "Jogo", "Spiel"],
+  "match.score": ["Blue {blue}, red {red}", "Azul {blue}, vermelho {red}", "Blau {blue}, Rot {red}"],
+  "match.initial": ["Starts soon", "Começa em breve", "Beginnt bald"],
+  "match.ready": ["Take your places", "Tomem os lugares", "Auf die Plätze"],
+  "match.set": ["Wait for the whistle", "Esperem pelo apito", "Wartet auf den Pfiff"],
+  "match.playing": ["{half}, {clock} left", "{half}, faltam {clock}", "{half}, noch {clock}"],
+  "match.half1": ["First half", "Primeira parte", "Erste Halbzeit"],
+  "match.half2": ["Second half", "Segunda parte", "Zweite Halbzeit"],
+  "match.finished": ["The match is over", "O jogo acabou", "Das Spiel ist aus"],
+  "match.kickOff": ["Kick-off: {team}", "Pontapé de saída: {team}", "Anstoß: {team}"],
+  "match.goal": ["Goal for the {team}! {blue}:{red}", "Golo: {team}! {blue}:{red}", "Tor: {team}! {blue}:{red}"],
+  "match.ballOut": ["Ball out. It goes to the {team}.", "Bola fora. É da {team}.", "Ball im Aus. Weiter: {team}."],
+  "match.penalty": ["{robot} has a penalty.", "{robot} tem uma penalização.", "{robot} hat eine Strafe."],
+  "match.penaltyEnd": ["{robot} may play again.", "{robot} pode jogar de novo.", "{robot} darf wieder mitspielen."],
+  "match.halfEnd": ["The half is over.", "A parte acabou.", "Die Halbzeit ist um."],
+  "match.end": ["The match is over: {blue}:{red}", "O jogo acabou: {blue}:{red}", "Das Spiel ist aus: {blue}:{red}"],
+  "match.own": ["Penalty: {seconds} s", "Penalização: {seconds} s", "Strafe: {seconds} s"],
+} as const;

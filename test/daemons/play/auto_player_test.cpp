@@ -1,0 +1,122 @@
+#include "daemons/play/auto_player.h"
+
+#include <gmock/gmock.h>
+
+#include "match/formation.h"
+#include "test/daemons/play/toy_world.h"
+
+namespace nao::play {
+namespace {
+
+using Eigen::Vector2d;
+using testing::Contains;
+using testing::IsEmpty;
+
+struct AutoPlayerTest : testing::Test {
+  AutoPlayerTest() {
+    world.match = MatchView{};
+    world.match->phase = MatchPhase::kInitial;
+    world.match->team_size = 2;
+    Teammate mate;
+    mate.number = 2;
+    mate.is_playing = true;
+    world.match->teammates = {mate};
+    world.feet = {{-2, 1}, 0.5};
+    world.ball = {0, 0};
+    world.command(Behavior::kAuto);
+  }
+
+  void run(double duration) {
+    for (double time = 0; time < duration; time += ToyWorld::kPeriod) world.step();
+  }
+
+  ToyWorld world;
+};
+
+TEST_F(AutoPlayerTest, StandsUntilTheMatchBeginsAndTakesItsPlace) {
+  run(3);
+  EXPECT_LT((world.feet.position - Vector2d(-2, 1)).norm(), 0.01);
+  world.match->phase = MatchPhase::kReady;
+  run(25);
+  const Pose2 place = kick_off_place(1, 2, false, {4.5, 3});
+  EXPECT_LT((world.feet.position - place.position).norm(), 0.2);
+  EXPECT_LT(std::abs(world.feet.heading), 0.4);
+  world.match->phase = MatchPhase::kSet;
+  run(1);
+  const Vector2d before = world.feet.position;
+  run(3);
+  EXPECT_LT((world.feet.position - before).norm(), 0.01);
+  EXPECT_THAT(world.actions, IsEmpty());
+}
+
+TEST_F(AutoPlayerTest, TheStrikerScoresAndWaitsForTheNextKickOff) {
+  world.feet = {{-0.4, 0}, 0};
+  world.match->phase = MatchPhase::kPlaying;
+  world.match->kicks_off = true;
+  world.match->since_kick_off = 0;
+  for (int i = 0; i < 3000 && world.ball.x() < 4.6; ++i) world.step();
+  EXPECT_GT(world.ball.x(), 4.5);
+  EXPECT_LT(std::abs(world.ball.y()), 0.75);
+  EXPECT_EQ(world.core.state().role, PlayRole::kStriker);
+  world.match->phase = MatchPhase::kReady;
+  run(5);
+  EXPECT_TRUE(world.core.is_active());
+}
+
+TEST_F(AutoPlayerTest, LetsTheOthersKickOffFirst) {
+  world.feet = {{-1.1, 0}, 0};
+  world.match->phase = MatchPhase::kPlaying;
+  world.match->kicks_off = false;
+  world.match->since_kick_off = 2;
+  run(5);
+  EXPECT_LT((world.feet.position - Vector2d(-1.1, 0)).norm(), 0.05);
+  world.ball = {0.5, 0.2};
+  run(5);
+  EXPECT_GT((world.feet.position - Vector2d(-1.1, 0)).norm(), 0.3);
+}
+
+TEST_F(AutoPlayerTest, StandsWithAPenalty) {
+  world.match->phase = MatchPhase::kPlaying;
+  world.match->penalty = Penalty::kPushing;
+  run(5);
+  EXPECT_LT((world.feet.position - Vector2d(-2, 1)).norm(), 0.01);
+  EXPECT_EQ(world.core.state().reason.code, "match-penalty");
+}
+
+TEST_F(AutoPlayerTest, TheKeeperStaysInItsGoalAndClearsABallBeforeIt) {
+  world.match->number = 2;
+  world.match->teammates[0].number = 1;
+  world.match->phase = MatchPhase::kPlaying;
+  world.feet = {{-4, 0}, 0};
+  world.ball = {-1.5, 0};
+  run(10);
+  EXPECT_EQ(world.core.state().role, PlayRole::kKeeper);
+  EXPECT_LT(world.feet.position.x(), -3.8);
+  world.ball = {-3.3, 0.1};
+  run(25);
+  EXPECT_GT(world.ball.x(), -2.5);
+  world.ball = {1, 0};
+  world.ball_velocity.setZero();
+  run(20);
+  EXPECT_LT(world.feet.position.x(), -3.8);
+}
+
+TEST_F(AutoPlayerTest, KicksPastARobotThatStandsBeforeTheBall) {
+  world.feet = {{-0.5, 0}, 0};
+  world.match->phase = MatchPhase::kPlaying;
+  world.match->kicks_off = true;
+  world.robots = {{0.7, 0}};
+  for (int i = 0; i < 1200 && world.actions.empty(); ++i) world.step();
+  ASSERT_FALSE(world.actions.empty());
+  EXPECT_GT(std::abs(world.feet.heading), 0.3);
+}
+
+TEST_F(AutoPlayerTest, WithoutAMatchItStands) {
+  world.match.reset();
+  run(3);
+  EXPECT_EQ(world.core.state().reason.code, "match-not-played");
+  EXPECT_LT((world.feet.position - Vector2d(-2, 1)).norm(), 0.01);
+}
+
+}  // namespace
+}  // namespace nao::play

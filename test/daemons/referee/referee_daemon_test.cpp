@@ -1,0 +1,191 @@
+#include "daemons/referee/referee_daemon.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <naolcm/command_result_t.hpp>
+#include <naolcm/daemon_status_t.hpp>
+#include <naolcm/match_command_t.hpp>
+
+#include "common/bus.h"
+#include "common/error.h"
+#include "common/text_file.h"
+
+namespace nao::referee {
+namespace {
+
+/** A world of two robots, whose simulator obeys. */
+class RefereeDaemonTest : public testing::Test {
+ protected:
+  RefereeDaemonTest() : bus_("memq://") {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    options_.robots = {{"NAO1", "nao", 0, 1}, {"NAO2", "nao", 1, 1}};
+    options_.state_file = folder_ / "match.json";
+    options_.events_file = folder_ / "match.jsonl";
+    bus_.subscribe<naolcm::match_state_t>(
+        "MATCH_STATE", Bus::Queue::kAll,
+        [this](const naolcm::match_state_t& message) { states_.push_back(message); });
+    bus_.subscribe<naolcm::command_result_t>(
+        "MATCH_COMMAND_RESULT", Bus::Queue::kAll,
+        [this](const naolcm::command_result_t& message) { results_.push_back(message); });
+    bus_.subscribe<naolcm::world_command_t>(
+        "WORLD_COMMAND", Bus::Queue::kAll, [this](const naolcm::world_command_t& message) {
+          if (is_simulator_deaf_) return;
+          if (truth_.last_command_id == message.command_id) return;
+          truth_.last_command_source = message.source;
+          truth_.last_command_id = message.command_id;
+          done_.push_back(message);
+          if (message.command == "place-ball") {
+            for (int i = 0; i < 3; ++i) {
+              truth_.position_ball_in_world[i] = message.position_in_world[i];
+            }
+          }
+        });
+    truth_ = naolcm::world_truth_t{};
+    truth_.has_ball = 1;
+    truth_.robots = {robot("NAO1", -0.5), robot("NAO2", 1.5)};
+    truth_.num_robots = 2;
+    start();
+  }
+
+  static naolcm::robot_truth_t robot(const std::string& name, double x) {
+    naolcm::robot_truth_t robot{};
+    robot.robot = name;
+    robot.model = "nao";
+    robot.position_torso_in_world[0] = x;
+    robot.orientation_torso_in_world[0] = 1;
+    return robot;
+  }
+
+  void start() {
+    daemon_ = std::make_unique<RefereeDaemon>(bus_, options_, [this] { return now_; });
+  }
+
+  void deliver() {
+    while (bus_.handle_for(0)) {
+    }
+  }
+
+  void run(double duration) {
+    for (double end = now_ + duration; now_ < end; now_ += 0.05) {
+      truth_.utime += 50000;
+      bus_.publish("WORLD_TRUTH", truth_);
+      deliver();
+      daemon_->send_placement();
+      deliver();
+    }
+    daemon_->publish_state();
+    deliver();
+  }
+
+  void command(MatchOperation operation, int64_t id, int team = 0) {
+    naolcm::match_command_t message = to_message(MatchCommand{operation, team, ""});
+    message.source = "test";
+    message.command_id = id;
+    bus_.publish("MATCH_COMMAND", message);
+    deliver();
+  }
+
+  void play() {
+    run(0.1);
+    command(MatchOperation::kStart, 1);
+    run(14);
+    ASSERT_EQ(states_.back().phase, naolcm::match_state_t::PHASE_PLAYING);
+  }
+
+  std::filesystem::path folder_;
+  RefereeOptions options_;
+  double now_ = 50;
+  Bus bus_;
+  naolcm::world_truth_t truth_;
+  bool is_simulator_deaf_ = false;
+  std::vector<naolcm::match_state_t> states_;
+  std::vector<naolcm::command_result_t> results_;
+  std::vector<naolcm::world_command_t> done_;
+  std::unique_ptr<RefereeDaemon> daemon_;
+};
+
+TEST_F(RefereeDaemonTest, StartsOnCommandAndPutsTheBallOntoTheMark) {
+  truth_.position_ball_in_world[0] = 2;
+  play();
+  EXPECT_EQ(results_.back().status, naolcm::command_result_t::STATUS_DONE);
+  ASSERT_FALSE(done_.empty());
+  EXPECT_EQ(done_.back().command, "place-ball");
+  EXPECT_EQ(truth_.position_ball_in_world[0], 0);
+}
+
+TEST_F(RefereeDaemonTest, AGoalCountsOnceAndIsWritten) {
+  play();
+  truth_.position_ball_in_world[0] = 4.7;
+  run(0.5);
+  EXPECT_EQ(states_.back().score[0], 1);
+  EXPECT_EQ(states_.back().event, naolcm::match_state_t::EVENT_GOAL);
+  run(1);
+  EXPECT_EQ(states_.back().score[0], 1);
+  const std::string events = read_file(options_.events_file);
+  EXPECT_THAT(events, testing::HasSubstr("\"event\":\"goal\""));
+  EXPECT_THAT(events, testing::HasSubstr("\"event\":\"kick-off\""));
+}
+
+TEST_F(RefereeDaemonTest, ARestartedRefereeGoesOn) {
+  play();
+  command(MatchOperation::kGoal, 2, 1);
+  truth_.robots = {robot("NAO1", -0.5), robot("NAO2", 1.5)};
+  run(16);
+  const auto before = states_.back();
+  Bus other_bus("memq://");
+  const RefereeDaemon next(other_bus, options_, [this] { return now_; });
+  EXPECT_EQ(next.core().state().id, before.match_id);
+  EXPECT_EQ(next.core().state().score[1], 1);
+  EXPECT_EQ(static_cast<int>(next.core().state().phase), before.phase);
+  EXPECT_NEAR(next.core().state().time_left, before.time_left, 1.5);
+}
+
+TEST_F(RefereeDaemonTest, RepeatsAPlacementUntilTheSimulatorAnswers) {
+  run(0.1);
+  command(MatchOperation::kStart, 1);
+  truth_.position_ball_in_world[0] = 2;
+  is_simulator_deaf_ = true;
+  run(14);
+  EXPECT_EQ(truth_.position_ball_in_world[0], 2);
+  is_simulator_deaf_ = false;
+  run(0.3);
+  EXPECT_EQ(truth_.position_ball_in_world[0], 0);
+}
+
+TEST_F(RefereeDaemonTest, ARepeatedCommandIsAnsweredAgainAndExecutedOnce) {
+  play();
+  command(MatchOperation::kGoal, 7, 0);
+  command(MatchOperation::kGoal, 7, 0);
+  EXPECT_EQ(states_.back().score[0], 1);
+  EXPECT_EQ(results_.size(), 3u);
+  command(static_cast<MatchOperation>(99), 8);
+  EXPECT_EQ(results_.back().status, naolcm::command_result_t::STATUS_REFUSED);
+  EXPECT_EQ(results_.back().reason_code, "match-operation-unknown");
+}
+
+TEST_F(RefereeDaemonTest, SeesTouchesOfTheBall) {
+  naolcm::contact_t contact{};
+  contact.body_a = "NAO2/LFoot";
+  contact.body_b = "ball";
+  truth_.contacts = {contact};
+  truth_.num_contacts = 1;
+  const RefereeInput input = to_input(truth_, daemon_->core().state().players);
+  ASSERT_EQ(input.robots.size(), 2u);
+  EXPECT_FALSE(input.robots[0].touches_ball);
+  EXPECT_TRUE(input.robots[1].touches_ball);
+}
+
+TEST_F(RefereeDaemonTest, RobotsNeedTeamsAndAFileMustBeAMatch) {
+  RefereeOptions options = options_;
+  options.robots[0].team.reset();
+  EXPECT_THROW(RefereeDaemon(bus_, options), ConfigError);
+  replace_file(options_.state_file, "{");
+  EXPECT_THROW(RefereeDaemon(bus_, options_), Error);
+}
+
+}  // namespace
+}  // namespace nao::referee

@@ -1,0 +1,42 @@
+#include "match/formation.h"
+
+#include <gtest/gtest.h>
+
+namespace nao {
+namespace {
+
+const Eigen::Vector2d kHalfField(4.5, 3);
+
+TEST(Formation, TeamsSeeTheFieldFromOppositeEnds) {
+  EXPECT_TRUE((team_in_field(0) * Eigen::Vector2d(1, 2)).isApprox(Eigen::Vector2d(1, 2)));
+  EXPECT_TRUE((team_in_field(1) * Eigen::Vector2d(1, 2)).isApprox(Eigen::Vector2d(-1, -2)));
+}
+
+TEST(Formation, EveryPlaceIsInTheOwnHalfAndApartFromTheOthers) {
+  for (int size = 1; size <= 5; ++size) {
+    for (const bool kicks_off : {false, true}) {
+      for (int number = 1; number <= size; ++number) {
+        const Eigen::Vector2d place = kick_off_place(number, size, kicks_off, kHalfField).position;
+        EXPECT_LT(place.x(), 0);
+        EXPECT_GT(place.x(), -kHalfField.x());
+        EXPECT_LT(std::abs(place.y()), kHalfField.y());
+        // The centre circle is the kicking team's.
+        EXPECT_TRUE(kicks_off || place.norm() > 0.85);
+        for (int other = 1; other < number; ++other) {
+          EXPECT_GT((kick_off_place(other, size, kicks_off, kHalfField).position - place).norm(),
+                    1);
+        }
+      }
+    }
+  }
+}
+
+TEST(Formation, OneIsAtTheBallAndTheLastKeepsTheGoal) {
+  EXPECT_GT(kick_off_place(1, 2, true, kHalfField).position.x(), -0.5);
+  EXPECT_LT(kick_off_place(2, 2, true, kHalfField).position.x(), -4);
+  // A single player plays rather than keeps the goal.
+  EXPECT_GT(kick_off_place(1, 1, false, kHalfField).position.x(), -1.5);
+}
+
+}  // namespace
+}  // namespace nao

@@ -1,0 +1,142 @@
+// nao match: shows a match, and overrules its referee.
+#include "messages/match_command.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <naolcm/command_result_t.hpp>
+#include <string>
+
+#include "common/bus.h"
+#include "common/channels.h"
+#include "common/command_line.h"
+#include "common/event_loop.h"
+#include "common/wall_clock.h"
+#include "messages/match_state.h"
+#include "tools/nao/subcommand.h"
+
+namespace nao {
+namespace {
+
+/** Between two transmissions of an unanswered command, s. */
+constexpr double kRepeatPeriod = 0.1;
+
+int report_silence(const std::string& what) {
+  std::fprintf(stderr, "nao: match %s: nao-referee does not answer; is it running?\n",
+               what.c_str());
+  return 1;
+}
+
+int overrule(const CommonOptions& common, const MatchCommand& command) {
+  EventLoop loop;
+  Bus bus(common.lcm_url);
+  naolcm::match_command_t message = to_message(command);
+  message.source = "nao." + std::to_string(getpid());
+  message.command_id = wall_utime();
+  const std::string name(to_string(command.operation));
+  std::optional<naolcm::command_result_t> answer;
+  bus.subscribe<naolcm::command_result_t>(
+      kMatchCommandResultChannel, Bus::Queue::kAll, [&](const naolcm::command_result_t& result) {
+        if (result.source != message.source || result.command_id != message.command_id) return;
+        answer = result;
+        loop.stop("answer");
+      });
+  loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
+  const double start = monotonic_seconds();
+  const auto send = [&] {
+    message.wall_utime = wall_utime();
+    bus.publish(kMatchCommandChannel, message);
+    if (monotonic_seconds() - start > kAnswerTimeout) loop.stop("timeout");
+  };
+  send();
+  loop.every(kRepeatPeriod, send);
+  loop.run();
+  if (!answer) return report_silence(name);
+  if (answer->status != naolcm::command_result_t::STATUS_DONE) {
+    std::fprintf(stderr, "nao: match %s: refused: %s\n", name.c_str(), answer->reason.c_str());
+    return 1;
+  }
+  std::printf("match %s: done\n", name.c_str());
+  return 0;
+}
+
+/** "playing, half 1, 4:07 left, 2:1". */
+std::string to_text(const MatchState& state) {
+  const int seconds = static_cast<int>(std::ceil(state.time_left));
+  char line[120];
+  std::snprintf(line, sizeof line, "%s, half %d, %d:%02d left, %d:%d\n",
+                std::string(to_string(state.phase)).c_str(), state.half, seconds / 60, seconds % 60,
+                state.score[0], state.score[1]);
+  std::string text = line;
+  for (const MatchPlayer& player : state.players) {
+    text += player.robot + "  team " + std::to_string(player.team) + ", number " +
+            std::to_string(player.number) + (player.is_autonomous ? ", plays by itself" : "");
+    if (player.penalty != Penalty::kNone) {
+      text += ", penalty " + std::string(to_string(player.penalty)) + " for " +
+              std::to_string(static_cast<int>(std::ceil(player.penalty_left))) + " s";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+int show(const CommonOptions& common) {
+  EventLoop loop;
+  Bus bus(common.lcm_url);
+  std::string text;
+  bus.subscribe<naolcm::match_state_t>(kMatchStateChannel, Bus::Queue::kLatest,
+                                       [&](const naolcm::match_state_t& message) {
+                                         text = to_text(to_match_state(message));
+                                         loop.stop("answer");
+                                       });
+  loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
+  loop.every(kAnswerTimeout, [&loop] { loop.stop("timeout"); });
+  loop.run();
+  if (text.empty()) return report_silence("show");
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
+CommandLine* add_operation(CommandLine& match, Invocation& invocation, MatchOperation operation,
+                           const std::string& help) {
+  auto command = std::make_shared<MatchCommand>();
+  command->operation = operation;
+  CommandLine* subcommand = match.add_subcommand(std::string(to_string(operation)), help);
+  if (needs_team(operation)) {
+    subcommand->add_option("team", command->team, "0, which plays along x, or 1")
+        ->required()
+        ->range(0, 1);
+  }
+  if (needs_robot(operation)) {
+    subcommand->add_option("name", command->robot, "The robot's name")->required();
+  }
+  subcommand->on_parsed([&invocation, command] {
+    invocation.run = [&invocation, command] { return overrule(invocation.common, *command); };
+  });
+  return subcommand;
+}
+
+}  // namespace
+
+void add_match_command(CommandLine& app, Invocation& invocation) {
+  CommandLine* match = app.add_subcommand("match", "Show a match, or overrule its referee");
+  match->require_subcommand();
+  CommandLine* shown = match->add_subcommand("show", "Phase, clock, score, players");
+  shown->on_parsed(
+      [&invocation] { invocation.run = [&invocation] { return show(invocation.common); }; });
+  using enum MatchOperation;
+  add_operation(*match, invocation, kStart, "Begin, with the kick-off of the first half");
+  add_operation(*match, invocation, kKickOff, "A team kicks off anew");
+  add_operation(*match, invocation, kGoal,
+                "One goal more for a team, which the other one kicks off after");
+  add_operation(*match, invocation, kTakeBackGoal, "One goal less for a team");
+  add_operation(*match, invocation, kPenalize, "A robot is put beside the field for a while");
+  add_operation(*match, invocation, kRelease, "A robot's penalty ends");
+  add_operation(*match, invocation, kEndHalf, "The half ends at once");
+  add_operation(*match, invocation, kFinish, "The match ends at once");
+  add_operation(*match, invocation, kNewMatch, "Another match, 0:0, which waits for its start");
+}
+
+}  // namespace nao
