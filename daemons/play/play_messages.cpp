@@ -57,7 +57,7 @@ std::optional<Pose2> TorsoHistory::find(int64_t utime) const {
 Vision decode_vision(const naolcm::vision_state_t& message, const TorsoHistory& torso) {
   Vision vision;
   vision.time = 1e-6 * static_cast<double>(message.utime);
-  vision.image_status = static_cast<int>(message.image_status);
+  vision.image_status = static_cast<uint8_t>(message.image_status);
   if (message.has_ball != 0) {
     Ball ball;
     ball.position = Eigen::Vector2d(message.ball_position_in_odometry);
