@@ -131,6 +131,32 @@ test("a robot that does not answer is seen as its model, and not offered", async
   await ben.page.locator(".status-line", {hasText: "Waiting for the robot"}).waitFor();
 });
 
+test("all see a match, and its goals within half a second", async (context) => {
+  stack.run("nao-referee", ["--robot", "NAO1:nao:0:2", "--robot", "NAO2:nao:1:3"]);
+  const phones = [ben, cid, dan];
+  for (const phone of phones) await until("the match is seen", async () => (await phone.look("state.match.phase")) === 0);
+  await stack.nao("match", "start");
+  for (const phone of phones) await until("the robots are called", async () => (await phone.look("state.match.phase")) === 1);
+  assert.match(await cid.page.locator(".controller-screen .match-phase").textContent(), /Take your places/);
+  const seen = phones.map(async (phone) => {
+    await phone.page.waitForFunction(() => window.naoRemote.state.match?.score1 === 1, null, {polling: 20});
+    return performance.now();
+  });
+  const start = performance.now();
+  await stack.nao("match", "goal", "1");
+  const times = await Promise.all(seen);
+  context.diagnostic(`the goal was seen after ${times.map((time) => Math.round(time - start)).join(", ")} ms`);
+  for (const time of times) {
+    // Nominal 0.5 s; the rest is for nao and three browsers on one processor.
+    assert.ok(time - start < 3000, `the goal is seen after ${time - start} ms`);
+  }
+  await cid.page.locator(".message", {hasText: "Goal for the Red team! 0:1"}).waitFor();
+  assert.equal(await cid.page.locator(".controller-screen .score").getAttribute("aria-label"), "Blue 0, red 1");
+  assert.deepEqual(await violations(cid), []);
+  await stack.end("nao-referee");
+  for (const phone of phones) await until("the match is gone", async () => (await phone.look("state.match")) === null);
+});
+
 test("the operator lets a phone watch only, and gives a robot to another", async () => {
   const clients = JSON.parse(await stack.driver("list", "--json"));
   const numberOf = (name) => String(clients.find((client) => client.name === name).client_id);
