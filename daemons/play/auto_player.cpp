@@ -143,7 +143,7 @@ bool AutoPlayer::is_to_be_cleared(const Situation& situation, const std::optiona
 
 Decision AutoPlayer::strike(const Situation& situation) {
   if (!striker_) {
-    striker_ = std::make_unique<Striker>(constants_, Striker::Task::kScore, std::nullopt);
+    striker_ = std::make_unique<Striker>(constants_, Striker::Task::kScore, std::nullopt, true);
   }
   Decision decision = striker_->step(situation);
   // A match goes on after a goal, and with a ball that nobody has found.

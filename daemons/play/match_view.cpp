@@ -33,7 +33,8 @@ std::optional<MatchView> view_match(const MatchState& state, const std::string& 
     if (&player == own) continue;
     Teammate mate;
     mate.number = player.number;
-    mate.is_playing = player.is_autonomous && player.penalty == Penalty::kNone;
+    mate.is_penalised = player.penalty != Penalty::kNone;
+    mate.is_playing = player.is_autonomous && !mate.is_penalised;
     const auto found = seen.find(player.robot);
     if (found != seen.end() && is_fresh(found->second, time)) mate.seen = found->second;
     view.teammates.push_back(mate);
@@ -58,7 +59,9 @@ PlayRole choose_role(const MatchView& match, const Eigen::Vector2d& position,
   const bool is_highest = std::none_of(
       match.teammates.begin(), match.teammates.end(),
       [&](const Teammate& mate) { return mate.is_playing && mate.number > match.number; });
-  if (is_highest && match.team_size > 1) return PlayRole::kKeeper;
+  const bool is_alone = std::all_of(match.teammates.begin(), match.teammates.end(),
+                                    [](const Teammate& mate) { return mate.is_penalised; });
+  if (is_highest && !is_alone) return PlayRole::kKeeper;
   // The keeper among the teammates does not leave its goal for the ball.
   int keeper = match.number;
   for (const Teammate& mate : match.teammates) {

@@ -26,6 +26,8 @@ struct Teammate {
   int number = 1;
   /** Plays by itself, without a penalty. */
   bool is_playing = false;
+  /** Has a penalty. */
+  bool is_penalised = false;
   TeamObservation seen;
 };
 
@@ -54,7 +56,8 @@ std::optional<Eigen::Vector2d> find_team_ball(const MatchView& match,
                                               double time);
 
 /** The robot's task in its team. The highest number of those that play by themselves keeps the goal
- * if the team has another player; of the others the one nearest to the ball is the striker.
+ * if the team has another player without a penalty; of the others the one nearest to the ball is
+ * the striker.
  * @param position  Of the robot, m. @param ball  Nothing: unknown.
  * @param present  Its role until now, which it keeps where the distances differ little. */
 PlayRole choose_role(const MatchView& match, const Eigen::Vector2d& position,

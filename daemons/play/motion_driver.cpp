@@ -50,10 +50,12 @@ void MotionDriver::walk(const WalkCommand& velocity, double /*time*/) {
   if (walk_id_ == 0) walk_id_ = last_walk_id_ = next_id_++;
 }
 
-void MotionDriver::perform(const ActionCommand& action, double time) {
-  // Without zeros: the action replaces the walk.
-  walk_id_ = 0;
-  num_zeros_left_ = 0;
+void MotionDriver::perform(const ActionCommand& action, bool walks_on, double time) {
+  if (!walks_on) {
+    // Without zeros: the action replaces the walk.
+    walk_id_ = 0;
+    num_zeros_left_ = 0;
+  }
   head_.reset();
   head_angles_.clear();
   ended_.reset();

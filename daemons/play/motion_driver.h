@@ -22,8 +22,8 @@ class MotionDriver {
 
   /** Walks at a velocity; all zero ends the walk. */
   void walk(const WalkCommand& velocity, double time);
-  /** Begins an action; the walk ends with it. */
-  void perform(const ActionCommand& action, double time);
+  /** Begins an action. @param walks_on  The walk goes on; otherwise it ends. */
+  void perform(const ActionCommand& action, bool walks_on, double time);
   /** Turns the head: absolute angles, rad, in the order of the joints. */
   void turn_head(const std::vector<double>& angles, double time);
   /** Ends the walk, or the action where that is possible. */

@@ -249,7 +249,8 @@ void PlayCore::execute(const Decision& decision, const Situation& situation, con
   }
   if (motion_.is_performing()) return;
   if (decision.action) {
-    motion_.perform(*decision.action, input.time);
+    if (decision.walks_on) motion_.walk(decision.walk, input.time);
+    motion_.perform(*decision.action, decision.walks_on, input.time);
   } else {
     motion_.walk(keep_clear(decision.walk, situation.robots, input.robot->feet_in_odometry),
                  input.time);

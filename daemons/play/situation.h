@@ -136,6 +136,8 @@ struct Decision {
   WalkCommand walk{};
   /** An action that begins now. */
   std::optional<ActionCommand> action{};
+  /** The robot walks on during the action, with `walk`. */
+  bool walks_on = false;
   Gaze gaze{};
   /** Where the robot walks to or the ball shall go, m, in the odometry frame. */
   std::optional<Eigen::Vector2d> target{};

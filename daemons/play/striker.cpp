@@ -39,10 +39,23 @@ constexpr double kSettleTime = 0.3;
 constexpr double kSettleTimeout = 2.0;
 /** s from the start of a kick until the foot has struck: phases of robots/nao/actions/kick.yaml. */
 constexpr double kStrikeTime = 1.2;
+/** Age of an image when it is known, s. */
+constexpr double kImageAge = 0.1;
 /** After a kick: s that the robot looks before its feet, in case that it missed, and after the
  * ball. */
 constexpr double kLookDown = 0.6;
 constexpr double kWatchTime = 1.4;
+/** A kick during the walk: distance, m (nao-trial walk-kick: 2.1 m); farther from the goal than
+ * this, m; where the ball is to lie, m ahead and aside; greatest deviation of the heading, rad;
+ * greatest age of the ball's place, s; and the walk meanwhile, m/s. */
+constexpr double kPassingKickDistance = 2.1;
+constexpr double kPassingGoalDistance = 2.6;
+constexpr double kPassingNear = 0.28;
+constexpr double kPassingFar = 0.5;
+constexpr double kPassingAside = 0.12;
+constexpr double kPassingTolerance = 0.2;
+constexpr double kPassingAge = 0.3;
+constexpr double kPassingSpeed = 0.15;
 /** A robot nearer than this to the middle of the goal line, m, keeps the goal: the shot goes beside
  * it, by half the width that a standing keeper covers, m. */
 constexpr double kKeeperDistance = 1.3;
@@ -133,12 +146,13 @@ void Striker::handle_end(const CommandResult& result, const Situation& situation
     stage_ = Stage::kApproach;
     return;
   }
-  stage_ = Stage::kWatch;
+  // A robot that walks on does not stop to watch.
+  stage_ = is_passing_ ? Stage::kApproach : Stage::kWatch;
   num_settles_ = 0;
   side_ = 0;
-  ignore_before_ = kick_start_ + kStrikeTime;
-  expected_ =
-      kicked_ball_ + kKickDistance * Vector2d(std::cos(kick_heading_), std::sin(kick_heading_));
+  ignore_before_ = is_passing_ ? situation.time - kImageAge : kick_start_ + kStrikeTime;
+  expected_ = kicked_ball_ + (is_passing_ ? kPassingKickDistance : kKickDistance) *
+                                 Vector2d(std::cos(kick_heading_), std::sin(kick_heading_));
   // It does not leave the goal again.
   expected_ = into_field(*expected_, -0.5 * constants_.field.goal_depth, situation);
 }
@@ -348,6 +362,7 @@ Decision Striker::approach(const Ball& ball, const Situation& situation) {
   decision.target = task_ == Task::kGoToBall ? ball.position : aim.target;
   look_at(ball, situation, decision);
   decision.walk = plan_approach(goal, feet, constants_.walk_limits);
+  if (auto passing = kick_in_passing(ball, aim, situation)) return *passing;
   const bool is_before_ball = task_ == Task::kGoToBall && distance < kBeforeBall + 0.08;
   const Vector2d reach =
       kStopFraction * (constants_.kick ? constants_.kick->reach : Vector2d(0.05, 0.025));
@@ -364,6 +379,37 @@ Decision Striker::approach(const Ball& ball, const Situation& situation) {
   }
   stage_ = Stage::kSettle;
   return settle(ball, situation);
+}
+
+std::optional<Decision> Striker::kick_in_passing(const Ball& ball, const Aim& aim,
+                                                 const Situation& situation) {
+  if (!kicks_in_passing_ || !constants_.kick || situation.is_still || ball.is_rolling) {
+    return std::nullopt;
+  }
+  const Pose2& feet = situation.robot.feet_in_odometry;
+  const Vector2d goal = situation.field_in_odometry * Vector2d(0.5 * constants_.field.length, 0);
+  const Vector2d in_feet = feet.inverse() * ball.position;
+  const double tolerance = std::max(kPassingTolerance, aim.tolerance);
+  const bool is_right = in_feet.x() > kPassingNear && in_feet.x() < kPassingFar &&
+                        std::abs(in_feet.y()) < kPassingAside &&
+                        std::abs(wrapped(aim.heading - feet.heading)) < tolerance &&
+                        situation.time - ball.seen_time < kPassingAge;
+  if (!is_right || (goal - ball.position).norm() < kPassingGoalDistance) return std::nullopt;
+  Decision decision;
+  decision.phase = PlayPhase::kKick;
+  decision.target = aim.target;
+  decision.gaze.point = ball.position;
+  const bool is_left = in_feet.y() > 0;
+  decision.action =
+      ActionCommand{is_left ? constants_.actions.kick_left : constants_.actions.kick_right,
+                    in_feet.x(), in_feet.y(), std::numeric_limits<double>::quiet_NaN()};
+  decision.walks_on = true;
+  decision.walk.vx = std::min(kPassingSpeed, constants_.walk_limits.forward);
+  kicked_ball_ = ball.position;
+  kick_heading_ = feet.heading;
+  kick_start_ = situation.time;
+  is_passing_ = true;
+  return decision;
 }
 
 Decision Striker::settle(const Ball& ball, const Situation& situation) {
@@ -409,6 +455,7 @@ Decision Striker::settle(const Ball& ball, const Situation& situation) {
   kicked_ball_ = ball.position;
   kick_heading_ = feet.heading;
   kick_start_ = situation.time;
+  is_passing_ = false;
   return decision;
 }
 

@@ -17,9 +17,11 @@ class Striker : public BehaviorMachine {
 
   /** @param constants  Must outlive this.
    * @param target  Where the ball shall go, m, in the odometry frame; nothing: the opponent's goal.
-   */
-  Striker(const PlayConstants& constants, Task task, const std::optional<Eigen::Vector2d>& target)
-      : constants_(constants), task_(task), target_(target) {}
+   * @param kicks_in_passing  Far from the goal the ball is kicked during the walk: sooner, less
+   * far and less exactly. */
+  Striker(const PlayConstants& constants, Task task, const std::optional<Eigen::Vector2d>& target,
+          bool kicks_in_passing = false)
+      : constants_(constants), task_(task), target_(target), kicks_in_passing_(kicks_in_passing) {}
 
   Decision step(const Situation& situation) override;
   void restart() override;
@@ -41,6 +43,9 @@ class Striker : public BehaviorMachine {
   std::optional<Ball> find_ball(const Situation& situation) const;
   Aim calc_aim(const Eigen::Vector2d& ball, const Situation& situation) const;
   Aim calc_aim_at_goal(const Eigen::Vector2d& ball, const Situation& situation) const;
+  /** Kicks in passing a ball that lies right and need not go far. */
+  std::optional<Decision> kick_in_passing(const Ball& ball, const Aim& aim,
+                                          const Situation& situation);
   /** The aim turned past a robot that stands before the ball. */
   Aim aim_past_robots(const Aim& aim, const Eigen::Vector2d& ball,
                       const Situation& situation) const;
@@ -60,6 +65,7 @@ class Striker : public BehaviorMachine {
   const PlayConstants& constants_;
   Task task_;
   std::optional<Eigen::Vector2d> target_;
+  bool kicks_in_passing_;
   BallMemory memory_;
   BallSearch search_;
   Stage stage_ = Stage::kApproach;
@@ -73,6 +79,7 @@ class Striker : public BehaviorMachine {
   Eigen::Vector2d kicked_ball_ = Eigen::Vector2d::Zero();
   double kick_heading_ = 0;
   double kick_start_ = 0;
+  bool is_passing_ = false;
   /** What was seen before a kick does not count afterwards, s. */
   double ignore_before_ = -1e9;
   /** Where a kicked ball probably is. */

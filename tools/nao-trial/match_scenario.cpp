@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/error.h"
@@ -13,7 +14,6 @@
 #include "daemons/referee/referee_core.h"
 #include "match/formation.h"
 #include "messages/match_state.h"
-#include "tools/nao-trial/perception_model.h"
 #include "tools/nao-trial/play_trial.h"
 
 namespace nao::trial {
@@ -56,11 +56,12 @@ struct Tally {
 
 class Match {
  public:
-  Match(const ScenarioOptions& options, uint64_t seed)
+  Match(const ScenarioOptions& options, const PerceptionFactory& perception, uint64_t seed)
       : options_(options), world_(ClosedLoop::make_world(options.trial, seed)) {
     std::vector<MatchPlayer> players;
     for (int team = 0; team < 2; ++team) {
-      for (int number = 1; number <= kTeamSize; ++number) add_player(team, number, seed);
+      for (int number = 1; number <= kTeamSize; ++number)
+        add_player(team, number, perception, seed);
     }
     for (const auto& player : players_) players.push_back(player->who);
     referee::Rules rules;
@@ -103,7 +104,7 @@ class Match {
   }
 
  private:
-  void add_player(int team, int number, uint64_t seed) {
+  void add_player(int team, int number, const PerceptionFactory& perception, uint64_t seed) {
     auto player = std::make_unique<Player>();
     player->who.robot = (team == 0 ? "A" : "B") + std::to_string(number);
     player->who.team = team;
@@ -115,7 +116,7 @@ class Match {
     player->robot = std::make_unique<PlayingRobot>(*player->loop, options_.trial.scene.name, start);
     place_standing(*player->loop, team_in_field(team) * start);
     player->robot->set_perception(
-        std::make_unique<PerceptionModel>(*player->loop, PerceptionErrors{}, seed, team));
+        perception(*player->loop, options_.trial.scene, start, seed, team));
     player->robot->command(Behavior::kAuto);
     players_.push_back(std::move(player));
   }
@@ -258,8 +259,13 @@ class Match {
 
 }  // namespace
 
+MatchScenario::MatchScenario(bool is_rendered, PerceptionFactory perception)
+    : PlayScenario("match",
+                   "Two robots play against two, by themselves, --duration (300 s) in two halves",
+                   is_rendered, std::move(perception)) {}
+
 std::vector<RunResult> MatchScenario::run(const ScenarioOptions& options, uint64_t seed) const {
-  Match match(options, seed);
+  Match match(options, perception_, seed);
   RunResult result;
   match.play(result);
   return {result};

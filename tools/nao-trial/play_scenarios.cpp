@@ -171,8 +171,8 @@ std::vector<RunResult> KeepGoalScenario::run(const ScenarioOptions& options, uin
 }
 
 PerceptionFactory perception_model() {
-  return [](ClosedLoop& trial, const SceneFile&, const Pose2&, uint64_t seed) {
-    return std::make_unique<PerceptionModel>(trial, PerceptionErrors{}, seed);
+  return [](ClosedLoop& trial, const SceneFile&, const Pose2&, uint64_t seed, int team) {
+    return std::make_unique<PerceptionModel>(trial, PerceptionErrors{}, seed, team);
   };
 }
 

@@ -98,7 +98,7 @@ PlayTrial::PlayTrial(const ClosedLoopOptions& options, uint64_t seed,
   trial_.world().place_ball({ball.x(), ball.y(), 0}, Eigen::Vector3d::Zero());
   trial_.run(1);
   trial_.take_results();
-  robot_.set_perception(perception(trial_, options.scene, start, seed));
+  robot_.set_perception(perception(trial_, options.scene, start, seed, 0));
 }
 
 void PlayTrial::step() {

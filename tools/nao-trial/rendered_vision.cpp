@@ -36,12 +36,21 @@ WorldState RenderedVision::world_state() const {
   WorldState world;
   world.utime = trial_.estimate().utime;
   world.scene = scene_;
-  RobotPose robot;
-  robot.name = camera_options().robot;
-  robot.pose_torso_in_world = trial_.torso_in_world();
-  const Eigen::VectorXd& position = trial_.world().robot(0).motor_position();
-  robot.position.assign(position.data(), position.data() + position.size());
-  world.robots.push_back(robot);
+  const int num_robots = trial_.world().num_robots();
+  for (int i = 0; i < num_robots; ++i) {
+    const sim::SimRobot& simulated = trial_.world().robot(i);
+    RobotPose robot;
+    robot.name = i == trial_.robot() ? camera_options().robot : "ROBOT" + std::to_string(i);
+    robot.pose_torso_in_world = simulated.link_pose(0);
+    const Eigen::VectorXd& position = simulated.motor_position();
+    robot.position.assign(position.data(), position.data() + position.size());
+    // Several robots are two teams, one after the other.
+    if (num_robots > 1) {
+      robot.team = i < num_robots / 2 ? 0 : 1;
+      robot.number = i % (num_robots / 2) + 1;
+    }
+    world.robots.push_back(robot);
+  }
   Eigen::Isometry3d ball = Eigen::Isometry3d::Identity();
   ball.translation() = trial_.world().ball().position;
   world.pose_ball_in_world = ball;
@@ -86,6 +95,10 @@ const play::Vision& RenderedPerception::step(const std::string& camera) {
     }
     if (seen.field_pose.is_known) {
       vision.field_in_odometry = vision_.heading_in_odometry() * seen.field_pose.pose.inverse();
+    }
+    for (const vision::Detection& detection : seen.detections) {
+      if (detection.kind != vision::Kind::kRobot || !detection.position.allFinite()) continue;
+      vision.robots.push_back(vision_.heading_in_odometry() * detection.position);
     }
     pending_.push_back({trial_.time() + kImageLatency, vision});
   }

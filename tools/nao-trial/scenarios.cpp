@@ -32,7 +32,7 @@ std::vector<std::unique_ptr<Scenario>>& all_scenarios() {
     list.push_back(std::make_unique<TeachGoodScenario>());
     list.push_back(std::make_unique<ScoreScenario>(false, perception_model()));
     list.push_back(std::make_unique<KeepGoalScenario>(false, perception_model()));
-    list.push_back(std::make_unique<MatchScenario>());
+    list.push_back(std::make_unique<MatchScenario>(false, perception_model()));
     return list;
   }();
   return all;

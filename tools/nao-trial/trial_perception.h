@@ -13,8 +13,8 @@ namespace nao::trial {
  * the bus on a busy host. Chosen. */
 constexpr double kImageLatency = 0.08;
 
-/** What a robot in a trial knows by its cameras. The field is the simulated world; its positive x
- * side is the opponent's. */
+/** What a robot in a trial knows by its cameras. The field is the simulated world; the
+ * opponents' side is x > 0 for team 0, x < 0 for team 1. */
 class TrialPerception {
  public:
   virtual ~TrialPerception() = default;
@@ -24,9 +24,9 @@ class TrialPerception {
 };
 
 /** Makes the perception of one trial, which must outlive it. @param start  Where the robot believes
- * to stand on the field. */
+ * to stand on the field as its team sees it. @param team  0: it plays along the world's x axis. */
 using PerceptionFactory = std::function<std::unique_ptr<TrialPerception>(
-    ClosedLoop& trial, const SceneFile& scene, const Pose2& start, uint64_t seed)>;
+    ClosedLoop& trial, const SceneFile& scene, const Pose2& start, uint64_t seed, int team)>;
 
 /** Where a robot believes to stand that was placed on the field by hand: uniform errors with
  * standard deviations of 0.07 m and 3 degrees. Chosen.

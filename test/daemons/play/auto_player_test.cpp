@@ -111,6 +111,35 @@ TEST_F(AutoPlayerTest, KicksPastARobotThatStandsBeforeTheBall) {
   EXPECT_GT(std::abs(world.feet.heading), 0.3);
 }
 
+TEST_F(AutoPlayerTest, KicksInPassingFarFromTheGoalAndStopsBeforeIt) {
+  world.match->phase = MatchPhase::kPlaying;
+  world.match->kicks_off = true;
+  // Whether the robot walks on after its command to kick.
+  const auto walks_on_after_kick = [&] {
+    world.actions.clear();
+    for (int i = 0; i < 1200 && world.actions.empty(); ++i) world.step();
+    world.commands.clear();
+    world.step();
+    world.step();
+    world.step();
+    for (const Command& command : world.commands) {
+      const auto* walk = std::get_if<WalkCommand>(&command.request);
+      if (walk != nullptr && walk->vx > 0) return true;
+    }
+    return false;
+  };
+  world.feet = {{-2.5, 0}, 0};
+  world.ball = {-1.5, 0};
+  EXPECT_TRUE(walks_on_after_kick());
+  ASSERT_FALSE(world.actions.empty());
+  world.feet = {{2, 0}, 0};
+  world.ball = {3, 0};
+  world.ball_velocity.setZero();
+  for (int i = 0; i < 60; ++i) world.step();
+  EXPECT_FALSE(walks_on_after_kick());
+  EXPECT_FALSE(world.actions.empty());
+}
+
 TEST_F(AutoPlayerTest, WithoutAMatchItStands) {
   world.match.reset();
   run(3);

@@ -38,8 +38,8 @@ TEST(MatchView, IsThatOfTheRobotsTeam) {
 
 TEST(MatchView, TheBallIsTheOwnOneOrTheNewestOfATeammate) {
   MatchView view;
-  view.teammates = {{2, true, {99, Vector2d(0, 0), Vector2d(1, 0)}},
-                    {3, true, {99.5, Vector2d(0, 0), Vector2d(2, 0)}}};
+  view.teammates = {{2, true, false, {99, Vector2d(0, 0), Vector2d(1, 0)}},
+                    {3, true, false, {99.5, Vector2d(0, 0), Vector2d(2, 0)}}};
   EXPECT_EQ(find_team_ball(view, Vector2d(3, 0), 100)->x(), 3);
   EXPECT_EQ(find_team_ball(view, {}, 100)->x(), 2);
   EXPECT_FALSE(find_team_ball(view, {}, 110));
@@ -97,6 +97,12 @@ TEST_F(RoleTest, OthersStepInForOneThatDoesNotPlay) {
   EXPECT_EQ(role_of(2, places[2]), PlayRole::kKeeper);
   EXPECT_EQ(role_of(1, places[1]), PlayRole::kStriker);
   MatchView alone;
+  Teammate out;
+  out.is_penalised = true;
+  alone.number = 2;
+  alone.team_size = 2;
+  alone.teammates = {out};
+  EXPECT_EQ(choose_role(alone, {-4, 0}, {}, PlayRole::kKeeper), PlayRole::kStriker);
   EXPECT_EQ(choose_role(alone, {0, 0}, {}, PlayRole::kNone), PlayRole::kStriker);
 }
 
