@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "daemons/play/approach.h"
 #include "match/formation.h"
 
 namespace nao::play {
@@ -20,6 +21,9 @@ constexpr double kKickOffWait = 10;
  * to the ball when the striker loses it. */
 constexpr double kBehindBall = 1.2;
 constexpr double kBesideBall = 0.9;
+/** A ball that only teammates see is looked for from nearer than this, m: they see it with an error
+ * of their own places, too. */
+constexpr double kToldDistance = 1.2;
 /** The keeper kicks a resting ball away that is nearer to it than the first, until it is farther
  * than the second, m, and nearer than the third to the goal line. Chosen: it is back before a shot
  * comes. */
@@ -41,9 +45,13 @@ void AutoPlayer::restart() {
   if (striker_) striker_->restart();
 }
 
+bool AutoPlayer::sees_ball(const Situation& situation) {
+  return situation.ball && situation.time - situation.ball->seen_time < kForgetBall;
+}
+
 std::optional<Vector2d> AutoPlayer::find_ball(const Situation& situation) const {
   std::optional<Vector2d> own;
-  if (situation.ball && situation.time - situation.ball->seen_time < kForgetBall) {
+  if (sees_ball(situation)) {
     own = situation.field_in_odometry.inverse() * situation.ball->position;
   }
   return find_team_ball(*situation.match, own, situation.time);
@@ -78,7 +86,7 @@ Decision AutoPlayer::stand(const Situation& situation, const Reason& reason) {
   if (is_kick_off) {
     // The referee puts the ball there.
     decision.gaze.point = situation.field_in_odometry.position;
-  } else if (situation.ball && situation.time - situation.ball->seen_time < kForgetBall) {
+  } else if (sees_ball(situation)) {
     decision.gaze.point = situation.ball->position;
   } else {
     // Straight ahead, where the field is.
@@ -125,6 +133,9 @@ Decision AutoPlayer::play(const Situation& situation) {
     decision = stand(situation, {});
   } else if (role_ == PlayRole::kSupporter && ball) {
     decision = support(situation, *ball);
+  } else if (!is_busy && ball && !sees_ball(situation) &&
+             (*ball - position).norm() > kToldDistance) {
+    decision = go_where_told(situation, *ball);
   } else {
     decision = strike(situation);
   }
@@ -153,6 +164,19 @@ Decision AutoPlayer::strike(const Situation& situation) {
     decision.has_failed = false;
     decision.phase = PlayPhase::kSearch;
   }
+  return decision;
+}
+
+Decision AutoPlayer::go_where_told(const Situation& situation, const Vector2d& ball) {
+  const Pose2& feet = situation.robot.feet_in_odometry;
+  const Vector2d place = situation.field_in_odometry * ball;
+  const Vector2d way = place - feet.position;
+  Decision decision;
+  decision.phase = PlayPhase::kApproach;
+  decision.reason = Reason("ball-not-in-sight");
+  decision.target = place;
+  decision.gaze.point = place;
+  decision.walk = plan_walk_to({place, std::atan2(way.y(), way.x())}, feet, constants_.walk_limits);
   return decision;
 }
 

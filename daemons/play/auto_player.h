@@ -21,12 +21,16 @@ class AutoPlayer : public BehaviorMachine {
   void restart() override;
 
  private:
+  /** Whether the robot itself has seen the ball lately. */
+  static bool sees_ball(const Situation& situation);
   /** Where the team knows the ball to be, m, on the field. */
   std::optional<Eigen::Vector2d> find_ball(const Situation& situation) const;
   Decision stand(const Situation& situation, const Reason& reason);
   Decision take_place(const Situation& situation);
   Decision play(const Situation& situation);
   Decision strike(const Situation& situation);
+  /** Walks to a ball that only teammates see. */
+  Decision go_where_told(const Situation& situation, const Eigen::Vector2d& ball);
   Decision support(const Situation& situation, const Eigen::Vector2d& ball);
   /** Whether the keeper leaves its place to kick a ball away that lies before it. */
   bool is_to_be_cleared(const Situation& situation, const std::optional<Eigen::Vector2d>& ball,

@@ -140,6 +140,20 @@ TEST_F(AutoPlayerTest, KicksInPassingFarFromTheGoalAndStopsBeforeIt) {
   EXPECT_FALSE(world.actions.empty());
 }
 
+TEST_F(AutoPlayerTest, GoesToABallThatOnlyATeammateSees) {
+  world.match->phase = MatchPhase::kPlaying;
+  world.match->kicks_off = true;
+  world.is_ball_visible = false;
+  world.feet = {{-3, -1}, 1.5};
+  world.ball = {2, 1};
+  for (int i = 0; i < 200; ++i) {
+    world.match->teammates[0].seen = {world.time, Vector2d(-4, 0), world.ball};
+    world.step();
+  }
+  EXPECT_LT((world.feet.position - world.ball).norm(), 4);
+  EXPECT_EQ(world.core.state().reason.code, "ball-not-in-sight");
+}
+
 TEST_F(AutoPlayerTest, WithoutAMatchItStands) {
   world.match.reset();
   run(3);
