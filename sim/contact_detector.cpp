@@ -79,7 +79,6 @@ void ContactDetector::forget_ball() {
 }
 
 void ContactDetector::clear() {
-  num_dropped_ = 0;
   for (size_t robot = 0; robot < robot_memory_.size(); ++robot) {
     forget_robot(static_cast<int>(robot));
   }
@@ -112,19 +111,36 @@ const RoundedBox& ContactDetector::part_shape(int robot, int index) {
   return placed.shape;
 }
 
-void ContactDetector::find(int64_t step_number) {
+bool ContactDetector::are_near(int a, int b) const {
+  // No part of a robot is farther from its root than reach: one test for all pairs of parts.
+  const SimRobot& robot_a = *bodies_.robots[a];
+  const SimRobot& robot_b = *bodies_.robots[b];
+  const double far = robot_a.collisions().reach + robot_b.collisions().reach + kReach;
+  return (robot_a.state().position - robot_b.state().position).squaredNorm() <= far * far;
+}
+
+bool ContactDetector::is_near_ball(int index) const {
+  const SimRobot& robot = *bodies_.robots[index];
+  const double far = robot.collisions().reach + bodies_.ball->radius() + kReach;
+  return (robot.state().position - bodies_.ball->state().position).squaredNorm() <= far * far;
+}
+
+void ContactDetector::find(const Island& island, ContactCandidates& found) {
   // Order: floor, self, goals, pairs of robots, ball. The order decides in which sequence the
   // solver visits contacts, and so the last digits: it must not depend on anything but the state.
-  step_number_ = step_number;
-  candidates_.clear();
-  for (int i = 0; i < bodies_.num_robots(); ++i) place_parts(i);
-  for (int i = 0; i < bodies_.num_robots(); ++i) {
-    find_floor_contacts(i);
-    find_self_contacts(i);
-    if (!statics_.empty()) find_goal_contacts(i);
+  for (const int robot : island.robots) place_parts(robot);
+  for (const int robot : island.robots) {
+    find_floor_contacts(robot, found);
+    find_self_contacts(robot, found);
+    if (!statics_.empty()) find_goal_contacts(robot, found);
   }
-  for (PairMemory& pair : pair_memory_) find_robot_contacts(pair);
-  if (bodies_.ball) find_ball_contacts();
+  for (const int b : island.robots) {
+    for (const int a : island.robots) {
+      if (a >= b) break;
+      find_robot_contacts(pair_memory_[b * (b - 1) / 2 + a], found);
+    }
+  }
+  if (island.has_ball) find_ball_contacts(island, found);
 }
 
 Vector3d ContactDetector::velocity_of(const Surface& surface, int body,
@@ -142,7 +158,8 @@ Vector3d ContactDetector::velocity_of(const Surface& surface, int body,
 }
 
 void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int body_b,
-                          const Proximity& proximity, int foot, ContactMemory& memory) {
+                          const Proximity& proximity, int foot, ContactMemory& memory,
+                          ContactCandidates& found) const {
   const Vector3d relative =
       velocity_of(a, body_a, proximity.point) - velocity_of(b, body_b, proximity.point);
   const double approach_speed = -proximity.normal.dot(relative);
@@ -151,14 +168,10 @@ void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int bo
   // The distance is predicted to first order: d + h d'. Surfaces that may touch within the step
   // become constraints now, so that they cannot pass through each other before the next detection.
   if (proximity.distance - step_ * std::max(approach_speed, 0.0) > kMargin) return;
-  if (candidates_.size() == candidates_.capacity()) {
-    // Marked as looked at, so that it is counted once in a step.
-    memory = ContactMemory();
-    memory.last_step = step_number_;
-    ++num_dropped_;
-    return;
-  }
-  candidates_.push_back({a, b, body_a, body_b, foot, proximity, approach_speed, &memory});
+  if (found.add({a, b, body_a, body_b, foot, proximity, approach_speed, &memory})) return;
+  // Marked as looked at, so that it is counted once in a step.
+  memory = ContactMemory();
+  memory.last_step = step_number_;
 }
 
 // Distance of a sphere (a corner point with its radius) from the floor, and the point of contact in
@@ -180,7 +193,7 @@ Proximity ContactDetector::to_floor(const Vector3d& center, double radius) const
   return proximity;
 }
 
-void ContactDetector::find_floor_contacts(int index) {
+void ContactDetector::find_floor_contacts(int index, ContactCandidates& found) {
   const SimRobot& robot = *bodies_.robots[index];
   const CollisionModel& model = robot.collisions();
   for (size_t p = 0; p < model.parts.size(); ++p) {
@@ -196,7 +209,7 @@ void ContactDetector::find_floor_contacts(int index) {
       const Proximity proximity = to_floor(center, point.radius);
       if (proximity.distance > kReach) continue;
       add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1, proximity, point.sole,
-          robot_memory_[index].floor[i]);
+          robot_memory_[index].floor[i], found);
     }
   }
 }
@@ -204,7 +217,7 @@ void ContactDetector::find_floor_contacts(int index) {
 // After a solution of the step: points that are above the floor now but would be below it after the
 // step, since an impulse within the step (a push, an impact elsewhere) has changed their velocity.
 // They become candidates too. Returns whether there are any.
-bool ContactDetector::find_missed_floor_contacts(int index) {
+bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& found) {
   const SimRobot& robot = *bodies_.robots[index];
   const CollisionModel& model = robot.collisions();
   bool has_missed = false;
@@ -230,14 +243,14 @@ bool ContactDetector::find_missed_floor_contacts(int index) {
       // It had no force in the last step.
       memory = ContactMemory();
       add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1, proximity, point.sole,
-          memory);
+          memory, found);
       has_missed = true;
     }
   }
   return has_missed;
 }
 
-void ContactDetector::find_self_contacts(int index) {
+void ContactDetector::find_self_contacts(int index, ContactCandidates& found) {
   const CollisionModel& model = bodies_.robots[index]->collisions();
   for (size_t i = 0; i < model.self_pairs.size(); ++i) {
     const auto [a, b] = model.self_pairs[i];
@@ -253,16 +266,14 @@ void ContactDetector::find_self_contacts(int index) {
     if (proximity.distance > kReach) continue;
     add({Surface::Kind::kRobot, index, part_a.link}, part_a.body,
         {Surface::Kind::kRobot, index, part_b.link}, part_b.body, proximity, -1,
-        robot_memory_[index].self[i]);
+        robot_memory_[index].self[i], found);
   }
 }
 
-void ContactDetector::find_robot_contacts(PairMemory& pair) {
+void ContactDetector::find_robot_contacts(PairMemory& pair, ContactCandidates& found) {
   const SimRobot& robot_a = *bodies_.robots[pair.a];
   const SimRobot& robot_b = *bodies_.robots[pair.b];
-  // No part of a robot is farther from its root than reach: one test for all pairs of parts.
-  const double far = robot_a.collisions().reach + robot_b.collisions().reach + kReach;
-  if ((robot_a.state().position - robot_b.state().position).squaredNorm() > far * far) return;
+  if (!are_near(pair.a, pair.b)) return;
   const auto& parts_a = robot_a.collisions().parts;
   const auto& parts_b = robot_b.collisions().parts;
   for (size_t i = 0; i < parts_a.size(); ++i) {
@@ -275,12 +286,12 @@ void ContactDetector::find_robot_contacts(PairMemory& pair) {
       if (proximity.distance > kReach) continue;
       add({Surface::Kind::kRobot, pair.a, parts_a[i].link}, parts_a[i].body,
           {Surface::Kind::kRobot, pair.b, parts_b[j].link}, parts_b[j].body, proximity, -1,
-          pair.parts[i * parts_b.size() + j]);
+          pair.parts[i * parts_b.size() + j], found);
     }
   }
 }
 
-void ContactDetector::find_goal_contacts(int index) {
+void ContactDetector::find_goal_contacts(int index, ContactCandidates& found) {
   const CollisionModel& model = bodies_.robots[index]->collisions();
   const auto& parts = model.parts;
   const Vector3d& center = bodies_.robots[index]->state().position;
@@ -295,19 +306,19 @@ void ContactDetector::find_goal_contacts(int index) {
       const Proximity proximity = closest_points(part_shape(index, static_cast<int>(p)), fixed);
       if (proximity.distance > kReach) continue;
       add({Surface::Kind::kRobot, index, parts[p].link}, parts[p].body, {Surface::Kind::kGoal}, -1,
-          proximity, -1, robot_memory_[index].statics[s * parts.size() + p]);
+          proximity, -1, robot_memory_[index].statics[s * parts.size() + p], found);
     }
   }
 }
 
-void ContactDetector::find_ball_contacts() {
+void ContactDetector::find_ball_contacts(const Island& island, ContactCandidates& found) {
   // A sphere is a rounded box with half lengths of 0.
   RoundedBox ball;
   ball.center = bodies_.ball->state().position;
   ball.radius = bodies_.ball->radius();
   const Proximity on_floor = to_floor(ball.center, ball.radius);
   if (on_floor.distance < kReach) {
-    add({Surface::Kind::kBall}, -1, {}, -1, on_floor, -1, ball_floor_memory_);
+    add({Surface::Kind::kBall}, -1, {}, -1, on_floor, -1, ball_floor_memory_, found);
   }
   for (size_t s = 0; s < statics_.size(); ++s) {
     const RoundedBox& fixed = statics_[s].shape;
@@ -316,20 +327,18 @@ void ContactDetector::find_ball_contacts() {
     const Proximity proximity = closest_points(ball, fixed);
     if (proximity.distance > kReach) continue;
     const Surface surface{statics_[s].is_net ? Surface::Kind::kNet : Surface::Kind::kGoal};
-    add({Surface::Kind::kBall}, -1, surface, -1, proximity, -1, ball_static_memory_[s]);
+    add({Surface::Kind::kBall}, -1, surface, -1, proximity, -1, ball_static_memory_[s], found);
   }
-  for (int r = 0; r < bodies_.num_robots(); ++r) {
-    const SimRobot& robot = *bodies_.robots[r];
-    const double far = robot.collisions().reach + ball.radius + kReach;
-    if ((robot.state().position - ball.center).squaredNorm() > far * far) continue;
-    const auto& parts = robot.collisions().parts;
+  for (const int r : island.robots) {
+    if (!is_near_ball(r)) continue;
+    const auto& parts = bodies_.robots[r]->collisions().parts;
     for (size_t p = 0; p < parts.size(); ++p) {
       const double reach = ball.radius + parts[p].bounding_radius + kReach;
       if ((ball.center - placed_[r][p].shape.center).squaredNorm() > reach * reach) continue;
       const Proximity proximity = closest_points(ball, part_shape(r, static_cast<int>(p)));
       if (proximity.distance > kReach) continue;
       add({Surface::Kind::kBall}, -1, {Surface::Kind::kRobot, r, parts[p].link}, parts[p].body,
-          proximity, -1, robot_memory_[r].ball[p]);
+          proximity, -1, robot_memory_[r].ball[p], found);
     }
   }
 }

@@ -3,9 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/contact.h"
+#include "sim/contact_candidates.h"
 #include "sim/floor.h"
 #include "sim/goal_shapes.h"
+#include "sim/island.h"
 #include "sim/moving_bodies.h"
 
 namespace nao::sim {
@@ -31,27 +32,28 @@ class ContactDetector {
   void add_robot();
   /** Forgets a robot; those after it move up. */
   void remove_robot(int robot);
-  /** Takes memory for the candidates of a step; more are dropped and counted. */
-  void reserve(int max_candidates) { candidates_.reserve(max_candidates); }
+  /** Begins a step. @param step_number  Rising by 1 from step to step. */
+  void begin_step(int64_t step_number) { step_number_ = step_number; }
+  /** Whether two robots may touch within the step, or a robot the ball, as far as their bounding
+   * spheres tell. */
+  bool are_near(int robot_a, int robot_b) const;
+  bool is_near_ball(int robot) const;
 
-  /** Finds the candidates of a step, with the robots' positions and velocities at its start.
-   * @param step_number  Rising by 1 from step to step. */
-  void find(int64_t step_number);
+  // Of different islands at the same time.
+
+  /** Adds the candidates of an island, with positions and velocities at the step's start, in a
+   * fixed order. */
+  void find(const Island& island, ContactCandidates& found);
   /** Adds candidates for a robot's points that would be in the floor after the step with the
    * velocities that its dynamics has now, and are no candidates yet.
    * @return Whether there were any. */
-  bool find_missed_floor_contacts(int robot);
-
-  /** Of this step, in a fixed order. Elements stay where they are until the next find(). */
-  const std::vector<ContactCandidate>& candidates() const { return candidates_; }
-  /** Candidates beyond the memory since the last clear(): they carry no force. */
-  int64_t num_dropped() const { return num_dropped_; }
+  bool find_missed_floor_contacts(int robot, ContactCandidates& found);
 
   /** Forgets the contacts of a robot with the floor and itself: it was placed somewhere else. */
   void forget_robot(int robot);
   /** Forgets the ball's contact with the floor: it was placed somewhere else. */
   void forget_ball();
-  /** Forgets all contacts and counts from 0 again. */
+  /** Forgets all contacts. */
   void clear();
 
  private:
@@ -68,7 +70,7 @@ class ContactDetector {
     std::vector<ContactMemory> statics;
     std::vector<ContactMemory> ball;
   };
-  /** Memories of two robots' possible contacts: each part of a with each of b (a major). */
+  /** Memories of two robots' possible contacts, a < b: each part of a with each of b (a major). */
   struct PairMemory {
     int a;
     int b;
@@ -79,14 +81,14 @@ class ContactDetector {
   const RoundedBox& part_shape(int robot, int part);
   /** Distance and normal between a sphere and the floor. @param center  In W, m. */
   Proximity to_floor(const Eigen::Vector3d& center, double radius) const;
-  void find_floor_contacts(int robot);
-  void find_self_contacts(int robot);
-  void find_goal_contacts(int robot);
-  void find_robot_contacts(PairMemory& pair);
-  void find_ball_contacts();
+  void find_floor_contacts(int robot, ContactCandidates& found);
+  void find_self_contacts(int robot, ContactCandidates& found);
+  void find_goal_contacts(int robot, ContactCandidates& found);
+  void find_robot_contacts(PairMemory& pair, ContactCandidates& found);
+  void find_ball_contacts(const Island& island, ContactCandidates& found);
   /** Adds a candidate if the surfaces will be within the margin after the step. */
   void add(const Surface& a, int body_a, const Surface& b, int body_b, const Proximity& proximity,
-           int foot, ContactMemory& memory);
+           int foot, ContactMemory& memory, ContactCandidates& found) const;
   Eigen::Vector3d velocity_of(const Surface& surface, int body, const Eigen::Vector3d& point) const;
 
   const MovingBodies& bodies_;
@@ -94,11 +96,10 @@ class ContactDetector {
   double step_;
   std::vector<StaticShape> statics_;
   int64_t step_number_ = 0;
-  int64_t num_dropped_ = 0;
-  std::vector<ContactCandidate> candidates_;
   /** Parts of each robot. */
   std::vector<std::vector<PlacedPart>> placed_;
   std::vector<RobotMemory> robot_memory_;
+  /** Of (0, 1), (0, 2), (1, 2), (0, 3)... */
   std::vector<PairMemory> pair_memory_;
   ContactMemory ball_floor_memory_;
   std::vector<ContactMemory> ball_static_memory_;

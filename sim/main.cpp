@@ -58,6 +58,11 @@ int main(int argc, char** argv) {
   app.add_option("--engine", options.engine,
                  "Physics engine: fast, simbody, or mujoco where it was built")
       ->show_default();
+  app.add_option("--threads", options.num_threads,
+                 "Threads that compute the physics of robots which are far from each other; "
+                 "the result does not depend on it")
+      ->range(1, 64)
+      ->show_default();
   app.add_option("--disturbances", options.disturbances,
                  "How robot and floor differ from their models: none, default, moderate, real, or "
                  "entries of real such as backlash,floor_slope (empty: sensor noise only)");

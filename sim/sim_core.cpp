@@ -44,6 +44,7 @@ std::optional<DisturbanceSet> find_disturbances(const SimOptions& options) {
 WorldOptions world_options(const SimOptions& options) {
   WorldOptions result;
   result.engine = options.engine;
+  result.num_threads = options.num_threads;
   result.seed = options.seed;
   if (const auto disturbances = find_disturbances(options)) {
     draw_world(*disturbances, options.seed, result);

@@ -18,6 +18,8 @@ struct SimOptions {
   std::string posture{};
   /** See WorldOptions::engine. */
   std::string engine = "fast";
+  /** See WorldOptions::num_threads. */
+  int num_threads = 1;
   /** Simulated seconds per wall second, 0 for as fast as possible. */
   double pace = 1;
   /** Compute a tick only when every robot's command for the one before was received. */

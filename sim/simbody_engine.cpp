@@ -215,8 +215,7 @@ class SimbodyEngine::RobotSystem {
 
   void add_contacts(SimTK::Vector_<SimTK::SpatialVec>& body_forces) const {
     // Contacts of all bodies are found, and those of this robot applied.
-    engine_.detector_.find(engine_.num_steps_);
-    for (const ContactCandidate& contact : engine_.detector_.candidates()) {
+    for (const ContactCandidate& contact : engine_.find_candidates()) {
       const bool is_a = contact.a.kind == Surface::Kind::kRobot && contact.a.robot == index_;
       const bool is_b = contact.b.kind == Surface::Kind::kRobot && contact.b.robot == index_;
       if (!is_a && !is_b) continue;
@@ -359,8 +358,7 @@ class SimbodyEngine::BallSystem {
     Vector3d force =
         ball_.description().mass * engine_.options_.gravity + impulse_ / engine_.options_.step;
     Vector3d moment = Vector3d::Zero();
-    engine_.detector_.find(engine_.num_steps_);
-    for (const ContactCandidate& contact : engine_.detector_.candidates()) {
+    for (const ContactCandidate& contact : engine_.find_candidates()) {
       if (contact.a.kind != Surface::Kind::kBall) continue;
       const Vector3d pressing = force_on_a(contact, engine_.bodies_, engine_.options_);
       force += pressing;
@@ -405,7 +403,8 @@ SimbodyEngine::SimbodyEngine(const SceneFile& scene, const WorldOptions& options
     : options_(options),
       bodies_(bodies),
       detector_(scene, bodies, Floor(options.floor), options.step) {
-  detector_.reserve(kMaxCandidates);
+  whole_.has_ball = bodies_.ball.has_value();
+  candidates_.reserve(kMaxCandidates);
   if (bodies_.ball) ball_ = std::make_unique<BallSystem>(*this);
 }
 
@@ -413,13 +412,15 @@ SimbodyEngine::~SimbodyEngine() = default;
 
 void SimbodyEngine::add_robot() {
   detector_.add_robot();
-  detector_.reserve(kMaxCandidates * (1 + bodies_.num_robots()));
+  whole_.robots.push_back(bodies_.num_robots() - 1);
+  candidates_.reserve(kMaxCandidates * (1 + bodies_.num_robots()));
   robots_.push_back(std::make_unique<RobotSystem>(*this, bodies_.num_robots() - 1));
 }
 
 void SimbodyEngine::reset() {
   num_steps_ = 0;
   detector_.clear();
+  candidates_.reset_count();
   contacts_.clear();
   for (const auto& robot : robots_) robot->start();
   if (ball_ != nullptr) ball_->start();
@@ -444,10 +445,16 @@ void SimbodyEngine::step() {
   for (const auto& robot : robots_) robot->end_step(options_.step);
 }
 
+const std::vector<ContactCandidate>& SimbodyEngine::find_candidates() {
+  detector_.begin_step(num_steps_);
+  candidates_.clear();
+  detector_.find(whole_, candidates_);
+  return candidates_.list();
+}
+
 void SimbodyEngine::collect_contacts() {
   contacts_.clear();
-  detector_.find(num_steps_);
-  for (const ContactCandidate& contact : detector_.candidates()) {
+  for (const ContactCandidate& contact : find_candidates()) {
     const Vector3d force = force_on_a(contact, bodies_, options_);
     if (force.isZero(0)) continue;
     const Vector3d& point = contact.proximity.point;

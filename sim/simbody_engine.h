@@ -29,17 +29,22 @@ class SimbodyEngine : public Engine {
 
   int64_t num_steps() const override { return num_steps_; }
   const std::vector<Contact>& contacts() const override { return contacts_; }
-  int64_t num_dropped_contacts() const override { return detector_.num_dropped(); }
+  int64_t num_dropped_contacts() const override { return candidates_.num_dropped(); }
 
  private:
   class RobotSystem;
   class BallSystem;
 
+  /** Of all bodies where they are now. */
+  const std::vector<ContactCandidate>& find_candidates();
   void collect_contacts();
 
   const WorldOptions& options_;
   MovingBodies& bodies_;
   ContactDetector detector_;
+  /** All bodies: they are stepped together. */
+  Island whole_;
+  ContactCandidates candidates_;
   std::vector<std::unique_ptr<RobotSystem>> robots_;
   std::unique_ptr<BallSystem> ball_;
   std::vector<Contact> contacts_;

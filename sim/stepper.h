@@ -2,13 +2,15 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "sim/constraint_solver.h"
-#include "sim/contact_assembler.h"
 #include "sim/contact_detector.h"
 #include "sim/engine.h"
+#include "sim/island_stepper.h"
+#include "sim/islands.h"
 #include "sim/moving_bodies.h"
+#include "sim/step_threads.h"
 #include "sim/world_options.h"
 
 namespace nao::sim {
@@ -18,7 +20,10 @@ namespace nao::sim {
  * Semi-implicit Euler: forces and constraints give the velocities at the end of the step, and the
  * positions follow with them. Servos, the motors' torque-speed lines and viscous friction are
  * implicit (on the diagonal of the mass matrix); contacts, joint stops, dry friction and torque
- * limits are constraints that a projected Gauss-Seidel solver meets. See docs/physics.md. */
+ * limits are constraints that a projected Gauss-Seidel solver meets. See docs/physics.md.
+ *
+ * Islands are stepped one after the other, or by several threads (WorldOptions::num_threads), with
+ * the same bits as result: no island reads what another one writes. */
 class Stepper : public Engine {
  public:
   /** @param bodies, options  Must outlive this. */
@@ -37,12 +42,11 @@ class Stepper : public Engine {
   void forget_contacts_of_ball() override { detector_.forget_ball(); }
 
   int64_t num_steps() const override { return num_steps_; }
-  const std::vector<Contact>& contacts() const override { return assembler_.contacts(); }
-  double elastic_energy() const override { return assembler_.elastic_energy(); }
-  int64_t num_dropped_contacts() const override {
-    return detector_.num_dropped() + num_dropped_blocks_;
-  }
+  const std::vector<Contact>& contacts() const override { return contacts_; }
+  double elastic_energy() const override { return elastic_energy_; }
+  int64_t num_dropped_contacts() const override;
   int last_iterations() const override { return last_iterations_; }
+  /** The stages of all islands, one island after the other, in one thread. */
   void set_stage_probe(StageProbe probe, void* user) override {
     stage_probe_ = probe;
     stage_probe_user_ = user;
@@ -50,25 +54,23 @@ class Stepper : public Engine {
 
  private:
   void reserve();
-  void finish_stage(Stage stage) {
-    if (stage_probe_ != nullptr) stage_probe_(stage, stage_probe_user_);
-  }
-  void begin_step();
-  void add_contacts(size_t first_candidate);
-  void solve();
-  bool add_missed_constraints();
-  void end_step();
+  void clear_contacts();
+  /** Puts together what the islands' steps left. */
+  void collect(size_t num_islands);
 
   const WorldOptions& options_;
   MovingBodies& bodies_;
   ContactDetector detector_;
-  ContactAssembler assembler_;
-  ConstraintSolver solver_;
+  Islands islands_;
+  /** One for each possible island. */
+  std::vector<std::unique_ptr<IslandStepper>> steppers_;
+  StepThreads threads_;
   /** The generalized velocity u of all bodies, scaled by the factor of the mass matrix M = L^T L:
    * L u, (num_dofs). */
   Eigen::VectorXd scaled_velocity_;
+  std::vector<Contact> contacts_;
+  double elastic_energy_ = 0;
   int64_t num_steps_ = 0;
-  int64_t num_dropped_blocks_ = 0;
   int last_iterations_ = 0;
   StageProbe stage_probe_ = nullptr;
   void* stage_probe_user_ = nullptr;

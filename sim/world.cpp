@@ -20,6 +20,8 @@ void check(bool is_valid, const std::string& name, double value, const std::stri
 WorldOptions checked(const WorldOptions& options) {
   check(options.step > 0, "physics step", options.step, "above 0 s");
   check(options.steps_per_tick >= 1, "steps per tick", options.steps_per_tick, "1 or more");
+  check(options.num_threads >= 1 && options.num_threads <= 64, "number of threads",
+        options.num_threads, "1 to 64");
   check(options.num_sole_points >= 3, "number of sole points", options.num_sole_points,
         "3 or more");
   check(options.floor.bump_height >= 0, "height of bumps", options.floor.bump_height,

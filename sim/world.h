@@ -19,8 +19,8 @@ namespace nao::sim {
 /** A simulated world: a floor, robots, and as the scene has them a ball and goals.
  *
  * Frame W: x along the field, y left, z up, origin on the ground at the center of the field.
- * SI units and rad. The same calls on the same build give the same bits: no clock, thread, file or
- * log is used here. step_tick() allocates nothing with the fast engine.
+ * SI units and rad. The same calls on the same build give the same bits, with any number of
+ * threads: no clock, file or log is used here. step_tick() allocates nothing with the fast engine.
  *
  *     World world(SceneFile::find("soccer"));
  *     const int robot = world.add_robot(model);

@@ -33,7 +33,9 @@ TEST(Allocation, IsCounted) {
 }
 
 TEST(Allocation, NoneInATick) {
-  World world(SceneFile::find("soccer"));
+  WorldOptions options;
+  options.num_threads = 2;
+  World world(SceneFile::find("soccer"), options);
   world.add_robot(nao_model());
   RobotOptions other;
   other.name = "OTHER";

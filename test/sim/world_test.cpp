@@ -128,6 +128,71 @@ TEST(World, PlacesTheRobotOnItsLowestPoint) {
   }
 }
 
+/** Robots in two rows, of which neighbours may fall over one another, and a ball that rolls among
+ * them, all pushed about. @return The states of all ticks, as bytes. */
+std::string crowd(int num_threads, double seconds, int64_t* num_touching) {
+  WorldOptions options;
+  options.num_threads = num_threads;
+  World world(SceneFile::find("soccer"), options);
+  constexpr int kNumRobots = 6;
+  for (int i = 0; i < kNumRobots; ++i) {
+    RobotOptions robot;
+    robot.name = "R" + std::to_string(i);
+    robot.position = {-2.0 + 0.5 * static_cast<double>(i / 2), i % 2 == 0 ? -1 : 1};
+    world.add_robot(nao_model(), robot);
+  }
+  Random random(3);
+  std::string all;
+  for (int tick = 0; tick < seconds * 100; ++tick) {
+    if (tick % 50 == 0) {
+      for (int i = 0; i < kNumRobots; ++i) {
+        world.push(i, 0, {3 * random.normal(), 3 * random.normal(), 0});
+      }
+      world.place_ball({-1.8, 1.4, 0}, {random.normal(), -2, 0});
+    }
+    world.step_tick();
+    for (const Contact& contact : world.contacts()) {
+      *num_touching +=
+          contact.a.robot >= 0 && contact.b.robot >= 0 && contact.a.robot != contact.b.robot;
+    }
+    all += bytes_of(world);
+  }
+  return all;
+}
+
+TEST(World, HasTheSameBitsWithAnyNumberOfThreads) {
+  int64_t num_touching = 0;
+  const std::string alone = crowd(1, 6, &num_touching);
+  // Islands form and dissolve: robots fall over one another.
+  EXPECT_GT(num_touching, 20);
+  EXPECT_EQ(crowd(2, 6, &num_touching), alone);
+  EXPECT_EQ(crowd(5, 6, &num_touching), alone);
+}
+
+/** A robot's states over some ticks, with others in the world or without. */
+std::string states_of_first(int num_robots) {
+  World world(SceneFile::find("soccer"));
+  for (int i = 0; i < num_robots; ++i) {
+    RobotOptions robot;
+    robot.name = "R" + std::to_string(i);
+    robot.position = {-2.0 + 1.5 * i, 1};
+    world.add_robot(nao_model(), robot);
+    world.push(i, 0, {0.5 * i, 1, 0});
+  }
+  std::string all;
+  for (int tick = 0; tick < 200; ++tick) {
+    world.step_tick();
+    const TreeState& state = world.robot(0).state();
+    all.append(reinterpret_cast<const char*>(state.velocity.data()),
+               sizeof(double) * static_cast<size_t>(state.velocity.size()));
+  }
+  return all;
+}
+
+TEST(World, ARobotFarFromOthersMovesAsIfItWereAlone) {
+  EXPECT_EQ(states_of_first(3), states_of_first(1));
+}
+
 TEST(World, PutsBackARobotThatLeftAllBounds) {
   World world{SceneFile{}};
   world.add_robot(nao_model());
@@ -165,6 +230,9 @@ TEST(World, CountsContactsBeyondItsMemory) {
 TEST(World, RejectsOptionsOutsideTheirRange) {
   WorldOptions options;
   options.step = 0;
+  EXPECT_THROW(World(SceneFile{}, options), ConfigError);
+  options = WorldOptions();
+  options.num_threads = 0;
   EXPECT_THROW(World(SceneFile{}, options), ConfigError);
   World world{SceneFile{}};
   RobotOptions how;

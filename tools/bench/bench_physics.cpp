@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/command_line.h"
+#include "common/wall_clock.h"
 #include "robot_model/robot_model.h"
 #include "sim/world.h"
 #include "tools/bench/cpu_time.h"
@@ -308,6 +309,35 @@ void measure_robots(std::vector<Figure>& figures) {
   }
 }
 
+/** Ten standing robots far from each other: wall time of a step with one thread over
+ * that with two. Meaningful on two idle cores only. */
+void measure_threads(std::vector<Figure>& figures) {
+  std::vector<std::unique_ptr<World>> all;
+  for (const int num_threads : {1, 2}) {
+    WorldOptions options;
+    options.num_threads = num_threads;
+    all.push_back(std::make_unique<World>(SceneFile::find("soccer"), options));
+    for (int i = 0; i < 10; ++i) {
+      RobotOptions robot;
+      robot.name = "R" + std::to_string(i);
+      robot.position = {-2.0 + i / 2, i % 2 == 0 ? -1 : 1};
+      all.back()->add_robot(nao_model(), robot);
+    }
+    for (int i = 0; i < 200; ++i) all.back()->step_tick();
+  }
+  std::array<std::vector<double>, 2> times;
+  for (int round = 0; round < 41; ++round) {
+    for (size_t i = 0; i < all.size(); ++i) {
+      const double start = monotonic_seconds();
+      for (int tick = 0; tick < 20; ++tick) all[i]->step_tick();
+      times[i].push_back(monotonic_seconds() - start);
+    }
+  }
+  const double one = median(times[0]);
+  const double two = median(times[1]);
+  figures.push_back({"physics.threads_2_speedup", one / two, "x", "one thread", 1});
+}
+
 void measure(int rounds, const std::string& json_file) {
   std::vector<Figure> figures;
   PhysicsScenario standing;
@@ -334,6 +364,7 @@ void measure(int rounds, const std::string& json_file) {
   measure_stages(standing, figures);
   measure_contacts(standing, figures);
   measure_robots(figures);
+  measure_threads(figures);
 
   for (const PhysicsScenario* scenario :
        std::vector<const PhysicsScenario*>{&fall, &standing, &walk, &lying}) {

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/contact.h"
+
+namespace nao::sim {
+
+/** The contact candidates of a step, in memory that is taken once; those beyond it are left out and
+ * counted. */
+class ContactCandidates {
+ public:
+  void reserve(int max_candidates) { list_.reserve(max_candidates); }
+  /** Removes the candidates, and goes on counting. */
+  void clear() { list_.clear(); }
+  void reset_count() { num_dropped_ = 0; }
+
+  /** @return false if there was no room. */
+  bool add(const ContactCandidate& candidate) {
+    if (list_.size() == list_.capacity()) {
+      ++num_dropped_;
+      return false;
+    }
+    list_.push_back(candidate);
+    return true;
+  }
+
+  /** In the order in which they were added. They stay where they are until clear(). */
+  const std::vector<ContactCandidate>& list() const { return list_; }
+  /** Left out since reset_count(). */
+  int64_t num_dropped() const { return num_dropped_; }
+
+ private:
+  std::vector<ContactCandidate> list_;
+  int64_t num_dropped_ = 0;
+};
+
+}  // namespace nao::sim

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "sim/constraint_solver.h"
+#include "sim/contact_assembler.h"
+#include "sim/contact_candidates.h"
+#include "sim/contact_detector.h"
+#include "sim/engine.h"
+#include "sim/islands.h"
+#include "sim/moving_bodies.h"
+#include "sim/world_options.h"
+
+namespace nao::sim {
+
+/** One time step of the bodies of an island, and the memory for it.
+ *
+ * Touches no body outside the island, and of a vector over all bodies only the island's elements:
+ * different islands may be stepped at the same time. */
+class IslandStepper {
+ public:
+  /** What a step needs to know beside the island. */
+  struct Step {
+    int64_t number = 0;
+    Engine::StageProbe probe = nullptr;
+    void* probe_user = nullptr;
+  };
+
+  /** All must outlive this. @param detector  The same one for all islands. */
+  IslandStepper(MovingBodies& bodies, const WorldOptions& options, ContactDetector& detector);
+
+  /** Takes memory. @param max_robots  Of an island. @param num_dofs  Of all bodies.
+   * @param max_chain  Most dofs between a root and a body of its robot. */
+  void reserve(int max_robots, int num_dofs, int max_chain);
+
+  /** Nothing is allocated. @param scaled_velocity  Workspace, (num_dofs). */
+  void step(const Island& island, const Step& step, Eigen::VectorXd& scaled_velocity);
+  /** Forgets the last step's contacts. */
+  void clear() { assembler_.clear(); }
+  void reset_count();
+  size_t max_contacts() const { return max_contacts_; }
+
+  /** Of the last step: contacts with a force; what their springs store, J; solver iterations. */
+  const std::vector<Contact>& contacts() const { return assembler_.contacts(); }
+  double elastic_energy() const { return assembler_.elastic_energy(); }
+  int iterations() const { return iterations_; }
+  /** Contacts left out since reset_count(). */
+  int64_t num_dropped() const { return candidates_.num_dropped() + num_dropped_blocks_; }
+
+ private:
+  void begin_step(const Island& island, const Step& step, Eigen::VectorXd& scaled_velocity);
+  void add_contacts(size_t first_candidate);
+  void solve(const Island& island, Eigen::VectorXd& scaled_velocity);
+  bool add_missed_constraints(const Island& island, const Eigen::VectorXd& scaled_velocity);
+  void end_step(const Island& island, const Eigen::VectorXd& scaled_velocity);
+
+  const WorldOptions& options_;
+  MovingBodies& bodies_;
+  ContactDetector& detector_;
+  ContactCandidates candidates_;
+  ContactAssembler assembler_;
+  ConstraintSolver solver_;
+  size_t max_contacts_ = 0;
+  int64_t num_dropped_blocks_ = 0;
+  int iterations_ = 0;
+};
+
+}  // namespace nao::sim

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/island.h"
+
+namespace nao::sim {
+
+class ContactDetector;
+
+/** Divides robots and ball into islands: the connected components of the graph whose edges are
+ * pairs of bodies near each other. Floor and goals do not move and connect nothing. */
+class Islands {
+ public:
+  /** Takes memory. */
+  void reserve(int num_robots, bool has_ball);
+
+  /** @param detector  Tells who is near whom. @return Ordered by their first robot; the ball's own
+   * one last. Valid until the next call. Allocates nothing. */
+  std::span<const Island> find(const ContactDetector& detector);
+
+ private:
+  /** Representative of a body's component: its least body. The ball comes after the robots. */
+  int root_of(int body) const;
+  void connect(int a, int b);
+
+  int num_robots_ = 0;
+  bool has_ball_ = false;
+  std::vector<int> parents_;
+  /** Index of a root's island. */
+  std::vector<int> island_of_root_;
+  std::vector<Island> islands_;
+};
+
+}  // namespace nao::sim
