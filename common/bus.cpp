@@ -53,6 +53,8 @@ void Bus::subscribe_raw(const std::string& pattern,
   receiver->bus = this;
   // Chosen: about 2 s of the traffic of one robot, 500 messages/s.
   constexpr int kQueueCapacity = 1000;
+  open_socket();
+  filter_.pass_all();
   lcm_.subscribe(pattern, &RawReceiver::receive, receiver.get())->setQueueCapacity(kQueueCapacity);
   raw_receivers_.push_back(std::move(receiver));
 }

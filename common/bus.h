@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/channel_filter.h"
 #include "common/rate_limiter.h"
 
 namespace nao {
@@ -23,6 +24,7 @@ struct BusCounters {
 
 /** The message bus: LCM, with protection against malformed messages.
  *
+ * Messages on channels that nobody has subscribed to do not wake the process (ChannelFilter).
  * A message that does not decode, or whose handler throws, is counted, reported at most once a
  * second, and dropped. No exception propagates through LCM's C code. Not thread-safe. */
 class Bus {
@@ -68,9 +70,11 @@ class Bus {
       }
     };
     receiver->counters = &counters_;
+    open_socket();
     lcm::Subscription* subscription = lcm_.subscribe(channel, &Receiver::receive, receiver.get());
     subscription->setQueueCapacity(queue == Queue::kLatest ? 1 : 0);
     receivers_.push_back(std::move(receiver));
+    filter_.add(channel);
   }
 
   /** Calls `handler(channel, data, num_bytes)` for every message on the channels that match a
@@ -79,7 +83,10 @@ class Bus {
                      std::function<void(const std::string&, const uint8_t*, int)> handler);
 
   /** Descriptor that is readable while a message is queued; for EventLoop::on_readable(). */
-  int descriptor() { return lcm_.getFileno(); }
+  int descriptor() {
+    open_socket();
+    return lcm_.getFileno();
+  }
 
   /** Handles every queued message without blocking. */
   void handle();
@@ -105,10 +112,15 @@ class Bus {
     void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   };
 
+  /** LCM opens its socket when it first has to receive. */
+  void open_socket() {
+    filter_.open_socket([this] { (void)lcm_.getFileno(); });
+  }
   void count_sent(const std::string& channel, bool sent);
   void drop(const std::string& channel, const std::string& why);
 
   lcm::LCM lcm_;
+  ChannelFilter filter_;
   std::vector<std::shared_ptr<Receiver>> receivers_;
   std::vector<std::shared_ptr<RawReceiver>> raw_receivers_;
   BusCounters counters_;
