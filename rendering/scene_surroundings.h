@@ -22,6 +22,8 @@ class SceneSurroundings {
   /** Why the current scene could not be loaded; empty if it could. */
   const std::string& problem() const { return problem_; }
 
+  /** Nothing without a field, or before set(). */
+  const std::optional<FieldDimensions>& field() const { return file_.field; }
   /** Radius of the ball, m; of the standard one where the scene has none. */
   double ball_radius() const;
 

@@ -343,6 +343,8 @@ def command_of(process, stack, settings, options, robots):
     elif program == GATEWAY:
         words += [*gateway_options(stack, settings), "--tcp-port", settings["tcp_port"],
                   "--audit-log", stack.logs / "phones.jsonl"]
+        # A camera program may run on another host.
+        words += ["--overview"] if options.backend != "robot" and (CAMERA in options.programs or options.only) else []
     elif program == VISION:
         words += ["--request", "any"]
         if options.scene != "empty":

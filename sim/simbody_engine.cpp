@@ -122,6 +122,8 @@ class SimbodyEngine::RobotSystem {
         forces_(model_.system()),
         state_(robot_.state()),
         impulses_(Eigen::VectorXd::Zero(robot_.tree().num_dofs())) {
+    // The force belongs to forces_.
+    // NOLINTNEXTLINE(bugprone-unused-raii)
     SimTK::Force::Custom(forces_, new OwnersForce<RobotSystem>(*this));
     model_.system().realizeTopology();
     for (int body = 0; body < robot_.tree().num_bodies(); ++body) {
@@ -323,6 +325,7 @@ class SimbodyEngine::BallSystem {
         {ball.mass, SimTK::Vec3(0), ball.mass * SimTK::UnitInertia::sphere(ball.radius)});
     body_ =
         SimTK::MobilizedBody::Free(matter_.Ground(), SimTK::Transform(), body, SimTK::Transform());
+    // NOLINTNEXTLINE(bugprone-unused-raii)
     SimTK::Force::Custom(forces_, new OwnersForce<BallSystem>(*this));
     system_.realizeTopology();
     start();

@@ -6,6 +6,7 @@
 #include "common/error.h"
 #include "daemons/head-camera/half_size.h"
 #include "daemons/head-camera/image_requests.h"
+#include "daemons/head-camera/overview.h"
 
 namespace nao::camera {
 namespace {
@@ -14,7 +15,8 @@ namespace {
  * are visible only above a few pixels a step. */
 constexpr int kNumExposureSamples = 4;
 
-const CameraModel& find_camera(const RobotModel& model, const std::string& name) {
+CameraModel find_camera(const RobotModel& model, const std::string& name) {
+  if (name == kOverviewCamera) return overview_camera();
   for (const CameraModel& camera : model.cameras()) {
     if (camera.name == name) return camera;
   }
@@ -57,11 +59,12 @@ std::vector<std::string> HeadCamera::take_problems() {
   return std::exchange(problems_, {});
 }
 
-// Renders the world as this camera sees it into the framebuffer. The camera's own head is hidden:
-// its lens looks out of the shell.
+// Renders the world as this camera sees it into the framebuffer. A head camera's own head is
+// hidden: its lens looks out of the shell.
 void HeadCamera::draw(const WorldState& world, const std::string& camera) {
-  const CameraModel& description = find_camera(model_, camera);
-  if (world.find_robot(options_.robot) == nullptr) {
+  const CameraModel description = find_camera(model_, camera);
+  const bool is_overview = camera == kOverviewCamera;
+  if (!is_overview && world.find_robot(options_.robot) == nullptr) {
     throw Error("the world has no robot \"" + options_.robot + "\"");
   }
   if (surroundings_.set(world.scene) && !surroundings_.problem().empty()) {
@@ -70,11 +73,12 @@ void HeadCamera::draw(const WorldState& world, const std::string& camera) {
   scene_.clear();
   Eigen::Isometry3d pose_camera_in_world = Eigen::Isometry3d::Identity();
   for (const RobotPose& robot : world.robots) {
-    const bool is_own = robot.name == options_.robot;
+    const bool is_own = !is_overview && robot.name == options_.robot;
     const int hidden_link = is_own ? carrying_link(model_, description.link) : -1;
     const auto poses = visuals_.append(scene_, robot, Color::Ones(), hidden_link);
     if (is_own) pose_camera_in_world = poses[description.link];
   }
+  if (is_overview) pose_camera_in_world = overview_pose(surroundings_.field(), world);
   if (world.pose_ball_in_world) {
     scene_.ball = SceneBall{world.pose_ball_in_world->cast<float>(),
                             static_cast<float>(surroundings_.ball_radius())};
@@ -123,10 +127,16 @@ void HeadCamera::distort() {
   std::swap(frame_.bgrx[0], distorted_);
 }
 
+bool HeadCamera::is_exposed(const std::string& camera, const WorldState& world,
+                            const WorldState* earlier) const {
+  // Blur needs a state before this one; after a restart there is none.
+  return options_.exposure > 0 && camera != kOverviewCamera && earlier != nullptr &&
+         earlier->utime < world.utime;
+}
+
 const CameraFrame& HeadCamera::take(const WorldState& world, const std::string& camera,
                                     int min_width, const WorldState* earlier) {
-  // Blur needs a state before this one; after a restart there is none.
-  if (options_.exposure > 0 && earlier != nullptr && earlier->utime < world.utime) {
+  if (is_exposed(camera, world, earlier)) {
     expose(*earlier, world, camera);
   } else {
     draw(world, camera);
@@ -135,7 +145,7 @@ const CameraFrame& HeadCamera::take(const WorldState& world, const std::string& 
   }
   // Order of a real camera: lens, then sensor noise, then the smaller sizes made of it.
   distort();
-  if (noise_) noise_->add(frame_.bgrx[0], frame_.utime);
+  if (noise_ && camera != kOverviewCamera) noise_->add(frame_.bgrx[0], frame_.utime);
   make_smaller(min_width);
   return frame_;
 }

@@ -42,8 +42,8 @@ struct CameraFrame {
 /** Intrinsics of a camera's images of kFullWidth x kFullHeight. */
 PinholeCamera pinhole_of(const CameraModel& camera);
 
-/** The robot's head cameras: computes images from states of the world. It uses neither the bus nor
- * a clock. */
+/** The robot's head cameras, and the overview of its world: computes images from states of the
+ * world. It uses neither the bus nor a clock. */
 class HeadCamera {
  public:
   /** Opens its own graphics context, which stays current in this thread.
@@ -53,12 +53,13 @@ class HeadCamera {
   HeadCamera(const RobotModel& model, const HeadCameraOptions& options);
 
   /** Computes the image of one camera, also available as frame().
-   * @param camera  Camera name.
+   * @param camera  Name of a camera of the robot, or kOverviewCamera: without lens distortion,
+   *   exposure and noise, and also where the robot is not in the world.
    * @param min_width  Sizes below this width are not computed.
    * @param earlier  A state shortly before `world`, from which the motion during the exposure is
    *   interpolated; nullptr if there is none: the image is then not blurred, and its exposure time
    *   is 0.
-   * @throws Error  if the robot is not in the world or has no such camera. */
+   * @throws Error  if the robot, whose camera it is, is not in the world or has no such camera. */
   const CameraFrame& take(const WorldState& world, const std::string& camera, int min_width,
                           const WorldState* earlier = nullptr);
 
@@ -75,6 +76,9 @@ class HeadCamera {
   std::vector<std::string> take_problems();
 
  private:
+  /** Whether an image of this camera is blurred by motion. */
+  bool is_exposed(const std::string& camera, const WorldState& world,
+                  const WorldState* earlier) const;
   void expose(const WorldState& earlier, const WorldState& world, const std::string& camera);
   void distort();
 

@@ -49,7 +49,8 @@ HeadCameraDaemon::HeadCameraDaemon(Bus& bus, const RobotModel& model,
       options_(options),
       channels_(options.robot),
       status_(bus, kProgram),
-      source_(make_source(bus, model, options)) {
+      source_(make_source(bus, model, options)),
+      cameras_(source_->cameras()) {
   logger::info("{}", source_->description());
   if (options.webots_port) {
     webots_.emplace(camera_names(model), *options.webots_port);
@@ -78,7 +79,7 @@ void HeadCameraDaemon::attach(EventLoop& loop) {
 
 void HeadCameraDaemon::receive_command(const naolcm::camera_command_t& command) {
   const ImageRequest request{command.camera, command.width, command.rate, command.quality};
-  const std::string problem = check_request(request, model_.cameras());
+  const std::string problem = check_request(request, cameras_);
   if (!problem.empty()) throw Error(command.source + ": " + problem);
   requests_.add(command.source, request, monotonic_seconds());
 }
@@ -100,7 +101,7 @@ void HeadCameraDaemon::remove_unchanged(std::vector<ImageRequest>& due, double n
 }
 
 void HeadCameraDaemon::step(double now) {
-  for (const CameraModel& camera : model_.cameras()) step(camera.name, now);
+  for (const CameraModel& camera : cameras_) step(camera.name, now);
 }
 
 void HeadCameraDaemon::step(const std::string& camera, double now) {

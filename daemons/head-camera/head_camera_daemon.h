@@ -81,6 +81,7 @@ class HeadCameraDaemon {
   RobotChannels channels_;
   StatusReporter status_;
   std::unique_ptr<ImageSource> source_;
+  std::vector<CameraModel> cameras_;
   std::optional<WebotsImages> webots_;
   JpegEncoder encoder_;
   ImageRequests requests_;

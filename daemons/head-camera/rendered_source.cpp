@@ -10,6 +10,7 @@
 #include "common/logger.h"
 #include "common/wall_clock.h"
 #include "daemons/head-camera/image_requests.h"
+#include "daemons/head-camera/overview.h"
 #include "rendering/decode_state.h"
 
 namespace nao::camera {
@@ -51,8 +52,14 @@ RenderedSource::RenderedSource(Bus& bus, const RobotModel& model, const HeadCame
 
 void RenderedSource::attach(EventLoop& loop, std::function<void(const std::string&)> on_image) {
   loop.every(1 / kMaxRate, [this, on_image = std::move(on_image)] {
-    for (const CameraModel& camera : model_.cameras()) on_image(camera.name);
+    for (const CameraModel& camera : cameras()) on_image(camera.name);
   });
+}
+
+std::vector<CameraModel> RenderedSource::cameras() const {
+  std::vector<CameraModel> cameras = model_.cameras();
+  cameras.push_back(overview_camera());
+  return cameras;
 }
 
 void RenderedSource::receive_truth(const naolcm::world_truth_t& truth) {
@@ -78,8 +85,9 @@ std::string RenderedSource::missing_input(double now) const {
   return "";
 }
 
-bool RenderedSource::has_image(const std::string& /*camera*/, double now) const {
-  return missing_input(now).empty();
+bool RenderedSource::has_image(const std::string& camera, double now) const {
+  const bool has_truth = world_ && now - last_truth_ <= kTruthValidity;
+  return camera == kOverviewCamera ? has_truth : missing_input(now).empty();
 }
 
 int64_t RenderedSource::utime(const std::string& /*camera*/) const {

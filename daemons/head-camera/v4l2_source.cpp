@@ -29,7 +29,7 @@ constexpr double kCheckPeriod = 0.1;
 
 V4l2Source::V4l2Source(const RobotModel& model, const V4l2Settings& settings,
                        const Distortion& distortion)
-    : settings_(settings), cameras_(settings.cameras.size()) {
+    : model_(model), settings_(settings), cameras_(settings.cameras.size()) {
   for (size_t i = 0; i < cameras_.size(); ++i) {
     Camera& camera = cameras_[i];
     camera.settings = settings.cameras[i];

@@ -15,11 +15,12 @@ namespace nao::camera {
  * where the robot's files say how, all cameras are reset before. */
 class V4l2Source : public ImageSource {
  public:
-  /** @param model  Gives the fields of view. @param distortion  That the lenses are known to have:
-   * images are sent as they are, with these coefficients. */
+  /** @param model  Gives the fields of view; must outlive this. @param distortion  That the lenses
+   * are known to have: images are sent as they are, with these coefficients. */
   V4l2Source(const RobotModel& model, const V4l2Settings& settings, const Distortion& distortion);
 
   void attach(EventLoop& loop, std::function<void(const std::string&)> on_image) override;
+  std::vector<CameraModel> cameras() const override { return model_.cameras(); }
   std::string missing_input(double now) const override;
   bool has_image(const std::string& camera, double now) const override;
   int64_t utime(const std::string& camera) const override;
@@ -52,6 +53,7 @@ class V4l2Source : public ImageSource {
   void recover(Camera& camera, const std::string& fault, double now);
   void warn(Camera& camera, const std::string& text, double now);
 
+  const RobotModel& model_;
   V4l2Settings settings_;
   std::vector<Camera> cameras_;
   EventLoop* loop_ = nullptr;

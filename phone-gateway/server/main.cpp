@@ -54,6 +54,9 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
   app.add_option("--model", options.model,
                  "Folder of robots/ that describes the robots whose --robot names none")
       ->show_default();
+  app.add_flag("--overview", options.has_overview,
+               "Offer clients the camera beside the field, which nao-head-camera has in a "
+               "simulated world");
   app.add_option("--token", options.token,
                  "Pairing token that clients must send; default: a new one at each start");
   app.add_option("--token-file", options.token_file,
@@ -130,12 +133,14 @@ std::vector<std::string> addresses_for_phones(const GatewayOptions& options, uin
   return phone_urls({options.network.bind, port, options.uses_tls, options.token}, own_addresses());
 }
 
-std::vector<naoremote::RobotDescription> describe_robots(const std::vector<RobotOption>& robots) {
+std::vector<naoremote::RobotDescription> describe_robots(const std::vector<RobotOption>& robots,
+                                                         bool has_overview) {
   std::vector<naoremote::RobotDescription> descriptions;
   for (const RobotOption& robot : robots) {
     const std::filesystem::path folder = data_path() / "robots" / robot.model;
     logger::info("robot {} from {}", robot.name, folder.string());
     descriptions.push_back(describe_robot(robot.name, RobotModel::load(folder)));
+    if (has_overview) add_overview(descriptions.back());
   }
   return descriptions;
 }
@@ -238,8 +243,8 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
     logger::info("uses real-time scheduling (SCHED_RR)");
   Bus bus(common.lcm_url);
   logger::info("version {}, bus {}", version(), common.lcm_url);
-  GatewayDaemon daemon(bus, describe_robots(robots), options.limits, options.token,
-                       options.audit_file);
+  GatewayDaemon daemon(bus, describe_robots(robots, options.has_overview), options.limits,
+                       options.token, options.audit_file);
   daemon.core().set_players(label_players(robots));
   WebPages pages(data_path());
   Network network(options.network, make_access_rules(options), daemon.core(), pages);

@@ -64,7 +64,11 @@ GatewayDaemon::GatewayDaemon(Bus& bus, const std::vector<naoremote::RobotDescrip
             [this](const AuditEvent& event) {
               audit_log_.write(event, monotonic_seconds(), wall_utime());
             }) {
-  for (size_t i = 0; i < links_.size(); ++i) links_[i]->subscribe(core_.robot(i));
+  for (size_t i = 0; i < links_.size(); ++i) {
+    links_[i]->subscribe(core_.robot(i), [this, i](const CachedImage& image) {
+      core_.add_image(i, image, monotonic_seconds());
+    });
+  }
   subscribe();
 }
 
@@ -98,7 +102,7 @@ void GatewayDaemon::step(double now) {
   core_.step(now);
   // Sent at each change, so that a client's first image does not wait for the next second.
   for (size_t i = 0; i < links_.size(); ++i) {
-    links_[i]->send_camera_requests(core_.robot(i), false, now);
+    links_[i]->send_camera_requests(core_.camera_requests(i, now), false);
   }
 }
 
@@ -117,7 +121,7 @@ void GatewayDaemon::publish_status(double now) {
   status_.set_state("ready", describe_state());
   status_.publish(status_metrics());
   for (size_t i = 0; i < links_.size(); ++i) {
-    links_[i]->send_camera_requests(core_.robot(i), true, now);
+    links_[i]->send_camera_requests(core_.camera_requests(i, now), true);
   }
 }
 

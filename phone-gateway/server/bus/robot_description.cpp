@@ -1,6 +1,7 @@
 #include "phone-gateway/server/bus/robot_description.h"
 
 #include "messages/speech_command.h"
+#include "phone-gateway/server/core/streams.h"
 #include "robot_model/camera_group.h"
 #include "robot_model/robot_lights.h"
 
@@ -120,6 +121,13 @@ naoremote::RobotDescription describe_robot(const std::string& name, const RobotM
   describe_lights(model, robot);
   describe_words(model, robot);
   return robot;
+}
+
+void add_overview(naoremote::RobotDescription& robot) {
+  robot.add_cameras(kOverviewCamera);
+  add_label(robot, "camera", kOverviewCamera, "en", "Overview");
+  add_label(robot, "camera", kOverviewCamera, "pt", "Vista geral");
+  add_label(robot, "camera", kOverviewCamera, "de", "Übersicht");
 }
 
 }  // namespace nao::gateway

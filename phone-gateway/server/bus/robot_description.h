@@ -12,4 +12,7 @@ namespace nao::gateway {
  * @param model  The files that describe it. */
 naoremote::RobotDescription describe_robot(const std::string& name, const RobotModel& model);
 
+/** Adds the overview of a simulated world to the robot's cameras. */
+void add_overview(naoremote::RobotDescription& robot);
+
 }  // namespace nao::gateway

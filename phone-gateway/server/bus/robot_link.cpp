@@ -30,7 +30,8 @@ RobotSetup RobotLink::setup() {
            [this](const SentPlayCommand& command) { send_play(command); }}};
 }
 
-void RobotLink::subscribe(GatewayRobot& robot) {
+void RobotLink::subscribe(GatewayRobot& robot,
+                          const std::function<void(const CachedImage&)>& add_image) {
   bus_.subscribe<naolcm::robot_state_t>(channels_.robot_state, Bus::Queue::kLatest,
                                         [this, &robot](const naolcm::robot_state_t& message) {
                                           robot.set_state(robot_state_reader_.read(message),
@@ -61,19 +62,20 @@ void RobotLink::subscribe(GatewayRobot& robot) {
         if (!result) throw Error("the lists of its motion have unequal lengths");
         robot.motions().handle_result(*result, monotonic_seconds());
       });
-  subscribe_perception(robot);
+  subscribe_perception(robot, add_image);
 }
 
-void RobotLink::subscribe_perception(GatewayRobot& robot) {
+void RobotLink::subscribe_perception(GatewayRobot& robot,
+                                     const std::function<void(const CachedImage&)>& add_image) {
   bus_.subscribe<naolcm::speech_audio_t>(channels_.speech_audio, Bus::Queue::kAll,
                                          [&robot](const naolcm::speech_audio_t& message) {
                                            robot.streams().add_audio(read_audio(message));
                                          });
   // The channel carries several sizes: with kLatest one would replace another.
   bus_.subscribe<naolcm::image_t>(channels_.head_camera_image, Bus::Queue::kAll,
-                                  [this, &robot](const naolcm::image_t& message) {
+                                  [this, add_image](const naolcm::image_t& message) {
                                     image_sizes_.add(message);
-                                    robot.add_image(read_image(message), monotonic_seconds());
+                                    add_image(read_image(message));
                                   });
   bus_.subscribe<naolcm::vision_state_t>(
       channels_.vision_state, Bus::Queue::kLatest,
@@ -115,8 +117,7 @@ void RobotLink::send_drag(const DragCommand& drag) {
   bus_.publish(kWorldCommandChannel, message);
 }
 
-void RobotLink::send_camera_requests(const GatewayRobot& robot, bool always, double now) {
-  std::vector<CameraRequest> requests = robot.streams().camera_requests(now);
+void RobotLink::send_camera_requests(std::vector<CameraRequest> requests, bool always) {
   if (!always && requests == last_requests_) return;
   last_requests_ = std::move(requests);
   for (const CameraRequest& request : last_requests_) {

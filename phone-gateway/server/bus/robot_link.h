@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,17 +33,18 @@ class RobotLink {
   /** The robot for the gateway's core. This must outlive the core. */
   RobotSetup setup();
 
-  /** Passes received messages to `robot`, which must outlive this. */
-  void subscribe(GatewayRobot& robot);
+  /** Passes received messages to `robot`, which must outlive this, and images to `add_image`. */
+  void subscribe(GatewayRobot& robot, const std::function<void(const CachedImage&)>& add_image);
 
-  /** Publishes the image requests of the clients. @param always  Also unchanged ones. */
-  void send_camera_requests(const GatewayRobot& robot, bool always, double now);
+  /** Publishes image requests. @param always  Also unchanged ones. */
+  void send_camera_requests(std::vector<CameraRequest> requests, bool always);
 
   /** Channel whose messages show that the robot's motion program runs. */
   const std::string& motion_state_channel() const { return channels_.motion_state; }
 
  private:
-  void subscribe_perception(GatewayRobot& robot);
+  void subscribe_perception(GatewayRobot& robot,
+                            const std::function<void(const CachedImage&)>& add_image);
   void send_drag(const DragCommand& drag);
   void send_service(const ServiceCommand& command);
   void send_play(const SentPlayCommand& command);

@@ -79,6 +79,13 @@ class GatewayCore {
   GatewayRobot& robot(size_t index = 0) { return robots_.at(index); }
   const GatewayRobot& robot(size_t index = 0) const { return robots_.at(index); }
   size_t num_robots() const { return robots_.size(); }
+  /** See Robots. */
+  std::vector<CameraRequest> camera_requests(size_t robot, double now) const {
+    return robots_.camera_requests(robot, now);
+  }
+  void add_image(size_t robot, const CachedImage& image, double now) {
+    robots_.add_image(robot, image, now);
+  }
   void set_players(std::vector<PlayerLabel> players) { robots_.set_players(std::move(players)); }
   void set_match(naoremote::Match match, double now) { match_.set(std::move(match), now); }
 

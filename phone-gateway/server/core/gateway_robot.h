@@ -59,6 +59,7 @@ class GatewayRobot {
 
   void set_state(const RobotSnapshot& robot, double now);
   void set_motion(const MotionSnapshot& motion, double now);
+  /** An image of a camera of its own. */
   void add_image(CachedImage image, double now);
   void handle_result(const CommandResult& result, double now);
 

@@ -77,6 +77,25 @@ naoremote::RobotList Robots::list() const {
   return list;
 }
 
+std::vector<CameraRequest> Robots::camera_requests(size_t robot, double now) const {
+  std::vector<CameraRequest> requests = at(robot).streams().camera_requests(now);
+  std::erase_if(requests, [](const CameraRequest& request) {
+    return request.image.camera == kOverviewCamera;
+  });
+  if (robot != 0) return requests;
+  for (const auto& other : robots_) {
+    for (const CameraRequest& request : other->streams().camera_requests(now)) {
+      if (request.image.camera == kOverviewCamera) merge(request, requests);
+    }
+  }
+  return requests;
+}
+
+void Robots::add_image(size_t robot, const CachedImage& image, double now) {
+  if (image.camera != kOverviewCamera) return at(robot).add_image(image, now);
+  for (const auto& other : robots_) other->streams().add_image(image, now);
+}
+
 void Robots::step(double now) {
   for (const auto& robot : robots_) robot->step(now);
   naoremote::RobotList now_listed = list();

@@ -53,6 +53,12 @@ class Robots {
   /** The list that clients see; empty if there is only one robot. */
   naoremote::RobotList list() const;
 
+  /** The images that the camera program of a robot must send: what the robot's clients request, and
+   * from the first one the overview for the clients of all robots. */
+  std::vector<CameraRequest> camera_requests(size_t robot, double now) const;
+  /** An image that the camera program of a robot sent. */
+  void add_image(size_t robot, const CachedImage& image, double now);
+
   /** Steps every robot, and sends the list if it has changed. */
   void step(double now);
 

@@ -25,6 +25,16 @@ constexpr double kGoldenRatioFraction = 0.6180339887;
 
 }  // namespace
 
+void merge(const CameraRequest& request, std::vector<CameraRequest>& requests) {
+  for (CameraRequest& known : requests) {
+    if (!known.image.is_same_stream(request.image)) continue;
+    known.rate = std::max(known.rate, request.rate);
+    known.image.quality = std::max(known.image.quality, request.image.quality);
+    return;
+  }
+  requests.push_back(request);
+}
+
 void Streams::set_robot(const RobotSnapshot& robot, double now) {
   mirror_.set(robot, now);
   // The encoding is shared by all clients, and made anew for a new state.
@@ -164,21 +174,14 @@ void Streams::write_image(const CachedImage& cached, naoremote::Image& image, do
 // and quality that a client wants.
 std::vector<CameraRequest> Streams::camera_requests(double now) const {
   std::vector<CameraRequest> requests;
-  const auto add = [&requests](const ImageSelection& image, double rate) {
-    for (CameraRequest& request : requests) {
-      if (!request.image.is_same_stream(image)) continue;
-      request.rate = std::max(request.rate, rate);
-      request.image.quality = std::max(request.image.quality, image.quality);
-      return;
-    }
-    requests.push_back({image, rate});
-  };
   sessions_.for_each([&](const ClientSession& session) {
     const ClientStreams& streams = session.streams;
     if (streams.subscription.image_rate > 0) {
-      add(streams.subscription.image, streams.subscription.image_rate);
+      merge({streams.subscription.image, streams.subscription.image_rate}, requests);
     }
-    if (now - streams.last_poll < limits_.poll_timeout) add(streams.polled_image, kPolledImageRate);
+    if (now - streams.last_poll < limits_.poll_timeout) {
+      merge({streams.polled_image, kPolledImageRate}, requests);
+    }
   });
   return requests;
 }

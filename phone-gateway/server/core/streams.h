@@ -13,6 +13,10 @@
 
 namespace nao::gateway {
 
+/** Camera beside the field, of a simulated world: in no robot's description file. The images are
+ * the same for all robots, so that one of them has its program take them for the clients of all. */
+inline constexpr const char* kOverviewCamera = "overview";
+
 /** Images that the camera must send. */
 struct CameraRequest {
   ImageSelection image;
@@ -24,6 +28,9 @@ struct CameraRequest {
            rate == other.rate;
   }
 };
+
+/** Adds a request, or raises rate and quality of one for the same images. */
+void merge(const CameraRequest& request, std::vector<CameraRequest>& requests);
 
 /** A piece of what the robot says; speech_audio_t documents every field. */
 struct SpeechPiece {

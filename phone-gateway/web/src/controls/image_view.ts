@@ -4,6 +4,8 @@ import {el, icon} from "../dom";
 import type {Image} from "../protocol/generated/remote_pb";
 import {say, sayName} from "../text/texts";
 
+/** The camera beside the field of a simulated world: no drag turns it. */
+const kOverview = "overview";
 /** Fields of view of the head cameras, rad: a drag over the whole image turns the head by this angle, so
  * that the point under the finger stays there. Source: robot.yaml, cameras. */
 const kHorizontalView = 1.062906;
@@ -109,7 +111,7 @@ export class ImageView {
       drag.x = event.clientX;
       drag.y = event.clientY;
       drag.sentMs = event.timeStamp;
-      if (dx !== 0 || dy !== 0) {
+      if ((dx !== 0 || dy !== 0) && this.camera !== kOverview) {
         this.look(dx / this.canvas.clientWidth * kHorizontalView,
                   -dy / this.canvas.clientHeight * kVerticalView);
       }

@@ -366,5 +366,73 @@ TEST_F(GatewayRobots, AreOnlyWatchedByMutedClients) {
   EXPECT_EQ(take_control(ana).error(), naoremote::OK);
 }
 
+class GatewayOverview : public GatewayRobots {
+ protected:
+  GatewayOverview() {
+    std::vector<RobotSetup> robots;
+    for (const char* name : {"NAO1", "NAO2", "NAO3"}) {
+      naoremote::RobotDescription description = make_test_robot();
+      description.set_name(name);
+      description.add_cameras(kOverviewCamera);
+      robots.push_back({description, {}});
+    }
+    start(std::move(robots), GatewayLimits{});
+  }
+
+  void request(Client& client, const std::string& camera, double rate, uint32_t quality = 0) {
+    naoremote::Request request;
+    request.mutable_subscribe()->set_image_rate(rate);
+    request.mutable_subscribe()->mutable_image()->set_camera(camera);
+    request.mutable_subscribe()->mutable_image()->set_quality(quality);
+    EXPECT_EQ(ask(client, request).error(), naoremote::OK);
+  }
+  /** "overview 320 5.0 80" for each image request to a robot's camera program. */
+  std::vector<std::string> requests_to(size_t robot) {
+    std::vector<std::string> texts;
+    for (const CameraRequest& request : core_->camera_requests(robot, now_)) {
+      texts.push_back(request.image.camera + " " + std::to_string(request.image.width) + " " +
+                      std::to_string(static_cast<int>(request.rate)) + " " +
+                      std::to_string(request.image.quality));
+    }
+    return texts;
+  }
+};
+
+TEST_F(GatewayOverview, IsTakenOnceForTheClientsOfAllRobots) {
+  Client ana = connect_to("NAO1");
+  Client ben = connect_to("NAO2");
+  Client eva = connect_to("NAO3");
+  request(ana, "top", 10);
+  request(ben, kOverviewCamera, 5, 70);
+  request(eva, kOverviewCamera, 8, 50);
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(requests_to(0), (Texts{"top 320 10 0", "overview 320 8 70"}));
+  EXPECT_EQ(requests_to(1), Texts{});
+  EXPECT_EQ(requests_to(2), Texts{});
+
+  pass(1);
+  CachedImage image;
+  image.camera = kOverviewCamera;
+  image.utime = 7;
+  image.width = 320;
+  image.jpeg = "field";
+  core_->add_image(0, image, now_);
+  EXPECT_TRUE(images(ana).empty());
+  ASSERT_EQ(images(ben).size(), 1u);
+  EXPECT_EQ(images(ben)[0].jpeg(), "field");
+  EXPECT_EQ(images(eva).size(), 1u);
+  image.camera = "top";
+  core_->add_image(1, image, now_);
+  EXPECT_EQ(images(ben).size(), 1u) << "another camera";
+}
+
+TEST_F(GatewayOverview, DoesNotStandForTheRobotsOwnCamera) {
+  Client ben = connect_to("NAO2");
+  request(ben, kOverviewCamera, 5);
+  // Its own camera program sends nothing, and need not.
+  for (int i = 0; i < 30; ++i) pass(0.1);
+  EXPECT_TRUE(core_->robot(1).components().is_available(Component::kCamera));
+}
+
 }  // namespace
 }  // namespace nao::gateway
