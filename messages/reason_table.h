@@ -121,6 +121,7 @@ inline constexpr auto kReasons = std::to_array<ReasonEntry>({
     {"match-operation-unknown", "operation", "The match operation {0} is none of 0 (start) to 8 (new match)."},
     {"match-team-unknown", "team", "There is no team {0}; there are 0 and 1."},
     {"match-robot-unknown", "robot, known robots", "The robot {0} does not take part in the match; {1} do."},
+    {"match-by-game-controller", "", "The GameController decides in this match."},
     {"match-operation-too-late", "operation, phase", "The match operation {0} is not possible in the phase {1}."},
     {"match-not-played", "", "No match is being played; nao-referee does not answer."},
     {"match-penalty", "penalty", "The robot has a penalty: {0}."},

@@ -70,6 +70,8 @@ def choose_autonomous(line, options):
     """Names of the robots that play by themselves; for them the programs of --vision run."""
     if options.match and options.scene == "empty":
         line.error("--match needs a field: leave --scene empty out")
+    if options.game_controller and not options.match:
+        line.error("--game-controller needs --match")
     if not options.autonomous:
         return []
     if not options.match:

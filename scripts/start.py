@@ -105,6 +105,8 @@ def parse_options():
     line.option("--match", metavar="TEAMS", type=team_sizes,
                 help="two teams that face each other, such as 2v2 (1 to 5 robots each): NAO1, NAO2 ... of team 0, which plays "
                      "along x, then those of team 1")
+    line.option("--game-controller", action="store_true",
+                help="the RoboCup GameController in the network decides the match instead of nao-referee's own rules")
     line.option("--autonomous", metavar="LIST",
                 help="with --match: robots that play by themselves by what they see, such as NAO2,NAO4, or all; anybody may "
                      "take them over")
@@ -355,6 +357,7 @@ def command_of(process, stack, settings, options, robots):
     elif program == REFEREE:
         words += ["--scene", settings["scene"], "--state-file", stack.run_dir / "match.json",
                   "--events-file", stack.logs / "match.jsonl"]
+        words += ["--game-controller"] if options.game_controller else []
         words += ["--start"] if options.autonomous_names and len(options.autonomous_names) == len(robots) else []
     elif program == FOXGLOVE:
         words += ["--port", settings["foxglove_port"]]

@@ -18,6 +18,9 @@ int main(int argc, char** argv) {
   nao::add_bus_options(app, common);
   std::vector<std::string> robots;
   std::string model = "nao";
+  bool follows_game_controller = false;
+  uint16_t game_controller_port = nao::referee::kGameControllerPort;
+  std::vector<int> team_numbers;
   std::string state_file;
   std::string events_file;
   nao::add_robot_option(app, robots);
@@ -29,12 +32,27 @@ int main(int argc, char** argv) {
       ->show_default();
   app.add_flag("--start", options.starts_by_itself,
                "Begin when all robots are there, without nao match start");
+  app.add_flag("--game-controller", follows_game_controller,
+               "The RoboCup GameController decides instead of nao-referee's own rules, which then "
+               "only puts ball and robots to their places");
+  app.add_option("--game-controller-port", game_controller_port,
+                 "UDP port of the GameController's messages; 0: any free")
+      ->show_default();
+  app.add_option("--game-controller-return-port", options.return_port,
+                 "UDP port at which the GameController receives the robots' messages")
+      ->show_default();
+  app.add_option("--team-numbers", team_numbers,
+                 "The GameController's numbers of team 0 and team 1; messages about others are "
+                 "ignored (default: of any two teams, in the message's order)")
+      ->count(2);
   app.add_option("--state-file", state_file,
                  "File that keeps the match, from which another referee goes on (default: none)");
   app.add_option("--events-file", events_file,
                  "File to which every event is added, a line of JSON each (default: none)");
   return nao::run_program(app, common, argc, argv, [&] {
     options.robots = nao::parse_robot_options(robots, model);
+    if (follows_game_controller) options.game_controller_port = game_controller_port;
+    if (!team_numbers.empty()) options.team_numbers = {{team_numbers[0], team_numbers[1]}};
     options.state_file = state_file;
     options.events_file = events_file;
     nao::EventLoop loop;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/error.h"
-#include "match/formation.h"
+#include "daemons/referee/places.h"
 
 namespace nao::referee {
 namespace {
@@ -14,18 +14,9 @@ using Eigen::Vector2d;
 
 /** A robot is in its place within this, m. Chosen: what robots reach without stepping about. */
 constexpr double kPlaceTolerance = 0.4;
-/** Where penalised robots stand: beyond the side line, and apart from one another, m. */
-constexpr double kBesideField = 0.35;
-constexpr double kPenaltySpacing = 0.7;
 /** Time that goes on in one step at most, s: of longer gaps (the simulator was restarted or paused)
  * nobody has seen anything. */
 constexpr double kMaxStep = 1;
-
-const RobotSighting* find_robot(const RefereeInput& input, const std::string& name) {
-  const auto found = std::find_if(input.robots.begin(), input.robots.end(),
-                                  [&](const RobotSighting& robot) { return robot.name == name; });
-  return found != input.robots.end() ? &*found : nullptr;
-}
 
 }  // namespace
 
@@ -110,13 +101,7 @@ void RefereeCore::penalize(size_t player, Penalty penalty) {
   who.penalty_left = rules_.penalty_duration;
   watches_[player] = {};
   add_event(MatchEventKind::kPenalty, who.team, who.robot);
-  // Beside its own half, at the height of its penalty mark, facing the field.
-  const double end = who.team == 0 ? -1 : 1;
-  const FieldDimensions& field = *scene_.field;
-  const double x =
-      0.5 * field.length - field.penalty_mark_distance - kPenaltySpacing * (who.number - 1);
-  output_.placements.push_back(
-      {who.robot, {{end * x, 0.5 * field.width + kBesideField}, -M_PI / 2}});
+  output_.placements.push_back(penalty_place(who, scene_));
 }
 
 void RefereeCore::release(size_t player) {
@@ -160,30 +145,15 @@ void RefereeCore::watch_robots(double dt, const RefereeInput& input) {
   }
 }
 
-Pose2 RefereeCore::place_of(const MatchPlayer& player) const {
-  const Vector2d half(0.5 * scene_.field->length, 0.5 * scene_.field->width);
-  return team_in_field(player.team) * kick_off_place(player.number, team_size(player.team),
-                                                     player.team == state_.kickoff_team, half);
-}
-
-bool RefereeCore::is_legal(const MatchPlayer& player, const RobotSighting& robot) const {
-  const Vector2d position = team_in_field(player.team).inverse() * robot.position;
-  const FieldDimensions& field = *scene_.field;
-  const bool is_in_own_half = position.x() < 0 && position.x() > -0.5 * field.length &&
-                              std::abs(position.y()) < 0.5 * field.width;
-  const bool is_in_circle = position.norm() < 0.5 * field.centre_circle_diameter;
-  return robot.is_upright && is_in_own_half &&
-         (!is_in_circle || player.team == state_.kickoff_team);
-}
-
 bool RefereeCore::is_in_place(const MatchPlayer& player, const RobotSighting& robot) const {
-  return is_legal(player, robot) &&
+  return is_legal_at_kick_off(player, robot, state_, scene_) &&
          (!player.is_autonomous ||
-          (robot.position - place_of(player).position).norm() < kPlaceTolerance);
+          (robot.position - kick_off_place_of(player, state_, scene_).position).norm() <
+              kPlaceTolerance);
 }
 
 // Robots walk to their places; in the end those that are where they may not be are put there.
-void RefereeCore::prepare_kick_off(const RefereeInput& input) {
+void RefereeCore::wait_for_robots(const RefereeInput& input) {
   bool is_prepared = phase_time_ >= rules_.min_ready_duration;
   for (const MatchPlayer& player : state_.players) {
     const RobotSighting* robot = find_robot(input, player.robot);
@@ -191,12 +161,9 @@ void RefereeCore::prepare_kick_off(const RefereeInput& input) {
     is_prepared = is_prepared && is_in_place(player, *robot);
   }
   if (!is_prepared && phase_time_ < rules_.max_ready_duration) return;
-  for (const MatchPlayer& player : state_.players) {
-    const RobotSighting* robot = find_robot(input, player.robot);
-    if (robot == nullptr || player.penalty != Penalty::kNone) continue;
-    if (!is_legal(player, *robot)) output_.placements.push_back({player.robot, place_of(player)});
+  for (const Placement& placement : prepare_kick_off(input, state_, scene_)) {
+    output_.placements.push_back(placement);
   }
-  output_.placements.push_back({"", {}});
   enter(MatchPhase::kSet);
 }
 
@@ -245,7 +212,7 @@ RefereeOutput RefereeCore::step(const RefereeInput& input) {
   switch (state_.phase) {
     case MatchPhase::kReady:
       watch_robots(dt, input);
-      prepare_kick_off(input);
+      wait_for_robots(input);
       break;
     case MatchPhase::kSet:
       if (phase_time_ < rules_.set_duration) break;

@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "daemons/referee/ball_judge.h"
-#include "kinematics/pose2.h"
-#include "messages/match_command.h"
-#include "messages/match_state.h"
+#include "daemons/referee/referee.h"
 #include "robot_model/scene_file.h"
 
 namespace nao::referee {
@@ -36,56 +34,19 @@ struct Rules {
   double max_untouched_duration = 60;
 };
 
-/** A robot as the referee sees it. */
-struct RobotSighting {
-  std::string name;
-  /** m, in the field frame: x along team 0's attack, y left. */
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  bool is_upright = true;
-  bool touches_ball = false;
-  bool is_autonomous = false;
-  PlayRole role = PlayRole::kNone;
-};
-
-struct RefereeInput {
-  /** Robot time, s. */
-  double time = 0;
-  /** Ball center, m, in the field frame. */
-  Eigen::Vector3d ball = Eigen::Vector3d::Zero();
-  std::vector<RobotSighting> robots{};
-};
-
-/** What the referee's hands do: put the ball, or a robot on its feet, somewhere. */
-struct Placement {
-  /** Empty: the ball. */
-  std::string robot{};
-  /** In the field frame. */
-  Pose2 pose;
-};
-
-struct RefereeOutput {
-  std::vector<Placement> placements;
-  std::vector<MatchEvent> events;
-};
-
-/** A referee without clock and bus: kick-offs, goals, ball out, time, penalties. The clock of a
+/** Our own rules: kick-offs, goals, ball out, time, penalties. The clock of a
  * half runs in the phase playing only. Teams do not change sides. */
-class RefereeCore {
+class RefereeCore : public Referee {
  public:
   /** @param players  Robots, teams and numbers. @param scene  With field, goals and ball.
    * @throws ConfigError  if it has none, or a team has no player. */
   RefereeCore(const std::vector<MatchPlayer>& players, const SceneFile& scene, const Rules& rules,
               int64_t match_id);
 
-  /** Goes on with a match that another referee began; with its own players. */
-  void restore(const MatchState& state);
-
-  RefereeOutput step(const RefereeInput& input);
-
-  /** Overrules. @return Nothing, or why not. */
-  [[nodiscard]] std::optional<Reason> overrule(const MatchCommand& command);
-
-  const MatchState& state() const { return state_; }
+  void restore(const MatchState& state) override;
+  RefereeOutput step(const RefereeInput& input) override;
+  [[nodiscard]] std::optional<Reason> overrule(const MatchCommand& command) override;
+  const MatchState& state() const override { return state_; }
 
  private:
   /** What is counted for a player. */
@@ -104,10 +65,8 @@ class RefereeCore {
   void release(size_t player);
   void count_penalties(double dt, const RefereeInput& input);
   void watch_robots(double dt, const RefereeInput& input);
-  void prepare_kick_off(const RefereeInput& input);
+  void wait_for_robots(const RefereeInput& input);
   void watch_play(double dt, const RefereeInput& input);
-  Pose2 place_of(const MatchPlayer& player) const;
-  bool is_legal(const MatchPlayer& player, const RobotSighting& robot) const;
   bool is_in_place(const MatchPlayer& player, const RobotSighting& robot) const;
   int team_size(int team) const;
 

@@ -17,6 +17,7 @@
 #include "common/logger.h"
 #include "common/text_file.h"
 #include "daemons/referee/match_file.h"
+#include "daemons/referee/places.h"
 #include "messages/result_message.h"
 #include "robot_model/robot_model.h"
 
@@ -32,6 +33,11 @@ constexpr double kStatusPeriod = 1;
 constexpr double kPlayTimeout = 2;
 /** Without the truth for this long the simulator is gone, s. */
 constexpr double kTruthTimeout = 2;
+/** Without a message of the GameController, which come twice a second, it is gone, s. */
+constexpr double kGameControllerTimeout = 3;
+/** Between two messages of a robot to the GameController, s (SPL rules, "GameController": one to
+ * four a second). */
+constexpr double kReturnPeriod = 0.5;
 /** The match is kept this often, s. */
 constexpr double kSavePeriod = 1;
 /** A torso that leans by more than this, rad, is not on its feet. Chosen: a kick leans by 0.3. */
@@ -107,26 +113,101 @@ RefereeInput to_input(const naolcm::world_truth_t& truth, const std::vector<Matc
   return input;
 }
 
+void update(RobotKnowledge& knowledge, const naolcm::vision_state_t& vision) {
+  knowledge.pose.reset();
+  if (vision.has_field_pose) {
+    const double(&pose)[3] = vision.torso_in_field;
+    knowledge.pose = Pose2{{pose[0], pose[1]}, pose[2]};
+  }
+  double confidence = 0;
+  for (const naolcm::detection_t& detection : vision.detections) {
+    const double(&position)[2] = detection.position_in_heading;
+    const bool is_better = detection.kind == naolcm::detection_t::KIND_BALL &&
+                           detection.confidence > confidence && std::isfinite(position[0]) &&
+                           std::isfinite(position[1]);
+    if (!is_better) continue;
+    confidence = detection.confidence;
+    knowledge.ball = {position[0], position[1]};
+    knowledge.ball_time = 1e-6 * static_cast<double>(vision.utime);
+  }
+}
+
+GameControllerReturn to_return(const MatchPlayer& player, const RobotSighting& robot,
+                               const RobotKnowledge& knowledge, double now) {
+  GameControllerReturn answer;
+  answer.player_number = player.number;
+  answer.is_fallen = !robot.is_upright;
+  if (knowledge.ball) {
+    answer.ball_age = now - knowledge.ball_time;
+    answer.ball = {knowledge.ball->x(), knowledge.ball->y()};
+  }
+  if (knowledge.pose)
+    answer.pose = {knowledge.pose->position.x(), knowledge.pose->position.y(),
+                   knowledge.pose->heading};
+  return answer;
+}
+
 RefereeDaemon::RefereeDaemon(Bus& bus, const RefereeOptions& options, std::function<double()> clock)
     : bus_(bus),
       options_(options),
       clock_(std::move(clock)),
       status_(bus, kProgram),
       ready_postures_(ready_postures_of(options.robots)),
-      core_(players_of(options.robots), SceneFile::find(options.scene), options.rules, random_id()),
       source_("referee." + std::to_string(getpid())),
       // Numbers that no earlier referee with the same process id has used.
       last_id_(wall_utime()) {
+  make_referee();
   if (!options_.state_file.empty() && std::filesystem::exists(options_.state_file)) {
     const MatchState kept = match_from_json(read_file(options_.state_file));
     if (kept.phase != MatchPhase::kFinished) {
-      core_.restore(kept);
+      referee_->restore(kept);
       logger::info("goes on with a match: {}:{}, {:.0f} s left of half {}", kept.score[0],
                    kept.score[1], kept.time_left, kept.half);
     }
   }
   subscribe();
   publish_status(clock_());
+}
+
+void RefereeDaemon::make_referee() {
+  const std::vector<MatchPlayer> players = players_of(options_.robots);
+  const SceneFile scene = SceneFile::find(options_.scene);
+  if (!options_.game_controller_port) {
+    referee_ = std::make_unique<RefereeCore>(players, scene, options_.rules, random_id());
+    return;
+  }
+  auto follower =
+      std::make_unique<GameControllerReferee>(players, scene, options_.team_numbers, random_id());
+  follower_ = follower.get();
+  referee_ = std::move(follower);
+  link_.emplace(*options_.game_controller_port, options_.return_port);
+  logger::info("the GameController decides; UDP port {}, answers to port {}", link_->port(),
+               options_.return_port);
+}
+
+void RefereeDaemon::receive_game_controller() {
+  while (const auto message = link_->receive()) {
+    try {
+      if (!follower_->receive(decode_game_controller(*message))) continue;
+      link_->accept_sender();
+      last_game_controller_ = clock_();
+    } catch (const Error& error) {
+      if (const auto num_suppressed = warnings_.allow(clock_())) {
+        logger::warn("{} ({} more such warnings)", error.what(), *num_suppressed);
+      }
+    }
+  }
+}
+
+void RefereeDaemon::answer_game_controller() {
+  for (const MatchPlayer& player : referee_->state().players) {
+    const RobotSighting* robot = find_robot(last_input_, player.robot);
+    if (robot == nullptr) continue;
+    GameControllerReturn answer =
+        to_return(player, *robot, knowledge_[player.robot], 1e-6 * static_cast<double>(utime_));
+    answer.team_number = follower_->team_number(player.team);
+    link_->send(encode(answer));
+  }
 }
 
 void RefereeDaemon::subscribe() {
@@ -142,6 +223,12 @@ void RefereeDaemon::subscribe() {
         [this, name = robot.name](const naolcm::play_state_t& state) {
           plays_[name] = {state, clock_()};
         });
+    if (!link_) continue;
+    bus_.subscribe<naolcm::vision_state_t>(
+        RobotChannels(robot.name).vision_state, Bus::Queue::kLatest,
+        [this, name = robot.name](const naolcm::vision_state_t& state) {
+          update(knowledge_[name], state);
+        });
   }
 }
 
@@ -149,6 +236,10 @@ void RefereeDaemon::attach(EventLoop& loop) {
   loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
   loop.every(kStatePeriod, [this] { publish_state(); });
   loop.every(kRepeatPeriod, [this] { send_placement(); });
+  if (link_) {
+    loop.on_readable(link_->descriptor(), [this] { receive_game_controller(); });
+    loop.every(kReturnPeriod, [this] { answer_game_controller(); });
+  }
   loop.every(kStatusPeriod, [this] { publish_status(clock_()); });
 }
 
@@ -165,7 +256,7 @@ void RefereeDaemon::handle(const naolcm::world_truth_t& truth) {
     placements_.pop_front();
     send_placement();
   }
-  RefereeInput input = to_input(truth, core_.state().players);
+  RefereeInput input = to_input(truth, referee_->state().players);
   for (const RobotSighting& robot : input.robots) touches_[robot.name] |= robot.touches_ball;
   // A new simulator begins at 0.
   if (input.time >= next_step_ - 2 * kStepPeriod && input.time < next_step_) return;
@@ -177,11 +268,13 @@ void RefereeDaemon::handle(const naolcm::world_truth_t& truth) {
     robot.is_autonomous = play->second.state.behavior == naolcm::play_state_t::BEHAVIOR_AUTO;
     robot.role = static_cast<PlayRole>(std::clamp<int>(play->second.state.role, 0, 3));
   }
-  const bool are_all_there = input.robots.size() == core_.state().players.size();
-  if (options_.starts_by_itself && are_all_there && core_.state().phase == MatchPhase::kInitial) {
-    (void)core_.overrule({MatchOperation::kStart, 0, ""});
+  last_input_ = input;
+  const bool are_all_there = input.robots.size() == referee_->state().players.size();
+  if (options_.starts_by_itself && are_all_there &&
+      referee_->state().phase == MatchPhase::kInitial) {
+    (void)referee_->overrule({MatchOperation::kStart, 0, ""});
   }
-  const RefereeOutput output = core_.step(input);
+  const RefereeOutput output = referee_->step(input);
   for (const Placement& placement : output.placements) put(placement);
   write_files(output.events);
   if (!output.events.empty()) publish_state();
@@ -213,7 +306,7 @@ void RefereeDaemon::send_placement() {
 
 void RefereeDaemon::write_files(const std::vector<MatchEvent>& events) {
   for (const MatchEvent& event : events) {
-    const MatchState& state = core_.state();
+    const MatchState& state = referee_->state();
     logger::info("{}{}{}, {}:{}", to_string(event.kind),
                  event.team >= 0 ? " of team " + std::to_string(event.team) : "",
                  event.robot.empty() ? "" : ", " + event.robot, state.score[0], state.score[1]);
@@ -226,7 +319,7 @@ void RefereeDaemon::write_files(const std::vector<MatchEvent>& events) {
   if (options_.state_file.empty() || (events.empty() && now - last_saved_ < kSavePeriod)) return;
   last_saved_ = now;
   try {
-    replace_file(options_.state_file, to_json(core_.state()));
+    replace_file(options_.state_file, to_json(referee_->state()));
   } catch (const Error& error) {
     logger::error("{}", error.what());
   }
@@ -248,7 +341,7 @@ void RefereeDaemon::handle(const naolcm::match_command_t& message) {
     return;
   }
   const MatchCommand command = to_match_command(message);
-  if (const auto fault = core_.overrule(command)) {
+  if (const auto fault = referee_->overrule(command)) {
     result.reason = *fault;
   } else {
     result.status = ResultStatus::kDone;
@@ -260,14 +353,17 @@ void RefereeDaemon::handle(const naolcm::match_command_t& message) {
 }
 
 void RefereeDaemon::publish_state() {
-  bus_.publish(kMatchStateChannel, to_message(core_.state(), utime_, ++sequence_));
+  bus_.publish(kMatchStateChannel, to_message(referee_->state(), utime_, ++sequence_));
 }
 
 void RefereeDaemon::publish_status(double now) {
   status_.tick(now);
-  const MatchState& state = core_.state();
+  const MatchState& state = referee_->state();
   if (now - last_truth_ > kTruthTimeout) {
     status_.set_state("waiting", "for nao-sim");
+  } else if (link_ && now - last_game_controller_ > kGameControllerTimeout) {
+    status_.set_state("waiting",
+                      "for the GameController at UDP port " + std::to_string(link_->port()));
   } else {
     status_.set_state("ready", std::string(to_string(state.phase)) + ", " +
                                    std::to_string(state.score[0]) + ":" +

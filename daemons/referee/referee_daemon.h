@@ -1,19 +1,26 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <naolcm/play_state_t.hpp>
+#include <naolcm/vision_state_t.hpp>
 #include <naolcm/world_command_t.hpp>
 #include <naolcm/world_truth_t.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/rate_limiter.h"
 #include "common/robot_option.h"
 #include "common/status_reporter.h"
 #include "common/wall_clock.h"
+#include "daemons/referee/game_controller_link.h"
+#include "daemons/referee/game_controller_referee.h"
 #include "daemons/referee/referee_core.h"
 #include "messages/command_ledger.h"
 #include "messages/match_command.h"
@@ -32,6 +39,12 @@ struct RefereeOptions {
   Rules rules;
   /** Begins the match by itself when all robots are there. */
   bool starts_by_itself = false;
+  /** The RoboCup GameController decides, at this UDP port; and the port at which it hears robots.
+   */
+  std::optional<uint16_t> game_controller_port{};
+  uint16_t return_port = kGameControllerReturnPort;
+  /** See GameControllerReferee. */
+  std::optional<std::array<int, 2>> team_numbers{};
   /** Where the match is kept for another referee, and its events; empty: nowhere. */
   std::filesystem::path state_file{};
   std::filesystem::path events_file{};
@@ -41,8 +54,23 @@ struct RefereeOptions {
  * @param names  Robots that take part. */
 RefereeInput to_input(const naolcm::world_truth_t& truth, const std::vector<MatchPlayer>& players);
 
-/** Connects RefereeCore to the bus: receives WORLD_TRUTH, NAO_PLAY_STATE of every robot and
- * MATCH_COMMAND; publishes MATCH_STATE, MATCH_COMMAND_RESULT and WORLD_COMMAND. */
+/** What a robot knows by its own cameras. */
+struct RobotKnowledge {
+  /** Its place, in its team's frame. */
+  std::optional<Pose2> pose{};
+  /** The ball as it was seen last, m, ahead of the robot and to its left, and its robot time, s. */
+  std::optional<Eigen::Vector2d> ball{};
+  double ball_time = 0;
+};
+void update(RobotKnowledge& knowledge, const naolcm::vision_state_t& vision);
+
+/** What a robot tells the GameController, without the team's number. @param now  Robot time, s. */
+GameControllerReturn to_return(const MatchPlayer& player, const RobotSighting& robot,
+                               const RobotKnowledge& knowledge, double now);
+
+/** Connects a referee, our own or the GameController, to the bus: receives WORLD_TRUTH,
+ * NAO_PLAY_STATE of every robot and MATCH_COMMAND, with a GameController also NAO_VISION_STATE for
+ * what robots tell it; publishes MATCH_STATE, MATCH_COMMAND_RESULT and WORLD_COMMAND. */
 class RefereeDaemon {
  public:
   /** s between two match_state_t, and between two transmissions of a world command. */
@@ -63,7 +91,13 @@ class RefereeDaemon {
   void send_placement();
   void publish_status(double now);
 
-  const RefereeCore& core() const { return core_; }
+  const Referee& referee() const { return *referee_; }
+  /** Port of the GameController's messages; 0 without. */
+  uint16_t game_controller_port() const { return link_ ? link_->port() : 0; }
+  /** Takes what the GameController has sent. */
+  void receive_game_controller();
+  /** Sends it what the robots have to say. */
+  void answer_game_controller();
 
  private:
   struct Play {
@@ -71,6 +105,7 @@ class RefereeDaemon {
     double received = -1e9;
   };
 
+  void make_referee();
   void subscribe();
   void handle(const naolcm::world_truth_t& truth);
   void handle(const naolcm::match_command_t& message);
@@ -82,7 +117,14 @@ class RefereeDaemon {
   std::function<double()> clock_;
   StatusReporter status_;
   std::map<std::string, std::string> ready_postures_;
-  RefereeCore core_;
+  std::unique_ptr<Referee> referee_;
+  /** Only with a GameController: the same referee, and the socket. */
+  GameControllerReferee* follower_ = nullptr;
+  std::optional<GameControllerLink> link_;
+  double last_game_controller_ = -1e9;
+  RateLimiter warnings_{1.0};
+  std::map<std::string, RobotKnowledge> knowledge_;
+  RefereeInput last_input_;
   std::map<std::string, Play> plays_;
   std::deque<naolcm::world_command_t> placements_;
   std::string source_;

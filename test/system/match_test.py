@@ -75,7 +75,8 @@ class Match(unittest.TestCase):
         self.assertEqual([event["event_id"] for event in events], [1, 2, 3, 4])
 
     def test_wrong_words_are_explained(self):
-        for options, said in ((["--autonomous", "all"], "--autonomous needs --match"),
+        for options, said in ((["--game-controller"], "--game-controller needs --match"),
+                              (["--autonomous", "all"], "--autonomous needs --match"),
                               (["--match", "1v1", "--autonomous", "NAO7"], "no robot 'NAO7'; there are: NAO1 NAO2"),
                               (["--match", "1v1", "--scene", "empty"], "--match needs a field")):
             with self.subTest(options=options):

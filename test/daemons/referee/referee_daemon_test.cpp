@@ -1,7 +1,14 @@
 #include "daemons/referee/referee_daemon.h"
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
 
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <naolcm/command_result_t.hpp>
 #include <naolcm/daemon_status_t.hpp>
@@ -10,6 +17,7 @@
 #include "common/bus.h"
 #include "common/error.h"
 #include "common/text_file.h"
+#include "test/daemons/referee/game_controller_packet.h"
 
 namespace nao::referee {
 namespace {
@@ -138,10 +146,10 @@ TEST_F(RefereeDaemonTest, ARestartedRefereeGoesOn) {
   const auto before = states_.back();
   Bus other_bus("memq://");
   const RefereeDaemon next(other_bus, options_, [this] { return now_; });
-  EXPECT_EQ(next.core().state().id, before.match_id);
-  EXPECT_EQ(next.core().state().score[1], 1);
-  EXPECT_EQ(static_cast<int>(next.core().state().phase), before.phase);
-  EXPECT_NEAR(next.core().state().time_left, before.time_left, 1.5);
+  EXPECT_EQ(next.referee().state().id, before.match_id);
+  EXPECT_EQ(next.referee().state().score[1], 1);
+  EXPECT_EQ(static_cast<int>(next.referee().state().phase), before.phase);
+  EXPECT_NEAR(next.referee().state().time_left, before.time_left, 1.5);
 }
 
 TEST_F(RefereeDaemonTest, RepeatsAPlacementUntilTheSimulatorAnswers) {
@@ -173,7 +181,7 @@ TEST_F(RefereeDaemonTest, SeesTouchesOfTheBall) {
   contact.body_b = "ball";
   truth_.contacts = {contact};
   truth_.num_contacts = 1;
-  const RefereeInput input = to_input(truth_, daemon_->core().state().players);
+  const RefereeInput input = to_input(truth_, daemon_->referee().state().players);
   ASSERT_EQ(input.robots.size(), 2u);
   EXPECT_FALSE(input.robots[0].touches_ball);
   EXPECT_TRUE(input.robots[1].touches_ball);
@@ -185,6 +193,94 @@ TEST_F(RefereeDaemonTest, RobotsNeedTeamsAndAFileMustBeAMatch) {
   EXPECT_THROW(RefereeDaemon(bus_, options), ConfigError);
   replace_file(options_.state_file, "{");
   EXPECT_THROW(RefereeDaemon(bus_, options_), Error);
+}
+
+/** A GameController on this host: a UDP socket. */
+class FakeGameController {
+ public:
+  FakeGameController() : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
+    timeval timeout{1, 0};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
+    sockaddr_in address = loopback(0);
+    socklen_t size = sizeof address;
+    EXPECT_EQ(bind(socket_, reinterpret_cast<sockaddr*>(&address), size), 0);
+    EXPECT_EQ(getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size), 0);
+    port_ = ntohs(address.sin_port);
+  }
+  ~FakeGameController() { close(socket_); }
+  FakeGameController(const FakeGameController&) = delete;
+  FakeGameController& operator=(const FakeGameController&) = delete;
+
+  uint16_t port() const { return port_; }
+  void send(const std::vector<uint8_t>& bytes, uint16_t port) const {
+    const sockaddr_in address = loopback(port);
+    EXPECT_EQ(sendto(socket_, bytes.data(), bytes.size(), 0,
+                     reinterpret_cast<const sockaddr*>(&address), sizeof address),
+              static_cast<ssize_t>(bytes.size()));
+  }
+  std::vector<uint8_t> receive() const {
+    std::vector<uint8_t> bytes(100);
+    const ssize_t count = recv(socket_, bytes.data(), bytes.size(), 0);
+    bytes.resize(static_cast<size_t>(std::max<ssize_t>(0, count)));
+    return bytes;
+  }
+
+ private:
+  static sockaddr_in loopback(uint16_t port) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(port);
+    return address;
+  }
+  int socket_;
+  uint16_t port_ = 0;
+};
+
+TEST_F(RefereeDaemonTest, FollowsAGameControllerAndAnswersForEveryRobot) {
+  const FakeGameController controller;
+  daemon_.reset();
+  options_.state_file.clear();
+  options_.game_controller_port = 0;
+  options_.return_port = controller.port();
+  start();
+  GameControllerPacket packet;
+  packet.state = 3;
+  packet.scores = {0, 1};
+  // What is none of its messages changes nothing, and is not answered.
+  controller.send({'R', 'G', 'm', 'e', 99}, daemon_->game_controller_port());
+  controller.send(packet.bytes(), daemon_->game_controller_port());
+  daemon_->receive_game_controller();
+  truth_.robots[1].orientation_torso_in_world[0] = std::sqrt(0.5);
+  truth_.robots[1].orientation_torso_in_world[1] = std::sqrt(0.5);
+  naolcm::vision_state_t vision{};
+  vision.utime = truth_.utime;
+  vision.has_field_pose = 1;
+  vision.torso_in_field[0] = -1.25;
+  bus_.publish("NAO1_VISION_STATE", vision);
+  run(0.3);
+  EXPECT_EQ(daemon_->referee().state().phase, MatchPhase::kPlaying);
+  EXPECT_EQ(states_.back().score[1], 1);
+  daemon_->answer_game_controller();
+  const std::vector<uint8_t> first = controller.receive();
+  ASSERT_EQ(first.size(), kGameControllerReturnSize);
+  EXPECT_EQ(first[5], 1);
+  EXPECT_EQ(first[6], 5);
+  EXPECT_EQ(first[7], 0);
+  float x = 0;
+  std::memcpy(&x, &first[8], sizeof x);
+  EXPECT_EQ(x, -1250);
+  const std::vector<uint8_t> second = controller.receive();
+  ASSERT_EQ(second.size(), kGameControllerReturnSize);
+  EXPECT_EQ(second[6], 12);
+  EXPECT_EQ(second[7], 1) << "NAO2 lies";
+
+  naolcm::match_command_t command{};
+  command.source = "test";
+  command.command_id = 1;
+  bus_.publish("MATCH_COMMAND", command);
+  deliver();
+  EXPECT_EQ(results_.back().reason_code, "match-by-game-controller");
 }
 
 }  // namespace

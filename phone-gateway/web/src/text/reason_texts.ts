@@ -146,6 +146,7 @@ export const kReasonTexts: Readonly<Record<string, readonly [pt: string, de: str
   "match-team-unknown": ["Não há equipa {0}; há 0 e 1.", "Es gibt kein Team {0}, nur 0 und 1."],
   "match-robot-unknown": ["O robô {0} não participa no jogo; participam {1}.",
                           "Der Roboter {0} spielt nicht mit; es spielen {1}."],
+  "match-by-game-controller": ["Neste jogo decide o GameController.", "In diesem Spiel entscheidet der GameController."],
   "match-operation-too-late": ["A operação {0} não é possível na fase {1}.",
                                "Der Eingriff {0} ist in der Phase {1} nicht möglich."],
   "match-not-played": ["Não há jogo; o árbitro não responde.",

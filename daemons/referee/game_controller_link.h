@@ -1,0 +1,43 @@
+#pragma once
+
+#include <netinet/in.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "daemons/referee/game_controller_message.h"
+
+namespace nao::referee {
+
+/** The UDP socket between robots and a GameController. Answers go to the host from which the last
+ * message came. */
+class GameControllerLink {
+ public:
+  /** @param port  For the GameController's messages; 0: any free one. Others on this host may use
+   * it, too. @param return_port  Of the GameController, for those of the robots.
+   * @throws Error  if the port cannot be opened. */
+  GameControllerLink(uint16_t port, uint16_t return_port);
+  ~GameControllerLink();
+  GameControllerLink(const GameControllerLink&) = delete;
+  GameControllerLink& operator=(const GameControllerLink&) = delete;
+
+  int descriptor() const { return socket_; }
+  uint16_t port() const;
+  /** The next waiting datagram; nothing if there is none. */
+  std::optional<std::vector<uint8_t>> receive();
+  /** The sender of the datagram received last is the GameController. */
+  void accept_sender() { controller_ = sender_; }
+  /** Sends to the GameController, if there is one. */
+  void send(std::span<const uint8_t> message) const;
+
+ private:
+  int socket_;
+  uint16_t return_port_;
+  sockaddr_in sender_{};
+  std::optional<sockaddr_in> controller_{};
+};
+
+}  // namespace nao::referee
