@@ -31,4 +31,18 @@ Pose2 kick_off_place(int number, int team_size, bool kicks_off, const Eigen::Vec
   return {{place[0] * half_field.x(), place[1] * half_field.y()}, 0};
 }
 
+Eigen::Vector2d restart_place(const Eigen::Vector2d& last_seen, bool is_own,
+                              const Eigen::Vector2d& half_field, const Eigen::Vector2d& goal_area) {
+  const double end = last_seen.x() > 0 ? 1 : -1;
+  const double side = last_seen.y() > 0 ? 1 : -1;
+  // It has crossed the line that it was nearest to, or beyond.
+  const Eigen::Vector2d beyond = last_seen.cwiseAbs() - half_field;
+  if (beyond.y() > beyond.x()) {
+    return {std::clamp(last_seen.x(), -half_field.x(), half_field.x()), side * half_field.y()};
+  }
+  const bool is_goal_kick = is_own == (end < 0);
+  if (!is_goal_kick) return {end * half_field.x(), side * half_field.y()};
+  return {end * (half_field.x() - goal_area.x()), side * 0.5 * goal_area.y()};
+}
+
 }  // namespace nao

@@ -21,6 +21,9 @@ constexpr double kKickOffWait = 10;
  * to the ball when the striker loses it. */
 constexpr double kBehindBall = 1.2;
 constexpr double kBesideBall = 0.9;
+/** s from the referee's saying that the ball has left the field until it lies where it goes on: 1 s
+ * (nao-referee), and what messages and images take. */
+constexpr double kBallReturn = 1.4;
 /** A ball that only teammates see is looked for from nearer than this, m: they see it with an error
  * of their own places, too. */
 constexpr double kToldDistance = 1.2;
@@ -45,8 +48,31 @@ void AutoPlayer::restart() {
   if (striker_) striker_->restart();
 }
 
-bool AutoPlayer::sees_ball(const Situation& situation) {
-  return situation.ball && situation.time - situation.ball->seen_time < kForgetBall;
+bool AutoPlayer::sees_ball(const Situation& situation) const {
+  return situation.ball && situation.time - situation.ball->seen_time < kForgetBall &&
+         situation.ball->seen_time > restart_time_;
+}
+
+void AutoPlayer::note_ball_out(const Situation& situation) {
+  const bool is_played = situation.match->phase == MatchPhase::kPlaying;
+  if (!is_played || !situation.match->ball_out) {
+    restart_.reset();
+    return;
+  }
+  const double time = situation.time - situation.match->ball_out->age + kBallReturn;
+  if (std::abs(time - restart_time_) < 0.5 * kBallReturn) return;
+  std::optional<Vector2d> last;
+  if (situation.ball) last = situation.field_in_odometry.inverse() * situation.ball->position;
+  const bool is_old = !situation.ball || situation.time - situation.ball->seen_time > kForgetBall;
+  if (is_old) {
+    if (const auto told = find_team_ball(*situation.match, {}, situation.time)) last = told;
+  }
+  restart_.reset();
+  restart_time_ = time;
+  if (!last) return;
+  const Vector2d half(0.5 * constants_.field.length, 0.5 * constants_.field.width);
+  restart_ =
+      restart_place(*last, situation.match->ball_out->is_own, half, constants_.field.goal_area);
 }
 
 std::optional<Vector2d> AutoPlayer::find_ball(const Situation& situation) const {
@@ -54,10 +80,12 @@ std::optional<Vector2d> AutoPlayer::find_ball(const Situation& situation) const 
   if (sees_ball(situation)) {
     own = situation.field_in_odometry.inverse() * situation.ball->position;
   }
-  return find_team_ball(*situation.match, own, situation.time);
+  const auto known = find_team_ball(*situation.match, own, situation.time);
+  return known ? known : restart_;
 }
 
 Decision AutoPlayer::step(const Situation& situation) {
+  if (situation.match) note_ball_out(situation);
   // A kick or a dive goes on to its end.
   if (situation.is_performing || situation.ended) return play(situation);
   if (!situation.match) return stand(situation, Reason("match-not-played"));

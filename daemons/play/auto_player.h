@@ -22,9 +22,11 @@ class AutoPlayer : public BehaviorMachine {
 
  private:
   /** Whether the robot itself has seen the ball lately. */
-  static bool sees_ball(const Situation& situation);
-  /** Where the team knows the ball to be, m, on the field. */
+  bool sees_ball(const Situation& situation) const;
+  /** Where the team knows the ball to be, or where the rules put it, m, on the field. */
   std::optional<Eigen::Vector2d> find_ball(const Situation& situation) const;
+  /** Takes notice of the referee's saying that the ball has left the field. */
+  void note_ball_out(const Situation& situation);
   Decision stand(const Situation& situation, const Reason& reason);
   Decision take_place(const Situation& situation);
   Decision play(const Situation& situation);
@@ -44,6 +46,9 @@ class AutoPlayer : public BehaviorMachine {
   std::unique_ptr<Striker> striker_;
   PlayRole role_ = PlayRole::kNone;
   bool is_clearing_ = false;
+  /** Where the ball probably was put after it had left the field, m, on the field, and when, s. */
+  std::optional<Eigen::Vector2d> restart_{};
+  double restart_time_ = -1e9;
 };
 
 }  // namespace nao::play

@@ -7,6 +7,9 @@ namespace {
 
 /** What teammates say counts for this long, s. Chosen: their images come 5 to 15 times a second. */
 constexpr double kSeenTimeout = 2;
+/** The referee's last word on the ball counts for this long, s. Chosen: a robot walks
+ * 9 m meanwhile. */
+constexpr double kBallOutTimeout = 30;
 /** Advantage of the present striker, m. Chosen: more than the ball's error at 3 m. */
 constexpr double kRoleHysteresis = 0.5;
 
@@ -27,6 +30,9 @@ std::optional<MatchView> view_match(const MatchState& state, const std::string& 
   view.team_size = 0;
   view.kicks_off = state.kickoff_team == own->team;
   if (state.event.kind == MatchEventKind::kKickOff) view.since_kick_off = time - state.event.time;
+  if (state.event.kind == MatchEventKind::kBallOut && time - state.event.time < kBallOutTimeout) {
+    view.ball_out = {time - state.event.time, state.event.team == own->team};
+  }
   for (const MatchPlayer& player : state.players) {
     if (player.team != own->team) continue;
     ++view.team_size;

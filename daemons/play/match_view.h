@@ -40,6 +40,12 @@ struct MatchView {
   bool kicks_off = false;
   /** s since the last kick-off; less than 0: there was none. */
   double since_kick_off = -1;
+  /** s since the ball left the field, and whether the own team goes on; nothing: long ago. */
+  struct BallOut {
+    double age = 0;
+    bool is_own = false;
+  };
+  std::optional<BallOut> ball_out{};
   std::vector<Teammate> teammates{};
 };
 

@@ -71,9 +71,11 @@ PlayConstants load_constants(const RobotModel& model, const std::string& scene) 
     throw ConfigError("the scene " + scene + " has no field with goals; behaviors need one");
   }
   PlayConstants constants;
-  constants.field = {file.field->length, file.field->width,
+  constants.field = {file.field->length,
+                     file.field->width,
                      file.goals->post_distance - file.goals->post_diameter,
-                     file.goals->post_offset + file.goals->depth};
+                     file.goals->post_offset + file.goals->depth,
+                     {file.field->goal_area_length, file.field->goal_area_width}};
   constants.walk_limits = model.walk_limits();
   constants.actions = {name_of_action(model, Action::Kind::kKick, Side::kLeft),
                        name_of_action(model, Action::Kind::kKick, Side::kRight),

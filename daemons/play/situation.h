@@ -70,6 +70,8 @@ struct Field {
   /** Inner width of a goal, and its depth behind the center of the goal line. */
   double goal_width = 0;
   double goal_depth = 0;
+  /** Length and width of a goal area. */
+  Eigen::Vector2d goal_area = Eigen::Vector2d::Zero();
 };
 
 /** Where the robot's kick wants the ball, m, in F: ahead, and to the side of the kicking foot. */

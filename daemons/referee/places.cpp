@@ -10,6 +10,9 @@ namespace {
 
 using Eigen::Vector2d;
 
+/** Around the mark, m, in which no robot may stand: a foot's length before the torso, the ball, and
+ * some room. */
+constexpr double kFreeMark = 0.25;
 /** Where penalised robots stand: beyond the side line, and apart from one another, m. */
 constexpr double kBesideField = 0.35;
 constexpr double kPenaltySpacing = 0.7;
@@ -39,7 +42,8 @@ bool is_legal_at_kick_off(const MatchPlayer& player, const RobotSighting& robot,
   const bool is_in_own_half = position.x() < 0 && position.x() > -0.5 * field.length &&
                               std::abs(position.y()) < 0.5 * field.width;
   const bool is_in_circle = position.norm() < 0.5 * field.centre_circle_diameter;
-  return robot.is_upright && is_in_own_half && (!is_in_circle || player.team == state.kickoff_team);
+  return robot.is_upright && is_in_own_half && position.norm() > kFreeMark &&
+         (!is_in_circle || player.team == state.kickoff_team);
 }
 
 std::vector<Placement> prepare_kick_off(const RefereeInput& input, const MatchState& state,

@@ -12,8 +12,8 @@ const RobotSighting* find_robot(const RefereeInput& input, const std::string& na
 /** Where a player stands at the next kick-off, in the field frame. */
 Pose2 kick_off_place_of(const MatchPlayer& player, const MatchState& state, const SceneFile& scene);
 
-/** Whether a player may stand there at the next kick-off: on its feet, in its own half, and outside
- * the centre circle unless its team kicks off. */
+/** Whether a player may stand there at the next kick-off: on its feet, in its own half, outside the
+ * centre circle unless its team kicks off, and not where the ball is put. */
 bool is_legal_at_kick_off(const MatchPlayer& player, const RobotSighting& robot,
                           const MatchState& state, const SceneFile& scene);
 

@@ -38,5 +38,17 @@ TEST(Formation, OneIsAtTheBallAndTheLastKeepsTheGoal) {
   EXPECT_GT(kick_off_place(1, 1, false, kHalfField).position.x(), -1.5);
 }
 
+TEST(RestartPlace, IsOnTheLineOrAtTheEndOfTheFieldByWhoGoesOn) {
+  const Eigen::Vector2d half(4.5, 3);
+  const Eigen::Vector2d area(0.6, 2.2);
+  using Eigen::Vector2d;
+  EXPECT_EQ(restart_place({1, -3.2}, true, half, area), Vector2d(1, -3));
+  EXPECT_EQ(restart_place({1, 2.5}, false, half, area), Vector2d(1, 3)) << "seen before the line";
+  EXPECT_EQ(restart_place({4.8, 1}, true, half, area), Vector2d(4.5, 3)) << "own corner kick";
+  EXPECT_EQ(restart_place({4.8, 1}, false, half, area), Vector2d(3.9, 1.1)) << "their goal kick";
+  EXPECT_EQ(restart_place({-4.8, -1}, true, half, area), Vector2d(-3.9, -1.1)) << "own goal kick";
+  EXPECT_EQ(restart_place({-4.8, -1}, false, half, area), Vector2d(-4.5, -3));
+}
+
 }  // namespace
 }  // namespace nao

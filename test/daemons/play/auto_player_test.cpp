@@ -154,6 +154,25 @@ TEST_F(AutoPlayerTest, GoesToABallThatOnlyATeammateSees) {
   EXPECT_EQ(world.core.state().reason.code, "ball-not-in-sight");
 }
 
+TEST_F(AutoPlayerTest, GoesToWhereTheRulesPutABallThatWasOut) {
+  world.match->phase = MatchPhase::kPlaying;
+  world.match->kicks_off = true;
+  world.feet = {{2.5, 0.5}, 0.5};
+  world.ball = {4, 1};
+  run(1);
+  // A kick over the end line, which a defender touched last: a corner kick. Nobody sees it.
+  world.ball = {4.7, 1.5};
+  run(1);
+  world.is_ball_visible = false;
+  world.ball = {4.5, 3};
+  for (int i = 0; i < 200; ++i) {
+    world.match->ball_out = {1 + i * ToyWorld::kPeriod, true};
+    world.step();
+  }
+  // Towards the corner, not to where it was seen.
+  EXPECT_LT((world.feet.position - Vector2d(4.5, 3)).norm(), 1.3);
+}
+
 TEST_F(AutoPlayerTest, WithoutAMatchItStands) {
   world.match.reset();
   run(3);

@@ -36,6 +36,15 @@ TEST(MatchView, IsThatOfTheRobotsTeam) {
   EXPECT_TRUE(view_match(match_of_three(), "B1", 100, seen)->kicks_off);
 }
 
+TEST(MatchView, TellsThatTheBallIsOutForAWhile) {
+  MatchState state = match_of_three();
+  state.event = {7, MatchEventKind::kBallOut, 1, "", 99};
+  EXPECT_NEAR(view_match(state, "A1", 100, {})->ball_out->age, 1, 1e-9);
+  EXPECT_FALSE(view_match(state, "A1", 100, {})->ball_out->is_own);
+  EXPECT_TRUE(view_match(state, "B1", 100, {})->ball_out->is_own);
+  EXPECT_FALSE(view_match(state, "A1", 140, {})->ball_out);
+}
+
 TEST(MatchView, TheBallIsTheOwnOneOrTheNewestOfATeammate) {
   MatchView view;
   view.teammates = {{2, true, false, {99, Vector2d(0, 0), Vector2d(1, 0)}},

@@ -264,6 +264,16 @@ TEST_F(RefereeCoreTest, ANewSimulatorGoesOnWithAKickOff) {
   EXPECT_EQ(core.state().phase, MatchPhase::kReady);
 }
 
+TEST_F(RefereeCoreTest, ARobotOnTheMarkIsPutBackBeforeTheBallIs) {
+  run(0.1);
+  ASSERT_FALSE(core.overrule({MatchOperation::kStart}));
+  find("A1").position = {-0.1, 0};
+  run(50);
+  ASSERT_FALSE(placements.empty());
+  EXPECT_EQ(placements[0].robot, "A1");
+  EXPECT_LT(placements[0].pose.position.x(), -0.3);
+}
+
 TEST(RefereeCore, NeedsTwoTeamsAndAField) {
   const SceneFile soccer = SceneFile::find("soccer");
   EXPECT_THROW(RefereeCore({{"A1", 0, 1}}, soccer, {}, 1), ConfigError);
