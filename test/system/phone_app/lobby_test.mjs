@@ -86,6 +86,17 @@ test("a spectator sees another one's robot and moves nothing", async () => {
   await cid.page.locator(".message", {hasText: "Ana drives"}).waitFor();
 });
 
+test("a spectator watches the whole field, which the first robot's program draws for all", async () => {
+  const label = cid.page.locator(".image-camera");
+  for (let i = 0; i < 3 && (await label.textContent()) !== "Overview"; i++) await label.tap();
+  assert.equal(await label.textContent(), "Overview");
+  const before = await cid.look("numImages");
+  await until("images of the field come", async () => (await cid.look("numImages")) > before + 2);
+  // Not the image of a head: with the empty scene it shows both robots from their side.
+  await label.tap();
+  assert.notEqual(await label.textContent(), "Overview");
+});
+
 test("a driver who disconnects in mid-walk leaves a robot that stops, and that others may take", async () => {
   const before = await stack.truth("NAO1");
   await walk(ana);

@@ -86,8 +86,8 @@ export class Stack {
   /** Starts the gateway, on the same port as before if it ran already. */
   async startGateway() {
     const program = this.run("nao-phone-gateway", [
-      ...this.#model, ...this.#robots, "--bind", "127.0.0.1", "--http-port", String(this.httpPort), "--tcp-port", "0",
-      "--token", this.token]);
+      ...this.#model, ...this.#robots, ...(this.#robots.length > 0 ? ["--overview"] : []), "--bind", "127.0.0.1",
+      "--http-port", String(this.httpPort), "--tcp-port", "0", "--token", this.token]);
     [this.httpPort, this.tcpPort] = await until("the gateway listens", () => {
       const ports = /HTTP and WebSocket on 127\.0\.0\.1:(\d+), TCP on 127\.0\.0\.1:(\d+)/.exec(program.log);
       if (ports) return ports.slice(1).map(Number);
