@@ -85,6 +85,20 @@ def choose_autonomous(line, options):
     return chosen
 
 
+def choose_served_robots(line, options):
+    """Names of the robots whose own programs run here."""
+    names = [words.partition(":")[0] for words in options.robot_words]
+    if not options.only_robots:
+        return names
+    if not options.only:
+        line.error("--only-robots needs --only")
+    chosen = re.split("[, ]+", options.only_robots.strip(", "))
+    for name in chosen:
+        if name not in names:
+            line.error(f"--only-robots: no robot '{name}'; there are: {' '.join(names)}")
+    return chosen
+
+
 def place_robots(options, bin_dir):
     """@return The robots, with their teams and places."""
     if len(options.robot_words) == 1:
@@ -109,7 +123,8 @@ def choose_processes(options, robots):
     processes = []
     for program in options.programs:
         if program in PER_ROBOT and len(robots) > 1:
-            processes += [Process(f"{program}-{robot.name}", program, robot) for robot in robots]
+            processes += [Process(f"{program}-{robot.name}", program, robot) for robot in robots
+                          if robot.name in options.served_robots]
         else:
             processes.append(Process(program, program, robots[0]))
     return processes

@@ -98,10 +98,10 @@ class CommandLine(argparse.ArgumentParser):
                     default=Path(os.environ.get("NAO_REMOTE_RUN_DIR", ROOT / "run")).resolve(),
                     help=f"{purpose} (default: run)")
 
-    def parse(self):
-        """Adds --help and reads the command line."""
+    def parse(self, arguments=None):
+        """Adds --help and reads the command line, or other arguments."""
         self.option("--help", action="help", help="this text")
-        values, unknown = self.parse_known_intermixed_args()
+        values, unknown = self.parse_known_intermixed_args(arguments)
         if unknown:
             self.error(f"unknown option {unknown[0]}")
         return values

@@ -11,7 +11,8 @@ import sys
 from argparse import ArgumentTypeError
 from pathlib import Path
 
-from robots import (MAX_ROBOTS, Process, choose_autonomous, choose_processes, choose_robots, number_of_robots, place_robots, team_sizes)
+from robots import (MAX_ROBOTS, Process, choose_autonomous, choose_processes, choose_robots, choose_served_robots,
+                    number_of_robots, place_robots, team_sizes)
 from seat import check_seated
 from stack import (CALL, CAMERA, COMPANIONS, FOXGLOVE, LOLA_SOCKET, OPTIONAL, PLAY, PROGRAMS, ROBOT, ROBOT_PROGRAMS,
                    REFEREE, ROBOT_WATCHDOG, ROOT, SIM, VISION, CommandLine, Failure, Stack, run_as_root, run_script, warn)
@@ -94,7 +95,8 @@ def start_pose(text):
     return text
 
 
-def parse_options():
+def parse_options(arguments=None):
+    """@param arguments  Instead of the command line."""
     line = CommandLine("[OPTION]...", __doc__)
     line.option("--scene", metavar="NAME", default="soccer", help="empty or soccer (default: soccer)")
     line.option("--robot", metavar="NAME[:MODEL]", action="append",
@@ -114,7 +116,9 @@ def parse_options():
                 help="folder of robots/ that describes robots without a model: nao, a V5, or nao_v6 (default: nao)")
     line.option("--only", metavar="LIST",
                 help="only these programs; the others run on other hosts: "
-                     "sim,motion,motion-files,head-camera,speaker,phone-gateway")
+                     "sim,motion,motion-files,head-camera,speaker,phone-gateway, and what other options add: referee,vision,play")
+    line.option("--only-robots", metavar="LIST",
+                help="with --only: of the programs that there are for each robot only those of these, such as NAO1,NAO2")
     line.option("--no-camera", action="store_true", help="without the head camera")
     line.option("--vision", action="store_true",
                 help="also find ball, lines, goals and robots in the head camera's images, and the robot's pose on the field, and "
@@ -151,10 +155,11 @@ def parse_options():
     line.option("--bin", metavar="DIR", default=os.environ.get("NAO_REMOTE_BIN") or None,
                 help="folder of built programs (default: NAO_REMOTE_BIN, or build them)")
     line.run_dir_option("for logs and settings; one for each stack")
-    options = line.parse()
+    options = line.parse(arguments)
     options.robot_words = choose_robots(line, options)
     options.autonomous_names = choose_autonomous(line, options)
     options.programs = choose_programs(line, options)
+    options.served_robots = choose_served_robots(line, options)
     if len(options.robot_words) > 1 and options.start_pose != DEFAULT_START_POSE:
         line.error("--start-pose is for one robot; several start where the simulator places them")
     return options
@@ -165,6 +170,13 @@ def choose_programs(line, options):
     programs = list(ROBOT_PROGRAMS if options.backend == "robot" else PROGRAMS)
     if options.backend == "lola":
         programs.insert(1, ROBOT)
+    if options.match:
+        programs.append(REFEREE)
+    if options.vision:
+        # Behaviors need a field.
+        programs += [VISION] if options.scene == "empty" else [VISION, PLAY]
+    elif options.start_pose != DEFAULT_START_POSE:
+        line.error("--start-pose needs --vision")
     known_programs = list(programs)
     if options.only:
         names = re.split("[, ]+", options.only.strip(", "))
@@ -175,13 +187,6 @@ def choose_programs(line, options):
                 line.error(f"no program '{name}'; there are: {known}")
     if options.no_camera:
         programs = [program for program in programs if program != CAMERA]
-    if options.match:
-        programs.append(REFEREE)
-    if options.vision:
-        # Behaviors need a field.
-        programs += [VISION] if options.scene == "empty" else [VISION, PLAY]
-    elif options.start_pose != DEFAULT_START_POSE:
-        line.error("--start-pose needs --vision")
     if options.foxglove:
         programs.append(FOXGLOVE)
     if not programs:

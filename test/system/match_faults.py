@@ -1,0 +1,132 @@
+#!/usr/bin/python3
+"""Faults in a match: two robots play against two by what they see, while this kills one program after the other.
+
+Usage: match_faults.py [--minutes M] [--seed N] [--json FILE]
+
+A robot's own programs killed: only that robot pauses. Simulator, gateway or referee killed: all pause. Afterwards score and
+clock must be right, every program ready and the world running within 10 s; a robot that stood and was not hit may not
+have fallen within 3 s for that reason alone (falls are counted, and compared with those of times without faults).
+"""
+
+import argparse
+import json
+import os
+import random
+import re
+import signal
+import sys
+import time
+
+from stack import Stack
+
+SHARED = ("nao-sim", "nao-phone-gateway", "nao-referee")
+PER_ROBOT = ("nao-motion", "nao-motion-files", "nao-head-camera", "nao-vision", "nao-play", "nao-speaker")
+LIMIT = 10  # s until everything is whole again
+PAUSE = 8   # s of undisturbed play between two faults
+FALLEN = 0.2  # m, height of the torso
+
+
+class Run:
+    def __init__(self, stack, seed):
+        self.stack = stack
+        self.random = random.Random(seed)
+        self.rows = []
+
+    def match(self):
+        shown = self.stack.nao("match", "show")
+        found = re.match(r"(\w+(?:-\w+)*), half (\d), (\d+):(\d\d) left, (\d+):(\d+)", shown.stdout)
+        if not found:
+            return None
+        phase, half, minutes, seconds, a, b = found.groups()
+        return {"phase": phase, "half": int(half), "left": 60 * int(minutes) + int(seconds), "score": [int(a), int(b)]}
+
+    def truth(self):
+        shown = self.stack.nao("world", "show", "--json")
+        return json.loads(shown.stdout) if shown.returncode == 0 else None
+
+    def programs(self):
+        shown = self.stack.script("status", "--json")
+        return json.loads(shown.stdout) if shown.returncode == 0 else []
+
+    def standing(self, truth):
+        return [robot["position_torso_in_world"][2] > FALLEN for robot in truth["robots"]] if truth else []
+
+    def is_whole(self, count):
+        """Every program is ready again, and the world runs."""
+        rows = self.programs()
+        first = self.truth()
+        time.sleep(0.3)
+        second = self.truth()
+        return (len(rows) >= count and all(row["state"] == "ready" for row in rows) and first and second
+                and second["utime"] > first["utime"] and self.match() is not None)
+
+    def fault(self, count):
+        rows = self.programs()
+        names = [row["program"] for row in rows]
+        kinds = [name for name in names if name in SHARED] * 2 + [name for name in names if name.startswith(PER_ROBOT)]
+        name = self.random.choice(sorted(kinds))
+        before, stood = self.match(), self.standing(self.truth())
+        pid = next(row["pid"] for row in rows if row["program"] == name)
+        begin = time.monotonic()
+        os.kill(pid, signal.SIGKILL)
+        time.sleep(0.5)
+        while not self.is_whole(count):
+            if time.monotonic() - begin > 60:
+                break
+            time.sleep(0.2)
+        took = time.monotonic() - begin
+        after, stands = self.match(), self.standing(self.truth())
+        # A goal may fall meanwhile, and a half may end; a score never falls, and the clock is never ahead.
+        is_right = bool(before and after and all(b >= a for a, b in zip(before["score"], after["score"]))
+                        and sum(after["score"]) <= sum(before["score"]) + 1
+                        and (after["half"] > before["half"] or before["left"] - took - 2 <= after["left"] <= before["left"]))
+        fell = [i for i, (a, b) in enumerate(zip(stood, stands)) if a and not b]
+        self.rows.append({"killed": name, "whole_s": round(took, 1), "is_right": is_right, "fell": fell,
+                          "before": before, "after": after})
+        print(json.dumps(self.rows[-1]), flush=True)
+
+    def undisturbed(self):
+        """Falls in a time without faults, for comparison."""
+        stood = self.standing(self.truth())
+        time.sleep(PAUSE)
+        return sum(a and not b for a, b in zip(stood, self.standing(self.truth())))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--minutes", type=float, default=15)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--time-scale", type=float, default=1, help="factor on the limits, for a busy machine")
+    parser.add_argument("--json")
+    arguments = parser.parse_args()
+    with Stack() as stack:
+        stack.start_or_fail("--match", "2v2", "--autonomous", "all", "--seed", str(arguments.seed))
+        run = Run(stack, arguments.seed)
+        count = len(run.programs())
+        begin = time.monotonic()
+        while (run.match() or {}).get("phase") != "playing":
+            time.sleep(1)
+        undisturbed_falls = 0
+        while time.monotonic() - begin < 60 * arguments.minutes:
+            if run.match() and run.match()["phase"] == "finished":
+                stack.nao("match", "new-match")
+                stack.nao("match", "start")
+            undisturbed_falls += run.undisturbed()
+            run.fault(count)
+        rows = run.rows
+        late = [row for row in rows if row["whole_s"] > LIMIT * arguments.time_scale]
+        wrong = [row for row in rows if not row["is_right"]]
+        shared = [row for row in rows if row["killed"] in SHARED]
+        times = sorted(row["whole_s"] for row in rows)
+        print(f"{len(rows)} faults, {len(shared)} of them of simulator, gateway or referee; whole again after {times[len(times) // 2]} s "
+              f"(median), {times[-1]} s (worst), {len(late)} later than {LIMIT * arguments.time_scale:g} s; score or clock wrong {len(wrong)} times; falls "
+              f"{sum(len(row['fell']) for row in rows)} in {sum(times):.0f} s with faults, "
+              f"{undisturbed_falls} in {PAUSE * len(rows)} s without")
+        if arguments.json:
+            with open(arguments.json, "w", encoding="utf-8") as file:
+                json.dump(rows, file, indent=1)
+    return 1 if late or wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
