@@ -138,7 +138,8 @@ std::string crowd(int num_threads, double seconds, int64_t* num_touching) {
   for (int i = 0; i < kNumRobots; ++i) {
     RobotOptions robot;
     robot.name = "R" + std::to_string(i);
-    robot.position = {-2.0 + 0.5 * static_cast<double>(i / 2), i % 2 == 0 ? -1 : 1};
+    const int column = i / 2;
+    robot.position = {-2.0 + 0.5 * column, i % 2 == 0 ? -1 : 1};
     world.add_robot(nao_model(), robot);
   }
   Random random(3);

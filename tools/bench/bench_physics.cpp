@@ -320,7 +320,8 @@ void measure_threads(std::vector<Figure>& figures) {
     for (int i = 0; i < 10; ++i) {
       RobotOptions robot;
       robot.name = "R" + std::to_string(i);
-      robot.position = {-2.0 + i / 2, i % 2 == 0 ? -1 : 1};
+      const int column = i / 2;
+      robot.position = {-2.0 + column, i % 2 == 0 ? -1 : 1};
       all.back()->add_robot(nao_model(), robot);
     }
     for (int i = 0; i < 200; ++i) all.back()->step_tick();
