@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <naolcm/command_result_t.hpp>
 #include <naolcm/daemon_status_t.hpp>
 #include <naolcm/match_command_t.hpp>
@@ -25,7 +26,9 @@ namespace {
 /** A world of two robots, whose simulator obeys. */
 class RefereeDaemonTest : public testing::Test {
  protected:
-  RefereeDaemonTest() : bus_("memq://") {
+  /** @param change  Of the options, before the daemon is made. */
+  explicit RefereeDaemonTest(const std::function<void(RefereeOptions&)>& change = {})
+      : bus_("memq://") {
     folder_ = std::filesystem::path(testing::TempDir()) /
               testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::remove_all(folder_);
@@ -56,6 +59,7 @@ class RefereeDaemonTest : public testing::Test {
     truth_.has_ball = 1;
     truth_.robots = {robot("NAO1", -0.5), robot("NAO2", 1.5)};
     truth_.num_robots = 2;
+    if (change) change(options_);
     start();
   }
 
@@ -237,13 +241,24 @@ class FakeGameController {
   uint16_t port_ = 0;
 };
 
-TEST_F(RefereeDaemonTest, FollowsAGameControllerAndAnswersForEveryRobot) {
-  const FakeGameController controller;
-  daemon_.reset();
-  options_.state_file.clear();
-  options_.game_controller_port = 0;
-  options_.return_port = controller.port();
-  start();
+/** Exists before the daemon. */
+struct HasGameController {
+  FakeGameController controller;
+};
+
+class GameControllerDaemonTest : private HasGameController, public RefereeDaemonTest {
+ protected:
+  GameControllerDaemonTest()
+      : RefereeDaemonTest([this](RefereeOptions& options) {
+          options.game_controller_port = 0;
+          options.return_port = controller.port();
+        }) {}
+
+  const FakeGameController& game_controller() const { return controller; }
+};
+
+TEST_F(GameControllerDaemonTest, FollowsItAndAnswersForEveryRobot) {
+  const FakeGameController& controller = game_controller();
   GameControllerPacket packet;
   packet.state = 3;
   packet.scores = {0, 1};
