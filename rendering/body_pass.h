@@ -41,6 +41,9 @@ class BodyPass {
     BoundingSphere sphere;
   };
 
+  /** The level of detail that suffices for an instance in this view. */
+  const gl::MeshBuffer& buffer(const MeshInstance& instance, const RenderView& view) const;
+
   MeshStore& meshes_;
   const DepthProgram& depth_;
   LitProgram solid_;

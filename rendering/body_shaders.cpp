@@ -7,7 +7,7 @@ namespace {
 
 // Colors of meshes are stored as square roots (see encode_color()) and become linear light by
 // squaring.
-const char* const kSolidVertex = R"(
+const char* const kMeshVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 encoded_color;
@@ -15,27 +15,47 @@ uniform mat4 clip_from_mesh;
 uniform mat4 world_from_mesh;
 uniform mat4 normal_from_mesh;
 uniform vec4 tint;
-out vec3 position_in_world;
-out vec3 position_in_mesh;
-out vec3 normal_in_world;
-flat out vec4 color;
+)";
+
+// Light is computed at the vertices, which are fewer than pixels, and only shadows at each pixel
+// (H. Gouraud, "Continuous shading of curved surfaces", 1971).
+const char* const kSolidVertex = R"(
+out vec3 ambient;
+out vec3 direct;
+out vec4 place;
+flat out float opacity;
 void main() {
-  position_in_world = (world_from_mesh * vec4(position, 1.0)).xyz;
-  position_in_mesh = position;
-  normal_in_world = mat3(normal_from_mesh) * normal;
-  color = vec4(encoded_color.rgb * encoded_color.rgb, encoded_color.a) * tint;
+  vec3 position_in_world = (world_from_mesh * vec4(position, 1.0)).xyz;
+  vec3 unit_normal = normalize(mat3(normal_from_mesh) * normal);
+  vec3 albedo = encoded_color.rgb * encoded_color.rgb * tint.rgb;
+  ambient = ambient_part(albedo, unit_normal);
+  direct = direct_part(albedo, unit_normal, position_in_world, 0.18);
+  place = surface_light_place(position_in_world, unit_normal);
+  opacity = encoded_color.a * tint.a;
   gl_Position = clip_from_mesh * vec4(position, 1.0);
 }
 )";
 
 const char* const kSolidFragment = R"(
-in vec3 position_in_world;
-in vec3 normal_in_world;
-flat in vec4 color;
+in vec3 ambient;
+in vec3 direct;
+in vec4 place;
+flat in float opacity;
 out vec4 screen;
 void main() {
-  vec3 light = lit(color.rgb, normalize(normal_in_world), position_in_world, 0.18);
-  screen = vec4(encoded(light), color.a);
+  screen = vec4(encoded(ambient + direct_fraction(place) * direct), opacity);
+}
+)";
+
+const char* const kBallVertex = R"(
+out vec3 position_in_world;
+out vec3 position_in_mesh;
+out vec3 normal_in_world;
+void main() {
+  position_in_world = (world_from_mesh * vec4(position, 1.0)).xyz;
+  position_in_mesh = position;
+  normal_in_world = mat3(normal_from_mesh) * normal;
+  gl_Position = clip_from_mesh * vec4(position, 1.0);
 }
 )";
 
@@ -61,7 +81,10 @@ void main() {
   float edge = fwidth(pentagon) + 1e-5;
   float dark = clamp((pentagon - hexagon) / edge + 0.5, 0.0, 1.0);
   vec3 albedo = mix(vec3(0.86), vec3(0.012), dark);
-  vec3 light = lit(albedo, normalize(normal_in_world), position_in_world, 0.12);
+  vec3 normal = normalize(normal_in_world);
+  float fraction = direct_fraction(surface_light_place(position_in_world, normal));
+  vec3 light = ambient_part(albedo, normal) +
+               fraction * direct_part(albedo, normal, position_in_world, 0.12);
   screen = vec4(encoded(light), 1.0);
 }
 )";
@@ -81,11 +104,13 @@ void main() {}
 }  // namespace
 
 Source solid(bool with_shadow) {
-  return {std::string(kHeader) + kSolidVertex, lit_header(with_shadow) + kSolidFragment};
+  return {lit_header(with_shadow) + kMeshVertex + kSolidVertex,
+          lit_header(with_shadow) + kSolidFragment};
 }
 
 Source ball(bool with_shadow) {
-  return {std::string(kHeader) + kSolidVertex, lit_header(with_shadow) + kBallFragment};
+  return {lit_header(with_shadow) + kMeshVertex + kBallVertex,
+          lit_header(with_shadow) + kBallFragment};
 }
 
 Source depth() {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "rendering/carpet_cells.h"
 #include "rendering/gl_objects.h"
 #include "rendering/pixel_box.h"
 #include "rendering/render_statistics.h"
@@ -19,24 +20,39 @@ class GroundPass {
   explicit GroundPass(float reach);
 
   /** Replaces the field; without one the ground is a floor. */
-  void set_surroundings(const SceneFile& scene) { field_dimensions_ = scene.field; }
+  void set_surroundings(const SceneFile& scene);
 
   void draw_ground(const RenderView& view, const ShadowPass& shadows, RenderStatistics& statistics);
   /** Draws the background of all pixels that nothing else covers. */
   void draw_sky(const RenderView& view, RenderStatistics& statistics);
 
  private:
-  void draw_boxes(const gl::ShaderProgram& program, const std::vector<PixelBox>& boxes,
-                  const RenderView& view, const ShadowPass& shadows, RenderStatistics& statistics);
+  using Vertices = std::vector<gl::StreamBuffer::Vertex>;
 
+  /** A shader for what may be in shadow, and one for all else: looking shadows up is expensive. */
+  struct Programs {
+    gl::ShaderProgram shadowed;
+    gl::ShaderProgram lit;
+  };
+
+  void draw(const Programs& programs, const Vertices& vertices, const RenderView& view,
+            const ShadowPass& shadows, RenderStatistics& statistics);
+  void use(const gl::ShaderProgram& program, const RenderView& view,
+           const ShadowPass& shadows) const;
+
+  /** Half the side of the ground's square, m. */
   float reach_;
+  Vertices ground_;
   std::optional<FieldDimensions> field_dimensions_;
-  gl::ShaderProgram field_;
-  gl::ShaderProgram floor_;
-  gl::ShaderProgram shadowed_field_;
-  gl::ShaderProgram shadowed_floor_;
+  CarpetCells cells_;
+  Programs field_;
+  Programs worn_field_;
+  Programs carpet_;
+  Programs worn_carpet_;
+  Programs floor_;
   gl::ShaderProgram sky_;
-  gl::EmptyVertexArray vertices_;
+  gl::StreamBuffer buffer_;
+  gl::EmptyVertexArray sky_vertices_;
 };
 
 }  // namespace nao

@@ -5,17 +5,13 @@
 namespace nao::shaders {
 namespace {
 
-// The ground is a square of half side `reach` about the origin, at z = 0.
-// Two triangles, from gl_VertexID.
 const char* const kGroundVertex = R"(
+layout(location = 0) in vec3 position;
 uniform mat4 clip_from_world;
-uniform float reach;
 out vec3 position_in_world;
 void main() {
-  vec2 corner = vec2(gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4 ? 1.0 : -1.0,
-                     gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5 ? 1.0 : -1.0);
-  position_in_world = vec3(reach * corner, 0.0);
-  gl_Position = clip_from_world * vec4(position_in_world, 1.0);
+  position_in_world = position;
+  gl_Position = clip_from_world * vec4(position, 1.0);
 }
 )";
 
@@ -47,19 +43,9 @@ vec3 with_haze(vec3 light, vec3 position) {
 }
 )";
 
-const char* const kFieldFragment = R"(
-// Dimensions of the field, m.
-uniform vec2 half_field;
-uniform vec2 half_carpet;
-uniform float half_line;
-uniform vec2 goal_area;     // length, half width
-uniform vec2 penalty_area;  // length, half width
-uniform vec2 penalty_mark;  // distance from the center, half size
-uniform vec2 center;        // radius of the circle, half length of the mark
+const char* const kCarpet = R"(
 // As in SceneAppearance.
 uniform vec3 carpet_color;
-uniform vec3 line_color;
-uniform float line_wear;
 uniform float carpet_texture;
 
 // Value noise in 0 to 1 with cells of 1 m.
@@ -73,6 +59,46 @@ float noise(vec2 x) {
   return mix(mix(hash(cell), hash(cell + vec2(1, 0)), t.x),
              mix(hash(cell + vec2(0, 1)), hash(cell + vec2(1, 1)), t.x), t.y);
 }
+
+// Color of the carpet in a pixel of extent f at p.
+vec3 carpet(vec2 p, vec2 f) {
+  // Faint variation of the color over meters, as a carpet has; no measured source.
+  vec3 wave = abs(fract(vec3(0.33 * p.x, 0.27 * p.y, 0.71 * p.x + 0.47 * p.y)) - 0.5);
+  vec3 green = carpet_color * (0.96 + 0.32 * wave.x * wave.y + 0.05 * wave.z);
+#ifdef WITH_WEAR
+  float grain = 0.6 * noise(p * 60.0) * clamp(0.02 / max(f.x, f.y), 0.0, 1.0) + 0.4 * noise(p * 3.0);
+  green *= 1.0 + 2.0 * carpet_texture * (grain - 0.5);
+#endif
+  return green;
+}
+
+// What the camera sees of ground of this color.
+vec4 seen(vec3 albedo) {
+  float fraction = direct_fraction(light_place(position_in_world));
+  vec3 light = albedo * (ambient_light * kSkyLight + fraction * light_direction.z * direct_light);
+  return vec4(encoded(with_haze(light, position_in_world)), 1.0);
+}
+)";
+
+const char* const kCarpetFragment = R"(
+void main() {
+  vec2 p = position_in_world.xy;
+  screen = seen(carpet(p, pixel_extent(p)));
+}
+)";
+
+const char* const kFieldFragment = R"(
+// Dimensions of the field, m.
+uniform vec2 half_field;
+uniform vec2 half_carpet;
+uniform float half_line;
+uniform vec2 goal_area;     // length, half width
+uniform vec2 penalty_area;  // length, half width
+uniform vec2 penalty_mark;  // distance from the center, half size
+uniform vec2 center;        // radius of the circle, half length of the mark
+// As in SceneAppearance.
+uniform vec3 line_color;
+uniform float line_wear;
 
 // Outline of the rectangle between low and high.
 float frame(vec2 low, vec2 high, vec2 x, vec2 f) {
@@ -101,21 +127,12 @@ void main() {
   vec2 fr = vec2(dot(f, q) / max(r, 1e-4), 1.0);
   line = max(line, overlap(vec2(center.x - h.x), vec2(center.x + h.x), radial, fr).x);
 
-  float carpet = rectangle(-half_carpet, half_carpet, q, f);
-  // Faint variation of the color over meters, as a carpet has; no measured source.
-  vec3 wave = abs(fract(vec3(0.33 * p.x, 0.27 * p.y, 0.71 * p.x + 0.47 * p.y)) - 0.5);
-  vec3 green = carpet_color * (0.96 + 0.32 * wave.x * wave.y + 0.05 * wave.z);
-  if (carpet_texture > 0.0) {
-    float grain = 0.6 * noise(p * 60.0) * clamp(0.02 / max(f.x, f.y), 0.0, 1.0) + 0.4 * noise(p * 3.0);
-    green *= 1.0 + 2.0 * carpet_texture * (grain - 0.5);
-  }
-  if (line_wear > 0.0) line *= 1.0 - line_wear * smoothstep(0.35, 0.75, noise(p * 7.0));
+#ifdef WITH_WEAR
+  line *= 1.0 - line_wear * smoothstep(0.35, 0.75, noise(p * 7.0));
+#endif
+  float inside = rectangle(-half_carpet, half_carpet, q, f);
   vec3 hall = vec3(0.46, 0.47, 0.49);
-  vec3 albedo = mix(hall, mix(green, line_color, line), carpet);
-
-  float fraction = direct_fraction(position_in_world);
-  vec3 light = albedo * (ambient_light * kSkyLight + fraction * light_direction.z * direct_light);
-  screen = vec4(encoded(with_haze(light, position_in_world)), 1.0);
+  screen = seen(mix(hall, mix(carpet(p, f), line_color, line), inside));
 }
 )";
 
@@ -131,7 +148,7 @@ void main() {
   float blur = clamp(1.0 - 2.0 * max(f.x, f.y), 0.0, 1.0);
   float tone = 0.40 + 0.05 * (checker - 0.5) * blur;
   vec3 albedo = mix(vec3(tone), vec3(0.22), 0.6 * max(joint.x, joint.y));
-  float fraction = direct_fraction(position_in_world);
+  float fraction = direct_fraction(light_place(position_in_world));
   vec3 light = albedo * (ambient_light * kSkyLight + fraction * light_direction.z * direct_light);
   screen = vec4(encoded(with_haze(light, position_in_world)), 1.0);
 }
@@ -160,11 +177,20 @@ void main() {
 }
 )";
 
+std::string carpet_header(bool with_shadow, bool with_wear) {
+  return lit_header(with_shadow) + (with_wear ? "#define WITH_WEAR\n" : "") + kCoverage + kCarpet;
+}
+
 }  // namespace
 
-Source field(bool with_shadow) {
+Source field(bool with_shadow, bool with_wear) {
   return {std::string(kHeader) + kGroundVertex,
-          lit_header(with_shadow) + kCoverage + kFieldFragment};
+          carpet_header(with_shadow, with_wear) + kFieldFragment};
+}
+
+Source carpet(bool with_shadow, bool with_wear) {
+  return {std::string(kHeader) + kGroundVertex,
+          carpet_header(with_shadow, with_wear) + kCarpetFragment};
 }
 
 Source floor(bool with_shadow) {

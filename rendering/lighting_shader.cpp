@@ -22,36 +22,45 @@ const vec3 kSkyLight = vec3(0.42, 0.45, 0.49);
 const vec3 kGroundLight = vec3(0.26, 0.29, 0.26);
 const vec3 kHorizon = vec3(0.70, 0.77, 0.84);
 
-// 1 in the shaded stripe, 0 outside, with a penumbra of 4 cm.
-float shade_fraction(vec3 position) {
-  return clamp((shade.w - abs(dot(shade.xy, position.xy) - shade.z)) / 0.04, 0.0, 1.0);
+// Place of a point for direct_fraction(): in the shadow map, and its distance from the middle of the
+// shaded stripe, m. Both are linear in the position, so that the stages between vertices and
+// fragments may interpolate them.
+vec4 light_place(vec3 position) {
+  return vec4((shadow_from_world * vec4(position, 1.0)).xyz,
+              dot(shade.xy, position.xy) - shade.z);
 }
 
-// Fraction of the direct light that reaches a point: 0 in shadow, 1 outside.
-float direct_fraction(vec3 position) {
-  float lit_part = 1.0 - shade_depth * shade_fraction(position);
+// Fraction of the direct light that reaches a point: 0 in shadow, 1 outside. The shaded stripe has a
+// penumbra of 4 cm.
+float direct_fraction(vec4 place) {
+  float lit_part = 1.0 - shade_depth * clamp((shade.w - abs(place.w)) / 0.04, 0.0, 1.0);
 #ifdef WITH_SHADOW
-  vec3 in_map = (shadow_from_world * vec4(position, 1.0)).xyz;
-  return lit_part * texture(shadow_map, vec3(in_map.xy, min(in_map.z, 0.999)));
+  return lit_part * texture(shadow_map, vec3(place.xy, min(place.z, 0.999)));
 #else
   return lit_part;
 #endif
 }
 
+// Place for direct_fraction() on a surface: 4 mm outside of it, since the coarse map would shadow the
+// surface itself.
+vec4 surface_light_place(vec3 position, vec3 normal) {
+  return light_place(position + 0.004 * normal);
+}
+
 // Light that a surface sends to the eye: the reflection model of J. Blinn (SIGGRAPH 1977) with
-// hemispherical ambient light.
-vec3 lit(vec3 albedo, vec3 normal, vec3 position, float gloss) {
-  // The shadow is looked up 4 mm outside of the surface: on it, the coarse map would shadow it.
-  float fraction = direct_fraction(position + 0.004 * normal);
-  float direct = max(dot(normal, light_direction), 0.0) * fraction;
+// hemispherical ambient light, in two parts. The direct part is for a point outside of shadows.
+vec3 ambient_part(vec3 albedo, vec3 normal) {
   float fill = max(dot(normal, vec3(-light_direction.xy, 0.0)), 0.0);
   vec3 ambient = mix(kGroundLight, kSkyLight, 0.5 + 0.5 * normal.z);
+  return albedo * ambient_light * (ambient + fill * kFillLight);
+}
+vec3 direct_part(vec3 albedo, vec3 normal, vec3 position, float gloss) {
+  float direct = max(dot(normal, light_direction), 0.0);
   vec3 halfway = normalize(light_direction + normalize(eye_position - position));
   float specular = max(dot(normal, halfway), 0.0);
   specular *= specular; specular *= specular; specular *= specular; specular *= specular;
   specular *= specular;  // to the power of 32
-  return albedo * (ambient_light * (ambient + fill * kFillLight) + direct * direct_light) +
-         gloss * specular * fraction * direct_light;
+  return (albedo * direct + gloss * specular) * direct_light;
 }
 
 // Linear light to screen values: a square root approximates the sRGB curve.

@@ -45,9 +45,14 @@ BoundingSphere bounding_sphere(const Mesh& mesh);
 /** Appends `part`, translated by `offset` (m), to `mesh`. */
 void append(Mesh& mesh, const Mesh& part, const Eigen::Vector3f& offset = Eigen::Vector3f::Zero());
 
-/** Simplifies a mesh by vertex clustering (Rossignac and Borrel, 1993), for shadows: all vertices
- * in one cell of a grid become their mean, and triangles that degenerate are removed.
- * @param cell  Side of the grid's cells, m. */
-Mesh simplified(const Mesh& mesh, float cell);
+/** Simplifies a mesh by edge collapses in the order of their quadric errors (Garland and Heckbert,
+ * 1997). Creases and borders between colors are kept.
+ * @param mean_error  Largest error of a collapse, m: the distance of the old surface from the new
+ * one, averaged over the area around it. */
+Mesh simplified(const Mesh& mesh, float mean_error);
+
+/** Largest distance of a vertex of `mesh` from the surface of `other`, m; `other` must have
+ * triangles. */
+float largest_distance(const Mesh& mesh, const Mesh& other);
 
 }  // namespace nao

@@ -9,22 +9,28 @@
 
 namespace nao {
 
-/** Meshes in graphics memory, each also in a simplified form for the shadow map. */
+/** Meshes in graphics memory, each in several levels of detail. */
 class MeshStore {
  public:
   MeshId add(const Mesh& mesh);
 
-  const gl::MeshBuffer& buffer(MeshId mesh) const { return *entries_[mesh].buffer; }
-  /** The simplified mesh. */
-  const gl::MeshBuffer& shadow_caster(MeshId mesh) const { return *entries_[mesh].shadow_caster; }
+  /** The level with the fewest triangles that may be drawn for an instance.
+   * @param most_error  Largest distance between the surfaces of the level and of the mesh, m. */
+  const gl::MeshBuffer& buffer(const MeshInstance& instance, float most_error) const;
 
   /** Sphere in the world that encloses a mesh instance. */
   BoundingSphere sphere_in_world(const MeshInstance& instance) const;
 
  private:
+  struct Level {
+    Level(float most_error, const Mesh& mesh) : error(most_error), buffer(mesh) {}
+    /** Largest distance from the surface of the mesh, m. */
+    float error;
+    gl::MeshBuffer buffer;
+  };
   struct Entry {
-    std::unique_ptr<gl::MeshBuffer> buffer;
-    std::unique_ptr<gl::MeshBuffer> shadow_caster;
+    /** From fine to coarse; the first is the mesh itself. */
+    std::vector<std::unique_ptr<Level>> levels;
     BoundingSphere sphere;
   };
 

@@ -24,6 +24,7 @@ struct RenderView {
         clip_from_world(projection_matrix(camera, kNearPlane, kFarPlane) *
                         view_matrix(pose_camera_in_world)),
         eye(pose_camera_in_world.translation().cast<float>()),
+        pixels_per_radian(static_cast<float>(camera.fx)),
         frustum(clip_from_world),
         appearance(look) {}
 
@@ -33,6 +34,8 @@ struct RenderView {
   Eigen::Matrix4f clip_from_world;
   /** Center of projection in the world, m. */
   Eigen::Vector3f eye;
+  /** Focal length: size in the image, pixels, of an angle of 1 rad at its center. */
+  float pixels_per_radian;
   /** The visible part of space. */
   Frustum frustum;
   /** Light and materials. */

@@ -16,8 +16,14 @@ Source solid(bool with_shadow);
 /** The soccer ball: as solid(), with the pattern of a truncated icosahedron. */
 Source ball(bool with_shadow);
 
-/** The plane z = 0, as a carpet with the lines of a soccer field, or as a tiled floor. */
-Source field(bool with_shadow);
+/** The plane z = 0 as a carpet with the lines of a soccer field.
+ * @param with_wear  Whether the carpet has a texture and the lines are worn, which is expensive. */
+Source field(bool with_shadow, bool with_wear);
+
+/** As field(), for places without lines, inside the carpet. */
+Source carpet(bool with_shadow, bool with_wear);
+
+/** The plane z = 0 as a tiled floor. */
 Source floor(bool with_shadow);
 
 /** Background of all pixels that nothing else covers. */

@@ -14,11 +14,19 @@ namespace {
  * places, and edges of shadows do not flicker, while a body moves. Chosen: about a tenth of the
  * robot's height. */
 constexpr float kBoxStep = 0.05f;
+/** Margin of the map around the casters, m: two texels of the head camera's map when it covers a
+ * whole field (12 m over 320 texels). */
+constexpr float kMargin = 0.075f;
 /** Depth offset of casters (glPolygonOffset's factor and units). It keeps surfaces from shadowing
  * themselves where the map is coarser than they are. Chosen between stripes on curved surfaces
  * (smaller values) and shadows detached from the feet (larger values). */
 constexpr float kOffsetFactor = 2.0f;
 constexpr float kOffsetUnits = 4.0f;
+/** Largest error of a caster's surface, m. Chosen: about six texels of the head camera's shadow map
+ * when it covers one robot (0.6 m over 320 texels). */
+constexpr float kCasterError = 0.012f;
+/** Width of a shadow's edge, m: a texel of the map, and the caster's error. */
+constexpr float kPenumbra = 0.02f;
 
 /** Rotation into the axes of the light: z points to the light. */
 // x of the light's axes is across the light and the world's x; the light is never along x
@@ -35,9 +43,10 @@ Eigen::Matrix3f light_from_world(const Eigen::Vector3f& light) {
  * @param box  m, in the axes of the light. @param light  Unit vector towards it. @return Clip
  * coordinates from world coordinates. */
 Eigen::Matrix4f light_projection(const Eigen::AlignedBox3f& box, const Eigen::Vector3f& light) {
-  // Snapped outwards to multiples of kBoxStep.
-  const Eigen::Vector3f lower = (box.min() / kBoxStep).array().floor() * kBoxStep;
-  const Eigen::Vector3f upper = (box.max() / kBoxStep).array().ceil() * kBoxStep;
+  // Snapped outwards to multiples of kBoxStep. The casters leave a margin, so that the texels at
+  // the map's edge are empty: points outside of the map take their value.
+  const Eigen::Vector3f lower = ((box.min().array() - kMargin) / kBoxStep).floor() * kBoxStep;
+  const Eigen::Vector3f upper = ((box.max().array() + kMargin) / kBoxStep).ceil() * kBoxStep;
   const Eigen::Vector3f scale = 2 * (upper - lower).cwiseInverse();
   Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
   matrix.topLeftCorner<3, 3>() = scale.asDiagonal() * light_from_world(light);
@@ -51,6 +60,37 @@ Eigen::Matrix4f texture_from_clip() {
   Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity() * 0.5f;
   matrix.col(3) << 0.5f, 0.5f, 0.5f, 1;
   return matrix;
+}
+
+bool overlap(const PixelBox& a, const PixelBox& b) {
+  return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top;
+}
+
+PixelBox united(const PixelBox& a, const PixelBox& b) {
+  return {std::min(a.left, b.left), std::min(a.bottom, b.bottom), std::max(a.right, b.right),
+          std::max(a.top, b.top)};
+}
+
+/** Pixels of a square on the ground about a point, with sides along x and y of 2 `half`, m. */
+PixelBox ground_pixels(const Eigen::Vector3f& center, float half, const RenderView& view) {
+  Eigen::Vector2f lower = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
+  Eigen::Vector2f upper = -lower;
+  for (const auto& [x, y] : {std::pair{-half, -half}, {half, -half}, {-half, half}, {half, half}}) {
+    const Eigen::Vector4f corner(center.x() + x, center.y() + y, 0, 1);
+    const Eigen::Vector4f clip = view.clip_from_world * corner;
+    // A corner behind the camera has no place in the image: no bound can be given.
+    if (clip.w() < static_cast<float>(kNearPlane)) return {0, 0, view.width, view.height};
+    lower = lower.cwiseMin(clip.head<2>() / clip.w());
+    upper = upper.cwiseMax(clip.head<2>() / clip.w());
+  }
+  // Clip coordinates -1..1 to pixels, clamped to the image.
+  const auto pixel = [](float in_clip, int size) {
+    return std::clamp((in_clip + 1) / 2, 0.0f, 1.0f) * static_cast<float>(size);
+  };
+  return {static_cast<int>(std::floor(pixel(lower.x(), view.width))),
+          static_cast<int>(std::floor(pixel(lower.y(), view.height))),
+          static_cast<int>(std::ceil(pixel(upper.x(), view.width))),
+          static_cast<int>(std::ceil(pixel(upper.y(), view.height)))};
 }
 
 }  // namespace
@@ -98,7 +138,7 @@ void ShadowPass::draw(RenderStatistics& statistics) {
   glPolygonOffset(kOffsetFactor, kOffsetUnits);
   depth_.use();
   for (const MeshInstance& caster : casters_) {
-    depth_.draw(meshes_.shadow_caster(caster.mesh), caster, clip_from_world, statistics);
+    depth_.draw(meshes_.buffer(caster, kCasterError), caster, clip_from_world, statistics);
   }
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
@@ -110,31 +150,28 @@ void ShadowPass::set_uniforms(const gl::ShaderProgram& program) const {
   program.set("shadow_from_world", shadow_from_world_);
 }
 
-PixelBox ShadowPass::shadowed_pixels(const RenderView& view) const {
-  if (casters_.empty()) return {};
-  // Projects the four corners of the map along the light onto the ground, and from there into the
-  // image. The shadows on the ground lie between them.
-  // Any depth will do: the ray through a map's corner is along the light.
-  const Eigen::Matrix4f world_from_map = shadow_from_world_.inverse();
-  Eigen::Vector2f lower = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
-  Eigen::Vector2f upper = -lower;
-  for (const auto& [x, y] : {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}, {1.0f, 1.0f}}) {
-    const Eigen::Vector3f on_ray = (world_from_map * Eigen::Vector4f(x, y, 0, 1)).head<3>();
-    const Eigen::Vector3f ground = on_ray - light_ * (on_ray.z() / light_.z());
-    const Eigen::Vector4f clip = view.clip_from_world * ground.homogeneous();
-    // A corner behind the camera has no place in the image: no bound can be given.
-    if (clip.w() < static_cast<float>(kNearPlane)) return {0, 0, view.width, view.height};
-    lower = lower.cwiseMin(clip.head<2>() / clip.w());
-    upper = upper.cwiseMax(clip.head<2>() / clip.w());
+// The shadow of a sphere on the ground is an ellipse, longer along the light; the square around the
+// circle of its longer half axis encloses it.
+std::vector<PixelBox> ShadowPass::shadowed_pixels(const RenderView& view) const {
+  std::vector<PixelBox> boxes;
+  for (const MeshInstance& caster : casters_) {
+    const BoundingSphere sphere = meshes_.sphere_in_world(caster);
+    const Eigen::Vector3f center = sphere.center - light_ * (sphere.center.z() / light_.z());
+    PixelBox box = ground_pixels(center, (sphere.radius + kPenumbra) / light_.z(), view);
+    if (box.is_empty()) continue;
+    // Boxes that overlap become one, which may overlap others.
+    for (size_t i = 0; i < boxes.size();) {
+      if (!overlap(box, boxes[i])) {
+        ++i;
+        continue;
+      }
+      box = united(box, boxes[i]);
+      boxes.erase(boxes.begin() + static_cast<long>(i));
+      i = 0;
+    }
+    boxes.push_back(box);
   }
-  // Clip coordinates -1..1 to pixels, clamped to the image.
-  const auto pixel = [](float in_clip, int size) {
-    return std::clamp((in_clip + 1) / 2, 0.0f, 1.0f) * static_cast<float>(size);
-  };
-  return {static_cast<int>(std::floor(pixel(lower.x(), view.width))),
-          static_cast<int>(std::floor(pixel(lower.y(), view.height))),
-          static_cast<int>(std::ceil(pixel(upper.x(), view.width))),
-          static_cast<int>(std::ceil(pixel(upper.y(), view.height)))};
+  return boxes;
 }
 
 }  // namespace nao

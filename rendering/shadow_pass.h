@@ -34,8 +34,9 @@ class ShadowPass {
   /** Sets the shadow map of the program in use. */
   void set_uniforms(const gl::ShaderProgram& program) const;
 
-  /** Pixels in which the ground may be in shadow. */
-  PixelBox shadowed_pixels(const RenderView& view) const;
+  /** Boxes of the pixels in which the ground may be in shadow; none is empty, and no two overlap.
+   */
+  std::vector<PixelBox> shadowed_pixels(const RenderView& view) const;
 
  private:
   const MeshStore& meshes_;

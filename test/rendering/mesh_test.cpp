@@ -117,13 +117,52 @@ TEST(MeshFile, RejectsAFileThatIsNotAMesh) {
 }
 
 TEST(Mesh, SimplifiedKeepsItsShapeWithFewerTriangles) {
-  const Mesh fine = make_sphere(0.05f, Color::Ones(), 96);
-  const Mesh coarse = simplified(fine, 0.008f);
-  EXPECT_LT(coarse.indices.size(), fine.indices.size() / 5);
-  EXPECT_NEAR(volume(coarse) / volume(fine), 1, 0.1);
-  EXPECT_NEAR(bounding_sphere(coarse).radius, 0.05f, 0.004f);
+  constexpr float kRadius = 0.05f;
+  const Mesh fine = make_sphere(kRadius, Color::Ones(), 96);
+  size_t num_before = fine.indices.size() / 4;
+  for (const float error : {0.0005f, 0.001f, 0.002f, 0.004f}) {
+    const Mesh coarse = simplified(fine, error);
+    EXPECT_LT(coarse.indices.size(), num_before);
+    num_before = coarse.indices.size();
+    for (size_t i = 0; i < coarse.indices.size(); i += 3) {
+      Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+      for (size_t corner = 0; corner < 3; ++corner) {
+        const Vertex& vertex = coarse.vertices[coarse.indices[i + corner]];
+        EXPECT_NEAR(vertex.position.norm(), kRadius, 1e-6);
+        middle += vertex.position / 3;
+      }
+      EXPECT_GT(middle.norm(), kRadius - 3 * error);
+    }
+  }
   const Mesh same = simplified(make_box({0.1f, 0.1f, 0.1f}, Color::Ones()), 0.008f);
   EXPECT_NEAR(volume(same), 1e-3, 1e-6);
+}
+
+TEST(Mesh, MeasuresItsLargestDistanceFromAnother) {
+  const Mesh box = make_box({0.2f, 0.1f, 0.1f}, Color::Ones());
+  EXPECT_NEAR(largest_distance(box, box), 0, 1e-6);
+  const Mesh smaller = make_box({0.16f, 0.1f, 0.1f}, Color::Ones());
+  EXPECT_NEAR(largest_distance(box, smaller), 0.02, 1e-6);
+  // A corner is farther away than the faces, edges and corners of a box along the axes.
+  const Mesh flat = make_box({0.14f, 0.06f, 0.06f}, Color::Ones());
+  EXPECT_NEAR(largest_distance(box, flat), std::sqrt(0.03 * 0.03 + 2 * 0.02 * 0.02), 1e-6);
+}
+
+TEST(Mesh, SimplifiedKeepsCreasesAndColors) {
+  Mesh boxes = make_box({0.1f, 0.1f, 0.1f}, {1, 0, 0, 1});
+  append(boxes, make_box({0.1f, 0.1f, 0.1f}, {0, 1, 0, 1}), {0.1f, 0, 0});
+  const Mesh coarse = simplified(boxes, 0.008f);
+  EXPECT_NEAR(volume(coarse), 2e-3, 1e-6);
+  for (const Vertex& vertex : coarse.vertices) {
+    EXPECT_NEAR(vertex.normal.cwiseAbs().maxCoeff(), 1, 1e-5) << vertex.normal.transpose();
+    // At 0.05 m the two boxes touch.
+    if (vertex.position.x() < 0.049f) {
+      EXPECT_EQ(vertex.encoded_color[0], 255);
+    }
+    if (vertex.position.x() > 0.051f) {
+      EXPECT_EQ(vertex.encoded_color[1], 255);
+    }
+  }
 }
 
 TEST(Mesh, EncodesColorsAsSquareRoots) {
