@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
         ->show_default();
     command->add_option(
         "--trace", options.trace_file,
-        "walk, score, keep-goal: write what was true and what was known in the last seed "
+        "walk, score, keep-goal, match: write what was true and what was known in the last seed "
         "to this file, CSV");
     command
         ->add_option("--engine", options.trial.engine,

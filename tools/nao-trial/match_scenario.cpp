@@ -128,6 +128,7 @@ class Match {
       player->robot->step();
     }
     const double time = world_->time();
+    trace_ball();
     if (time >= next_referee_) {
       next_referee_ = time + kRefereePeriod - 1e-6;
       step_referee();
@@ -135,7 +136,7 @@ class Match {
     if (time >= next_tell_) {
       next_tell_ = time + kTellPeriod - 1e-6;
       tell();
-      trace();
+      trace_robots();
     }
   }
 
@@ -163,6 +164,7 @@ class Match {
     count(input);
     const referee::RefereeOutput output = referee_->step(input);
     for (const MatchEvent& event : output.events) {
+      trace_event(event);
       tally_.num_goals += event.kind == MatchEventKind::kGoal;
       tally_.num_outs += event.kind == MatchEventKind::kBallOut;
       tally_.num_penalties += event.kind == MatchEventKind::kPenalty;
@@ -225,26 +227,34 @@ class Match {
     }
   }
 
-  void trace() {
+  /** Appends a row to the trace: its kind, the time, and values. */
+  void trace_row(const std::string& kind, const std::vector<std::string>& values) {
     if (options_.trace_file.empty()) return;
-    const MatchState& state = referee_->state();
-    const auto add = [&](auto value) { trace_ += "," + std::to_string(value); };
-    trace_ += std::to_string(world_->time()) + "," + std::string(to_string(state.phase));
-    add(state.score[0]);
-    add(state.score[1]);
-    add(world_->ball().position.x());
-    add(world_->ball().position.y());
+    trace_ += kind + "," + std::to_string(world_->time());
+    for (const std::string& value : values) trace_ += "," + value;
+    trace_ += "\n";
+  }
+
+  void trace_ball() {
+    const Eigen::Vector3d ball = world_->ball().position;
+    trace_row("ball", {std::string(to_string(referee_->state().phase)), std::to_string(ball.x()),
+                       std::to_string(ball.y()), std::to_string(ball.z())});
+  }
+
+  void trace_event(const MatchEvent& event) {
+    trace_row("event", {std::string(to_string(event.kind)), std::to_string(event.team)});
+  }
+
+  void trace_robots() {
     for (const auto& player : players_) {
       const Pose2 pose = Pose2::from(player->loop->torso_in_world());
-      add(pose.position.x());
-      add(pose.position.y());
-      add(pose.heading);
-      add(static_cast<int>(player->loop->core().motion_state().mode));
-      add(static_cast<int>(player->robot->core().state().role));
-      trace_ += "," + std::string(to_string(player->robot->core().state().phase)) + "," +
-                player->robot->core().state().reason.code;
+      const auto& state = player->robot->core().state();
+      trace_row("robot", {player->who.robot, std::to_string(pose.position.x()),
+                          std::to_string(pose.position.y()), std::to_string(pose.heading),
+                          std::string(to_string(player->loop->core().motion_state().mode)),
+                          std::to_string(static_cast<int>(state.role)),
+                          std::string(to_string(state.phase)), state.reason.code});
     }
-    trace_ += "\n";
   }
 
   const ScenarioOptions& options_;
