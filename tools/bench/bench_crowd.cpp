@@ -42,6 +42,8 @@ constexpr double kDriverStates = 60;
 constexpr double kDriverImages = 15;
 constexpr double kSpectatorStates = 10;
 constexpr double kSpectatorImages = 5;
+/** Control ticks from one image of the overview to the next. */
+constexpr int kOverviewTicks = 20;
 /** Period of a held joystick's walk requests, s. */
 constexpr double kWalkPeriod = 0.1;
 /** Bytes of an image: as the camera's of 320 pixels. */
@@ -63,7 +65,6 @@ class FakeRobot {
     motion_.command_kind = motion_.COMMAND_KIND_NONE;
     motion_.posture = "Stand";
     motion_.stiffness = 1;
-    image_.camera = "top";
     image_.width = 320;
     image_.height = 240;
     image_.format = "jpeg";
@@ -94,7 +95,13 @@ class FakeRobot {
     state_.orientation_torso_in_odometry[0] = 1;
     bus_.publish(channels_.robot_state, state_);
     if (tick % 10 == 0) bus_.publish(channels_.motion_state, motion_);
-    if (tick % 7 == 0) bus_.publish(channels_.head_camera_image, image_);
+    if (tick % 7 == 0) send_image("top");
+  }
+
+  /** Sends an image of a camera; of the overview as the first robot's program does. */
+  void send_image(const std::string& camera) {
+    image_.camera = camera;
+    bus_.publish(channels_.head_camera_image, image_);
   }
 
   /** A walk at a velocity of its own, by which it is recognized on the bus. */
@@ -132,7 +139,8 @@ class Crowd {
                                         "--http-port",
                                         "0",
                                         "--tcp-port",
-                                        "0"};
+                                        "0",
+                                        "--overview"};
     for (int i = 0; i < kNumDrivers; ++i) {
       command.insert(command.end(), {"--robot", robot_name(i)});
       robots_.push_back(std::make_unique<FakeRobot>(bus_, i));
@@ -148,7 +156,7 @@ class Crowd {
     }
     http_port_ = static_cast<uint16_t>(std::stoi(found[1]));
     tcp_port_ = static_cast<uint16_t>(std::stoi(found[2]));
-    for (int i = 0; i < kNumDrivers; ++i) add_client(i, kDriverStates, kDriverImages);
+    for (int i = 0; i < kNumDrivers; ++i) add_client(i, kDriverStates, kDriverImages, "top");
     run_until([this] { return num_connected_ == kNumDrivers; }, "all drivers are connected");
     run_for(1);
     naoremote::Request request;
@@ -163,7 +171,7 @@ class Crowd {
 
   void add_spectators() {
     for (int i = 0; i < kNumSpectators; ++i) {
-      add_client(i % kNumDrivers, kSpectatorStates, kSpectatorImages);
+      add_client(i % kNumDrivers, kSpectatorStates, kSpectatorImages, "overview");
       run_for(0.02);
     }
     run_until([this] { return num_connected_ == kNumDrivers + kNumSpectators; },
@@ -203,7 +211,7 @@ class Crowd {
     double next_ping = 0;
   };
 
-  void add_client(int robot, double state_rate, double image_rate) {
+  void add_client(int robot, double state_rate, double image_rate, const std::string& camera) {
     // Half of them over WebSocket, as phones.
     const bool is_websocket = clients_.size() % 2 == 1;
     Client client{is_websocket ? connect_websocket(http_port_) : connect_tcp(tcp_port_)};
@@ -213,6 +221,7 @@ class Crowd {
     client.wire->send(request);
     request.mutable_subscribe()->set_state_rate(state_rate);
     request.mutable_subscribe()->set_image_rate(image_rate);
+    request.mutable_subscribe()->mutable_image()->set_camera(camera);
     client.wire->send(request);
     clients_.push_back(std::move(client));
   }
@@ -263,6 +272,7 @@ class Crowd {
       next_tick_ = std::max(next_tick_ + 0.01, now);
       ++tick_;
       for (const auto& robot : robots_) robot->send(tick_);
+      if (tick_ % kOverviewTicks == 0) robots_.front()->send_image("overview");
     }
     for (size_t i = 0; i < clients_.size(); ++i) {
       Client& client = clients_[i];

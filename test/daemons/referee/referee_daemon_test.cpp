@@ -156,6 +156,18 @@ TEST_F(RefereeDaemonTest, ARestartedRefereeGoesOn) {
   EXPECT_NEAR(next.referee().state().time_left, before.time_left, 1.5);
 }
 
+/** With --start another match would begin, and the result would be lost. */
+TEST_F(RefereeDaemonTest, ARestartedRefereeKeepsTheResultOfAFinishedMatch) {
+  play();
+  command(MatchOperation::kGoal, 2, 1);
+  command(MatchOperation::kFinish, 3);
+  run(0.2);
+  Bus other_bus("memq://");
+  const RefereeDaemon next(other_bus, options_, [this] { return now_; });
+  EXPECT_EQ(next.referee().state().phase, MatchPhase::kFinished);
+  EXPECT_EQ(next.referee().state().score[1], 1);
+}
+
 TEST_F(RefereeDaemonTest, RepeatsAPlacementUntilTheSimulatorAnswers) {
   run(0.1);
   command(MatchOperation::kStart, 1);
