@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "rendering/render_view.h"
@@ -15,25 +15,20 @@ class CarpetCells {
   CarpetCells() = default;
   explicit CarpetCells(const FieldDimensions& field);
 
-  /** Rectangle on the ground, m. */
-  struct Rectangle {
-    Eigen::Vector2f min;
-    Eigen::Vector2f max;
-  };
-
-  /** Rectangles in which every pixel of this view shows carpet only. They do not overlap. */
-  const std::vector<Rectangle>& without_lines(const RenderView& view);
+  /** Rectangles on the ground, m, in which every pixel of this view shows carpet only. They do not
+   * overlap. */
+  const std::vector<Eigen::AlignedBox2f>& without_lines(const RenderView& view);
 
  private:
   struct Cell {
-    Rectangle rectangle;
+    Eigen::AlignedBox2f box;
     /** Distance to the nearest line or edge of the carpet, m. */
     float clearance;
   };
 
   /** In rows along y, each from -y to y. */
   std::vector<Cell> cells_;
-  std::vector<Rectangle> selected_;
+  std::vector<Eigen::AlignedBox2f> selected_;
 };
 
 }  // namespace nao

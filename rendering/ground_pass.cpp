@@ -1,7 +1,6 @@
 #include "rendering/ground_pass.h"
 
 #include <algorithm>
-#include <array>
 
 #include "rendering/gl.h"
 #include "rendering/mesh_programs.h"
@@ -27,11 +26,12 @@ void set_field(const gl::ShaderProgram& program, const FieldDimensions& field) {
 }
 
 /** Two triangles. */
-void append(std::vector<gl::StreamBuffer::Vertex>& vertices, const Eigen::Vector2f& min,
-            const Eigen::Vector2f& max) {
-  const std::array<Eigen::Vector2f, 4> corners{min, {max.x(), min.y()}, max, {min.x(), max.y()}};
-  for (const int corner : {0, 1, 2, 0, 2, 3}) {
-    vertices.push_back({{corners[corner].x(), corners[corner].y(), 0}, Eigen::Vector4f::Zero()});
+void append(std::vector<gl::StreamBuffer::Vertex>& vertices, const Eigen::AlignedBox2f& box) {
+  using Box = Eigen::AlignedBox2f;
+  for (const auto corner : {Box::BottomLeft, Box::BottomRight, Box::TopRight, Box::BottomLeft,
+                            Box::TopRight, Box::TopLeft}) {
+    const Eigen::Vector2f place = box.corner(corner);
+    vertices.push_back({{place.x(), place.y(), 0}, Eigen::Vector4f::Zero()});
   }
 }
 
@@ -74,7 +74,8 @@ GroundPass::GroundPass(float reach)
       floor_{compile("shadowed floor", shaders::floor(true)),
              compile("floor", shaders::floor(false))},
       sky_(compile("sky", shaders::sky())) {
-  append(ground_, Eigen::Vector2f::Constant(-reach), Eigen::Vector2f::Constant(reach));
+  const Eigen::Vector2f corner = Eigen::Vector2f::Constant(reach);
+  append(ground_, {-corner, corner});
 }
 
 void GroundPass::set_surroundings(const SceneFile& scene) {
@@ -85,11 +86,12 @@ void GroundPass::set_surroundings(const SceneFile& scene) {
 // What is drawn first covers what follows in the same place, since the depth must be less.
 void GroundPass::draw_ground(const RenderView& view, const ShadowPass& shadows,
                              RenderStatistics& statistics) {
+  shadowed_ = shadows.shadowed_pixels(view);
   glDepthFunc(GL_LESS);
   if (field_dimensions_) {
     const bool is_worn = view.appearance.carpet_texture > 0 || view.appearance.line_wear > 0;
     Vertices carpet;
-    for (const auto& [min, max] : cells_.without_lines(view)) append(carpet, min, max);
+    for (const Eigen::AlignedBox2f& box : cells_.without_lines(view)) append(carpet, box);
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(0, kCarpetOffset);
     draw(is_worn ? worn_carpet_ : carpet_, carpet, view, shadows, statistics);
@@ -103,11 +105,10 @@ void GroundPass::draw_ground(const RenderView& view, const ShadowPass& shadows,
 
 void GroundPass::draw(const Programs& programs, const Vertices& vertices, const RenderView& view,
                       const ShadowPass& shadows, RenderStatistics& statistics) {
-  const std::vector<PixelBox> boxes = shadows.shadowed_pixels(view);
-  if (!boxes.empty()) {
+  if (!shadowed_.empty()) {
     use(programs.shadowed, view, shadows);
     glEnable(GL_SCISSOR_TEST);
-    for (const PixelBox& box : boxes) {
+    for (const PixelBox& box : shadowed_) {
       glScissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
       buffer_.draw_triangles(vertices);
       ++statistics.num_draws;

@@ -45,6 +45,8 @@ class GroundPass {
   Vertices ground_;
   std::optional<FieldDimensions> field_dimensions_;
   CarpetCells cells_;
+  /** Pixels of the image that is being drawn in which the ground may be in shadow. */
+  std::vector<PixelBox> shadowed_;
   Programs field_;
   Programs worn_field_;
   Programs carpet_;

@@ -41,6 +41,12 @@ vec3 with_haze(vec3 light, vec3 position) {
   float transmittance = 1.0 / (1.0 + 0.0014 * dot(ray, ray));
   return mix(kHorizon, light, transmittance * transmittance);
 }
+// What the camera sees of ground of this color.
+vec4 seen(vec3 albedo) {
+  float fraction = direct_fraction(light_place(position_in_world));
+  vec3 light = albedo * (ambient_light * kSkyLight + fraction * light_direction.z * direct_light);
+  return vec4(encoded(with_haze(light, position_in_world)), 1.0);
+}
 )";
 
 const char* const kCarpet = R"(
@@ -70,13 +76,6 @@ vec3 carpet(vec2 p, vec2 f) {
   green *= 1.0 + 2.0 * carpet_texture * (grain - 0.5);
 #endif
   return green;
-}
-
-// What the camera sees of ground of this color.
-vec4 seen(vec3 albedo) {
-  float fraction = direct_fraction(light_place(position_in_world));
-  vec3 light = albedo * (ambient_light * kSkyLight + fraction * light_direction.z * direct_light);
-  return vec4(encoded(with_haze(light, position_in_world)), 1.0);
 }
 )";
 
@@ -148,9 +147,7 @@ void main() {
   float blur = clamp(1.0 - 2.0 * max(f.x, f.y), 0.0, 1.0);
   float tone = 0.40 + 0.05 * (checker - 0.5) * blur;
   vec3 albedo = mix(vec3(tone), vec3(0.22), 0.6 * max(joint.x, joint.y));
-  float fraction = direct_fraction(light_place(position_in_world));
-  vec3 light = albedo * (ambient_light * kSkyLight + fraction * light_direction.z * direct_light);
-  screen = vec4(encoded(with_haze(light, position_in_world)), 1.0);
+  screen = seen(albedo);
 }
 )";
 

@@ -54,11 +54,10 @@ TEST(CarpetCells, HaveNoLines) {
   for (const Eigen::Vector3d& eye :
        {Eigen::Vector3d(0, 0, 0.5), Eigen::Vector3d(-4, 2, 0.3), Eigen::Vector3d(0, 0, 20)}) {
     const auto half_line = static_cast<float>(field().line_width / 2);
-    for (const auto& [min, max] : cells.without_lines(view_from(eye))) {
+    for (const Eigen::AlignedBox2f& cell : cells.without_lines(view_from(eye))) {
       for (const Eigen::Vector2f& point : points_on_lines()) {
-        const Eigen::Vector2f nearest = point.cwiseMax(min).cwiseMin(max);
-        ASSERT_GT((nearest - point).norm(), half_line)
-            << "cell at " << min.transpose() << ", line at " << point.transpose();
+        ASSERT_GT(cell.exteriorDistance(point), half_line)
+            << "cell at " << cell.min().transpose() << ", line at " << point.transpose();
       }
     }
   }
@@ -67,12 +66,10 @@ TEST(CarpetCells, HaveNoLines) {
 TEST(CarpetCells, CoverMostOfTheCarpetNearTheCamera) {
   CarpetCells cells(field());
   // Of a square of 2.2 m in front of and beside the camera.
-  const Eigen::Vector2f corner(-2.6f, 0.4f);
+  const Eigen::AlignedBox2f square(Eigen::Vector2f(-2.6f, 0.4f), Eigen::Vector2f(-0.4f, 2.6f));
   double area = 0;
-  for (const auto& [min, max] : cells.without_lines(view_from({-1.5, 1.5, 0.5}))) {
-    const Eigen::Vector2f size =
-        max.cwiseMin(corner + Eigen::Vector2f::Constant(2.2f)) - min.cwiseMax(corner);
-    area += size.cwiseMax(0).prod();
+  for (const Eigen::AlignedBox2f& cell : cells.without_lines(view_from({-1.5, 1.5, 0.5}))) {
+    if (cell.intersects(square)) area += cell.intersection(square).volume();
   }
   EXPECT_GT(area, 0.6 * 2.2 * 2.2);
 }

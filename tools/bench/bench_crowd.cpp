@@ -42,7 +42,9 @@ constexpr double kDriverStates = 60;
 constexpr double kDriverImages = 15;
 constexpr double kSpectatorStates = 10;
 constexpr double kSpectatorImages = 5;
-/** Control ticks from one image of the overview to the next. */
+/** Camera that shows the whole field. */
+const char* const kOverview = "overview";
+/** Control ticks from one image of it to the next. */
 constexpr int kOverviewTicks = 20;
 /** Period of a held joystick's walk requests, s. */
 constexpr double kWalkPeriod = 0.1;
@@ -171,7 +173,7 @@ class Crowd {
 
   void add_spectators() {
     for (int i = 0; i < kNumSpectators; ++i) {
-      add_client(i % kNumDrivers, kSpectatorStates, kSpectatorImages, "overview");
+      add_client(i % kNumDrivers, kSpectatorStates, kSpectatorImages, kOverview);
       run_for(0.02);
     }
     run_until([this] { return num_connected_ == kNumDrivers + kNumSpectators; },
@@ -272,7 +274,7 @@ class Crowd {
       next_tick_ = std::max(next_tick_ + 0.01, now);
       ++tick_;
       for (const auto& robot : robots_) robot->send(tick_);
-      if (tick_ % kOverviewTicks == 0) robots_.front()->send_image("overview");
+      if (tick_ % kOverviewTicks == 0) robots_.front()->send_image(kOverview);
     }
     for (size_t i = 0; i < clients_.size(); ++i) {
       Client& client = clients_[i];

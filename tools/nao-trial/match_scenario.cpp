@@ -96,7 +96,7 @@ class Match {
     } else if (tally_.num_goals == 0) {
       result.failure = "no goal";
     }
-    if (!options_.trace_file.empty()) {
+    if (is_traced()) {
       std::ofstream stream(options_.trace_file);
       stream << trace_;
       if (!stream) throw Error("cannot write " + options_.trace_file);
@@ -128,7 +128,7 @@ class Match {
       player->robot->step();
     }
     const double time = world_->time();
-    trace_ball();
+    if (is_traced()) trace_ball();
     if (time >= next_referee_) {
       next_referee_ = time + kRefereePeriod - 1e-6;
       step_referee();
@@ -136,7 +136,7 @@ class Match {
     if (time >= next_tell_) {
       next_tell_ = time + kTellPeriod - 1e-6;
       tell();
-      trace_robots();
+      if (is_traced()) trace_robots();
     }
   }
 
@@ -164,7 +164,7 @@ class Match {
     count(input);
     const referee::RefereeOutput output = referee_->step(input);
     for (const MatchEvent& event : output.events) {
-      trace_event(event);
+      if (is_traced()) trace_event(event);
       tally_.num_goals += event.kind == MatchEventKind::kGoal;
       tally_.num_outs += event.kind == MatchEventKind::kBallOut;
       tally_.num_penalties += event.kind == MatchEventKind::kPenalty;
@@ -227,9 +227,10 @@ class Match {
     }
   }
 
+  bool is_traced() const { return !options_.trace_file.empty(); }
+
   /** Appends a row to the trace: its kind, the time, and values. */
   void trace_row(const std::string& kind, const std::vector<std::string>& values) {
-    if (options_.trace_file.empty()) return;
     trace_ += kind + "," + std::to_string(world_->time());
     for (const std::string& value : values) trace_ += "," + value;
     trace_ += "\n";
