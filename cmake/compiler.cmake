@@ -26,9 +26,9 @@ endif()
 # Several sources of a library in one translation unit: their common headers are read and their common
 # templates compiled once, which halves the compiler's time. clang-tidy and editors read single sources:
 # they use a build folder without it.
-option(NAO_UNITY_BUILD "Compile up to 8 sources of a library together" ON)
+option(NAO_UNITY_BUILD "Compile up to 32 sources of a library together" ON)
 set(CMAKE_UNITY_BUILD ${NAO_UNITY_BUILD})
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 32)
 
 option(NAO_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 option(NAO_SANITIZE "Build with address and undefined-behaviour sanitizers" OFF)

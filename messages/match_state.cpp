@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "messages/enum_names.h"
 
 namespace nao {
 namespace {
@@ -16,12 +17,6 @@ static_assert(match_state_t::EVENT_GOAL == static_cast<int>(MatchEventKind::kGoa
 static_assert(match_state_t::EVENT_MATCH_END == static_cast<int>(MatchEventKind::kMatchEnd));
 static_assert(player_t::PENALTY_OPERATOR == static_cast<int>(Penalty::kOperator));
 static_assert(player_t::ROLE_KEEPER == static_cast<int>(PlayRole::kKeeper));
-
-template <size_t n, class Enum>
-std::string_view name_in(const std::array<std::string_view, n>& names, Enum value) {
-  const auto index = static_cast<size_t>(value);
-  return index < n ? names[index] : "unknown";
-}
 
 /** @throws Error  unless least <= value <= greatest. */
 template <class Value>

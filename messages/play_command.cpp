@@ -4,6 +4,8 @@
 #include <cmath>
 #include <naolcm/play_state_t.hpp>
 
+#include "messages/enum_names.h"
+
 namespace nao {
 namespace {
 
@@ -18,12 +20,6 @@ static_assert(play_state_t::PHASE_GUARD == static_cast<int>(PlayPhase::kGuard));
 
 /** Greatest coordinate of a target, m. Chosen: beyond every field and its odometry's drift. */
 constexpr double kMaxTarget = 100;
-
-template <size_t n, class Enum>
-std::string_view name_in(const std::array<std::string_view, n>& names, Enum value) {
-  const auto index = static_cast<size_t>(value);
-  return index < n ? names[index] : "unknown";
-}
 
 }  // namespace
 

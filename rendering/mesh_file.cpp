@@ -25,7 +25,7 @@ bool is_finite(const aiVector3D& vector) {
   return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
 }
 
-void append(Mesh& mesh, const aiMesh& part, const Color& color, const std::string& file) {
+void append_part(Mesh& mesh, const aiMesh& part, const Color& color, const std::string& file) {
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
   const auto encoded_color = encode_color(color);
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
@@ -67,7 +67,7 @@ Mesh load_mesh(const std::filesystem::path& file) {
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     const aiMesh& part = *scene->mMeshes[i];
     if (!part.HasNormals()) continue;  // only points and lines have none
-    append(mesh, part, base_color(*scene->mMaterials[part.mMaterialIndex]), file.string());
+    append_part(mesh, part, base_color(*scene->mMaterials[part.mMaterialIndex]), file.string());
   }
   if (mesh.indices.empty()) throw ModelError("mesh " + file.string() + " has no triangles");
   return mesh;

@@ -17,7 +17,7 @@
 namespace nao::camera {
 namespace {
 
-constexpr size_t kHeaderBytes = 16;
+constexpr size_t kWebotsHeaderBytes = 16;
 constexpr size_t kPixelBytes = static_cast<size_t>(2) * kFullWidth * kFullHeight;
 constexpr uint8_t kMagic[8] = {'w', 'b', 'i', 'm', 'a', 'g', 'e', 0};
 /** LoLA's cycle, microseconds. */
@@ -42,7 +42,7 @@ void write_uint16(uint8_t* target, int64_t value) {
 }  // namespace
 
 WebotsImages::WebotsImages(const std::vector<std::string>& cameras, uint16_t port)
-    : message_(kHeaderBytes + kPixelBytes) {
+    : message_(kWebotsHeaderBytes + kPixelBytes) {
   for (const std::string& camera : cameras) {
     const int descriptor = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     // In the list at once, so that it is closed whatever happens.
@@ -94,7 +94,7 @@ bool WebotsImages::has_clients(const std::string& camera) {
     }
     const int yes = 1;
     setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-    const auto memory = static_cast<int>(kHeaderBytes + kPixelBytes);
+    const auto memory = static_cast<int>(kWebotsHeaderBytes + kPixelBytes);
     setsockopt(descriptor, SOL_SOCKET, SO_SNDBUF, &memory, sizeof memory);
     server->clients.push_back({descriptor, 0, {}, -1});
   }
@@ -128,7 +128,8 @@ void WebotsImages::send(const CameraFrame& frame, double now) {
   message_[11] = 2;
   write_uint16(&message_[12], kFullWidth);
   write_uint16(&message_[14], kFullHeight);
-  bgrx_to_yuyv(frame.bgrx[0], kFullWidth, kFullHeight, std::span(message_).subspan(kHeaderBytes));
+  bgrx_to_yuyv(frame.bgrx[0], kFullWidth, kFullHeight,
+               std::span(message_).subspan(kWebotsHeaderBytes));
   std::erase_if(server->clients, [&](Client& client) {
     if (client.last_time < 0) client.last_time = now;
     // One that still has to take the last image is not waited for again.

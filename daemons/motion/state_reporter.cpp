@@ -9,7 +9,7 @@ namespace {
 
 // A sum of time steps may be this much below the period by rounding, s; waiting for one more step
 // would make the period longer by that step.
-constexpr double kRounding = 1e-6;
+constexpr double kPeriodRounding = 1e-6;
 
 /** Whether a report is due at once. Quantities that change in every step do not count. */
 bool has_changed(const MotionState& a, const MotionState& b) {
@@ -62,7 +62,7 @@ std::optional<MotionState> StateReporter::update(const Inputs& inputs, double dt
   MotionState state = build(inputs);
   time_since_report_ += dt;
   const bool changes = has_changed(state, state_);
-  const bool is_due = time_since_report_ >= period_ - kRounding;
+  const bool is_due = time_since_report_ >= period_ - kPeriodRounding;
   state_ = std::move(state);
   // A change is reported at once, and the period starts anew.
   if (changes) {

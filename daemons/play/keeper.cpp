@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 /** Deceleration of a rolling ball, m/s^2, as in sim/world_options.h. */
 constexpr double kDeceleration = 0.3;
 /** A ball that was not seen for this long is looked for, s. */
-constexpr double kForgetBall = 4;
+constexpr double kLookForBall = 4;
 /** Distance of the feet before the middle of the goal line, m: out far enough to cover more of the
  * goal's mouth, near enough that a dive comes in time. */
 constexpr double kOut = 0.5;
@@ -26,7 +26,7 @@ constexpr double kDiveReach = 0.85;
 constexpr double kDiveTime = 1.0;
 constexpr double kBlockTime = 0.6;
 /** A ball that passes beside a post by this, m, is left alone. */
-constexpr double kPostMargin = 0.15;
+constexpr double kWideOfPost = 0.15;
 /** Greatest speed of a step aside, m/s. */
 constexpr double kAsideSpeed = 0.14;
 /** Ball ahead of the feet's line at which a foot stops it, m. */
@@ -70,7 +70,7 @@ bool Keeper::is_towards_goal(const Ball& ball, const Situation& situation) const
   const double way = position.x() + 0.5 * constants_.field.length;
   if (way < 0) return false;
   const double y = position.y() + velocity.y() * way / -velocity.x();
-  return std::abs(y) < 0.5 * constants_.field.goal_width + kPostMargin;
+  return std::abs(y) < 0.5 * constants_.field.goal_width + kWideOfPost;
 }
 
 std::optional<Decision> Keeper::answer_shot(const Ball& ball, const Situation& situation) {
@@ -115,7 +115,7 @@ Decision Keeper::step(const Situation& situation) {
     return decision;
   }
   std::optional<Ball> ball = situation.ball;
-  if (ball && situation.time - ball->seen_time > kForgetBall) ball.reset();
+  if (ball && situation.time - ball->seen_time > kLookForBall) ball.reset();
   if (!ball) return guard(ball, situation);
   if (auto decision = answer_shot(*ball, situation)) return *decision;
   return guard(ball, situation);

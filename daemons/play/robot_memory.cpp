@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector2d;
 
 /** A robot counts for this long after it was seen, s. Chosen: the head turns away for up to 2 s. */
-constexpr double kForgetAfter = 2;
+constexpr double kForgetRobotAfter = 2;
 /** Two sightings within this are of one robot, m: an error of the camera's tilt of one degree moves
  * one at 2.5 m by 0.25 m. */
 constexpr double kSameRobot = 0.4;
@@ -39,7 +39,8 @@ void RobotMemory::add(const std::vector<Vector2d>& robots, double time) {
 }
 
 void RobotMemory::forget(double time) {
-  std::erase_if(seen_, [&](const Seen& seen) { return std::abs(time - seen.time) > kForgetAfter; });
+  std::erase_if(seen_,
+                [&](const Seen& seen) { return std::abs(time - seen.time) > kForgetRobotAfter; });
 }
 
 std::vector<Vector2d> RobotMemory::positions() const {

@@ -7,7 +7,7 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kDuration = 600;  // s
+constexpr double kSessionDuration = 600;  // s
 
 /** A random command that keeps the robot on its feet for a few seconds. */
 void do_something(ClosedLoop& trial) {
@@ -38,7 +38,7 @@ void do_something(ClosedLoop& trial) {
 }  // namespace
 
 std::vector<RunResult> AlarmsScenario::run(const ScenarioOptions& options, uint64_t seed) const {
-  const double duration = options.duration > 0 ? options.duration : kDuration;
+  const double duration = options.duration > 0 ? options.duration : kSessionDuration;
   ClosedLoop trial(options.trial, seed);
   int num_alarms = 0;
   bool was_falling = false;

@@ -8,12 +8,12 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kAsked = 1.0;        // s until stance or ground
-constexpr double kTimeout = 60;       // s, getting up included
-constexpr double kLow = 0.875;        // of the standing height, of the torso in the stance
-constexpr double kWide = 1.7;         // of the distance of the soles when it stands
-constexpr double kUpright = 0.90625;  // of the standing height, when it stands again
-constexpr double kLyingTilt = 1.2;    // rad
+constexpr double kAsked = 1.0;            // s until stance or ground
+constexpr double kBlockTimeout = 60;      // s, getting up included
+constexpr double kLow = 0.875;            // of the standing height, of the torso in the stance
+constexpr double kWide = 1.7;             // of the distance of the soles when it stands
+constexpr double kStandsAgain = 0.90625;  // of the standing height, when it stands again
+constexpr double kLyingTilt = 1.2;        // rad
 
 /** Time at which a condition first held, s since the start. */
 class FirstTime {
@@ -63,11 +63,11 @@ RunResult act(const ScenarioOptions& options, uint64_t seed, const Action& actio
     fell = fell || (!dives && tilt > 0.8);
   });
   const int64_t id = trial.send_action(action.name);
-  const auto end = trial.await_end(id, kTimeout);
+  const auto end = trial.await_end(id, kBlockTimeout);
   trial.run(0.5);
   RunResult result;
   result.label = action.name;
-  const bool stands = trial.torso_tilt() < 0.3 && trial.torso_height() > kUpright * standing;
+  const bool stands = trial.torso_tilt() < 0.3 && trial.torso_height() > kStandsAgain * standing;
   if (fell) {
     result.failure = "fell";
   } else if (!end || end->status != ResultStatus::kDone) {
@@ -80,7 +80,7 @@ RunResult act(const ScenarioOptions& options, uint64_t seed, const Action& actio
     result.is_success = true;
   }
   result.metrics.emplace_back(dives ? "dive_s" : "block_s",
-                              std::isnan(reached.time()) ? kTimeout : reached.time());
+                              std::isnan(reached.time()) ? kBlockTimeout : reached.time());
   result.metrics.emplace_back(dives ? "dive_reach_m" : "block_width_m", dives ? reach : width);
   if (dives && stands) result.metrics.emplace_back("stand_again_s", trial.time() - start - 0.5);
   return result;

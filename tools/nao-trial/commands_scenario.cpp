@@ -27,7 +27,7 @@ Command random_joint_change(ClosedLoop& trial) {
   return {"", 0, change};
 }
 
-Command random_command(ClosedLoop& trial) {
+Command random_motion_command(ClosedLoop& trial) {
   const auto& postures = trial.model().postures();
   const auto& actions = trial.model().actions();
   const double kind = trial.random(0, 10);
@@ -118,7 +118,7 @@ std::vector<RunResult> CommandsScenario::run(const ScenarioOptions& options, uin
   int num_pushes = 0;
   int num_restarts = 0;
   for (int i = 0; i < kNumCommands && result.failure.empty(); ++i) {
-    watch.expect_result(trial.send(random_command(trial)));
+    watch.expect_result(trial.send(random_motion_command(trial)));
     trial.run(trial.random(0.02, 2.5));
     if (trial.random(0, 1) < kPushShare) {
       // 5 N s throws the robot over in any direction.

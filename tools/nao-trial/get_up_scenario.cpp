@@ -7,7 +7,7 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kTimeout = 60;  // s, six tries and the waiting between
+constexpr double kGetUpTimeout = 60;  // s, six tries and the waiting between
 constexpr int kMaxTries = 3;
 
 }  // namespace
@@ -35,7 +35,7 @@ std::vector<RunResult> GetUpScenario::run(const ScenarioOptions& options, uint64
   result.label += ", " + side;
   int num_tries = 0;
   trial.on_tick([&] { num_tries = std::max(num_tries, trial.core().motion_state().num_tries); });
-  const bool is_up = trial.run_until([&] { return has_got_up(trial); }, kTimeout);
+  const bool is_up = trial.run_until([&] { return has_got_up(trial); }, kGetUpTimeout);
   result.metrics.emplace_back("tries", num_tries);
   if (!is_up) {
     result.failure = "still down";

@@ -11,7 +11,7 @@ namespace {
 constexpr double kDeepest = 0.01;  // s of self-contact force that a brush may last
 
 /** A command for one to three random joints, valid or invalid. */
-Command random_command(ClosedLoop& trial) {
+Command random_joint_command(ClosedLoop& trial) {
   JointChangeCommand change;
   const int num_joints = 1 + static_cast<int>(trial.random(0, 3));
   for (int i = 0; i < num_joints; ++i) {
@@ -76,7 +76,7 @@ std::vector<RunResult> JointsScenario::run(const ScenarioOptions& options, uint6
   int num_accepted = 0;
   int num_refused = 0;
   for (int i = 0; i < num_commands && result.failure.empty(); ++i) {
-    trial.send(random_command(trial));
+    trial.send(random_joint_command(trial));
     trial.run(trial.random(0.02, 1.0));
   }
   trial.run(3);

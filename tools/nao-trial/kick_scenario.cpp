@@ -11,7 +11,7 @@ namespace nao::trial {
 namespace {
 
 // Fraction of the standing height above which the robot stands after a kick.
-constexpr double kUpright = 0.875;
+constexpr double kUprightAfterKick = 0.875;
 
 /** The kick with one foot. */
 ActionCommand make_kick(const RobotModel& model, bool is_left, double ball_x, double ball_y) {
@@ -54,7 +54,7 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   const Eigen::Vector3d way = trial.world().ball().position - start;
   const bool is_upright =
       trial.torso_tilt() < 0.3 &&
-      trial.torso_height() > kUpright * trial.model().references().heights.standing;
+      trial.torso_height() > kUprightAfterKick * trial.model().references().heights.standing;
   RunResult result;
   const double distance = way.head<2>().norm();
   result.is_success =

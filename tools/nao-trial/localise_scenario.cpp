@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using vision::FieldPose;
 
 /** s between images. A rendered one costs about 30 ms of processor time. */
-constexpr double kImagePeriod = 0.2;
+constexpr double kSparseImagePeriod = 0.2;
 /** s between the values of a metric. */
 constexpr double kSamplePeriod = 0.5;
 constexpr double kDuration = 600;
@@ -47,7 +47,7 @@ class Localisation {
   void tick() {
     keep_state();
     if (trial_.time() < next_image_) return;
-    next_image_ = trial_.time() + kImagePeriod;
+    next_image_ = trial_.time() + kSparseImagePeriod;
     estimate_ = look(trial_.model().cameras().front());
   }
   const FieldPose& estimate() const { return estimate_; }

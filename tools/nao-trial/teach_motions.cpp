@@ -22,7 +22,7 @@ using motion::Keyframe;
 /** Angles by joint or pair of joints. */
 using Pose = std::map<std::string, double>;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kKeepStiffness = std::numeric_limits<double>::quiet_NaN();
 
 /** Time that the motors need from one pose to the next, and a little more, s. */
 double needed_duration(const RobotModel& model, const std::vector<double>& from,
@@ -46,7 +46,7 @@ void add_keyframe(const RobotModel& model, std::vector<double>& last, std::vecto
                                motion::TaughtMotionBounds::kMaxDuration);
   keyframe.pause = pause;
   keyframe.position = position;
-  keyframe.stiffness.assign(model.num_motors(), kNan);
+  keyframe.stiffness.assign(model.num_motors(), kKeepStiffness);
   script.sequence.keyframes.push_back(std::move(keyframe));
   last = std::move(position);
 }
@@ -77,7 +77,7 @@ void apply(const RobotModel& model, const Pose& pose, std::vector<double>& posit
     if (motor < 0) continue;
     position[motor] = angle;
     if (pair == nullptr || pair->right < 0) continue;
-    std::vector<double> single(model.num_motors(), kNan);
+    std::vector<double> single(model.num_motors(), kKeepStiffness);
     single[motor] = angle;
     position[pair->right] = motion::mirrored(model, single)[pair->right];
   }
@@ -110,7 +110,7 @@ ActionScript between(const RobotModel& model, const std::string& a, const std::s
     keyframe.duration = duration;
     keyframe.pause = 0.3;
     keyframe.position = model.find_posture(name)->position;
-    keyframe.stiffness.assign(model.num_motors(), kNan);
+    keyframe.stiffness.assign(model.num_motors(), kKeepStiffness);
     script.sequence.keyframes.push_back(std::move(keyframe));
   }
   return script;

@@ -20,9 +20,6 @@
 namespace nao {
 namespace {
 
-/** Between two transmissions of an unanswered command, s. */
-constexpr double kRepeatPeriod = 0.1;
-
 int report_silence(const std::string& what) {
   std::fprintf(stderr, "nao: match %s: nao-referee does not answer; is it running?\n",
                what.c_str());

@@ -28,7 +28,7 @@ namespace nao {
 namespace {
 
 /** Listening time, s: every program publishes once a second, so each is received at least once. */
-constexpr double kListenTime = 1.3;
+constexpr double kStatusListenTime = 1.3;
 
 /** Age of a status beyond which its program has ended, s; see daemon_status_t. */
 constexpr double kSilence = 3.0;
@@ -200,7 +200,7 @@ int run_status(const CommonOptions& common, const std::vector<std::string>& want
                bool as_json) {
   StatusListener listener(common);
   if (!wanted.empty()) return wait_until_ready(listener, wanted, timeout);
-  listener.loop().every(kListenTime, [&listener] { listener.loop().stop("end"); });
+  listener.loop().every(kStatusListenTime, [&listener] { listener.loop().stop("end"); });
   listener.loop().run();
   std::fputs((as_json ? listener.to_json() : listener.to_text()).c_str(), stdout);
   return 0;

@@ -12,6 +12,8 @@ class CommandLine;
 /** Time without an answer after which a program is reported as unavailable, s. Chosen: many times
  * the period of its messages, and 30 transmissions of a command. */
 constexpr double kAnswerTimeout = 3.0;
+/** Time between two transmissions of a command that is not answered, s. */
+constexpr double kRepeatPeriod = 0.1;
 
 /** Action selected on the command line; set by the subcommand. */
 struct Invocation {

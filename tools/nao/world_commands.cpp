@@ -19,9 +19,6 @@
 namespace nao {
 namespace {
 
-/** Between two transmissions of an unacknowledged command, s. */
-constexpr double kRepeatPeriod = 0.1;
-
 /** Sends a world command until WORLD_TRUTH acknowledges it. @return The exit status. */
 int run_world(const CommonOptions& common, naolcm::world_command_t command) {
   EventLoop loop;

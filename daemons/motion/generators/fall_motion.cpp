@@ -13,8 +13,8 @@ constexpr double kStiffness = 0.3;
 constexpr double kMinDuration = 0.6;
 constexpr double kMaxDuration = 3.0;
 // Angular velocity of the torso below which it lies still, rad/s, and for how long it must be, s.
-constexpr double kStillVelocity = 0.3;
-constexpr double kStillTime = 0.1;
+constexpr double kLandedVelocity = 0.3;
+constexpr double kLandedTime = 0.1;
 // Time over which the direction of up is extrapolated to find the direction of the fall, s. Chosen:
 // about the time from the prediction of a fall to the impact.
 constexpr double kPredictionTime = 0.3;
@@ -53,9 +53,9 @@ MotionGenerator::Phase FallMotion::step(const MotionContext& context, JointTarge
   // At the motors' greatest speed: the core limits the targets.
   targets.position = pose_;
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), kStiffness);
-  const bool is_still = context.state.angular_velocity_torso.norm() < kStillVelocity;
+  const bool is_still = context.state.angular_velocity_torso.norm() < kLandedVelocity;
   time_still_ = is_still ? time_still_ + context.dt : 0;
-  const bool lies_still = time_ >= kMinDuration && time_still_ >= kStillTime;
+  const bool lies_still = time_ >= kMinDuration && time_still_ >= kLandedTime;
   if (!lies_still && time_ < kMaxDuration) return Phase::kRunning;
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
   return Phase::kDone;

@@ -10,7 +10,7 @@ namespace {
 
 // Time in which the joints must reach their last targets, s. Chosen; a joint that takes longer is
 // blocked.
-constexpr double kSettlingTime = 1.5;
+constexpr double kArrivalTime = 1.5;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ MotionGenerator::Phase PostureMotion::step(const MotionContext& context, JointTa
   // The targets are at the goal; now the measured angles decide.
   const PostureDeviation deviation = deviation_from(*posture_, context.sensors.position);
   if (deviation.angle <= context.options.posture_tolerance) return Phase::kDone;
-  if (time_ < trajectory_.duration() + kSettlingTime) return Phase::kRunning;
+  if (time_ < trajectory_.duration() + kArrivalTime) return Phase::kRunning;
   reason_ = Reason("posture-not-reached",
                    {context.model.motor_joint(deviation.motor).name,
                     std::to_string(std::lround(deviation.angle * 180 / M_PI)), posture_->name});

@@ -41,7 +41,7 @@ constexpr double kReserve = 0.012;
 constexpr double kSampleAngle = 0.03;
 constexpr int kMaxSamples = 100;
 // Slack of comparisons of margins, m: rounding only.
-constexpr double kRounding = 1e-9;
+constexpr double kMarginRounding = 1e-9;
 
 /** Horizontal axes for a direction of up, all in the torso frame. */
 struct LevelAxes {
@@ -212,7 +212,7 @@ double TippingGuard::find_safe_fraction(const std::vector<double>& from,
     for (size_t i = 0; i < from.size(); ++i) position[i] = from[i] + fraction * (to[i] - from[i]);
     const Equilibrium state = find_equilibrium(position, up);
     const bool leans = state.up_in_torso.dot(standing_up) < std::cos(kMaxRoll);
-    if (state.margin < needed_margin - kRounding || state.flattest < needed_flatness ||
+    if (state.margin < needed_margin - kMarginRounding || state.flattest < needed_flatness ||
         state.lifting > allowed_lifting || leans) {
       tipping = state;
       return static_cast<double>(k - 1) / num_samples;

@@ -45,11 +45,11 @@ std::string join(const Names& names) {
   return text;
 }
 
-Refusal refuse(GatewayReasonCode code, std::vector<std::string> arguments = {}) {
+Refusal refuse_argument(GatewayReasonCode code, std::vector<std::string> arguments = {}) {
   return {naoremote::INVALID_ARGUMENT, gateway_reason(code, std::move(arguments))};
 }
 
-Refusal refuse(Reason reason) {
+Refusal refuse_argument(Reason reason) {
   return {naoremote::INVALID_ARGUMENT, std::move(reason)};
 }
 
@@ -57,7 +57,7 @@ Refusal refuse(Reason reason) {
 std::variant<double, Refusal> check_speed(double speed, double default_speed) {
   if (speed == 0) return default_speed;
   if (speed > 0 && speed <= 1) return speed;
-  return refuse(Reason("speed-out-of-range", {to_argument(speed)}));
+  return refuse_argument(Reason("speed-out-of-range", {to_argument(speed)}));
 }
 
 /** nullptr if the robot has no such group. */
@@ -95,13 +95,13 @@ std::optional<Refusal> add_group(const naoremote::JointGroup& group,
                                   {"roll", group.roll_joint(), yaw_roll_sign * request.roll()}}};
   for (const Axis& axis : axes) {
     if (!is_within(axis.change, kMaxJointChange)) {
-      return refuse("joint-change-out-of-range",
-                    {axis.name, to_argument(axis.change), to_argument(kMaxJointChange)});
+      return refuse_argument("joint-change-out-of-range",
+                             {axis.name, to_argument(axis.change), to_argument(kMaxJointChange)});
     }
     // With a stiffness all joints of the group are meant.
     const bool is_meant = axis.change != 0 || (request.has_stiffness() && !axis.joint.empty());
     if (!is_meant) continue;
-    if (axis.joint.empty()) return refuse("axis-missing", {group.name(), axis.name});
+    if (axis.joint.empty()) return refuse_argument("axis-missing", {group.name(), axis.name});
     if (contains(command.joint_names, axis.joint)) continue;
     command.joint_names.push_back(axis.joint);
     command.joint_position.push_back(axis.change);
@@ -115,7 +115,7 @@ std::variant<WalkCommand, Refusal> check(const naoremote::WalkTurn& request,
                                          const naoremote::RobotDescription& robot) {
   if (!std::isfinite(request.vx()) || !std::isfinite(request.vy()) ||
       !std::isfinite(request.wz())) {
-    return refuse(Reason("velocity-not-finite"));
+    return refuse_argument(Reason("velocity-not-finite"));
   }
   return WalkCommand{std::clamp(request.vx(), robot.min_vx(), robot.max_vx()),
                      std::clamp(request.vy(), -robot.max_vy(), robot.max_vy()),
@@ -125,7 +125,8 @@ std::variant<WalkCommand, Refusal> check(const naoremote::WalkTurn& request,
 std::variant<MoveToCommand, Refusal> check(const naoremote::MoveTo& request) {
   if (!is_within(request.x(), kMaxDistance) || !is_within(request.y(), kMaxDistance) ||
       !is_within(request.theta(), kMaxHeading)) {
-    return refuse("goal-out-of-range", {to_argument(kMaxDistance), to_argument(kMaxHeading)});
+    return refuse_argument("goal-out-of-range",
+                           {to_argument(kMaxDistance), to_argument(kMaxHeading)});
   }
   return MoveToCommand{request.x(), request.y(), request.theta()};
 }
@@ -133,7 +134,8 @@ std::variant<MoveToCommand, Refusal> check(const naoremote::MoveTo& request) {
 std::variant<PostureCommand, Refusal> check(const naoremote::GoToPosture& request,
                                             const naoremote::RobotDescription& robot) {
   if (!contains(robot.postures(), request.posture())) {
-    return refuse(Reason("posture-unknown", {quoted(request.posture()), join(robot.postures())}));
+    return refuse_argument(
+        Reason("posture-unknown", {quoted(request.posture()), join(robot.postures())}));
   }
   auto speed = check_speed(request.speed(), kDefaultPostureSpeed);
   if (auto* refusal = std::get_if<Refusal>(&speed)) return std::move(*refusal);
@@ -146,7 +148,7 @@ std::variant<JointChangeCommand, Refusal> check(const naoremote::ChangeJoints& r
   if (group == nullptr) {
     std::vector<std::string> names;
     for (const auto& known : robot.joint_groups()) names.push_back(known.name());
-    return refuse("joint-group-unknown", {quoted(request.group()), join(names)});
+    return refuse_argument("joint-group-unknown", {quoted(request.group()), join(names)});
   }
   auto speed = check_speed(request.speed(), kDefaultJointSpeed);
   if (auto* refusal = std::get_if<Refusal>(&speed)) return std::move(*refusal);
@@ -155,7 +157,7 @@ std::variant<JointChangeCommand, Refusal> check(const naoremote::ChangeJoints& r
   command.speed = std::get<double>(speed);
   command.allow_tipping = request.allow_tipping();
   if (request.has_stiffness() && !is_within(request.stiffness(), 0, 1)) {
-    return refuse("stiffness-out-of-range", {to_argument(request.stiffness())});
+    return refuse_argument("stiffness-out-of-range", {to_argument(request.stiffness())});
   }
   if (auto refusal = add_group(*group, request, 1, command)) return *std::move(refusal);
   if (request.both_sides()) {
@@ -164,7 +166,7 @@ std::variant<JointChangeCommand, Refusal> check(const naoremote::ChangeJoints& r
       if (auto refusal = add_group(*other, request, -1, command)) return *std::move(refusal);
     }
   }
-  if (command.joint_names.empty()) return refuse("joint-change-zero");
+  if (command.joint_names.empty()) return refuse_argument("joint-change-zero");
   if (request.has_stiffness()) {
     command.joint_stiffness.assign(command.joint_names.size(), request.stiffness());
   }
@@ -174,21 +176,22 @@ std::variant<JointChangeCommand, Refusal> check(const naoremote::ChangeJoints& r
 std::variant<ActionCommand, Refusal> check(const naoremote::DoAction& request,
                                            const naoremote::RobotDescription& robot) {
   if (!contains(robot.actions(), request.action())) {
-    return refuse(Reason("action-unknown", {quoted(request.action()), join(robot.actions())}));
+    return refuse_argument(
+        Reason("action-unknown", {quoted(request.action()), join(robot.actions())}));
   }
   constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
   ActionCommand command{request.action(), kAbsent, kAbsent, kAbsent};
-  if (request.has_ball_x() != request.has_ball_y()) return refuse("ball-incomplete");
+  if (request.has_ball_x() != request.has_ball_y()) return refuse_argument("ball-incomplete");
   if (request.has_ball_x()) {
     if (!is_within(request.ball_x(), kMaxDistance) || !is_within(request.ball_y(), kMaxDistance)) {
-      return refuse("ball-out-of-range", {to_argument(kMaxDistance)});
+      return refuse_argument("ball-out-of-range", {to_argument(kMaxDistance)});
     }
     command.ball_x = request.ball_x();
     command.ball_y = request.ball_y();
   }
   if (request.has_strength()) {
     if (!(request.strength() > 0 && request.strength() <= 1)) {
-      return refuse(Reason("strength-out-of-range", {to_argument(request.strength())}));
+      return refuse_argument(Reason("strength-out-of-range", {to_argument(request.strength())}));
     }
     command.strength = request.strength();
   }
@@ -202,15 +205,15 @@ std::variant<SpeechCommand, Refusal> check(const naoremote::Say& request) {
   command.language = request.language();
   if (request.has_volume()) command.volume = request.volume();
   if (request.rate() != 0) command.rate = request.rate();
-  if (auto fault = nao::check(command)) return refuse(*std::move(fault));
+  if (auto fault = nao::check(command)) return refuse_argument(*std::move(fault));
   return command;
 }
 
 std::variant<LightCommand, Refusal> check(const naoremote::SetLights& request,
                                           const naoremote::RobotDescription& robot) {
   if (request.light_names_size() != request.light_rgb_size()) {
-    return refuse("light-lists-unequal", {std::to_string(request.light_names_size()),
-                                          std::to_string(request.light_rgb_size())});
+    return refuse_argument("light-lists-unequal", {std::to_string(request.light_names_size()),
+                                                   std::to_string(request.light_rgb_size())});
   }
   LightCommand command;
   command.duration = request.duration();
@@ -223,14 +226,15 @@ std::variant<LightCommand, Refusal> check(const naoremote::SetLights& request,
   }
   std::vector<std::string> known_names;
   for (const naoremote::Light& light : robot.lights()) known_names.push_back(light.name());
-  if (auto fault = nao::check(command, known_names)) return refuse(*std::move(fault));
+  if (auto fault = nao::check(command, known_names)) return refuse_argument(*std::move(fault));
   return command;
 }
 
 std::variant<PlayCommand, Refusal> check(const naoremote::Play& request) {
   PlayCommand command;
   command.behavior = static_cast<Behavior>(request.behavior());
-  if (request.has_target_x() != request.has_target_y()) return refuse("target-incomplete", {});
+  if (request.has_target_x() != request.has_target_y())
+    return refuse_argument("target-incomplete", {});
   if (request.has_target_x()) command.target_in_odometry = {request.target_x(), request.target_y()};
   if (auto fault = nao::check(command)) {
     return Refusal{naoremote::INVALID_ARGUMENT, *std::move(fault)};
@@ -245,15 +249,15 @@ std::variant<ImageSelection, Refusal> check(const naoremote::ImageRequest& reque
   if (selection.camera.empty() && !robot.cameras().empty()) selection.camera = robot.cameras(0);
   // A robot without cameras still accepts the empty name, so that its states can be subscribed to.
   if (!request.camera().empty() && !contains(robot.cameras(), request.camera())) {
-    return refuse("camera-unknown", {quoted(request.camera()), join(robot.cameras())});
+    return refuse_argument("camera-unknown", {quoted(request.camera()), join(robot.cameras())});
   }
   if (request.width() != 0) selection.width = request.width();
   if (!contains(kImageWidths, selection.width)) {
-    return refuse("width-unsupported", {std::to_string(selection.width)});
+    return refuse_argument("width-unsupported", {std::to_string(selection.width)});
   }
   selection.quality = request.quality();
   if (selection.quality > kMaxQuality) {
-    return refuse("quality-out-of-range", {std::to_string(selection.quality)});
+    return refuse_argument("quality-out-of-range", {std::to_string(selection.quality)});
   }
   return selection;
 }
@@ -262,12 +266,12 @@ std::variant<Subscription, Refusal> check(const naoremote::Subscribe& request,
                                           const naoremote::RobotDescription& robot,
                                           const GatewayLimits& limits) {
   if (!is_within(request.state_rate(), 0, limits.max_state_rate)) {
-    return refuse("state-rate-out-of-range",
-                  {to_argument(request.state_rate()), to_argument(limits.max_state_rate)});
+    return refuse_argument("state-rate-out-of-range",
+                           {to_argument(request.state_rate()), to_argument(limits.max_state_rate)});
   }
   if (!is_within(request.image_rate(), 0, limits.max_image_rate)) {
-    return refuse("image-rate-out-of-range",
-                  {to_argument(request.image_rate()), to_argument(limits.max_image_rate)});
+    return refuse_argument("image-rate-out-of-range",
+                           {to_argument(request.image_rate()), to_argument(limits.max_image_rate)});
   }
   auto image = check(request.image(), robot);
   if (auto* refusal = std::get_if<Refusal>(&image)) return std::move(*refusal);

@@ -9,7 +9,7 @@ namespace nao::gateway {
 namespace {
 
 /** As of CommandTracker: a bound of memory. */
-constexpr size_t kMaxEntries = 256;
+constexpr size_t kMaxServiceCommands = 256;
 
 bool is_speech(const ServiceCommand& command) {
   return std::holds_alternative<SpeechCommand>(command.request);
@@ -26,7 +26,7 @@ void ServiceCommands::send(uint32_t client, uint32_t request_id,
                       request_id,
                       {source_ + "." + std::to_string(client), next_id_++, std::move(request)},
                       CommandRetry(timing, now)});
-  if (entries_.size() > kMaxEntries) entries_.pop_front();
+  if (entries_.size() > kMaxServiceCommands) entries_.pop_front();
   Entry& entry = entries_.back();
   if (entry.retry.should_send(now)) transmit_(entry.command);
 }

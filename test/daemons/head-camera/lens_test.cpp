@@ -17,13 +17,13 @@ PinholeCamera camera() {
   return PinholeCamera::from_fov(kWidth, kHeight, 0.983, 0.763);
 }
 
-std::vector<uint8_t> plain(uint8_t value) {
+std::vector<uint8_t> plain_image(uint8_t value) {
   return std::vector<uint8_t>(static_cast<size_t>(4) * kWidth * kHeight, value);
 }
 
 /** Black, with a bright round spot of a few pixels; v runs down, rows run up. */
 std::vector<uint8_t> spot(const Eigen::Vector2d& center) {
-  std::vector<uint8_t> pixels = plain(0);
+  std::vector<uint8_t> pixels = plain_image(0);
   for (int row = 0; row < kHeight; ++row) {
     for (int u = 0; u < kWidth; ++u) {
       const Eigen::Vector2d offset(u - center.x(), kHeight - 1 - row - center.y());
@@ -65,8 +65,8 @@ TEST_P(LensModel, ShowsAPointAtThePixelThatTheFormulaGives) {
 TEST_P(LensModel, FillsTheImageUpToItsCorners) {
   const Lens lens(camera(), GetParam());
   std::vector<uint8_t> image;
-  lens.distort(plain(200), image);
-  EXPECT_EQ(image, plain(200));
+  lens.distort(plain_image(200), image);
+  EXPECT_EQ(image, plain_image(200));
   EXPECT_EQ(lens.source().width, kWidth);
   EXPECT_LE(lens.source().fx, camera().fx);
   // No pixel of the border shows a point outside of the source image.

@@ -11,7 +11,7 @@ namespace {
 
 // The NAO's sensors: front left, front right, rear left, rear right, of the left and the right
 // foot; its weight is 52 N.
-const std::vector<double> kStanding = {8, 6, 6, 4, 7, 7, 6, 6};
+const std::vector<double> kStandingForces = {8, 6, 6, 4, 7, 7, 6, 6};
 
 std::vector<double> without(std::vector<double> force, size_t sensor) {
   force[sensor] = 0;
@@ -31,7 +31,7 @@ std::vector<double> after(DeadFootSensors& sensors, const std::vector<double>& r
 
 TEST(DeadFootSensors, HealthyReadingsAreUnchanged) {
   DeadFootSensors sensors(nao_model());
-  EXPECT_EQ(after(sensors, kStanding, 10), kStanding);
+  EXPECT_EQ(after(sensors, kStandingForces, 10), kStandingForces);
   // A foot in the air reads nothing at all.
   const std::vector<double> one_foot = {14, 13, 13, 12, 0, 0, 0, 0};
   EXPECT_EQ(after(sensors, one_foot, 10), one_foot);
@@ -43,18 +43,18 @@ TEST(DeadFootSensors, HealthyReadingsAreUnchanged) {
 TEST(DeadFootSensors, ADeadSensorGetsTheForceThatTheOthersImply) {
   for (const size_t dead : {0, 1, 2, 3, 7}) {
     DeadFootSensors sensors(nao_model());
-    const std::vector<double> force = after(sensors, without(kStanding, dead), 0.5);
+    const std::vector<double> force = after(sensors, without(kStandingForces, dead), 0.5);
     EXPECT_TRUE(sensors.is_dead()[dead]);
     // The sensors of a foot form a trapezoid, nearly a rectangle.
-    EXPECT_NEAR(force[dead], kStanding[dead], 1.5) << dead;
-    EXPECT_EQ(without(force, dead), without(kStanding, dead));
+    EXPECT_NEAR(force[dead], kStandingForces[dead], 1.5) << dead;
+    EXPECT_EQ(without(force, dead), without(kStandingForces, dead));
   }
 }
 
 TEST(DeadFootSensors, ASensorThatHasBeenLoadedNeedsMoreEvidence) {
   DeadFootSensors sensors(nao_model());
-  after(sensors, kStanding, 0.1);
-  const std::vector<double> on_a_hole = without(kStanding, 1);
+  after(sensors, kStandingForces, 0.1);
+  const std::vector<double> on_a_hole = without(kStandingForces, 1);
   EXPECT_EQ(after(sensors, on_a_hole, 1), on_a_hole);
   EXPECT_FALSE(sensors.is_dead()[1]);
   after(sensors, on_a_hole, 3);
@@ -64,17 +64,17 @@ TEST(DeadFootSensors, ASensorThatHasBeenLoadedNeedsMoreEvidence) {
 TEST(DeadFootSensors, ASensorThatReadsAgainIsAlive) {
   DeadFootSensors sensors(nao_model());
   EXPECT_FALSE(sensors.has_dead_sensor());
-  after(sensors, without(kStanding, 4), 1);
+  after(sensors, without(kStandingForces, 4), 1);
   EXPECT_TRUE(sensors.is_dead()[4]);
   EXPECT_TRUE(sensors.has_dead_sensor());
-  EXPECT_EQ(after(sensors, kStanding, 0.02), kStanding);
+  EXPECT_EQ(after(sensors, kStandingForces, 0.02), kStandingForces);
   EXPECT_FALSE(sensors.is_dead()[4]);
   EXPECT_FALSE(sensors.has_dead_sensor());
 }
 
 TEST(DeadFootSensors, WithTwoDeadSensorsOnAFootNothingIsInvented) {
   DeadFootSensors sensors(nao_model());
-  const std::vector<double> reading = without(without(kStanding, 0), 3);
+  const std::vector<double> reading = without(without(kStandingForces, 0), 3);
   const std::vector<double> force = after(sensors, reading, 10);
   EXPECT_EQ(force[0], 0);
   EXPECT_EQ(force[3], 0);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kLyingTilt = 1.0;
 
 /** A robot on a square sole of 0.1 m, with its center of mass 0.25 m above the sole's center. */
-RobotState standing() {
+RobotState standing_state() {
   RobotState state;
   state.left_foot_carries = true;
   state.support_polygon_in_odometry = {{-0.05, -0.05}, {0.05, -0.05}, {0.05, 0.05}, {-0.05, 0.05}};
@@ -32,7 +32,7 @@ void tilt(RobotState& state, double torso, double soles) {
 
 /** A robot whose capture point is `distance` m in front of the edge of its support polygon. */
 RobotState pushed(double distance) {
-  RobotState state = standing();
+  RobotState state = standing_state();
   const double omega = std::sqrt(kGravity / 0.25);
   state.center_of_mass_velocity_in_odometry.x() = (0.05 + distance) * omega;
   tilt(state, 0.2, 0.15);
@@ -40,7 +40,7 @@ RobotState pushed(double distance) {
 }
 
 TEST(CapturePoint, IsTheCenterOfMassPlusVelocityOverTheNaturalFrequency) {
-  RobotState state = standing();
+  RobotState state = standing_state();
   state.center_of_mass_in_odometry.head<2>() << 0.1, -0.2;
   state.center_of_mass_velocity_in_odometry = {0.3, 0.4, 9};
   const Eigen::Vector2d point = calc_capture_point(state);
@@ -90,7 +90,7 @@ TEST(FallMonitor, AWalkFallsByItsTiltAlone) {
 
 TEST(FallMonitor, ARobotThatLiesFalls) {
   FallMonitor monitor(kLyingTilt);
-  RobotState state = standing();
+  RobotState state = standing_state();
   tilt(state, 1.1, 0);
   EXPECT_TRUE(monitor.update(state, false, 0.01));
 }

@@ -10,7 +10,7 @@ namespace {
 using Action = FallSupervisor::Action;
 
 /** A robot whose torso is pitched forward, rad, and that high, m. */
-RobotState pitched(double pitch, double height = 0.3) {
+RobotState pitched_state(double pitch, double height = 0.3) {
   RobotState state;
   state.torso_in_odometry.linear() =
       Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()).toRotationMatrix();
@@ -18,8 +18,8 @@ RobotState pitched(double pitch, double height = 0.3) {
   return state;
 }
 
-const RobotState kStanding = pitched(0);
-const RobotState kLying = pitched(1.5, 0.06);
+const RobotState kStanding = pitched_state(0);
+const RobotState kLying = pitched_state(1.5, 0.06);
 const FallSupervisor::Activity kIdle = {false, true, false};
 const FallSupervisor::Activity kWalking = {true, true, true};
 const FallSupervisor::Activity kPlayingTransition = {true, false, false};
@@ -44,8 +44,8 @@ class FallSupervisorTest : public ::testing::Test {
 };
 
 TEST_F(FallSupervisorTest, ProtectsAWalkThatFallsAndGetsUpAfterwards) {
-  EXPECT_EQ(update(pitched(0.2), kWalking), Action::kNone);
-  EXPECT_EQ(update(pitched(0.5), kWalking), Action::kProtect);
+  EXPECT_EQ(update(pitched_state(0.2), kWalking), Action::kNone);
+  EXPECT_EQ(update(pitched_state(0.5), kWalking), Action::kProtect);
   EXPECT_TRUE(falls_.has_fallen());
   falls_.note_end(true, true, kLying);
   EXPECT_TRUE(falls_.has_fallen());
@@ -55,7 +55,7 @@ TEST_F(FallSupervisorTest, ProtectsAWalkThatFallsAndGetsUpAfterwards) {
 }
 
 TEST_F(FallSupervisorTest, ATransitionMayLeaveTheFeet) {
-  EXPECT_EQ(update(pitched(1.2), kPlayingTransition), Action::kNone);
+  EXPECT_EQ(update(pitched_state(1.2), kPlayingTransition), Action::kNone);
   EXPECT_FALSE(falls_.has_fallen());
 }
 
@@ -67,13 +67,13 @@ TEST_F(FallSupervisorTest, ARobotThatAMotionLaidDownHasNotFallen) {
 
 TEST_F(FallSupervisorTest, ASittingRobotThatIsKnockedOverHasFallen) {
   // Below the height of a stand falls are not predicted.
-  EXPECT_EQ(update(pitched(0.1, 0.12), kIdle), Action::kNone);
+  EXPECT_EQ(update(pitched_state(0.1, 0.12), kIdle), Action::kNone);
   EXPECT_EQ(wait_idle(kLying), Action::kGetUp);
   EXPECT_TRUE(falls_.has_fallen());
 }
 
 TEST_F(FallSupervisorTest, NeedsHelpAfterTheLastTryUntilItIsLifted) {
-  update(pitched(0.5), kWalking);
+  update(pitched_state(0.5), kWalking);
   falls_.note_end(true, true, kLying);
   ASSERT_EQ(wait_idle(kLying), Action::kGetUp);
   falls_.note_end(false, false, kLying);
@@ -86,7 +86,7 @@ TEST_F(FallSupervisorTest, NeedsHelpAfterTheLastTryUntilItIsLifted) {
 
 TEST_F(FallSupervisorTest, WithoutGettingUpItStaysDown) {
   options_.gets_up = false;
-  update(pitched(0.5), kWalking);
+  update(pitched_state(0.5), kWalking);
   falls_.note_end(true, true, kLying);
   EXPECT_EQ(wait_idle(kLying), Action::kNone);
   EXPECT_TRUE(falls_.has_fallen());
@@ -94,7 +94,7 @@ TEST_F(FallSupervisorTest, WithoutGettingUpItStaysDown) {
 }
 
 TEST_F(FallSupervisorTest, AnotherRobotNeedsNoHelp) {
-  update(pitched(0.5), kWalking);
+  update(pitched_state(0.5), kWalking);
   falls_.note_end(false, false, kLying);
   ASSERT_TRUE(falls_.needs_help());
   falls_.reset();

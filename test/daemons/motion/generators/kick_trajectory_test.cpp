@@ -10,8 +10,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-const Vector2d kAnyBall(kNan, kNan);
+constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
+const Vector2d kAnyBall(kUnset, kUnset);
 
 /** A kick of three phases: lift, strike, land. */
 Kick make_kick() {
@@ -85,14 +85,14 @@ TEST(KickTrajectory, FootMovesAndPointsAlongTheDirectionOfTheKickDuringTheStrike
 
 TEST(KickTrajectory, ImpactIsWhereTheFootReachesTheBall) {
   for (const double ball_x : {0.15, 0.18, 0.2}) {
-    const KickTrajectory trajectory = make_trajectory({ball_x, kNan});
+    const KickTrajectory trajectory = make_trajectory({ball_x, kUnset});
     EXPECT_NEAR(trajectory.impact().foot.x() + 0.15, ball_x, 1e-12);
     EXPECT_EQ(trajectory.impact().foot_heading, 0);
   }
 }
 
 TEST(KickTrajectory, FootSwingsInThePlaneOfTheBall) {
-  EXPECT_NEAR(make_trajectory({kNan, 0.06}).at(0.25).foot.y(), 0.11, 1e-12);
+  EXPECT_NEAR(make_trajectory({kUnset, 0.06}).at(0.25).foot.y(), 0.11, 1e-12);
 }
 
 TEST(KickTrajectory, WeakerStrikesTakeLonger) {

@@ -9,17 +9,17 @@
 namespace nao::motion {
 namespace {
 
-constexpr double kOmega = 6.1;
+constexpr double kPendulumOmega = 6.1;
 
 TEST(Pendulum, FollowsItsEquationOfMotion) {
   const Eigen::Vector2d zmp(0.01, -0.02);
   PendulumState fine{{0.03, 0.01}, {-0.1, 0.2}};
-  const PendulumState exact = advance(fine, zmp, kOmega, 0.3);
+  const PendulumState exact = advance(fine, zmp, kPendulumOmega, 0.3);
   // Midpoint rule in steps of 10 us: its own error is about 1e-9 m.
   const double h = 1e-5;
   for (int i = 0; i < 30000; ++i) {
     const Eigen::Vector2d midpoint = fine.position + h / 2 * fine.velocity;
-    const Eigen::Vector2d acceleration = kOmega * kOmega * (midpoint - zmp);
+    const Eigen::Vector2d acceleration = kPendulumOmega * kPendulumOmega * (midpoint - zmp);
     fine.position += h * fine.velocity + h * h / 2 * acceleration;
     fine.velocity += h * acceleration;
   }
@@ -30,16 +30,17 @@ TEST(Pendulum, FollowsItsEquationOfMotion) {
 TEST(Pendulum, ItsDcmGrowsExponentiallyFromTheZmp) {
   const Eigen::Vector2d zmp(0.01, -0.02);
   const PendulumState start{{0.03, 0.01}, {-0.1, 0.2}};
-  const PendulumState end = advance(start, zmp, kOmega, 0.3);
-  const Eigen::Vector2d dcm = advance_dcm(start.dcm(kOmega), zmp, kOmega, 0.3);
-  EXPECT_NEAR((end.dcm(kOmega) - dcm).norm(), 0, 1e-12);
-  EXPECT_NEAR((advance_dcm(dcm, zmp, kOmega, -0.3) - start.dcm(kOmega)).norm(), 0, 1e-12);
+  const PendulumState end = advance(start, zmp, kPendulumOmega, 0.3);
+  const Eigen::Vector2d dcm = advance_dcm(start.dcm(kPendulumOmega), zmp, kPendulumOmega, 0.3);
+  EXPECT_NEAR((end.dcm(kPendulumOmega) - dcm).norm(), 0, 1e-12);
+  EXPECT_NEAR((advance_dcm(dcm, zmp, kPendulumOmega, -0.3) - start.dcm(kPendulumOmega)).norm(), 0,
+              1e-12);
 }
 
 TEST(Pendulum, RestsOverAZmpThatIsHeldAtTheCapturePoint) {
   PendulumState state{{0.03, 0.01}, {-0.1, 0.2}};
-  const Eigen::Vector2d capture_point = state.dcm(kOmega);
-  state = advance(state, capture_point, kOmega, 2);
+  const Eigen::Vector2d capture_point = state.dcm(kPendulumOmega);
+  state = advance(state, capture_point, kPendulumOmega, 2);
   EXPECT_NEAR((state.position - capture_point).norm(), 0, 1e-6);
   EXPECT_NEAR(state.velocity.norm(), 0, 1e-5);
 }
@@ -47,9 +48,10 @@ TEST(Pendulum, RestsOverAZmpThatIsHeldAtTheCapturePoint) {
 TEST(Pendulum, TheZmpBetweenTwoDcmsLeadsFromOneToTheOther) {
   PendulumState state{{0.03, 0.01}, {-0.1, 0.2}};
   const Eigen::Vector2d goal(0.05, -0.07);
-  const Eigen::Vector2d zmp = zmp_between_dcms(state.dcm(kOmega), goal, kOmega, 0.17);
-  state = advance(state, zmp, kOmega, 0.17);
-  EXPECT_NEAR((state.dcm(kOmega) - goal).norm(), 0, 1e-12);
+  const Eigen::Vector2d zmp =
+      zmp_between_dcms(state.dcm(kPendulumOmega), goal, kPendulumOmega, 0.17);
+  state = advance(state, zmp, kPendulumOmega, 0.17);
+  EXPECT_NEAR((state.dcm(kPendulumOmega) - goal).norm(), 0, 1e-12);
 }
 
 TEST(PendulumEstimator, EstimatesTheVelocityFromNoisyPositions) {
@@ -58,10 +60,10 @@ TEST(PendulumEstimator, EstimatesTheVelocityFromNoisyPositions) {
   PendulumEstimator estimator(0.03);
   estimator.reset(truth.position, truth.position);
   for (int tick = 0; tick < 20; ++tick) {
-    truth = advance(truth, zmp, kOmega, 0.01);
+    truth = advance(truth, zmp, kPendulumOmega, 0.01);
     // Noise of half a millimeter with alternating sign.
     const Eigen::Vector2d noise = Eigen::Vector2d::Constant(tick % 2 == 0 ? 5e-4 : -5e-4);
-    estimator.update(truth.position + noise, zmp, kOmega, 0.01);
+    estimator.update(truth.position + noise, zmp, kPendulumOmega, 0.01);
   }
   EXPECT_NEAR((estimator.state().position - truth.position).norm(), 0, 1.5e-3);
   EXPECT_NEAR((estimator.state().velocity - truth.velocity).norm(), 0, 0.05);
@@ -71,7 +73,7 @@ TEST(PendulumEstimator, KeepsTheVelocityWhenTheSupportFootChanges) {
   PendulumEstimator estimator(0.03);
   estimator.reset({0, 0}, {0, 0});
   for (int tick = 1; tick <= 100; ++tick) {
-    estimator.update({0.002 * tick, 0}, {0.002 * tick, 0}, kOmega, 0.01);
+    estimator.update({0.002 * tick, 0}, {0.002 * tick, 0}, kPendulumOmega, 0.01);
   }
   EXPECT_NEAR(estimator.state().velocity.x(), 0.2, 0.01);
   // The new frame is turned to the left by 90 degrees.
@@ -88,9 +90,9 @@ TEST(PendulumEstimator, LearnsTheOffsetOfTheMeasurementFromTheMotion) {
   estimator.reset(truth.position + offset, truth.position);
   for (int tick = 0; tick < 200; ++tick) {
     const Eigen::Vector2d sway(0.01 * std::sin(0.2 * tick), 0.02 * std::sin(0.25 * tick));
-    const Eigen::Vector2d zmp = 2 * truth.dcm(kOmega) - sway;
-    truth = advance(truth, zmp, kOmega, 0.01);
-    estimator.update(truth.position + offset, zmp, kOmega, 0.01);
+    const Eigen::Vector2d zmp = 2 * truth.dcm(kPendulumOmega) - sway;
+    truth = advance(truth, zmp, kPendulumOmega, 0.01);
+    estimator.update(truth.position + offset, zmp, kPendulumOmega, 0.01);
   }
   EXPECT_NEAR((estimator.offset() - offset).norm(), 0, 1e-3);
   EXPECT_NEAR((estimator.state().position - offset - truth.position).norm(), 0, 5e-4);

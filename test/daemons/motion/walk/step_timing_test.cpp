@@ -11,8 +11,8 @@
 namespace nao::motion {
 namespace {
 
-constexpr double kOmega = 6.1;  // 1/s
-constexpr double kTime = 0.1;   // s
+constexpr double kTimingOmega = 6.1;  // 1/s
+constexpr double kTime = 0.1;         // s
 
 class StepTimingTest : public testing::Test {
  protected:
@@ -20,10 +20,10 @@ class StepTimingTest : public testing::Test {
 
   /** DCM that reaches its end point when a step of this duration ends. */
   static LateralDcm dcm_for(double duration) {
-    return {0.1 * std::exp(-kOmega * (duration - kTime)), 0.1};
+    return {0.1 * std::exp(-kTimingOmega * (duration - kTime)), 0.1};
   }
   double adapt(const LateralDcm& dcm, double time = kTime) const {
-    return adapt_step_duration(gait_, dcm, kOmega, time, gait_.timing.step_duration);
+    return adapt_step_duration(gait_, dcm, kTimingOmega, time, gait_.timing.step_duration);
   }
 
   Gait gait_ = nao_gait();

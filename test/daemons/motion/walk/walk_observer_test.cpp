@@ -11,7 +11,7 @@ using Eigen::AngleAxisd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kTick = 0.01;  // s
+constexpr double kObserverTick = 0.01;  // s
 
 class WalkObserverTest : public testing::Test {
  protected:
@@ -26,7 +26,8 @@ class WalkObserverTest : public testing::Test {
   }
 
   void update(bool support_is_left, double torso_pitch = 0) {
-    observer_.update(state_, {0, 0, -0.04}, support_is_left, reference_, torso_pitch, kTick);
+    observer_.update(state_, {0, 0, -0.04}, support_is_left, reference_, torso_pitch,
+                     kObserverTick);
   }
 
   Gait gait_ = nao_gait();
@@ -46,7 +47,7 @@ TEST_F(WalkObserverTest, MeasuresTheCenterOfMassOverTheSupportFoot) {
 TEST_F(WalkObserverTest, KeepsTheVelocityWhenTheSupportFootChanges) {
   // The center of mass moves at 0.2 m/s, with the pressure under it: no acceleration.
   for (int i = 0; i < 200; ++i) {
-    state_.torso_in_odometry.translation().x() += 0.2 * kTick;
+    state_.torso_in_odometry.translation().x() += 0.2 * kObserverTick;
     state_.center_of_pressure_in_odometry = state_.torso_in_odometry.translation().head<2>();
     update(true);
   }
