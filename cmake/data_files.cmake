@@ -1,7 +1,8 @@
-# The YAML files of the calling folder are data: a target named like `folder` copies them to where the programs look
+# The YAML and ONNX files of the calling folder are data: a target named like `folder` copies them to where the programs look
 # for them, and they are installed.
 function(nao_data_files folder)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.yaml)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.yaml
+       ${CMAKE_CURRENT_SOURCE_DIR}/*.onnx)
   set(copies)
   foreach(source IN LISTS sources)
     get_filename_component(name ${source} NAME)

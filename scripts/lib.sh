@@ -56,7 +56,7 @@ build_jobs() {
 
 # reconfigure_with_new_packages: until GoogleTest and OpenCV came, the dev preset was configured without tests and nao-vision.
 reconfigure_with_new_packages() {
-    if grep -qsE '^(GTest_DIR|OPENCV_INCLUDE_DIR):PATH=.*-NOTFOUND' "$ROOT/build/dev/CMakeCache.txt"; then
+    if grep -qsE '^(GTest_DIR:PATH|OPENCV_INCLUDE_DIR:PATH|OPENCV_dnn_LIBRARY:FILEPATH)=.*-NOTFOUND' "$ROOT/build/dev/CMakeCache.txt"; then
         rm -f "$ROOT/build/dev/.configured"
     fi
 }

@@ -66,6 +66,15 @@ cv::Point2f CameraGeometry::distorted(const cv::Point2f& ideal) const {
           static_cast<float>(c.cy + c.fy * (y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y))};
 }
 
+// The distorted radius r (1 + k1 r^2 + k2 r^4 + k3 r^6) grows with r up to some angle; the model
+// folds what lies farther out back into the image, where no lens shows it.
+bool CameraGeometry::is_in_lens(double r2) const {
+  const double k1 = calibration_.distortion[0];
+  const double k2 = calibration_.distortion[1];
+  const double k3 = calibration_.distortion[4];
+  return 1 + r2 * (3 * k1 + r2 * (5 * k2 + r2 * 7 * k3)) > 0;
+}
+
 // In the camera's axes: x forward, y left, z up; not normalized.
 Eigen::Vector3d CameraGeometry::ray(const cv::Point2f& ideal) const {
   return {1, -(ideal.x - calibration_.cx) / calibration_.fx,
@@ -123,6 +132,9 @@ std::optional<cv::Point2f> CameraGeometry::project(const Eigen::Vector3d& point_
   const Eigen::Vector3d point = pose_->inverse() * point_in_heading;
   if (point.x() < kNear) return std::nullopt;
   const CameraCalibration& c = calibration_;
+  if (!is_in_lens(Eigen::Vector2d(point.y(), point.z()).squaredNorm() / (point.x() * point.x()))) {
+    return std::nullopt;
+  }
   return distorted({static_cast<float>(c.cx - c.fx * point.y() / point.x()),
                     static_cast<float>(c.cy - c.fy * point.z() / point.x())});
 }

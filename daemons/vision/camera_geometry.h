@@ -81,6 +81,8 @@ class CameraGeometry {
   std::optional<double> horizon_row(double column) const;
 
  private:
+  /** The lens shows a direction whose tangent to the view has this square. */
+  bool is_in_lens(double r2) const;
   Eigen::Vector3d ray(const cv::Point2f& ideal) const;
   static std::optional<Eigen::Vector2d> intersect(const Eigen::Isometry3d& pose,
                                                   const Eigen::Vector3d& ray, double height);

@@ -11,10 +11,12 @@ namespace {
 constexpr float kLow = -0.1f;
 constexpr float kHigh = 0.6f;
 constexpr int kNumBins = 70;
-/** Limits of the threshold. Tuned on rendered and real images: a pale carpet has 0.15, grey noise
- * reaches 0.05. */
+/** Limits of the threshold. Tuned on rendered and real images: a pale carpet has 0.15, a saturated
+ * one in full light 0.35 while it has 1 in the shadow beside; grey noise reaches 0.05. */
 constexpr float kLeastThreshold = 0.06f;
-constexpr float kGreatestThreshold = 0.35f;
+constexpr float kGreatestThreshold = 0.22f;
+/** The threshold is below this fraction of the field's median. */
+constexpr float kGreatestFraction = 0.5f;
 /** A column of the field ends upwards where this many pixels of `other` in succession are not
  * green: more near the camera, where lines are thick, by this fraction of the row. Tuned on real
  * images: a line 0.4 m ahead is 27 pixels thick, banners behind the field are 25 high. */
@@ -78,7 +80,7 @@ void find_color(const cv::Mat_<cv::Vec3b>& half, FieldView& view) {
   while (bin < kNumBins - 1 && 2 * (count += histogram[bin]) < above) ++bin;
   view.index = std::max(value_of(bin), 1.3f * view.threshold);
   // Where nothing but field is in view, Otsu's method divides the field itself.
-  view.threshold = std::clamp(view.threshold, kLeastThreshold, 0.65f * view.index);
+  view.threshold = std::clamp(view.threshold, kLeastThreshold, kGreatestFraction * view.index);
 }
 
 /** Upper convex hull of the points (column, row), rows counting downwards; interpolated. */

@@ -33,20 +33,4 @@ class CenterCircleDetector {
   double radius_;
 };
 
-/** Finds the feet of goal posts: white, vertical, as wide as a post at the place where it meets
- * the field, and as high. Needs the camera's pose. */
-class GoalPostDetector {
- public:
-  Detections detect(const FieldView& view, const CameraGeometry& geometry) const;
-};
-
-/** Finds other robots as obstacles that stand on the field: wide and high enough, and not green.
- * Needs the camera's pose. */
-class RobotDetector {
- public:
-  /** @param posts, ball  Are not robots. */
-  Detections detect(const FieldView& view, const CameraGeometry& geometry, const Detections& posts,
-                    const std::optional<Detection>& ball) const;
-};
-
 }  // namespace nao::vision

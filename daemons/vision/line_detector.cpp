@@ -9,7 +9,7 @@ namespace nao::vision {
 namespace {
 
 /** Samples of one segment. Chosen: more find no further segments in rendered images. */
-constexpr int kNumSamples = 120;
+constexpr int kNumSamples = 400;
 /** Distance of the two points of a sample, pixels. */
 constexpr float kLeastBase = 12;
 constexpr float kMostBase = 140;

@@ -40,9 +40,13 @@ class Scan {
       const bool is_line = num_green_ >= kMargin && white > level_ + kContrast &&
                            index < kIndexFraction * level_index_;
       if (first_ >= 0) {
-        follow(i, is_line, index > view_.threshold);
+        // As bright as before the field may be in another light than that before the line.
+        const bool is_green = index > view_.threshold;
+        peak_ = std::max(peak_, white);
+        follow(i, is_line && !(is_green && white < peak_ - kContrast), is_green);
       } else if (is_line) {
         first_ = i;
+        peak_ = white;
         num_mixed_ = 0;
       } else if (index > view_.threshold) {
         num_mixed_ = 0;
@@ -120,6 +124,8 @@ class Scan {
   /** Beginning of the crossing; -1 outside of one. */
   int first_ = -1;
   int num_mixed_ = 0;
+  /** Greatest whiteness of the crossing. */
+  float peak_ = 0;
 };
 
 }  // namespace

@@ -1,12 +1,16 @@
 #include "daemons/vision/vision_core.h"
 
+#include "common/data_path.h"
 #include "common/error.h"
+#include "daemons/vision/ball_candidates.h"
 
 namespace nao::vision {
 namespace {
 
 /** Images with less field than this show no objects on it. */
 constexpr double kLeastField = 0.03;
+/** m. */
+constexpr double kBallRadius = 0.05;
 
 }  // namespace
 
@@ -33,6 +37,15 @@ const char* kind_name(Kind kind) {
   }
   return "";
 }
+
+VisionNetworks VisionNetworks::load() {
+  const std::filesystem::path folder = data_path() / "networks";
+  return {std::make_shared<NeuralNetwork>(folder / "objects.onnx", ObjectDetector::shape()),
+          std::make_shared<NeuralNetwork>(folder / "ball.onnx", BallDetector::shape())};
+}
+
+VisionCore::VisionCore(const VisionNetworks& networks)
+    : objects_(networks.objects), ball_(networks.ball) {}
 
 // The center circle first: it takes its points out of those that become lines.
 void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometry,
@@ -86,17 +99,19 @@ VisionResult VisionCore::process(const VisionInput& input) {
   finish_stage("field");
   // The robot looks up or over the border: what looks like objects there is none.
   if (view.fraction < kLeastField) return result;
-  const auto ball = ball_.detect(view, geometry);
+  const PatchSampler sampler(input.bgr);
+  FoundObjects objects = objects_.detect(sampler.half(), input.bgr.cols, input.bgr.rows, geometry);
+  finish_stage("objects");
+  const std::vector<Circle> more = find_ball_hints(view, geometry, kBallRadius);
+  objects.balls.insert(objects.balls.end(), more.begin(), more.end());
+  finish_stage("ball places");
+  const auto ball = ball_.detect(sampler, geometry, objects.balls);
   if (ball) result.detections.push_back(*ball);
   finish_stage("ball");
   find_lines(view, geometry, result);
-  const Detections posts = posts_.detect(view, geometry);
-  result.detections.insert(result.detections.end(), posts.begin(), posts.end());
-  finish_stage("goal posts");
-  for (const Detection& robot : robots_.detect(view, geometry, posts, ball)) {
-    result.detections.push_back(robot);
+  for (const Detections* found : {&objects.posts, &objects.robots}) {
+    result.detections.insert(result.detections.end(), found->begin(), found->end());
   }
-  finish_stage("robots");
   localize(input, result);
 
   if (ball && ball->has_position() && input.heading_in_odometry) {

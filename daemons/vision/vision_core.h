@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "daemons/vision/image_status.h"
 #include "daemons/vision/landmarks.h"
 #include "daemons/vision/localizer.h"
+#include "daemons/vision/object_detector.h"
 #include "kinematics/pose2.h"
 
 namespace nao::vision {
@@ -47,11 +49,23 @@ struct VisionResult {
   FieldPose field_pose;
 };
 
+/** Networks of the detectors; cores may share them, in one thread. */
+struct VisionNetworks {
+  std::shared_ptr<NeuralNetwork> objects;
+  std::shared_ptr<NeuralNetwork> ball;
+
+  /** Those of data_path(). @throws Error  if one cannot be read. */
+  static VisionNetworks load();
+};
+
 /** Perception of one robot: finds field, lines, crossings, the center circle, posts, robots and the
  * ball in images, and tracks the ball and the pose on the field. It uses neither a clock nor the
  * bus. */
 class VisionCore {
  public:
+  /** @throws Error  if a network cannot be read. */
+  explicit VisionCore(const VisionNetworks& networks = VisionNetworks::load());
+
   /** @throws Error  if the image has another format or is too small. */
   VisionResult process(const VisionInput& input);
 
@@ -73,9 +87,8 @@ class VisionCore {
   LineDetector lines_;
   CrossingDetector crossings_;
   CenterCircleDetector circle_;
-  GoalPostDetector posts_;
+  ObjectDetector objects_;
   BallDetector ball_;
-  RobotDetector robots_;
   BallFilter ball_filter_;
   std::optional<Localizer> localizer_;
   std::function<void(const char*)> on_stage_;

@@ -36,7 +36,8 @@ DatasetRenderer::DatasetRenderer(const RobotModel& model, const SceneFile& field
 void DatasetRenderer::append_robots(const RandomScene& scene, bool has_named_colors) {
   for (size_t i = 0; i < scene.robots.size(); ++i) {
     const PlacedRobot& robot = scene.robots[i];
-    const Color tint = has_named_colors ? robot_name_color(i) : Color(Color::Ones());
+    Color tint(robot.tint[0], robot.tint[1], robot.tint[2], 1);
+    if (has_named_colors) tint = robot_name_color(i);
     visual_.append(scene_, link_poses_in_world(model_, robot.pose_torso_in_world, robot.position),
                    tint);
   }

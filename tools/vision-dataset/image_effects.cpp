@@ -16,10 +16,13 @@ ImageEffects ImageEffects::of_place(Random& random) {
 }
 
 void ImageEffects::vary(Random& random) {
-  const double exposure = std::exp(0.22 * random.normal());
+  // Some images are far too bright, as when a robot turns from a window to the field.
+  const double exposure =
+      std::exp(random.uniform() < 0.15 ? random.uniform(0.2, 0.8) : 0.22 * random.normal());
   for (double& factor : gain) factor *= exposure;
   blur = random.uniform() < 0.5 ? random.uniform(0, 3) : random.uniform(0, 14);
   blur_angle = random.uniform(0, M_PI);
+  if (random.uniform() < 0.4) defocus = random.uniform(0.3, 1.4);
   quality = static_cast<int>(random.uniform(55, 95));
   noise_seed = random.next();
 }
@@ -34,6 +37,7 @@ void ImageEffects::apply(cv::Mat& bgr) const {
     kernel /= cv::sum(kernel)[0];
     cv::filter2D(bgr, bgr, -1, kernel);
   }
+  if (defocus > 0) cv::GaussianBlur(bgr, bgr, {0, 0}, defocus);
   Random random(noise_seed);
   std::array<float, 4096> samples;
   for (float& sample : samples) sample = static_cast<float>(noise * random.normal());

@@ -7,11 +7,13 @@
 
 namespace nao::vision {
 
-/** What a real camera does to an image: motion blur, exposure, white balance, noise. */
+/** What a real camera does to an image: motion blur, focus, exposure, white balance, noise. */
 struct ImageEffects {
   /** Length of the motion blur, pixels, and its direction, rad. */
   double blur = 0;
   double blur_angle = 0;
+  /** Standard deviation of the blur of a lens out of focus, pixels. */
+  double defocus = 0;
   /** Factors on blue, green, red: exposure times white balance. */
   std::array<double, 3> gain{1, 1, 1};
   /** Added before the gain: stray light, levels of 255. */

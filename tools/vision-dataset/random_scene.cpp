@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "daemons/vision/field_model.h"
 #include "kinematics/pose2.h"
 
 namespace nao::vision {
@@ -107,6 +108,31 @@ void add_surroundings(RandomScene& scene, const FieldDimensions& field, Random& 
   }
 }
 
+/** Bags, cables, chairs: boxes, cylinders and spheres beside the carpet, many black or white. */
+void add_clutter(RandomScene& scene, const FieldDimensions& field, Random& random) {
+  const int count = static_cast<int>(random.uniform(0, 24));
+  for (int i = 0; i < count; ++i) {
+    Distractor object;
+    object.kind = static_cast<Distractor::Kind>(random.next() % 3);
+    object.size = {random.uniform(0.05, 0.5), random.uniform(0.05, 0.5), random.uniform(0.05, 0.6)};
+    if (object.kind == Distractor::Kind::kSphere) object.size.setConstant(random.uniform(0.1, 0.4));
+    const double beyond = field.border_strip_width + random.uniform(0, 2.5);
+    const bool is_end = random.uniform() < 0.4;
+    const double sign = random.uniform() < 0.5 ? -1 : 1;
+    const double along = random.uniform(-0.5, 0.5);
+    object.pose_in_world.translation()
+        << (is_end ? sign * (field.length / 2 + beyond) : along * field.length),
+        (is_end ? along * field.width : sign * (field.width / 2 + beyond)), object.size.z() / 2;
+    object.pose_in_world.linear() =
+        Eigen::AngleAxisd(random.uniform(-M_PI, M_PI), Eigen::Vector3d::UnitZ()).matrix();
+    const double kind = random.uniform();
+    object.color = kind < 0.3   ? Eigen::Vector3f(Eigen::Vector3f::Constant(0.02f))
+                   : kind < 0.6 ? Eigen::Vector3f(Eigen::Vector3f::Constant(0.8f))
+                                : random_color(random, 0.02, 0.9);
+    scene.distractors.push_back(object);
+  }
+}
+
 void place_camera(RandomScene& scene, const FieldDimensions& field, Random& random) {
   scene.heading_in_world.position = {random.uniform(-0.5, 0.5) * (field.length + 0.6),
                                      random.uniform(-0.5, 0.5) * (field.width + 0.6)};
@@ -154,6 +180,9 @@ PlacedRobot place_robot(const RobotModel& model, const Eigen::Vector2d& place, R
   robot.position = posture.position;
   for (double& angle : robot.position) angle += 0.06 * random.normal();
   robot.place = place;
+  // Shirts, dirt and other makes.
+  const double shade = random.uniform(0.5, 1);
+  for (float& value : robot.tint) value = static_cast<float>(shade * random.uniform(0.85, 1));
   const auto links = model.link_poses(robot.position);
   const double sole = std::min(links[model.left_sole()].translation().z(),
                                links[model.right_sole()].translation().z());
@@ -161,6 +190,26 @@ PlacedRobot place_robot(const RobotModel& model, const Eigen::Vector2d& place, R
       Eigen::AngleAxisd(random.uniform(-M_PI, M_PI), Eigen::Vector3d::UnitZ()).matrix();
   robot.pose_torso_in_world.translation() << place.x(), place.y(), -sole;
   return robot;
+}
+
+/** A point of the field's lines in the view, m in the world; nothing if none was found. */
+std::optional<Eigen::Vector2d> place_at_line(const RandomScene& scene, const FieldModel& field,
+                                             double nearest, double farthest, Random& random) {
+  const Eigen::Vector2d eye = scene.pose_camera_in_world.translation().head<2>();
+  const double bearing = heading_of(scene.pose_camera_in_world.linear());
+  for (int i = 0; i < 30; ++i) {
+    const FieldLine& line = field.lines()[random.next() % field.lines().size()];
+    // Beside the line by up to a ball's width.
+    const Eigen::Vector2d place =
+        line.from + random.uniform() * (line.to - line.from) +
+        Eigen::Vector2d(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
+    const Eigen::Vector2d way = place - eye;
+    const double side = wrapped(std::atan2(way.y(), way.x()) - bearing);
+    if (way.norm() > nearest && way.norm() < farthest && std::abs(side) < 28 * kDegree) {
+      return place;
+    }
+  }
+  return std::nullopt;
 }
 
 bool is_on_carpet(const Eigen::Vector2d& place, const FieldDimensions& field) {
@@ -172,8 +221,14 @@ void add_objects(RandomScene& scene, const RobotModel& model, const SceneFile& f
                  const SceneOptions& options, Random& random) {
   const double radius = file.ball ? file.ball->radius : 0.05;
   if (random.uniform() < options.ball_fraction) {
+    // A quarter of the balls is at a line, where they are harder to find.
+    std::optional<Eigen::Vector2d> at_line;
+    if (random.uniform() < 0.25) {
+      at_line = place_at_line(scene, FieldModel(file), 0.15, 5.2, random);
+    }
     for (int i = 0; i < 20; ++i) {
-      const Eigen::Vector2d place = place_in_view(scene, 0.15, 5.2, random);
+      const Eigen::Vector2d place =
+          at_line && i == 0 ? *at_line : place_in_view(scene, 0.15, 5.2, random);
       if (!is_on_carpet(place, *file.field)) continue;
       Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
       pose.translation() << place.x(), place.y(), radius;
@@ -220,6 +275,7 @@ RandomScene make_scene(const RobotModel& model, const SceneFile& field, const Sc
   add_surroundings(scene, *field.field, of_place);
   scene.effects = ImageEffects::of_place(of_place);
   scene.distortion.k1 = of_place.uniform(-0.12, 0.06);
+  add_clutter(scene, *field.field, of_place);
   place_camera(scene, *field.field, of_image);
   add_objects(scene, model, field, options, of_image);
   scene.effects.vary(of_image);

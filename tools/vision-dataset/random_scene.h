@@ -22,6 +22,8 @@ struct PlacedRobot {
   std::vector<double> position;
   /** Ground below the torso, m. */
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  /** Factors on its red, green and blue. */
+  Eigen::Vector3f tint = Eigen::Vector3f::Ones();
 };
 
 /** A box, cylinder or sphere that is neither ball nor robot: banner, leg of a person, shoe. */

@@ -100,6 +100,9 @@ int evaluate(const EvalOptions& options) {
   if (!options.drawing_folder.empty()) {
     std::filesystem::create_directories(options.drawing_folder);
   }
+  // As nao-vision on a robot: one core for all stages.
+  cv::setNumThreads(1);
+  const auto networks = nao::vision::VisionNetworks::load();
   StageTimes times;
   nao::vision::Scores scores;
   nao::JsonWriter json;
@@ -117,7 +120,7 @@ int evaluate(const EvalOptions& options) {
     input.calibration = image.calibration.value_or(
         nao::vision::CameraCalibration::guess(input.bgr.cols, input.bgr.rows));
     if (!options.ignores_pose) input.pose_camera_in_heading = image.pose_camera_in_heading;
-    VisionCore core;
+    VisionCore core(networks);
     core.on_stage([&times](const char* stage) { times.finish(stage); });
     times.start();
     const VisionResult result = core.process(input);

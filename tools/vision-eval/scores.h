@@ -20,12 +20,9 @@ class Scores {
  public:
   static constexpr double kLeastVisible = 0.6;
 
-  void add(const LabelledImage& image, const Detections& detections);
+  /** Distance of an object: to 3 m, 3 to 5 m, farther, unknown. */
+  enum Range { kNear, kFar, kBeyond, kUnknownRange };
 
-  /** One row for each kind and range of distance. */
-  std::string table() const;
-
- private:
   /** Counts of objects, or of lengths of lines in pixels. */
   struct Row {
     double num_labels = 0;
@@ -35,8 +32,20 @@ class Scores {
     /** Of those found: rad, and fraction of the distance. */
     std::vector<double> bearing_errors;
     std::vector<double> distance_errors;
+
+    double recall() const { return num_labels > 0 ? num_found / num_labels : 0; }
+    double precision() const {
+      return num_detections > 0 ? (num_detections - num_false) / num_detections : 0;
+    }
   };
 
+  void add(const LabelledImage& image, const Detections& detections);
+
+  const Row& row(Kind kind, Range range) { return rows_[{kind_name(kind), range}]; }
+  /** One row for each kind and range of distance. */
+  std::string table() const;
+
+ private:
   void add_objects(Kind kind, const LabelledImage& image, const Detections& detections);
   void add_lines(const LabelledImage& image, const Detections& detections);
 

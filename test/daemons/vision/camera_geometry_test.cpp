@@ -58,6 +58,19 @@ TEST(CameraGeometry, FindsNoGroundAboveTheHorizon) {
       CameraGeometry(CameraCalibration::guess(640, 480), std::nullopt).at_height({320, 400}, 0));
 }
 
+TEST(CameraGeometry, DoesNotProjectWhatTheLensCannotShow) {
+  CameraCalibration calibration = CameraCalibration::guess(640, 480);
+  calibration.distortion[0] = -0.12;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation().z() = 0.5;
+  const CameraGeometry geometry(calibration, pose);
+  // 45 degrees to the side: beyond the image, but monotonic.
+  EXPECT_TRUE(geometry.project({1, 1, 0.5}));
+  // 70 degrees: the polynomial is -0.25 there, which would be a pixel on the other side.
+  EXPECT_FALSE(geometry.project({1, 2.75, 0.5}));
+  EXPECT_FALSE(geometry.project({1, 2, 0.5}));
+}
+
 TEST(CameraCalibration, RejectsNonFiniteAndZero) {
   CameraCalibration calibration = CameraCalibration::guess(640, 480);
   EXPECT_TRUE(calibration.is_valid());

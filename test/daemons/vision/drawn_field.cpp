@@ -20,6 +20,16 @@ double distance_to(const Eigen::Vector2d& point, const Eigen::Vector4d& line) {
   return (a + t * d - point).norm();
 }
 
+/** A direction is within 0.37 rad of a corner of an icosahedron: (0, +-1, +-golden ratio), and
+ * permuted. */
+bool is_on_spot(const Eigen::Vector3d& direction) {
+  const double golden = 0.5 * (1 + std::sqrt(5.0));
+  const Eigen::Vector3d d = direction.cwiseAbs() / std::hypot(1, golden);
+  const double most =
+      std::max({d.y() + golden * d.z(), d.z() + golden * d.x(), d.x() + golden * d.y()});
+  return most > std::cos(0.37);
+}
+
 }  // namespace
 
 DrawnField::DrawnField(double pitch) {
@@ -48,24 +58,12 @@ Eigen::Vector3d DrawnField::color(const Eigen::Vector3d& direction) const {
       const Eigen::Vector3d normal =
           (eye + d * (along - std::sqrt(kBallRadius * kBallRadius - square)) - center) /
           kBallRadius;
-      // Black spots around the axes.
-      const double light = ball->y() > 0 ? shadow : 1;
-      return light * (normal.cwiseAbs().maxCoeff() > 0.93 ? Eigen::Vector3d(25, 25, 25) : kWhite);
+      // Black spots at the corners of an icosahedron, as a ball has; darker below.
+      const double light = (ball->y() > 0 ? shadow : 1) * (0.8 + 0.2 * normal.z());
+      return light * (is_on_spot(normal) ? Eigen::Vector3d(25, 25, 25) : kWhite);
     }
   }
-  double ground = direction.z() < -1e-6 ? -eye.z() / direction.z() : 1e9;
-  if (post) {
-    const Eigen::Vector2d from = eye.head<2>() - *post;
-    const Eigen::Vector2d d = direction.head<2>();
-    const double a = d.squaredNorm();
-    const double b = from.dot(d);
-    const double square = b * b - a * (from.squaredNorm() - 0.05 * 0.05);
-    if (square > 0) {
-      const double t = (-b - std::sqrt(square)) / a;
-      const double z = eye.z() + t * direction.z();
-      if (t > 0 && t < ground && z > 0 && z < 0.9) return kWhite;
-    }
-  }
+  const double ground = direction.z() < -1e-6 ? -eye.z() / direction.z() : 1e9;
   if (ground > 1e8) return kHall;
   return ground_color(eye.head<2>() + ground * direction.head<2>());
 }

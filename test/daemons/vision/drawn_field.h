@@ -8,15 +8,14 @@
 
 namespace nao::vision {
 
-/** A field drawn by casting one ray for each of 2x2 parts of a pixel: carpet with lines, a ball, a
- * post, and a grey background. It shares no code with the detectors. */
+/** A field drawn by casting one ray for each of 2x2 parts of a pixel: carpet with lines, a ball,
+ * and a grey background. It shares no code with the detectors. */
 struct DrawnField {
   CameraCalibration calibration = CameraCalibration::guess(640, 480);
   /** Camera in the heading frame. */
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   /** In the heading frame, m. */
   std::optional<Eigen::Vector2d> ball;
-  std::optional<Eigen::Vector2d> post;
   std::optional<Eigen::Vector2d> circle;
   /** Lines of 5 cm width: from x1, y1 to x2, y2. */
   std::vector<Eigen::Vector4d> lines;

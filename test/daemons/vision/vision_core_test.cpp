@@ -66,18 +66,6 @@ TEST(VisionCore, FindsTheCenterCircle) {
   EXPECT_LT((circles[0].position - *field.circle).norm(), 0.08);
 }
 
-TEST(VisionCore, FindsAGoalPostAndDoesNotCallItARobot) {
-  DrawnField field(0.1);
-  field.post = Eigen::Vector2d(2.2, -0.3);
-  VisionCore core;
-  const VisionResult result = core.process(field.input());
-  const auto posts = of_kind(result, Kind::kGoalPost);
-  ASSERT_EQ(posts.size(), 1u);
-  // Of the front of the post, 5 cm nearer than its axis.
-  EXPECT_LT((posts[0].position - *field.post).norm(), 0.15);
-  EXPECT_TRUE(of_kind(result, Kind::kRobot).empty());
-}
-
 TEST(VisionCore, KnowsNoPositionsWithoutThePose) {
   DrawnField field(0.3);
   field.ball = Eigen::Vector2d(1.2, 0);

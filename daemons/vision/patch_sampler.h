@@ -1,0 +1,38 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace nao::vision {
+
+/** A circle in the image, pixels. */
+struct Circle {
+  cv::Point2f center;
+  float radius = 0;
+};
+
+/** Cuts square patches out of an image, whatever their size there, as input of a NeuralNetwork.
+ *
+ * The image is halved several times; a patch comes from the level whose pixels are the largest that
+ * are not larger than those of the patch, so that nothing is skipped. */
+class PatchSampler {
+ public:
+  /** Width and height of a patch, pixels. */
+  static constexpr int kSize = 32;
+
+  /** @param bgr  8 bits a color, blue first; must not change while this is used. */
+  explicit PatchSampler(const cv::Mat& bgr);
+
+  /** The image at half of its size. */
+  const cv::Mat& half() const { return levels_[1]; }
+
+  /** @param half_width  Of the patch in the image, pixels. What lies outside of the image is black.
+   * @return kSize x kSize pixels, 8 bits a color, blue first. */
+  cv::Mat sample(const cv::Point2f& center, float half_width) const;
+
+ private:
+  /** The image, a half, a quarter ... of its size. */
+  std::vector<cv::Mat> levels_;
+};
+
+}  // namespace nao::vision

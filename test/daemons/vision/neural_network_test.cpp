@@ -1,0 +1,113 @@
+#include "daemons/vision/neural_network.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <opencv2/imgproc.hpp>
+
+#include "common/data_path.h"
+#include "common/error.h"
+#include "common/random.h"
+#include "daemons/vision/ball_detector.h"
+#include "daemons/vision/object_detector.h"
+
+namespace nao::vision {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+std::filesystem::path network_file(const std::string& name) {
+  return data_path() / "networks" / name;
+}
+
+/** Patches with blobs of random colors. */
+std::vector<cv::Mat> random_patches(int count) {
+  Random random(3);
+  std::vector<cv::Mat> patches;
+  for (int i = 0; i < count; ++i) {
+    cv::Mat patch(PatchSampler::kSize, PatchSampler::kSize, CV_8UC3, cv::Scalar(50, 120, 60));
+    for (int k = 0; k < 5; ++k) {
+      cv::circle(patch,
+                 {static_cast<int>(random.uniform(0, 32)), static_cast<int>(random.uniform(0, 32))},
+                 static_cast<int>(random.uniform(2, 9)),
+                 {random.uniform(0, 255), random.uniform(0, 255), random.uniform(0, 255)}, -1);
+    }
+    patches.push_back(patch);
+  }
+  return patches;
+}
+
+/** A file with the first `size` bytes of a network and then zeros, up to `total` bytes. */
+std::filesystem::path damaged(const std::string& name, size_t size, size_t total) {
+  std::ifstream stream(network_file(name), std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  bytes.resize(size);
+  bytes.resize(total);
+  const auto file = std::filesystem::path(testing::TempDir()) / "damaged.onnx";
+  std::ofstream(file, std::ios::binary) << bytes;
+  return file;
+}
+
+TEST(NeuralNetwork, JudgesSeveralPatchesAsEachAlone) {
+  NeuralNetwork network(network_file("ball.onnx"), BallDetector::shape());
+  const std::vector<cv::Mat> patches = random_patches(7);
+  const cv::Mat_<float> together = network.run(patches);
+  ASSERT_EQ(together.rows, 7);
+  ASSERT_EQ(together.cols, BallDetector::kNumOutputs);
+  for (int i = 0; i < 7; ++i) {
+    const cv::Mat_<float> alone = network.run({patches[static_cast<size_t>(i)]});
+    for (int k = 0; k < BallDetector::kNumOutputs; ++k) {
+      EXPECT_NEAR(together(i, k), alone(0, k), 1e-4);
+    }
+  }
+}
+
+TEST(NeuralNetwork, GivesEqualBitsForEqualImages) {
+  NeuralNetwork first(network_file("ball.onnx"), BallDetector::shape());
+  NeuralNetwork second(network_file("ball.onnx"), BallDetector::shape());
+  const std::vector<cv::Mat> patches = random_patches(5);
+  const cv::Mat a = first.run(patches);
+  // Another number of patches in between leaves nothing behind.
+  first.run(random_patches(2));
+  EXPECT_EQ(cv::norm(a, first.run(patches), cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(a, second.run(patches), cv::NORM_INF), 0);
+}
+
+TEST(NeuralNetwork, DoesNotDependOnTheExposure) {
+  NeuralNetwork network(network_file("ball.onnx"), BallDetector::shape());
+  std::vector<cv::Mat> patches = random_patches(4);
+  const cv::Mat_<float> bright = network.run(patches);
+  for (cv::Mat& patch : patches) patch *= 0.7;
+  const cv::Mat_<float> dark = network.run(patches);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(bright(i, 0), dark(i, 0), 0.15 * std::abs(bright(i, 0)) + 1);
+}
+
+TEST(NeuralNetwork, JudgesNoPatches) {
+  NeuralNetwork network(network_file("ball.onnx"), BallDetector::shape());
+  EXPECT_EQ(network.run({}).rows, 0);
+}
+
+TEST(NeuralNetwork, RefusesBrokenFiles) {
+  const auto load = [](const std::filesystem::path& file) {
+    return [file] { NeuralNetwork network(file, BallDetector::shape()); };
+  };
+  EXPECT_THAT(load("/no/such/ball.onnx"),
+              ThrowsMessage<Error>(HasSubstr("network /no/such/ball.onnx is missing")));
+  EXPECT_THAT(load(damaged("ball.onnx", 0, 0)), ThrowsMessage<Error>(HasSubstr("cannot be read")));
+  EXPECT_THAT(load(damaged("ball.onnx", 40000, 40000)),
+              ThrowsMessage<Error>(HasSubstr("damaged.onnx")));
+  EXPECT_THAT(load(damaged("ball.onnx", 100, 100000)),
+              ThrowsMessage<Error>(HasSubstr("damaged.onnx")));
+}
+
+TEST(NeuralNetwork, RefusesAnotherNetwork) {
+  EXPECT_THAT([] { NeuralNetwork network(network_file("objects.onnx"), BallDetector::shape()); },
+              ThrowsMessage<Error>(HasSubstr("objects.onnx")));
+  EXPECT_THAT([] { NeuralNetwork network(network_file("ball.onnx"), ObjectDetector::shape()); },
+              ThrowsMessage<Error>(HasSubstr("ball.onnx")));
+}
+
+}  // namespace
+}  // namespace nao::vision

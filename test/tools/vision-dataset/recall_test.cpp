@@ -1,0 +1,105 @@
+// Perception must not become worse unnoticed: it is run on a few rendered images, of places and
+// seeds that are neither trained nor tuned on. docs/vision.md has the figures of many images; the
+// bars here are lower by what so few images scatter.
+
+#include <gmock/gmock.h>
+
+#include "common/data_path.h"
+#include "daemons/vision/ball_candidates.h"
+#include "daemons/vision/object_detector.h"
+#include "daemons/vision/vision_core.h"
+#include "tools/vision-dataset/dataset_renderer.h"
+#include "tools/vision-eval/scores.h"
+
+namespace nao::vision {
+namespace {
+
+constexpr uint64_t kFirstPlace = 5000;
+constexpr int kNumPlaces = 40;
+
+class VisionRecall : public testing::Test {
+ protected:
+  /** Calls `use` with each of some images. */
+  template <typename Use>
+  void render(int num_images, const SceneOptions& options, const Use& use) {
+    for (int i = 0; i < num_images; ++i) {
+      const uint64_t place = kFirstPlace + static_cast<uint64_t>(i % kNumPlaces);
+      const RandomScene scene =
+          make_scene(model_, field_, options, place, 900000000 + static_cast<uint64_t>(i));
+      LabelledImage image;
+      use(renderer_.render(scene, image), image);
+    }
+  }
+
+  static VisionInput input_of(const cv::Mat& bgr, const LabelledImage& image) {
+    VisionInput input;
+    input.bgr = bgr;
+    input.calibration = *image.calibration;
+    input.pose_camera_in_heading = image.pose_camera_in_heading;
+    return input;
+  }
+
+  RobotModel model_ = RobotModel::load(data_path() / "robots" / "nao");
+  SceneFile field_ = SceneFile::find("soccer");
+  DatasetRenderer renderer_{model_, field_};
+  VisionNetworks networks_ = VisionNetworks::load();
+};
+
+TEST_F(VisionRecall, FindsBallsRobotsAndPosts) {
+  Scores scores;
+  render(100, {}, [&](const cv::Mat& bgr, const LabelledImage& image) {
+    scores.add(image, VisionCore(networks_).process(input_of(bgr, image)).detections);
+  });
+  EXPECT_GT(scores.row(Kind::kBall, Scores::kNear).num_labels, 30);
+  EXPECT_GE(scores.row(Kind::kBall, Scores::kNear).recall(), 0.93);
+  EXPECT_GE(scores.row(Kind::kBall, Scores::kNear).precision(), 0.97);
+  EXPECT_GE(scores.row(Kind::kRobot, Scores::kNear).recall(), 0.80);
+  EXPECT_GE(scores.row(Kind::kRobot, Scores::kNear).precision(), 0.80);
+  EXPECT_GE(scores.row(Kind::kGoalPost, Scores::kNear).recall(), 0.7);
+  EXPECT_GE(scores.row(Kind::kLine, Scores::kNear).recall(), 0.75);
+  EXPECT_GE(scores.row(Kind::kLine, Scores::kNear).precision(), 0.80);
+}
+
+TEST_F(VisionRecall, FindsNoBallWhereNoneIs) {
+  SceneOptions options;
+  options.ball_fraction = 0;
+  int num_false = 0;
+  render(100, options, [&](const cv::Mat& bgr, const LabelledImage& image) {
+    for (const Detection& detection :
+         VisionCore(networks_).process(input_of(bgr, image)).detections) {
+      num_false += detection.kind == Kind::kBall;
+    }
+  });
+  EXPECT_LE(num_false, 1);
+}
+
+TEST_F(VisionRecall, JudgesThePlacesOfAlmostAllBalls) {
+  const ObjectDetector detector(networks_.objects);
+  int num_balls = 0;
+  int num_found = 0;
+  render(80, {1, 3}, [&](const cv::Mat& bgr, const LabelledImage& image) {
+    const PatchSampler sampler(bgr);
+    const CameraGeometry geometry(*image.calibration, image.pose_camera_in_heading);
+    std::vector<Circle> places =
+        detector.detect(sampler.half(), bgr.cols, bgr.rows, geometry).balls;
+    const std::vector<Circle> more =
+        find_ball_hints(FieldDetector().detect(bgr, geometry), geometry, 0.05);
+    places.insert(places.end(), more.begin(), more.end());
+    for (const Label& label : *image.labels) {
+      if (label.object.kind != Kind::kBall || label.visible < 0.6) continue;
+      const Eigen::Vector4f box = label.object.box_px.cast<float>();
+      const cv::Point2f center(0.5f * (box[0] + box[2]), 0.5f * (box[1] + box[3]));
+      const float radius = 0.5f * (box[2] - box[0]);
+      ++num_balls;
+      num_found += std::any_of(places.begin(), places.end(), [&](const Circle& place) {
+        return cv::norm(place.center - center) < 0.8f * radius &&
+               std::abs(std::log(place.radius / radius)) < 0.5f;
+      });
+    }
+  });
+  EXPECT_GT(num_balls, 40);
+  EXPECT_GE(num_found, 0.95 * num_balls);
+}
+
+}  // namespace
+}  // namespace nao::vision
