@@ -49,8 +49,14 @@ class Localisation {
     if (trial_.time() < next_image_) return;
     next_image_ = trial_.time() + kSparseImagePeriod;
     estimate_ = look(trial_.model().cameras().front());
+    odometry_ = odometry();
   }
-  const FieldPose& estimate() const { return estimate_; }
+  /** Now: the pose at the last image, moved by the odometry since, as nao-play uses it. */
+  FieldPose estimate() const {
+    FieldPose now = estimate_;
+    now.pose = estimate_.pose * (odometry_.inverse() * odometry());
+    return now;
+  }
 
  protected:
   explicit Localisation(ClosedLoop& trial) : trial_(trial) {}
@@ -60,8 +66,12 @@ class Localisation {
   ClosedLoop& trial_;
 
  private:
+  Pose2 odometry() const { return Pose2::from(trial_.estimate().torso_in_odometry); }
+
   double next_image_ = 0;
   FieldPose estimate_;
+  /** At the last image. */
+  Pose2 odometry_;
 };
 
 class RenderedLocalisation : public Localisation {
@@ -226,7 +236,7 @@ std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uin
     next_sample = trial.time() + kSamplePeriod;
     // A fallen robot has no pose that anybody uses.
     if (trial.torso_tilt() > 0.6) return;
-    const FieldPose& estimate = localisation->estimate();
+    const FieldPose estimate = localisation->estimate();
     ++num_samples;
     if (!estimate.is_known) return;
     ++num_known;
@@ -257,9 +267,9 @@ std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uin
     trial.on_tick([&] {
       localisation->tick();
       if (trial.time() - begin > 1) driver.tick();
-      const Vector3d error = error_of(localisation->estimate(), true_pose(trial));
-      const bool is_right = localisation->estimate().is_known &&
-                            error.head<2>().norm() < kRecoveredDistance &&
+      const FieldPose estimate = localisation->estimate();
+      const Vector3d error = error_of(estimate, true_pose(trial));
+      const bool is_right = estimate.is_known && error.head<2>().norm() < kRecoveredDistance &&
                             std::abs(error.z()) < kRecoveredTurn;
       if (is_right && !is_known) since = trial.time();
       is_known = is_right;
