@@ -62,8 +62,10 @@ std::optional<Detection> BallDetector::detect(const PatchSampler& sampler,
     }
     if (!best || candidate.probability > best->probability) best = candidate;
   }
-  if (!best || best->probability < kAccept) return std::nullopt;
+  if (!best) return std::nullopt;
   const auto& [center, r] = best->circle;
+  const bool is_cut = center.y + r > static_cast<float>(2 * sampler.half().rows);
+  if (best->probability < (is_cut ? kAcceptCut : kAccept)) return std::nullopt;
   Detection detection;
   detection.kind = Kind::kBall;
   detection.box_px = {center.x - r, center.y - r, center.x + r, center.y + r};

@@ -1,5 +1,7 @@
 #include "daemons/vision/vision_core.h"
 
+#include <algorithm>
+
 #include "common/data_path.h"
 #include "common/error.h"
 #include "daemons/vision/ball_candidates.h"
@@ -11,6 +13,10 @@ namespace {
 constexpr double kLeastField = 0.03;
 /** m. */
 constexpr double kBallRadius = 0.05;
+
+bool is_in(const Eigen::Vector4d& box, const cv::Point2f& pixel) {
+  return pixel.x > box[0] && pixel.x < box[2] && pixel.y > box[1] && pixel.y < box[3];
+}
 
 }  // namespace
 
@@ -49,8 +55,17 @@ VisionCore::VisionCore(const VisionNetworks& networks)
 
 // The center circle first: it takes its points out of those that become lines.
 void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometry,
-                            VisionResult& result) {
+                            const Detections& obstacles, VisionResult& result) {
   std::vector<LinePoint> points = find_line_points(view);
+  // Bars of robots' legs and the ball look like pieces of lines.
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [&](const LinePoint& point) {
+                                return std::any_of(obstacles.begin(), obstacles.end(),
+                                                   [&](const Detection& obstacle) {
+                                                     return is_in(obstacle.box_px, point.pixel);
+                                                   });
+                              }),
+               points.end());
   std::vector<cv::Point2f> pixels;
   for (const LinePoint& point : points) pixels.push_back(point.pixel);
   std::vector<cv::Point2f> ideal = geometry.undistorted(pixels);
@@ -108,7 +123,9 @@ VisionResult VisionCore::process(const VisionInput& input) {
   const auto ball = ball_.detect(sampler, geometry, objects.balls);
   if (ball) result.detections.push_back(*ball);
   finish_stage("ball");
-  find_lines(view, geometry, result);
+  Detections obstacles = objects.robots;
+  if (ball) obstacles.push_back(*ball);
+  find_lines(view, geometry, obstacles, result);
   for (const Detections* found : {&objects.posts, &objects.robots}) {
     result.detections.insert(result.detections.end(), found->begin(), found->end());
   }

@@ -80,7 +80,9 @@ class VisionCore {
     if (on_stage_) on_stage_(name);
   }
   void localize(const VisionInput& input, VisionResult& result);
-  void find_lines(const FieldView& view, const CameraGeometry& geometry, VisionResult& result);
+  /** @param obstacles  Hide the lines; what is in their boxes is no line. */
+  void find_lines(const FieldView& view, const CameraGeometry& geometry,
+                  const Detections& obstacles, VisionResult& result);
 
   ImageStatusMonitor status_;
   FieldDetector field_;
