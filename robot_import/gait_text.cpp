@@ -96,6 +96,7 @@ constexpr std::array kRows = {
     Row{"full_speed_lag", Scale::kTime, 0.28, 0.07, 0.7, "lags of the control loop"},
     Row{"slow_speed_lag", Scale::kTime, 0.33, 0.07, 1.4, ""},
     Row{"slow_speed", Scale::kOne, 0.65, 0.2, 1, "fraction of the limits at slow_speed_lag"},
+    Row{"slow_turning", Scale::kOne, 0.65, 0.2, 1, "the same of the greatest turn"},
     Row{"slow_envelope_exponent", Scale::kOne, 1, 1, 4, "envelope_exponent at slow_speed_lag"},
     Row{"dead_sensor_speed", Scale::kOne, 0.7, 0.2, 1,
         "fraction of the limits with a dead foot sensor"},

@@ -56,6 +56,7 @@ const std::vector<std::string> kNotTuned = {
     "velocity.full_speed_lag",
     "velocity.slow_speed_lag",
     "velocity.slow_speed",
+    "velocity.slow_turning",
     "velocity.slow_envelope_exponent",
     "velocity.dead_sensor_speed",
     "feedback.max_bias",

@@ -27,7 +27,7 @@ class DeadFootSensors {
   FootPressure pressure_;
   /** Least load on a foot with which its sensors are judged, N. */
   double least_load_;
-  /** Time of reading nothing under load, s. */
+  /** Time of reading nothing under load since the foot was put down, s. */
   std::vector<double> silent_time_;
   std::vector<bool> has_been_loaded_;
   std::vector<bool> is_dead_;

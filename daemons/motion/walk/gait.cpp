@@ -54,6 +54,7 @@ const std::vector<Gait::Parameter>& all_parameters() {
       NAO_GAIT_PARAMETER(velocity, full_speed_lag),
       NAO_GAIT_PARAMETER(velocity, slow_speed_lag),
       NAO_GAIT_PARAMETER(velocity, slow_speed),
+      NAO_GAIT_PARAMETER(velocity, slow_turning),
       NAO_GAIT_PARAMETER(velocity, slow_envelope_exponent),
       NAO_GAIT_PARAMETER(velocity, dead_sensor_speed),
       NAO_GAIT_PARAMETER(zmp, gain),

@@ -54,7 +54,8 @@ struct Gait {
     double square_distance = 0;
   };
   /** Velocity of the steps: change per step, m/s and rad/s; exponent; 1/s; m; lags in s and the
-   * fraction of the velocity at the longer one; fraction of it with a dead foot sensor. */
+   * fractions of the greatest velocity, and of the greatest turn, at the longer one; fraction of
+   * both with a dead foot sensor. */
   struct Velocity {
     double max_change_vx = 0;
     double max_change_vy = 0;
@@ -65,6 +66,7 @@ struct Gait {
     double full_speed_lag = 0;
     double slow_speed_lag = 0;
     double slow_speed = 0;
+    double slow_turning = 0;
     double slow_envelope_exponent = 0;
     double dead_sensor_speed = 0;
   };

@@ -12,8 +12,8 @@ namespace nao::motion {
  * a sole and a step can still take up limits the speed.
  *
  * @param lag  From a command to the measurement of what it did, s.
- * @return 0 up to full_speed_lag, 1 from slow_speed_lag on, linear between: slow_speed and
- *   slow_envelope_exponent hold at 1. */
+ * @return 0 up to full_speed_lag, 1 from slow_speed_lag on, linear between: slow_speed,
+ *   slow_turning and slow_envelope_exponent hold at 1. */
 inline double calc_slowness(const Gait::Velocity& gait, double lag) {
   return std::clamp((lag - gait.full_speed_lag) / (gait.slow_speed_lag - gait.full_speed_lag), 0.0,
                     1.0);

@@ -18,7 +18,8 @@ class VelocityPlanner {
   VelocityPlanner(const RobotModel& model, const Gait& gait);
 
   /** @param slowness  0: the envelope has the robot's limits and envelope_exponent; 1: slow_speed
-   * of the limits and slow_envelope_exponent; linear between. */
+   * of the limits ahead and sideways, slow_turning of that of turns, and slow_envelope_exponent;
+   * linear between. */
   void set_slowness(double slowness) { slowness_ = slowness; }
 
   /** @param fraction  Of the robot's limits, beside what slowness leaves; 1: all. */

@@ -61,6 +61,19 @@ TEST(DeadFootSensors, ASensorThatHasBeenLoadedNeedsMoreEvidence) {
   EXPECT_TRUE(sensors.is_dead()[1]);
 }
 
+TEST(DeadFootSensors, AWalkThatLeavesACornerUnloadedMakesNoSensorDead) {
+  DeadFootSensors sensors(nao_model());
+  after(sensors, kStanding, 0.1);
+  // Steps of a quarter of a second on the inner edges of the soles: one corner of each foot never
+  // reads anything.
+  const std::vector<double> on_left = {0, 22, 12, 18, 0, 0, 0, 0};
+  const std::vector<double> on_right = {0, 0, 0, 0, 22, 0, 18, 12};
+  for (int step = 0; step < 100; ++step) {
+    after(sensors, step % 2 == 0 ? on_left : on_right, 0.24);
+    ASSERT_FALSE(sensors.has_dead_sensor()) << step;
+  }
+}
+
 TEST(DeadFootSensors, ASensorThatReadsAgainIsAlive) {
   DeadFootSensors sensors(nao_model());
   EXPECT_FALSE(sensors.has_dead_sensor());

@@ -12,6 +12,13 @@ using Eigen::Vector3d;
 
 constexpr double kStandLead = 0.02;  // m
 
+/** The NAO's gait, which learns no deviation, with a gain for it. */
+Gait learning_gait() {
+  Gait gait = nao_gait();
+  gait.feedback.bias_gain = 0.04;
+  return gait;
+}
+
 class StepPlannerTest : public testing::Test {
  protected:
   StepPlannerTest() {
@@ -37,7 +44,7 @@ class StepPlannerTest : public testing::Test {
     return {com, reference_.omega() * (dcm - com)};
   }
 
-  const Gait& gait_ = nao_gait();
+  const Gait gait_ = learning_gait();
   Feet feet_{gait_};
   ComReference reference_{gait_};
   StepPlanner planner_{nao_model(), gait_, kStandLead};

@@ -34,7 +34,10 @@ TEST_F(VelocityPlannerTest, ClipsToAFractionOfTheLimitsWhenSlow) {
   const WalkLimits& limits = nao_model().walk_limits();
   const double slow = nao_gait().velocity.slow_speed;
   EXPECT_TRUE(planner_.clip({9, 0, 0}).isApprox(Vector3d(slow * limits.forward, 0, 0)));
-  EXPECT_TRUE(planner_.clip({0, 0, 9}).isApprox(Vector3d(0, 0, slow * limits.turning)));
+  EXPECT_TRUE(planner_.clip({0, 9, 0}).isApprox(Vector3d(0, slow * limits.sideways, 0)));
+  const double slow_turning = nao_gait().velocity.slow_turning;
+  EXPECT_LT(slow_turning, slow);
+  EXPECT_TRUE(planner_.clip({0, 0, 9}).isApprox(Vector3d(0, 0, slow_turning * limits.turning)));
 }
 
 TEST_F(VelocityPlannerTest, CombinesLessOfEachDirectionWhenSlow) {
@@ -45,8 +48,9 @@ TEST_F(VelocityPlannerTest, CombinesLessOfEachDirectionWhenSlow) {
   EXPECT_NEAR(planner_.clip(commanded).x() / limits.forward,
               std::pow(3, -1 / gait.envelope_exponent), 1e-12);
   planner_.set_slowness(1);
-  EXPECT_NEAR(planner_.clip(commanded).x() / limits.forward,
-              gait.slow_speed * std::pow(3, -1 / gait.slow_envelope_exponent), 1e-12);
+  const Vector3d slow(gait.slow_speed * limits.forward, gait.slow_speed * limits.sideways,
+                      gait.slow_turning * limits.turning);
+  EXPECT_TRUE(planner_.clip(slow).isApprox(slow * std::pow(3, -1 / gait.slow_envelope_exponent)));
 }
 
 TEST_F(VelocityPlannerTest, ClipsToAFractionOfTheSlowLimitsWithADeadSensor) {
