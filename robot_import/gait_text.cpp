@@ -115,6 +115,7 @@ constexpr std::array kRows = {
     Row{"bias_gain", Scale::kOne, 0.04, 0, 0.5, ""},
     Row{"max_bias", Scale::kToe, 0.4, 0, 0.9, ""},
     Row{"max_com_offset", Scale::kToe, 0.4, 0, 0.9, ""},
+    Row{"com_offset_gain", Scale::kOne, 0.05, 0, 2, "per tick, of the bias of the measurement"},
     Row{"orientation", {}, 0, 0, 0, "Feedback of the torso's motion: s, 1."},
     Row{"gyro_ankle_pitch", Scale::kTime, 0.17, -0.7, 1, ""},
     Row{"gyro_ankle_roll", Scale::kTime, 0.29, -0.7, 1, ""},

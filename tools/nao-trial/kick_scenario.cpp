@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/error.h"
+#include "daemons/motion/actions/kick.h"
 #include "kinematics/pose2.h"
 
 namespace nao::trial {
@@ -12,6 +13,8 @@ namespace {
 
 // Fraction of the standing height above which the robot stands after a kick.
 constexpr double kUprightAfterKick = 0.875;
+// In the robot's folder.
+constexpr const char* kKickFile = "actions/kick.yaml";
 
 /** The kick with one foot. */
 ActionCommand make_kick(const RobotModel& model, bool is_left, double ball_x, double ball_y) {
@@ -30,8 +33,9 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   trial.world().place_robot(0, &trial.model().ready_posture(), {kStartX, 0, 0});
   trial.restart_core();
   const bool is_left = seed % 2 == 1;
-  // Where a robot that sees and walks would have it, a centimetre more or less.
-  const Eigen::Vector2d seen(0.18, is_left ? 0.05 : -0.05);
+  // Where the kick has it best, a centimetre more or less.
+  const Eigen::Vector2d best = motion::Kick::load(trial.model().folder() / kKickFile).ball;
+  const Eigen::Vector2d seen(best.x(), is_left ? best.y() : -best.y());
   const Eigen::Vector2d ball =
       seen + Eigen::Vector2d(trial.random(-0.01, 0.01), trial.random(-0.01, 0.01));
   const auto sole = [&](int link) {

@@ -11,11 +11,18 @@ constexpr int kNumStill = 10;           // ticks
 constexpr double kLongestWait = 3;      // s
 // Fraction of the standing height above which the robot has got up.
 constexpr double kUpright = 0.90625;
+// Up to this weight and height a push of 4 to 6 N s knocks a robot over; a larger one takes an
+// impulse in proportion to its mass and, for the energy to fall over, to the square root of its
+// height.
+constexpr double kLightMass = 6;     // kg
+constexpr double kLowHeight = 0.35;  // m, of the standing torso
 
 }  // namespace
 
 bool knock_over(ClosedLoop& trial, double direction) {
-  const double impulse = trial.random(4, 6);
+  const double size = trial.model().total_mass() / kLightMass *
+                      std::sqrt(trial.model().references().heights.standing / kLowHeight);
+  const double impulse = std::max(1.0, size) * trial.random(4, 6);
   trial.world().push(0, 0, {impulse * std::cos(direction), impulse * std::sin(direction), 0});
   return trial.run_until([&] { return trial.torso_tilt() > 1.0; }, 5);
 }

@@ -17,10 +17,12 @@ constexpr double kLongest = 3;           // s
 constexpr double kLongestPause = 1;      // s
 constexpr double kLeastStiffness = 0.1;  // fraction
 
-/** Motor of a joint; of the left joint if the name has no side. */
+/** Motor of a joint; of the left joint if it is the name of a pair. */
 int find_motor(const RobotModel& model, const std::string& name) {
   const int motor = model.find_motor(name);
-  return motor >= 0 ? motor : model.find_motor("L" + name);
+  if (motor >= 0) return motor;
+  const JointPair* pair = model.symmetry().find_pair(name);
+  return pair != nullptr ? pair->left : -1;
 }
 
 }  // namespace

@@ -70,6 +70,7 @@ const std::vector<Gait::Parameter>& all_parameters() {
       NAO_GAIT_PARAMETER(feedback, bias_gain),
       NAO_GAIT_PARAMETER(feedback, max_bias),
       NAO_GAIT_PARAMETER(feedback, max_com_offset),
+      NAO_GAIT_PARAMETER(feedback, com_offset_gain),
       NAO_GAIT_PARAMETER(orientation, gyro_ankle_pitch),
       NAO_GAIT_PARAMETER(orientation, gyro_ankle_roll),
       NAO_GAIT_PARAMETER(orientation, gyro_hip_pitch),

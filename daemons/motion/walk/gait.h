@@ -88,6 +88,7 @@ struct Gait {
     double bias_gain = 0;
     double max_bias = 0;
     double max_com_offset = 0;
+    double com_offset_gain = 0;
   };
   /** Feedback of the torso's angular velocity, s, and tilt, dimensionless, to joint angles. */
   struct Orientation {

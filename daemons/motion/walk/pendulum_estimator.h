@@ -19,8 +19,12 @@ namespace nao::motion {
  * from the others, and the walk needs none of them: only x - o - p accelerates the robot. */
 class PendulumEstimator {
  public:
-  /** @param max_offset  Bound of the offset, m. */
-  explicit PendulumEstimator(double max_offset) : max_offset_(max_offset) {}
+  /** @param max_offset   Bound of the offset, m.
+   * @param offset_gain  Fraction of the residual by which the offset changes in each control tick.
+   * A constant error e of the offset leaves a residual of e (omega dt)^2 / kVelocityGain: at 1 and
+   * an omega of 6 / s the offset settles in 0.36 s. */
+  PendulumEstimator(double max_offset, double offset_gain)
+      : max_offset_(max_offset), offset_gain_(offset_gain) {}
 
   /** Starts at rest. @param position  m, in the frame of the support sole. @param zmp  m. */
   void reset(const Eigen::Vector2d& position, const Eigen::Vector2d& zmp) {
@@ -37,7 +41,7 @@ class PendulumEstimator {
     const Eigen::Vector2d residual = position - state_.position;
     state_.position += kPositionGain * residual;
     state_.velocity += kVelocityGain / dt * residual;
-    offset_ = limited(offset_ - kOffsetGain * residual);
+    offset_ = limited(offset_ - offset_gain_ * residual);
   }
 
   /** Changes to the frame of the other foot, which is the support foot from now on.
@@ -59,11 +63,6 @@ class PendulumEstimator {
   // steps of 1.5 mrad (0.3 mm at the center of mass) and a velocity that settles in five ticks.
   static constexpr double kPositionGain = 0.6;
   static constexpr double kVelocityGain = 0.15;
-  // The same for the offset. A constant error e of the offset leaves a residual of
-  // e (omega dt)^2 / kVelocityGain; the offset therefore settles in 0.36 s. Chosen with nao-trial:
-  // of 100 starts to the side at 0.2 m/s under disturbances/default.yaml 1 falls at 0.6 and none at
-  // 1; of 40 walks ahead under real.yaml fall 7 and 4.
-  static constexpr double kOffsetGain = 1;
   // Fraction of the difference between position and center of pressure at rest that is taken for
   // the offset. Chosen: both sensors have errors of the same size.
   static constexpr double kStandingFraction = 0.5;
@@ -74,6 +73,7 @@ class PendulumEstimator {
   }
 
   double max_offset_;
+  double offset_gain_;
   PendulumState state_;
   Eigen::Vector2d offset_ = Eigen::Vector2d::Zero();
 };

@@ -16,7 +16,8 @@ namespace nao::motion {
  * of the torso, load on the swing foot, soles in odometry. */
 class WalkObserver {
  public:
-  explicit WalkObserver(const Gait& gait) : estimator_(gait.feedback.max_com_offset) {}
+  explicit WalkObserver(const Gait& gait)
+      : estimator_(gait.feedback.max_com_offset, gait.feedback.com_offset_gain) {}
 
   /** Forgets the estimate of a previous walk. */
   void start();

@@ -47,6 +47,22 @@ TEST(TransitionText, FindsTheNumbersOfTheSelectedSequences) {
   EXPECT_EQ(text.parameters()[1].value, 2.1);
 }
 
+// Pairs are named by robot.yaml's mirrored_joints, whatever the names of the joints have in common.
+TEST(TransitionText, KnowsThePairsOfAnyRobot) {
+  const RobotModel model = RobotModel::load(std::filesystem::path(NAO_TEST_DATA) / "robots" / "t1");
+  const TransitionText text(model,
+                            "transitions:\n"
+                            "  - name: rise\n"
+                            "    keyframes:\n"
+                            "      - duration: 0.3\n"
+                            "        joints: {Knee_Pitch: 2, Waist: 0.1}\n",
+                            {"rise"}, {});
+  ASSERT_EQ(text.parameters().size(), 3u);
+  EXPECT_EQ(text.parameters()[1].name, "rise 0 Knee_Pitch");
+  EXPECT_EQ(text.parameters()[1].upper,
+            model.motor_joint(model.find_motor("Left_Knee_Pitch")).upper);
+}
+
 TEST(TransitionText, ChangesNumbersAndNothingElseWithinTheirRanges) {
   const TransitionText text(nao_model(), kText, {"rise"}, {"HeadYaw"});
   Eigen::VectorXd values(6);

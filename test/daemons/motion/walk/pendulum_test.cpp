@@ -57,7 +57,7 @@ TEST(Pendulum, TheZmpBetweenTwoDcmsLeadsFromOneToTheOther) {
 TEST(PendulumEstimator, EstimatesTheVelocityFromNoisyPositions) {
   const Eigen::Vector2d zmp(0.01, 0);
   PendulumState truth{{0, 0.04}, {0.2, -0.25}};
-  PendulumEstimator estimator(0.03);
+  PendulumEstimator estimator(0.03, 1);
   estimator.reset(truth.position, truth.position);
   for (int tick = 0; tick < 20; ++tick) {
     truth = advance(truth, zmp, kPendulumOmega, 0.01);
@@ -70,7 +70,7 @@ TEST(PendulumEstimator, EstimatesTheVelocityFromNoisyPositions) {
 }
 
 TEST(PendulumEstimator, KeepsTheVelocityWhenTheSupportFootChanges) {
-  PendulumEstimator estimator(0.03);
+  PendulumEstimator estimator(0.03, 1);
   estimator.reset({0, 0}, {0, 0});
   for (int tick = 1; tick <= 100; ++tick) {
     estimator.update({0.002 * tick, 0}, {0.002 * tick, 0}, kPendulumOmega, 0.01);
@@ -86,7 +86,7 @@ TEST(PendulumEstimator, LearnsTheOffsetOfTheMeasurementFromTheMotion) {
   // A tilted inertial unit shifts the position; the pressure balances a body that sways.
   const Eigen::Vector2d offset(0.008, -0.01);
   PendulumState truth{{0.01, 0.02}, {0, 0}};
-  PendulumEstimator estimator(0.03);
+  PendulumEstimator estimator(0.03, 1);
   estimator.reset(truth.position + offset, truth.position);
   for (int tick = 0; tick < 200; ++tick) {
     const Eigen::Vector2d sway(0.01 * std::sin(0.2 * tick), 0.02 * std::sin(0.25 * tick));
@@ -99,8 +99,26 @@ TEST(PendulumEstimator, LearnsTheOffsetOfTheMeasurementFromTheMotion) {
   EXPECT_NEAR((estimator.state().velocity - truth.velocity).norm(), 0, 1e-2);
 }
 
+// A robot whose center of pressure is noisy learns slowly, or keeps what it measured at rest.
+TEST(PendulumEstimator, LearnsTheOffsetAsFastAsItsGainSays) {
+  const auto learnt = [](double gain) {
+    PendulumState truth{{0.01, 0}, {0, 0}};
+    PendulumEstimator estimator(0.03, gain);
+    estimator.reset(truth.position, truth.position);
+    for (int tick = 0; tick < 30; ++tick) {
+      truth = advance(truth, 2 * truth.dcm(kOmega), kOmega, 0.01);
+      estimator.update(truth.position + Eigen::Vector2d(0.01, 0), 2 * truth.dcm(kOmega), kOmega,
+                       0.01);
+    }
+    return estimator.offset().x();
+  };
+  EXPECT_EQ(learnt(0), 0);
+  EXPECT_LT(learnt(0.1), 0.5 * learnt(1));
+  EXPECT_GT(learnt(1), 0);
+}
+
 TEST(PendulumEstimator, BoundsTheOffset) {
-  PendulumEstimator estimator(0.03);
+  PendulumEstimator estimator(0.03, 1);
   estimator.reset({0.5, -0.5}, {0, 0});
   EXPECT_LE(estimator.offset().cwiseAbs().maxCoeff(), 0.03 + 1e-12);
 }
