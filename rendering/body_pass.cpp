@@ -11,17 +11,28 @@ namespace {
 
 /** Sides of the ball's mesh. Chosen: its outline deviates from a circle by 0.5 % of the radius. */
 constexpr int kBallSides = 32;
-/** Largest error of a body's surface in the image, pixels. Chosen: at 1 pixel no difference
- * is visible beside the whole mesh. */
-constexpr float kMostErrorPixels = 1;
+/** Largest error of a body's surface in the image, pixels. Chosen: the largest distance of any
+ * vertex, which most of the surface is far below; at 2 pixels the NAO's colored parts change
+ * visibly. */
+constexpr float kMostErrorPixels = 1.4f;
+/** Shadows on bodies are looked up at the vertices only where the error of a caster's outline is
+ * smaller than this in the image, pixels: beyond 0.8 m for the head camera. Chosen: there a shadow
+ * on a robot has the same place and size as with looking it up at each pixel, and a softer outline.
+ */
+constexpr float kSoftShadowPixels = 8;
+
+float soft_shadow_distance(const RenderView& view) {
+  return view.pixels_per_radian * kCasterError / kSoftShadowPixels;
+}
 
 }  // namespace
 
 BodyPass::BodyPass(MeshStore& meshes, const DepthProgram& depth, bool with_shadow)
     : meshes_(meshes),
       depth_(depth),
-      solid_("solid", shaders::solid(with_shadow)),
-      ball_("ball", shaders::ball(with_shadow)),
+      near_program_("near solid", shaders::solid(with_shadow, true)),
+      far_program_("far solid", shaders::solid(with_shadow, false)),
+      ball_program_("ball", shaders::ball(with_shadow)),
       ball_mesh_(meshes.add(make_sphere(1, Color::Ones(), kBallSides))) {}
 
 void BodyPass::set_surroundings(const SceneFile& scene) {
@@ -37,70 +48,67 @@ void BodyPass::set_surroundings(const SceneFile& scene) {
 // culling with bounding spheres). A body outside of the image may still cast a shadow into it, so
 // that casters are selected on their own.
 void BodyPass::select(const Scene& scene, const RenderView& view, ShadowPass& shadows) {
-  opaque_.clear();
+  near_.clear();
+  far_.clear();
   translucent_.clear();
+  ball_.clear();
   shadows.clear(view.appearance.light_direction);
-  const auto is_visible = [&](const MeshInstance& instance) {
-    const BoundingSphere sphere = meshes_.sphere_in_world(instance);
-    return view.frustum.may_see(sphere.center, sphere.radius);
-  };
   for (const MeshInstance& instance : scene.instances) {
     const bool is_opaque = instance.tint.w() >= 1;
-    if (is_visible(instance)) (is_opaque ? opaque_ : translucent_).push_back(instance);
     if (is_opaque && instance.casts_shadow) shadows.add_caster(instance, view);
+    const bool is_far = distance(instance, view) > soft_shadow_distance(view);
+    add(instance, view, !is_opaque ? translucent_ : is_far ? far_ : near_);
   }
-  is_ball_visible_ = false;
-  if (!scene.ball) return;
-  ball_instance_.mesh = ball_mesh_;
-  ball_instance_.pose_in_world = scene.ball->pose_in_world;
-  ball_instance_.scale.setConstant(scene.ball->radius);
-  is_ball_visible_ = is_visible(ball_instance_);
-  shadows.add_caster(ball_instance_, view);
+  if (scene.ball) {
+    MeshInstance ball;
+    ball.mesh = ball_mesh_;
+    ball.pose_in_world = scene.ball->pose_in_world;
+    ball.scale.setConstant(scene.ball->radius);
+    shadows.add_caster(ball, view);
+    add(ball, view, ball_);
+  }
+  // The triangles of goals are too long for shadows at their corners.
+  for (const Goal& goal : goals_) {
+    if (!view.frustum.may_see(goal.sphere.center, goal.sphere.radius)) continue;
+    MeshDraws& draws = shadows.may_shadow(goal.sphere) ? near_ : far_;
+    draws.add(*goal.buffer, MeshInstance(), view.eye.homogeneous());
+  }
+  for (MeshDraws* draws : {&near_, &far_, &translucent_, &ball_}) draws->upload();
 }
 
-const gl::MeshBuffer& BodyPass::buffer(const MeshInstance& instance, const RenderView& view) const {
+float BodyPass::distance(const MeshInstance& instance, const RenderView& view) const {
   const BoundingSphere sphere = meshes_.sphere_in_world(instance);
-  const float distance = std::max(0.0f, (sphere.center - view.eye).norm() - sphere.radius);
-  return meshes_.buffer(instance, kMostErrorPixels * distance / view.pixels_per_radian);
+  return std::max(0.0f, (sphere.center - view.eye).norm() - sphere.radius);
+}
+
+void BodyPass::add(const MeshInstance& instance, const RenderView& view, MeshDraws& draws) const {
+  const BoundingSphere sphere = meshes_.sphere_in_world(instance);
+  if (!view.frustum.may_see(sphere.center, sphere.radius)) return;
+  const float error = kMostErrorPixels * distance(instance, view) / view.pixels_per_radian;
+  draws.add(meshes_.buffer(instance, error), instance, view.eye.homogeneous());
 }
 
 void BodyPass::draw_opaque(const RenderView& view, const ShadowPass& shadows,
                            RenderStatistics& statistics) {
-  // One use() for all instances: only the matrices change from one to the next.
-  solid_.use(view, shadows);
-  for (const MeshInstance& instance : opaque_) {
-    solid_.draw(buffer(instance, view), instance, view, statistics);
-  }
-  for (const Goal& goal : goals_) {
-    if (view.frustum.may_see(goal.sphere.center, goal.sphere.radius)) {
-      solid_.draw(*goal.buffer, MeshInstance(), view, statistics);
-    }
-  }
-  if (!is_ball_visible_) return;
-  ball_.use(view, shadows);
-  ball_.draw(buffer(ball_instance_, view), ball_instance_, view, statistics);
+  near_program_.draw(near_, view, shadows, statistics);
+  far_program_.draw(far_, view, shadows, statistics);
+  ball_program_.draw(ball_, view, shadows, statistics);
 }
 
 void BodyPass::draw_translucent(const RenderView& view, const ShadowPass& shadows,
                                 RenderStatistics& statistics) {
-  if (translucent_.empty()) return;
+  if (translucent_.draws().empty()) return;
   // First the depth alone, then the color of what has that depth: the nearest surface. The depth
   // offset moves the bodies back a little, so that an opaque body in the same place hides them
   // instead of flickering.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2.0f, 16.0f);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  depth_.use();
-  for (const MeshInstance& instance : translucent_) {
-    depth_.draw(buffer(instance, view), instance, view.clip_from_world, statistics);
-  }
+  depth_.draw(translucent_, view.clip_from_world, statistics);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   // A smaller offset than before, since the two shaders may round the depth differently.
   glPolygonOffset(1.0f, 8.0f);
-  solid_.use(view, shadows);
-  for (const MeshInstance& instance : translucent_) {
-    solid_.draw(buffer(instance, view), instance, view, statistics);
-  }
+  near_program_.draw(translucent_, view, shadows, statistics);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 

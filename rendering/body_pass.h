@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rendering/gl_objects.h"
+#include "rendering/mesh_draws.h"
 #include "rendering/mesh_programs.h"
 #include "rendering/mesh_store.h"
 #include "rendering/render_statistics.h"
@@ -41,20 +42,24 @@ class BodyPass {
     BoundingSphere sphere;
   };
 
-  /** The level of detail that suffices for an instance in this view. */
-  const gl::MeshBuffer& buffer(const MeshInstance& instance, const RenderView& view) const;
+  /** From the eye to the body's sphere, m; 0 inside. */
+  float distance(const MeshInstance& instance, const RenderView& view) const;
+  /** Adds an instance that is in view, in the level of detail that suffices. */
+  void add(const MeshInstance& instance, const RenderView& view, MeshDraws& draws) const;
 
   MeshStore& meshes_;
   const DepthProgram& depth_;
-  LitProgram solid_;
-  LitProgram ball_;
+  LitProgram near_program_;
+  LitProgram far_program_;
+  LitProgram ball_program_;
   MeshId ball_mesh_;
   std::vector<Goal> goals_;
   // Of the image that is being drawn.
-  std::vector<MeshInstance> opaque_;
-  std::vector<MeshInstance> translucent_;
-  MeshInstance ball_instance_;
-  bool is_ball_visible_ = false;
+  /** Opaque bodies. */
+  MeshDraws near_;
+  MeshDraws far_;
+  MeshDraws translucent_;
+  MeshDraws ball_;
 };
 
 }  // namespace nao

@@ -17,33 +17,51 @@ uniform mat4 normal_from_mesh;
 uniform vec4 tint;
 )";
 
-// Light is computed at the vertices, which are fewer than pixels, and only shadows at each pixel
-// (H. Gouraud, "Continuous shading of curved surfaces", 1971).
+// Light is computed at the vertices, which are fewer than pixels (H. Gouraud, "Continuous shading
+// of curved surfaces", 1971); shadows, too, or at each pixel.
 const char* const kSolidVertex = R"(
+#ifdef SHADOW_AT_PIXELS
 out vec3 ambient;
 out vec3 direct;
 out vec4 place;
+#else
+out vec3 color;
+#endif
 flat out float opacity;
 void main() {
   vec3 position_in_world = (world_from_mesh * vec4(position, 1.0)).xyz;
   vec3 unit_normal = normalize(mat3(normal_from_mesh) * normal);
   vec3 albedo = encoded_color.rgb * encoded_color.rgb * tint.rgb;
-  ambient = ambient_part(albedo, unit_normal);
-  direct = direct_part(albedo, unit_normal, position_in_world, 0.18);
-  place = surface_light_place(position_in_world, unit_normal);
+  vec3 ambient_light_sent = ambient_part(albedo, unit_normal);
+  vec3 direct_light_sent = direct_part(albedo, unit_normal, position_in_world, 0.18);
+  vec4 light_place_here = surface_light_place(position_in_world, unit_normal);
+#ifdef SHADOW_AT_PIXELS
+  ambient = ambient_light_sent;
+  direct = direct_light_sent;
+  place = light_place_here;
+#else
+  color = encoded(ambient_light_sent + direct_fraction(light_place_here) * direct_light_sent);
+#endif
   opacity = encoded_color.a * tint.a;
   gl_Position = clip_from_mesh * vec4(position, 1.0);
 }
 )";
 
 const char* const kSolidFragment = R"(
+#ifdef SHADOW_AT_PIXELS
 in vec3 ambient;
 in vec3 direct;
 in vec4 place;
+#else
+in vec3 color;
+#endif
 flat in float opacity;
 out vec4 screen;
 void main() {
-  screen = vec4(encoded(ambient + direct_fraction(place) * direct), opacity);
+#ifdef SHADOW_AT_PIXELS
+  vec3 color = encoded(ambient + direct_fraction(place) * direct);
+#endif
+  screen = vec4(color, opacity);
 }
 )";
 
@@ -103,9 +121,10 @@ void main() {}
 
 }  // namespace
 
-Source solid(bool with_shadow) {
-  return {lit_header(with_shadow) + kMeshVertex + kSolidVertex,
-          lit_header(with_shadow) + kSolidFragment};
+Source solid(bool with_shadow, bool at_pixels) {
+  const std::string header =
+      lit_header(with_shadow) + (at_pixels ? "#define SHADOW_AT_PIXELS\n" : "");
+  return {header + kMeshVertex + kSolidVertex, header + kSolidFragment};
 }
 
 Source ball(bool with_shadow) {

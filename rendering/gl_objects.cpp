@@ -83,6 +83,10 @@ void ShaderProgram::set(const char* name, float value) const {
   glUniform1f(location(name), value);
 }
 
+void ShaderProgram::set(const char* name, const Eigen::Vector2i& value) const {
+  glUniform2iv(location(name), 1, value.data());
+}
+
 void ShaderProgram::set(const char* name, const Eigen::Vector2f& value) const {
   glUniform2fv(location(name), 1, value.data());
 }
@@ -100,18 +104,14 @@ void ShaderProgram::set(const char* name, const Eigen::Matrix4f& value) const {
   glUniformMatrix4fv(location(name), 1, GL_FALSE, value.data());
 }
 
-MeshBuffer::MeshBuffer(const Mesh& mesh) : num_indices_(static_cast<int>(mesh.indices.size())) {
+MeshBuffer::MeshBuffer(const Mesh& mesh)
+    : facing_(mesh), num_vertices_(static_cast<int>(mesh.vertices.size())) {
   glGenVertexArrays(1, &vertex_array_);
   glBindVertexArray(vertex_array_);
   glGenBuffers(1, &vertices_);
   glBindBuffer(GL_ARRAY_BUFFER, vertices_);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(Vertex)),
                mesh.vertices.data(), GL_STATIC_DRAW);
-  glGenBuffers(1, &indices_);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-               static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(uint32_t)), mesh.indices.data(),
-               GL_STATIC_DRAW);
   // Attribute numbers are those of the shaders' layout(location = ...).
   constexpr int kStride = sizeof(Vertex);
   glEnableVertexAttribArray(0);
@@ -128,14 +128,33 @@ MeshBuffer::MeshBuffer(const Mesh& mesh) : num_indices_(static_cast<int>(mesh.in
 }
 
 MeshBuffer::~MeshBuffer() {
-  glDeleteBuffers(1, &indices_);
   glDeleteBuffers(1, &vertices_);
   glDeleteVertexArrays(1, &vertex_array_);
 }
 
-void MeshBuffer::draw() const {
+void MeshBuffer::draw(const IndexStream& stream, int first, int num_indices) const {
   glBindVertexArray(vertex_array_);
-  glDrawElements(GL_TRIANGLES, num_indices_, GL_UNSIGNED_INT, nullptr);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, stream.id());
+  // With the range of the indices the driver need not look for it.
+  glDrawRangeElements(GL_TRIANGLES, 0, static_cast<unsigned>(num_vertices_ - 1), num_indices,
+                      GL_UNSIGNED_INT,
+                      reinterpret_cast<const void*>(static_cast<size_t>(first) * sizeof(uint32_t)));
+}
+
+IndexStream::IndexStream() {
+  glGenBuffers(1, &id_);
+}
+
+IndexStream::~IndexStream() {
+  glDeleteBuffers(1, &id_);
+}
+
+void IndexStream::set(const std::vector<uint32_t>& indices) const {
+  // The array of elements belongs to the vertex array that is bound.
+  glBindVertexArray(0);
+  glBindBuffer(GL_ARRAY_BUFFER, id_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(uint32_t)),
+               indices.data(), GL_STREAM_DRAW);
 }
 
 StreamBuffer::StreamBuffer() {

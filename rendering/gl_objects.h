@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rendering/facing_triangles.h"
 #include "rendering/mesh.h"
 
 /** Owners of OpenGL objects. Each must be created, used and destroyed while the same context is
@@ -26,6 +27,7 @@ class ShaderProgram {
   /** Sets a uniform of the program in use. A name that the shader does not use is ignored. */
   void set(const char* name, int value) const;
   void set(const char* name, float value) const;
+  void set(const char* name, const Eigen::Vector2i& value) const;
   void set(const char* name, const Eigen::Vector2f& value) const;
   void set(const char* name, const Eigen::Vector3f& value) const;
   void set(const char* name, const Eigen::Vector4f& value) const;
@@ -37,6 +39,21 @@ class ShaderProgram {
   unsigned id_ = 0;
 };
 
+/** Indices of vertices that change with every image. */
+class IndexStream {
+ public:
+  IndexStream();
+  ~IndexStream();
+  IndexStream(const IndexStream&) = delete;
+  IndexStream& operator=(const IndexStream&) = delete;
+
+  void set(const std::vector<uint32_t>& indices) const;
+  unsigned id() const { return id_; }
+
+ private:
+  unsigned id_ = 0;
+};
+
 /** A mesh in the graphics card's memory: attributes 0 position, 1 normal, 2 encoded color. */
 class MeshBuffer {
  public:
@@ -45,14 +62,15 @@ class MeshBuffer {
   MeshBuffer(const MeshBuffer&) = delete;
   MeshBuffer& operator=(const MeshBuffer&) = delete;
 
-  void draw() const;
-  int num_triangles() const { return num_indices_ / 3; }
+  /** Draws the triangles of the indices from `first` on. */
+  void draw(const IndexStream& stream, int first, int num_indices) const;
+  const FacingTriangles& facing() const { return facing_; }
 
  private:
+  FacingTriangles facing_;
+  int num_vertices_;
   unsigned vertex_array_ = 0;
   unsigned vertices_ = 0;
-  unsigned indices_ = 0;
-  int num_indices_ = 0;
 };
 
 /** Vertices that change with every image: attributes 0 position, 1 four numbers (color). */

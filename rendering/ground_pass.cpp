@@ -26,19 +26,26 @@ void set_field(const gl::ShaderProgram& program, const FieldDimensions& field) {
 }
 
 /** Two triangles. */
-void append(std::vector<gl::StreamBuffer::Vertex>& vertices, const Eigen::AlignedBox2f& box) {
+void append(std::vector<gl::StreamBuffer::Vertex>& vertices, const GroundPatch& patch) {
   using Box = Eigen::AlignedBox2f;
+  const Eigen::Vector4f line(patch.normal.x(), patch.normal.y(), patch.middle,
+                             patch.is_edge ? 1.0f : 0.0f);
   for (const auto corner : {Box::BottomLeft, Box::BottomRight, Box::TopRight, Box::BottomLeft,
                             Box::TopRight, Box::TopLeft}) {
-    const Eigen::Vector2f place = box.corner(corner);
-    vertices.push_back({{place.x(), place.y(), 0}, Eigen::Vector4f::Zero()});
+    const Eigen::Vector2f place = patch.box.corner(corner);
+    vertices.push_back({{place.x(), place.y(), 0}, line});
   }
 }
 
-/** Depth offset of the carpet without lines towards the eye, so that the whole ground, which is
- * drawn after it, does not cover it again (glPolygonOffset's units). Chosen: more than the rounding
- * of depths, less than a millimeter at the near plane. */
-constexpr float kCarpetOffset = -8;
+/** Depth offset of each kind of patches towards the eye, so that what is drawn after it does not
+ * cover it again (glPolygonOffset's units). Chosen: more than the rounding of depths; three of them
+ * are less than 2 mm within 3 m. */
+constexpr float kPatchOffset = -8;
+
+/** Cells of the sky, over the image. Chosen: with fewer rows its color differs by more than 1 of
+ * 255. */
+constexpr int kSkyColumns = 6;
+constexpr int kSkyRows = 14;
 
 /** Lowest row of the image that may show sky: below it every ray meets the ground. */
 // The ground ends at least `reach` less the eye's distance from the origin away. A ray is above its
@@ -61,60 +68,83 @@ int lowest_sky_row(const Eigen::Matrix4f& world_from_clip, const RenderView& vie
 
 }  // namespace
 
+GroundPass::Programs GroundPass::compile_both(const std::string& name,
+                                              shaders::Source (*source)(bool)) {
+  return {compile("shadowed " + name, source(true)), compile(name, source(false))};
+}
+
 GroundPass::GroundPass(float reach)
     : reach_(reach),
-      field_{compile("shadowed field", shaders::field(true, false)),
-             compile("field", shaders::field(false, false))},
-      worn_field_{compile("shadowed worn field", shaders::field(true, true)),
-                  compile("worn field", shaders::field(false, true))},
-      carpet_{compile("shadowed carpet", shaders::carpet(true, false)),
-              compile("carpet", shaders::carpet(false, false))},
-      worn_carpet_{compile("shadowed worn carpet", shaders::carpet(true, true)),
-                   compile("worn carpet", shaders::carpet(false, true))},
-      floor_{compile("shadowed floor", shaders::floor(true)),
-             compile("floor", shaders::floor(false))},
+      field_(compile_both("field", [](bool shadow) { return shaders::field(shadow, false); })),
+      worn_field_(
+          compile_both("worn field", [](bool shadow) { return shaders::field(shadow, true); })),
+      line_(compile_both("line", shaders::field_line)),
+      carpet_(compile_both("carpet", shaders::carpet)),
+      floor_(compile_both("floor", shaders::floor)),
       sky_(compile("sky", shaders::sky())) {
   const Eigen::Vector2f corner = Eigen::Vector2f::Constant(reach);
-  append(ground_, {-corner, corner});
+  ground_.emplace_back().box = {-corner, corner};
 }
 
 void GroundPass::set_surroundings(const SceneFile& scene) {
   field_dimensions_ = scene.field;
-  cells_ = scene.field ? CarpetCells(*scene.field) : CarpetCells();
+  patches_ = scene.field ? FieldPatches(*scene.field, reach_) : FieldPatches();
 }
 
-// What is drawn first covers what follows in the same place, since the depth must be less.
 void GroundPass::draw_ground(const RenderView& view, const ShadowPass& shadows,
                              RenderStatistics& statistics) {
   shadowed_ = shadows.shadowed_pixels(view);
   glDepthFunc(GL_LESS);
-  if (field_dimensions_) {
-    const bool is_worn = view.appearance.carpet_texture > 0 || view.appearance.line_wear > 0;
-    Vertices carpet;
-    for (const Eigen::AlignedBox2f& box : cells_.without_lines(view)) append(carpet, box);
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(0, kCarpetOffset);
-    draw(is_worn ? worn_carpet_ : carpet_, carpet, view, shadows, statistics);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    draw(is_worn ? worn_field_ : field_, ground_, view, shadows, statistics);
-  } else {
+  const SceneAppearance& look = view.appearance;
+  const bool is_varied = look.carpet_texture > 0 || look.line_wear > 0 || look.shade_depth > 0;
+  if (!field_dimensions_) {
     draw(floor_, ground_, view, shadows, statistics);
+  } else if (is_varied) {
+    draw(worn_field_, ground_, view, shadows, statistics);
+  } else {
+    draw_patches(view, shadows, statistics);
   }
   glDepthFunc(GL_LEQUAL);
 }
 
-void GroundPass::draw(const Programs& programs, const Vertices& vertices, const RenderView& view,
-                      const ShadowPass& shadows, RenderStatistics& statistics) {
-  if (!shadowed_.empty()) {
-    use(programs.shadowed, view, shadows);
-    glEnable(GL_SCISSOR_TEST);
-    for (const PixelBox& box : shadowed_) {
-      glScissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
-      buffer_.draw_triangles(vertices);
-      ++statistics.num_draws;
+// What is drawn first covers what follows in the same place, since the depth must be less.
+void GroundPass::draw_patches(const RenderView& view, const ShadowPass& shadows,
+                              RenderStatistics& statistics) {
+  patches_.select(view);
+  is_hall_ = false;
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(0, 3 * kPatchOffset);
+  draw(field_, patches_.mixed(), view, shadows, statistics);
+  glPolygonOffset(0, 2 * kPatchOffset);
+  draw(line_, patches_.lines(), view, shadows, statistics);
+  glPolygonOffset(0, kPatchOffset);
+  draw(carpet_, patches_.carpet(), view, shadows, statistics);
+  is_hall_ = true;
+  glPolygonOffset(0, 0);
+  draw(carpet_, patches_.hall(), view, shadows, statistics);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void GroundPass::draw(const Programs& programs, const std::vector<GroundPatch>& patches,
+                      const RenderView& view, const ShadowPass& shadows,
+                      RenderStatistics& statistics) {
+  Vertices vertices;
+  glEnable(GL_SCISSOR_TEST);
+  for (const PixelBox& box : shadowed_) {
+    vertices.clear();
+    for (const GroundPatch& patch : patches) {
+      if (overlap(ground_pixels(patch.box, view), box)) append(vertices, patch);
     }
-    glDisable(GL_SCISSOR_TEST);
+    if (vertices.empty()) continue;
+    use(programs.shadowed, view, shadows);
+    glScissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
+    buffer_.draw_triangles(vertices);
+    ++statistics.num_draws;
   }
+  glDisable(GL_SCISSOR_TEST);
+  vertices.clear();
+  for (const GroundPatch& patch : patches) append(vertices, patch);
+  if (vertices.empty()) return;
   use(programs.lit, view, shadows);
   buffer_.draw_triangles(vertices);
   ++statistics.num_draws;
@@ -125,6 +155,7 @@ void GroundPass::use(const gl::ShaderProgram& program, const RenderView& view,
   use_lit(program, view, shadows);
   if (!field_dimensions_) return;
   set_field(program, *field_dimensions_);
+  program.set("is_hall", is_hall_ ? 1 : 0);
   program.set("carpet_color", view.appearance.carpet);
   program.set("line_color", view.appearance.line);
   program.set("line_wear", view.appearance.line_wear);
@@ -139,11 +170,10 @@ void GroundPass::draw_sky(const RenderView& view, RenderStatistics& statistics) 
   const Eigen::Matrix4f world_from_clip = (view.clip_from_world * eye_at_origin).inverse();
   sky_.use();
   sky_.set("world_from_clip", world_from_clip);
-  glEnable(GL_SCISSOR_TEST);
   const int bottom = lowest_sky_row(world_from_clip, view, reach_);
-  glScissor(0, bottom, view.width, view.height - bottom);
-  sky_vertices_.draw_triangles(3);
-  glDisable(GL_SCISSOR_TEST);
+  sky_.set("bottom", 2 * static_cast<float>(bottom) / static_cast<float>(view.height) - 1);
+  sky_.set("num_cells", Eigen::Vector2i(kSkyColumns, kSkyRows));
+  sky_vertices_.draw_triangles(6 * kSkyColumns * kSkyRows);
   ++statistics.num_draws;
 }
 

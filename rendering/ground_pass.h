@@ -3,11 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include "rendering/carpet_cells.h"
+#include "rendering/field_patches.h"
 #include "rendering/gl_objects.h"
 #include "rendering/pixel_box.h"
 #include "rendering/render_statistics.h"
 #include "rendering/render_view.h"
+#include "rendering/shaders.h"
 #include "rendering/shadow_pass.h"
 #include "robot_model/scene_file.h"
 
@@ -35,22 +36,28 @@ class GroundPass {
     gl::ShaderProgram lit;
   };
 
-  void draw(const Programs& programs, const Vertices& vertices, const RenderView& view,
-            const ShadowPass& shadows, RenderStatistics& statistics);
+  static Programs compile_both(const std::string& name, shaders::Source (*source)(bool));
+
+  void draw_patches(const RenderView& view, const ShadowPass& shadows,
+                    RenderStatistics& statistics);
+  void draw(const Programs& programs, const std::vector<GroundPatch>& patches,
+            const RenderView& view, const ShadowPass& shadows, RenderStatistics& statistics);
   void use(const gl::ShaderProgram& program, const RenderView& view,
            const ShadowPass& shadows) const;
 
   /** Half the side of the ground's square, m. */
   float reach_;
-  Vertices ground_;
+  std::vector<GroundPatch> ground_;
   std::optional<FieldDimensions> field_dimensions_;
-  CarpetCells cells_;
+  FieldPatches patches_;
+  /** What the carpet's program draws. */
+  bool is_hall_ = false;
   /** Pixels of the image that is being drawn in which the ground may be in shadow. */
   std::vector<PixelBox> shadowed_;
   Programs field_;
   Programs worn_field_;
+  Programs line_;
   Programs carpet_;
-  Programs worn_carpet_;
   Programs floor_;
   gl::ShaderProgram sky_;
   gl::StreamBuffer buffer_;

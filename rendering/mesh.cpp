@@ -39,6 +39,15 @@ std::vector<Eigen::Vector3f> area_normals(const std::vector<Vertex>& vertices,
   return normals;
 }
 
+void simplify(const std::vector<Vertex>& vertices, std::vector<uint32_t>& triangles,
+              float mean_error) {
+  const float* positions = vertices.front().position.data();
+  // The library's errors are fractions of the mesh's extent.
+  const float extent = meshopt_simplifyScale(positions, vertices.size(), sizeof(Vertex));
+  triangles.resize(meshopt_simplify(triangles.data(), triangles.data(), triangles.size(), positions,
+                                    vertices.size(), sizeof(Vertex), 0, mean_error / extent));
+}
+
 /** Mesh of triangles whose normals at a vertex are the mean of the triangles there, weighted by
  * area, on the same side of every crease.
  * @param triangles  Indices of `vertices`; the normals of these are not used. */
@@ -134,12 +143,32 @@ void append(Mesh& mesh, const Mesh& part, const Eigen::Vector3f& offset) {
 Mesh simplified(const Mesh& mesh, float mean_error) {
   if (mesh.vertices.empty()) return mesh;
   std::vector<uint32_t> triangles = welded(mesh);
-  const float* positions = mesh.vertices.front().position.data();
-  // The library's errors are fractions of the mesh's extent.
-  const float extent = meshopt_simplifyScale(positions, mesh.vertices.size(), sizeof(Vertex));
-  triangles.resize(meshopt_simplify(triangles.data(), triangles.data(), triangles.size(), positions,
-                                    mesh.vertices.size(), sizeof(Vertex), 0, mean_error / extent));
+  simplify(mesh.vertices, triangles, mean_error);
   return with_creases(mesh.vertices, triangles);
+}
+
+Mesh simplified_shape(const Mesh& mesh, float mean_error) {
+  if (mesh.vertices.empty()) return mesh;
+  Mesh shape = mesh;
+  for (Vertex& vertex : shape.vertices) {
+    vertex = {vertex.position, Vertex().normal, Vertex().encoded_color};
+  }
+  std::vector<uint32_t> vertex_of(shape.vertices.size());
+  const size_t count =
+      meshopt_generateVertexRemap(vertex_of.data(), shape.indices.data(), shape.indices.size(),
+                                  shape.vertices.data(), shape.vertices.size(), sizeof(Vertex));
+  meshopt_remapIndexBuffer(shape.indices.data(), shape.indices.data(), shape.indices.size(),
+                           vertex_of.data());
+  meshopt_remapVertexBuffer(shape.vertices.data(), shape.vertices.data(), shape.vertices.size(),
+                            sizeof(Vertex), vertex_of.data());
+  shape.vertices.resize(count);
+  simplify(shape.vertices, shape.indices, mean_error);
+  meshopt_optimizeVertexCache(shape.indices.data(), shape.indices.data(), shape.indices.size(),
+                              shape.vertices.size());
+  shape.vertices.resize(meshopt_optimizeVertexFetch(shape.vertices.data(), shape.indices.data(),
+                                                    shape.indices.size(), shape.vertices.data(),
+                                                    shape.vertices.size(), sizeof(Vertex)));
+  return shape;
 }
 
 float largest_distance(const Mesh& mesh, const Mesh& other) {

@@ -51,6 +51,9 @@ void append(Mesh& mesh, const Mesh& part, const Eigen::Vector3f& offset = Eigen:
  * one, averaged over the area around it. */
 Mesh simplified(const Mesh& mesh, float mean_error);
 
+/** As simplified(), but only the shape is kept: the result has neither colors nor normals. */
+Mesh simplified_shape(const Mesh& mesh, float mean_error);
+
 /** Largest distance of a vertex of `mesh` from the surface of `other`, m; `other` must have
  * triangles. */
 float largest_distance(const Mesh& mesh, const Mesh& other);

@@ -20,10 +20,11 @@ Eigen::Matrix4f normal_from_mesh(const MeshInstance& instance) {
   return matrix;
 }
 
-void draw_and_count(const gl::MeshBuffer& buffer, RenderStatistics& statistics) {
-  buffer.draw();
+void draw_and_count(const MeshDraws& draws, const MeshDraws::Draw& draw,
+                    RenderStatistics& statistics) {
+  draws.draw(draw);
   ++statistics.num_draws;
-  statistics.num_triangles += buffer.num_triangles();
+  statistics.num_triangles += draw.num_indices / 3;
 }
 
 }  // namespace
@@ -47,28 +48,32 @@ void use_lit(const gl::ShaderProgram& program, const RenderView& view, const Sha
 
 DepthProgram::DepthProgram() : program_(compile("depth", shaders::depth())) {}
 
-void DepthProgram::draw(const gl::MeshBuffer& buffer, const MeshInstance& instance,
-                        const Eigen::Matrix4f& clip_from_world,
+void DepthProgram::draw(const MeshDraws& draws, const Eigen::Matrix4f& clip_from_world,
                         RenderStatistics& statistics) const {
-  program_.set("clip_from_mesh", Eigen::Matrix4f(clip_from_world * world_from_mesh(instance)));
-  draw_and_count(buffer, statistics);
+  program_.use();
+  for (const MeshDraws::Draw& draw : draws.draws()) {
+    program_.set("clip_from_mesh",
+                 Eigen::Matrix4f(clip_from_world * world_from_mesh(draw.instance)));
+    draw_and_count(draws, draw, statistics);
+  }
 }
 
 LitProgram::LitProgram(const std::string& name, const shaders::Source& source)
     : program_(compile(name, source)) {}
 
-void LitProgram::use(const RenderView& view, const ShadowPass& shadows) const {
+// One use_lit() for all: only the matrices change from one to the next.
+void LitProgram::draw(const MeshDraws& draws, const RenderView& view, const ShadowPass& shadows,
+                      RenderStatistics& statistics) const {
+  if (draws.draws().empty()) return;
   use_lit(program_, view, shadows);
-}
-
-void LitProgram::draw(const gl::MeshBuffer& buffer, const MeshInstance& instance,
-                      const RenderView& view, RenderStatistics& statistics) const {
-  const Eigen::Matrix4f model_matrix = world_from_mesh(instance);
-  program_.set("clip_from_mesh", Eigen::Matrix4f(view.clip_from_world * model_matrix));
-  program_.set("world_from_mesh", model_matrix);
-  program_.set("normal_from_mesh", normal_from_mesh(instance));
-  program_.set("tint", instance.tint);
-  draw_and_count(buffer, statistics);
+  for (const MeshDraws::Draw& draw : draws.draws()) {
+    const Eigen::Matrix4f model_matrix = world_from_mesh(draw.instance);
+    program_.set("clip_from_mesh", Eigen::Matrix4f(view.clip_from_world * model_matrix));
+    program_.set("world_from_mesh", model_matrix);
+    program_.set("normal_from_mesh", normal_from_mesh(draw.instance));
+    program_.set("tint", draw.instance.tint);
+    draw_and_count(draws, draw, statistics);
+  }
 }
 
 }  // namespace nao

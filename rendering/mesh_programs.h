@@ -4,6 +4,7 @@
 #include <string>
 
 #include "rendering/gl_objects.h"
+#include "rendering/mesh_draws.h"
 #include "rendering/render_statistics.h"
 #include "rendering/render_view.h"
 #include "rendering/scene.h"
@@ -21,10 +22,8 @@ class DepthProgram {
  public:
   DepthProgram();
 
-  void use() const { program_.use(); }
-  /** Draws one mesh; use() must have been called. */
-  void draw(const gl::MeshBuffer& buffer, const MeshInstance& instance,
-            const Eigen::Matrix4f& clip_from_world, RenderStatistics& statistics) const;
+  void draw(const MeshDraws& draws, const Eigen::Matrix4f& clip_from_world,
+            RenderStatistics& statistics) const;
 
  private:
   gl::ShaderProgram program_;
@@ -35,10 +34,7 @@ class LitProgram {
  public:
   LitProgram(const std::string& name, const shaders::Source& source);
 
-  /** Sets the camera, the light and the shadow map. */
-  void use(const RenderView& view, const ShadowPass& shadows) const;
-  /** Draws one mesh; use() must have been called with the same view. */
-  void draw(const gl::MeshBuffer& buffer, const MeshInstance& instance, const RenderView& view,
+  void draw(const MeshDraws& draws, const RenderView& view, const ShadowPass& shadows,
             RenderStatistics& statistics) const;
 
  private:

@@ -10,8 +10,9 @@ struct Source {
   std::string fragment;
 };
 
-/** Lit meshes. @param with_shadow  Whether they receive shadows from the shadow map. */
-Source solid(bool with_shadow);
+/** Lit meshes. @param with_shadow  Whether they receive shadows from the shadow map.
+ * @param at_pixels  Whether shadows are looked up at each pixel, not only at the vertices. */
+Source solid(bool with_shadow, bool at_pixels);
 
 /** The soccer ball: as solid(), with the pattern of a truncated icosahedron. */
 Source ball(bool with_shadow);
@@ -20,8 +21,14 @@ Source ball(bool with_shadow);
  * @param with_wear  Whether the carpet has a texture and the lines are worn, which is expensive. */
 Source field(bool with_shadow, bool with_wear);
 
-/** As field(), for places without lines, inside the carpet. */
-Source carpet(bool with_shadow, bool with_wear);
+/** As field(), for places with one straight line, without wear. Attribute 1: the line's unit normal
+ * on the ground (x, y), the place of its middle along it, m, and 1 for the edge of the carpet, with
+ * the normal outwards. */
+Source field_line(bool with_shadow);
+
+/** As field(), for patches without lines, without wear. Uniform is_hall: the ground around the
+ * carpet. */
+Source carpet(bool with_shadow);
 
 /** The plane z = 0 as a tiled floor. */
 Source floor(bool with_shadow);

@@ -22,9 +22,6 @@ constexpr float kMargin = 0.075f;
  * (smaller values) and shadows detached from the feet (larger values). */
 constexpr float kOffsetFactor = 2.0f;
 constexpr float kOffsetUnits = 4.0f;
-/** Largest error of a caster's surface, m. Chosen: about six texels of the head camera's shadow map
- * when it covers one robot (0.6 m over 320 texels). */
-constexpr float kCasterError = 0.012f;
 /** Width of a shadow's edge, m: a texel of the map, and the caster's error. */
 constexpr float kPenumbra = 0.02f;
 
@@ -62,37 +59,6 @@ Eigen::Matrix4f texture_from_clip() {
   return matrix;
 }
 
-bool overlap(const PixelBox& a, const PixelBox& b) {
-  return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top;
-}
-
-PixelBox united(const PixelBox& a, const PixelBox& b) {
-  return {std::min(a.left, b.left), std::min(a.bottom, b.bottom), std::max(a.right, b.right),
-          std::max(a.top, b.top)};
-}
-
-/** Pixels of a square on the ground about a point, with sides along x and y of 2 `half`, m. */
-PixelBox ground_pixels(const Eigen::Vector3f& center, float half, const RenderView& view) {
-  Eigen::Vector2f lower = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
-  Eigen::Vector2f upper = -lower;
-  for (const auto& [x, y] : {std::pair{-half, -half}, {half, -half}, {-half, half}, {half, half}}) {
-    const Eigen::Vector4f corner(center.x() + x, center.y() + y, 0, 1);
-    const Eigen::Vector4f clip = view.clip_from_world * corner;
-    // A corner behind the camera has no place in the image: no bound can be given.
-    if (clip.w() < static_cast<float>(kNearPlane)) return {0, 0, view.width, view.height};
-    lower = lower.cwiseMin(clip.head<2>() / clip.w());
-    upper = upper.cwiseMax(clip.head<2>() / clip.w());
-  }
-  // Clip coordinates -1..1 to pixels, clamped to the image.
-  const auto pixel = [](float in_clip, int size) {
-    return std::clamp((in_clip + 1) / 2, 0.0f, 1.0f) * static_cast<float>(size);
-  };
-  return {static_cast<int>(std::floor(pixel(lower.x(), view.width))),
-          static_cast<int>(std::floor(pixel(lower.y(), view.height))),
-          static_cast<int>(std::ceil(pixel(upper.x(), view.width))),
-          static_cast<int>(std::ceil(pixel(upper.y(), view.height)))};
-}
-
 }  // namespace
 
 ShadowPass::ShadowPass(int size, const MeshStore& meshes, const DepthProgram& depth)
@@ -121,6 +87,15 @@ void ShadowPass::add_caster(const MeshInstance& instance, const RenderView& view
   casters_box_.extend(Eigen::Vector3f(center.array() + sphere.radius));
 }
 
+bool ShadowPass::may_shadow(const BoundingSphere& sphere) const {
+  return std::any_of(casters_.begin(), casters_.end(), [&](const MeshInstance& caster) {
+    const BoundingSphere source = meshes_.sphere_in_world(caster);
+    const Eigen::Vector3f way = sphere.center - source.center;
+    const float along = std::max(0.0f, -way.dot(light_));  // away from the light
+    return (way + along * light_).norm() < sphere.radius + source.radius;
+  });
+}
+
 void ShadowPass::draw(RenderStatistics& statistics) {
   if (!map_) return;
   glBindFramebuffer(GL_FRAMEBUFFER, map_->framebuffer());
@@ -136,10 +111,13 @@ void ShadowPass::draw(RenderStatistics& statistics) {
   shadow_from_world_ = texture_from_clip() * clip_from_world;
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(kOffsetFactor, kOffsetUnits);
-  depth_.use();
+  draws_.clear();
+  const Eigen::Vector4f from(light_.x(), light_.y(), light_.z(), 0);
   for (const MeshInstance& caster : casters_) {
-    depth_.draw(meshes_.buffer(caster, kCasterError), caster, clip_from_world, statistics);
+    draws_.add(meshes_.shape(caster, kCasterError), caster, from);
   }
+  draws_.upload();
+  depth_.draw(draws_, clip_from_world, statistics);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
@@ -157,7 +135,9 @@ std::vector<PixelBox> ShadowPass::shadowed_pixels(const RenderView& view) const 
   for (const MeshInstance& caster : casters_) {
     const BoundingSphere sphere = meshes_.sphere_in_world(caster);
     const Eigen::Vector3f center = sphere.center - light_ * (sphere.center.z() / light_.z());
-    PixelBox box = ground_pixels(center, (sphere.radius + kPenumbra) / light_.z(), view);
+    const Eigen::Vector2f half =
+        Eigen::Vector2f::Constant((sphere.radius + kPenumbra) / light_.z());
+    PixelBox box = ground_pixels({center.head<2>() - half, center.head<2>() + half}, view);
     if (box.is_empty()) continue;
     // Boxes that overlap become one, which may overlap others.
     for (size_t i = 0; i < boxes.size();) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rendering/gl_objects.h"
+#include "rendering/mesh_draws.h"
 #include "rendering/mesh_programs.h"
 #include "rendering/mesh_store.h"
 #include "rendering/pixel_box.h"
@@ -13,6 +14,10 @@
 #include "rendering/scene.h"
 
 namespace nao {
+
+/** Largest error of a shadow caster's surface, m. Chosen: about six texels of the head camera's
+ * shadow map when it covers one robot (0.6 m over 320 texels). */
+inline constexpr float kCasterError = 0.012f;
 
 /** Draws the shadow map: the depth of all shadow casters as seen from the light (Williams, "Casting
  * curved shadows on curved surfaces", SIGGRAPH 1978). The map covers the casters only. */
@@ -27,6 +32,9 @@ class ShadowPass {
 
   /** Adds a body, unless neither it nor its shadow on the ground can be visible. */
   void add_caster(const MeshInstance& instance, const RenderView& view);
+
+  /** @return false only if no caster shadows any part of the sphere, m, in the world. */
+  bool may_shadow(const BoundingSphere& sphere) const;
 
   /** Draws the casters into the shadow map; leaves its framebuffer bound. */
   void draw(RenderStatistics& statistics);
@@ -44,6 +52,7 @@ class ShadowPass {
   std::optional<gl::ShadowMap> map_;
   Eigen::Vector3f light_ = Eigen::Vector3f::UnitZ();
   std::vector<MeshInstance> casters_;
+  MeshDraws draws_;
   /** Box of the casters in the axes of the light, m. */
   Eigen::AlignedBox3f casters_box_;
   /** From the world to the map's texture coordinates, 0 to 1, and depth. */

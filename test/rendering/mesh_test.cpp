@@ -138,6 +138,18 @@ TEST(Mesh, SimplifiedKeepsItsShapeWithFewerTriangles) {
   EXPECT_NEAR(volume(same), 1e-3, 1e-6);
 }
 
+/** A shape for shadows has no borders between colors to keep. */
+TEST(Mesh, SimplifiedShapeIgnoresColors) {
+  Mesh ball = make_sphere(0.05f, Color::Ones(), 64);
+  for (size_t i = 0; i < ball.vertices.size(); ++i) {
+    ball.vertices[i].encoded_color = encode_color(Color(i % 2 == 0 ? 1 : 0, 0, 0, 1));
+  }
+  const Mesh shape = simplified_shape(ball, 0.002f);
+  EXPECT_LT(shape.indices.size(), simplified(ball, 0.002f).indices.size() / 2);
+  EXPECT_LT(largest_distance(ball, shape), 3 * 0.002f);
+  EXPECT_LT(shape.vertices.size(), shape.indices.size() / 2);
+}
+
 TEST(Mesh, MeasuresItsLargestDistanceFromAnother) {
   const Mesh box = make_box({0.2f, 0.1f, 0.1f}, Color::Ones());
   EXPECT_NEAR(largest_distance(box, box), 0, 1e-6);

@@ -130,6 +130,30 @@ TEST(SceneRenderer, CastsShadowsAwayFromTheLight) {
             0);
 }
 
+/** Shadows on bodies are looked up at pixels near the camera, and at vertices farther away. */
+TEST(SceneRenderer, CastsShadowsOnBodiesNearAndFar) {
+  Offscreen offscreen;
+  const MeshId ball = offscreen.renderer.add_mesh(make_sphere(0.1f, Color::Ones()));
+  for (const double distance : {0.5, 3.0}) {
+    Scene scene;
+    MeshInstance body;
+    body.mesh = ball;
+    body.pose_in_world.translation().z() = 0.3f;
+    scene.instances.push_back(body);
+    const Eigen::Vector3d light = kLightDirection.cast<double>();
+    const Eigen::Vector3d lit = Eigen::Vector3d(0, 0, 0.3) + 0.1 * light;
+    const Eigen::Isometry3d pose = look_at(lit + distance * light, lit);
+    const Image alone = offscreen.draw(scene, kCamera, pose);
+    MeshInstance caster = body;
+    caster.pose_in_world.translation() += (distance + 0.5) * kLightDirection;  // behind the camera
+    scene.instances.push_back(caster);
+    const Image shadowed = offscreen.draw(scene, kCamera, pose);
+    const int u = kCamera.width / 2;
+    const int v = kCamera.height / 2;
+    EXPECT_LT(brightness(shadowed, u, v), brightness(alone, u, v) - 40) << distance << " m";
+  }
+}
+
 TEST(SceneRenderer, BlendsTranslucentBodiesWithTheBackground) {
   Offscreen offscreen(RendererOptions{.shadow_size = 0});
   Scene scene;
