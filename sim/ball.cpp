@@ -1,5 +1,6 @@
 #include "sim/ball.h"
 
+#include <array>
 #include <cmath>
 
 namespace nao::sim {
@@ -55,30 +56,22 @@ void Ball::begin_step(double h, const Vector3d& gravity, Eigen::VectorXd& scaled
   impulse_.setZero();
 }
 
-int Ball::add_contact_entries(double sign, const Vector3d& point, const Matrix3d& frame,
-                              ConstraintSolver& solver) const {
-  // Six entries: the ball's dofs are angular x, y, z, then linear x, y, z, all about W's axes.
-  // `sign` is -1 where the ball is the second surface of the contact.
-  const int first = solver.add_entries(6);
-  if (first < 0) return -1;
+void Ball::calc_contact_rows(const Vector3d& point, const Matrix3d& frame, EntryPair* rows) const {
+  // The ball's dofs are angular x, y, z, then linear x, y, z, all about W's axes.
   // Velocity of the contact point along axis k of the frame: n_k . (v + w x arm) = n_k . v + (arm x
   // n_k) . w; in scaled velocities each part is divided by the root of its inertia.
   const Vector3d arm = point - state_.position;
-  const double by_inertia = sign / std::sqrt(inertia_);
-  const double by_mass = sign / std::sqrt(description_.mass);
-  for (int i = 0; i < 3; ++i) {
-    RowEntry angular;
-    RowEntry linear;
-    for (int k = 0; k < 3; ++k) {
-      angular.row[k] = by_inertia * arm.cross(frame.col(k))[i];
-      linear.row[k] = by_mass * frame(i, k);
+  const double by_inertia = 1 / std::sqrt(inertia_);
+  const double by_mass = 1 / std::sqrt(description_.mass);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d angular = by_inertia * arm.cross(frame.col(k));
+    const Vector3d linear = by_mass * frame.col(k);
+    double* row = rows[3 * k].data();
+    for (int i = 0; i < 3; ++i) {
+      row[i] = angular[i];
+      row[3 + i] = linear[i];
     }
-    solver.dof(first + i) = first_dof_ + i;
-    solver.dof(first + 3 + i) = first_dof_ + 3 + i;
-    solver.entry(first + i) = angular;
-    solver.entry(first + 3 + i) = linear;
   }
-  return 6;
 }
 
 void Ball::add_rolling_resistance(const Matrix3d& frame, double deceleration, double gravity,
@@ -92,15 +85,16 @@ void Ball::add_rolling_resistance(const Matrix3d& frame, double deceleration, do
   rolling.is_rolling = true;
   // (I + m r^2) / (m r) = 1.4 r for a solid sphere.
   rolling.friction = rolling.spinning = 1.4 * description_.radius * deceleration / gravity;
-  rolling.num_entries = 3;
-  rolling.first_entry = solver.add_entries(3);
-  if (rolling.first_entry < 0) return;
-  for (int i = 0; i < 3; ++i) {
-    solver.dof(rolling.first_entry + i) = first_dof_ + i;
-    RowEntry entry;
-    for (int k = 0; k < 3; ++k) entry.row[k] = frame(i, k) / std::sqrt(inertia_);
-    solver.entry(rolling.first_entry + i) = entry;
+  constexpr std::array<int, 3> kRotations{0, 1, 2};
+  rolling.chain = solver.add_chain(kRotations.data(), 3, first_dof_);
+  EntryPair* entries = rolling.chain < 0 ? nullptr : solver.add_entries(6);
+  if (entries == nullptr) return;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d row = frame.col(k) / std::sqrt(inertia_);
+    entries[2 * k] = {row.x(), row.y()};
+    entries[2 * k + 1] = {row.z(), 0};
   }
+  rolling.entries = entries;
   solver.add_block(rolling);
 }
 

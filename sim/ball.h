@@ -55,12 +55,12 @@ class Ball {
   /** Writes the scaled velocities at the end of a step of h seconds without contact.
    * @param gravity  m/s^2, in W. */
   void begin_step(double h, const Eigen::Vector3d& gravity, Eigen::VectorXd& scaled_velocity);
-  /** Adds the entries of a contact block, L^-T J^T, for the ball's six degrees of freedom.
-   * @param sign  +1 for the velocity of the ball, -1 for the other surface's relative to it.
+  /** Computes the rows of a contact block, L^-T J^T for the velocity of the ball, with entries for
+   * its six degrees of freedom.
    * @param point  In W, m. @param frame  Normal and tangents in W, as columns.
-   * @return How many, or -1 if the solver's memory is used up. */
-  int add_contact_entries(double sign, const Eigen::Vector3d& point, const Eigen::Matrix3d& frame,
-                          ConstraintSolver& solver) const;
+   * @param rows  Three rows of three pairs. */
+  void calc_contact_rows(const Eigen::Vector3d& point, const Eigen::Matrix3d& frame,
+                         EntryPair* rows) const;
   /** Adds rolling resistance to the contact with the floor that was added last: a bound on the
    * torque, deceleration * (I + m r^2) / r, as a fraction of the normal force m g.
    * @param frame  As above. @param deceleration  Of a rolling ball, m/s^2. @param gravity  m/s^2.

@@ -4,57 +4,87 @@
 #include <cmath>
 
 namespace nao::sim {
+namespace {
 
-void ConstraintSolver::reserve(int max_blocks, int max_rows, int max_entries) {
+/** Two sums side by side, so that additions need not wait for each other. @param count  1 or more.
+ */
+[[gnu::always_inline]] inline double dot(const EntryPair* a, const EntryPair* b, int count) {
+  EntryPair even = a[0] * b[0];
+  EntryPair odd = EntryPair::Zero();
+  int i = 1;
+  for (; i + 1 < count; i += 2) {
+    odd += a[i] * b[i];
+    even += a[i + 1] * b[i + 1];
+  }
+  if (i < count) odd += a[i] * b[i];
+  return (even + odd).sum();
+}
+
+}  // namespace
+
+void ConstraintSolver::reserve(int max_blocks, int max_rows, int max_chains, int max_chain,
+                               int max_pairs) {
   blocks_.reserve(max_blocks);
   rows_.reserve(max_rows);
-  entries_.resize(max_entries);
-  dofs_.resize(max_entries);
+  chains_.reserve(max_chains);
+  chain_dofs_.reserve(static_cast<size_t>(max_chains) * max_chain);
+  entries_.resize(max_pairs);
+  local_.resize(num_pairs(max_chain));
 }
 
 void ConstraintSolver::clear() {
   blocks_.clear();
   rows_.clear();
+  chains_.clear();
+  chain_dofs_.clear();
   num_entries_ = 0;
 }
 
-int ConstraintSolver::add_entries(int count) {
-  // Full: the caller leaves its constraint out, and the stepper counts it as dropped. No memory is
-  // taken while the simulation runs.
-  if (num_entries_ + count > static_cast<int>(entries_.size())) return -1;
-  const int first = num_entries_;
-  num_entries_ += count;
+// Full: the caller leaves its constraint out, and the stepper counts it as dropped. No memory is
+// taken while the simulation runs.
+int ConstraintSolver::add_chain(const int* dofs, int count, int first_dof) {
+  if (chains_.size() == chains_.capacity() || chain_dofs_.size() + count > chain_dofs_.capacity() ||
+      num_pairs(count) > static_cast<int>(local_.size())) {
+    return -1;
+  }
+  chains_.push_back({static_cast<int>(chain_dofs_.size()), count});
+  for (int i = 0; i < count; ++i) chain_dofs_.push_back(first_dof + dofs[i]);
+  return static_cast<int>(chains_.size()) - 1;
+}
+
+EntryPair* ConstraintSolver::add_entries(int num_pairs) {
+  if (num_entries_ + num_pairs > static_cast<int>(entries_.size())) return nullptr;
+  EntryPair* first = &entries_[num_entries_];
+  num_entries_ += num_pairs;
   return first;
 }
 
 int ConstraintSolver::add_block(const ContactBlock& added) {
   if (blocks_.size() == blocks_.capacity()) return -1;
-  ContactBlock block = added;
-  // The block's part of J M^-1 J^T = y^T y; normal and tangents are solved one after the other, so
-  // that their coupling does not enter here.
-  // n is the normal row, x and y are the two tangent rows: entries of the 3 x 3 matrix y^T y.
-  double nn = 0, xx = 0, xy = 0, yy = 0;
-  for (int i = 0; i < block.num_entries; ++i) {
-    const double* row = entries_[block.first_entry + i].row;
-    nn += row[0] * row[0];
-    xx += row[1] * row[1];
-    xy += row[1] * row[2];
-    yy += row[2] * row[2];
-  }
-  xx += block.tangent_softness;
-  yy += block.tangent_softness;
+  ContactBlock& block = blocks_.emplace_back(added);
+  // The block's part of J M^-1 J^T = y^T y. n is the normal row, x and y are the two tangent rows.
+  const int count = num_pairs_of(block.chain);
+  const EntryPair* n = block.entries;
+  const EntryPair* x = n + count;
+  const EntryPair* y = x + count;
+  block.coupling[0] = dot(n, x, count);
+  block.coupling[1] = dot(n, y, count);
+  const double xx = dot(x, x, count) + block.tangent_softness;
+  const double xy = dot(x, y, count);
+  const double yy = dot(y, y, count) + block.tangent_softness;
   // Inverse of the symmetric 2 x 2 matrix [xx, xy; xy, yy].
   const double determinant = xx * yy - xy * xy;
-  block.normal_inverse = 1 / (nn + block.normal_softness);
+  block.normal_scale = dot(n, n, count) + block.normal_softness;
+  block.normal_inverse = 1 / block.normal_scale;
   block.tangent_inverse[0] = yy / determinant;
   block.tangent_inverse[1] = -xy / determinant;
   block.tangent_inverse[2] = xx / determinant;
+  block.tangent_scale = 1 / std::max(block.tangent_inverse[0], block.tangent_inverse[2]);
   // Eigenvalues of a symmetric 2 x 2 matrix are mean +- sqrt(mean^2 - determinant); rounding may
   // make the root's argument slightly negative.
   // One over the larger eigenvalue.
   const double mean = (xx + yy) / 2;
   block.tangent_step = 1 / (mean + std::sqrt(std::max(0.0, mean * mean - determinant)));
-  blocks_.push_back(block);
   return static_cast<int>(blocks_.size()) - 1;
 }
 
@@ -73,46 +103,76 @@ void ConstraintSolver::replace_row(int index, const JointRow& other) {
   JointRow& row = rows_[index];
   row = other;
   row.impulse = impulse;
-  double diagonal = 0;
-  for (int i = 0; i < row.num_entries; ++i) {
-    const double y = entries_[row.first_entry + i].row[0];
-    diagonal += y * y;
-  }
+  const double diagonal = dot(row.entries, row.entries, row.num_pairs);
   // Diagonal entry of the regularized row. A torque bound measures against the direction in which
   // it acts; its entry is positive all the same: softness is 1 / (h slope), and the joint has h
   // slope on the diagonal of the implicit mass matrix, so that measure * apply * diagonal >=
   // -softness.
-  row.inverse = 1 / (row.measure * row.apply * diagonal + row.softness);
+  row.scale = row.measure * row.apply * diagonal + row.softness;
+  row.inverse = 1 / row.scale;
 }
 
-void ConstraintSolver::warm_start(Eigen::VectorXd& z) const {
+void ConstraintSolver::enter(int chain, double* z) {
+  if (chain == entered_) return;
+  leave(z);
+  const Chain& entered = chains_[chain];
+  const int* dofs = &chain_dofs_[entered.first];
+  double* local = local_.data()->data();
+  // The partner of a last odd entry, which the rows' entries multiply by 0.
+  local_[num_pairs(entered.count) - 1].setZero();
+  for (int i = 0; i < entered.count; ++i) local[i] = z[dofs[i]];
+  entered_ = chain;
+}
+
+void ConstraintSolver::leave(double* z) {
+  if (entered_ < 0) return;
+  const Chain& entered = chains_[entered_];
+  const int* dofs = &chain_dofs_[entered.first];
+  const double* local = local_.data()->data();
+  for (int i = 0; i < entered.count; ++i) z[dofs[i]] = local[i];
+  entered_ = -1;
+}
+
+void ConstraintSolver::warm_start(Eigen::VectorXd& scaled_velocity) {
   // z := z + y p for all start values p; afterwards z and the impulses belong together, which every
   // solve_block() and solve_row() keeps.
+  double* z = scaled_velocity.data();
+  EntryPair* local = local_.data();
   for (const ContactBlock& block : blocks_) {
-    for (int i = block.first_entry; i < block.first_entry + block.num_entries; ++i) {
-      const double* row = entries_[i].row;
-      z[dofs_[i]] +=
-          row[0] * block.impulse[0] + row[1] * block.impulse[1] + row[2] * block.impulse[2];
+    enter(block.chain, z);
+    const int count = num_pairs_of(block.chain);
+    const EntryPair* entries = block.entries;
+    for (int i = 0; i < count; ++i) {
+      local[i] += entries[i] * block.impulse[0] + entries[count + i] * block.impulse[1] +
+                  entries[2 * count + i] * block.impulse[2];
     }
   }
   for (const JointRow& row : rows_) {
-    for (int i = row.first_entry; i < row.first_entry + row.num_entries; ++i) {
-      z[dofs_[i]] += entries_[i].row[0] * row.apply * row.impulse;
-    }
+    enter(row.chain, z);
+    const double applied = row.apply * row.impulse;
+    for (int i = 0; i < row.num_pairs; ++i) local[i] += row.entries[i] * applied;
   }
+  leave(z);
 }
 
-double ConstraintSolver::solve_block(ContactBlock& block, double normal_impulse, double* z) const {
-  const RowEntry* entries = &entries_[block.first_entry];
-  const int* dofs = &dofs_[block.first_entry];
+double ConstraintSolver::solve_block(ContactBlock& block, int count, double normal_impulse,
+                                     EntryPair* z) {
+  const EntryPair* row_n = block.entries;
+  const EntryPair* row_x = row_n + count;
+  const EntryPair* row_y = row_x + count;
   // Velocities of the rows, J u = y . z.
-  double v[4] = {0, 0, 0, 0};
-  // The fourth lane is padding that is always 0; four lanes make one vector instruction.
-  for (int i = 0; i < block.num_entries; ++i) {
-    const double value = z[dofs[i]];
-    for (int lane = 0; lane < 4; ++lane) v[lane] += entries[i].row[lane] * value;
+  EntryPair sum_n = row_n[0] * z[0];
+  EntryPair sum_x = row_x[0] * z[0];
+  EntryPair sum_y = row_y[0] * z[0];
+  for (int i = 1; i < count; ++i) {
+    sum_n += row_n[i] * z[i];
+    sum_x += row_x[i] * z[i];
+    sum_y += row_y[i] * z[i];
   }
-  double change[4] = {0, 0, 0, 0};
+  const double vn = sum_n.sum();
+  double vx = sum_x.sum();
+  double vy = sum_y.sum();
+  double change_n = 0;
   // A rolling block has no normal impulse of its own: it takes that of the pressing block before.
   // Radius of the friction cone.
   double bound = block.friction * normal_impulse;
@@ -120,29 +180,23 @@ double ConstraintSolver::solve_block(ContactBlock& block, double normal_impulse,
     // Torsional (spinning) resistance about the normal: brings the rotation about the normal to 0,
     // with a torque impulse of at most `limit`.
     const double limit = block.spinning * normal_impulse;
-    const double unbounded = block.impulse[0] - (v[0] + block.bias[0]) * block.normal_inverse;
-    change[0] = std::clamp(unbounded, -limit, limit) - block.impulse[0];
+    const double unbounded = block.impulse[0] - (vn + block.bias[0]) * block.normal_inverse;
+    change_n = std::clamp(unbounded, -limit, limit) - block.impulse[0];
   } else {
     // Residual of the complementarity problem's equality v + softness * p + bias = 0, and one
     // Gauss-Seidel step with the diagonal entry; projection on p >= 0 opens the contact.
-    const double residual = v[0] + block.normal_softness * block.impulse[0] + block.bias[0];
+    const double residual = vn + block.normal_softness * block.impulse[0] + block.bias[0];
     const double normal = std::max(0.0, block.impulse[0] - residual * block.normal_inverse);
-    change[0] = normal - block.impulse[0];
+    change_n = normal - block.impulse[0];
     // The cone of the new normal impulse, not of the last iteration's.
     bound = block.friction * normal;
     // The change of the normal impulse changes the tangential velocities.
-    double coupling[2] = {0, 0};
-    for (int i = 0; i < block.num_entries; ++i) {
-      const double scaled = entries[i].row[0] * change[0];
-      coupling[0] += entries[i].row[1] * scaled;
-      coupling[1] += entries[i].row[2] * scaled;
-    }
-    v[1] += coupling[0];
-    v[2] += coupling[1];
+    vx += block.coupling[0] * change_n;
+    vy += block.coupling[1] * change_n;
   }
   // Tangential impulse that would stop the sliding: Newton step with the 2 x 2 block.
-  const double rx = v[1] + block.tangent_softness * block.impulse[1] + block.bias[1];
-  const double ry = v[2] + block.tangent_softness * block.impulse[2] + block.bias[2];
+  const double rx = vx + block.tangent_softness * block.impulse[1] + block.bias[1];
+  const double ry = vy + block.tangent_softness * block.impulse[2] + block.bias[2];
   double x = block.impulse[1] - (block.tangent_inverse[0] * rx + block.tangent_inverse[1] * ry);
   double y = block.impulse[2] - (block.tangent_inverse[1] * rx + block.tangent_inverse[2] * ry);
   if (x * x + y * y > bound * bound) {
@@ -161,25 +215,22 @@ double ConstraintSolver::solve_block(ContactBlock& block, double normal_impulse,
   }
   // The new impulses are known; z takes their change, so that the next row sees it (Gauss-Seidel,
   // in contrast to Jacobi).
-  change[1] = x - block.impulse[1];
-  change[2] = y - block.impulse[2];
-  for (int i = 0; i < block.num_entries; ++i) {
-    const double* row = entries[i].row;
-    z[dofs[i]] += row[0] * change[0] + row[1] * change[1] + row[2] * change[2];
+  const double change_x = x - block.impulse[1];
+  const double change_y = y - block.impulse[2];
+  for (int i = 0; i < count; ++i) {
+    z[i] += row_n[i] * change_n + row_x[i] * change_x + row_y[i] * change_y;
   }
-  for (int k = 0; k < 3; ++k) block.impulse[k] += change[k];
+  block.impulse += Eigen::Vector3d(change_n, change_x, change_y);
   // The change of impulse in terms of velocity: by how much the rows were off.
-  const double tangent = (std::abs(change[1]) + std::abs(change[2])) /
-                         std::max(block.tangent_inverse[0], block.tangent_inverse[2]);
-  return std::max(std::abs(change[0]) / block.normal_inverse, tangent);
+  const double tangent = (std::abs(change_x) + std::abs(change_y)) * block.tangent_scale;
+  return std::max(std::abs(change_n) * block.normal_scale, tangent);
 }
 
-double ConstraintSolver::solve_row(JointRow& row, double* z) const {
-  const RowEntry* entries = &entries_[row.first_entry];
-  const int* dofs = &dofs_[row.first_entry];
-  // J u = y . z; a joint row has one direction, so that only lane 0 counts.
-  double velocity = 0;
-  for (int i = 0; i < row.num_entries; ++i) velocity += entries[i].row[0] * z[dofs[i]];
+double ConstraintSolver::solve_row(JointRow& row, EntryPair* z) {
+  const EntryPair* entries = row.entries;
+  const int count = row.num_pairs;
+  // J u = y . z.
+  const double velocity = dot(entries, z, count);
   const double residual = row.measure * velocity + row.softness * row.impulse + row.bias;
   // Gauss-Seidel step on the row's own impulse, projected onto [lower, upper].
   const double impulse = std::clamp(row.impulse - residual * row.inverse, row.lower, row.upper);
@@ -187,27 +238,35 @@ double ConstraintSolver::solve_row(JointRow& row, double* z) const {
   if (change == 0) return 0;
   row.impulse = impulse;
   const double applied = row.apply * change;
-  for (int i = 0; i < row.num_entries; ++i) z[dofs[i]] += entries[i].row[0] * applied;
-  return std::abs(change) / row.inverse;
+  for (int i = 0; i < count; ++i) z[i] += entries[i] * applied;
+  return std::abs(change) * row.scale;
 }
 
 // Joint rows first: torque bounds and dry friction settle before contacts see the velocities, and a
 // rolling block follows the pressing block that gives its normal impulse. Stops at the first
 // iteration that changes no row's velocity by more than the tolerance. Without convergence the last
 // iterate is taken: it satisfies all bounds, only velocities are off by the residual.
-int ConstraintSolver::solve(Eigen::VectorXd& z, const Options& options) {
+int ConstraintSolver::solve(Eigen::VectorXd& scaled_velocity, const Options& options) {
   if (blocks_.empty() && rows_.empty()) return 0;
-  for (int iteration = 1; iteration <= options.max_iterations; ++iteration) {
-    double worst = 0;
-    for (JointRow& row : rows_) worst = std::max(worst, solve_row(row, z.data()));
+  double* z = scaled_velocity.data();
+  int iteration = 0;
+  double worst = 0;
+  do {
+    worst = 0;
+    for (JointRow& row : rows_) {
+      enter(row.chain, z);
+      worst = std::max(worst, solve_row(row, local_.data()));
+    }
     double normal_impulse = 0;
     for (ContactBlock& block : blocks_) {
-      worst = std::max(worst, solve_block(block, normal_impulse, z.data()));
+      enter(block.chain, z);
+      worst = std::max(
+          worst, solve_block(block, num_pairs_of(block.chain), normal_impulse, local_.data()));
       normal_impulse = block.impulse[0];
     }
-    if (worst < options.tolerance) return iteration;
-  }
-  return options.max_iterations;
+  } while (++iteration < options.max_iterations && !(worst < options.tolerance));
+  leave(z);
+  return iteration;
 }
 
 }  // namespace nao::sim

@@ -5,12 +5,14 @@
 
 namespace nao::sim {
 
-/** Part of one degree of freedom in the three rows of a contact block, or (row[0]) in a joint row:
- * entries of L^-T J^T, where J is the rows' Jacobian and M = L^T L the mass matrix with its
- * implicit diagonal. The fourth lane is padding for vector instructions. */
-struct alignas(32) RowEntry {
-  double row[4] = {0, 0, 0, 0};
-};
+/** Two entries of a row, for two degrees of freedom one after the other: one vector instruction
+ * works on both. A row of an odd number of entries ends with a 0. */
+using EntryPair = Eigen::Array2d;
+
+/** Pairs of a row that has `count` entries. */
+constexpr int num_pairs(int count) {
+  return (count + 1) / 2;
+}
 
 /** Three rows of a contact: two bodies that press on each other at a point, or roll on each other.
  *
@@ -24,8 +26,11 @@ struct alignas(32) RowEntry {
  * Rolling: the rows are relative angular velocities about the normal and the tangents. The impulses
  * are bounded by `spinning` and `friction` (m) times the normal impulse of the block before. */
 struct ContactBlock {
-  int first_entry = 0;
-  int num_entries = 0;
+  /** The solver's chain of degrees of freedom that the rows act on. */
+  int chain = -1;
+  /** Entries of L^-T J^T, where J is the rows' Jacobian and M = L^T L the mass matrix with its
+   * implicit diagonal: row by row, for all dofs of the chain. */
+  const EntryPair* entries = nullptr;
   bool is_rolling = false;
   /** Coulomb's coefficient, or of a rolling block its lever arm, m. */
   double friction = 0;
@@ -39,12 +44,17 @@ struct ContactBlock {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
 
   // Filled in by the solver.
-  /** 1 / (J M^-1 J^T + softness) of the normal row. */
+  /** J M^-1 J^T + softness of the normal row, and its inverse. */
+  double normal_scale = 0;
   double normal_inverse = 0;
+  /** Entries of J M^-1 J^T of the normal row with the tangential ones. */
+  double coupling[2] = {0, 0};
   /** Inverse of the tangential 2 x 2 block of J M^-1 J^T + softness: xx, xy, yy. */
   double tangent_inverse[3] = {0, 0, 0};
   /** 1 / the larger eigenvalue of that block. */
   double tangent_step = 0;
+  /** 1 / the larger diagonal entry of its inverse: change of velocity for a change of impulse. */
+  double tangent_scale = 0;
 };
 
 /** A row on one joint: a stop, dry friction, or a motor at its torque limit.
@@ -52,8 +62,11 @@ struct ContactBlock {
  * The impulse p acts along `apply` (+1 or -1) on the joint and stays in lower..upper; strictly
  * inside, measure * v + softness * p + bias = 0 for the joint's velocity v. */
 struct JointRow {
-  int first_entry = 0;
-  int num_entries = 0;
+  /** The solver's chain of degrees of freedom; the row acts on the first ones, and has entries of
+   * L^-T J^T for these. */
+  int chain = -1;
+  int num_pairs = 0;
+  const EntryPair* entries = nullptr;
   double apply = 1;
   double measure = 1;
   /** rad/s per N m s, and rad/s. */
@@ -65,7 +78,8 @@ struct JointRow {
   double impulse = 0;
 
   // Filled in by the solver.
-  /** 1 / (J M^-1 J^T + softness). */
+  /** J M^-1 J^T + softness, and its inverse. */
+  double scale = 0;
   double inverse = 0;
 };
 
@@ -79,7 +93,11 @@ struct JointRow {
  *
  * The unknown is z = L u, the generalized velocity u scaled by the mass matrix's factor: an impulse
  * p of a row with entries y = L^-T J^T changes z by y p, and J u = y . z, so that no row needs
- * M^-1. The caller gets u = L^-1 z. Memory is taken once, in reserve(). */
+ * M^-1. The caller gets u = L^-1 z. Memory is taken once, in reserve().
+ *
+ * Rows that follow each other and act on the same chain of degrees of freedom, such as the contacts
+ * of a foot and the joints of a limb, work on a copy of the chain's part of z, which is contiguous.
+ */
 class ConstraintSolver {
  public:
   struct Options {
@@ -88,17 +106,18 @@ class ConstraintSolver {
     double tolerance = 1e-5;
   };
 
-  /** Takes memory. @param max_blocks, max_rows, max_entries  Most that a step may add. */
-  void reserve(int max_blocks, int max_rows, int max_entries);
+  /** Takes memory. @param max_blocks, max_rows, max_chains, max_pairs  Most that a step may add.
+   * @param max_chain  Most dofs of a chain. */
+  void reserve(int max_blocks, int max_rows, int max_chains, int max_chain, int max_pairs);
 
   /** Removes all constraints. */
   void clear();
 
-  /** Adds entries for a dof each and returns the first's index, or -1 if memory is used up. */
-  int add_entries(int count);
-  /** Index of an entry's degree of freedom in the scaled velocity. */
-  int& dof(int entry) { return dofs_[entry]; }
-  RowEntry& entry(int entry) { return entries_[entry]; }
+  /** Adds a chain of degrees of freedom. @param first_dof  Is added to each: the result are indices
+   * in the scaled velocity. @return Index, or -1 without memory. */
+  int add_chain(const int* dofs, int count, int first_dof);
+  /** Memory for entries, or null if it is used up. */
+  EntryPair* add_entries(int num_pairs);
 
   /** Adds a constraint; its entries must be complete. @return Index, or -1 without memory. */
   int add_block(const ContactBlock& block);
@@ -108,7 +127,7 @@ class ConstraintSolver {
 
   /** Applies the start values to the scaled velocity. Call once, before solve(); rows added later
    * must start at impulse 0. */
-  void warm_start(Eigen::VectorXd& scaled_velocity) const;
+  void warm_start(Eigen::VectorXd& scaled_velocity);
   /** Iterates until converged. @return Number of iterations. */
   int solve(Eigen::VectorXd& scaled_velocity, const Options& options);
 
@@ -116,16 +135,31 @@ class ConstraintSolver {
   const std::vector<JointRow>& rows() const { return rows_; }
 
  private:
+  struct Chain {
+    int first = 0;
+    int count = 0;
+  };
+
+  int num_pairs_of(int chain) const { return num_pairs(chains_[chain].count); }
+  /** Lets local_ be the part of z that belongs to a chain. */
+  void enter(int chain, double* z);
+  /** Writes local_ back to z. */
+  void leave(double* z);
   /** Solve one constraint. @param normal_impulse  Of the block before, N s; for rolling blocks.
-   * @return By how much its velocity was off, m/s or rad/s. */
-  double solve_block(ContactBlock& block, double normal_impulse, double* z) const;
-  double solve_row(JointRow& row, double* z) const;
+   * @param z  Of its chain. @return By how much its velocity was off, m/s or rad/s. */
+  static double solve_block(ContactBlock& block, int num_pairs, double normal_impulse,
+                            EntryPair* z);
+  static double solve_row(JointRow& row, EntryPair* z);
 
   std::vector<ContactBlock> blocks_;
   std::vector<JointRow> rows_;
-  std::vector<RowEntry> entries_;
-  std::vector<int> dofs_;
+  std::vector<Chain> chains_;
+  std::vector<int> chain_dofs_;
+  std::vector<EntryPair> entries_;
   int num_entries_ = 0;
+  std::vector<EntryPair> local_;
+  /** Chain that local_ belongs to; -1: none. */
+  int entered_ = -1;
 };
 
 }  // namespace nao::sim

@@ -35,6 +35,9 @@ struct ContactMemory {
   Eigen::Vector3d spring_deflection = Eigen::Vector3d::Zero();
   /** The last step in which the contact was a constraint. */
   int64_t last_step = -2;
+  /** Direction from b to a in which two shapes were apart when their distance was measured last, in
+   * W; 0 if it never was. */
+  Eigen::Vector3d separating_axis = Eigen::Vector3d::Zero();
 };
 
 /** Two surfaces that are expected to be closer than the contact margin after the step. */

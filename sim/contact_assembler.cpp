@@ -1,8 +1,8 @@
 #include "sim/contact_assembler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
 
 namespace nao::sim {
 namespace {
@@ -33,11 +33,15 @@ const Matrix3d kFloorFrame = (Matrix3d() << 0, 1, 0, 0, 0, 1, 1, 0, 0).finished(
 ContactAssembler::ContactAssembler(MovingBodies& bodies, const WorldOptions& options)
     : bodies_(bodies), options_(options) {}
 
-void ContactAssembler::reserve(int max_contacts, int num_dofs) {
+void ContactAssembler::reserve(int max_contacts, int num_dofs, int max_chain) {
   active_.reserve(max_contacts);
   contacts_.reserve(max_contacts);
-  position_.assign(num_dofs, -1);
-  union_dofs_.reserve(num_dofs);
+  // Of a ball if there is no robot.
+  const int most = num_pairs(std::max(max_chain, 6));
+  body_rows_.rows.resize(6 * most);
+  surface_rows_.resize(3 * most);
+  dofs_.reserve(4 * most);
+  place_.assign(num_dofs, -1);
 }
 
 void ContactAssembler::clear() {
@@ -49,6 +53,7 @@ void ContactAssembler::clear() {
 void ContactAssembler::begin_step(int64_t step_number) {
   step_number_ = step_number;
   active_.clear();
+  body_rows_.robot = -1;
 }
 
 // Coulomb's coefficient of a pair of surfaces. The ball is always surface a, and its coefficient
@@ -98,9 +103,7 @@ bool ContactAssembler::add(const ContactCandidate& candidate, ConstraintSolver& 
   const bool is_level = candidate.b.kind == Surface::Kind::kFloor && normal.z() == 1;
   contact.frame = is_level ? kFloorFrame : frame_of(normal);
   ContactBlock block;
-  block.first_entry = solver.add_entries(0);
-  block.num_entries = add_entries(contact, solver);
-  if (block.num_entries < 0) return false;
+  if (!set_entries(contact, block, solver)) return false;
   block.friction = friction_between(candidate.a, candidate.b, bodies_, options_.materials);
   set_normal_law(candidate, block);
 
@@ -133,69 +136,121 @@ bool ContactAssembler::add(const ContactCandidate& candidate, ConstraintSolver& 
   return true;
 }
 
-int ContactAssembler::add_entries(const ActiveContact& contact, ConstraintSolver& solver) {
+bool ContactAssembler::set_entries(const ActiveContact& contact, ContactBlock& block,
+                                   ConstraintSolver& solver) {
   const ContactCandidate& candidate = *contact.candidate;
-  const bool is_self_contact = candidate.a.kind == Surface::Kind::kRobot &&
-                               candidate.b.kind == Surface::Kind::kRobot &&
-                               candidate.a.robot == candidate.b.robot;
-  // The Jacobian's row of a contact between two trees has entries of both, which do not overlap;
-  // within one tree the chains share the root, see add_self_contact_entries().
-  if (is_self_contact) return add_self_contact_entries(contact, solver);
-  const int count = add_surface_entries(candidate.a, candidate.body_a, 1, contact, solver);
-  if (count < 0 || candidate.b.kind != Surface::Kind::kRobot) return count;
-  const int more = add_surface_entries(candidate.b, candidate.body_b, -1, contact, solver);
-  return more < 0 ? -1 : count + more;
+  const bool is_of_one_body =
+      candidate.a.kind == Surface::Kind::kRobot && candidate.b.kind != Surface::Kind::kRobot;
+  return is_of_one_body ? set_entries_of_body(contact, block, solver)
+                        : set_entries_of_two(contact, block, solver);
 }
 
-int ContactAssembler::add_surface_entries(const Surface& surface, int body, double sign,
-                                          const ActiveContact& contact, ConstraintSolver& solver) {
-  const Vector3d& point = contact.candidate->proximity.point;
-  if (surface.kind == Surface::Kind::kBall) {
-    return bodies_.ball->add_contact_entries(sign, point, contact.frame, solver);
+ContactAssembler::BodyRows& ContactAssembler::rows_of_body(int robot, int body) {
+  // Contacts of a body follow each other.
+  if (body_rows_.robot != robot || body_rows_.body != body) {
+    body_rows_.robot = robot;
+    body_rows_.body = body;
+    body_rows_.chain = -1;
+    bodies_.robots[robot]->dynamics().calc_body_rows(body, body_rows_.rows.data());
   }
-  // Entries y = L^-T J^T for the dofs of the chain from the root to the body. Fill-in stays within
-  // the chain, as all its ancestors are in it.
-  const SimRobot& robot = *bodies_.robots[surface.robot];
-  const std::vector<int>& chain = robot.tree().bodies()[body].chain;
-  const int count = static_cast<int>(chain.size());
-  const int first = solver.add_entries(count);
-  if (first < 0) return -1;
-  for (int k = 0; k < count; ++k) {
-    position_[chain[k]] = k;
-    solver.dof(first + k) = robot.first_dof() + chain[k];
-    solver.entry(first + k) = RowEntry();
-  }
-  robot.dynamics().add_jacobian(body, point, contact.frame, sign, position_.data(),
-                                &solver.entry(first));
-  robot.dynamics().solve_upper(chain.data(), count, position_.data(), &solver.entry(first));
-  return count;
+  return body_rows_;
 }
 
-int ContactAssembler::add_self_contact_entries(const ActiveContact& contact,
-                                               ConstraintSolver& solver) {
-  // Both bodies belong to one tree: the row has entries for the dofs of either chain.
+namespace {
+
+/** Rows of the velocity of a body's point along the axes of a frame. @param rows  Of the body's
+ * spatial velocity. @param arm  From the point that they are about to the point, m. */
+void calc_point_rows(const EntryPair* rows, int count, const Vector3d& arm, const Matrix3d& frame,
+                     EntryPair* result) {
+  for (int i = 0; i < count; ++i) {
+    const EntryPair wx = rows[i];
+    const EntryPair wy = rows[count + i];
+    const EntryPair wz = rows[2 * count + i];
+    // v + w x arm
+    const EntryPair x = rows[3 * count + i] + wy * arm.z() - wz * arm.y();
+    const EntryPair y = rows[4 * count + i] + wz * arm.x() - wx * arm.z();
+    const EntryPair z = rows[5 * count + i] + wx * arm.y() - wy * arm.x();
+    for (int k = 0; k < 3; ++k) {
+      result[k * count + i] = frame(0, k) * x + frame(1, k) * y + frame(2, k) * z;
+    }
+  }
+}
+
+}  // namespace
+
+bool ContactAssembler::set_entries_of_body(const ActiveContact& contact, ContactBlock& block,
+                                           ConstraintSolver& solver) {
   const ContactCandidate& candidate = *contact.candidate;
   const SimRobot& robot = *bodies_.robots[candidate.a.robot];
-  const std::vector<int>& chain_a = robot.tree().bodies()[candidate.body_a].chain;
-  const std::vector<int>& chain_b = robot.tree().bodies()[candidate.body_b].chain;
-  union_dofs_.clear();
-  std::set_union(chain_a.begin(), chain_a.end(), chain_b.begin(), chain_b.end(),
-                 std::back_inserter(union_dofs_));
-  const int count = static_cast<int>(union_dofs_.size());
-  const int first = solver.add_entries(count);
-  if (first < 0) return -1;
-  for (int k = 0; k < count; ++k) {
-    position_[union_dofs_[k]] = k;
-    solver.dof(first + k) = robot.first_dof() + union_dofs_[k];
-    solver.entry(first + k) = RowEntry();
+  const std::vector<int>& dofs = robot.tree().bodies()[candidate.body_a].chain;
+  const int count = num_pairs(static_cast<int>(dofs.size()));
+  BodyRows& body = rows_of_body(candidate.a.robot, candidate.body_a);
+  if (body.chain < 0)
+    body.chain = solver.add_chain(dofs.data(), static_cast<int>(dofs.size()), robot.first_dof());
+  EntryPair* entries = body.chain < 0 ? nullptr : solver.add_entries(3 * count);
+  if (entries == nullptr) return false;
+  calc_point_rows(body.rows.data(), count, candidate.proximity.point - robot.dynamics().origin(),
+                  contact.frame, entries);
+  block.chain = body.chain;
+  block.entries = entries;
+  return true;
+}
+
+// Two bodies of one robot share a part of their chains, which both contribute to; or one body is
+// the ball, and the other one of a robot or nothing that moves.
+bool ContactAssembler::set_entries_of_two(const ActiveContact& contact, ContactBlock& block,
+                                          ConstraintSolver& solver) {
+  const ContactCandidate& candidate = *contact.candidate;
+  dofs_.clear();
+  append_dofs(candidate.a, candidate.body_a);
+  append_dofs(candidate.b, candidate.body_b);
+  std::sort(dofs_.begin(), dofs_.end());
+  dofs_.erase(std::unique(dofs_.begin(), dofs_.end()), dofs_.end());
+  for (size_t i = 0; i < dofs_.size(); ++i) place_[dofs_[i]] = static_cast<int>(i);
+  const int count = num_pairs(static_cast<int>(dofs_.size()));
+  const int chain = solver.add_chain(dofs_.data(), static_cast<int>(dofs_.size()), 0);
+  EntryPair* entries = chain < 0 ? nullptr : solver.add_entries(3 * count);
+  if (entries == nullptr) return false;
+  std::fill(entries, entries + 3 * count, EntryPair::Zero());
+  add_surface_entries(candidate.a, candidate.body_a, 1, contact, count, entries);
+  add_surface_entries(candidate.b, candidate.body_b, -1, contact, count, entries);
+  block.chain = chain;
+  block.entries = entries;
+  return true;
+}
+
+void ContactAssembler::append_dofs(const Surface& surface, int body) {
+  if (surface.kind == Surface::Kind::kBall) {
+    for (int i = 0; i < 6; ++i) dofs_.push_back(bodies_.ball->first_dof() + i);
   }
-  RowEntry* entries = &solver.entry(first);
-  const TreeDynamics& dynamics = robot.dynamics();
-  const Vector3d& point = candidate.proximity.point;
-  dynamics.add_jacobian(candidate.body_a, point, contact.frame, 1, position_.data(), entries);
-  dynamics.add_jacobian(candidate.body_b, point, contact.frame, -1, position_.data(), entries);
-  dynamics.solve_upper(union_dofs_.data(), count, position_.data(), entries);
-  return count;
+  if (surface.kind != Surface::Kind::kRobot) return;
+  const SimRobot& robot = *bodies_.robots[surface.robot];
+  for (const int dof : robot.tree().bodies()[body].chain) dofs_.push_back(robot.first_dof() + dof);
+}
+
+void ContactAssembler::add_surface_entries(const Surface& surface, int body, double sign,
+                                           const ActiveContact& contact, int count,
+                                           EntryPair* entries) {
+  const Vector3d& point = contact.candidate->proximity.point;
+  const auto add = [&](const auto& dofs, int first_dof) {
+    const int num_dofs = static_cast<int>(dofs.size());
+    for (int k = 0; k < 3; ++k) {
+      const double* from = surface_rows_[k * num_pairs(num_dofs)].data();
+      double* to = entries[k * count].data();
+      for (int i = 0; i < num_dofs; ++i) to[place_[first_dof + dofs[i]]] += sign * from[i];
+    }
+  };
+  if (surface.kind == Surface::Kind::kBall) {
+    bodies_.ball->calc_contact_rows(point, contact.frame, surface_rows_.data());
+    add(std::array<int, 6>{0, 1, 2, 3, 4, 5}, bodies_.ball->first_dof());
+  }
+  if (surface.kind != Surface::Kind::kRobot) return;
+  const SimRobot& robot = *bodies_.robots[surface.robot];
+  const std::vector<int>& dofs = robot.tree().bodies()[body].chain;
+  calc_point_rows(rows_of_body(surface.robot, body).rows.data(),
+                  num_pairs(static_cast<int>(dofs.size())), point - robot.dynamics().origin(),
+                  contact.frame, surface_rows_.data());
+  add(dofs, robot.first_dof());
 }
 
 void ContactAssembler::update_spring(const ActiveContact& contact, const ContactBlock& block) {

@@ -34,8 +34,9 @@ class ContactAssembler {
   /** @param bodies  Must outlive this. */
   ContactAssembler(MovingBodies& bodies, const WorldOptions& options);
 
-  /** Takes memory. @param num_dofs  Of all bodies. */
-  void reserve(int max_contacts, int num_dofs);
+  /** Takes memory. @param num_dofs  Of all bodies. @param max_chain  Most dofs between a root and a
+   * body of its robot. */
+  void reserve(int max_contacts, int num_dofs, int max_chain);
 
   /** Forgets the last step's contacts. */
   void clear();
@@ -63,12 +64,28 @@ class ContactAssembler {
     double deflection_to_bias = 0;
   };
 
+  /** What a robot's body contributes to the rows of all its contacts in a step. */
+  struct BodyRows {
+    int robot = -1;
+    int body = -1;
+    /** The solver's chain, -1 if there is none yet. */
+    int chain = -1;
+    /** See TreeDynamics::calc_body_rows(). */
+    std::vector<EntryPair> rows;
+  };
+
   void set_normal_law(const ContactCandidate& candidate, ContactBlock& block) const;
-  /** @return Number of entries, or -1 if the solver's memory is used up. */
-  int add_entries(const ActiveContact& contact, ConstraintSolver& solver);
-  int add_surface_entries(const Surface& surface, int body, double sign,
-                          const ActiveContact& contact, ConstraintSolver& solver);
-  int add_self_contact_entries(const ActiveContact& contact, ConstraintSolver& solver);
+  /** Sets chain and entries of a contact's rows. @return false if the solver's memory is used up.
+   */
+  bool set_entries(const ActiveContact& contact, ContactBlock& block, ConstraintSolver& solver);
+  bool set_entries_of_body(const ActiveContact& contact, ContactBlock& block,
+                           ConstraintSolver& solver);
+  bool set_entries_of_two(const ActiveContact& contact, ContactBlock& block,
+                          ConstraintSolver& solver);
+  void append_dofs(const Surface& surface, int body);
+  void add_surface_entries(const Surface& surface, int body, double sign,
+                           const ActiveContact& contact, int num_pairs, EntryPair* entries);
+  BodyRows& rows_of_body(int robot, int body);
   void update_spring(const ActiveContact& contact, const ContactBlock& block);
 
   MovingBodies& bodies_;
@@ -77,9 +94,13 @@ class ContactAssembler {
   std::vector<ActiveContact> active_;
   std::vector<Contact> contacts_;
   double elastic_energy_ = 0;
-  /** Workspace: entry of each of a robot's dofs in the block that is built; dofs of two chains. */
-  std::vector<int> position_;
-  std::vector<int> union_dofs_;
+  /** Of the body whose contact was assembled last. */
+  BodyRows body_rows_;
+  /** Workspace for a contact of two bodies that move: their dofs, place of each dof among them, and
+   * the rows of one body. */
+  std::vector<int> dofs_;
+  std::vector<int> place_;
+  std::vector<EntryPair> surface_rows_;
 };
 
 }  // namespace nao::sim

@@ -16,6 +16,14 @@ constexpr double kReach = 0.03;
  * where the part's center will be: 1 + 300 rad/s (the largest rate that a valid state has) times
  * 2 ms. */
 constexpr double kMaxSweptRadius = 1.6;
+/** By how much parts must be farther apart along an axis than they may approach each other, m, for
+ * their distance not to be measured. Chosen: far above rounding, so that no contact is missed. */
+constexpr double kApartMargin = 1e-6;
+
+/** Half the extent of a shape along a unit axis, m. */
+double half_extent(const RoundedBox& shape, const Vector3d& axis) {
+  return (shape.rotation.transpose() * axis).cwiseAbs().dot(shape.half) + shape.radius;
+}
 
 template <class Memories>
 void forget(Memories& memories) {
@@ -40,6 +48,10 @@ void ContactDetector::add_robot() {
   RobotMemory memory;
   memory.floor.resize(model.points.size());
   memory.self.resize(model.self_pairs.size());
+  for (const auto& [a, b] : model.self_pairs) {
+    const double reach = model.parts[a].bounding_radius + model.parts[b].bounding_radius + kMargin;
+    memory.self_reach.push_back(reach * reach);
+  }
   memory.statics.resize(num_parts * statics_.size());
   memory.ball.resize(num_parts);
   robot_memory_.push_back(std::move(memory));
@@ -109,6 +121,29 @@ const RoundedBox& ContactDetector::part_shape(int robot, int index) {
     placed.has_rotation = true;
   }
   return placed.shape;
+}
+
+bool ContactDetector::are_apart(int robot_a, int index_a, int robot_b, int index_b,
+                                const ContactMemory& memory) {
+  const Vector3d& axis = memory.separating_axis;
+  const RoundedBox& a = part_shape(robot_a, index_a);
+  const RoundedBox& b = part_shape(robot_b, index_b);
+  // A lower bound of the distance; negative where there is no axis yet.
+  const double separation =
+      axis.dot(a.center - b.center) - half_extent(a, axis) - half_extent(b, axis);
+  if (!(separation > kMargin + kApartMargin)) return false;
+  // Upper bound of the approach speed at the point of contact, which is in the middle between the
+  // surfaces: at most half of kReach away from part a.
+  const CollisionModel::Part& part_a = bodies_.robots[robot_a]->collisions().parts[index_a];
+  const CollisionModel::Part& part_b = bodies_.robots[robot_b]->collisions().parts[index_b];
+  const TreeDynamics& dynamics_a = bodies_.robots[robot_a]->dynamics();
+  const TreeDynamics& dynamics_b = bodies_.robots[robot_b]->dynamics();
+  const Vector3d moving =
+      dynamics_a.velocity_at(part_a.body, a.center) - dynamics_b.velocity_at(part_b.body, a.center);
+  const Vector3d turning =
+      dynamics_a.angular_velocity(part_a.body) - dynamics_b.angular_velocity(part_b.body);
+  const double speed = moving.norm() + turning.norm() * (part_a.bounding_radius + kReach / 2);
+  return separation > kMargin + kApartMargin + step_ * speed;
 }
 
 bool ContactDetector::are_near(int a, int b) const {
@@ -252,21 +287,25 @@ bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& f
 
 void ContactDetector::find_self_contacts(int index, ContactCandidates& found) {
   const CollisionModel& model = bodies_.robots[index]->collisions();
-  for (size_t i = 0; i < model.self_pairs.size(); ++i) {
+  const PlacedPart* placed = placed_[index].data();
+  RobotMemory& memories = robot_memory_[index];
+  const size_t num_pairs = model.self_pairs.size();
+  for (size_t i = 0; i < num_pairs; ++i) {
     const auto [a, b] = model.self_pairs[i];
-    const CollisionModel::Part& part_a = model.parts[a];
-    const CollisionModel::Part& part_b = model.parts[b];
-    const double reach = part_a.bounding_radius + part_b.bounding_radius + kMargin;
-    const Vector3d offset = placed_[index][a].shape.center - placed_[index][b].shape.center;
     // The spheres are a lower bound of the distance: |offset| - r_a - r_b <= distance.
     // Broad phase: bounding spheres that are apart have no closest points to look for.
-    if (offset.squaredNorm() > reach * reach) continue;
+    const Vector3d offset = placed[a].shape.center - placed[b].shape.center;
+    if (offset.squaredNorm() > memories.self_reach[i]) continue;
+    ContactMemory& memory = memories.self[i];
+    if (are_apart(index, a, index, b, memory)) continue;
     // Narrow phase: GJK on the rounded boxes, see robot_model/closest_points.h.
     const Proximity proximity = closest_points(part_shape(index, a), part_shape(index, b));
+    memory.separating_axis = proximity.normal;
     if (proximity.distance > kReach) continue;
+    const CollisionModel::Part& part_a = model.parts[a];
+    const CollisionModel::Part& part_b = model.parts[b];
     add({Surface::Kind::kRobot, index, part_a.link}, part_a.body,
-        {Surface::Kind::kRobot, index, part_b.link}, part_b.body, proximity, -1,
-        robot_memory_[index].self[i], found);
+        {Surface::Kind::kRobot, index, part_b.link}, part_b.body, proximity, -1, memory, found);
   }
 }
 
@@ -281,12 +320,16 @@ void ContactDetector::find_robot_contacts(PairMemory& pair, ContactCandidates& f
       const double reach = parts_a[i].bounding_radius + parts_b[j].bounding_radius + kMargin;
       const Vector3d offset = placed_[pair.a][i].shape.center - placed_[pair.b][j].shape.center;
       if (offset.squaredNorm() > reach * reach) continue;
-      const Proximity proximity = closest_points(part_shape(pair.a, static_cast<int>(i)),
-                                                 part_shape(pair.b, static_cast<int>(j)));
+      const int a = static_cast<int>(i);
+      const int b = static_cast<int>(j);
+      ContactMemory& memory = pair.parts[i * parts_b.size() + j];
+      if (are_apart(pair.a, a, pair.b, b, memory)) continue;
+      const Proximity proximity = closest_points(part_shape(pair.a, a), part_shape(pair.b, b));
+      memory.separating_axis = proximity.normal;
       if (proximity.distance > kReach) continue;
       add({Surface::Kind::kRobot, pair.a, parts_a[i].link}, parts_a[i].body,
-          {Surface::Kind::kRobot, pair.b, parts_b[j].link}, parts_b[j].body, proximity, -1,
-          pair.parts[i * parts_b.size() + j], found);
+          {Surface::Kind::kRobot, pair.b, parts_b[j].link}, parts_b[j].body, proximity, -1, memory,
+          found);
     }
   }
 }

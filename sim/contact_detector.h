@@ -15,7 +15,8 @@ namespace nao::sim {
  * memory of every possible contact.
  *
  * Broad phase: bounding spheres, pair by pair. Narrow phase: against the floor each part's points
- * (CollisionModel::Point), between two parts closest_points(). */
+ * (CollisionModel::Point), between two parts closest_points(), unless the axis along which they
+ * were apart in an earlier step shows that they cannot touch in this one. */
 class ContactDetector {
  public:
   /** Collision margin: a candidate is made when surfaces will be nearer than this after the step,
@@ -67,6 +68,9 @@ class ContactDetector {
   struct RobotMemory {
     std::vector<ContactMemory> floor;
     std::vector<ContactMemory> self;
+    /** Squared distance of the centers of each pair of its own parts beyond which the pair's
+     * bounding spheres are apart, m^2. */
+    std::vector<double> self_reach;
     std::vector<ContactMemory> statics;
     std::vector<ContactMemory> ball;
   };
@@ -79,6 +83,9 @@ class ContactDetector {
 
   void place_parts(int robot);
   const RoundedBox& part_shape(int robot, int part);
+  /** Whether parts of two robots, or of one, cannot touch within the step, as far as the axis tells
+   * along which they were apart. false: their distance is to be measured. */
+  bool are_apart(int robot_a, int part_a, int robot_b, int part_b, const ContactMemory& memory);
   /** Distance and normal between a sphere and the floor. @param center  In W, m. */
   Proximity to_floor(const Eigen::Vector3d& center, double radius) const;
   void find_floor_contacts(int robot, ContactCandidates& found);

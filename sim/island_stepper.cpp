@@ -11,8 +11,8 @@ constexpr int kContactsPerWorld = 64;
 constexpr int kContactsPerRobot = 96;
 /** Rows of one joint at most: stop, dry friction, upper and lower torque bound. */
 constexpr int kRowsPerJoint = 4;
-/** Entries of a ball's contact with the floor: 6, and 3 for rolling resistance. */
-constexpr int kEntriesPerBallContact = 9;
+/** Degrees of freedom of a ball. */
+constexpr int kDofsOfBall = 6;
 /** Times that constraints are added to a solved step at most. Chosen: one is usual in an impact. */
 constexpr int kMaxRounds = 4;
 
@@ -24,13 +24,13 @@ IslandStepper::IslandStepper(MovingBodies& bodies, const WorldOptions& options,
 
 void IslandStepper::reserve(int max_robots, int num_dofs, int max_chain) {
   const int num_contacts = kContactsPerWorld + kContactsPerRobot * max_robots;
-  const int entries_per_contact = std::max(2 * max_chain, kEntriesPerBallContact);
-  // A contact has a block, the ball's with the floor two. All rows of a joint share their entries.
-  solver_.reserve(2 * num_contacts, kRowsPerJoint * num_dofs,
-                  entries_per_contact * num_contacts + num_dofs * max_chain);
+  // Two bodies touch each other. A contact has a block, the ball's with the floor two.
+  const int most_dofs = 2 * std::max(max_chain, kDofsOfBall);
+  solver_.reserve(2 * num_contacts, kRowsPerJoint * num_dofs, 2 * num_contacts + num_dofs,
+                  most_dofs, 3 * num_pairs(most_dofs) * num_contacts);
   candidates_.reserve(num_contacts);
   max_contacts_ = num_contacts;
-  assembler_.reserve(num_contacts, num_dofs);
+  assembler_.reserve(num_contacts, num_dofs, max_chain);
 }
 
 void IslandStepper::reset_count() {

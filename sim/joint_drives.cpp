@@ -52,8 +52,17 @@ JointDrives::JointDrives(const RobotModel& model, const Tree& tree, const RobotO
   }
   last_target_ = Eigen::VectorXd::Zero(num_motors);
   torque_ = Eigen::VectorXd::Zero(num_motors);
-  entry_of_dof_.assign(tree_.num_dofs(), -1);
-  position_in_chain_.assign(tree_.num_dofs(), -1);
+  chain_of_limb_.assign(tree_.num_dofs(), -1);
+  for (int dof = 0; dof < tree_.num_dofs(); ++dof) end_of_limb_.push_back(dof);
+  // Descendants come after a dof: the first one found with the longest chain ends its limb.
+  for (int dof = tree_.num_dofs() - 1; dof >= 0; --dof) {
+    for (int below = dof + 1; below < tree_.num_dofs(); ++below) {
+      const std::vector<int>& above = tree_.dof_ancestors(below);
+      const bool is_below = std::binary_search(above.begin(), above.end(), dof);
+      const size_t longest = tree_.dof_ancestors(end_of_limb_[dof]).size();
+      if (is_below && above.size() > longest) end_of_limb_[dof] = below;
+    }
+  }
 }
 
 double JointDrives::position(int motor, const TreeState& state) const {
@@ -133,7 +142,7 @@ void JointDrives::begin_step(double h, const MotorTargets& targets, TreeIntegrat
         inertia + h * (drive.plan.slope + drive.plan.line + drive.plan.viscosity));
   }
   last_target_ = targets.position;
-  std::fill(entry_of_dof_.begin(), entry_of_dof_.end(), -1);
+  std::fill(chain_of_limb_.begin(), chain_of_limb_.end(), -1);
 }
 
 void JointDrives::plan_free_motor(double h, size_t motor) {
@@ -142,35 +151,29 @@ void JointDrives::plan_free_motor(double h, size_t motor) {
       drive.free_velocity(h, drive.gear.motor_velocity, torque_[static_cast<long>(motor)]);
 }
 
-// Entries L^-T e_dof of a joint's rows: a unit velocity of the joint. All rows of the joint share
-// them; they are computed at most once in a step. Returns the first entry's index, or -1 if memory
-// is used up.
-int JointDrives::add_dof_entries(int dof, const TreeDynamics& dynamics, int first_dof,
-                                 ConstraintSolver& solver) {
-  if (entry_of_dof_[dof] >= 0) return entry_of_dof_[dof];
-  const int count = num_entries(dof);
-  const int first = solver.add_entries(count);
-  if (first < 0) return -1;
-  const std::vector<int>& chain = tree_.bodies()[tree_.body_of_dof(dof)].chain;
-  for (int k = 0; k < count; ++k) {
-    solver.dof(first + k) = first_dof + chain[k];
-    solver.entry(first + k) = RowEntry();
-    position_in_chain_[chain[k]] = k;
+// A row L^-T e_dof: a unit velocity of the joint. Rows of a limb's joints share the chain of its
+// last joint, of which each acts on the first dofs.
+bool JointDrives::set_entries(int dof, const TreeDynamics& dynamics, int first_dof,
+                              ConstraintSolver& solver, JointRow& row) {
+  const int end = end_of_limb_[dof];
+  int& chain = chain_of_limb_[end];
+  if (chain < 0) {
+    const std::vector<int>& dofs = tree_.bodies()[tree_.body_of_dof(end)].chain;
+    chain = solver.add_chain(dofs.data(), static_cast<int>(dofs.size()), first_dof);
+    if (chain < 0) return false;
   }
-  // The unit vector: the joint's own dof is the last of its chain.
-  solver.entry(first + count - 1).row[0] = 1;
-  dynamics.solve_upper(chain.data(), count, position_in_chain_.data(), &solver.entry(first));
-  entry_of_dof_[dof] = first;
-  return first;
+  row.chain = chain;
+  row.num_pairs = num_pairs(static_cast<int>(tree_.dof_ancestors(dof).size()) + 1);
+  row.entries = dynamics.inverse_row(dof);
+  return true;
 }
 
-void JointDrives::add_friction_row(double h, Drive& drive, int first_entry,
-                                   ConstraintSolver& solver) const {
+void JointDrives::add_friction_row(double h, Drive& drive, const TreeDynamics& dynamics,
+                                   int first_dof, ConstraintSolver& solver) {
   // Holds the joint still with an impulse up to h times the dry friction.
   // bias = softness = 0: within its bounds the impulse brings the joint's speed to exactly 0.
   JointRow row;
-  row.first_entry = first_entry;
-  row.num_entries = num_entries(drive.dof);
+  if (!set_entries(drive.dof, dynamics, first_dof, solver, row)) return;
   row.upper = h * drive.motor.dry_friction;
   row.lower = -row.upper;
   row.impulse = drive.friction.impulse;
@@ -193,13 +196,10 @@ void JointDrives::add_stop_row(double h, const TreeState& state, Drive& drive,
     drive.stop.impulse = 0;
     return;
   }
-  const int first = add_dof_entries(drive.dof, dynamics, first_dof, solver);
-  if (first < 0) return;
+  JointRow row;
+  if (!set_entries(drive.dof, dynamics, first_dof, solver, row)) return;
   // Spring and damper, implicit; the same law as a contact's, see ContactAssembler.
   const double strength = h * kStopStiffness + kStopDamping;
-  JointRow row;
-  row.first_entry = first;
-  row.num_entries = num_entries(drive.dof);
   row.apply = row.measure = is_low ? 1 : -1;
   row.softness = 1 / (h * strength);
   row.bias = distance > 0 ? distance / h : kStopStiffness * distance / strength;
@@ -212,8 +212,8 @@ void JointDrives::add_torque_bound(double h, Drive& drive, bool is_upper, bool i
                                    const TreeDynamics& dynamics, int first_dof,
                                    ConstraintSolver& solver) {
   // Without memory the bound is missing in this step, and the motor may exceed its limit in it.
-  const int first = add_dof_entries(drive.dof, dynamics, first_dof, solver);
-  if (first < 0) return;
+  JointRow row;
+  if (!set_entries(drive.dof, dynamics, first_dof, solver, row)) return;
   // The bounded torque is demand - slope * v': the servo's demand u, less back-EMF when braking.
   // The row's impulse p >= 0 takes from it what exceeds the limit: demand - slope * v' - p / h =
   // limit  =>  v' + p / (h slope) + (limit - demand) / slope = 0, and the mirror image for the
@@ -221,9 +221,6 @@ void JointDrives::add_torque_bound(double h, Drive& drive, bool is_upper, bool i
   // emf and line are the two parts of the back-EMF, emf + line * v', see Drive::Plan.
   const double slope = drive.plan.slope + (is_braking ? drive.plan.line : 0);
   const double demand = drive.plan.demand - (is_braking ? drive.plan.emf : 0);
-  JointRow row;
-  row.first_entry = first;
-  row.num_entries = num_entries(drive.dof);
   row.apply = is_upper ? -1 : 1;
   row.measure = is_upper ? 1 : -1;
   row.softness = 1 / (h * slope);
@@ -246,8 +243,7 @@ void JointDrives::add_rows(double h, const TreeState& state, const TreeDynamics&
     if (drive.dof < 0) continue;
     const bool is_engaged = drive.gear.is_engaged();
     if (is_engaged && drive.motor.dry_friction > 0) {
-      const int first = add_dof_entries(drive.dof, dynamics, first_dof, solver);
-      if (first >= 0) add_friction_row(h, drive, first, solver);
+      add_friction_row(h, drive, dynamics, first_dof, solver);
     }
     add_stop_row(h, state, drive, dynamics, first_dof, solver);
     // Without a slope the servo is off, or has no gain at all.

@@ -83,14 +83,14 @@ class JointDrives {
   void end_tick(const Eigen::VectorXd& torque_impulse, const MotorTargets& targets, double period);
 
  private:
-  /** Entries of a row on one degree of freedom, L^-T e_dof; shared by all rows of the dof. @return
-   * The first entry's index, or -1 if the solver's memory is used up. */
-  int add_dof_entries(int dof, const TreeDynamics& dynamics, int first_dof,
-                      ConstraintSolver& solver);
-  int num_entries(int dof) const { return static_cast<int>(tree_.dof_ancestors(dof).size()) + 1; }
+  /** Sets chain and entries of a row on one degree of freedom. @return false if the solver's memory
+   * is used up. */
+  bool set_entries(int dof, const TreeDynamics& dynamics, int first_dof, ConstraintSolver& solver,
+                   JointRow& row);
   void plan_free_motor(double h, size_t motor);
   void end_gear_step(double h, double torque, double speed, Drive& drive) const;
-  void add_friction_row(double h, Drive& drive, int first_entry, ConstraintSolver& solver) const;
+  void add_friction_row(double h, Drive& drive, const TreeDynamics& dynamics, int first_dof,
+                        ConstraintSolver& solver);
   void add_stop_row(double h, const TreeState& state, Drive& drive, const TreeDynamics& dynamics,
                     int first_dof, ConstraintSolver& solver);
   void add_torque_bound(double h, Drive& drive, bool is_upper, bool is_braking,
@@ -103,10 +103,11 @@ class JointDrives {
   Eigen::VectorXd last_target_;
   /** N m. */
   Eigen::VectorXd torque_;
-  /** First entry in the solver of each dof's rows in this step, -1 if there is none. */
-  std::vector<int> entry_of_dof_;
-  /** Workspace: position of each dof in the chain that add_dof_entries() works on. */
-  std::vector<int> position_in_chain_;
+  /** Of each dof, the last dof of its limb: of those that it moves, the one that is moved by most.
+   */
+  std::vector<int> end_of_limb_;
+  /** The solver's chain of each last dof of a limb in this step, -1 if there is none. */
+  std::vector<int> chain_of_limb_;
 };
 
 }  // namespace nao::sim

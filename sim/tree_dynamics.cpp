@@ -1,5 +1,7 @@
 #include "sim/tree_dynamics.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace nao::sim {
@@ -20,11 +22,45 @@ Matrix3d rotation_about(const Vector3d& a, double angle) {
   return r;
 }
 
+// Products written out: the compiler does not inline Eigen's, of which a step computes hundreds.
+
+/** a b. */
+[[gnu::always_inline]] inline Matrix3d product(const Matrix3d& a, const Matrix3d& b) {
+  Matrix3d result;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) {
+      result(i, j) = a(i, 0) * b(0, j) + a(i, 1) * b(1, j) + a(i, 2) * b(2, j);
+    }
+  }
+  return result;
+}
+
+/** a x. */
+[[gnu::always_inline]] inline Vector3d product(const Matrix3d& a, const Vector3d& x) {
+  return {a(0, 0) * x[0] + a(0, 1) * x[1] + a(0, 2) * x[2],
+          a(1, 0) * x[0] + a(1, 1) * x[1] + a(1, 2) * x[2],
+          a(2, 0) * x[0] + a(2, 1) * x[1] + a(2, 2) * x[2]};
+}
+
+/** r s r^T for a rotation r and a symmetric s. */
+[[gnu::always_inline]] inline Matrix3d rotated(const Matrix3d& r, const Matrix3d& s) {
+  const Matrix3d half = product(r, s);
+  Matrix3d result;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      result(i, j) = result(j, i) =
+          half(i, 0) * r(j, 0) + half(i, 1) * r(j, 1) + half(i, 2) * r(j, 2);
+    }
+  }
+  return result;
+}
+
 /** Momentum of a body with a velocity. */
 // Spatial inertia times spatial velocity, both about O: angular momentum I w + h x v and linear
 // momentum m v - h x w, with the first moment h = m c.
-SpatialVector multiply(const SpatialInertia& i, const SpatialVector& v) {
-  return {i.inertia * v.angular + i.moment.cross(v.linear),
+[[gnu::always_inline]] inline SpatialVector multiply(const SpatialInertia& i,
+                                                     const SpatialVector& v) {
+  return {product(i.inertia, v.angular) + i.moment.cross(v.linear),
           i.mass * v.linear - i.moment.cross(v.angular)};
 }
 
@@ -54,18 +90,21 @@ TreeDynamics::TreeDynamics(const Tree& tree, bool is_root_fixed)
     : tree_(tree),
       is_root_fixed_(is_root_fixed),
       num_dofs_(tree.num_dofs()),
-      stride_((tree.num_dofs() + 3) / 4 * 4),
-      bodies_(tree.num_bodies()),
-      mass_(static_cast<size_t>(num_dofs_) * stride_, 0.0),
-      factor_(mass_) {
+      bodies_(tree.num_bodies()) {
+  size_t depth = 0;
   for (int dof = 0; dof < num_dofs_; ++dof) {
-    const std::vector<int>& all = tree.dof_ancestors(dof);
-    // The root's six are dense for every dof and are handled by plain loops over 0..5.
-    joint_ancestors_.emplace_back(all.begin() + std::min<size_t>(6, all.size()), all.end());
+    depth = std::max(depth, tree.dof_ancestors(dof).size());
   }
+  pairs_of_row_ = num_pairs(static_cast<int>(depth) + 1);
+  for (std::vector<EntryPair>* rows : {&mass_, &factor_, &inverse_}) {
+    rows->assign(static_cast<size_t>(num_dofs_) * pairs_of_row_, EntryPair::Zero());
+  }
+  rows_above_.resize(depth);
+  factors_above_.resize(depth);
 }
 
 void TreeDynamics::update_kinematics(const TreeState& state) {
+  has_mass_matrix_ = false;
   // O is the root's origin at this state: all spatial vectors of the step are about this fixed
   // point.
   origin_ = state.position;
@@ -83,15 +122,14 @@ void TreeDynamics::update_kinematics(const TreeState& state) {
       const double angle = body.ratio * state.coordinate[body.dof] + body.offset;
       const Matrix3d turn = rotation_about(body.axis, angle);
       if (body.is_parallel) {
-        now.rotation.noalias() = parent.rotation * turn;
+        now.rotation = product(parent.rotation, turn);
       } else {
-        const Matrix3d fixed = parent.rotation * body.rotation_in_parent;
-        now.rotation.noalias() = fixed * turn;
+        now.rotation = product(product(parent.rotation, body.rotation_in_parent), turn);
       }
       // R_WB = R_WP R_PB(0) R(axis, angle) above, p_WB = p_WP + R_WP p_PB here.
-      now.position = parent.position + parent.rotation * body.origin_in_parent;
+      now.position = parent.position + product(parent.rotation, body.origin_in_parent);
       // The joint's axis is the same in B at all angles.
-      const Vector3d axis = body.ratio * (now.rotation * body.axis);
+      const Vector3d axis = body.ratio * product(now.rotation, body.axis);
       // Spatial motion S of a revolute joint about O: angular part the axis, linear part the
       // velocity of the point at O, which is (p_WB - O) x axis. The ratio is 1 unless the joint is
       // a mimic.
@@ -102,14 +140,18 @@ void TreeDynamics::update_kinematics(const TreeState& state) {
       now.velocity.linear = parent.velocity.linear + rate * now.motion.linear;
     }
     // Inertia about O in W's axes: rotated, and moved by the parallel axis theorem.
-    now.com_from_O = now.rotation * body.center_of_mass + (now.position - origin_);
+    now.com_from_O = product(now.rotation, body.center_of_mass) + (now.position - origin_);
     const Vector3d& c = now.com_from_O;
     now.inertia.mass = body.mass;
     now.inertia.moment = body.mass * c;
-    const Matrix3d turned = now.rotation * body.inertia;
-    now.inertia.inertia.noalias() = turned * now.rotation.transpose();
-    now.inertia.inertia.diagonal().array() += body.mass * c.squaredNorm();
-    now.inertia.inertia.noalias() -= now.inertia.moment * c.transpose();
+    const double square = body.mass * c.squaredNorm();
+    const Matrix3d turned = rotated(now.rotation, body.inertia);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        now.inertia.inertia(i, j) =
+            turned(i, j) + (i == j ? square : 0) - now.inertia.moment[i] * c[j];
+      }
+    }
   }
 }
 
@@ -127,14 +169,13 @@ void TreeDynamics::update_velocities(const TreeState& state) {
 }
 
 void TreeDynamics::update_mass_matrix() {
+  if (has_mass_matrix_) return;
+  has_mass_matrix_ = true;
   // Composite rigid bodies: M(i, j) = S_j . (I_i S_i), where I_i is the inertia of everything that
   // joint i carries, and j is an ancestor of i.
   for (BodyState& now : bodies_) now.composite = now.inertia;
-  // Only entries on and below the diagonal are used; the root's rows are set at the end.
-  for (int dof = 6; dof < num_dofs_; ++dof) {
-    double* row = &mass_[dof * stride_];
-    for (int column = 0; column <= dof; ++column) row[column] = 0;
-  }
+  // The root's rows are set at the end.
+  std::fill(mass_.begin() + 6 * pairs_of_row_, mass_.end(), EntryPair::Zero());
   for (int index = tree_.num_bodies() - 1; index > 0; --index) {
     const TreeBody& body = tree_.bodies()[index];
     const BodyState& now = bodies_[index];
@@ -143,11 +184,14 @@ void TreeDynamics::update_mass_matrix() {
     // ratios in S, is T^T M T of the coupled system.
     // Force for a unit acceleration of this joint.
     const SpatialVector force = multiply(now.composite, now.motion);
-    double* row = &mass_[body.dof * stride_];
-    row[body.dof] += dot(now.motion, force);
+    double* row = row_of(mass_, body.dof);
+    // The body's chain: the root's six, then a joint for each body on the way.
+    auto place = body.chain.size() - 1;
+    row[place] += dot(now.motion, force);
     for (int above = body.parent; above > 0; above = tree_.bodies()[above].parent) {
-      row[tree_.bodies()[above].dof] += dot(bodies_[above].motion, force);
+      row[--place] += dot(bodies_[above].motion, force);
     }
+    if (is_root_fixed_) continue;
     // Row of the joint, columns of the root: for the root S is the unit matrix, so that the entries
     // are the force itself.
     for (int k = 0; k < 3; ++k) {
@@ -157,10 +201,7 @@ void TreeDynamics::update_mass_matrix() {
   }
   if (is_root_fixed_) {
     // The root's rows are those of the unit matrix: it is decoupled from all joints.
-    for (int dof = 0; dof < num_dofs_; ++dof) {
-      double* row = &mass_[dof * stride_];
-      for (int k = 0; k < std::min(dof + 1, 6); ++k) row[k] = k == dof ? 1 : 0;
-    }
+    for (int dof = 0; dof < 6; ++dof) row_of(mass_, dof)[dof] = 1;
     return;
   }
   // The root's block: [I, h x; -h x, m 1] of the whole tree, h its first moment.
@@ -170,10 +211,10 @@ void TreeDynamics::update_mass_matrix() {
   const double linear_angular[3][3] = {{0, h.z(), -h.y()}, {-h.z(), 0, h.x()}, {h.y(), -h.x(), 0}};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) {
-      mass_[i * stride_ + j] = whole.inertia(i, j);
-      mass_[(3 + i) * stride_ + 3 + j] = i == j ? whole.mass : 0;
+      row_of(mass_, i)[j] = whole.inertia(i, j);
+      row_of(mass_, 3 + i)[3 + j] = i == j ? whole.mass : 0;
     }
-    for (int j = 0; j < 3; ++j) mass_[(3 + i) * stride_ + j] = linear_angular[i][j];
+    for (int j = 0; j < 3; ++j) row_of(mass_, 3 + i)[j] = linear_angular[i][j];
   }
 }
 
@@ -221,133 +262,6 @@ void TreeDynamics::calc_bias(const Vector3d& gravity, Eigen::VectorXd& bias) {
   bias.segment<3>(3) = bodies_[0].force.linear;
 }
 
-// The lower triangle serves for both halves: entry (i, j) adds to row i and, by symmetry, to row j.
-void TreeDynamics::multiply_by_mass(const Eigen::VectorXd& x, Eigen::VectorXd& result) const {
-  result.setZero();
-  for (int i = 0; i < num_dofs_; ++i) {
-    const double* row = &mass_[i * stride_];
-    double sum = row[i] * x[i];
-    const int num_root = std::min(i, 6);
-    for (int j = 0; j < num_root; ++j) {
-      sum += row[j] * x[j];
-      result[j] += row[j] * x[i];
-    }
-    for (const int j : joint_ancestors_[i]) {
-      sum += row[j] * x[j];
-      result[j] += row[j] * x[i];
-    }
-    result[i] += sum;
-  }
-}
-
-void TreeDynamics::factorize(const Eigen::VectorXd& diagonal) {
-  // From the last dof to the first, each row changes those of its ancestors only, so that entries
-  // outside the tree's pattern stay 0.
-  factor_ = mass_;
-  for (int i = 0; i < num_dofs_; ++i) factor_[i * stride_ + i] += diagonal[i];
-  // L^T L of a tree (Featherstone, table 6.3): eliminates the leaves first, so that no fill-in
-  // occurs. Row k of L is sqrt on the diagonal and M(k, j) / sqrt for its ancestors j.
-  for (int k = num_dofs_ - 1; k >= 0; --k) {
-    double* row = &factor_[k * stride_];
-    const double root = std::sqrt(row[k]);
-    const double inverse = 1 / root;
-    row[k] = root;
-    const int num_root = std::min(k, 6);
-    for (int j = 0; j < num_root; ++j) row[j] *= inverse;
-    const std::vector<int>& above = joint_ancestors_[k];
-    for (const int j : above) row[j] *= inverse;
-    // Schur complement: subtracts the outer product of the row from the ancestors' block.
-    for (size_t a = 0; a < above.size(); ++a) {
-      const int i = above[a];
-      double* target = &factor_[i * stride_];
-      const double factor = row[i];
-      for (int j = 0; j < 6; ++j) target[j] -= factor * row[j];
-      for (size_t b = 0; b <= a; ++b) target[above[b]] -= factor * row[above[b]];
-    }
-    for (int i = 0; i < num_root; ++i) {
-      double* target = &factor_[i * stride_];
-      for (int j = 0; j <= i; ++j) target[j] -= row[i] * row[j];
-    }
-  }
-}
-
-void TreeDynamics::solve_upper(Eigen::VectorXd& x) const {
-  // x_i is final once all of its descendants have been subtracted from it; each then updates its
-  // ancestors.
-  // Backward substitution with the upper triangular L^T.
-  for (int i = num_dofs_ - 1; i >= 0; --i) {
-    const double* row = &factor_[i * stride_];
-    const double value = x[i] / row[i];
-    x[i] = value;
-    const int num_root = std::min(i, 6);
-    for (int j = 0; j < num_root; ++j) x[j] -= row[j] * value;
-    for (const int j : joint_ancestors_[i]) x[j] -= row[j] * value;
-  }
-}
-
-void TreeDynamics::solve_lower(Eigen::VectorXd& x) const {
-  // Forward substitution with L: ancestors have smaller indices and are final already.
-  for (int i = 0; i < num_dofs_; ++i) {
-    const double* row = &factor_[i * stride_];
-    double value = x[i];
-    const int num_root = std::min(i, 6);
-    for (int j = 0; j < num_root; ++j) value -= row[j] * x[j];
-    for (const int j : joint_ancestors_[i]) value -= row[j] * x[j];
-    x[i] = value / row[i];
-  }
-}
-
-void TreeDynamics::add_jacobian(int body_index, const Vector3d& point, const Matrix3d& directions,
-                                double sign, const int* position, RowEntry* entries) const {
-  // Column k of J^T is the spatial force of a unit force along direction k at the point; its entry
-  // for a dof is the power of the dof's motion.
-  const Vector3d arm = point - origin_;
-  Matrix3d moments;
-  for (int k = 0; k < 3; ++k) moments.col(k) = arm.cross(directions.col(k));
-  for (int axis = 0; axis < 3 && !is_root_fixed_; ++axis) {
-    double* angular = entries[position[axis]].row;
-    double* linear = entries[position[3 + axis]].row;
-    for (int k = 0; k < 3; ++k) {
-      angular[k] += sign * moments(axis, k);
-      linear[k] += sign * directions(axis, k);
-    }
-  }
-  // Joints on the way from the body to the root are the only ones that move it.
-  for (int index = body_index; index > 0; index = tree_.bodies()[index].parent) {
-    const SpatialVector& motion = bodies_[index].motion;
-    double* row = entries[position[tree_.bodies()[index].dof]].row;
-    for (int k = 0; k < 3; ++k) {
-      row[k] += sign * (motion.angular.dot(moments.col(k)) + motion.linear.dot(directions.col(k)));
-    }
-  }
-}
-
-// The same substitution as above for three right sides at once, on a compact list of dofs that
-// holds all ancestors of each. `position` maps a dof to its place in the list.
-void TreeDynamics::solve_upper(const int* dofs, int count, const int* position,
-                               RowEntry* entries) const {
-  for (int k = count - 1; k >= 0; --k) {
-    const int dof = dofs[k];
-    const double* factor = &factor_[dof * stride_];
-    RowEntry& entry = entries[k];
-    const double inverse = 1 / factor[dof];
-    for (double& value : entry.row) value *= inverse;
-    // The root's six are the first six of every list.
-    const int num_root = std::min(dof, 6);
-    for (int j = 0; j < num_root; ++j) {
-      for (int lane = 0; lane < 4; ++lane) entries[j].row[lane] -= factor[j] * entry.row[lane];
-    }
-    for (const int above : joint_ancestors_[dof]) {
-      RowEntry& target = entries[position[above]];
-      for (int lane = 0; lane < 4; ++lane) target.row[lane] -= factor[above] * entry.row[lane];
-    }
-  }
-}
-
-double TreeDynamics::mass_matrix(int row, int column) const {
-  return row >= column ? mass_[row * stride_ + column] : mass_[column * stride_ + row];
-}
-
 Eigen::Isometry3d TreeDynamics::pose(int body) const {
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
   result.linear() = bodies_[body].rotation;
@@ -375,14 +289,31 @@ SpatialVector TreeDynamics::rigid_motion(const SpatialVector& momentum) const {
   return motion_of(bodies_[0].composite, momentum);
 }
 
+// The root's rows of M u: the root's generalized momentum is that of the whole tree about O.
+SpatialVector TreeDynamics::momentum_at(const Eigen::VectorXd& velocity) const {
+  std::array<double, 6> sum{};
+  const double* u = velocity.data();
+  for (int i = 0; i < 6; ++i) {
+    const double* row = row_of(mass_, i);
+    for (int j = 0; j < i; ++j) {
+      sum[i] += row[j] * u[j];
+      sum[j] += row[j] * u[i];
+    }
+    sum[i] += row[i] * u[i];
+  }
+  for (int dof = 6; dof < num_dofs_; ++dof) {
+    const double* row = row_of(mass_, dof);
+    for (int i = 0; i < 6; ++i) sum[i] += row[i] * u[dof];
+  }
+  return {{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}};
+}
+
 // Adds one rigid motion to the velocities of all bodies, so that joint rates stay: the motion that
 // the whole tree, as a rigid body, has with the missing momentum.
 SpatialVector TreeDynamics::set_momentum(const SpatialVector& target, Eigen::VectorXd& velocity) {
-  const SpatialVector present = momentum();
-  SpatialInertia whole;
-  for (const BodyState& now : bodies_) whole += now.inertia;
-  SpatialVector change =
-      motion_of(whole, {target.angular - present.angular, target.linear - present.linear});
+  const SpatialVector present = momentum_at(velocity);
+  const SpatialVector change =
+      rigid_motion({target.angular - present.angular, target.linear - present.linear});
   for (BodyState& now : bodies_) {
     now.velocity.angular += change.angular;
     now.velocity.linear += change.linear;

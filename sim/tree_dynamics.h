@@ -50,7 +50,8 @@ class TreeDynamics {
   void update_kinematics(const TreeState& state);
   /** Computes body velocities of a state with the poses of the last update_kinematics(). */
   void update_velocities(const TreeState& state);
-  /** Computes the mass matrix M, without the rotors. After update_kinematics(). */
+  /** Computes the mass matrix M, without the rotors, if it is not that of the last
+   * update_kinematics() already. */
   void update_mass_matrix();
   /** Bias forces: those for which all accelerations are 0 (Coriolis, centrifugal and gravity), N m
    * and N, (num_dofs). After update_kinematics(). @param gravity  m/s^2, in W. */
@@ -64,16 +65,15 @@ class TreeDynamics {
   void solve_upper(Eigen::VectorXd& x) const;
   void solve_lower(Eigen::VectorXd& x) const;
 
-  /** Adds three constraint rows on a body's motion to `entries`: sign * J^T, where J maps the
-   * body's chain to the velocity of the point at `point`, W, along the columns of `directions`
-   * (angular: to its angular velocity about them).
-   * @param entries  One for each dof of the body's chain, or of the superset of it that `position`
-   *   maps dofs to. */
-  void add_jacobian(int body, const Eigen::Vector3d& point, const Eigen::Matrix3d& directions,
-                    double sign, const int* position, RowEntry* entries) const;
-  /** entries := L^-T entries. @param dofs  Of the entries; rising, with all their ancestors.
-   * @param position  Index in `dofs` of each dof. */
-  void solve_upper(const int* dofs, int count, const int* position, RowEntry* entries) const;
+  /** Row of L^-1, that is L^-T e for the unit vector e of a dof: entries for the dof's ancestors,
+   * rising, and for the dof itself. After factorize(). */
+  const EntryPair* inverse_row(int dof) const {
+    return &inverse_[static_cast<size_t>(dof) * pairs_of_row_];
+  }
+  /** L^-T J^T, where J maps the generalized velocity to a body's spatial velocity about O: six rows
+   * (angular x, y, z, linear x, y, z), one after the other, with entries for the body's chain.
+   * After factorize(). */
+  void calc_body_rows(int body, EntryPair* rows) const;
   double mass_matrix(int row, int column) const;
 
   /** Body frame B in W: rotation and origin, m. */
@@ -97,7 +97,11 @@ class TreeDynamics {
   /** Motion of the tree as one rigid body, joints held, that has a momentum about O. After
    * update_mass_matrix(). */
   SpatialVector rigid_motion(const SpatialVector& momentum) const;
+  /** Momentum of the whole tree about O with a generalized velocity, which may be another than that
+   * of the state. After update_mass_matrix(); not with a fixed root. */
+  SpatialVector momentum_at(const Eigen::VectorXd& velocity) const;
   /** Changes the root's velocity so that the whole tree has a momentum about O; joint rates stay.
+   * After update_mass_matrix().
    * @param velocity  Generalized velocity; its first six are changed. @return The change. */
   SpatialVector set_momentum(const SpatialVector& target, Eigen::VectorXd& velocity);
 
@@ -128,18 +132,31 @@ class TreeDynamics {
     SpatialVector force;
   };
 
+  void invert_factor();
+  /** A row of one of the matrices below. */
+  double* row_of(std::vector<EntryPair>& matrix, int dof) const {
+    return matrix[static_cast<size_t>(dof) * pairs_of_row_].data();
+  }
+  const double* row_of(const std::vector<EntryPair>& matrix, int dof) const {
+    return matrix[static_cast<size_t>(dof) * pairs_of_row_].data();
+  }
+
   const Tree& tree_;
   bool is_root_fixed_;
   int num_dofs_;
-  /** Length of a row in memory: num_dofs_ rounded up to a multiple of four. */
-  int stride_;
+  bool has_mass_matrix_ = false;
+  /** Length of a row in memory: that of the longest. */
+  int pairs_of_row_ = 0;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<BodyState> bodies_;
-  /** Lower triangles, row by row with stride_; entries outside the tree's pattern stay 0. */
-  std::vector<double> mass_;
-  std::vector<double> factor_;
-  /** Ancestors of each dof beyond the root's six, rising. */
-  std::vector<std::vector<int>> joint_ancestors_;
+  /** Lower triangles of M, L and L^-1, row by row, without the entries outside the tree's pattern:
+   * a row has entries for the dof's ancestors, rising, and for the dof itself. */
+  std::vector<EntryPair> mass_;
+  std::vector<EntryPair> factor_;
+  std::vector<EntryPair> inverse_;
+  /** Workspace of invert_factor(), for the ancestors of a dof. */
+  std::vector<const EntryPair*> rows_above_;
+  std::vector<double> factors_above_;
 };
 
 }  // namespace nao::sim

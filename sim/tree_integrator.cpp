@@ -128,8 +128,11 @@ void TreeIntegrator::take_velocity() {
 void TreeIntegrator::integrate(double h, bool is_in_contact) {
   // Momentum that the forces of the step have given: linear, and angular about the center of mass.
   // About the center of mass, where it is constant in free flight; O moves with the root.
-  SpatialVector momentum = dynamics_.momentum();
-  momentum.angular -= dynamics_.center_of_mass_from_origin().cross(momentum.linear);
+  SpatialVector momentum;
+  if (!is_root_fixed_) {
+    momentum = dynamics_.momentum_at(state_.velocity);
+    momentum.angular -= dynamics_.center_of_mass_from_origin().cross(momentum.linear);
+  }
 
   const auto num_joint_dofs = state_.velocity.size() - 6;
   // Semi-implicit Euler: positions move with the velocities after the step.
@@ -149,7 +152,8 @@ void TreeIntegrator::integrate(double h, bool is_in_contact) {
   dynamics_.update_kinematics(state_);
   if (!is_root_fixed_) {
     // The same joint rates are another momentum in the new configuration. The root's velocity is
-    // corrected so that the whole momentum stays.
+    // corrected so that the whole momentum stays. The next step needs this mass matrix too.
+    dynamics_.update_mass_matrix();
     momentum.angular += dynamics_.center_of_mass_from_origin().cross(momentum.linear);
     root_change_ = dynamics_.set_momentum(momentum, state_.velocity);
   }
