@@ -63,7 +63,7 @@ TEST(DeadFootSensors, ASensorThatHasBeenLoadedNeedsMoreEvidence) {
 
 TEST(DeadFootSensors, AWalkThatLeavesACornerUnloadedMakesNoSensorDead) {
   DeadFootSensors sensors(nao_model());
-  after(sensors, kStanding, 0.1);
+  after(sensors, kStandingForces, 0.1);
   // Steps of a quarter of a second on the inner edges of the soles: one corner of each foot never
   // reads anything.
   const std::vector<double> on_left = {0, 22, 12, 18, 0, 0, 0, 0};
