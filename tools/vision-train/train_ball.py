@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Trains the network that judges patches around possible balls; writes it as ONNX.
 
 The patches are those of nao-vision-patches. Packages: scripts/setup --with train. README.md in this

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Trains the network that finds balls, robots and goal posts in whole images; writes it as ONNX.
 
 Its input is the image at half of its size, its output a grid of cells of 16 pixels of the image.
