@@ -1,6 +1,7 @@
 #include "sim/contact_detector.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace nao::sim {
 namespace {
@@ -265,12 +266,19 @@ bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& f
     const double height = part_center.z() - floor_.max_height();
     if (height + step_ * speed > part.bounding_radius * kMaxSweptRadius) continue;
     const Matrix3d& rotation = robot.dynamics().rotation(part.body);
+    // A point at a distance d moves at |v| + |w| (bounding radius + d) at most: above this d it
+    // cannot reach the floor within the step.
+    const double turn = step_ * robot.dynamics().angular_velocity(part.body).norm();
+    const double moved = step_ * robot.dynamics().velocity_at(part.body, part_center).norm();
+    const double safe_distance = turn < 1 ? (moved + turn * part.bounding_radius) / (1 - turn)
+                                          : std::numeric_limits<double>::infinity();
     for (int i = part.first_point; i < part.end_point; ++i) {
       ContactMemory& memory = robot_memory_[index].floor[i];
       if (memory.last_step == step_number_) continue;  // A constraint of this step already.
       const CollisionModel::Point& point = model.points[i];
       const Vector3d center = origin + rotation * point.center_in_body;
       const Proximity proximity = to_floor(center, point.radius);
+      if (proximity.distance > safe_distance) continue;
       const Vector3d velocity = robot.dynamics().velocity_at(part.body, proximity.point);
       // Distance after the step with the velocity of the present solution.
       const double next = proximity.distance + step_ * proximity.normal.dot(velocity);
