@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/products.h"
+
 namespace nao::sim {
 namespace {
 
@@ -106,8 +108,9 @@ void ContactDetector::place_parts(int index) {
     placed.has_rotation = false;
     // Part's center in W. The rotation is computed by part_shape() only where a narrow phase needs
     // it.
-    placed.shape.center = robot.dynamics().position(parts[i].body) +
-                          robot.dynamics().rotation(parts[i].body) * parts[i].center_in_body;
+    placed.shape.center =
+        robot.dynamics().position(parts[i].body) +
+        product(robot.dynamics().rotation(parts[i].body), parts[i].center_in_body);
   }
 }
 
@@ -116,7 +119,7 @@ const RoundedBox& ContactDetector::part_shape(int robot, int index) {
   if (!placed.has_rotation) {
     const CollisionModel::Part& part = bodies_.robots[robot]->collisions().parts[index];
     placed.shape.rotation =
-        bodies_.robots[robot]->dynamics().rotation(part.body) * part.rotation_in_body;
+        product(bodies_.robots[robot]->dynamics().rotation(part.body), part.rotation_in_body);
     placed.shape.half = part.half;
     placed.shape.radius = part.radius;
     placed.has_rotation = true;
@@ -241,7 +244,7 @@ void ContactDetector::find_floor_contacts(int index, ContactCandidates& found) {
     const Matrix3d& rotation = robot.dynamics().rotation(part.body);
     for (int i = part.first_point; i < part.end_point; ++i) {
       const CollisionModel::Point& point = model.points[i];
-      const Vector3d center = origin + rotation * point.center_in_body;
+      const Vector3d center = origin + product(rotation, point.center_in_body);
       const Proximity proximity = to_floor(center, point.radius);
       if (proximity.distance > kReach) continue;
       add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1, proximity, point.sole,
@@ -276,7 +279,7 @@ bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& f
       ContactMemory& memory = robot_memory_[index].floor[i];
       if (memory.last_step == step_number_) continue;  // A constraint of this step already.
       const CollisionModel::Point& point = model.points[i];
-      const Vector3d center = origin + rotation * point.center_in_body;
+      const Vector3d center = origin + product(rotation, point.center_in_body);
       const Proximity proximity = to_floor(center, point.radius);
       if (proximity.distance > safe_distance) continue;
       const Vector3d velocity = robot.dynamics().velocity_at(part.body, proximity.point);
