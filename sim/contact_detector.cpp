@@ -1,6 +1,9 @@
 #include "sim/contact_detector.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "sim/products.h"
 
 namespace nao::sim {
 namespace {
@@ -105,8 +108,9 @@ void ContactDetector::place_parts(int index) {
     placed.has_rotation = false;
     // Part's center in W. The rotation is computed by part_shape() only where a narrow phase needs
     // it.
-    placed.shape.center = robot.dynamics().position(parts[i].body) +
-                          robot.dynamics().rotation(parts[i].body) * parts[i].center_in_body;
+    placed.shape.center =
+        robot.dynamics().position(parts[i].body) +
+        product(robot.dynamics().rotation(parts[i].body), parts[i].center_in_body);
   }
 }
 
@@ -115,7 +119,7 @@ const RoundedBox& ContactDetector::part_shape(int robot, int index) {
   if (!placed.has_rotation) {
     const CollisionModel::Part& part = bodies_.robots[robot]->collisions().parts[index];
     placed.shape.rotation =
-        bodies_.robots[robot]->dynamics().rotation(part.body) * part.rotation_in_body;
+        product(bodies_.robots[robot]->dynamics().rotation(part.body), part.rotation_in_body);
     placed.shape.half = part.half;
     placed.shape.radius = part.radius;
     placed.has_rotation = true;
@@ -240,7 +244,7 @@ void ContactDetector::find_floor_contacts(int index, ContactCandidates& found) {
     const Matrix3d& rotation = robot.dynamics().rotation(part.body);
     for (int i = part.first_point; i < part.end_point; ++i) {
       const CollisionModel::Point& point = model.points[i];
-      const Vector3d center = origin + rotation * point.center_in_body;
+      const Vector3d center = origin + product(rotation, point.center_in_body);
       const Proximity proximity = to_floor(center, point.radius);
       if (proximity.distance > kReach) continue;
       add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1, proximity, point.sole,
@@ -265,12 +269,19 @@ bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& f
     const double height = part_center.z() - floor_.max_height();
     if (height + step_ * speed > part.bounding_radius * kMaxSweptRadius) continue;
     const Matrix3d& rotation = robot.dynamics().rotation(part.body);
+    // A point at a distance d moves at |v| + |w| (bounding radius + d) at most: above this d it
+    // cannot reach the floor within the step.
+    const double turn = step_ * robot.dynamics().angular_velocity(part.body).norm();
+    const double moved = step_ * robot.dynamics().velocity_at(part.body, part_center).norm();
+    const double safe_distance = turn < 1 ? (moved + turn * part.bounding_radius) / (1 - turn)
+                                          : std::numeric_limits<double>::infinity();
     for (int i = part.first_point; i < part.end_point; ++i) {
       ContactMemory& memory = robot_memory_[index].floor[i];
       if (memory.last_step == step_number_) continue;  // A constraint of this step already.
       const CollisionModel::Point& point = model.points[i];
-      const Vector3d center = origin + rotation * point.center_in_body;
+      const Vector3d center = origin + product(rotation, point.center_in_body);
       const Proximity proximity = to_floor(center, point.radius);
+      if (proximity.distance > safe_distance) continue;
       const Vector3d velocity = robot.dynamics().velocity_at(part.body, proximity.point);
       // Distance after the step with the velocity of the present solution.
       const double next = proximity.distance + step_ * proximity.normal.dot(velocity);

@@ -130,6 +130,12 @@ class SimbodyEngine::RobotSystem {
       // First generalized speed of each body in Simbody's vector, which is not our order of dofs.
       first_u_.push_back(model_.mobilized(body).getFirstUIndex(model_.default_state()));
     }
+    dof_of_u_.resize(model_.matter().getNumMobilities());
+    for (int i = 0; i < 6; ++i) dof_of_u_[first_u_[0] + i] = {i, 1};
+    for (int body = 1; body < robot_.tree().num_bodies(); ++body) {
+      dof_of_u_[first_u_[body]] = {robot_.tree().bodies()[body].dof,
+                                   robot_.tree().bodies()[body].ratio};
+    }
     start();
   }
 
@@ -276,26 +282,23 @@ class SimbodyEngine::RobotSystem {
     matter.calcM(state, mass);
     const Tree& tree = robot_.tree();
     const int first = robot_.options().is_on_stand ? 6 : 0;
-    // Simbody's velocities are T times ours.
-    Eigen::MatrixXd to_u = Eigen::MatrixXd::Zero(num_u, tree.num_dofs());
-    for (int i = 0; i < 6; ++i) to_u(first_u_[0] + i, i) = 1;
-    for (int body = 1; body < tree.num_bodies(); ++body) {
-      to_u(first_u_[body], tree.bodies()[body].dof) = tree.bodies()[body].ratio;
+    // Coupled joints: Simbody's velocities are u = T v, therefore T^T M T v' = T^T (f - C). A row
+    // of T has one entry: the dof of the joint, with its ratio.
+    reduced_mass_.setZero(tree.num_dofs(), tree.num_dofs());
+    reduced_force_.setZero(tree.num_dofs());
+    for (int k = 0; k < num_u; ++k) {
+      const DofOfU& column = dof_of_u_[k];
+      reduced_force_[column.dof] -= column.ratio * residual[k];
+      for (int i = 0; i < num_u; ++i) {
+        const DofOfU& row = dof_of_u_[i];
+        reduced_mass_(row.dof, column.dof) += row.ratio * column.ratio * mass(i, k);
+      }
     }
-    Eigen::MatrixXd full(num_u, num_u);
-    Eigen::VectorXd force(num_u);
-    for (int i = 0; i < num_u; ++i) {
-      force[i] = -residual[i];
-      for (int k = 0; k < num_u; ++k) full(i, k) = mass(i, k);
-    }
-    // Coupled joints: u = T v, therefore T^T M T v' = T^T (f - C).
-    Eigen::MatrixXd reduced = to_u.transpose() * full * to_u;
-    Eigen::VectorXd right = to_u.transpose() * force;
-    for (const JointForce& motor : motors_) reduced(motor.dof, motor.dof) += motor.inertia;
+    for (const JointForce& motor : motors_) reduced_mass_(motor.dof, motor.dof) += motor.inertia;
     // On a stand the root's six are not solved for.
     const long count = tree.num_dofs() - first;
     const Eigen::VectorXd acceleration =
-        reduced.bottomRightCorner(count, count).llt().solve(right.tail(count));
+        reduced_mass_.bottomRightCorner(count, count).llt().solve(reduced_force_.tail(count));
     for (const JointForce& motor : motors_) {
       // The reaction of each rotor, in place of an armature in M.
       mobility_forces[u_of_dof(motor.dof)] -= motor.inertia * acceleration[motor.dof - first];
@@ -309,6 +312,14 @@ class SimbodyEngine::RobotSystem {
   SimTK::GeneralForceSubsystem forces_;
   std::unique_ptr<SimTK::Integrator> integrator_;
   std::vector<int> first_u_;
+  /** Of each of Simbody's generalized speeds: our dof, of which it is `ratio` times the speed. */
+  struct DofOfU {
+    int dof = 0;
+    double ratio = 1;
+  };
+  std::vector<DofOfU> dof_of_u_;
+  Eigen::MatrixXd reduced_mass_;
+  Eigen::VectorXd reduced_force_;
   /** As computed last. */
   TreeState state_;
   std::vector<JointForce> motors_;

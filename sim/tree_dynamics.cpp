@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "sim/products.h"
+
 namespace nao::sim {
 namespace {
 
@@ -22,39 +24,6 @@ Matrix3d rotation_about(const Vector3d& a, double angle) {
   return r;
 }
 
-// Products written out: the compiler does not inline Eigen's, of which a step computes hundreds.
-
-/** a b. */
-[[gnu::always_inline]] inline Matrix3d product(const Matrix3d& a, const Matrix3d& b) {
-  Matrix3d result;
-  for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i < 3; ++i) {
-      result(i, j) = a(i, 0) * b(0, j) + a(i, 1) * b(1, j) + a(i, 2) * b(2, j);
-    }
-  }
-  return result;
-}
-
-/** a x. */
-[[gnu::always_inline]] inline Vector3d product(const Matrix3d& a, const Vector3d& x) {
-  return {a(0, 0) * x[0] + a(0, 1) * x[1] + a(0, 2) * x[2],
-          a(1, 0) * x[0] + a(1, 1) * x[1] + a(1, 2) * x[2],
-          a(2, 0) * x[0] + a(2, 1) * x[1] + a(2, 2) * x[2]};
-}
-
-/** r s r^T for a rotation r and a symmetric s. */
-[[gnu::always_inline]] inline Matrix3d rotated(const Matrix3d& r, const Matrix3d& s) {
-  const Matrix3d half = product(r, s);
-  Matrix3d result;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      result(i, j) = result(j, i) =
-          half(i, 0) * r(j, 0) + half(i, 1) * r(j, 1) + half(i, 2) * r(j, 2);
-    }
-  }
-  return result;
-}
-
 /** Momentum of a body with a velocity. */
 // Spatial inertia times spatial velocity, both about O: angular momentum I w + h x v and linear
 // momentum m v - h x w, with the first moment h = m c.
@@ -65,7 +34,7 @@ Matrix3d rotation_about(const Vector3d& a, double angle) {
 }
 
 // Power of a spatial force on a spatial motion; their dual pairing needs no metric.
-double dot(const SpatialVector& motion, const SpatialVector& force) {
+[[gnu::always_inline]] inline double dot(const SpatialVector& motion, const SpatialVector& force) {
   return motion.angular.dot(force.angular) + motion.linear.dot(force.linear);
 }
 
@@ -144,14 +113,9 @@ void TreeDynamics::update_kinematics(const TreeState& state) {
     const Vector3d& c = now.com_from_O;
     now.inertia.mass = body.mass;
     now.inertia.moment = body.mass * c;
-    const double square = body.mass * c.squaredNorm();
-    const Matrix3d turned = rotated(now.rotation, body.inertia);
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        now.inertia.inertia(i, j) =
-            turned(i, j) + (i == j ? square : 0) - now.inertia.moment[i] * c[j];
-      }
-    }
+    Matrix3d turned = rotated(now.rotation, body.inertia);
+    turned.diagonal().array() += body.mass * c.squaredNorm();
+    now.inertia.inertia = minus_outer(turned, now.inertia.moment, c);
   }
 }
 

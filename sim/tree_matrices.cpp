@@ -1,6 +1,7 @@
 // The linear algebra of TreeDynamics: its mass matrix, the factor, and the factor's inverse.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -104,28 +105,28 @@ void TreeDynamics::solve_lower(Eigen::VectorXd& vector) const {
 void TreeDynamics::calc_body_rows(int body_index, EntryPair* rows) const {
   const std::vector<int>& chain = tree_.bodies()[body_index].chain;
   const int count = num_pairs(static_cast<int>(chain.size()));
-  // The root's J is the unit matrix.
-  for (int axis = 0; axis < 6; ++axis) {
-    for (int pair = 0; pair < count; ++pair) {
+  // Pair by pair, so that the six sums stay in registers.
+  for (int pair = 0; pair < count; ++pair) {
+    std::array<EntryPair, 6> sum;
+    // The root's J is the unit matrix.
+    for (int axis = 0; axis < 6; ++axis) {
       const bool has_entry = !is_root_fixed_ && 2 * pair <= axis;
-      rows[axis * count + pair] = has_entry ? inverse_row(axis)[pair] : EntryPair::Zero();
+      sum[axis] = has_entry ? inverse_row(axis)[pair] : EntryPair::Zero();
     }
-  }
-  // Joints on the way from the body to the root: their motions, once for each of their entries.
-  int place = static_cast<int>(chain.size()) - 1;
-  for (int index = body_index; index > 0; index = tree_.bodies()[index].parent, --place) {
-    const SpatialVector& motion = bodies_[index].motion;
-    const EntryPair* joint = inverse_row(chain[place]);
-    for (int k = 0; k < 3; ++k) {
-      const double angular = motion.angular[k];
-      const double linear = motion.linear[k];
-      EntryPair* angular_row = rows + k * count;
-      EntryPair* linear_row = rows + (3 + k) * count;
-      for (int pair = 0; pair <= place / 2; ++pair) {
-        angular_row[pair] += angular * joint[pair];
-        linear_row[pair] += linear * joint[pair];
-      }
+    // Joints on the way from the body to the root: their motions, once for each of their entries.
+    int place = static_cast<int>(chain.size()) - 1;
+    for (int index = body_index; index > 0 && place >= 2 * pair; --place) {
+      const SpatialVector& motion = bodies_[index].motion;
+      const EntryPair entry = inverse_row(chain[place])[pair];
+      sum[0] += motion.angular[0] * entry;
+      sum[1] += motion.angular[1] * entry;
+      sum[2] += motion.angular[2] * entry;
+      sum[3] += motion.linear[0] * entry;
+      sum[4] += motion.linear[1] * entry;
+      sum[5] += motion.linear[2] * entry;
+      index = tree_.bodies()[index].parent;
     }
+    for (int axis = 0; axis < 6; ++axis) rows[axis * count + pair] = sum[axis];
   }
 }
 

@@ -151,6 +151,87 @@ TEST_F(TreeDynamicsTest, HasSimbodysMomentumAndEnergy) {
   }
 }
 
+TEST_F(TreeDynamicsTest, HasSimbodysMassMatrixAndBiasForces) {
+  const int num_dofs = tree_.num_dofs();
+  Eigen::VectorXd bias = Eigen::VectorXd::Zero(num_dofs);
+  for (int trial = 0; trial < 20; ++trial) {
+    randomize();
+    dynamics_.update_mass_matrix();
+    dynamics_.calc_bias({0, 0, -kGravity}, bias);
+    const SimTK::SimbodyMatterSubsystem& matter = simbody_.matter();
+    const int num_u = simbody_state_.getNU();
+    SimTK::Matrix mass;
+    matter.calcM(simbody_state_, mass);
+    // Coriolis and centrifugal forces less those of gravity.
+    SimTK::Vector residual;
+    matter.calcResidualForceIgnoringConstraints(simbody_state_, SimTK::Vector(num_u, 0.0),
+                                                gravity(), SimTK::Vector(num_u, 0.0), residual);
+    // Simbody's speeds are T times ours: two of them for the dof of coupled joints.
+    Eigen::MatrixXd to_u = Eigen::MatrixXd::Zero(num_u, num_dofs);
+    for (int i = 0; i < tree_.num_bodies(); ++i) {
+      const int first = simbody_.mobilized(i).getFirstUIndex(simbody_state_);
+      const TreeBody& body = tree_.bodies()[i];
+      for (int k = 0; k < (i == 0 ? 6 : 1); ++k) to_u(first + k, body.dof + k) = body.ratio;
+    }
+    Eigen::MatrixXd full(num_u, num_u);
+    Eigen::VectorXd force(num_u);
+    for (int i = 0; i < num_u; ++i) {
+      force[i] = residual[i];
+      for (int k = 0; k < num_u; ++k) full(i, k) = mass(i, k);
+    }
+    const Eigen::MatrixXd expected = to_u.transpose() * full * to_u;
+    const Eigen::VectorXd expected_bias = to_u.transpose() * force;
+    for (int i = 0; i < num_dofs; ++i) {
+      EXPECT_NEAR(bias[i], expected_bias[i], 1e-9) << i;
+      for (int k = 0; k < num_dofs; ++k) {
+        EXPECT_NEAR(dynamics_.mass_matrix(i, k), expected(i, k), 1e-11) << i << ' ' << k;
+      }
+    }
+  }
+}
+
+/** The rows of L^-1 that constraints use. */
+TEST_F(TreeDynamicsTest, RowsOfTheInverseSolveForUnitImpulses) {
+  randomize();
+  dynamics_.update_mass_matrix();
+  dynamics_.factorize(Eigen::VectorXd::Constant(tree_.num_dofs(), 0.01));
+  const auto expect_row = [&](const EntryPair* row, const std::vector<int>& dofs,
+                              Eigen::VectorXd expected) {
+    dynamics_.solve_upper(expected);
+    for (size_t i = 0; i < dofs.size(); ++i) {
+      EXPECT_NEAR(row[i / 2][static_cast<long>(i % 2)], expected[dofs[i]], 1e-10);
+      expected[dofs[i]] = 0;
+    }
+    // Nothing outside the chain, and 0 as the partner of a last odd entry.
+    EXPECT_EQ(expected.cwiseAbs().maxCoeff(), 0);
+    if (dofs.size() % 2 == 1) {
+      EXPECT_EQ(row[dofs.size() / 2][1], 0);
+    }
+  };
+  for (int dof = 0; dof < tree_.num_dofs(); ++dof) {
+    std::vector<int> dofs = tree_.dof_ancestors(dof);
+    dofs.push_back(dof);
+    expect_row(dynamics_.inverse_row(dof), dofs, Eigen::VectorXd::Unit(tree_.num_dofs(), dof));
+  }
+  for (int body = 0; body < tree_.num_bodies(); ++body) {
+    const std::vector<int>& chain = tree_.bodies()[body].chain;
+    const int count = num_pairs(static_cast<int>(chain.size()));
+    std::vector<EntryPair> rows(6 * count);
+    dynamics_.calc_body_rows(body, rows.data());
+    for (int axis = 0; axis < 6; ++axis) {
+      // A column of J^T: the velocity along the axis for a unit speed of each dof.
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(tree_.num_dofs());
+      column[axis] = 1;
+      for (int above = body; above > 0; above = tree_.bodies()[above].parent) {
+        const SpatialVector& motion = dynamics_.motion(above);
+        column[tree_.bodies()[above].dof] =
+            axis < 3 ? motion.angular[axis] : motion.linear[axis - 3];
+      }
+      expect_row(&rows[axis * count], chain, column);
+    }
+  }
+}
+
 TEST_F(TreeDynamicsTest, FactorSolvesWithAnAddedDiagonal) {
   randomize();
   dynamics_.update_mass_matrix();
