@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "daemons/vision/ball_filter.h"
 #include "daemons/vision/camera_geometry.h"
 #include "daemons/vision/detection.h"
 #include "daemons/vision/neural_network.h"
@@ -39,7 +40,7 @@ class BallDetector {
   static NeuralNetwork::Shape shape();
 
   /** @param network  Of shape(). @param radius  m. */
-  explicit BallDetector(std::shared_ptr<NeuralNetwork> network, double radius = 0.05)
+  explicit BallDetector(std::shared_ptr<NeuralNetwork> network, double radius = kBallRadius)
       : network_(std::move(network)), radius_(radius) {}
 
   std::optional<Detection> detect(const PatchSampler& sampler, const CameraGeometry& geometry,

@@ -5,6 +5,9 @@
 
 namespace nao::vision {
 
+/** Radius of the ball, m: 10 cm across, by the rules of the Standard Platform League. */
+constexpr double kBallRadius = 0.05;
+
 /** The ball as tracked over time, in the odometry frame O. */
 struct BallEstimate {
   bool is_known = false;

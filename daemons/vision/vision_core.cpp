@@ -5,14 +5,13 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "daemons/vision/ball_candidates.h"
+#include "daemons/vision/ball_filter.h"
 
 namespace nao::vision {
 namespace {
 
 /** Images with less field than this show no objects on it. */
 constexpr double kLeastField = 0.03;
-/** m. */
-constexpr double kBallRadius = 0.05;
 
 bool is_in(const Eigen::Vector4d& box, const cv::Point2f& pixel) {
   return pixel.x > box[0] && pixel.x < box[2] && pixel.y > box[1] && pixel.y < box[3];

@@ -8,13 +8,14 @@
 namespace nao::trial {
 namespace {
 
+using vision::kBallRadius;
+
 using Eigen::Vector2d;
 
 /** m, of the ranges of recall. */
 constexpr double kNear = 3;
 constexpr double kFar = 5;
-/** m: of the ball, and height of the cameras in the ready posture, for the covariance only. */
-constexpr double kBallRadius = 0.05;
+/** Height of the cameras in the ready posture, m, for the covariance only. */
 constexpr double kHeight = 0.45;
 /** Numbers of the perception's errors are independent of those of the disturbances. */
 constexpr uint64_t kSeedOffset = 0x9e3779b9;

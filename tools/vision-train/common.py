@@ -1,5 +1,6 @@
 """What the trainings of both networks share."""
 
+import argparse
 import time
 from pathlib import Path
 
@@ -92,13 +93,19 @@ def export(network, file, rows, columns):
     print(f"{file}: {Path(file).stat().st_size} bytes")
 
 
-def add_options(parser, epochs, batch, rate):
+def parse_options(description, inputs, inputs_help, epochs, batch, rate):
+    """Command line of a training. inputs: name of the list of what is learnt from."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("network", help="ONNX file to write; its weights for --start beside it")
+    parser.add_argument(inputs, nargs="+", help=inputs_help)
+    parser.add_argument("--check", nargs="*", help="the same, which are reported and not learnt from")
     parser.add_argument("--start", help="weights (.pt) of an earlier training to start from")
     parser.add_argument("--epochs", type=int, default=epochs)
     parser.add_argument("--batch", type=int, default=batch)
     parser.add_argument("--rate", type=float, default=rate, help="greatest learning rate")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--seed", type=int, default=1)
+    return parser.parse_args()
 
 
 def begin(network, options):

@@ -4,8 +4,6 @@ The patches are those of nao-vision-patches. Packages: scripts/setup --with trai
 folder has the commands.
 """
 
-import argparse
-
 import numpy as np
 import torch
 from torch import nn
@@ -130,14 +128,5 @@ def train(options):
     common.export(network, options.network, SIZE, SIZE)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("network", help="ONNX file to write; its weights for --start beside it")
-    parser.add_argument("patches", nargs="+", help="files of nao-vision-patches")
-    parser.add_argument("--check", nargs="*", help="files that are reported and not learnt from")
-    common.add_options(parser, epochs=20, batch=256, rate=4e-3)
-    train(parser.parse_args())
-
-
 if __name__ == "__main__":
-    main()
+    train(common.parse_options(__doc__, "patches", "files of nao-vision-patches", epochs=20, batch=256, rate=4e-3))

@@ -4,7 +4,6 @@ Its input is the image at half of its size, its output a grid of cells of 16 pix
 Packages: scripts/setup --with train. README.md in this folder has the commands.
 """
 
-import argparse
 import json
 from pathlib import Path
 
@@ -352,14 +351,5 @@ def train(options):
     common.export(network, options.network, ROWS, COLUMNS)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("network", help="ONNX file to write; its weights for --start beside it")
-    parser.add_argument("folders", nargs="+", help="folders of nao-vision-dataset")
-    parser.add_argument("--check", nargs="*", help="folders that are reported and not learnt from")
-    common.add_options(parser, epochs=30, batch=32, rate=4e-3)
-    train(parser.parse_args())
-
-
 if __name__ == "__main__":
-    main()
+    train(common.parse_options(__doc__, "folders", "folders of nao-vision-dataset", epochs=30, batch=32, rate=4e-3))

@@ -11,7 +11,6 @@ namespace {
 const Eigen::Vector3d kWhite(215, 215, 215);
 const Eigen::Vector3d kCarpet(60, 130, 50);
 const Eigen::Vector3d kHall(110, 105, 115);
-constexpr double kBallRadius = 0.05;
 
 double distance_to(const Eigen::Vector2d& point, const Eigen::Vector4d& line) {
   const Eigen::Vector2d a = line.head<2>();
