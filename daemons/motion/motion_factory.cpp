@@ -20,7 +20,6 @@ namespace {
 
 constexpr const char* kTransitionFile = "transitions.yaml";
 constexpr const char* kGaitFile = "gait.yaml";
-constexpr const char* kKickFile = "actions/kick.yaml";
 constexpr const char* kScriptFile = "actions/keeper.yaml";
 
 // nao-transition-tuner gives transitions of its own; otherwise the robot's file.

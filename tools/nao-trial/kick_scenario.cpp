@@ -13,8 +13,6 @@ namespace {
 
 // Fraction of the standing height above which the robot stands after a kick.
 constexpr double kUprightAfterKick = 0.875;
-// In the robot's folder.
-constexpr const char* kKickFile = "actions/kick.yaml";
 
 /** The kick with one foot. */
 ActionCommand make_kick(const RobotModel& model, bool is_left, double ball_x, double ball_y) {
@@ -34,7 +32,7 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   trial.restart_core();
   const bool is_left = seed % 2 == 1;
   // Where the kick has it best, a centimetre more or less.
-  const Eigen::Vector2d best = motion::Kick::load(trial.model().folder() / kKickFile).ball;
+  const Eigen::Vector2d best = motion::Kick::load(trial.model().folder() / motion::kKickFile).ball;
   const Eigen::Vector2d seen(best.x(), is_left ? best.y() : -best.y());
   const Eigen::Vector2d ball =
       seen + Eigen::Vector2d(trial.random(-0.01, 0.01), trial.random(-0.01, 0.01));
