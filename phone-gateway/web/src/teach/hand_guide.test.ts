@@ -2,7 +2,7 @@ import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
 import type {Commander} from "../commander";
 import type {UseCase} from "../protocol/codec";
 import {Store} from "../store";
-import {HandGuide, kDragPeriodMs} from "./hand_guide";
+import {HandGuide, kDragPeriodMs, kStiffnessMs} from "./hand_guide";
 
 describe("HandGuide", () => {
   let sent: UseCase[];
@@ -11,10 +11,25 @@ describe("HandGuide", () => {
   beforeEach(() => {
     vi.useFakeTimers();
     sent = [];
-    guide = new HandGuide(new Store(), {stream: (useCase: UseCase) => sent.push(useCase)} as unknown as Commander);
+    guide = new HandGuide(new Store(), {
+      stream: (useCase: UseCase) => sent.push(useCase),
+      command: async (useCase: UseCase) => sent.push(useCase) > 0,
+    } as unknown as Commander);
   });
   afterEach(() => {
     vi.useRealTimers();
+  });
+
+  it("lets each group of a limb become limp before the next, and all before it is done", async () => {
+    let isDone = false;
+    void guide.toggle(["shoulder", "elbow"]).then(() => isDone = true);
+    await vi.advanceTimersByTimeAsync(kStiffnessMs - 1);
+    expect(sent).toHaveLength(1);
+    await vi.advanceTimersByTimeAsync(1);
+    expect(sent).toHaveLength(2);
+    expect(isDone).toBe(false);
+    await vi.advanceTimersByTimeAsync(kStiffnessMs);
+    expect(isDone).toBe(true);
   });
 
   it("repeats a pull while the finger holds it, at the finger's last place", () => {

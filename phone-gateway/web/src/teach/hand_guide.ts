@@ -6,6 +6,8 @@ import type {Store} from "../store";
 
 /** A pull ends 0.2 s after the last request, and wants one every 0.1 s. */
 export const kDragPeriodMs = 50;
+/** nao-motion changes a stiffness within 0.5 s; a newer command would end that half way. */
+export const kStiffnessMs = 600;
 
 export class HandGuide {
   private timer: ReturnType<typeof setInterval> | undefined;
@@ -43,12 +45,14 @@ export class HandGuide {
     if (this.pull) this.commander.stream(useCases.drag(this.pull.link, this.pull.point, this.pull.target));
   }
 
+  /** One group after the other: each has its stiffness before the next command, also of others, is sent. */
   private async setStiffness(groups: readonly string[], stiffness: number): Promise<void> {
     for (const group of groups) {
       // Refused for one joint of a limb: told once, and the others are left as they are.
       if (!(await this.commander.command(useCases.setStiffness(group, stiffness)))) return;
       const others = this.store.get().relaxedGroups.filter((one) => one !== group);
       this.store.set({relaxedGroups: stiffness === 0 ? [...others, group] : others});
+      await new Promise((resolve) => setTimeout(resolve, kStiffnessMs));
     }
   }
 }
