@@ -276,7 +276,7 @@ SpatialVector TreeDynamics::momentum_at(const Eigen::VectorXd& velocity) const {
 // the whole tree, as a rigid body, has with the missing momentum.
 SpatialVector TreeDynamics::set_momentum(const SpatialVector& target, Eigen::VectorXd& velocity) {
   const SpatialVector present = momentum_at(velocity);
-  const SpatialVector change =
+  SpatialVector change =
       rigid_motion({target.angular - present.angular, target.linear - present.linear});
   for (BodyState& now : bodies_) {
     now.velocity.angular += change.angular;

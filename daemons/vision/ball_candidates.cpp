@@ -115,14 +115,14 @@ std::vector<Circle> find_ball_hints(const FieldView& view, const CameraGeometry&
   // With a pose the radius at a place is known: computed every few rows and in the middle of a
   // strip of columns, since it changes slowly across the image.
   for (int left = 0; left < width; left += kColumns) {
+    const int middle = left + kColumns / 2;
     float r = 0;
     int computed = -100;
     for (int y = 0; y < height + height / 12; y += std::max(1, static_cast<int>(0.25f * r))) {
       // Above the field's border, with room for one that is higher elsewhere in the strip.
-      if (view.top[std::min(left + kColumns / 2, width - 1)] > y + 3 * kColumns) continue;
+      if (view.top[std::min(middle, width - 1)] > y + 3 * kColumns) continue;
       if (y - computed >= 4) {
-        const cv::Point2f pixel(2 * static_cast<float>(left + kColumns / 2),
-                                2 * static_cast<float>(y));
+        const cv::Point2f pixel(2 * static_cast<float>(middle), 2 * static_cast<float>(y));
         const auto radius = geometry.sphere_radius_px(pixel, ball_radius);
         r = radius ? static_cast<float>(*radius / 2) : 0;
         computed = y;

@@ -44,7 +44,7 @@ std::filesystem::path damaged(const std::string& name, size_t size, size_t total
   std::string bytes((std::istreambuf_iterator<char>(stream)), {});
   bytes.resize(size);
   bytes.resize(total);
-  const auto file = std::filesystem::path(testing::TempDir()) / "damaged.onnx";
+  auto file = std::filesystem::path(testing::TempDir()) / "damaged.onnx";
   std::ofstream(file, std::ios::binary) << bytes;
   return file;
 }
