@@ -51,8 +51,9 @@ uint8_t byte(const YamlEntry& entry) {
 std::vector<V4l2CameraSettings::Control> read_controls(const YamlEntry& map) {
   std::vector<V4l2CameraSettings::Control> controls;
   for (const auto& [name, value] : map.entries()) {
-    const auto* known = std::find_if(kControls.begin(), kControls.end(),
-                                     [&](const auto& control) { return name == control.first; });
+    const auto* known =
+        std::find_if(kControls.begin(), kControls.end(),
+                     [&name = name](const auto& control) { return name == control.first; });
     if (known == kControls.end()) {
       std::string names;
       for (const auto& control : kControls) names += std::string(" ") + control.first;

@@ -63,10 +63,8 @@ void HealthMonitor::watch(const Measurement& measured, const Targets& sent, size
   // driver.
   if (is_stiff && is_off_target && is_without_current) {
     watched.time_without_current += dt;
-  } else if (!is_without_current) {
+  } else if (!is_without_current || watched.time_without_current < kDeadTime) {
     // A motor that was found dead stays so until it draws current.
-    watched.time_without_current = 0;
-  } else if (watched.time_without_current < kDeadTime) {
     watched.time_without_current = 0;
   }
   if (watched.time_without_current >= kDeadTime) {

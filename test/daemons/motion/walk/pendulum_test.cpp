@@ -106,9 +106,9 @@ TEST(PendulumEstimator, LearnsTheOffsetAsFastAsItsGainSays) {
     PendulumEstimator estimator(0.03, gain);
     estimator.reset(truth.position, truth.position);
     for (int tick = 0; tick < 30; ++tick) {
-      truth = advance(truth, 2 * truth.dcm(kOmega), kOmega, 0.01);
-      estimator.update(truth.position + Eigen::Vector2d(0.01, 0), 2 * truth.dcm(kOmega), kOmega,
-                       0.01);
+      truth = advance(truth, 2 * truth.dcm(kPendulumOmega), kPendulumOmega, 0.01);
+      estimator.update(truth.position + Eigen::Vector2d(0.01, 0), 2 * truth.dcm(kPendulumOmega),
+                       kPendulumOmega, 0.01);
     }
     return estimator.offset().x();
   };
