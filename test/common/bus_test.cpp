@@ -51,6 +51,7 @@ TEST(Bus, DropsAndCountsAMessageOfAnotherType) {
 /** Bytes that are sent as a message. */
 struct EncodedMessage {
   std::vector<uint8_t> bytes;
+  // NOLINTNEXTLINE(readability-identifier-naming): called by Bus as lcm-gen names it.
   int getEncodedSize() const { return static_cast<int>(bytes.size()); }
   int encode(void* buffer, int /*offset*/, int size) const {
     std::memcpy(buffer, bytes.data(), size);

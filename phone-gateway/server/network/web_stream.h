@@ -42,8 +42,7 @@ class Completion {
   };
   template <class Handler>
   struct Target : TargetBase {
-    template <class Source>
-    explicit Target(Source&& source) : handler(std::forward<Source>(source)) {}
+    explicit Target(Handler source) : handler(std::move(source)) {}
     void call(const error_code& error, size_t num_bytes) override {
       // Moved out first: the memory of an operation is released before its handler is called.
       Handler last = std::move(handler);
