@@ -4,7 +4,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
 namespace nao::vision {
 namespace {
@@ -37,8 +39,8 @@ constexpr double kCircleSigmaPerDistance = 0.01;
 constexpr double kPostDistanceSigma = 0.12;
 constexpr double kPostSideSigma = 0.06;
 
-/** 99.9 % of the chi-square distribution with two degrees of freedom. */
-constexpr double kGate = 13.8;
+/** 99 % of the chi-square distribution with two degrees of freedom. */
+constexpr double kGate = 9.2;
 /** The next best field line must be worse by this, or the line is not used. */
 constexpr double kUnique = 6.0;
 /** Largest angle between an observed line and its field line, rad, before the gate. */
@@ -46,9 +48,9 @@ constexpr double kMostAngle = 0.45;
 /** An observed line may reach beyond the ends of its field line by this, m, more far away. */
 constexpr double kBeyond = 0.25;
 constexpr double kBeyondPerDistance = 0.05;
-/** Short lines this near to the center circle may be a part of it, m. */
-constexpr double kCircleBand = 0.2;
-constexpr double kMostChord = 1.0;
+/** Longest line that can be an arc of the center circle, as a part of its diameter: detected lines
+ * are straight within pixels. */
+constexpr double kMostChord = 0.9;
 
 double square(double x) {
   return x * x;
@@ -63,10 +65,11 @@ PoseFilter::PoseFilter(const FieldModel& field) : field_(&field) {
 }
 
 void PoseFilter::start(const Pose2& pose, double position_sigma, double heading_sigma) {
-  state_ << pose.position, wrapped(pose.heading), 0, 0;
-  covariance_ = State(square(position_sigma), square(position_sigma), square(heading_sigma),
-                      square(kTiltSigma), square(kTiltSigma))
-                    .asDiagonal();
+  state_ << pose.position, wrapped(pose.heading), 0, 0, 0, 0;
+  State variances;
+  variances << square(position_sigma), square(position_sigma), square(heading_sigma),
+      square(kTiltSigma), square(kTiltSigma), square(kTiltNoise), square(kTiltNoise);
+  covariance_ = variances.asDiagonal();
 }
 
 void PoseFilter::predict(const Pose2& step, double dt) {
@@ -79,7 +82,10 @@ void PoseFilter::predict(const Pose2& step, double dt) {
   transition(1, 2) = way.x();
   const double decay = std::exp(-dt / kTiltTime);
   transition(3, 3) = transition(4, 4) = decay;
-  state_.tail<2>() *= decay;
+  state_.segment<2>(3) *= decay;
+  // The noise of the last image says nothing about the next one.
+  transition(5, 5) = transition(6, 6) = 0;
+  state_.tail<2>().setZero();
   covariance_ = (transition * covariance_ * transition.transpose()).eval();
   const double distance = way.norm();
   const double turn = std::abs(wrapped(step.heading));
@@ -88,25 +94,34 @@ void PoseFilter::predict(const Pose2& step, double dt) {
   const double heading = square(kHeadingPerWay) * distance + square(kHeadingPerTurn) * turn +
                          square(kHeadingPerTime) * dt;
   const double tilt = square(kTiltSigma) * (1 - decay * decay);
-  covariance_.diagonal() += State(position, position, heading, tilt, tilt);
+  State added;
+  added << position, position, heading, tilt, tilt, square(kTiltNoise), square(kTiltNoise);
+  covariance_.diagonal() += added;
 }
 
 void PoseFilter::spread(double position_sigma, double heading_sigma) {
-  covariance_.diagonal() +=
-      State(square(position_sigma), square(position_sigma), square(heading_sigma), 0, 0);
+  covariance_.diagonal().head<3>() +=
+      Eigen::Vector3d(square(position_sigma), square(position_sigma), square(heading_sigma));
 }
 
-// Field point f = t + R(theta) (p + G (a, b)); measured is its component along `direction`.
+Eigen::Vector2d PoseFilter::on_field(const CameraPlace& camera,
+                                     const Eigen::Vector2d& point) const {
+  const Eigen::Vector2d tilt = state_.segment<2>(3) + state_.tail<2>();
+  return pose() * Eigen::Vector2d(point + tilt_jacobian(camera, point) * tilt);
+}
+
+// Field point f = t + R(theta) (p + G (a, b)), with the tilt (a, b); measured is its component
+// along `direction`.
 PoseFilter::Row PoseFilter::make_row(const CameraPlace& camera, const Eigen::Vector2d& point,
                                      const Eigen::Vector2d& direction, double target,
                                      double extra_variance) const {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(state_[2]).toRotationMatrix();
   const Eigen::Matrix2d G = tilt_jacobian(camera, point);
-  const Eigen::Vector2d corrected = point + G * state_.tail<2>();
+  const Eigen::Vector2d corrected = point + G * (state_.segment<2>(3) + state_.tail<2>());
   Row row;
   row.jacobian.head<2>() = direction.transpose();
   row.jacobian[2] = direction.dot(R * kQuarterTurn * corrected);
-  row.jacobian.tail<2>() = direction.transpose() * R * G;
+  row.jacobian.segment<2>(3) = row.jacobian.tail<2>() = direction.transpose() * R * G;
   row.innovation = target - direction.dot(state_.head<2>() + R * corrected);
   // A pixel covers (r^2 + h^2) / h along the view on the ground and sqrt(r^2 + h^2) across it.
   const Eigen::Vector2d P = point - camera.position.head<2>();
@@ -122,33 +137,49 @@ PoseFilter::Row PoseFilter::make_row(const CameraPlace& camera, const Eigen::Vec
   return row;
 }
 
-double PoseFilter::distance(const std::vector<Row>& rows) const {
-  Eigen::Matrix<double, 2, 5> H;
+double PoseFilter::distance(const Rows& rows) const {
+  Eigen::Matrix<double, 2, 7> H;
   H << rows[0].jacobian, rows[1].jacobian;
   const Eigen::Vector2d innovation(rows[0].innovation, rows[1].innovation);
   Eigen::Matrix2d S = H * covariance_ * H.transpose();
-  S += square(kTiltNoise) * H.rightCols<2>() * H.rightCols<2>().transpose();
   S(0, 0) += rows[0].variance;
   S(1, 1) += rows[1].variance;
   return innovation.dot(S.inverse() * innovation);
 }
 
-bool PoseFilter::is_on_circle(const FieldLine& line) const {
-  if ((line.to - line.from).norm() > kMostChord) return false;
+// A straight line through an arc with the sagitta s lies within s of it: its ends 2/3 s outside.
+PoseFilter::Rows PoseFilter::match_chord(const CameraPlace& camera, const FieldLine& line) const {
   const double radius = field_->circle_radius();
-  const Eigen::Vector2d middle = pose() * Eigen::Vector2d(0.5 * (line.from + line.to));
-  return std::abs(middle.norm() - radius) < kCircleBand;
+  const double chord = (line.to - line.from).norm();
+  if (chord > 2 * radius * kMostChord) return {};
+  const double sagitta = radius - std::sqrt(square(radius) - square(chord / 2));
+  const double variance = square(kLineSigma) + square(sagitta / 3);
+  Rows rows;
+  for (const Eigen::Vector2d& point : {line.from, line.to}) {
+    const Eigen::Vector2d seen = on_field(camera, point);
+    if (seen.norm() < 1e-3) return {};
+    rows.push_back(make_row(camera, point, seen.normalized(), radius + sagitta * 2 / 3, variance));
+  }
+  return rows;
 }
 
-// Both ends of an observed line lie on the field line: two rows across it.
-std::vector<PoseFilter::Row> PoseFilter::match_line(const CameraPlace& camera,
-                                                    const FieldLine& line) const {
-  const Eigen::Vector2d from = pose() * line.from;
-  const Eigen::Vector2d to = pose() * line.to;
+// Both ends of an observed line lie on the field line: two rows across it. Or both lie on the
+// center circle.
+PoseFilter::Rows PoseFilter::match_line(const CameraPlace& camera, const FieldLine& line) const {
+  const Eigen::Vector2d from = on_field(camera, line.from);
+  const Eigen::Vector2d to = on_field(camera, line.to);
   const Eigen::Vector2d direction = (to - from).normalized();
   double best = std::numeric_limits<double>::infinity();
   double second = best;
-  std::vector<Row> best_rows;
+  Rows best_rows;
+  const auto add = [&](Rows rows) {
+    const double d = distance(rows);
+    second = std::min(second, std::max(d, best));
+    if (d >= best) return;
+    best = d;
+    best_rows = std::move(rows);
+  };
+  if (Rows chord = match_chord(camera, line); !chord.empty()) add(std::move(chord));
   for (const FieldLine& candidate : field_->lines()) {
     const Eigen::Vector2d along = (candidate.to - candidate.from).normalized();
     if (std::abs(along.dot(direction)) < std::cos(kMostAngle)) continue;
@@ -162,80 +193,79 @@ std::vector<PoseFilter::Row> PoseFilter::match_line(const CameraPlace& camera,
     const Eigen::Vector2d normal = kQuarterTurn * along;
     const double offset = normal.dot(candidate.from);
     const double variance = square(kLineSigma);
-    std::vector<Row> rows{make_row(camera, line.from, normal, offset, variance),
-                          make_row(camera, line.to, normal, offset, variance)};
-    const double d = distance(rows);
-    if (d < best) {
-      second = best;
-      best = d;
-      best_rows = std::move(rows);
-    } else {
-      second = std::min(second, d);
-    }
+    add({make_row(camera, line.from, normal, offset, variance),
+         make_row(camera, line.to, normal, offset, variance)});
   }
   if (best > kGate || second < best + kUnique) return {};
   return best_rows;
 }
 
-std::vector<PoseFilter::Row> PoseFilter::match_point(const CameraPlace& camera,
-                                                     const Eigen::Vector2d& point,
-                                                     const Eigen::Vector2d& target,
-                                                     double radial_variance,
-                                                     double tangential_variance) const {
+PoseFilter::Rows PoseFilter::match_point(const CameraPlace& camera, const Eigen::Vector2d& point,
+                                         const Eigen::Vector2d& target, double radial_variance,
+                                         double tangential_variance) const {
   // Along and across the view, in which the noise is independent.
   const Eigen::Vector2d view = pose().rotate((point - camera.position.head<2>()).normalized());
   const Eigen::Vector2d side = kQuarterTurn * view;
-  std::vector<Row> rows{make_row(camera, point, view, view.dot(target), radial_variance),
-                        make_row(camera, point, side, side.dot(target), tangential_variance)};
+  Rows rows{make_row(camera, point, view, view.dot(target), radial_variance),
+            make_row(camera, point, side, side.dot(target), tangential_variance)};
   if (distance(rows) > kGate) return {};
   return rows;
 }
 
-void PoseFilter::update(const FieldObservation& observation) {
-  std::vector<Row> rows;
-  const auto add = [&rows](std::vector<Row> more) {
-    rows.insert(rows.end(), more.begin(), more.end());
-  };
-  for (const FieldLine& line : observation.lines) {
-    if (!is_on_circle(line)) add(match_line(observation.camera, line));
-  }
-  const Eigen::Vector2d center = observation.camera.position.head<2>();
-  if (observation.circle) {
-    const double range = (*observation.circle - center).norm();
-    const double variance = square(kCircleSigma + kCircleSigmaPerDistance * range);
-    add(match_point(observation.camera, *observation.circle, Eigen::Vector2d::Zero(), variance,
-                    variance));
-  }
-  for (const Eigen::Vector2d& post : observation.posts) {
-    const Eigen::Vector2d seen = pose() * post;
-    const auto nearest = std::min_element(field_->goal_posts().begin(), field_->goal_posts().end(),
-                                          [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-                                            return (a - seen).norm() < (b - seen).norm();
-                                          });
-    if (nearest == field_->goal_posts().end()) continue;
-    add(match_point(observation.camera, post, *nearest,
-                    square(kPostDistanceSigma * (post - center).norm()), square(kPostSideSigma)));
-  }
-  if (!rows.empty()) apply(rows);
+PoseFilter::Rows PoseFilter::match_circle(const CameraPlace& camera,
+                                          const Eigen::Vector2d& circle) const {
+  const double range = (circle - camera.position.head<2>()).norm();
+  const double variance = square(kCircleSigma + kCircleSigmaPerDistance * range);
+  return match_point(camera, circle, Eigen::Vector2d::Zero(), variance, variance);
 }
 
-// All measurements of an image at once: the tilt's noise makes them dependent.
-void PoseFilter::apply(const std::vector<Row>& rows) {
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  Eigen::Matrix<double, Eigen::Dynamic, 5> H(n, 5);
-  Eigen::VectorXd innovation(n);
-  Eigen::VectorXd variance(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Row& row = rows[static_cast<size_t>(i)];
-    H.row(i) = row.jacobian;
-    innovation[i] = row.innovation;
-    variance[i] = row.variance;
+PoseFilter::Rows PoseFilter::match_post(const CameraPlace& camera,
+                                        const Eigen::Vector2d& post) const {
+  const Eigen::Vector2d seen = on_field(camera, post);
+  const auto nearest = std::min_element(field_->goal_posts().begin(), field_->goal_posts().end(),
+                                        [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+                                          return (a - seen).norm() < (b - seen).norm();
+                                        });
+  if (nearest == field_->goal_posts().end()) return {};
+  const double range = (post - camera.position.head<2>()).norm();
+  return match_point(camera, post, *nearest, square(kPostDistanceSigma * range),
+                     square(kPostSideSigma));
+}
+
+// One after the other: a line that fits the field only with a tilt that the others exclude is a
+// false one, or another line than it seemed before.
+void PoseFilter::update(const FieldObservation& observation) {
+  const CameraPlace& camera = observation.camera;
+  std::vector<std::pair<double, std::function<Rows()>>> landmarks;
+  const auto add = [&](std::function<Rows()> match) {
+    const Rows rows = match();
+    const double d = rows.empty() ? std::numeric_limits<double>::infinity() : distance(rows);
+    landmarks.emplace_back(d, std::move(match));
+  };
+  for (const FieldLine& line : observation.lines) {
+    add([this, &camera, &line] { return match_line(camera, line); });
   }
-  Eigen::MatrixXd R = square(kTiltNoise) * H.rightCols<2>() * H.rightCols<2>().transpose();
-  R.diagonal() += variance;
-  const Eigen::MatrixXd S = H * covariance_ * H.transpose() + R;
+  if (observation.circle) {
+    add([this, &camera, &observation] { return match_circle(camera, *observation.circle); });
+  }
+  for (const Eigen::Vector2d& post : observation.posts) {
+    add([this, &camera, &post] { return match_post(camera, post); });
+  }
+  std::stable_sort(landmarks.begin(), landmarks.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& landmark : landmarks) {
+    if (const Rows rows = landmark.second(); !rows.empty()) apply(rows);
+  }
+}
+
+void PoseFilter::apply(const Rows& rows) {
+  Eigen::Matrix<double, 2, 7> H;
+  H << rows[0].jacobian, rows[1].jacobian;
+  const Eigen::Vector2d innovation(rows[0].innovation, rows[1].innovation);
+  const Eigen::Matrix2d R = Eigen::Vector2d(rows[0].variance, rows[1].variance).asDiagonal();
+  const Eigen::Matrix2d S = H * covariance_ * H.transpose() + R;
   // K = P H^T S^-1.
-  const Eigen::Matrix<double, 5, Eigen::Dynamic> gain = S.llt().solve(H * covariance_).transpose();
+  const Eigen::Matrix<double, 7, 2> gain = S.llt().solve(H * covariance_).transpose();
   state_ += gain * innovation;
   state_[2] = wrapped(state_[2]);
   // Joseph form: stays symmetric and positive definite.
