@@ -199,12 +199,41 @@ void MujocoEngine::apply_forces(int index) {
   }
 }
 
+// Rolling resistance is ours: MuJoCo's has a pyramidal cone, with which a ball that rolls ahead
+// rolls aside without any, and it lets a resting ball creep.
+void MujocoEngine::apply_forces_on_ball() {
+  Ball& ball = *bodies_.ball;
+  const double h = options_.step;
+  double load = 0;
+  for (const Contact& contact : contacts_) {
+    const bool is_on_floor =
+        contact.a.kind == Surface::Kind::kBall && contact.b.kind == Surface::Kind::kFloor;
+    if (is_on_floor) load += contact.force_on_a.z();
+  }
+  // A torque of 7/5 r a / g N slows a solid sphere down by a, as in Ball::add_rolling_resistance().
+  // At most as much as stops the rotation in this step: 2/5 m r^2 w / h.
+  const BallDescription& sphere = ball.description();
+  const double arm =
+      1.4 * sphere.radius * options_.materials.ball_rolling_deceleration / options_.gravity.norm();
+  const BallState& state = ball.state();
+  const double rate = state.angular_velocity.norm();
+  const double stopping = 0.4 * sphere.mass * sphere.radius * sphere.radius * rate / h;
+  const double torque = std::min(arm * load, stopping);
+  // A free joint's torque is in the body's own axes.
+  Vector3d moment = Vector3d::Zero();
+  if (torque > 0) {
+    moment = state.orientation.conjugate() * Vector3d(-torque / rate * state.angular_velocity);
+  }
+  const Vector3d impulse = ball.take_impulse();
+  for (int k = 0; k < 3; ++k) {
+    data_->qfrc_applied[ball_dof_ + k] = impulse[k] / h;
+    data_->qfrc_applied[ball_dof_ + 3 + k] = moment[k];
+  }
+}
+
 void MujocoEngine::step() {
   for (int i = 0; i < bodies_.num_robots(); ++i) apply_forces(i);
-  if (bodies_.ball) {
-    const Vector3d impulse = bodies_.ball->take_impulse();
-    for (int k = 0; k < 3; ++k) data_->qfrc_applied[ball_dof_ + k] = impulse[k] / options_.step;
-  }
+  if (bodies_.ball) apply_forces_on_ball();
   mj_step(model_.get(), data_.get());
   ++num_steps_;
   read_contacts();

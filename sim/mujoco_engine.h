@@ -41,6 +41,7 @@ class MujocoEngine : public Engine {
   void build();
   void identify_geoms();
   void apply_forces(int robot);
+  void apply_forces_on_ball();
   void read_contacts();
   void read_states();
   /** Takes over the states of all bodies, without contacts. */

@@ -99,8 +99,9 @@ class Writer {
     // MuJoCo takes the greater friction of two geoms.
     if (options_.has_materials) out_ << " friction=\"0.001 0.005 0.0001\"";
     const FloorOptions& floor = world_.floor;
-    out_ << " user=\"" << floor.bump_height << ' ' << floor.bump_grid << ' ' << floor.seed
-         << "\"/>\n";
+    // At the height of the highest bump: MuJoCo looks at spheres only that reach below the plane.
+    out_ << " pos=\"0 0 " << floor.bump_height << "\" user=\"" << floor.bump_height << ' '
+         << floor.bump_grid << ' ' << floor.seed << "\"/>\n";
   }
 
   void write_static(const StaticShape& fixed) {
@@ -117,16 +118,13 @@ class Writer {
   void write_ball() {
     const BallDescription& ball = *scene_.ball;
     const Materials& materials = world_.materials;
-    // Rolling friction, m: a torque mu N that slows a solid sphere down by 5/7 mu g / r.
-    const double rolling =
-        1.4 * ball.radius * materials.ball_rolling_deceleration / world_.gravity.norm();
     // A damped oscillation of damping ratio 0.22 returns exp(-pi 0.22 / sqrt(1 - 0.22^2)) = 0.49 of
     // the speed after half a period.
     out_ << "<body name=\"ball\"><freejoint name=\"ball\"/><geom name=\"ball\" type=\"sphere\" "
          << "size=\"" << ball.radius << "\" mass=\"" << ball.mass << "\" contype=\"" << kShapeBit
          << "\" conaffinity=\"" << (kShapeBit | kFloorBit | kNetBit)
-         << "\" condim=\"6\" priority=\"1\" solref=\"0.02 0.22\" friction=\""
-         << materials.ball_friction << " 0.0001 " << rolling << "\"/></body>\n";
+         << "\" condim=\"3\" priority=\"1\" solref=\"0.02 0.22\" friction=\""
+         << materials.ball_friction << " 0.005 0.0001\"/></body>\n";
   }
 
   // Joint of a tree body. Its damping includes the back-EMF as a viscous term where the model has

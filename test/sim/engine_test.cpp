@@ -8,6 +8,7 @@
 #include "closed_loop/closed_loop.h"
 #include "common/constants.h"
 #include "common/error.h"
+#include "sim/floor.h"
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"
 
@@ -94,6 +95,47 @@ TEST_P(EngineTest, RollsABallThatSlowsDown) {
   // MuJoCo's friction is soft: its ball slips by 5 cm/s.
   EXPECT_NEAR(world.ball().angular_velocity.y() * 0.05, speed, 0.06);
   EXPECT_NEAR(world.ball().position.z(), 0.05, 0.002);
+}
+
+TEST_P(EngineTest, RestsABallOnABump) {
+  WorldOptions bumpy = options();
+  bumpy.floor.bump_height = 0.002;
+  bumpy.floor.seed = 7;
+  World world(with_ball(), bumpy);
+  const Floor floor(bumpy.floor);
+  // Rolling resistance of 0.3 m/s^2 holds it on slopes of up to 4 %; bumps have 3 %.
+  const Vector3d start(0.34, 0.57, 0);
+  world.place_ball(start, Vector3d::Zero());
+  for (int i = 0; i < 200; ++i) world.step_tick();
+  const Vector3d center = world.ball().position;
+  const Floor::Plane below = floor.at(center.x(), center.y());
+  EXPECT_GT(below.height, 0.0005);
+  EXPECT_NEAR(below.normal.z() * (center.z() - below.height), 0.05, 0.0005);
+  // Simbody's rolling resistance is blurred near rest: its ball creeps by 3 mm/s.
+  EXPECT_LT((center - start).head<2>().norm(), 0.008);
+  EXPECT_LT(world.ball().velocity.norm(), 0.004);
+}
+
+TEST_P(EngineTest, HoldsABallOnAGentleSlopeAndSlowsItDownInAllDirections) {
+  WorldOptions sloping = options();
+  // Downhill in y by 1 degree.
+  sloping.gravity = kGravity * Vector3d(0, std::sin(M_PI / 180), -std::cos(M_PI / 180));
+  World world(with_ball(), sloping);
+  world.place_ball(Vector3d::Zero(), Vector3d::Zero());
+  for (int i = 0; i < 100; ++i) world.step_tick();
+  EXPECT_LT(world.ball().position.head<2>().norm(), 0.006);
+  // A ball that rolls ahead is drawn downhill, and slowed down against the way that it rolls: the
+  // components follow v' = 5/7 g sin(1 degree) e_y - 0.3 v / |v|.
+  world.place_ball(Vector3d::Zero(), {1, 0, 0});
+  for (int i = 0; i < 50; ++i) world.step_tick();
+  Eigen::Vector2d expected = world.ball().velocity.head<2>();
+  for (int i = 0; i < 100; ++i) world.step_tick();
+  const double downhill = 5.0 / 7 * kGravity * std::sin(M_PI / 180);
+  for (int i = 0; i < 1000; ++i) {
+    expected += 1e-3 * (Eigen::Vector2d(0, downhill) - 0.3 * expected.normalized());
+  }
+  EXPECT_NEAR(world.ball().velocity.x(), expected.x(), 0.02);
+  EXPECT_NEAR(world.ball().velocity.y(), expected.y(), 0.02);
 }
 
 TEST_P(EngineTest, HoldsAStandingRobotOnAStand) {
