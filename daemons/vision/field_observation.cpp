@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "daemons/vision/ball_filter.h"
+
 namespace nao::vision {
 namespace {
 
@@ -92,6 +94,21 @@ Eigen::Matrix2d tilt_jacobian(const CameraPlace& camera, const Eigen::Vector2d& 
   jacobian << P.x() * P.y() / h, -h - P.x() * P.x() / h,  //
       h + P.y() * P.y() / h, -P.x() * P.y() / h;
   return jacobian;
+}
+
+void correct_by_tilt(const CameraPlace& camera, const Eigen::Vector2d& tilt,
+                     Detections& detections) {
+  for (Detection& detection : detections) {
+    if (!detection.has_position()) continue;
+    CameraPlace above = camera;
+    if (detection.kind == Kind::kBall) {
+      // Seen is its center.
+      above.position.z() -= kBallRadius;
+    } else if (detection.kind != Kind::kRobot) {
+      continue;
+    }
+    detection.position += tilt_jacobian(above, detection.position) * tilt;
+  }
 }
 
 }  // namespace nao::vision

@@ -50,4 +50,9 @@ FieldObservation observe_field(const Detections& detections, const CameraPlace& 
  * meets the ground at P' = (P + (-b h, a h)) h / (h - a P_y + b P_x); here its linear part. */
 Eigen::Matrix2d tilt_jacobian(const CameraPlace& camera, const Eigen::Vector2d& point);
 
+/** Moves the positions of balls and robots to where they are if the camera is turned by small
+ * rotations about the x and y axes of H, rad. */
+void correct_by_tilt(const CameraPlace& camera, const Eigen::Vector2d& tilt,
+                     Detections& detections);
+
 }  // namespace nao::vision

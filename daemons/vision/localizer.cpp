@@ -80,6 +80,11 @@ FieldPose Localizer::estimate() const {
   return {is_started_ && !is_lost_, filter_.pose(), filter_.covariance()};
 }
 
+Eigen::Vector2d Localizer::tilt() const {
+  if (!estimate().is_known || !is_upright_) return Eigen::Vector2d::Zero();
+  return filter_.tilt_of_image();
+}
+
 void Localizer::observe(const FieldObservation& observation) {
   if (!is_started_ || !is_upright_) return;
   if (!is_lost_) filter_.update(observation);

@@ -46,6 +46,9 @@ class Localizer {
   void observe(const FieldObservation& observation);
 
   FieldPose estimate() const;
+  /** Estimated error of the camera's tilt about the x and y axes of the heading frame in the last
+   * image, rad; zero while the pose is unknown. */
+  Eigen::Vector2d tilt() const;
 
  private:
   void restart(const Pose2& heading_in_odometry);

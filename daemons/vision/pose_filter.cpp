@@ -106,8 +106,7 @@ void PoseFilter::spread(double position_sigma, double heading_sigma) {
 
 Eigen::Vector2d PoseFilter::on_field(const CameraPlace& camera,
                                      const Eigen::Vector2d& point) const {
-  const Eigen::Vector2d tilt = state_.segment<2>(3) + state_.tail<2>();
-  return pose() * Eigen::Vector2d(point + tilt_jacobian(camera, point) * tilt);
+  return pose() * Eigen::Vector2d(point + tilt_jacobian(camera, point) * tilt_of_image());
 }
 
 // Field point f = t + R(theta) (p + G (a, b)), with the tilt (a, b); measured is its component
@@ -117,7 +116,7 @@ PoseFilter::Row PoseFilter::make_row(const CameraPlace& camera, const Eigen::Vec
                                      double extra_variance) const {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(state_[2]).toRotationMatrix();
   const Eigen::Matrix2d G = tilt_jacobian(camera, point);
-  const Eigen::Vector2d corrected = point + G * (state_.segment<2>(3) + state_.tail<2>());
+  const Eigen::Vector2d corrected = point + G * tilt_of_image();
   Row row;
   row.jacobian.head<2>() = direction.transpose();
   row.jacobian[2] = direction.dot(R * kQuarterTurn * corrected);

@@ -45,6 +45,8 @@ class PoseFilter {
   Eigen::Matrix3d covariance() const { return covariance_.topLeftCorner<3, 3>(); }
   /** Estimated slow errors of the camera's tilt, rad. */
   Eigen::Vector2d tilt() const { return state_.segment<2>(3); }
+  /** The same with the noise of the last image. */
+  Eigen::Vector2d tilt_of_image() const { return state_.segment<2>(3) + state_.tail<2>(); }
 
  private:
   /** One measured number: its derivative by the state, what is left of it, and its variance. */

@@ -87,6 +87,8 @@ void VisionCore::localize(const VisionInput& input, VisionResult& result) {
   const CameraPlace place{input.pose_camera_in_heading->translation(), 1 / input.calibration.fx};
   localizer_->observe(observe_field(result.detections, place, *input.heading_in_odometry));
   result.field_pose = localizer_->estimate();
+  // The lines tell how the camera is tilted, and so how far the ball is.
+  correct_by_tilt(place, localizer_->tilt(), result.detections);
   finish_stage("localisation");
 }
 
@@ -130,11 +132,14 @@ VisionResult VisionCore::process(const VisionInput& input) {
   }
   localize(input, result);
 
-  if (ball && ball->has_position() && input.heading_in_odometry) {
+  const auto seen =
+      std::find_if(result.detections.begin(), result.detections.end(),
+                   [](const Detection& detection) { return detection.kind == Kind::kBall; });
+  if (seen != result.detections.end() && seen->has_position() && input.heading_in_odometry) {
     const Pose2& pose = *input.heading_in_odometry;
     // From the heading frame to odometry: position as a point, covariance rotated.
     const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.heading).toRotationMatrix();
-    ball_filter_.update(pose * ball->position, R * ball->covariance * R.transpose());
+    ball_filter_.update(pose * seen->position, R * seen->covariance * R.transpose());
     result.ball = ball_filter_.estimate();
   }
   return result;

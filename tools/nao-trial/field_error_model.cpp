@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tools/nao-trial/visible_field.h"
+
 namespace nao::trial {
 namespace {
 
@@ -11,38 +13,34 @@ using vision::Detections;
 using vision::FieldLine;
 using vision::Kind;
 
-/** Distance between the points of a line that are projected, m. */
-constexpr double kStep = 0.05;
-/** Probabilities that a visible piece of a line is found, by its distance in m; false lines for
- * each piece; of the circle. From docs/vision.md: recall on places that were not used for tuning.
- * False lines and the errors below: fitted to 231 true and 86 false lines and 9 circles in
- * `nao-vision-dataset FOLDER --images 120 --seed 5`, with the exact pose of the camera. */
-constexpr double kNear = 3;
-constexpr double kFar = 5;
-constexpr double kFoundNear = 0.83;
-constexpr double kFoundFar = 0.59;
-constexpr double kFoundFarther = 0.3;
-constexpr double kFalse = 0.25;
-constexpr double kCircleNear = 0.9;
-constexpr double kCircleFar = 0.4;
-/** Part of a piece that is missing at each end, at most. */
-constexpr double kMostMissing = 0.25;
+/** All of these are fitted to `nao-trial localise --disturbances moderate --seeds 1-2 --duration
+ * 200`, whose statistics of detections localise-error-model repeats (docs/vision.md).
+ *
+ * Probabilities that a visible piece of a line is found, by its distance in m; false lines for
+ * each piece; of the circle; and of lines on each piece of its arc. */
+constexpr double kFoundNear = 0.91;
+constexpr double kFoundFar = 0.75;
+constexpr double kFoundFarther = 0.78;
+constexpr double kFalse = 0.055;
+constexpr double kCircleNear = 0.77;
+constexpr double kCircleFar = 0.62;
+constexpr double kArc = 0.8;
+/** Part of a piece that is missing at an end, at most: of most ends, and of a fraction of them. */
+constexpr double kMostMissing = 0.02;
+constexpr double kWorseMissing = 0.4;
+constexpr double kWorseMissingFraction = 0.2;
 /** Standard deviation of an end in each direction, pixels: of most, and of a fraction of them. */
-constexpr double kPixelSigma = 0.35;
-constexpr double kWorsePixelSigma = 1.7;
+constexpr double kPixelSigma = 0.09;
+constexpr double kWorsePixelSigma = 0.5;
 constexpr double kWorseFraction = 0.2;
 /** Shortest line that is found, pixels, as LineDetector. */
 constexpr float kLeastPixels = 26;
-/** Of the circle's center, m, and for each m of its distance. */
-constexpr double kCircleSigma = 0.003;
-constexpr double kCircleSigmaPerDistance = 0.001;
+/** Standard deviation of the circle's center, m: of most, and of a fraction of them. */
+constexpr double kCircleSigma = 0.025;
+constexpr double kWorseCircleSigma = 0.17;
+constexpr double kWorseCircleFraction = 0.25;
 
 }  // namespace
-
-bool FieldErrorModel::is_in_image(const cv::Point2f& pixel) const {
-  return pixel.x >= 0 && pixel.y >= 0 && pixel.x < static_cast<float>(width_) &&
-         pixel.y < static_cast<float>(height_);
-}
 
 void FieldErrorModel::add_line(const cv::Point2f& from, const cv::Point2f& to,
                                const CameraGeometry& estimated, Detections& detections) {
@@ -55,75 +53,56 @@ void FieldErrorModel::add_line(const cv::Point2f& from, const cv::Point2f& to,
   detection.position = a->position;
   detection.covariance = a->covariance;
   detection.end = b->position;
+  detection.line_px = {from.x, from.y, to.x, to.y};
   detection.confidence = 0.8;
   detections.push_back(detection);
 }
 
-void FieldErrorModel::add_field_line(const FieldLine& line, const CameraGeometry& truth,
-                                     const CameraGeometry& estimated, Detections& detections) {
-  std::vector<cv::Point2f> piece;
-  const auto finish = [&] {
-    if (piece.size() >= 4) {
-      const auto middle = truth.at_height(piece[piece.size() / 2], 0);
-      const double range = middle ? middle->norm() : 1e9;
-      const double found = range < kNear ? kFoundNear : range < kFar ? kFoundFar : kFoundFarther;
-      const double first = random_.uniform(0, kMostMissing);
-      const double last = 1 - random_.uniform(0, kMostMissing);
-      const auto end = [&](double fraction) {
-        const auto index = static_cast<size_t>(fraction * static_cast<double>(piece.size() - 1));
-        const double sigma = random_.uniform() < kWorseFraction ? kWorsePixelSigma : kPixelSigma;
-        return piece[index] + cv::Point2f(static_cast<float>(sigma * random_.normal()),
-                                          static_cast<float>(sigma * random_.normal()));
-      };
-      const cv::Point2f from = end(first);
-      const cv::Point2f to = end(last);
-      if (random_.uniform() < found) add_line(from, to, estimated, detections);
-      if (random_.uniform() < kFalse) {
-        const cv::Point2f place(static_cast<float>(random_.uniform(0, width_)),
-                                static_cast<float>(random_.uniform(0.4, 1) * height_));
-        const double angle = random_.uniform(0, M_PI);
-        const double length = random_.uniform(30, 150);
-        add_line(place,
-                 place + cv::Point2f(static_cast<float>(length * std::cos(angle)),
-                                     static_cast<float>(length * std::sin(angle))),
-                 estimated, detections);
-      }
-    }
-    piece.clear();
+void FieldErrorModel::add_piece(const std::vector<cv::Point2f>& piece, const CameraGeometry& truth,
+                                const CameraGeometry& estimated, Detections& detections) {
+  const auto middle = truth.at_height(piece[piece.size() / 2], 0);
+  const double range = middle ? middle->norm() : 1e9;
+  const double found = range < kNearRange  ? kFoundNear
+                       : range < kFarRange ? kFoundFar
+                                           : kFoundFarther;
+  const auto missing = [&] {
+    const bool is_worse = random_.uniform() < kWorseMissingFraction;
+    return random_.uniform(0, is_worse ? kWorseMissing : kMostMissing);
   };
-  const int num_steps = static_cast<int>(std::ceil((line.to - line.from).norm() / kStep));
-  for (int i = 0; i <= num_steps; ++i) {
-    const Eigen::Vector2d point = line.from + (line.to - line.from) * i / num_steps;
-    const auto pixel = truth.project({point.x(), point.y(), 0});
-    if (pixel && is_in_image(*pixel)) {
-      piece.push_back(*pixel);
-    } else {
-      finish();
-    }
-  }
-  finish();
+  const double first = missing();
+  const double last = 1 - missing();
+  const auto end = [&](double fraction) {
+    const auto index = static_cast<size_t>(fraction * static_cast<double>(piece.size() - 1));
+    const double sigma = random_.uniform() < kWorseFraction ? kWorsePixelSigma : kPixelSigma;
+    return piece[index] + cv::Point2f(static_cast<float>(sigma * random_.normal()),
+                                      static_cast<float>(sigma * random_.normal()));
+  };
+  const cv::Point2f from = end(first);
+  const cv::Point2f to = end(last);
+  if (random_.uniform() < found) add_line(from, to, estimated, detections);
+  if (random_.uniform() >= kFalse) return;
+  const cv::Point2f place(static_cast<float>(random_.uniform(0, width_)),
+                          static_cast<float>(random_.uniform(0.4, 1) * height_));
+  const double angle = random_.uniform(0, M_PI);
+  const double length = random_.uniform(30, 150);
+  add_line(place,
+           place + cv::Point2f(static_cast<float>(length * std::cos(angle)),
+                               static_cast<float>(length * std::sin(angle))),
+           estimated, detections);
 }
 
 void FieldErrorModel::add_circle(const Eigen::Isometry3d& true_pose, const CameraGeometry& truth,
                                  const Eigen::Isometry3d& estimated_pose,
                                  const CameraGeometry& estimated, Detections& detections) {
-  constexpr int kNumPoints = 72;
-  std::vector<cv::Point2f> visible;
-  for (int i = 0; i < kNumPoints; ++i) {
-    const double angle = 2 * M_PI * i / kNumPoints;
-    const auto pixel = truth.project(
-        {field_.circle_radius() * std::cos(angle), field_.circle_radius() * std::sin(angle), 0});
-    if (pixel && is_in_image(*pixel)) visible.push_back(*pixel);
+  const std::vector<cv::Point2f> visible = VisibleField(field_, truth, width_, height_).circle();
+  // Some of its bends become lines.
+  for (size_t i = 0; i + 8 < visible.size(); i += 16) {
+    if (random_.uniform() < kArc) add_line(visible[i], visible[i + 8], estimated, detections);
   }
-  if (visible.size() < kNumPoints / 3) return;
+  if (visible.size() < kNumCirclePoints / 3) return;
   const double range = true_pose.translation().head<2>().norm();
-  if (range > kFar || random_.uniform() > (range < kNear ? kCircleNear : kCircleFar)) {
-    // Its bends become short lines.
-    for (size_t i = 0; i + 8 < visible.size(); i += 16) {
-      if (random_.uniform() < 0.5) add_line(visible[i], visible[i + 8], estimated, detections);
-    }
-    return;
-  }
+  const double found = range < kNearRange ? kCircleNear : range < kFarRange ? kCircleFar : 0;
+  if (random_.uniform() >= found) return;
   // The center moves as the middle of the arc does when the camera's pose is wrong.
   const cv::Point2f middle = visible[visible.size() / 2];
   const auto seen = estimated.at_height(middle, 0);
@@ -133,7 +112,7 @@ void FieldErrorModel::add_circle(const Eigen::Isometry3d& true_pose, const Camer
     return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
   };
   const Eigen::Rotation2Dd turn(heading(estimated_pose) - heading(true_pose));
-  const double sigma = kCircleSigma + kCircleSigmaPerDistance * range;
+  const double sigma = random_.uniform() < kWorseCircleFraction ? kWorseCircleSigma : kCircleSigma;
   Detection circle;
   circle.kind = Kind::kCenterCircle;
   circle.position = *seen + turn * Eigen::Vector2d(-*arc) +
@@ -147,9 +126,12 @@ Detections FieldErrorModel::detect(const Eigen::Isometry3d& true_pose,
                                    const Eigen::Isometry3d& estimated_pose) {
   const CameraGeometry truth(calibration_, true_pose);
   const CameraGeometry estimated(calibration_, estimated_pose);
+  const VisibleField visible(field_, truth, width_, height_);
   Detections detections;
   for (const FieldLine& line : field_.lines()) {
-    add_field_line(line, truth, estimated, detections);
+    for (const std::vector<cv::Point2f>& piece : visible.pieces(line)) {
+      add_piece(piece, truth, estimated, detections);
+    }
   }
   add_circle(true_pose, truth, estimated_pose, estimated, detections);
   return detections;

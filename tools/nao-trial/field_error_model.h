@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <vector>
 
 #include "common/random.h"
 #include "daemons/vision/camera_geometry.h"
@@ -27,11 +28,10 @@ class FieldErrorModel {
                             const Eigen::Isometry3d& estimated_pose);
 
  private:
-  bool is_in_image(const cv::Point2f& pixel) const;
   void add_line(const cv::Point2f& from, const cv::Point2f& to,
                 const vision::CameraGeometry& estimated, vision::Detections& detections);
-  void add_field_line(const vision::FieldLine& line, const vision::CameraGeometry& truth,
-                      const vision::CameraGeometry& estimated, vision::Detections& detections);
+  void add_piece(const std::vector<cv::Point2f>& piece, const vision::CameraGeometry& truth,
+                 const vision::CameraGeometry& estimated, vision::Detections& detections);
   void add_circle(const Eigen::Isometry3d& true_pose, const vision::CameraGeometry& truth,
                   const Eigen::Isometry3d& estimated_pose, const vision::CameraGeometry& estimated,
                   vision::Detections& detections);

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "common/error.h"
+#include "tools/nao-trial/field_detection_statistics.h"
 #include "tools/nao-trial/field_error_model.h"
 #include "tools/nao-trial/rendered_vision.h"
 
@@ -34,6 +36,8 @@ constexpr double kRecoveredTurn = 0.17;
 constexpr double kStandTime = 2;
 /** Greatest turn of a robot that is placed elsewhere, rad: the gyroscope does not measure it. */
 constexpr double kMostTurn = 1.0;
+/** Greatest tilt of a torso that stands or walks, rad; images of others do not count. */
+constexpr double kUpright = 0.3;
 
 Pose2 true_pose(const ClosedLoop& trial) {
   return Pose2::from(trial.torso_in_world());
@@ -48,9 +52,16 @@ class Localisation {
     keep_state();
     if (trial_.time() < next_image_) return;
     next_image_ = trial_.time() + kSparseImagePeriod;
-    estimate_ = look(trial_.model().cameras().front());
+    const CameraModel& camera = trial_.model().cameras().front();
+    estimate_ = look(camera);
     odometry_ = odometry();
+    if (!keeps_statistics_ || !pose_camera_ || trial_.torso_tilt() > kUpright) return;
+    statistics_.add(detections_, trial_.world().robot(0).link_pose(camera.link), *pose_camera_,
+                    trial_.world().ball().position);
   }
+  /** Of the images from now on. */
+  void keep_statistics(bool keep) { keeps_statistics_ = keep; }
+  const FieldDetectionStatistics& statistics() const { return statistics_; }
   /** Now: the pose at the last image, moved by the odometry since, as nao-play uses it. */
   FieldPose estimate() const {
     FieldPose now = estimate_;
@@ -59,11 +70,23 @@ class Localisation {
   }
 
  protected:
-  explicit Localisation(ClosedLoop& trial) : trial_(trial) {}
+  Localisation(ClosedLoop& trial, const SceneFile& scene)
+      : trial_(trial),
+        field_(scene),
+        pinhole_(camera::pinhole_of(trial.model().cameras().front())),
+        calibration_{pinhole_.fx, pinhole_.fy, pinhole_.cx, pinhole_.cy, {}},
+        statistics_(field_, calibration_, pinhole_.width, pinhole_.height) {}
   virtual void keep_state() = 0;
+  /** Sets detections_ and pose_camera_. */
   virtual FieldPose look(const CameraModel& camera) = 0;
 
   ClosedLoop& trial_;
+  vision::FieldModel field_;
+  PinholeCamera pinhole_;
+  vision::CameraCalibration calibration_;
+  /** Of the last image; and the camera in the heading frame by the robot's sensors. */
+  vision::Detections detections_;
+  std::optional<Eigen::Isometry3d> pose_camera_;
 
  private:
   Pose2 odometry() const { return Pose2::from(trial_.estimate().torso_in_odometry); }
@@ -72,16 +95,23 @@ class Localisation {
   FieldPose estimate_;
   /** At the last image. */
   Pose2 odometry_;
+  FieldDetectionStatistics statistics_;
+  bool keeps_statistics_ = true;
 };
 
 class RenderedLocalisation : public Localisation {
  public:
   RenderedLocalisation(ClosedLoop& trial, const SceneFile& scene, const Pose2& start)
-      : Localisation(trial), vision_(trial, scene, start) {}
+      : Localisation(trial, scene), vision_(trial, scene, start) {}
 
  private:
   void keep_state() override { vision_.keep_state(); }
-  FieldPose look(const CameraModel& camera) override { return vision_.look(camera).field_pose; }
+  FieldPose look(const CameraModel& camera) override {
+    vision::VisionResult seen = vision_.look(camera);
+    detections_ = std::move(seen.detections);
+    pose_camera_ = vision_.pose_camera_in_heading();
+    return seen.field_pose;
+  }
 
   RenderedVision vision_;
 };
@@ -89,11 +119,10 @@ class RenderedLocalisation : public Localisation {
 class ModelledLocalisation : public Localisation {
  public:
   ModelledLocalisation(ClosedLoop& trial, const SceneFile& scene, const Pose2& start, uint64_t seed)
-      : Localisation(trial), poses_(trial.model()), field_(scene), localizer_(field_, start) {
-    const PinholeCamera pinhole = camera::pinhole_of(trial.model().cameras().front());
-    calibration_ = {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, {}};
-    errors_.emplace(field_, calibration_, pinhole.width, pinhole.height, seed);
-  }
+      : Localisation(trial, scene),
+        poses_(trial.model()),
+        localizer_(field_, start),
+        errors_(field_, calibration_, pinhole_.width, pinhole_.height, seed) {}
 
  private:
   void keep_state() override {
@@ -104,21 +133,21 @@ class ModelledLocalisation : public Localisation {
   FieldPose look(const CameraModel& camera) override {
     const int64_t utime = trial_.estimate().utime;
     const auto pose = poses_.find(camera.name, utime);
+    pose_camera_.reset();
     if (!pose) return localizer_.estimate();
+    pose_camera_ = pose->pose_camera_in_heading;
     localizer_.predict(utime, pose->heading_in_odometry, pose->is_upright);
     const Eigen::Isometry3d truth = trial_.world().robot(0).link_pose(camera.link);
-    const vision::Detections detections = errors_->detect(truth, pose->pose_camera_in_heading);
+    detections_ = errors_.detect(truth, pose->pose_camera_in_heading);
     localizer_.observe(vision::observe_field(
-        detections, {pose->pose_camera_in_heading.translation(), 1 / calibration_.fx},
+        detections_, {pose->pose_camera_in_heading.translation(), 1 / calibration_.fx},
         pose->heading_in_odometry));
     return localizer_.estimate();
   }
 
   vision::PoseHistory poses_;
-  vision::FieldModel field_;
   vision::Localizer localizer_;
-  vision::CameraCalibration calibration_;
-  std::optional<FieldErrorModel> errors_;
+  FieldErrorModel errors_;
 };
 
 /** Error of an estimate: x, y, m, and heading, rad, in the field frame. */
@@ -203,6 +232,13 @@ void place(ClosedLoop& trial, const Vector2d& position, double turn) {
 
 }  // namespace
 
+std::map<std::string, std::string> LocaliseScenario::units() const {
+  std::map<std::string, std::string> units{
+      {"position_error_m", "m"}, {"heading_error_deg", "degrees"}, {"recovery_s", "s"}};
+  for (const auto& unit : FieldDetectionStatistics::units()) units.insert(unit);
+  return units;
+}
+
 std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   if (options.trial.model->cameras().empty()) {
     throw ConfigError(options.trial.model->name() + " has no camera");
@@ -249,6 +285,8 @@ std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uin
   });
   trial.run(options.duration > 0 ? options.duration : kDuration);
   session.metrics.emplace_back("known", static_cast<double>(num_known) / std::max(1, num_samples));
+  for (const auto& metric : localisation->statistics().metrics()) session.metrics.push_back(metric);
+  localisation->keep_statistics(false);
   session.is_success = num_known > 0.9 * num_samples;
   if (!session.is_success) session.failure = "pose often unknown";
   std::vector<RunResult> results{session};
@@ -257,7 +295,7 @@ std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uin
     trial.release_walk();
     trial.on_tick([&] { localisation->tick(); });
     trial.run(kStandTime);
-    trial.run_until([&] { return trial.torso_tilt() < 0.3; }, kDuration);
+    trial.run_until([&] { return trial.torso_tilt() < kUpright; }, kDuration);
     const Vector2d position = random_position(-1, 1);
     place(trial, position, trial.random(-kMostTurn, kMostTurn));
     const double begin = trial.time();

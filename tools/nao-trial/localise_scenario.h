@@ -19,9 +19,7 @@ class LocaliseScenario : public Scenario {
                  "after being placed elsewhere"
                : "localise, with an error model instead of images";
   }
-  std::map<std::string, std::string> units() const override {
-    return {{"position_error_m", "m"}, {"heading_error_deg", "degrees"}, {"recovery_s", "s"}};
-  }
+  std::map<std::string, std::string> units() const override;
   const char* scene() const override { return "soccer"; }
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 

@@ -76,6 +76,7 @@ vision::VisionResult RenderedVision::look(const CameraModel& camera) {
     input.is_moving = pose->is_moving;
     heading_in_odometry_ = pose->heading_in_odometry;
   }
+  pose_camera_in_heading_ = input.pose_camera_in_heading;
   return core_.process(input);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <deque>
+#include <optional>
 #include <string>
 
 #include "daemons/head-camera/head_camera.h"
@@ -23,6 +25,10 @@ class RenderedVision {
   void keep_state();
   /** What an image that the camera takes now shows. */
   vision::VisionResult look(const CameraModel& camera);
+  /** Camera in the heading frame at the last image, by the robot's estimated state. */
+  const std::optional<Eigen::Isometry3d>& pose_camera_in_heading() const {
+    return pose_camera_in_heading_;
+  }
   /** Torso in the odometry frame at the last image. */
   const Pose2& heading_in_odometry() const { return heading_in_odometry_; }
 
@@ -35,6 +41,7 @@ class RenderedVision {
   vision::VisionCore core_;
   camera::HeadCamera renderer_;
   Pose2 heading_in_odometry_;
+  std::optional<Eigen::Isometry3d> pose_camera_in_heading_;
 };
 
 /** RenderedVision as a behavior sees it. */

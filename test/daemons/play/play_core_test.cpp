@@ -330,6 +330,21 @@ TEST_F(PlayLease, WaitsUntilAFallenRobotStands) {
   EXPECT_EQ(world_.core.state().phase, PlayPhase::kApproach);
 }
 
+// nao-motion is in the mode moving until a robot that lies has come to rest.
+TEST_F(PlayLease, CommandsNothingWhileTheRobotLies) {
+  begin();
+  world_.mode = Mode::kMoving;
+  world_.is_upright = false;
+  world_.commands.clear();
+  steps(30);
+  EXPECT_EQ(world_.core.state().phase, PlayPhase::kRecover);
+  EXPECT_EQ(world_.core.state().reason.code, "robot-fallen");
+  EXPECT_THAT(world_.commands, SizeIs(0));
+  world_.is_upright = true;
+  steps(20);
+  EXPECT_EQ(world_.core.state().phase, PlayPhase::kApproach);
+}
+
 TEST_F(PlayLease, FailsWhenTheRobotNeedsHelpOrIsGone) {
   begin();
   world_.mode = Mode::kFallen;

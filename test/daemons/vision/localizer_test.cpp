@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include "daemons/vision/ball_filter.h"
 #include "daemons/vision/camera_geometry.h"
 #include "daemons/vision/pose_filter.h"
 #include "field_view_model.h"
@@ -70,6 +71,24 @@ TEST(FieldObservation, TiltMovesGroundPointsAsATurnedCameraSeesThem) {
   const Eigen::Vector2d corrected = *seen + tilt_jacobian(place, *seen) * tilt;
   EXPECT_GT((*truth - *seen).norm(), 0.008);
   EXPECT_LT((corrected - *truth).norm(), 0.05 * (*truth - *seen).norm());
+}
+
+TEST(FieldObservation, TiltCorrectsTheDistanceOfTheBall) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() << 0.06, 0.01, 0.5;
+  pose.linear() = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()).matrix();
+  Eigen::Isometry3d turned = pose;
+  turned.linear() = Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitY()).matrix() * pose.linear();
+  const CameraCalibration calibration = CameraCalibration::guess(640, 480);
+  const Eigen::Vector3d ball(2, 0.3, kBallRadius);
+  const auto pixel = CameraGeometry(calibration, turned).project(ball);
+  ASSERT_TRUE(pixel);
+  Detection detection;
+  detection.position = *CameraGeometry(calibration, pose).at_height(*pixel, kBallRadius);
+  EXPECT_GT((detection.position - ball.head<2>()).norm(), 0.15);
+  Detections detections{detection};
+  correct_by_tilt({pose.translation(), 1 / calibration.fx}, {0, 0.02}, detections);
+  EXPECT_LT((detections[0].position - ball.head<2>()).norm(), 0.02);
 }
 
 TEST(Localizer, StartsAtTheKnownPose) {
