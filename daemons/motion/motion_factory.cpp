@@ -112,11 +112,11 @@ MotionPlan MotionFactory::plan(const Command& command, const MotionContext& cont
 
 std::unique_ptr<MotionGenerator> MotionFactory::make_posture_path(const Posture& posture,
                                                                   double speed) const {
-  return std::make_unique<PosturePathMotion>(graph_, posture, speed);
+  return std::make_unique<PosturePathMotion>(graph_, posture, speed, true);
 }
 
 std::unique_ptr<MotionGenerator> MotionFactory::make_posture_path(const Posture& posture) const {
-  return make_posture_path(posture, options_->default_speed);
+  return std::make_unique<PosturePathMotion>(graph_, posture, options_->default_speed);
 }
 
 std::unique_ptr<MotionGenerator> MotionFactory::make_stand_path() const {

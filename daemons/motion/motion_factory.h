@@ -49,10 +49,10 @@ class MotionFactory {
   void set_taught(const std::string& name, std::shared_ptr<const ActionScript> script);
   bool has_taught(const std::string& name) const { return taught_.contains(name); }
 
-  /** Path to a posture from any state of the body. @param speed  Fraction of the maximum, (0, 1].
-   */
+  /** Path to a posture from any state of the body, as exact as it can be. @param speed  Fraction of
+   * the maximum, (0, 1]. */
   std::unique_ptr<MotionGenerator> make_posture_path(const Posture& posture, double speed) const;
-  /** The same at the speed of the robot's own motions. */
+  /** The same at the speed of the robot's own motions, and only as exact as it needs to stand. */
   std::unique_ptr<MotionGenerator> make_posture_path(const Posture& posture) const;
   /** Path to the posture in which walks and actions begin. */
   std::unique_ptr<MotionGenerator> make_stand_path() const;

@@ -32,6 +32,7 @@ void MotionOptions::validate() const {
   require_fraction(default_speed, "default_speed");
   require_fraction(posture_leg_speed, "posture_leg_speed");
   require_positive(posture_tolerance, "posture_tolerance", "rad");
+  require_positive(lying_posture_tolerance, "lying_posture_tolerance", "rad");
   require_positive(lying_tilt, "lying_tilt", "rad");
   require_positive(motion_state_period, "motion_state_period", "s");
 }

@@ -25,6 +25,9 @@ struct MotionOptions {
   /** Greatest deviation of every joint in a posture that was reached, rad (5 degrees): the servos'
    * tracking error under load. */
   double posture_tolerance = 0.09;
+  /** The same of a lying posture, rad (8 degrees): limbs lie on the floor, whose friction weak
+   * wrists do not overcome. */
+  double lying_posture_tolerance = 0.14;
   /** Tilt of the torso above which the robot lies, rad. */
   double lying_tilt = 1.0;
   /** Period of motion states while nothing changes, s. */

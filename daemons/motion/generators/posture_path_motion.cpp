@@ -27,6 +27,9 @@ constexpr double kContinueVelocity = 4;
 // often it is played.
 constexpr const char* kFeetTogether = "feet-together";
 constexpr int kMaxFeetTogether = 3;
+// Deviation from a standing posture above which the feet are brought together once, rad (2.5
+// degrees). Chosen: servos alone stay closer.
+constexpr double kOffPosture = 2.5 * M_PI / 180;
 // Deviation from a posture below which no approach transition is needed, rad.
 constexpr double kNearPosture = 0.3;
 // Fraction of the progress that a transition stands for: what follows it is not known yet.
@@ -103,6 +106,13 @@ MotionGenerator::Phase PosturePathMotion::step_line(const MotionContext& context
                                                     JointTargets& targets) {
   const Phase phase = line_->step(context, targets);
   if (phase == Phase::kFailed && bring_feet_together(context, targets)) return Phase::kRunning;
+  if (phase == Phase::kFailed && approach_again(context, targets)) return Phase::kRunning;
+  // Feet that stand a little too far apart keep the joints off the posture, though near enough.
+  if (phase == Phase::kDone && is_exact_ && is_standing_line_ && num_feet_together_ == 0 &&
+      deviation_from(*goal_, context.sensors.position).angle > kOffPosture &&
+      bring_feet_together(context, targets)) {
+    return Phase::kRunning;
+  }
   if (phase == Phase::kFailed) reason_ = line_->reason();
   if (phase != Phase::kDone) return phase;
   if (body_state_in(context) == state_of(*goal_)) return Phase::kDone;
@@ -166,9 +176,13 @@ MotionGenerator::Phase PosturePathMotion::choose_transition(const MotionContext&
                                                             const JointTargets& targets,
                                                             const std::string& state) {
   const std::string goal_state = state_of(*goal_);
-  // First a path without transitions that have failed; if there is none, all are tried again.
+  // First a path without transitions that have failed; if there is none, all are tried again, in
+  // the same order: a robot that could not roll by the shortest path rolls by the other one next.
   auto path = graph_->find_path(state, goal_state, failed_);
-  if (path.empty()) path = graph_->find_path(state, goal_state);
+  if (path.empty()) {
+    failed_.clear();
+    path = graph_->find_path(state, goal_state);
+  }
   if (path.empty()) {
     reason_ = Reason("no-path", {state.empty() ? "unknown" : state, goal_->name});
     return Phase::kFailed;
@@ -197,6 +211,17 @@ bool PosturePathMotion::bring_feet_together(const MotionContext& context,
   is_standing_line_ = false;
   is_from_lying_ = false;
   play(context, *sequence, targets);
+  return true;
+}
+
+bool PosturePathMotion::approach_again(const MotionContext& context, const JointTargets& targets) {
+  const KeyframeSequence* approach = graph_->find_approach(*goal_);
+  const bool applies = approach != nullptr && body_state_in(context) == state_of(*goal_);
+  if (!applies || has_approached_again_) return false;
+  has_approached_again_ = true;
+  time_ = 0;
+  is_from_lying_ = false;
+  play(context, *approach, targets);
   return true;
 }
 

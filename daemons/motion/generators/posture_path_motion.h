@@ -19,9 +19,12 @@ namespace nao::motion {
  * at which they were verified in physics; the commanded speed applies to the straight lines. */
 class PosturePathMotion : public MotionGenerator {
  public:
-  /** @param graph, goal  Must outlive this. @param speed  Fraction of the maximum, (0, 1]. */
-  PosturePathMotion(const TransitionGraph& graph, const Posture& goal, double speed)
-      : graph_(&graph), goal_(&goal), speed_(speed) {}
+  /** @param graph, goal  Must outlive this. @param speed  Fraction of the maximum, (0, 1].
+   * @param is_exact  Feet that keep the joints a little off a standing goal are brought together;
+   * who only has to stand saves the time. */
+  PosturePathMotion(const TransitionGraph& graph, const Posture& goal, double speed,
+                    bool is_exact = false)
+      : graph_(&graph), goal_(&goal), speed_(speed), is_exact_(is_exact) {}
 
   void start(const MotionContext& context, const JointTargets& targets) override;
   Phase step(const MotionContext& context, JointTargets& targets) override;
@@ -71,9 +74,14 @@ class PosturePathMotion : public MotionGenerator {
    * @return Whether it did. */
   bool bring_feet_together(const MotionContext& context, const JointTargets& targets);
 
+  /** Starts the goal's approach transition once more, if a joint is blocked: by an arm below the
+   * body, for example. @return Whether it did. */
+  bool approach_again(const MotionContext& context, const JointTargets& targets);
+
   const TransitionGraph* graph_;
   const Posture* goal_;
   double speed_;
+  bool is_exact_;
 
   Segment segment_ = Segment::kStiffening;
   /** s since the segment began. */
@@ -94,6 +102,7 @@ class PosturePathMotion : public MotionGenerator {
   /** The last transition ended where it should. */
   bool is_on_path_ = false;
   bool has_approached_ = false;
+  bool has_approached_again_ = false;
   /** The segment is a line between two postures on the feet. */
   bool is_standing_line_ = false;
   bool is_finishing_ = false;

@@ -12,6 +12,8 @@ namespace {
 // Greatest difference of a measured angle to the posture that the robot is in, rad (5 degrees): the
 // servos' tracking error under load and the encoders' resolution.
 constexpr double kInPostureTolerance = 0.09;
+// The same where it lies, rad (8 degrees), as MotionOptions::lying_posture_tolerance.
+constexpr double kInLyingPostureTolerance = 0.14;
 
 }  // namespace
 
@@ -57,7 +59,9 @@ const Posture* find_present_posture(const RobotModel& model, const std::vector<d
                                     const RobotState& state, double lying_tilt) {
   // Angles alone do not tell a posture: a lying robot may have those of a standing one.
   for (const Posture& posture : model.postures()) {
-    if (deviation_from(posture, position).angle >= kInPostureTolerance) continue;
+    const double tolerance =
+        posture.family.rfind("lying", 0) == 0 ? kInLyingPostureTolerance : kInPostureTolerance;
+    if (deviation_from(posture, position).angle >= tolerance) continue;
     if (state_of(posture) == find_body_state(model, state, lying_tilt)) return &posture;
   }
   return nullptr;
