@@ -139,13 +139,19 @@ bool CommandArbiter::overlay_walk(const Command& command, const MotionContext& c
     return true;
   }
   answer(command, ResultStatus::kAccepted);
-  end_overlay(ResultStatus::kInterrupted, {"replaced", {describe(command)}});
+  if (has_overlay()) {
+    answer(*overlay_.command(), ResultStatus::kInterrupted, {"replaced", {describe(command)}});
+  }
   overlay_.start(command, context, start);
   return true;
 }
 
 void CommandArbiter::assign(Assignment assignment) {
-  // At most one motion waits: the newest command counts.
+  // At most one motion waits: the newest command counts. Joints that a change of the same tick
+  // should make limp or stiff become so nevertheless.
+  if (waiting_ && !waiting_->has_waited) {
+    assignment.generator->continue_ramps(waiting_->generator->unfinished_ramps(*model_));
+  }
   end_waiting(ResultStatus::kInterrupted, {"replaced-before-start"});
   waiting_ = std::move(assignment);
 }
@@ -175,6 +181,9 @@ void CommandArbiter::start_waiting(const MotionContext& context, const JointTarg
     waiting_->has_waited = true;
     return;
   }
+  MotionGenerator& newer = *waiting_->generator;
+  if (has_overlay()) newer.continue_ramps(overlay_.unfinished_ramps(*model_));
+  if (running_) newer.continue_ramps(running_->generator->unfinished_ramps(*model_));
   end_running(ResultStatus::kInterrupted, replaced_by(*waiting_));
   end_overlay(ResultStatus::kInterrupted, replaced_by(*waiting_));
   if (const auto danger = find_new_danger(context, targets)) {

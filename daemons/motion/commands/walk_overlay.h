@@ -18,12 +18,15 @@ namespace nao::motion {
  * does not undo it. */
 class WalkOverlay {
  public:
-  /** Starts a change. @param command  A joint change. @param start  Targets that it continues from.
-   */
+  /** Starts a change, which replaces the one in progress. @param command  A joint change.
+   * @param start  Targets that it continues from. */
   void start(const Command& command, const MotionContext& context, const JointTargets& start);
 
   /** The change in progress; nullptr if there is none. */
   const Command* command() const { return change_ ? &change_->command : nullptr; }
+
+  /** Of the change in progress. */
+  std::vector<MotionGenerator::StiffnessRamp> unfinished_ramps(const RobotModel& model) const;
 
   /** Ends the change in progress; its joints keep their angles. */
   void stop() { change_.reset(); }
@@ -42,7 +45,10 @@ class WalkOverlay {
   struct Change {
     std::unique_ptr<MotionGenerator> generator;
     Command command;
+    /** Motors that it turns. */
     std::vector<int> motors;
+    /** Motors whose stiffness it changes. */
+    std::vector<int> ramps;
   };
 
   std::optional<Change> change_;

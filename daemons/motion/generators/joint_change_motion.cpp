@@ -27,6 +27,16 @@ std::vector<double> commanded_angles(const RobotModel& model, const JointChangeC
   return commanded;
 }
 
+/** Adds the ramps of motors that have none yet. */
+void add_missing(const std::vector<MotionGenerator::StiffnessRamp>& more,
+                 std::vector<MotionGenerator::StiffnessRamp>& ramps) {
+  for (const auto& ramp : more) {
+    const bool is_known = std::any_of(ramps.begin(), ramps.end(),
+                                      [&](const auto& known) { return known.motor == ramp.motor; });
+    if (!is_known) ramps.push_back(ramp);
+  }
+}
+
 }  // namespace
 
 std::vector<double> JointChangeMotion::calc_goal(const RobotModel& model,
@@ -71,18 +81,52 @@ void JointChangeMotion::start(const MotionContext& context, const JointTargets& 
   }
   trajectory_ = JointTrajectory(start, velocity, goal, rates, 0, how);
   stiffness_.clear();
-  for (size_t i = 0; i < change_.joint_stiffness.size(); ++i) {
-    if (std::isnan(change_.joint_stiffness[i])) continue;
-    const int motor = context.model.find_motor(change_.joint_names[i]);
-    stiffness_.push_back({motor, targets.stiffness[motor], change_.joint_stiffness[i]});
+  for (const StiffnessRamp& ramp : all_ramps(context.model)) {
+    stiffness_.push_back({ramp.motor, targets.stiffness[ramp.motor], ramp.goal, ramp.time_left});
   }
+  is_started_ = true;
   time_ = 0;
 }
 
+std::vector<MotionGenerator::StiffnessRamp> JointChangeMotion::own_ramps(
+    const RobotModel& model) const {
+  std::vector<StiffnessRamp> ramps;
+  for (size_t i = 0; i < change_.joint_stiffness.size(); ++i) {
+    if (std::isnan(change_.joint_stiffness[i])) continue;
+    ramps.push_back(
+        {model.find_motor(change_.joint_names[i]), change_.joint_stiffness[i], kStiffnessTime});
+  }
+  return ramps;
+}
+
+std::vector<MotionGenerator::StiffnessRamp> JointChangeMotion::all_ramps(
+    const RobotModel& model) const {
+  std::vector<StiffnessRamp> ramps = own_ramps(model);
+  add_missing(continued_, ramps);
+  return ramps;
+}
+
+void JointChangeMotion::continue_ramps(const std::vector<StiffnessRamp>& ramps) {
+  add_missing(ramps, continued_);
+}
+
+std::vector<MotionGenerator::StiffnessRamp> JointChangeMotion::unfinished_ramps(
+    const RobotModel& model) const {
+  if (!is_started_) return all_ramps(model);
+  std::vector<StiffnessRamp> ramps;
+  for (const RunningRamp& ramp : stiffness_) {
+    if (time_ >= ramp.duration) continue;
+    ramps.push_back({ramp.motor, ramp.to, ramp.duration - time_});
+  }
+  return ramps;
+}
+
 double JointChangeMotion::duration() const {
-  const bool ramps = std::any_of(stiffness_.begin(), stiffness_.end(),
-                                 [](const StiffnessRamp& ramp) { return ramp.from != ramp.to; });
-  return std::max({stop_.duration(), trajectory_.duration(), ramps ? kStiffnessTime : 0});
+  double duration = std::max(stop_.duration(), trajectory_.duration());
+  for (const RunningRamp& ramp : stiffness_) {
+    if (ramp.from != ramp.to) duration = std::max(duration, ramp.duration);
+  }
+  return duration;
 }
 
 void JointChangeMotion::note_clipping(const RobotModel& model, const std::vector<double>& commanded,
@@ -142,8 +186,8 @@ MotionGenerator::Phase JointChangeMotion::step(const MotionContext& context,
                                                JointTargets& targets) {
   time_ += context.dt;
   sample(time_, targets.position);
-  const double fraction = std::min(1.0, time_ / kStiffnessTime);
-  for (const StiffnessRamp& ramp : stiffness_) {
+  for (const RunningRamp& ramp : stiffness_) {
+    const double fraction = std::min(1.0, time_ / ramp.duration);
     // Exact at the end: a limp joint has the stiffness 0.
     targets.stiffness[ramp.motor] =
         fraction < 1 ? ramp.from + fraction * (ramp.to - ramp.from) : ramp.to;

@@ -11,6 +11,7 @@
 namespace nao::motion {
 
 /** Turns single joints to their goals, changes their stiffness, and brings the others to rest.
+ * Stiffness that an older change has not brought to its goal goes on to it.
  *
  * The two groups have trajectories of their own: joints that had to arrive together with a slow
  * change would coast far. */
@@ -28,19 +29,27 @@ class JointChangeMotion : public MotionGenerator {
   Mode mode() const override { return Mode::kMoving; }
   double progress() const override;
   Reason reason() const override { return reason_; }
+  std::vector<StiffnessRamp> unfinished_ramps(const RobotModel& model) const override;
+  void continue_ramps(const std::vector<StiffnessRamp>& ramps) override;
 
   /** Targets from the start to the end, rad, each (num_motors), for collision checks. From one to
    * the next no joint turns by more than 0.05 rad, or than it does in 5 ms. After start(). */
   std::vector<std::vector<double>> calc_path(const RobotModel& model) const;
 
  private:
-  /** Ramp of a motor's stiffness. */
-  struct StiffnessRamp {
+  /** A ramp in progress. */
+  struct RunningRamp {
     int motor;
     double from;
     double to;
+    /** From the start of this motion, s. */
+    double duration;
   };
 
+  /** Ramps that the change asks for. */
+  std::vector<StiffnessRamp> own_ramps(const RobotModel& model) const;
+  /** Own ramps, and those of older motions for other motors. */
+  std::vector<StiffnessRamp> all_ramps(const RobotModel& model) const;
   double duration() const;
   void sample(double time, std::vector<double>& position) const;
   /** Brisk if none of the named joints carries the body; then sets their rates accordingly. */
@@ -57,7 +66,10 @@ class JointChangeMotion : public MotionGenerator {
   JointTrajectory trajectory_;
   /** Motors of trajectory_. */
   std::vector<int> turning_;
-  std::vector<StiffnessRamp> stiffness_;
+  /** Of older motions, one for each motor. */
+  std::vector<StiffnessRamp> continued_;
+  std::vector<RunningRamp> stiffness_;
+  bool is_started_ = false;
   double time_ = 0;
   Reason reason_;
 };

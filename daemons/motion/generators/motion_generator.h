@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
 #include "daemons/motion/joint_targets.h"
 #include "daemons/motion/motion_options.h"
@@ -60,6 +61,24 @@ class MotionGenerator {
   /** Continues with a newer command of the same kind without ending (a walk's new velocity).
    * @return false if the command needs a motion of its own. */
   virtual bool adopt(const Command& /*command*/) { return false; }
+
+  /** A motor's stiffness on its way to a new value. */
+  struct StiffnessRamp {
+    int motor;
+    double goal;
+    /** Until the goal is reached, s. */
+    double time_left;
+  };
+
+  /** Ramps that would be left half way if the motion ended now; of one that has not begun, those
+   * that it is for. */
+  virtual std::vector<StiffnessRamp> unfinished_ramps(const RobotModel& /*model*/) const {
+    return {};
+  }
+
+  /** Called before start(), once for each motion that this one replaces, the newest first: what
+   * they began is continued for joints whose stiffness this motion leaves alone. */
+  virtual void continue_ramps(const std::vector<StiffnessRamp>& /*ramps*/) {}
 
   /** Progress of a kick that this motion adopted: a walk kicks without stopping. */
   enum class Strike { kNone, kPending, kStruck, kMissed };

@@ -53,6 +53,23 @@ TEST_F(WalkOverlayTest, WritesOnlyTheJointsOfTheChange) {
   }
 }
 
+TEST_F(WalkOverlayTest, ANewerChangeDoesNotEndTheStiffnessRampOfAnOlderOne) {
+  JointChangeCommand limp{{"LShoulderPitch"}, {0}, true, 1, false};
+  limp.joint_stiffness = {0};
+  overlay_.start({"test", 1, limp}, robot_.context(), robot_.targets());
+  for (int i = 0; i < 10; ++i) {
+    overlay_.step(robot_.context(0.01), robot_.targets());
+    overlay_.write(robot_.targets());
+  }
+  start_head_turn(0.01);
+  for (int i = 0; i < 45; ++i) {
+    overlay_.step(robot_.context(0.01), robot_.targets());
+    overlay_.write(robot_.targets());
+  }
+  EXPECT_EQ(robot_.targets().stiffness[nao_motor("LShoulderPitch")], 0);
+  EXPECT_EQ(robot_.targets().stiffness[head_], 1);
+}
+
 TEST_F(WalkOverlayTest, RemarksThatAChangeWasClipped) {
   start_head_turn(9);
   EXPECT_EQ(run(), Reason("clipped-to-limits", {"HeadYaw"}));

@@ -161,6 +161,36 @@ TEST_F(LimpJointTest, FollowsTheHandThatMovesIt) {
   EXPECT_NEAR(robot_.sensors().position[nao_motor("LShoulderRoll")], there, 0.02);
 }
 
+TEST_F(LimpJointTest, ANewerChangeDoesNotEndTheRampOfOtherJoints) {
+  robot_.settle(core_);
+  const std::vector<const char*> joints = {"LShoulderPitch", "LShoulderRoll", "RShoulderPitch",
+                                           "RShoulderRoll"};
+  // As a phone sends them: the first two within one control step, the others in the next ones.
+  int64_t id = 100;
+  robot_.step(core_,
+              {{"hand", ++id, stiffen(joints[0], 0)}, {"hand", ++id, stiffen(joints[1], 0)}});
+  const int first = nao_motor(joints[0]);
+  for (int i = 0; i < 25; ++i) robot_.step(core_);
+  EXPECT_NEAR(robot_.sensors().stiffness[first], 0.48, 0.03);
+  const double before = robot_.sensors().stiffness[first];
+  robot_.step(core_, {{"hand", ++id, stiffen(joints[2], 0)}});
+  // Neither a jump nor a new ramp of 0.5 s.
+  EXPECT_NEAR(robot_.sensors().stiffness[first], before - 0.02, 1e-9);
+  robot_.step(core_, {{"hand", ++id, stiffen(joints[3], 0)}});
+  for (int i = 0; i < 24; ++i) robot_.step(core_);
+  EXPECT_EQ(robot_.sensors().stiffness[first], 0);
+  for (int i = 0; i < 30; ++i) robot_.step(core_);
+  for (const char* joint : joints) {
+    EXPECT_EQ(robot_.sensors().stiffness[nao_motor(joint)], 0) << joint;
+  }
+  // A joint that the newer change names goes where the newer one says.
+  robot_.step(core_, {{"hand", ++id, stiffen(joints[0], 1)}});
+  for (int i = 0; i < 10; ++i) robot_.step(core_);
+  robot_.step(core_, {{"hand", ++id, stiffen(joints[0], 0.5)}});
+  for (int i = 0; i < 60; ++i) robot_.step(core_);
+  EXPECT_EQ(robot_.sensors().stiffness[first], 0.5);
+}
+
 TEST_F(LimpJointTest, IsRefusedWhereItCarriesTheRobot) {
   robot_.settle(core_);
   const CommandResult refused = send(stiffen("LKneePitch", 0.2)).results.at(0);
