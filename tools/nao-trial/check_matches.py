@@ -9,6 +9,7 @@ import argparse
 import csv
 import json
 import os
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -22,6 +23,8 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 PUT = 0.5
 # Largest time from a crossing to its event, s: the referee's period, and a place of the path.
 LATEST = 0.1
+# Figures of nao-trial that are printed for each match.
+FIGURES = ("kicks", "falls", "penalties", "upright_ratio", "longest_stuck_s")
 
 
 def parse_arguments():
@@ -33,6 +36,7 @@ def parse_arguments():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="matches at the same time (%(default)s)")
     parser.add_argument("--program", default=str(ROOT / "build/dev/bin/nao-trial"), help="nao-trial (%(default)s)")
     parser.add_argument("--json", help="file for the figures")
+    parser.add_argument("--traces", help="folder that keeps the traces of the matches (default: none)")
     return parser.parse_known_args()
 
 
@@ -71,15 +75,16 @@ def crossings(path, scene):
 
 
 def read(file):
-    """@return path of the ball, and the referee's goals and outs as (time, kind, team)."""
-    path, events = [], []
+    """@return path of the ball, the referee's goals and outs as (time, kind, team), and whether it ended the match."""
+    path, events, has_ended = [], [], False
     with open(file, encoding="utf-8") as stream:
         for kind, time, *values in csv.reader(stream):
             if kind == "ball":
                 path.append((float(time), values[0], *map(float, values[1:])))
             elif kind == "event" and values[0] in ("goal", "ball-out"):
                 events.append((float(time), values[0], int(values[1]) if values[0] == "goal" else None))
-    return path, events
+            has_ended |= kind == "event" and values[0] == "match-end"
+    return path, events, has_ended
 
 
 def compare(found, events):
@@ -97,34 +102,51 @@ def compare(found, events):
 
 def check(arguments, seed, options, folder, scene):
     file = Path(folder) / f"{seed}.csv"
-    command = [arguments.program, arguments.scenario, "--seeds", str(seed), "--trace", str(file), *options]
+    summary = Path(folder) / f"{seed}.json"
+    command = [arguments.program, arguments.scenario, "--seeds", str(seed), "--trace", str(file),
+               "--json", str(summary), *options]
     subprocess.run(command, check=False, stdout=subprocess.DEVNULL)
     if not file.exists():
         sys.exit(f"nao-trial wrote no trace; run it by hand: {' '.join(command)}")
-    path, events = read(file)
+    path, events, has_ended = read(file)
     differences = compare(crossings(path, scene), events)
     goals = sum(kind == "goal" for _, kind, _ in events)
-    print(f"seed {seed}: {goals} goals, {len(events) - goals} outs of the referee, {len(differences)} differences",
-          flush=True)
+    figures = {name: values["mean"] for name, values in json.loads(summary.read_text())["metrics"].items()}
+    print(f"seed {seed}: {goals} goals, {len(events) - goals} outs of the referee, {len(differences)} differences; "
+          + ", ".join(f"{name} {figures[name]:.3g}" for name in FIGURES), flush=True)
     for text in differences:
         print(f"  {text}")
-    file.unlink()
-    return {"seed": seed, "goals": goals, "outs": len(events) - goals, "differences": differences}
+    if not arguments.traces:
+        file.unlink()
+    return {"seed": seed, "goals": goals, "outs": len(events) - goals, "differences": differences,
+            "has_ended": has_ended, "figures": figures}
+
+
+def summarize(matches):
+    num_events = sum(match["goals"] + match["outs"] for match in matches)
+    num_differences = sum(len(match["differences"]) for match in matches)
+    print(f"{len(matches)} matches, {sum(match['has_ended'] for match in matches)} ended, "
+          f"{sum(match['goals'] > 0 for match in matches)} with a goal; "
+          f"{num_events} goals and outs, {num_differences} differences")
+    for name in ("goals", *FIGURES):
+        values = [match["figures"][name] for match in matches]
+        print(f"  {name}: mean {statistics.mean(values):.3g}, {min(values):.3g} to {max(values):.3g}")
+    return num_events > 0 and num_differences == 0
 
 
 def main():
     arguments, options = parse_arguments()
     scene = yaml.safe_load((ROOT / "scenes/soccer.yaml").read_text())
     first, _, last = arguments.seeds.partition("-")
-    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(arguments.jobs) as pool:
+    with tempfile.TemporaryDirectory() as temporary, ThreadPoolExecutor(arguments.jobs) as pool:
+        folder = arguments.traces or temporary
+        Path(folder).mkdir(parents=True, exist_ok=True)
         matches = list(pool.map(lambda seed: check(arguments, seed, options, folder, scene),
                                 range(int(first), int(last or first) + 1)))
-    num_events = sum(match["goals"] + match["outs"] for match in matches)
-    num_differences = sum(len(match["differences"]) for match in matches)
-    print(f"{len(matches)} matches, {num_events} goals and outs, {num_differences} differences")
+    is_good = summarize(matches)
     if arguments.json:
         Path(arguments.json).write_text(json.dumps(matches, indent=1) + "\n")
-    return 1 if num_differences or not num_events else 0
+    return 0 if is_good else 1
 
 
 if __name__ == "__main__":
