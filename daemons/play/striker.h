@@ -42,6 +42,9 @@ class Striker : public BehaviorMachine {
   /** The ball if it may still be where it was seen; of a rolling one where it will be. */
   std::optional<Ball> find_ball(const Situation& situation) const;
   Aim calc_aim(const Eigen::Vector2d& ball, const Situation& situation) const;
+  /** Robots, in the field, that may keep the goal from a ball there. @param ball  In the field. */
+  std::vector<Eigen::Vector2d> find_keepers(const Eigen::Vector2d& ball,
+                                            const Situation& situation) const;
   Aim calc_aim_at_goal(const Eigen::Vector2d& ball, const Situation& situation) const;
   /** Kicks in passing a ball that lies right and need not go far. */
   std::optional<Decision> kick_in_passing(const Ball& ball, const Aim& aim,
@@ -58,6 +61,10 @@ class Striker : public BehaviorMachine {
   Decision look_for_ball(const Situation& situation);
   Decision approach(const Ball& ball, const Situation& situation);
   Decision settle(const Ball& ball, const Situation& situation);
+  /** Whether to walk on with the ball instead of shooting it from here. */
+  bool can_carry(const Ball& ball, const Aim& aim, const Situation& situation) const;
+  /** Whether another robot is near the ball. */
+  static bool is_contested(const Ball& ball, const Situation& situation);
   Decision push(const Ball& ball, const Situation& situation);
   Decision watch(const Situation& situation);
   void look_at(const Ball& ball, const Situation& situation, Decision& decision) const;

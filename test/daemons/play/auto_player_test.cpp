@@ -140,6 +140,48 @@ TEST_F(AutoPlayerTest, KicksInPassingFarFromTheGoalAndStopsBeforeIt) {
   EXPECT_FALSE(world.actions.empty());
 }
 
+TEST_F(AutoPlayerTest, CarriesABallThatNobodyContestsBeforeItShoots) {
+  world.match->phase = MatchPhase::kPlaying;
+  world.match->kicks_off = true;
+  world.feet = {{0.5, 0}, 0};
+  world.ball = {1.5, 0};
+  const auto comes_to_ball = [&] {
+    world.actions.clear();
+    world.least_distance = 10;
+    for (int i = 0; i < 400 && world.actions.empty() && world.least_distance > 0.12; ++i) {
+      world.step();
+    }
+    return world.least_distance < 0.12;
+  };
+  // Its feet touch the ball: it walks on with it.
+  EXPECT_TRUE(comes_to_ball());
+  EXPECT_TRUE(world.actions.empty());
+  // Another robot at the ball: it kicks at once.
+  world.feet = {{0.5, 0}, 0};
+  world.robots = {{1.6, 0.9}};
+  EXPECT_FALSE(comes_to_ball());
+  EXPECT_FALSE(world.actions.empty());
+  // Near the goal it shoots.
+  world.feet = {{2.0, 0}, 0};
+  world.ball = {2.9, 0};
+  world.robots.clear();
+  for (int i = 0; i < 60; ++i) world.step();
+  EXPECT_FALSE(comes_to_ball());
+  EXPECT_FALSE(world.actions.empty());
+}
+
+TEST_F(AutoPlayerTest, ShootsBesideAKeeperThatItDoesNotSee) {
+  world.match->phase = MatchPhase::kPlaying;
+  world.match->kicks_off = true;
+  world.feet = {{2.0, 0}, 0};
+  world.ball = {2.8, 0};
+  for (int i = 0; i < 1200 && world.actions.empty(); ++i) world.step();
+  ASSERT_FALSE(world.actions.empty());
+  // Where the shot passes the goal line: between the post and half a standing keeper.
+  EXPECT_GT(std::abs(1.7 * std::tan(world.feet.heading)), 0.25);
+  EXPECT_LT(std::abs(1.7 * std::tan(world.feet.heading)), 0.75);
+}
+
 TEST_F(AutoPlayerTest, GoesToABallThatOnlyATeammateSees) {
   world.match->phase = MatchPhase::kPlaying;
   world.match->kicks_off = true;
