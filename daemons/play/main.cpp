@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
       ->separated_by(',')
       ->count(3);
   app.add_flag("--autonomous", options.is_autonomous,
-               "In a match: play by itself, but for 5 s after another program's last command");
+               "In a match: play by itself, but for 10 s after another program's last command");
   return nao::run_program(app, common, argc, argv, [&] {
     options.robot = common.robot;
     options.start_in_field = {{start_pose[0], start_pose[1]}, start_pose[2] * M_PI / 180};

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 #include <naolcm/camera_command_t.hpp>
 #include <naolcm/command_result_t.hpp>
@@ -17,6 +18,7 @@
 #include "common/bus.h"
 #include "common/data_path.h"
 #include "common/error.h"
+#include "messages/match_state.h"
 
 namespace nao::play {
 namespace {
@@ -183,6 +185,58 @@ TEST_F(PlayDaemonTest, RelatesThePoseOnTheFieldToTheOdometryOfThatTime) {
   EXPECT_NEAR(vision.field_in_odometry->position.x(), 4, 1e-9);
   message.utime = 5000000;
   EXPECT_FALSE(decode_vision(message, torso).field_in_odometry);
+}
+
+/** A robot that plays by itself in a match. */
+class AutonomousTest : public PlayDaemonTest {
+ protected:
+  AutonomousTest() : autonomous_(bus_, model_, options(), [this] { return now_; }) {}
+
+  static PlayOptions options() {
+    PlayOptions options;
+    options.is_autonomous = true;
+    return options;
+  }
+
+  void publish_match() {
+    MatchState state;
+    state.phase = MatchPhase::kPlaying;
+    state.players = {{.robot = "NAO", .team = 0, .number = 1}};
+    bus_.publish(kMatchStateChannel, to_message(state, utime_, ++sequence_));
+  }
+
+  /** @return Whether it plays after so many s. */
+  bool plays_after(double seconds) {
+    for (int i = 0; i < std::lround(seconds / 0.05); ++i) {
+      utime_ += 50000;
+      publish_robot();
+      publish_vision();
+      if (i % 10 == 0) publish_match();
+      deliver();
+      autonomous_.step(now_ += 0.05);
+    }
+    return autonomous_.core().is_active();
+  }
+
+  void drive() {
+    naolcm::walk_command_t walk{};
+    walk.source = "phone.1";
+    walk.command_id = 7;
+    bus_.publish("NAO_WALK_COMMAND", walk);
+    deliver();
+  }
+
+  PlayDaemon autonomous_;
+  int64_t sequence_ = 0;
+};
+
+TEST_F(AutonomousTest, PlaysAgainWhenThePersonsLeaseHasLapsed) {
+  EXPECT_TRUE(plays_after(2));
+  drive();
+  EXPECT_FALSE(plays_after(1));
+  // A phone's lease lasts 10 s without a command, and then passes to somebody else who asks.
+  EXPECT_FALSE(plays_after(8.5));
+  EXPECT_TRUE(plays_after(1));
 }
 
 TEST(RobotViewer, SeesWhereTheCamerasLook) {
