@@ -399,7 +399,7 @@ def wait_until_ready(stack, settings, options, processes):
     report = stack.logs / "start.log"
     with open(report, "w", encoding="utf-8") as output:
         waiter = subprocess.Popen([f"{settings['bin_dir']}/nao", "status", "--wait",
-                                   ",".join(process.program for process in processes),
+                                   ",".join(process.program for process in processes), "--this-host",
                                    "--timeout", str(timeout), "--lcm-url", settings["lcm_url"]], stderr=output)
     ended = os.pidfd_open(waiter.pid)  # readable when the process has ended
     while not select.select([ended], [], [], POLL_PERIOD)[0]:

@@ -16,19 +16,8 @@ constexpr double kForgetAfterNear = 8;
 constexpr double kNear = 0.6;
 /** The search is given up after this time, s. */
 constexpr double kSearchTimeout = 120;
-/** Distance, m, that a kick moves the ball: nao-trial kick measures 4.8 (docs/performance.md). */
-constexpr double kKickDistance = 4.5;
 /** Deceleration of a rolling ball, m/s^2: SPL carpet, as in sim/world_options.h. */
 constexpr double kRollingDeceleration = 0.3;
-/** Of the kick's direction, rad: its worst error (1.7 degrees) and that of the heading. */
-constexpr double kDirectionError = 0.06;
-constexpr double kLeastTolerance = 0.06;
-constexpr double kGreatestTolerance = 0.3;
-/** Least tolerance of a kick that does not reach the goal, rad: 0.9 m aside at its end, where the
- * next kick is aimed anew. Chosen. */
-constexpr double kFarTolerance = 0.2;
-/** Margin, m, to a goal post: the ball's radius and some of the pose's error. */
-constexpr double kPostMargin = 0.15;
 /** Parts of the kick's reach at which the walk stops: the last step and the settling move the
  * feet by about a centimetre. */
 constexpr double kStopFraction = 0.55;
@@ -69,20 +58,6 @@ constexpr double kCarryTo = 1.9;
 constexpr double kCarryNear = 0.1;
 constexpr double kCarryAside = 0.09;
 constexpr double kCarryTolerance = 0.3;
-/** A robot nearer than this to the middle of the goal line, m, keeps the goal: the shot goes beside
- * it, by half the width that a standing keeper covers, m. */
-constexpr double kKeeperDistance = 1.3;
-constexpr double kKeeperHalf = 0.25;
-/** Where a keeper that is not seen stands, m before the middle of the goal line. */
-constexpr double kKeeperOut = 0.5;
-/** Openings beside a keeper that differ by less, rad, are as good as each other. */
-constexpr double kEqualSides = 0.1;
-/** A robot nearer to the ball than this, m, and in the direction of the kick within the angle, rad,
- * would stop it. The kick goes past it by that angle. Chosen: shoulders are 0.3 m wide. */
-constexpr double kBlockingDistance = 1.0;
-constexpr double kBlockingAngle = 0.6;
-/** Tolerance of such a kick, rad: it is to get the ball away. */
-constexpr double kPastTolerance = 0.25;
 /** A ball that rolls past the feet nearer than this, m, is stopped by them. Chosen: half the width
  * of a stance and the ball's radius. */
 constexpr double kStoppedByFeet = 0.2;
@@ -204,81 +179,7 @@ std::optional<Ball> Striker::find_ball(const Situation& situation) const {
   return ball;
 }
 
-std::vector<Vector2d> Striker::find_keepers(const Vector2d& ball,
-                                            const Situation& situation) const {
-  const Vector2d goal(0.5 * constants_.field.length, 0);
-  std::vector<Vector2d> keepers;
-  for (const Vector2d& robot : situation.robots) {
-    const Vector2d keeper = situation.field_in_odometry.inverse() * robot;
-    const Vector2d way = keeper - ball;
-    const bool is_keeper =
-        (keeper - goal).norm() < kKeeperDistance && way.x() > 0.3 && way.norm() > kKeeperHalf;
-    if (is_keeper) keepers.push_back(keeper);
-  }
-  // Out of sight it is where a keeper stands.
-  const bool has_keeper = situation.match && situation.match->team_size > 1;
-  if (keepers.empty() && has_keeper && ball.x() < goal.x() - kKeeperDistance) {
-    keepers.push_back(goal + kKeeperOut * (ball - goal).normalized());
-  }
-  return keepers;
-}
-
-Striker::Aim Striker::calc_aim_at_goal(const Vector2d& ball, const Situation& situation) const {
-  const Pose2& field = situation.field_in_odometry;
-  const Vector2d in_field = field.inverse() * ball;
-  const double goal_x = 0.5 * constants_.field.length;
-  const double half = std::max(0.2, 0.5 * constants_.field.goal_width - kPostMargin);
-  // From a ball on the goal line the opening has no direction: a little before it.
-  const double depth = std::max(0.15, goal_x - in_field.x());
-  double left = std::atan2(half - in_field.y(), depth);
-  double right = std::atan2(-half - in_field.y(), depth);
-  // Beside the keeper.
-  for (const Vector2d& keeper : find_keepers(in_field, situation)) {
-    const Vector2d way = keeper - in_field;
-    const double bearing = std::atan2(way.y(), way.x());
-    const double cover = std::asin(kKeeperHalf / way.norm());
-    if (bearing + cover < right || bearing - cover > left) continue;
-    // The wider side; of two that are about equal the one that the robot faces already.
-    double more_on_left = left - (bearing + cover) - ((bearing - cover) - right);
-    if (std::abs(more_on_left) < kEqualSides) {
-      const Vector2d facing =
-          in_field - field.inverse() * situation.robot.feet_in_odometry.position;
-      more_on_left = std::atan2(facing.y(), facing.x()) - bearing;
-    }
-    if (more_on_left > 0) {
-      right = std::min(bearing + cover, left - 0.02);
-    } else {
-      left = std::max(bearing - cover, right + 0.02);
-    }
-  }
-  Aim aim;
-  aim.heading = wrapped(field.heading + 0.5 * (left + right));
-  aim.tolerance =
-      std::clamp(0.5 * (left - right) - kDirectionError, kLeastTolerance, kGreatestTolerance);
-  const bool is_far = (Vector2d(goal_x, 0) - in_field).norm() > kKickDistance;
-  if (is_far) aim.tolerance = std::max(aim.tolerance, kFarTolerance);
-  aim.target = field * Vector2d(goal_x, 0);
-  return aim;
-}
-
-Striker::Aim Striker::aim_past_robots(const Aim& aim, const Vector2d& ball,
-                                      const Situation& situation) const {
-  for (const Vector2d& robot : situation.robots) {
-    const Vector2d way = robot - ball;
-    const double bearing = wrapped(std::atan2(way.y(), way.x()) - aim.heading);
-    if (way.norm() > kBlockingDistance || std::abs(bearing) > kBlockingAngle) continue;
-    // To the side on which more of the field is, unless the robot leaves one side open.
-    const double middle = (situation.field_in_odometry.inverse() * ball).y() > 0 ? -1 : 1;
-    const double side = std::abs(bearing) < 0.3 * kBlockingAngle ? middle : (bearing > 0 ? -1 : 1);
-    Aim past = aim;
-    past.heading = wrapped(aim.heading + bearing + side * kBlockingAngle);
-    past.tolerance = kPastTolerance;
-    return past;
-  }
-  return aim;
-}
-
-Striker::Aim Striker::calc_aim(const Vector2d& ball, const Situation& situation) const {
+Aim Striker::calc_aim(const Vector2d& ball, const Situation& situation) const {
   const Vector2d& feet = situation.robot.feet_in_odometry.position;
   Aim aim;
   if (task_ == Task::kGoToBall) {
@@ -288,7 +189,7 @@ Striker::Aim Striker::calc_aim(const Vector2d& ball, const Situation& situation)
     const Vector2d way = *target_ - ball;
     aim = {std::atan2(way.y(), way.x()), kLeastTolerance, *target_};
   } else {
-    aim = aim_past_robots(calc_aim_at_goal(ball, situation), ball, situation);
+    aim = aim_past_robots(aim_at_goal(ball, situation, constants_.field), ball, situation);
   }
   // A robot that could not stop well enough several times is content with less.
   aim.tolerance =

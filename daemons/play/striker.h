@@ -5,6 +5,7 @@
 #include "daemons/play/approach.h"
 #include "daemons/play/ball_memory.h"
 #include "daemons/play/ball_search.h"
+#include "daemons/play/shot_aim.h"
 #include "daemons/play/situation.h"
 
 namespace nao::play {
@@ -29,29 +30,13 @@ class Striker : public BehaviorMachine {
  private:
   enum class Stage { kApproach, kSettle, kPush, kWatch };
 
-  /** Where the ball is to go. */
-  struct Aim {
-    /** rad, in the odometry frame, and how far the feet may be off. */
-    double heading = 0;
-    double tolerance = 0;
-    /** m, in the odometry frame. */
-    Eigen::Vector2d target = Eigen::Vector2d::Zero();
-  };
-
   void handle_end(const CommandResult& result, const Situation& situation);
   /** The ball if it may still be where it was seen; of a rolling one where it will be. */
   std::optional<Ball> find_ball(const Situation& situation) const;
   Aim calc_aim(const Eigen::Vector2d& ball, const Situation& situation) const;
-  /** Robots, in the field, that may keep the goal from a ball there. @param ball  In the field. */
-  std::vector<Eigen::Vector2d> find_keepers(const Eigen::Vector2d& ball,
-                                            const Situation& situation) const;
-  Aim calc_aim_at_goal(const Eigen::Vector2d& ball, const Situation& situation) const;
   /** Kicks in passing a ball that lies right and need not go far. */
   std::optional<Decision> kick_in_passing(const Ball& ball, const Aim& aim,
                                           const Situation& situation);
-  /** The aim turned past a robot that stands before the ball. */
-  Aim aim_past_robots(const Aim& aim, const Eigen::Vector2d& ball,
-                      const Situation& situation) const;
   /** The nearest point of the field, m, in the odometry frame. @param margin  From its lines, m. */
   Eigen::Vector2d into_field(const Eigen::Vector2d& point, double margin,
                              const Situation& situation) const;

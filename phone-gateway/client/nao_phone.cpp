@@ -57,6 +57,7 @@ struct PhoneOptions {
   double timeout = 2;
   double rate = 10;
   double image_rate = 0;
+  std::string camera;
 };
 
 /** "holding" for MODE_HOLDING, as nao-motion calls it. */
@@ -155,14 +156,14 @@ int show_state(PhoneClient& client) {
   return 0;
 }
 
-int save_image(PhoneClient& client, const std::string& file) {
+int save_image(PhoneClient& client, const std::string& file, const std::string& camera) {
   // The camera starts to render with the first request.
-  Response response = client.get_state(true);
+  Response response = client.get_state(true, camera);
   for (int i = 0; i < kMaxImagePolls && response.error() == naoremote::OK &&
                   !response.state_and_image().has_image();
        ++i) {
     client.run_for(kPollPeriod);
-    response = client.get_state(true);
+    response = client.get_state(true, camera);
   }
   if (const int status = report(response); status != 0) return status;
   if (!response.state_and_image().has_image()) {
@@ -281,9 +282,12 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
   add_action(app, o, chosen, "robots", "List the robots of the gateway and who drives them",
              list_robots);
   add_action(app, o, chosen, "state", "Show the robot's state", show_state);
-  CommandLine* image = add_action(app, o, chosen, "image", "Save an image of the head camera",
-                                  [&o](PhoneClient& client) { return save_image(client, o.file); });
+  CommandLine* image =
+      add_action(app, o, chosen, "image", "Save an image of the head camera",
+                 [&o](PhoneClient& client) { return save_image(client, o.file, o.camera); });
   image->add_option("file", o.file, "JPEG file to write")->required();
+  image->add_option("--camera", o.camera,
+                    "Of the robot's cameras, or \"overview\" in a match (default: its first one)");
 
   CommandLine* posture =
       add_action(app, o, chosen, "posture", "Go to a posture", [&o](PhoneClient& c) {

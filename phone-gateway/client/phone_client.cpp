@@ -158,9 +158,10 @@ Response PhoneClient::release_control() {
   return this->request(request);
 }
 
-Response PhoneClient::get_state(bool with_image) {
+Response PhoneClient::get_state(bool with_image, const std::string& camera) {
   Request request;
   request.mutable_get_state()->set_with_image(with_image);
+  if (!camera.empty()) request.mutable_get_state()->mutable_image()->set_camera(camera);
   return this->request(request);
 }
 

@@ -85,7 +85,8 @@ class PhoneClient {
   /** Watches another robot; robot() is that one when this returns. */
   naoremote::Response watch_robot(const std::string& robot);
   naoremote::Response release_control();
-  naoremote::Response get_state(bool with_image);
+  /** @param camera  Of the image; empty: the robot's first one. */
+  naoremote::Response get_state(bool with_image, const std::string& camera = "");
   naoremote::Response subscribe(double state_rate, double image_rate);
   naoremote::Response walk_turn(double vx, double vy, double wz);
   naoremote::Response move_to(double x, double y, double theta);

@@ -45,6 +45,18 @@ class PhoneClients(unittest.TestCase):
             self.assertEqual(standing[:2], b"\xff\xd8", "a JPEG")
             self.assertNotEqual(standing, crouching, "the camera sank with the head")
 
+    def test_the_command_line_phone_saves_an_image_of_the_camera_that_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            images = [Path(folder) / f"{name}.jpg" for name in ("top", "bottom")]
+            for image in images:
+                result = self.robot.nao_phone("image", image, "--camera", image.stem)
+                self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            # The lower camera of a standing robot sees the floor before its feet, not the room.
+            self.assertNotEqual(*[image.read_bytes() for image in images])
+            wrong = self.robot.nao_phone("image", images[0], "--camera", "behind")
+            self.assertNotEqual(wrong.returncode, 0)
+            self.assertIn("behind", wrong.stdout + wrong.stderr)
+
     def test_the_python_client_receives_the_true_state(self):
         with self.phone(name="Ana") as client:
             client.ask(subscribe=pb.Subscribe(state_rate=20, image_rate=10))

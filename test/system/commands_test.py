@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """The robot executes commands of the command-line client and rejects invalid ones with a reason."""
 
+import subprocess
 import time
 import unittest
 
-from stack import DEADLINE, Stack
+from stack import BIN_DIR, DEADLINE, Stack
 
 
 class Commands(unittest.TestCase):
@@ -44,6 +45,20 @@ class Commands(unittest.TestCase):
         self.obeyed("joint", "HeadYaw", "-0.2")
         self.assertAlmostEqual(self.joint("HeadYaw"), 0.1, delta=0.03)
         self.obeyed("joint", "HeadYaw", "=0", "HeadPitch", "=0")
+
+    def test_waits_for_programs_of_this_host_only(self):
+        rename = ["unshare", "--uts", "sh", "-c", "hostname elsewhere && exec \"$@\"", "sh"]
+        if subprocess.run([*rename, "true"], capture_output=True, check=False).returncode != 0:
+            self.skipTest("this system permits no host names of its own")
+        with subprocess.Popen([*rename, BIN_DIR / "nao-motion-files", "--lcm-url", self.stack.lcm_url,
+                               "--folder", self.stack.run_dir], stderr=subprocess.DEVNULL) as elsewhere:
+            self.addCleanup(elsewhere.kill)
+            self.obeyed("status", "--wait", "nao-motion-files", "--timeout", DEADLINE - 10)
+            alone = self.stack.nao("status", "--wait", "nao-motion-files", "--this-host", "--timeout", "2.5")
+            self.assertEqual(alone.returncode, 1, alone.stdout)
+            self.assertIn("nao-motion-files is not ready", alone.stderr)
+            self.obeyed("status", "--wait", "nao-sim,nao-motion", "--this-host", "--timeout", DEADLINE - 10)
+            elsewhere.terminate()
 
     def test_clips_a_joint_to_its_limit(self):
         self.obeyed("joint", "HeadYaw", "=30")

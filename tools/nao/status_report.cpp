@@ -68,11 +68,14 @@ class StatusListener {
 
   EventLoop& loop() { return loop_; }
 
+  /** Programs of other hosts do not count from now on. */
+  void keep_to_this_host() { is_this_host_only_ = true; }
+
   /** @return Newest status of the program of that name; nullptr if none was received. */
   const naolcm::daemon_status_t* find(const std::string& program) const {
     const naolcm::daemon_status_t* newest = nullptr;
     for (const auto& [key, report] : programs_) {
-      if (report.status.program == program &&
+      if (is(report, program) &&
           (newest == nullptr || report.status.wall_utime > newest->wall_utime)) {
         newest = &report.status;
       }
@@ -86,7 +89,7 @@ class StatusListener {
     return static_cast<int>(
         std::count_if(programs_.begin(), programs_.end(), [&](const auto& entry) {
           const ProgramReport& report = entry.second;
-          return report.status.program == program && report.status.state == "ready" &&
+          return is(report, program) && report.status.state == "ready" &&
                  now - report.time < kSilence;
         }));
   }
@@ -145,6 +148,10 @@ class StatusListener {
   }
 
  private:
+  bool is(const ProgramReport& report, const std::string& program) const {
+    return report.status.program == program && (!is_this_host_only_ || report.status.host == host_);
+  }
+
   static std::string rate_text(const naolcm::daemon_status_t& status) {
     return status.loop_period_mean > 0 ? format_number(1 / status.loop_period_mean, 0) : "-";
   }
@@ -162,6 +169,7 @@ class StatusListener {
   Bus bus_;
   std::string robot_;
   std::string host_;
+  bool is_this_host_only_ = false;
   /** Newest one; simulated robots publish none. */
   std::optional<naolcm::body_state_t> body_;
   std::map<std::tuple<std::string, std::string, int>, ProgramReport> programs_;
@@ -196,9 +204,10 @@ int wait_until_ready(StatusListener& listener, const std::vector<std::string>& w
   return 1;
 }
 
-int run_status(const CommonOptions& common, const std::vector<std::string>& wanted, double timeout,
-               bool as_json) {
+int run_status(const CommonOptions& common, const std::vector<std::string>& wanted,
+               bool is_this_host_only, double timeout, bool as_json) {
   StatusListener listener(common);
+  if (is_this_host_only) listener.keep_to_this_host();
   if (!wanted.empty()) return wait_until_ready(listener, wanted, timeout);
   listener.loop().every(kStatusListenTime, [&listener] { listener.loop().stop("end"); });
   listener.loop().run();
@@ -211,6 +220,7 @@ int run_status(const CommonOptions& common, const std::vector<std::string>& want
 void add_status_command(CommandLine& app, Invocation& invocation) {
   auto wanted = std::make_shared<std::vector<std::string>>();
   auto timeout = std::make_shared<double>(30);
+  auto is_this_host_only = std::make_shared<bool>(false);
   auto as_json = std::make_shared<bool>(false);
   CommandLine* status = app.add_subcommand("status", "List the programs on the bus, on every host");
   status->add_flag("--json", *as_json, "As JSON, fields as in daemon_status_t");
@@ -219,10 +229,12 @@ void add_status_command(CommandLine& app, Invocation& invocation) {
                    "List nothing; wait until these programs are ready: nao-sim,nao-motion; named "
                    "twice: two processes of it")
       ->separated_by(',');
+  status->add_flag("--this-host", *is_this_host_only,
+                   "With --wait: only programs of this host count");
   status->add_option("--timeout", *timeout, "Longest wait, s")->positive()->show_default();
-  status->on_parsed([&invocation, wanted, timeout, as_json] {
-    invocation.run = [&invocation, wanted, timeout, as_json] {
-      return run_status(invocation.common, *wanted, *timeout, *as_json);
+  status->on_parsed([&invocation, wanted, is_this_host_only, timeout, as_json] {
+    invocation.run = [&invocation, wanted, is_this_host_only, timeout, as_json] {
+      return run_status(invocation.common, *wanted, *is_this_host_only, *timeout, *as_json);
     };
   });
 }

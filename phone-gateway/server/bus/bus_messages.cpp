@@ -258,6 +258,7 @@ naoremote::PlayState read_play_state(const naolcm::play_state_t& message) {
   }
   naoremote::PlayState state;
   state.set_utime(static_cast<uint64_t>(message.utime));
+  state.set_plays_match(message.behavior == naolcm::play_state_t::BEHAVIOR_AUTO);
   // A behavior that clients cannot command, as in a match, is none to them.
   if (naoremote::Play::Behavior_IsValid(message.behavior)) {
     state.set_behavior(static_cast<naoremote::Play::Behavior>(message.behavior));

@@ -2,7 +2,7 @@ import {create} from "@bufbuild/protobuf";
 import {afterEach, describe, expect, it} from "vitest";
 import {Play_Behavior, PlayState_Phase, PlayStateSchema} from "../protocol/generated/remote_pb";
 import {setLanguage} from "../text/texts";
-import {findBehavior, kBehaviorNames, playInWords} from "./play_words";
+import {findBehavior, isByItself, kBehaviorNames, playInWords} from "./play_words";
 
 const state = create(PlayStateSchema, {behavior: Play_Behavior.SCORE, phase: PlayState_Phase.APPROACH});
 
@@ -21,7 +21,15 @@ describe("playInWords", () => {
     setLanguage("pt");
     expect(playInWords(waits)).toContain("imagens");
   });
+  it("says what the robot does in a match that it plays by itself", () => {
+    const plays = create(PlayStateSchema, {playsMatch: true, phase: PlayState_Phase.KICK});
+    expect(isByItself(plays)).toBe(true);
+    expect(playInWords(plays)).toBe("In the match: kicks");
+    plays.phase = PlayState_Phase.GUARD;
+    expect(playInWords(plays)).toBe("In the match: holds its place");
+  });
   it("is silent without a behaviour", () => {
+    expect(isByItself(null)).toBe(false);
     expect(playInWords(null)).toBe("");
     expect(playInWords(create(PlayStateSchema, {phase: PlayState_Phase.DONE}))).toBe("");
   });

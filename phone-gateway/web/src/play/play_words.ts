@@ -34,11 +34,18 @@ export function findBehavior(name: string): Play_Behavior | undefined {
   return found && Number(found[0]) as Play_Behavior;
 }
 
+/** Whether the robot acts by itself, by a behaviour or in a match. */
+export function isByItself(state: PlayState | null): boolean {
+  return state !== null && (state.playsMatch || state.behavior !== Play_Behavior.NONE);
+}
+
 /** "Score: walks to the ball", with the reason why it waits; empty if the robot does nothing by itself. */
 export function playInWords(state: PlayState | null): string {
-  if (!state || state.behavior === Play_Behavior.NONE) return "";
-  const name = kBehaviorNames[state.behavior] ?? "none";
-  const phase = kPhaseNames[state.phase] ?? "idle";
+  if (!state || !isByItself(state)) return "";
+  const name = state.playsMatch ? "auto" : kBehaviorNames[state.behavior] ?? "none";
+  // In a match not only a keeper stands where it should be.
+  const isInPlace = state.playsMatch && state.phase === PlayState_Phase.GUARD;
+  const phase = isInPlace ? "place" : kPhaseNames[state.phase] ?? "idle";
   const words = `${say(`play.${name}`)}: ${say(`phase.${phase}`)}`;
   // A search says in its phase what its reason says.
   if (!state.reasonCode || state.reasonCode === "ball-not-in-sight") return words;

@@ -14,7 +14,7 @@ import type {Control, State} from "../protocol/generated/remote_pb";
 import * as useCases from "../protocol/use_cases";
 import {scoreboard} from "../match/scoreboard";
 import type {PlayStrip} from "../play/play_strip";
-import {playInWords} from "../play/play_words";
+import {isByItself, playInWords} from "../play/play_words";
 import type {FreeArea} from "../robot/stage";
 import type {AppState, Store} from "../store";
 import {activityInWords, kModeNames, modeInWords} from "../text/activity";
@@ -214,8 +214,9 @@ export class ControllerScreen {
   }
 
   private showState(state: State | null): void {
-    setText(this.mode, state ? modeInWords(state.mode) : say("mode.waiting"));
-    setText(this.activity, playInWords(this.store.get().playState) || activityInWords(state?.activity));
+    const {playState} = this.store.get();
+    setText(this.mode, state ? modeInWords(state.mode, isByItself(playState)) : say("mode.waiting"));
+    setText(this.activity, playInWords(playState) || activityInWords(state?.activity));
     const progress = state?.activity ? state.progress : -1;
     this.progress.hidden = !(progress >= 0);
     if (progress >= 0) this.progress.value = progress;

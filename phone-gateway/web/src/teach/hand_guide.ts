@@ -6,7 +6,7 @@ import type {Store} from "../store";
 
 /** A pull ends 0.2 s after the last request, and wants one every 0.1 s. */
 export const kDragPeriodMs = 50;
-/** nao-motion changes a stiffness within 0.5 s; a newer command would end that half way. */
+/** nao-motion changes a stiffness within 0.5 s; a limb is not limp before. */
 export const kStiffnessMs = 600;
 
 export class HandGuide {

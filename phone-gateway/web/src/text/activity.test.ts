@@ -34,4 +34,9 @@ describe("modeInWords", () => {
     for (const name of Object.values(kModeNames)) expect(isText(`mode.${name}`)).toBe(true);
     expect(modeInWords(Mode.GETTING_UP)).toBe("Getting up");
   });
+  it("does not say that a robot waits which acts by itself", () => {
+    expect(modeInWords(Mode.HOLDING)).toBe("Standing by");
+    expect(modeInWords(Mode.HOLDING, true)).toBe("Playing by itself");
+    expect(modeInWords(Mode.WALKING, true)).toBe("Walking");
+  });
 });

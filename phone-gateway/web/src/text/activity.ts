@@ -17,7 +17,9 @@ export const kModeNames = {
   [Mode.NO_ROBOT]: "no-robot",
 } as const satisfies Record<Mode, string>;
 
-export function modeInWords(mode: Mode): string {
+/** @param isByItself  The robot acts by itself: standing for a moment, it does not wait for anybody. */
+export function modeInWords(mode: Mode, isByItself = false): string {
+  if (isByItself && mode === Mode.HOLDING) return say("mode.playing");
   return say(`mode.${kModeNames[mode] ?? "no-robot"}`);
 }
 

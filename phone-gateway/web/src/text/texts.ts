@@ -94,6 +94,7 @@ const kTexts = {
   // What the robot does.
   "mode.relaxed": ["Relaxed", "Relaxado", "Entspannt"],
   "mode.holding": ["Standing by", "A postos", "Bereit"],
+  "mode.playing": ["Playing by itself", "A jogar sozinho", "Spielt von allein"],
   "mode.moving": ["Moving", "Em movimento", "Bewegt sich"],
   "mode.walking": ["Walking", "A andar", "Geht"],
   "mode.acting": ["In action", "Em ação", "In Aktion"],

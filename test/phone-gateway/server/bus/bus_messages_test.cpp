@@ -277,6 +277,7 @@ TEST(ReadPlayState, HasATargetOnlyWhereThereIsOne) {
   EXPECT_EQ(state.target_x(), 4.5F);
   message.behavior = message.BEHAVIOR_AUTO;
   EXPECT_EQ(read_play_state(message).behavior(), naoremote::Play::NONE);
+  EXPECT_TRUE(read_play_state(message).plays_match());
   message.phase = 77;
   EXPECT_THROW((void)read_play_state(message), Error);
 }

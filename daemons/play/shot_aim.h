@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "daemons/play/situation.h"
+
+namespace nao::play {
+
+/** Distance, m, that a kick moves the ball: nao-trial kick measures 4.8 (docs/performance.md). */
+inline constexpr double kKickDistance = 4.5;
+/** Least and greatest tolerance of a direction, rad. */
+inline constexpr double kLeastTolerance = 0.06;
+inline constexpr double kGreatestTolerance = 0.3;
+
+/** Where the ball is to go. */
+struct Aim {
+  /** rad, in the odometry frame, and how far the feet may be off. */
+  double heading = 0;
+  double tolerance = 0;
+  /** m, in the odometry frame. */
+  Eigen::Vector2d target = Eigen::Vector2d::Zero();
+};
+
+/** The middle of the opponents' goal, or of its wider part beside a keeper. In a match, teams of
+ * two or more have a keeper also where none is seen. @param ball  m, in the odometry frame. */
+Aim aim_at_goal(const Eigen::Vector2d& ball, const Situation& situation, const Field& field);
+
+/** The aim turned past a robot that stands before the ball. @param ball  m, in the odometry frame.
+ */
+Aim aim_past_robots(const Aim& aim, const Eigen::Vector2d& ball, const Situation& situation);
+
+}  // namespace nao::play
