@@ -105,6 +105,12 @@ MotionGenerator::Phase PosturePathMotion::step_resting(const MotionContext& cont
 MotionGenerator::Phase PosturePathMotion::step_line(const MotionContext& context,
                                                     JointTargets& targets) {
   const Phase phase = line_->step(context, targets);
+  if (phase == Phase::kFailed && body_state_in(context) != state_of(*goal_)) {
+    // It fell over, and lies on joints that are blocked for that reason: the path is planned anew.
+    is_on_path_ = false;
+    rest();
+    return Phase::kRunning;
+  }
   if (phase == Phase::kFailed && bring_feet_together(context, targets)) return Phase::kRunning;
   if (phase == Phase::kFailed && approach_again(context, targets)) return Phase::kRunning;
   // Feet that stand a little too far apart keep the joints off the posture, though near enough.

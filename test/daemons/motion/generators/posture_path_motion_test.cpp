@@ -155,6 +155,19 @@ TEST_F(PosturePathMotionTest, BringsTheFeetTogetherOnceIfThePostureShallBeExact)
   }
 }
 
+TEST_F(PosturePathMotionTest, GetsUpAgainAfterAFallThatBlocksAJoint) {
+  start("Crouch");
+  for (int i = 0; i < 10; ++i) step();
+  lie();
+  follows_ = false;
+  bool gets_up = false;
+  for (int i = 0; i < 600 && !gets_up; ++i) {
+    ASSERT_EQ(step(), Phase::kRunning);
+    gets_up = motion_->mode() == Mode::kGettingUp;
+  }
+  EXPECT_TRUE(gets_up);
+}
+
 TEST_F(PosturePathMotionTest, EndsBetweenTwoSegmentsWhenAskedTo) {
   lie();
   start("StandInit");
