@@ -19,13 +19,25 @@ JpegDecoder::JpegDecoder() : handle_(tjInitDecompress()) {
   if (handle_ == nullptr) throw Error(std::string("libturbojpeg: ") + tjGetErrorStr2(nullptr));
 }
 
+// A decompressor in whose header libturbojpeg has found an error stays in the middle of it, and
+// refuses every file after that.
+std::string JpegDecoder::decode(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
+  std::string problem = decode_once(data, num_bytes, bgr);
+  if (problem.empty()) return problem;
+  if (void* const fresh = tjInitDecompress(); fresh != nullptr) {
+    tjDestroy(handle_);
+    handle_ = fresh;
+  }
+  return problem;
+}
+
 JpegDecoder::~JpegDecoder() {
   tjDestroy(handle_);
 }
 
 // Returns what is wrong with the data, or an empty text. The size is checked before memory is
 // taken: the header comes from outside.
-std::string JpegDecoder::decode(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
+std::string JpegDecoder::decode_once(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
   if (num_bytes == 0) return "the image is empty";
   int width = 0;
   int height = 0;

@@ -21,6 +21,8 @@ class JpegDecoder {
   [[nodiscard]] std::string decode(const uint8_t* data, size_t num_bytes, cv::Mat& bgr);
 
  private:
+  std::string decode_once(const uint8_t* data, size_t num_bytes, cv::Mat& bgr);
+
   void* handle_;
 };
 

@@ -62,5 +62,20 @@ TEST(JpegDecoder, SurvivesChangedBytes) {
   }
 }
 
+// What one damaged file leaves behind must not make the decoder refuse those after it.
+TEST(JpegDecoder, DecodesAnImageAfterEachDamagedOne) {
+  JpegDecoder decoder;
+  cv::Mat image;
+  const auto file = encoded(64, 48);
+  Random random(7);
+  for (int round = 0; round < 2000; ++round) {
+    auto changed = file;
+    // The first bytes are the headers and tables.
+    changed[random.next() % 700] = static_cast<uint8_t>(random.next());
+    static_cast<void>(decoder.decode(changed.data(), changed.size(), image));
+    ASSERT_EQ(decoder.decode(file.data(), file.size(), image), "") << round;
+  }
+}
+
 }  // namespace
 }  // namespace nao::vision
