@@ -166,8 +166,10 @@ void MotionCore::handle_falls(double dt) {
 void MotionCore::run_motions(double dt) {
   arbiter_.start_waiting(context(0), targets_);
   if (const auto ended = arbiter_.step(context(dt), targets_)) {
-    falls_.note_end(ended->phase == MotionGenerator::Phase::kDone, ended->mode == Mode::kFalling,
-                    estimator_.state());
+    FallSupervisor::Ended kind = FallSupervisor::Ended::kMotion;
+    if (ended->mode == Mode::kFalling) kind = FallSupervisor::Ended::kFall;
+    if (ended->keeps_body) kind = FallSupervisor::Ended::kJointChange;
+    falls_.note_end(ended->phase == MotionGenerator::Phase::kDone, kind, estimator_.state());
   }
 }
 

@@ -20,6 +20,14 @@ bool executes(const std::optional<Assignment>& assignment, const Command& comman
          assignment->command->id == command.id;
 }
 
+/** A change of single joints that makes none limp: no person is about to move the robot. */
+bool keeps_body(const Command& command) {
+  const auto* change = std::get_if<JointChangeCommand>(&command.request);
+  return change != nullptr &&
+         std::none_of(change->joint_stiffness.begin(), change->joint_stiffness.end(),
+                      [](double stiffness) { return stiffness == 0; });
+}
+
 /** Reason with which a newer motion interrupts a command. */
 Reason replaced_by(const Assignment& newer) {
   return newer.command ? Reason("replaced", {newer.name})
@@ -218,7 +226,8 @@ std::optional<CommandArbiter::EndedMotion> CommandArbiter::step_running(
   if (!running_) return std::nullopt;
   const Phase phase = running_->generator->step(context, targets);
   if (phase == Phase::kRunning) return std::nullopt;
-  const EndedMotion ended{phase, running_->generator->mode()};
+  const EndedMotion ended{phase, running_->generator->mode(),
+                          running_->command && keeps_body(*running_->command)};
   const Reason reason = running_->generator->reason();
   end_running(phase == Phase::kDone ? ResultStatus::kDone : ResultStatus::kFailed, reason);
   return ended;

@@ -63,6 +63,8 @@ class CommandArbiter {
   struct EndedMotion {
     MotionGenerator::Phase phase;
     Mode mode;
+    /** It turned single joints, and made none limp: where the body lies is as it was. */
+    bool keeps_body = false;
   };
 
   /** One control step of the running motion and of the overlay.

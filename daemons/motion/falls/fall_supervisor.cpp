@@ -44,9 +44,10 @@ bool FallSupervisor::predict_fall(const RobotState& state, const Activity& activ
 
 // A motion has ended: one that succeeded (not the fall itself) leaves a known state; one that
 // failed while the robot lies after a fall makes it ask for help.
-void FallSupervisor::note_end(bool is_done, bool was_fall, const RobotState& state) {
+void FallSupervisor::note_end(bool is_done, Ended kind, const RobotState& state) {
   const bool lies = is_lying_now(state);
-  if (is_done && !was_fall) {
+  if (kind == Ended::kJointChange && has_fallen_ && lies) return;
+  if (is_done && kind != Ended::kFall) {
     has_fallen_ = false;
     was_lying_ = lies;
   }

@@ -45,9 +45,13 @@ class FallSupervisor {
    */
   Action update(const RobotState& state, const Activity& activity, double dt);
 
-  /** A motion has ended. @param is_done  False if it failed. @param was_fall  It was the fall
-   * motion. */
-  void note_end(bool is_done, bool was_fall, const RobotState& state);
+  /** What has ended: the fall motion, a change of single joints that none became limp by, or
+   * another motion. */
+  enum class Ended { kFall, kJointChange, kMotion };
+
+  /** A motion has ended. A fallen robot whose head or arm was turned has fallen still.
+   * @param is_done  False if it failed. */
+  void note_end(bool is_done, Ended kind, const RobotState& state);
 
   /** Lies after a fall and has not got up yet. */
   bool has_fallen() const { return has_fallen_; }

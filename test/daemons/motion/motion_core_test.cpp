@@ -307,6 +307,27 @@ TEST(MotionCore, GetsUpAfterTheSameTimeAtAnyControlPeriod) {
   }
 }
 
+// Whenever the command comes: before the robot gets up, or while it rests for that.
+TEST(MotionCore, GetsUpAfterItsHeadWasTurnedOnTheGround) {
+  const double delay = MotionOptions().get_up_delay;
+  for (const double when : {0.5 * delay, delay + 0.05}) {
+    MotionCore core(nao_model(), MotionOptions());
+    PerfectRobot robot("StandInit", 0.010);
+    robot.settle(core);
+    robot.lie_on_belly();
+    bool gets_up = false;
+    for (int tick = 0; tick < 1000 && !gets_up; ++tick) {
+      if (tick == static_cast<int>(when / 0.010)) {
+        robot.step(core, {joint_change(1, {"HeadYaw"}, {0.3})});
+      } else {
+        robot.step(core);
+      }
+      gets_up = core.motion_state().mode == Mode::kGettingUp;
+    }
+    EXPECT_TRUE(gets_up) << when;
+  }
+}
+
 TEST_F(MotionCoreTest, StatesComeAtEachChangeAndTenTimesASecond) {
   robot_.settle(core_);
   int num_states = 0;

@@ -8,6 +8,7 @@ namespace nao::motion {
 namespace {
 
 using Action = FallSupervisor::Action;
+using Ended = FallSupervisor::Ended;
 
 /** A robot whose torso is pitched forward, rad, and that high, m. */
 RobotState pitched_state(double pitch, double height = 0.3) {
@@ -47,10 +48,10 @@ TEST_F(FallSupervisorTest, ProtectsAWalkThatFallsAndGetsUpAfterwards) {
   EXPECT_EQ(update(pitched_state(0.2), kWalking), Action::kNone);
   EXPECT_EQ(update(pitched_state(0.5), kWalking), Action::kProtect);
   EXPECT_TRUE(falls_.has_fallen());
-  falls_.note_end(true, true, kLying);
+  falls_.note_end(true, Ended::kFall, kLying);
   EXPECT_TRUE(falls_.has_fallen());
   EXPECT_EQ(wait_idle(kLying), Action::kGetUp);
-  falls_.note_end(true, false, kStanding);
+  falls_.note_end(true, Ended::kMotion, kStanding);
   EXPECT_FALSE(falls_.has_fallen());
 }
 
@@ -60,7 +61,7 @@ TEST_F(FallSupervisorTest, ATransitionMayLeaveTheFeet) {
 }
 
 TEST_F(FallSupervisorTest, ARobotThatAMotionLaidDownHasNotFallen) {
-  falls_.note_end(true, false, kLying);
+  falls_.note_end(true, Ended::kMotion, kLying);
   EXPECT_EQ(wait_idle(kLying), Action::kNone);
   EXPECT_FALSE(falls_.has_fallen());
 }
@@ -74,9 +75,9 @@ TEST_F(FallSupervisorTest, ASittingRobotThatIsKnockedOverHasFallen) {
 
 TEST_F(FallSupervisorTest, NeedsHelpAfterTheLastTryUntilItIsLifted) {
   update(pitched_state(0.5), kWalking);
-  falls_.note_end(true, true, kLying);
+  falls_.note_end(true, Ended::kFall, kLying);
   ASSERT_EQ(wait_idle(kLying), Action::kGetUp);
-  falls_.note_end(false, false, kLying);
+  falls_.note_end(false, Ended::kMotion, kLying);
   EXPECT_TRUE(falls_.needs_help());
   EXPECT_EQ(wait_idle(kLying), Action::kNone);
   EXPECT_TRUE(falls_.needs_help());
@@ -84,10 +85,23 @@ TEST_F(FallSupervisorTest, NeedsHelpAfterTheLastTryUntilItIsLifted) {
   EXPECT_FALSE(falls_.needs_help());
 }
 
+// A head that is turned leaves the robot where it fell; it neither stays down nor forgets that it
+// needs help.
+TEST_F(FallSupervisorTest, AChangeOfJointsEndsNoFall) {
+  update(pitched_state(0.5), kWalking);
+  falls_.note_end(true, Ended::kFall, kLying);
+  falls_.note_end(true, Ended::kJointChange, kLying);
+  EXPECT_TRUE(falls_.has_fallen());
+  EXPECT_EQ(wait_idle(kLying), Action::kGetUp);
+  falls_.note_end(false, Ended::kMotion, kLying);
+  falls_.note_end(true, Ended::kJointChange, kLying);
+  EXPECT_TRUE(falls_.needs_help());
+}
+
 TEST_F(FallSupervisorTest, WithoutGettingUpItStaysDown) {
   options_.gets_up = false;
   update(pitched_state(0.5), kWalking);
-  falls_.note_end(true, true, kLying);
+  falls_.note_end(true, Ended::kFall, kLying);
   EXPECT_EQ(wait_idle(kLying), Action::kNone);
   EXPECT_TRUE(falls_.has_fallen());
   EXPECT_FALSE(falls_.needs_help());
@@ -95,7 +109,7 @@ TEST_F(FallSupervisorTest, WithoutGettingUpItStaysDown) {
 
 TEST_F(FallSupervisorTest, AnotherRobotNeedsNoHelp) {
   update(pitched_state(0.5), kWalking);
-  falls_.note_end(false, false, kLying);
+  falls_.note_end(false, Ended::kMotion, kLying);
   ASSERT_TRUE(falls_.needs_help());
   falls_.reset();
   EXPECT_FALSE(falls_.needs_help());
