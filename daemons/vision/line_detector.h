@@ -26,7 +26,7 @@ struct LineSegment {
  * points, and with a fixed sequence of samples, so that equal images give equal results. */
 class LineDetector {
  public:
-  /** @param points  Points that are used up are removed.
+  /** @param points  Points that are used up are removed; the others are in another order then.
    * @param ideal  Their ideal pixels, of the same length; likewise. */
   std::vector<LineSegment> detect(std::vector<LinePoint>& points, std::vector<cv::Point2f>& ideal,
                                   const CameraGeometry& geometry) const;

@@ -5,8 +5,6 @@
 namespace nao::vision {
 namespace {
 
-/** Distance between scan lines, pixels. */
-constexpr int kSpacing = 8;
 /** Widest crossing, pixels: a line one foot length ahead of the robot seen at a flat angle. */
 constexpr int kMostWidth = 110;
 /** A line is brighter than the field beside it by this many levels at least. Tuned on real images:
@@ -19,6 +17,14 @@ constexpr float kIndexFraction = 0.78f;
 constexpr int kMargin = 3;
 /** Mixed pixels, neither line nor field, that may lie at the edges of a crossing. */
 constexpr int kMixed = 8;
+/** Pixels in succession that look like field and end a crossing: single ones in a blurred, green
+ * tinted line are noise. Tuned on real images. */
+constexpr int kEnd = 3;
+/** Drop from a crossing's greatest brightness after which green pixels are field in another light,
+ * as a fraction of what the line is brighter than the field before it. From a line at least twice
+ * as bright as the field in the same light: the drop is then 0.5 at least. Blurred and worn
+ * lines drop by less within themselves. */
+constexpr float kDrop = 0.4f;
 /** Weight of a new pixel in the mean of the field's level; small, so that the blurred edge of a
  * line does not raise it. */
 constexpr float kWeight = 0.08f;
@@ -43,11 +49,12 @@ class Scan {
         // As bright as before the field may be in another light than that before the line.
         const bool is_green = index > view_.threshold;
         peak_ = std::max(peak_, white);
-        follow(i, is_line && !(is_green && white < peak_ - kContrast), is_green);
+        follow(i, is_line && !(is_green && white < peak_ - least_drop()), is_green);
       } else if (is_line) {
         first_ = i;
         peak_ = white;
         num_mixed_ = 0;
+        num_end_ = 0;
       } else if (index > view_.threshold) {
         num_mixed_ = 0;
         // The first pixels form a plain mean, later ones an exponential one.
@@ -64,16 +71,23 @@ class Scan {
  private:
   const cv::Vec3b& at(int i) const { return view_.smooth(start_ + i * step_); }
 
+  float least_drop() const { return std::max(kContrast, kDrop * (peak_ - level_)); }
+
   void follow(int i, bool is_line, bool is_green) {
     if (is_line) {
       num_mixed_ = 0;
+      num_end_ = 0;
       if (i - first_ > kMostWidth) abandon();
     } else if (is_green) {
-      close(i - num_mixed_);
+      if (++num_end_ < kEnd) return;
+      close(i + 1 - num_end_ - num_mixed_);
       // What follows is a new stretch of field, perhaps in another light.
       abandon();
-    } else if (++num_mixed_ > kMixed) {
-      abandon();
+    } else {
+      // Green pixels between mixed ones are mixed too.
+      num_mixed_ += 1 + num_end_;
+      num_end_ = 0;
+      if (num_mixed_ > kMixed) abandon();
     }
   }
 
@@ -124,6 +138,8 @@ class Scan {
   /** Beginning of the crossing; -1 outside of one. */
   int first_ = -1;
   int num_mixed_ = 0;
+  /** Pixels like field since the last one of the line. */
+  int num_end_ = 0;
   /** Greatest whiteness of the crossing. */
   float peak_ = 0;
 };
@@ -135,12 +151,12 @@ std::vector<LinePoint> find_line_points(const FieldView& view) {
   std::vector<LinePoint> points;
   const int width = view.smooth.cols;
   const int height = view.smooth.rows;
-  for (int y = kSpacing / 2; y < height; y += kSpacing) {
+  for (int y = kScanSpacing / 2; y < height; y += kScanSpacing) {
     Scan(view, {0, y}, {1, 0}, width, points).run();
   }
-  for (int x = kSpacing / 2; x < width; x += kSpacing) {
+  for (int x = kScanSpacing / 2; x < width; x += kScanSpacing) {
     // From a little above the field's border downwards.
-    const int top = std::max(0, 2 * view.top[std::min(x / 2, view.other.cols - 1)] - kSpacing);
+    const int top = std::max(0, 2 * view.top[std::min(x / 2, view.other.cols - 1)] - kScanSpacing);
     if (top < height) Scan(view, {x, top}, {0, 1}, height - top, points).run();
   }
   return points;

@@ -7,6 +7,9 @@
 
 namespace nao::vision {
 
+/** Distance between scan lines, pixels. */
+constexpr int kScanSpacing = 8;
+
 /** Where a scan line of the image crosses something white with field on both sides. */
 struct LinePoint {
   /** Center in the image, pixels, weighted by brightness. */

@@ -6,6 +6,7 @@
 #include "common/error.h"
 #include "daemons/vision/ball_candidates.h"
 #include "daemons/vision/ball_filter.h"
+#include "daemons/vision/line_continuation.h"
 
 namespace nao::vision {
 namespace {
@@ -74,6 +75,10 @@ void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometr
   finish_stage("center circle");
   const std::vector<LineSegment> segments = lines_.detect(points, ideal, geometry);
   for (const LineSegment& segment : segments) {
+    result.detections.push_back(line_detection(segment, geometry));
+  }
+  // Not for crossings: the pieces of a bend would cross one another.
+  for (const LineSegment& segment : continue_segments(segments, points, ideal)) {
     result.detections.push_back(line_detection(segment, geometry));
   }
   for (const Detection& crossing : crossings_.detect(segments, view, geometry)) {
