@@ -2,6 +2,8 @@
 
 #include <turbojpeg.h>
 
+#include <memory>
+
 #include "common/error.h"
 #include "rendering/gl.h"
 
@@ -13,8 +15,7 @@ constexpr int kMaxSize = 4096;
 
 }  // namespace
 
-ImageTexture::ImageTexture() : decoder_(tjInitDecompress()) {
-  if (decoder_ == nullptr) throw Error("libturbojpeg cannot decompress");
+ImageTexture::ImageTexture() {
   glGenTextures(1, &texture_);
   glBindTexture(GL_TEXTURE_2D, texture_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -23,22 +24,24 @@ ImageTexture::ImageTexture() : decoder_(tjInitDecompress()) {
 
 ImageTexture::~ImageTexture() {
   glDeleteTextures(1, &texture_);
-  tjDestroy(decoder_);
 }
 
 bool ImageTexture::load_jpeg(const std::vector<uint8_t>& file) {
+  // One for each file: after an error in a header it would refuse every file that follows.
+  const std::unique_ptr<void, decltype(&tjDestroy)> decoder(tjInitDecompress(), &tjDestroy);
+  if (decoder == nullptr) throw Error("libturbojpeg cannot decompress");
   int width = 0;
   int height = 0;
   int subsampling = 0;
   int colors = 0;
-  if (tjDecompressHeader3(decoder_, file.data(), file.size(), &width, &height, &subsampling,
+  if (tjDecompressHeader3(decoder.get(), file.data(), file.size(), &width, &height, &subsampling,
                           &colors) != 0 ||
       width < 1 || height < 1 || width > kMaxSize || height > kMaxSize) {
     return false;
   }
   pixels_.resize(static_cast<size_t>(4) * width * height);
-  if (tjDecompress2(decoder_, file.data(), file.size(), pixels_.data(), width, 0, height, TJPF_RGBX,
-                    0) != 0) {
+  if (tjDecompress2(decoder.get(), file.data(), file.size(), pixels_.data(), width, 0, height,
+                    TJPF_RGBX, 0) != 0) {
     return false;
   }
   glBindTexture(GL_TEXTURE_2D, texture_);

@@ -8,13 +8,13 @@ namespace nao::viewer {
 /** A JPEG image in the graphics card's memory, for showing it in a panel. */
 class ImageTexture {
  public:
-  /** @throws Error  if libturbojpeg cannot be initialized. */
   ImageTexture();
   ~ImageTexture();
   ImageTexture(const ImageTexture&) = delete;
   ImageTexture& operator=(const ImageTexture&) = delete;
 
-  /** Replaces the image. @return false if the file is damaged; the previous image then stays. */
+  /** Replaces the image. @return false if the file is damaged; the previous image then stays.
+   * @throws Error  if libturbojpeg cannot be initialized. */
   bool load_jpeg(const std::vector<uint8_t>& file);
 
   /** OpenGL's number; 0 before an image is loaded. */
@@ -23,8 +23,6 @@ class ImageTexture {
   int height() const { return height_; }
 
  private:
-  /** libturbojpeg's tjhandle. */
-  void* decoder_;
   unsigned texture_ = 0;
   int width_ = 0;
   int height_ = 0;

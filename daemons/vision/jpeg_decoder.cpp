@@ -2,6 +2,8 @@
 
 #include <turbojpeg.h>
 
+#include <memory>
+
 #include "common/error.h"
 
 namespace nao::vision {
@@ -15,37 +17,19 @@ constexpr int kLeastHeight = 48;
 
 }  // namespace
 
-JpegDecoder::JpegDecoder() : handle_(tjInitDecompress()) {
-  if (handle_ == nullptr) throw Error(std::string("libturbojpeg: ") + tjGetErrorStr2(nullptr));
-}
-
-// A decompressor in whose header libturbojpeg has found an error stays in the middle of it, and
-// refuses every file after that.
-std::string JpegDecoder::decode(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
-  std::string problem = decode_once(data, num_bytes, bgr);
-  if (problem.empty()) return problem;
-  if (void* const fresh = tjInitDecompress(); fresh != nullptr) {
-    tjDestroy(handle_);
-    handle_ = fresh;
-  }
-  return problem;
-}
-
-JpegDecoder::~JpegDecoder() {
-  tjDestroy(handle_);
-}
-
-// Returns what is wrong with the data, or an empty text. The size is checked before memory is
-// taken: the header comes from outside.
-std::string JpegDecoder::decode_once(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
+// The size is checked before memory is taken: the header comes from outside.
+std::string decode_jpeg(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
   if (num_bytes == 0) return "the image is empty";
+  // One for each file: after an error in a header it would refuse every file that follows.
+  const std::unique_ptr<void, decltype(&tjDestroy)> decoder(tjInitDecompress(), &tjDestroy);
+  if (decoder == nullptr) throw Error(std::string("libturbojpeg: ") + tjGetErrorStr2(nullptr));
   int width = 0;
   int height = 0;
   int subsampling = 0;
   int colorspace = 0;
-  if (tjDecompressHeader3(handle_, data, num_bytes, &width, &height, &subsampling, &colorspace) !=
-      0) {
-    return std::string("no JPEG image: ") + tjGetErrorStr2(handle_);
+  if (tjDecompressHeader3(decoder.get(), data, num_bytes, &width, &height, &subsampling,
+                          &colorspace) != 0) {
+    return std::string("no JPEG image: ") + tjGetErrorStr2(decoder.get());
   }
   if (width < kLeastWidth || width > kMostWidth || height < kLeastHeight || height > kMostHeight) {
     return "the image has " + std::to_string(width) + "x" + std::to_string(height) +
@@ -54,9 +38,9 @@ std::string JpegDecoder::decode_once(const uint8_t* data, size_t num_bytes, cv::
   bgr.create(height, width, CV_8UC3);
   // A damaged image is rejected, not shown with grey parts; the limit of scans stops images that
   // would take minutes to decode.
-  if (tjDecompress2(handle_, data, num_bytes, bgr.data, width, static_cast<int>(bgr.step), height,
-                    TJPF_BGR, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0) {
-    return std::string("damaged JPEG image: ") + tjGetErrorStr2(handle_);
+  if (tjDecompress2(decoder.get(), data, num_bytes, bgr.data, width, static_cast<int>(bgr.step),
+                    height, TJPF_BGR, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0) {
+    return std::string("damaged JPEG image: ") + tjGetErrorStr2(decoder.get());
   }
   return "";
 }

@@ -9,6 +9,7 @@
 #include "common/event_loop.h"
 #include "common/logger.h"
 #include "common/wall_clock.h"
+#include "daemons/vision/jpeg_decoder.h"
 #include "daemons/vision/vision_messages.h"
 
 namespace nao::vision {
@@ -114,7 +115,7 @@ void VisionDaemon::process(const naolcm::image_t& image) {
   if (image.format != "jpeg") throw Error("the image's format is not jpeg");
   VisionInput input;
   input.calibration = decode_calibration(image);
-  const std::string problem = decoder_.decode(image.data.data(), image.data.size(), bgr_);
+  const std::string problem = decode_jpeg(image.data.data(), image.data.size(), bgr_);
   if (!problem.empty()) throw Error(problem);
   if (bgr_.cols != image.width || bgr_.rows != image.height) {
     throw Error("the image has another size than its message says");

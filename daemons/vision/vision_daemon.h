@@ -11,7 +11,6 @@
 #include "common/channels.h"
 #include "common/rate_limiter.h"
 #include "common/status_reporter.h"
-#include "daemons/vision/jpeg_decoder.h"
 #include "daemons/vision/pose_history.h"
 #include "daemons/vision/vision_core.h"
 
@@ -65,7 +64,6 @@ class VisionDaemon {
   VisionOptions options_;
   RobotChannels channels_;
   StatusReporter status_;
-  JpegDecoder decoder_;
   PoseHistory poses_;
   VisionCore core_;
   cv::Mat bgr_;

@@ -60,11 +60,10 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static nao::vision::JpegDecoder decoder;
   // Its networks are read once.
   static const nao::vision::VisionNetworks networks = nao::vision::VisionNetworks::load();
   cv::Mat image;
-  if (!decoder.decode(data, size, image).empty()) return 0;
+  if (!nao::vision::decode_jpeg(data, size, image).empty()) return 0;
   nao::vision::VisionCore core(networks);
   nao::vision::VisionInput input;
   input.bgr = image;
