@@ -107,7 +107,7 @@ class Watch {
 /** A robot that lies cannot fall. */
 double fallen_tilt(const RobotModel& model, const ActionScript& script) {
   const Posture* start = model.find_posture(script.start);
-  if (start != nullptr && start->family.starts_with("lying")) return M_PI;
+  if (start != nullptr && start->is_lying()) return M_PI;
   return motion::starts_on_feet(model, script) ? kFallenTilt : kFallenTiltSitting;
 }
 

@@ -17,6 +17,9 @@ struct Posture {
   std::vector<double> position;
   /** "standing", "crouching", "sitting", "lying-back" or "lying-belly". */
   std::string family;
+
+  // Not starts_with(): the sources of Simbody are C++17.
+  bool is_lying() const { return family.rfind("lying", 0) == 0; }
 };
 
 /** Joints that users operate as one ("left shoulder"). Motor indices; -1 where the group has no

@@ -15,9 +15,9 @@ WALK = ("0.08", "0", "0.4")
 
 
 @contextlib.contextmanager
-def walking(stack, names):
+def walking(stack, names, velocity=WALK):
     """All robots walk until the end."""
-    drivers = [subprocess.Popen([str(stack.bin_dir / "nao"), "--lcm-url", stack.lcm_url, "--robot", name, "walk", *WALK],
+    drivers = [subprocess.Popen([str(stack.bin_dir / "nao"), "--lcm-url", stack.lcm_url, "--robot", name, "walk", *velocity],
                                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
                for name in names]
     try:

@@ -74,17 +74,20 @@ void Ball::calc_contact_rows(const Vector3d& point, const Matrix3d& frame, Entry
   }
 }
 
+// Rolling without sliding couples rotation and translation: a torque T at the ball slows it down by
+// a = T r / (I + m r^2). For T = arm * N and N = m g that is a = arm * m g r / (I + m r^2), and
+// (I + m r^2) / (m r) = 1.4 r for a solid sphere.
+double Ball::rolling_arm(double deceleration, double gravity) const {
+  return 1.4 * description_.radius * deceleration / gravity;
+}
+
 void Ball::add_rolling_resistance(const Matrix3d& frame, double deceleration, double gravity,
                                   ConstraintSolver& solver) const {
   // A block whose entries are the ball's three rotations only: rolling resistance is a torque.
-  // Rolling without sliding couples rotation and translation: a torque T at the ball slows it down
-  // by a = T r / (I + m r^2). For T = friction * N and N = m g that is a = friction * m g r / (I +
-  // m r^2), which is solved for the lever arm `friction`, m. Spinning about the normal gets the
-  // same arm.
+  // Spinning about the normal gets the same arm.
   ContactBlock rolling;
   rolling.is_rolling = true;
-  // (I + m r^2) / (m r) = 1.4 r for a solid sphere.
-  rolling.friction = rolling.spinning = 1.4 * description_.radius * deceleration / gravity;
+  rolling.friction = rolling.spinning = rolling_arm(deceleration, gravity);
   constexpr std::array<int, 3> kRotations{0, 1, 2};
   rolling.chain = solver.add_chain(kRotations.data(), 3, first_dof_);
   EntryPair* entries = rolling.chain < 0 ? nullptr : solver.add_entries(6);

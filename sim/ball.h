@@ -67,6 +67,11 @@ class Ball {
    */
   void add_rolling_resistance(const Eigen::Matrix3d& frame, double deceleration, double gravity,
                               ConstraintSolver& solver) const;
+  /** Lever arm, m, that a normal force has for rolling resistance, and greatest torque of it: arm
+   * times force. @param deceleration, gravity  As above. */
+  double rolling_arm(double deceleration, double gravity) const;
+  /** Moment of inertia about the center, kg m^2. */
+  double inertia() const { return inertia_; }
   /** Takes over the solver's velocities and moves on by h seconds. */
   void end_step(double h, const Eigen::VectorXd& scaled_velocity);
 

@@ -210,14 +210,12 @@ void MujocoEngine::apply_forces_on_ball() {
         contact.a.kind == Surface::Kind::kBall && contact.b.kind == Surface::Kind::kFloor;
     if (is_on_floor) load += contact.force_on_a.z();
   }
-  // A torque of 7/5 r a / g N slows a solid sphere down by a, as in Ball::add_rolling_resistance().
-  // At most as much as stops the rotation in this step: 2/5 m r^2 w / h.
-  const BallDescription& sphere = ball.description();
   const double arm =
-      1.4 * sphere.radius * options_.materials.ball_rolling_deceleration / options_.gravity.norm();
+      ball.rolling_arm(options_.materials.ball_rolling_deceleration, options_.gravity.norm());
   const BallState& state = ball.state();
   const double rate = state.angular_velocity.norm();
-  const double stopping = 0.4 * sphere.mass * sphere.radius * sphere.radius * rate / h;
+  // At most as much as stops the rotation in this step: I w / h.
+  const double stopping = ball.inertia() * rate / h;
   const double torque = std::min(arm * load, stopping);
   // A free joint's torque is in the body's own axes.
   Vector3d moment = Vector3d::Zero();

@@ -129,7 +129,7 @@ void MotionCore::choose_first_motion(double dt) {
   // A command has come already, or the motors are off and the robot must stay limp.
   if (!arbiter_.is_idle() || is_relaxed()) return;
   const Posture* posture =
-      find_present_posture(*model_, presence_.sensors().position, state, options_.lying_tilt);
+      find_present_posture(*model_, presence_.sensors().position, state, options_);
   // In no known posture: a robot that lies is treated as fallen; otherwise it goes to the stand.
   if (posture == nullptr) {
     if (is_lying(state, options_.lying_tilt)) {

@@ -28,6 +28,9 @@ struct MotionOptions {
   /** The same of a lying posture, rad (8 degrees): limbs lie on the floor, whose friction weak
    * wrists do not overcome. */
   double lying_posture_tolerance = 0.14;
+  double tolerance_of(const Posture& posture) const {
+    return posture.is_lying() ? lying_posture_tolerance : posture_tolerance;
+  }
   /** Tilt of the torso above which the robot lies, rad. */
   double lying_tilt = 1.0;
   /** Period of motion states while nothing changes, s. */

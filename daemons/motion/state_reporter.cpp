@@ -38,7 +38,7 @@ MotionState build(const StateReporter::Inputs& inputs) {
     state.stiffness = mean(inputs.targets.stiffness);
     if (running == nullptr) {
       const Posture* posture = find_present_posture(context.model, context.sensors.position,
-                                                    context.state, context.options.lying_tilt);
+                                                    context.state, context.options);
       if (posture != nullptr) state.posture = posture->name;
     }
   }

@@ -35,8 +35,9 @@ constexpr double kRequestPeriod = 1;
 /** A match that nobody tells of for so long is over, s: ten of nao-referee's messages. */
 constexpr double kMatchTimeout = 2;
 /** A robot plays by itself again so long after another sender's last command, s: the time after
- * which a phone's lease passes to somebody else who asks (phone-gateway/PROTOCOL.md, TakeControl).
- * After a stop it waits longer. Chosen: whoever stopped it may be about to walk to it. */
+ * which a phone's lease passes to another client that asks (phone-gateway/PROTOCOL.md,
+ * TakeControl). After a stop it waits longer. Chosen: the person who stopped it may be about to
+ * walk to it. */
 constexpr double kDrivenTimeout = 10;
 constexpr double kStoppedTimeout = 30;
 /** Between two repetitions of the own play command, s: less than its timeout. */

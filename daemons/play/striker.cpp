@@ -333,13 +333,17 @@ Decision Striker::approach(const Ball& ball, const Situation& situation) {
 bool Striker::can_carry(const Ball& ball, const Aim& aim, const Situation& situation) const {
   if (!kicks_in_passing_ || task_ != Task::kScore || situation.is_still) return false;
   const Pose2& feet = situation.robot.feet_in_odometry;
-  const Vector2d goal = situation.field_in_odometry * Vector2d(0.5 * constants_.field.length, 0);
-  const double to_goal = (goal - ball.position).norm();
+  const double to_goal = distance_to_goal(ball, situation);
   const Vector2d in_feet = feet.inverse() * ball.position;
   return to_goal > kCarryTo && to_goal < kShotDistance && in_feet.x() > kCarryNear &&
          in_feet.x() < kPushReach && std::abs(in_feet.y()) < kCarryAside &&
          std::abs(wrapped(aim.heading - feet.heading)) < kCarryTolerance &&
          !is_contested(ball, situation);
+}
+
+double Striker::distance_to_goal(const Ball& ball, const Situation& situation) const {
+  const Vector2d goal = situation.field_in_odometry * Vector2d(0.5 * constants_.field.length, 0);
+  return (goal - ball.position).norm();
 }
 
 bool Striker::is_contested(const Ball& ball, const Situation& situation) {
@@ -354,19 +358,16 @@ std::optional<Decision> Striker::kick_in_passing(const Ball& ball, const Aim& ai
     return std::nullopt;
   }
   const Pose2& feet = situation.robot.feet_in_odometry;
-  const Vector2d goal = situation.field_in_odometry * Vector2d(0.5 * constants_.field.length, 0);
   const Vector2d in_feet = feet.inverse() * ball.position;
   const double tolerance = std::max(kPassingTolerance, aim.tolerance);
   const bool is_right = in_feet.x() > kPassingNear && in_feet.x() < kPassingFar &&
                         std::abs(in_feet.y()) < kPassingAside &&
                         std::abs(wrapped(aim.heading - feet.heading)) < tolerance &&
                         situation.time - ball.seen_time < kPassingAge;
-  const double to_goal = (goal - ball.position).norm();
-  if (!is_right) return std::nullopt;
+  const double to_goal = distance_to_goal(ball, situation);
+  if (!is_right || to_goal < kPassingGoalDistance) return std::nullopt;
   // From here a kick while standing reaches the goal, if nobody comes first.
-  const bool is_contested = Striker::is_contested(ball, situation);
-  if (to_goal < kPassingGoalDistance) return std::nullopt;
-  if (to_goal < kShotDistance && !is_contested) return std::nullopt;
+  if (to_goal < kShotDistance && !is_contested(ball, situation)) return std::nullopt;
   Decision decision;
   decision.phase = PlayPhase::kKick;
   decision.target = aim.target;
@@ -445,8 +446,7 @@ Decision Striker::push(const Ball& ball, const Situation& situation) {
   const double turn = wrapped(aim.heading - feet.heading);
   decision.walk = {std::min(kPushSpeed, constants_.walk_limits.forward), 1.2 * aside, turn};
   if (task_ == Task::kScore) {
-    const Vector2d goal = situation.field_in_odometry * Vector2d(0.5 * constants_.field.length, 0);
-    if ((goal - ball.position).norm() < kCarryTo || is_contested(ball, situation)) {
+    if (distance_to_goal(ball, situation) < kCarryTo || is_contested(ball, situation)) {
       stage_ = Stage::kApproach;
     }
   }

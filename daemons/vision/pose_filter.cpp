@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace nao::vision {
 namespace {
@@ -136,49 +137,54 @@ PoseFilter::Row PoseFilter::make_row(const CameraPlace& camera, const Eigen::Vec
   return row;
 }
 
-double PoseFilter::distance(const Rows& rows) const {
-  Eigen::Matrix<double, 2, 7> H;
-  H << rows[0].jacobian, rows[1].jacobian;
-  const Eigen::Vector2d innovation(rows[0].innovation, rows[1].innovation);
-  Eigen::Matrix2d S = H * covariance_ * H.transpose();
-  S(0, 0) += rows[0].variance;
-  S(1, 1) += rows[1].variance;
-  return innovation.dot(S.inverse() * innovation);
+PoseFilter::Measurement::Measurement(const Row& a, const Row& b)
+    : innovation(a.innovation, b.innovation),
+      covariance(Eigen::Vector2d(a.variance, b.variance).asDiagonal()) {
+  jacobian << a.jacobian, b.jacobian;
+}
+
+Eigen::Matrix2d PoseFilter::innovation_covariance(const Measurement& measurement) const {
+  const auto& H = measurement.jacobian;
+  return H * covariance_ * H.transpose() + measurement.covariance;
+}
+
+double PoseFilter::distance(const Measurement& measurement) const {
+  const Eigen::Vector2d& innovation = measurement.innovation;
+  return innovation.dot(innovation_covariance(measurement).inverse() * innovation);
 }
 
 // A straight line through an arc with the sagitta s lies within s of it: its ends 2/3 s outside.
-PoseFilter::Rows PoseFilter::match_chord(const CameraPlace& camera, const FieldLine& line) const {
+PoseFilter::Match PoseFilter::match_chord(const CameraPlace& camera, const FieldLine& line) const {
   const double radius = field_->circle_radius();
   const double chord = (line.to - line.from).norm();
   if (chord > 2 * radius * kMostChord) return {};
   const double sagitta = radius - std::sqrt(square(radius) - square(chord / 2));
   const double variance = square(kLineSigma) + square(sagitta / 3);
-  Rows rows;
-  for (const Eigen::Vector2d& point : {line.from, line.to}) {
-    const Eigen::Vector2d seen = on_field(camera, point);
-    if (seen.norm() < 1e-3) return {};
-    rows.push_back(make_row(camera, point, seen.normalized(), radius + sagitta * 2 / 3, variance));
-  }
-  return rows;
+  const Eigen::Vector2d from = on_field(camera, line.from);
+  const Eigen::Vector2d to = on_field(camera, line.to);
+  if (std::min(from.norm(), to.norm()) < 1e-3) return {};
+  const double distance = radius + sagitta * 2 / 3;
+  return Measurement(make_row(camera, line.from, from.normalized(), distance, variance),
+                     make_row(camera, line.to, to.normalized(), distance, variance));
 }
 
 // Both ends of an observed line lie on the field line: two rows across it. Or both lie on the
 // center circle.
-PoseFilter::Rows PoseFilter::match_line(const CameraPlace& camera, const FieldLine& line) const {
+PoseFilter::Match PoseFilter::match_line(const CameraPlace& camera, const FieldLine& line) const {
   const Eigen::Vector2d from = on_field(camera, line.from);
   const Eigen::Vector2d to = on_field(camera, line.to);
   const Eigen::Vector2d direction = (to - from).normalized();
   double best = std::numeric_limits<double>::infinity();
   double second = best;
-  Rows best_rows;
-  const auto add = [&](Rows rows) {
-    const double d = distance(rows);
+  Match best_match;
+  const auto add = [&](const Measurement& measurement) {
+    const double d = distance(measurement);
     second = std::min(second, std::max(d, best));
     if (d >= best) return;
     best = d;
-    best_rows = std::move(rows);
+    best_match.emplace(measurement);
   };
-  if (Rows chord = match_chord(camera, line); !chord.empty()) add(std::move(chord));
+  if (const Match chord = match_chord(camera, line)) add(*chord);
   for (const FieldLine& candidate : field_->lines()) {
     const Eigen::Vector2d along = (candidate.to - candidate.from).normalized();
     if (std::abs(along.dot(direction)) < std::cos(kMostAngle)) continue;
@@ -192,34 +198,35 @@ PoseFilter::Rows PoseFilter::match_line(const CameraPlace& camera, const FieldLi
     const Eigen::Vector2d normal = kQuarterTurn * along;
     const double offset = normal.dot(candidate.from);
     const double variance = square(kLineSigma);
-    add({make_row(camera, line.from, normal, offset, variance),
-         make_row(camera, line.to, normal, offset, variance)});
+    add(Measurement(make_row(camera, line.from, normal, offset, variance),
+                    make_row(camera, line.to, normal, offset, variance)));
   }
   if (best > kGate || second < best + kUnique) return {};
-  return best_rows;
+  return best_match;
 }
 
-PoseFilter::Rows PoseFilter::match_point(const CameraPlace& camera, const Eigen::Vector2d& point,
-                                         const Eigen::Vector2d& target, double radial_variance,
-                                         double tangential_variance) const {
+PoseFilter::Match PoseFilter::match_point(const CameraPlace& camera, const Eigen::Vector2d& point,
+                                          const Eigen::Vector2d& target, double radial_variance,
+                                          double tangential_variance) const {
   // Along and across the view, in which the noise is independent.
   const Eigen::Vector2d view = pose().rotate((point - camera.position.head<2>()).normalized());
   const Eigen::Vector2d side = kQuarterTurn * view;
-  Rows rows{make_row(camera, point, view, view.dot(target), radial_variance),
-            make_row(camera, point, side, side.dot(target), tangential_variance)};
-  if (distance(rows) > kGate) return {};
-  return rows;
+  const Measurement measurement(
+      make_row(camera, point, view, view.dot(target), radial_variance),
+      make_row(camera, point, side, side.dot(target), tangential_variance));
+  if (distance(measurement) > kGate) return {};
+  return measurement;
 }
 
-PoseFilter::Rows PoseFilter::match_circle(const CameraPlace& camera,
-                                          const Eigen::Vector2d& circle) const {
+PoseFilter::Match PoseFilter::match_circle(const CameraPlace& camera,
+                                           const Eigen::Vector2d& circle) const {
   const double range = (circle - camera.position.head<2>()).norm();
   const double variance = square(kCircleSigma + kCircleSigmaPerDistance * range);
   return match_point(camera, circle, Eigen::Vector2d::Zero(), variance, variance);
 }
 
-PoseFilter::Rows PoseFilter::match_post(const CameraPlace& camera,
-                                        const Eigen::Vector2d& post) const {
+PoseFilter::Match PoseFilter::match_post(const CameraPlace& camera,
+                                         const Eigen::Vector2d& post) const {
   const Eigen::Vector2d seen = on_field(camera, post);
   const auto nearest = std::min_element(field_->goal_posts().begin(), field_->goal_posts().end(),
                                         [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -235,10 +242,10 @@ PoseFilter::Rows PoseFilter::match_post(const CameraPlace& camera,
 // false one, or another line than it seemed before.
 void PoseFilter::update(const FieldObservation& observation) {
   const CameraPlace& camera = observation.camera;
-  std::vector<std::pair<double, std::function<Rows()>>> landmarks;
-  const auto add = [&](std::function<Rows()> match) {
-    const Rows rows = match();
-    const double d = rows.empty() ? std::numeric_limits<double>::infinity() : distance(rows);
+  std::vector<std::pair<double, std::function<Match()>>> landmarks;
+  const auto add = [&](std::function<Match()> match) {
+    const Match first = match();
+    const double d = first ? distance(*first) : std::numeric_limits<double>::infinity();
     landmarks.emplace_back(d, std::move(match));
   };
   for (const FieldLine& line : observation.lines) {
@@ -253,19 +260,17 @@ void PoseFilter::update(const FieldObservation& observation) {
   std::stable_sort(landmarks.begin(), landmarks.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& landmark : landmarks) {
-    if (const Rows rows = landmark.second(); !rows.empty()) apply(rows);
+    if (const Match match = landmark.second()) apply(*match);
   }
 }
 
-void PoseFilter::apply(const Rows& rows) {
-  Eigen::Matrix<double, 2, 7> H;
-  H << rows[0].jacobian, rows[1].jacobian;
-  const Eigen::Vector2d innovation(rows[0].innovation, rows[1].innovation);
-  const Eigen::Matrix2d R = Eigen::Vector2d(rows[0].variance, rows[1].variance).asDiagonal();
-  const Eigen::Matrix2d S = H * covariance_ * H.transpose() + R;
+void PoseFilter::apply(const Measurement& measurement) {
+  const auto& H = measurement.jacobian;
+  const Eigen::Matrix2d& R = measurement.covariance;
+  const Eigen::Matrix2d S = innovation_covariance(measurement);
   // K = P H^T S^-1.
   const Eigen::Matrix<double, 7, 2> gain = S.llt().solve(H * covariance_).transpose();
-  state_ += gain * innovation;
+  state_ += gain * measurement.innovation;
   state_[2] = wrapped(state_[2]);
   // Joseph form: stays symmetric and positive definite.
   const Covariance factor = Covariance::Identity() - gain * H;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
 
 #include "daemons/vision/field_model.h"
 #include "daemons/vision/field_observation.h"
@@ -55,25 +54,36 @@ class PoseFilter {
     double innovation = 0;
     double variance = 0;
   };
-  /** Two numbers that a landmark measures; none if it fits nothing, or several things. */
-  using Rows = std::vector<Row>;
+  /** The two numbers that a landmark measures, as rows. */
+  struct Measurement {
+    Measurement(const Row& a, const Row& b);
+
+    Eigen::Matrix<double, 2, 7> jacobian;
+    Eigen::Vector2d innovation;
+    /** Of the measurement's own noise. */
+    Eigen::Matrix2d covariance;
+  };
+  /** Nothing if a landmark fits nothing, or several things. */
+  using Match = std::optional<Measurement>;
 
   /** An observed point, corrected by the estimated tilt, on the field. */
   Eigen::Vector2d on_field(const CameraPlace& camera, const Eigen::Vector2d& point) const;
   /** Where an observed point lies along a direction of the field, relative to a target. */
   Row make_row(const CameraPlace& camera, const Eigen::Vector2d& point,
                const Eigen::Vector2d& direction, double target, double extra_variance) const;
-  /** Squared Mahalanobis distance of two rows. */
-  double distance(const Rows& rows) const;
-  Rows match_line(const CameraPlace& camera, const FieldLine& line) const;
+  /** Covariance of the innovation. */
+  Eigen::Matrix2d innovation_covariance(const Measurement& measurement) const;
+  /** Squared Mahalanobis distance. */
+  double distance(const Measurement& measurement) const;
+  Match match_line(const CameraPlace& camera, const FieldLine& line) const;
   /** The line as a chord of the center circle; none if it is too long. */
-  Rows match_chord(const CameraPlace& camera, const FieldLine& line) const;
-  Rows match_point(const CameraPlace& camera, const Eigen::Vector2d& point,
-                   const Eigen::Vector2d& target, double radial_variance,
-                   double tangential_variance) const;
-  Rows match_circle(const CameraPlace& camera, const Eigen::Vector2d& circle) const;
-  Rows match_post(const CameraPlace& camera, const Eigen::Vector2d& post) const;
-  void apply(const Rows& rows);
+  Match match_chord(const CameraPlace& camera, const FieldLine& line) const;
+  Match match_point(const CameraPlace& camera, const Eigen::Vector2d& point,
+                    const Eigen::Vector2d& target, double radial_variance,
+                    double tangential_variance) const;
+  Match match_circle(const CameraPlace& camera, const Eigen::Vector2d& circle) const;
+  Match match_post(const CameraPlace& camera, const Eigen::Vector2d& post) const;
+  void apply(const Measurement& measurement);
 
   const FieldModel* field_;
   State state_ = State::Zero();

@@ -20,15 +20,12 @@ constexpr double kLeastPiecePixels = 26;
 constexpr double kNearPixels = 8;
 /** Farther ends of a line on the center circle, pixels: an arc is not straight. */
 constexpr double kNearArcPixels = 12;
+
 double quantile(std::vector<double> values, double fraction) {
   if (values.empty()) return 0;
   const auto index = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + index, values.end());
   return values[static_cast<size_t>(index)];
-}
-
-double heading_of(const Eigen::Isometry3d& pose) {
-  return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
 }
 
 }  // namespace
@@ -120,14 +117,9 @@ void FieldDetectionStatistics::add_circle(const Detections& detections, const Ca
   });
   if (circle == detections.end()) return;
   ++count.found;
-  // Without the error of the camera's pose: as FieldErrorModel, by the middle of the arc.
-  const CameraGeometry estimated(calibration_, estimated_pose);
-  const cv::Point2f middle = visible[visible.size() / 2];
-  const auto seen = estimated.at_height(middle, 0);
-  const auto arc = truth.at_height(middle, 0);
-  if (!seen || !arc) return;
-  const Eigen::Rotation2Dd turn(heading_of(estimated_pose) - heading_of(true_pose));
-  circle_errors_.push_back((circle->position - (*seen + turn * Vector2d(-*arc))).norm());
+  // Without the error of the camera's pose.
+  const auto center = find_seen_center(visible, calibration_, true_pose, estimated_pose);
+  if (center) circle_errors_.push_back((circle->position - *center).norm());
 }
 
 void FieldDetectionStatistics::add(const Detections& detections, const Eigen::Isometry3d& true_pose,

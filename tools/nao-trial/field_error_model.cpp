@@ -103,20 +103,12 @@ void FieldErrorModel::add_circle(const Eigen::Isometry3d& true_pose, const Camer
   const double range = true_pose.translation().head<2>().norm();
   const double found = range < kNearRange ? kCircleNear : range < kFarRange ? kCircleFar : 0;
   if (random_.uniform() >= found) return;
-  // The center moves as the middle of the arc does when the camera's pose is wrong.
-  const cv::Point2f middle = visible[visible.size() / 2];
-  const auto seen = estimated.at_height(middle, 0);
-  const auto arc = truth.at_height(middle, 0);
-  if (!seen || !arc) return;
-  const auto heading = [](const Eigen::Isometry3d& pose) {
-    return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
-  };
-  const Eigen::Rotation2Dd turn(heading(estimated_pose) - heading(true_pose));
+  const auto center = find_seen_center(visible, calibration_, true_pose, estimated_pose);
+  if (!center) return;
   const double sigma = random_.uniform() < kWorseCircleFraction ? kWorseCircleSigma : kCircleSigma;
   Detection circle;
   circle.kind = Kind::kCenterCircle;
-  circle.position = *seen + turn * Eigen::Vector2d(-*arc) +
-                    sigma * Eigen::Vector2d(random_.normal(), random_.normal());
+  circle.position = *center + sigma * Eigen::Vector2d(random_.normal(), random_.normal());
   circle.covariance = Eigen::Matrix2d::Identity() * sigma * sigma;
   circle.confidence = 0.8;
   detections.push_back(circle);

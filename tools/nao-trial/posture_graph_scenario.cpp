@@ -24,11 +24,10 @@ std::string go(ClosedLoop& trial, const Posture& goal, RunResult& result) {
   }
   result.metrics.emplace_back("time_s", trial.time() - start);
   trial.run(0.3);
-  const bool lies = goal.family.rfind("lying", 0) == 0;
   std::string joint;
   const double deviation = trial.deviation_from(goal, &joint);
   result.metrics.emplace_back("deviation_deg", deviation * 180 / M_PI);
-  if (deviation > (lies ? kLyingTolerance : kTolerance)) {
+  if (deviation > (goal.is_lying() ? kLyingTolerance : kTolerance)) {
     return fmt::format("{} is {:.1f} degrees off", joint, deviation * 180 / M_PI);
   }
   const bool is_upright = goal.family == "standing" || goal.family == "crouching";

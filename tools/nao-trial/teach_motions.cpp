@@ -140,7 +140,7 @@ ActionScript draw_taught_motion(const RobotModel& model, uint64_t seed) {
   // Of the upright and sitting postures; a person rarely teaches a robot that lies.
   std::vector<const Posture*> postures;
   for (const Posture& posture : model.postures()) {
-    if (!posture.family.starts_with("lying")) postures.push_back(&posture);
+    if (!posture.is_lying()) postures.push_back(&posture);
   }
   const Posture& posture =
       is_wild ? model.ready_posture()

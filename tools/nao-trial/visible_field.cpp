@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "kinematics/pose2.h"
+
 namespace nao::trial {
 namespace {
 
@@ -46,6 +48,19 @@ std::vector<cv::Point2f> VisibleField::circle() const {
     if (pixel && is_in_image(*pixel)) visible.push_back(*pixel);
   }
   return visible;
+}
+
+std::optional<Eigen::Vector2d> find_seen_center(const std::vector<cv::Point2f>& circle,
+                                                const vision::CameraCalibration& calibration,
+                                                const Eigen::Isometry3d& true_pose,
+                                                const Eigen::Isometry3d& estimated_pose) {
+  const cv::Point2f middle = circle[circle.size() / 2];
+  const auto seen = vision::CameraGeometry(calibration, estimated_pose).at_height(middle, 0);
+  const auto arc = vision::CameraGeometry(calibration, true_pose).at_height(middle, 0);
+  if (!seen || !arc) return std::nullopt;
+  const Eigen::Rotation2Dd turn(heading_of(estimated_pose.linear()) -
+                                heading_of(true_pose.linear()));
+  return *seen + turn * Eigen::Vector2d(-*arc);
 }
 
 }  // namespace nao::trial

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "daemons/vision/camera_geometry.h"
@@ -35,5 +37,15 @@ class VisibleField {
   int width_;
   int height_;
 };
+
+/** Where the center of the circle seems to be, m, in the heading frame, if the camera's pose is
+ * estimated wrongly: it is moved as the middle of the visible arc is.
+ * @param circle  As circle() of VisibleField, not empty. @param true_pose  Camera in the field
+ * frame. @param estimated_pose  Camera in the heading frame. @return Nothing if one of them does
+ * not see the ground there. */
+std::optional<Eigen::Vector2d> find_seen_center(const std::vector<cv::Point2f>& circle,
+                                                const vision::CameraCalibration& calibration,
+                                                const Eigen::Isometry3d& true_pose,
+                                                const Eigen::Isometry3d& estimated_pose);
 
 }  // namespace nao::trial

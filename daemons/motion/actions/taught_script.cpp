@@ -149,7 +149,7 @@ std::string find_start_posture(const RobotModel& model, const std::vector<Keyfra
   // The ready posture goes first: a keyframe without legs is equally near to all.
   double least = deviation(model.ready_posture());
   for (const Posture& posture : model.postures()) {
-    if (posture.family.starts_with("lying")) continue;
+    if (posture.is_lying()) continue;
     const double candidate = deviation(posture);
     if (candidate >= least) continue;
     least = candidate;

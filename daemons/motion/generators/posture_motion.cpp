@@ -35,10 +35,7 @@ MotionGenerator::Phase PostureMotion::step(const MotionContext& context, JointTa
   if (time_ < trajectory_.duration()) return Phase::kRunning;
   // The targets are at the goal; now the measured angles decide.
   const PostureDeviation deviation = deviation_from(*posture_, context.sensors.position);
-  const double tolerance = posture_->family.rfind("lying", 0) == 0
-                               ? context.options.lying_posture_tolerance
-                               : context.options.posture_tolerance;
-  if (deviation.angle <= tolerance) return Phase::kDone;
+  if (deviation.angle <= context.options.tolerance_of(*posture_)) return Phase::kDone;
   if (time_ < trajectory_.duration() + kArrivalTime) return Phase::kRunning;
   reason_ = Reason("posture-not-reached",
                    {context.model.motor_joint(deviation.motor).name,

@@ -7,16 +7,6 @@
 #include "daemons/motion/transitions/transition_graph.h"
 
 namespace nao::motion {
-namespace {
-
-// Greatest difference of a measured angle to the posture that the robot is in, rad (5 degrees): the
-// servos' tracking error under load and the encoders' resolution.
-constexpr double kInPostureTolerance = 0.09;
-// The same where it lies, rad (8 degrees), as MotionOptions::lying_posture_tolerance.
-constexpr double kInLyingPostureTolerance = 0.14;
-
-}  // namespace
-
 std::string find_body_state(const RobotModel& model, const RobotState& state, double lying_tilt) {
   if (is_lying(state, lying_tilt)) {
     // The side follows from the torso axis that is nearest to vertical: x forward, y to the left.
@@ -56,13 +46,11 @@ bool is_sitting(const RobotModel& model, const std::string& body_state) {
 }
 
 const Posture* find_present_posture(const RobotModel& model, const std::vector<double>& position,
-                                    const RobotState& state, double lying_tilt) {
+                                    const RobotState& state, const MotionOptions& options) {
   // Angles alone do not tell a posture: a lying robot may have those of a standing one.
   for (const Posture& posture : model.postures()) {
-    const double tolerance =
-        posture.family.rfind("lying", 0) == 0 ? kInLyingPostureTolerance : kInPostureTolerance;
-    if (deviation_from(posture, position).angle >= tolerance) continue;
-    if (state_of(posture) == find_body_state(model, state, lying_tilt)) return &posture;
+    if (deviation_from(posture, position).angle >= options.tolerance_of(posture)) continue;
+    if (state_of(posture) == find_body_state(model, state, options.lying_tilt)) return &posture;
   }
   return nullptr;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "daemons/motion/motion_options.h"
 #include "daemons/motion/robot_state.h"
 #include "robot_model/robot_model.h"
 
@@ -30,6 +31,6 @@ bool is_sitting(const RobotModel& model, const std::string& body_state);
 /** The posture that the robot is in: its joints and its body state are those of the posture.
  * @param position  Measured angles, rad, (num_motors). @return nullptr if it is in none. */
 const Posture* find_present_posture(const RobotModel& model, const std::vector<double>& position,
-                                    const RobotState& state, double lying_tilt);
+                                    const RobotState& state, const MotionOptions& options);
 
 }  // namespace nao::motion

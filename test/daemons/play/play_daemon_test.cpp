@@ -234,7 +234,7 @@ TEST_F(AutonomousTest, PlaysAgainWhenThePersonsLeaseHasLapsed) {
   EXPECT_TRUE(plays_after(2));
   drive();
   EXPECT_FALSE(plays_after(1));
-  // A phone's lease lasts 10 s without a command, and then passes to somebody else who asks.
+  // A phone's lease lasts 10 s without a command, and then passes to another client that asks.
   EXPECT_FALSE(plays_after(8.5));
   EXPECT_TRUE(plays_after(1));
 }

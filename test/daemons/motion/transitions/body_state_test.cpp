@@ -49,7 +49,8 @@ TEST(BodyState, ARobotHeldInTheAirIsInNoState) {
 TEST(PresentPosture, NeedsTheJointsAndTheBody) {
   RobotAtRest robot("Crouch");
   const auto present = [&] {
-    return find_present_posture(nao_model(), robot.sensors().position, robot.state(), kLyingTilt);
+    return find_present_posture(nao_model(), robot.sensors().position, robot.state(),
+                                MotionOptions());
   };
   ASSERT_NE(present(), nullptr);
   EXPECT_EQ(present()->name, "Crouch");
