@@ -18,26 +18,26 @@ using vision::Kind;
  *
  * Probabilities that a visible piece of a line is found, by its distance in m; false lines for
  * each piece; of the circle; and of lines on each piece of its arc. */
-constexpr double kFoundNear = 0.91;
-constexpr double kFoundFar = 0.75;
-constexpr double kFoundFarther = 0.78;
-constexpr double kFalse = 0.055;
-constexpr double kCircleNear = 0.77;
-constexpr double kCircleFar = 0.62;
-constexpr double kArc = 0.8;
+constexpr double kFoundNear = 0.92;
+constexpr double kFoundFar = 0.78;
+constexpr double kFoundFarther = 0.91;
+constexpr double kFalse = 0.07;
+constexpr double kCircleNear = 0.79;
+constexpr double kCircleFar = 0.63;
+constexpr double kArc = 0.88;
 /** Part of a piece that is missing at an end, at most: of most ends, and of a fraction of them. */
 constexpr double kMostMissing = 0.02;
-constexpr double kWorseMissing = 0.4;
+constexpr double kWorseMissing = 0.43;
 constexpr double kWorseMissingFraction = 0.2;
 /** Standard deviation of an end in each direction, pixels: of most, and of a fraction of them. */
-constexpr double kPixelSigma = 0.09;
-constexpr double kWorsePixelSigma = 0.5;
+constexpr double kPixelSigma = 0.13;
+constexpr double kWorsePixelSigma = 1.1;
 constexpr double kWorseFraction = 0.2;
 /** Shortest line that is found, pixels, as LineDetector. */
 constexpr float kLeastPixels = 26;
 /** Standard deviation of the circle's center, m: of most, and of a fraction of them. */
 constexpr double kCircleSigma = 0.025;
-constexpr double kWorseCircleSigma = 0.17;
+constexpr double kWorseCircleSigma = 0.18;
 constexpr double kWorseCircleFraction = 0.25;
 
 }  // namespace

@@ -16,8 +16,8 @@ struct PerceptionErrors {
   /** Images a second: what nao-play requests. */
   double rate = 15;
   /** Probability that a ball in the image is found, to 3 m and to 5 m; beyond: never. */
-  double recall_near = 0.99;
-  double recall_far = 0.92;
+  double recall_near = 0.98;
+  double recall_far = 0.895;
   /** Probability of a false ball in an image without one. */
   double false_balls = 0.002;
   /** Standard deviations of the ball's direction, rad: to the side, and of its depression, which
