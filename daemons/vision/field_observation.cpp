@@ -40,9 +40,13 @@ double FieldObservation::length() const {
   return sum;
 }
 
+Eigen::Matrix2d FieldObservation::tilt_jacobian(const Eigen::Vector2d& point) const {
+  return vision::tilt_jacobian(camera, point) * Eigen::Rotation2Dd(seen_heading);
+}
+
 FieldObservation FieldObservation::tilted(const Eigen::Vector2d& tilt) const {
   FieldObservation result = *this;
-  const auto move = [&](Eigen::Vector2d& point) { point += tilt_jacobian(camera, point) * tilt; };
+  const auto move = [&](Eigen::Vector2d& point) { point += tilt_jacobian(point) * tilt; };
   for (FieldLine& line : result.lines) {
     move(line.from);
     move(line.to);
@@ -56,6 +60,7 @@ FieldObservation FieldObservation::moved_to(const Pose2& target) const {
   const Pose2 move = target.inverse() * heading_in_odometry;
   FieldObservation moved = *this;
   moved.heading_in_odometry = target;
+  moved.seen_heading = seen_heading + move.heading;
   const Eigen::Vector2d camera_ground = move * Eigen::Vector2d(camera.position.head<2>());
   moved.camera.position.head<2>() = camera_ground;
   for (FieldLine& line : moved.lines) line = {move * line.from, move * line.to};

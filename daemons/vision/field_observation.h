@@ -27,12 +27,15 @@ struct FieldObservation {
   /** Center of the center circle. */
   std::optional<Eigen::Vector2d> circle;
   std::vector<Eigen::Vector2d> posts;
+  /** Heading in H of the robot that saw this, rad: the axes about which its camera was tilted. */
+  double seen_heading = 0;
 
   /** Sum of the lengths of the lines, m. */
   double length() const;
-  /** The same observation with the camera turned by small rotations about the x and y axes of H,
-   * rad.
-   */
+  /** Derivative of the position of a ground point by small rotations of the camera about the x and
+   * y axes of the robot that saw it, m/rad. */
+  Eigen::Matrix2d tilt_jacobian(const Eigen::Vector2d& point) const;
+  /** The same observation with the camera turned by such rotations, rad. */
   FieldObservation tilted(const Eigen::Vector2d& tilt) const;
   /** The same observation as seen from where the odometry is `heading_in_odometry`. */
   FieldObservation moved_to(const Pose2& heading_in_odometry) const;

@@ -1,5 +1,6 @@
 #include "daemons/vision/localizer.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nao::vision {
@@ -32,6 +33,9 @@ constexpr double kMisfitScore = 0.35;
 constexpr int kMostMisfits = 4;
 /** Above this score no other pose is searched. */
 constexpr double kGoodScore = 0.6;
+/** Least gain of the mean tilt with each observation: 10 s. Chosen: much longer than a misfit lasts
+ * before the pose is given up. */
+constexpr double kTiltGain = 0.02;
 /** Another pose replaces a tracked one if its score is better by this. */
 constexpr double kBetter = 0.25;
 /** Between two searches, microseconds: each takes about as long as an image. */
@@ -48,6 +52,8 @@ void Localizer::restart(const Pose2& heading_in_odometry) {
   is_lost_ = false;
   num_misfits_ = 0;
   window_.clear();
+  usual_tilt_.setZero();
+  num_fits_ = 0;
   remembered_utime_ = searched_utime_ = 0;
   filter_.start(start_, kStartPosition, kStartHeading);
   // What was walked before this program started adds its uncertainty.
@@ -91,7 +97,7 @@ void Localizer::observe(const FieldObservation& observation) {
   if (utime_ - remembered_utime_ < kKeepPeriod) return;
   if (observation.lines.empty() && !observation.circle) return;
   remembered_utime_ = utime_;
-  remember(observation.tilted(filter_.tilt()));
+  remember(observation);
   check();
 }
 
@@ -103,8 +109,22 @@ void Localizer::remember(const FieldObservation& observation) {
 std::vector<FieldObservation> Localizer::newest(size_t count) const {
   std::vector<FieldObservation> result;
   const size_t first = window_.size() > count ? window_.size() - count : 0;
-  for (size_t i = first; i < window_.size(); ++i) result.push_back(window_[i].moved_to(odometry_));
+  for (size_t i = first; i < window_.size(); ++i) {
+    const FieldObservation corrected = window_[i].tilted(filter_.tilt());
+    result.push_back(corrected.moved_to(odometry_));
+  }
   return result;
+}
+
+void Localizer::give_up() {
+  is_lost_ = true;
+  // Carrying the robot does not change the errors of its joints and of the torso's orientation, but
+  // what was taken for lines of the wrong place spoiled the estimated tilt.
+  filter_.start(filter_.pose(), kFoundPosition, kFoundHeading, usual_tilt_);
+  // What was seen before belongs to where the robot was before.
+  if (window_.size() > kRecent) {
+    window_.erase(window_.begin(), window_.end() - static_cast<std::ptrdiff_t>(kRecent));
+  }
 }
 
 void Localizer::check() {
@@ -115,12 +135,12 @@ void Localizer::check() {
   const double score = search_.score(filter_.pose(), recent);
   if (!is_lost_) {
     num_misfits_ = score < kMisfitScore ? num_misfits_ + 1 : 0;
-    if (num_misfits_ >= kMostMisfits) {
-      is_lost_ = true;
-      // What was seen before belongs to where the robot was before.
-      window_.erase(window_.begin(), window_.end() - static_cast<std::ptrdiff_t>(recent.size()));
+    if (num_misfits_ >= kMostMisfits) give_up();
+    if (!is_lost_ && score > kGoodScore) {
+      ++num_fits_;
+      usual_tilt_ += std::max(kTiltGain, 1.0 / num_fits_) * (filter_.tilt() - usual_tilt_);
+      return;
     }
-    if (!is_lost_ && score > kGoodScore) return;
   }
   if (utime_ - searched_utime_ < (is_lost_ ? kLostSearchPeriod : kSearchPeriod)) return;
   searched_utime_ = utime_;
@@ -128,7 +148,7 @@ void Localizer::check() {
   const auto found = search_.find(all, filter_.pose().heading);
   if (!found) return;
   if (!is_lost_ && found->score < search_.score(filter_.pose(), all) + kBetter) return;
-  filter_.start(found->pose, kFoundPosition, kFoundHeading);
+  filter_.start(found->pose, kFoundPosition, kFoundHeading, filter_.tilt() + found->tilt);
   is_lost_ = false;
   num_misfits_ = 0;
 }

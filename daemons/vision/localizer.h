@@ -26,7 +26,8 @@ struct FieldPose {
  *
  * PoseFilter tracks the pose. PoseSearch looks for another one when what was seen in the last
  * seconds does not fit the tracked one: the robot was carried. Meanwhile the pose is unknown. Only
- * the heading, which the gyroscope keeps, then tells one half of the field from the other. */
+ * the heading, which the gyroscope keeps, then tells one half of the field from the other, and the
+ * camera is taken to be tilted as it usually is. */
 class Localizer {
  public:
   /** The odometry frame begins where the robot stands when nao-motion starts.
@@ -54,7 +55,9 @@ class Localizer {
   void restart(const Pose2& heading_in_odometry);
   void remember(const FieldObservation& observation);
   void check();
-  /** The newest observations, at most `count`, as seen from the present pose. */
+  void give_up();
+  /** The newest observations, at most `count`, as seen from the present pose with the camera's
+   * tilt as it is known now. */
   std::vector<FieldObservation> newest(size_t count) const;
 
   FieldModel field_;
@@ -67,6 +70,10 @@ class Localizer {
   int64_t utime_ = 0;
   Pose2 odometry_;
   std::vector<FieldObservation> window_;
+  /** Mean of the slow errors of the tilt while the pose fitted well, rad, and of how many
+   * observations, at the beginning. */
+  Eigen::Vector2d usual_tilt_ = Eigen::Vector2d::Zero();
+  int num_fits_ = 0;
   int64_t remembered_utime_ = 0;
   int64_t searched_utime_ = 0;
   int num_misfits_ = 0;

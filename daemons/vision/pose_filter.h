@@ -26,8 +26,10 @@ class PoseFilter {
   /** @param field  Must outlive this. */
   explicit PoseFilter(const FieldModel& field);
 
-  /** Starts at a pose. @param position_sigma  m. @param heading_sigma  rad. */
-  void start(const Pose2& pose, double position_sigma, double heading_sigma);
+  /** Starts at a pose. @param position_sigma  m. @param heading_sigma  rad.
+   * @param tilt  Slow errors of the camera's tilt, as far as they are known, rad. */
+  void start(const Pose2& pose, double position_sigma, double heading_sigma,
+             const Eigen::Vector2d& tilt = Eigen::Vector2d::Zero());
 
   /** Moves the estimate to the next image by a step of the odometry, in the robot's frame.
    * @param dt  s. */

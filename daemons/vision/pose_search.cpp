@@ -25,10 +25,15 @@ constexpr double kLeastLength = 0.4;
 /** Hypotheses come from so many of the newest observations, and pairs of lines of each. */
 constexpr int kNumSources = 4;
 constexpr int kNumPairs = 3;
-/** So many of the best are refined, and are a different place beyond this distance, m and rad. */
+/** So many of the best are refined, in so many steps, and are a different place beyond this
+ * distance, m and rad. */
 constexpr size_t kNumRefined = 12;
+constexpr int kNumIterations = 4;
 constexpr double kSamePosition = 0.5;
 constexpr double kSameHeading = 0.35;
+/** Standard deviation of the tilt's error that observations have in common, rad, beside the tilt
+ * that they are corrected by. */
+constexpr double kTiltSigma = 0.02;
 /** The result explains at least this, and others less by the margin. Chosen; checked on synthetic
  * observations. */
 constexpr double kLeastScore = 0.55;
@@ -170,48 +175,59 @@ void PoseSearch::add_hypotheses(const FieldObservation& observation, double head
   }
 }
 
-// Gauss-Newton on the distances of the observed ends from their field lines.
-Pose2 PoseSearch::refined(const Pose2& pose,
-                          const std::vector<FieldObservation>& observations) const {
-  Pose2 result = pose;
-  for (int iteration = 0; iteration < 3; ++iteration) {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-3;
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    const auto add = [&](const Eigen::Vector2d& point, const Eigen::Vector2d& direction,
-                         double target, double tolerance) {
-      const Eigen::Vector2d seen = result * point;
+// Gauss-Newton on the distances of the observed ends from their field lines, by the pose and the
+// tilt. Each observation adds the tilt's prior, since its points have their errors in common.
+PoseSearch::Result PoseSearch::refined(const Pose2& start,
+                                       const std::vector<FieldObservation>& observations) const {
+  using Matrix = Eigen::Matrix<double, 5, 5>;
+  using Vector = Eigen::Matrix<double, 5, 1>;
+  Pose2 pose = start;
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();
+  std::vector<FieldObservation> corrected = observations;
+  for (int iteration = 0; iteration < kNumIterations; ++iteration) {
+    Matrix normal = Matrix::Identity() * 1e-3;
+    Vector right = Vector::Zero();
+    const double prior = static_cast<double>(observations.size()) / (kTiltSigma * kTiltSigma);
+    normal.diagonal().tail<2>().array() += prior;
+    right.tail<2>() -= prior * tilt;
+    const auto add = [&](const FieldObservation& observation, const Eigen::Vector2d& point,
+                         const Eigen::Vector2d& direction, double target, double tolerance) {
+      const Eigen::Vector2d seen = pose * point;
       const double residual = target - direction.dot(seen);
-      Eigen::Vector3d slope;
-      slope << direction, direction.dot(quarter_turn(seen - result.position));
+      Vector slope;
+      slope << direction, direction.dot(quarter_turn(seen - pose.position)),
+          observation.tilt_jacobian(point).transpose() * (pose.inverse().rotate(direction));
       const double weight = 1 / (tolerance * tolerance);
       normal += weight * slope * slope.transpose();
       right += weight * residual * slope;
     };
-    for (const FieldObservation& observation : observations) {
+    for (const FieldObservation& observation : corrected) {
       const Eigen::Vector2d camera = observation.camera.position.head<2>();
       const auto tolerance = [&](const Eigen::Vector2d& point) {
         return kTolerance + kToleranceOfDistance * (point - camera).norm();
       };
       for (const FieldLine& line : observation.lines) {
-        const Match found = match(moved(result, line));
+        const Match found = match(moved(pose, line));
         if (found.line == nullptr || found.distance > 2 * tolerance(line.from)) continue;
         const Eigen::Vector2d across =
             quarter_turn((found.line->to - found.line->from).normalized());
-        add(line.from, across, across.dot(found.line->from), tolerance(line.from));
-        add(line.to, across, across.dot(found.line->from), tolerance(line.to));
+        add(observation, line.from, across, across.dot(found.line->from), tolerance(line.from));
+        add(observation, line.to, across, across.dot(found.line->from), tolerance(line.to));
       }
-      if (observation.circle && (result * *observation.circle).norm() < 1) {
+      if (observation.circle && (pose * *observation.circle).norm() < 1) {
         for (const Eigen::Vector2d& axis : {Eigen::Vector2d(Eigen::Vector2d::UnitX()),
                                             Eigen::Vector2d(Eigen::Vector2d::UnitY())}) {
-          add(*observation.circle, axis, 0, tolerance(*observation.circle));
+          add(observation, *observation.circle, axis, 0, tolerance(*observation.circle));
         }
       }
     }
-    const Eigen::Vector3d step = normal.ldlt().solve(right);
-    result.position += step.head<2>();
-    result.heading = wrapped(result.heading + step[2]);
+    const Vector step = normal.ldlt().solve(right);
+    pose.position += step.head<2>();
+    pose.heading = wrapped(pose.heading + step[2]);
+    tilt += step.tail<2>();
+    for (size_t i = 0; i < observations.size(); ++i) corrected[i] = observations[i].tilted(tilt);
   }
-  return result;
+  return {pose, tilt, score(pose, corrected)};
 }
 
 std::optional<PoseSearch::Result> PoseSearch::find(
@@ -238,12 +254,11 @@ std::optional<PoseSearch::Result> PoseSearch::find(
     return kept;
   };
   std::vector<Result> scored;
-  for (const Pose2& pose : hypotheses) scored.push_back({pose, score(pose, observations)});
-  scored = thinned(std::move(scored), kNumRefined);
-  for (Result& result : scored) {
-    result.pose = refined(result.pose, observations);
-    result.score = score(result.pose, observations);
+  for (const Pose2& pose : hypotheses) {
+    scored.push_back({pose, Eigen::Vector2d::Zero(), score(pose, observations)});
   }
+  scored = thinned(std::move(scored), kNumRefined);
+  for (Result& result : scored) result = refined(result.pose, observations);
   scored = thinned(std::move(scored), 2);
   if (scored.empty() || scored[0].score < kLeastScore) return std::nullopt;
   if (scored.size() > 1 && scored[1].score > scored[0].score - kMargin) return std::nullopt;

@@ -13,12 +13,15 @@ namespace nao::vision {
  *
  * Hypotheses: two observed lines at a right angle are two lines of the field, or one of them and
  * the center circle. Each hypothesis is scored by all observations, the best are refined by least
- * squares, and the best of them is the result if no other place explains the observations as well.
+ * squares together with the camera's tilt, and the best of them is the result if no other place
+ * explains the observations as well.
  * The half turn under which the field looks the same is decided by the heading of the prior. */
 class PoseSearch {
  public:
   struct Result {
     Pose2 pose;
+    /** Errors of the camera's tilt that all observations have in common, rad. */
+    Eigen::Vector2d tilt = Eigen::Vector2d::Zero();
     /** As score(). */
     double score = 0;
   };
@@ -48,7 +51,8 @@ class PoseSearch {
   double line_score(const FieldLine& line, const Eigen::Vector2d& camera) const;
   void add_hypotheses(const FieldObservation& observation, double heading,
                       std::vector<Pose2>& hypotheses) const;
-  Pose2 refined(const Pose2& pose, const std::vector<FieldObservation>& observations) const;
+  /** The result nearby that fits best. */
+  Result refined(const Pose2& pose, const std::vector<FieldObservation>& observations) const;
 
   const FieldModel* field_;
   /** y of the lines along x, and x of the lines along y, each once, m. */

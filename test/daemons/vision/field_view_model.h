@@ -12,9 +12,13 @@ namespace nao::vision {
  * heading, with noise, misses, and false lines. */
 class FieldViewModel {
  public:
-  /** @param field  Must outlive this. */
-  FieldViewModel(const FieldModel& field, uint64_t seed) : field_(field), random_(seed) {
+  /** @param field  Must outlive this. @param tilt  Error of the camera's tilt that stays, rad; a
+   * smaller one is drawn and added. */
+  FieldViewModel(const FieldModel& field, uint64_t seed,
+                 const Eigen::Vector2d& tilt = Eigen::Vector2d::Zero())
+      : field_(field), random_(seed) {
     bias_ = {0.006 * random_.normal(), 0.006 * random_.normal()};
+    bias_ += tilt;
   }
 
   FieldObservation observe(const Pose2& truth, const Pose2& odometry) {
