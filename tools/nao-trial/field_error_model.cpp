@@ -17,14 +17,17 @@ using vision::Kind;
  * 200`, whose statistics of detections localise-error-model repeats (docs/vision.md).
  *
  * Probabilities that a visible piece of a line is found, by its distance in m; false lines for
- * each piece; of the circle; and of lines on each piece of its arc. */
+ * each piece; of the circle; and of lines on each arc of it. */
 constexpr double kFoundNear = 0.92;
 constexpr double kFoundFar = 0.78;
 constexpr double kFoundFarther = 0.91;
-constexpr double kFalse = 0.07;
+constexpr double kFalse = 0.055;
 constexpr double kCircleNear = 0.79;
 constexpr double kCircleFar = 0.63;
-constexpr double kArc = 0.88;
+constexpr double kArc = 0.91;
+/** Length of such an arc, and from one to the next, in steps of 1/72 of the circle. */
+constexpr size_t kArcSteps = 6;
+constexpr size_t kArcPeriod = 16;
 /** Part of a piece that is missing at an end, at most: of most ends, and of a fraction of them. */
 constexpr double kMostMissing = 0.02;
 constexpr double kWorseMissing = 0.43;
@@ -95,9 +98,14 @@ void FieldErrorModel::add_circle(const Eigen::Isometry3d& true_pose, const Camer
                                  const Eigen::Isometry3d& estimated_pose,
                                  const CameraGeometry& estimated, Detections& detections) {
   const std::vector<cv::Point2f> visible = VisibleField(field_, truth, width_, height_).circle();
-  // Some of its bends become lines.
-  for (size_t i = 0; i + 8 < visible.size(); i += 16) {
-    if (random_.uniform() < kArc) add_line(visible[i], visible[i + 8], estimated, detections);
+  // Some of its bends become lines. The straight line with the least squares of its distances from
+  // an arc with the sagitta s lies 2/3 s from the chord.
+  for (size_t i = 0; i + kArcSteps < visible.size(); i += kArcPeriod) {
+    if (random_.uniform() >= kArc) continue;
+    const cv::Point2f& from = visible[i];
+    const cv::Point2f& to = visible[i + kArcSteps];
+    const cv::Point2f shift = (visible[i + kArcSteps / 2] - 0.5f * (from + to)) * (2.0f / 3);
+    add_line(from + shift, to + shift, estimated, detections);
   }
   if (visible.size() < kNumCirclePoints / 3) return;
   const double range = true_pose.translation().head<2>().norm();
