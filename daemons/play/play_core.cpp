@@ -195,10 +195,8 @@ std::optional<Reason> PlayCore::find_obstacle(const PlayInput& input) {
 void PlayCore::run(const PlayInput& input, PlayOutput& output) {
   state_.reason = {};
   state_.target_in_field.reset();
-  // Between the phases of getting up nao-motion is in the mode moving: a command would end it. A
-  // dive falls on purpose, and its action includes getting up.
-  const bool lies = has_fallen(input.mode) || !input.robot->is_upright;
-  if (lies && !motion_.is_performing()) {
+  // A dive falls on purpose, and its action includes getting up.
+  if (has_fallen(input.mode) && !motion_.is_performing()) {
     motion_.abandon();
     behavior_->restart();
     state_.phase = PlayPhase::kRecover;

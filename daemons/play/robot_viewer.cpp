@@ -12,8 +12,6 @@ namespace nao::play {
 namespace {
 
 constexpr const char* kKickFile = "actions/kick.yaml";
-/** Cosine of the torso's tilt beyond which the robot lies; 50 degrees. Chosen. */
-constexpr double kUprightCosine = 0.64;
 
 std::string name_of_action(const RobotModel& model, Action::Kind kind, Side side = Side::kNone) {
   const Action* action = model.find_action(kind, side);
@@ -46,7 +44,6 @@ RobotView RobotViewer::look(const Eigen::Isometry3d& torso_in_odometry,
   kinematics_.update(position);
   RobotView view;
   view.torso_in_odometry = Pose2::from(torso_in_odometry);
-  view.is_upright = torso_in_odometry.linear()(2, 2) > kUprightCosine;
   const Eigen::Vector3d middle =
       torso_in_odometry * Eigen::Vector3d(0.5 * (kinematics_.left_sole().translation() +
                                                  kinematics_.right_sole().translation()));

@@ -31,8 +31,6 @@ struct RobotView {
   Pose2 feet_in_odometry;
   /** The torso's ground projection in the odometry frame. */
   Pose2 torso_in_odometry;
-  /** The torso is upright: the robot stands, walks or sits. */
-  bool is_upright = true;
   /** Angles of the joints that turn the cameras, rad. */
   double head_yaw = 0;
   double head_pitch = 0;

@@ -46,11 +46,12 @@ std::string body_state_in(const MotionContext& context) {
 }  // namespace
 
 // Limp motors get their stiffness first; the path begins from the measured state.
-void PosturePathMotion::start(const MotionContext& /*context*/, const JointTargets& targets) {
+void PosturePathMotion::start(const MotionContext& context, const JointTargets& targets) {
   const bool is_stiff = std::all_of(targets.stiffness.begin(), targets.stiffness.end(),
                                     [](double stiffness) { return stiffness >= 1; });
   segment_ = is_stiff ? Segment::kResting : Segment::kStiffening;
   time_ = 0;
+  note_getting_up(body_state_in(context));
 }
 
 bool PosturePathMotion::can_be_replaced() const {
@@ -58,7 +59,7 @@ bool PosturePathMotion::can_be_replaced() const {
 }
 
 Mode PosturePathMotion::mode() const {
-  return segment_ == Segment::kTransition && is_from_lying_ ? Mode::kGettingUp : Mode::kMoving;
+  return is_getting_up_ ? Mode::kGettingUp : Mode::kMoving;
 }
 
 double PosturePathMotion::progress() const {
@@ -76,7 +77,7 @@ MotionGenerator::Phase PosturePathMotion::step(const MotionContext& context,
   time_still_ = is_still ? time_still_ + context.dt : 0;
   switch (segment_) {
     case Segment::kStiffening:
-      stiffen(context.dt, targets.stiffness);
+      stiffen(context, targets.stiffness);
       return Phase::kRunning;
     case Segment::kResting:
       return step_resting(context, targets);
@@ -88,9 +89,9 @@ MotionGenerator::Phase PosturePathMotion::step(const MotionContext& context,
   return Phase::kFailed;
 }
 
-void PosturePathMotion::stiffen(double dt, std::vector<double>& stiffness) {
-  for (double& value : stiffness) value = std::min(1.0, value + dt / kStiffeningTime);
-  if (time_ >= kStiffeningTime) rest();
+void PosturePathMotion::stiffen(const MotionContext& context, std::vector<double>& stiffness) {
+  for (double& value : stiffness) value = std::min(1.0, value + context.dt / kStiffeningTime);
+  if (time_ >= kStiffeningTime) rest(context);
 }
 
 MotionGenerator::Phase PosturePathMotion::step_resting(const MotionContext& context,
@@ -108,7 +109,7 @@ MotionGenerator::Phase PosturePathMotion::step_line(const MotionContext& context
   if (phase == Phase::kFailed && body_state_in(context) != state_of(*goal_)) {
     // It fell over, and lies on joints that are blocked for that reason: the path is planned anew.
     is_on_path_ = false;
-    rest();
+    rest(context);
     return Phase::kRunning;
   }
   if (phase == Phase::kFailed && bring_feet_together(context, targets)) return Phase::kRunning;
@@ -123,13 +124,23 @@ MotionGenerator::Phase PosturePathMotion::step_line(const MotionContext& context
   if (phase != Phase::kDone) return phase;
   if (body_state_in(context) == state_of(*goal_)) return Phase::kDone;
   // The joints are there, but the body is not: it was tipped over meanwhile.
-  rest();
+  rest(context);
   return Phase::kRunning;
 }
 
-void PosturePathMotion::rest() {
+void PosturePathMotion::rest(const MotionContext& context) {
   segment_ = Segment::kResting;
   time_ = 0;
+  note_getting_up(body_state_in(context));
+}
+
+// A seated robot is on its way if it lay before, and otherwise only moves.
+void PosturePathMotion::note_getting_up(const std::string& state) {
+  if (state == kOnFeet || state == state_of(*goal_)) {
+    is_getting_up_ = false;
+  } else if (is_lying_state(state)) {
+    is_getting_up_ = true;
+  }
 }
 
 bool PosturePathMotion::must_rest(const MotionContext& context, const std::string& state) const {
@@ -150,6 +161,7 @@ MotionGenerator::Phase PosturePathMotion::choose_segment(const MotionContext& co
                                                          const JointTargets& targets) {
   time_ = 0;
   const std::string state = body_state_in(context);
+  note_getting_up(state);
   const std::string goal_state = state_of(*goal_);
   // The last part of the path: a line through joint space on the feet.
   is_standing_line_ = state == kOnFeet && goal_state == state;
@@ -168,7 +180,6 @@ MotionGenerator::Phase PosturePathMotion::choose_segment_in_goal_state(
   const bool is_near = deviation_from(*goal_, context.sensors.position).angle < kNearPosture;
   if (approach != nullptr && !has_approached_ && !is_near) {
     has_approached_ = true;
-    is_from_lying_ = false;
     play(context, *approach, targets);
     return Phase::kRunning;
   }
@@ -193,14 +204,14 @@ MotionGenerator::Phase PosturePathMotion::choose_transition(const MotionContext&
     reason_ = Reason("no-path", {state.empty() ? "unknown" : state, goal_->name});
     return Phase::kFailed;
   }
-  is_from_lying_ = is_lying_state(state);
+  const bool is_from_lying = is_lying_state(state);
   // Each new beginning from lying counts as an attempt; after kMaxTries the robot asks for help.
-  if (is_from_lying_ && !is_on_path_ && ++num_tries_ > kMaxTries) {
+  if (is_from_lying && !is_on_path_ && ++num_tries_ > kMaxTries) {
     reason_ = Reason("get-up-failed", {std::to_string(kMaxTries)});
     return Phase::kFailed;
   }
   // Alternatives of one transition take turns: a surface on which one fails may suit another.
-  const int num_failed = is_from_lying_ ? num_tries_ - 1 : 0;
+  const int num_failed = is_from_lying ? num_tries_ - 1 : 0;
   play(context, graph_->find_alternative(*path.front(), num_failed), targets);
   return Phase::kRunning;
 }
@@ -215,7 +226,6 @@ bool PosturePathMotion::bring_feet_together(const MotionContext& context,
   ++num_feet_together_;
   time_ = 0;
   is_standing_line_ = false;
-  is_from_lying_ = false;
   play(context, *sequence, targets);
   return true;
 }
@@ -226,7 +236,6 @@ bool PosturePathMotion::approach_again(const MotionContext& context, const Joint
   if (!applies || has_approached_again_) return false;
   has_approached_again_ = true;
   time_ = 0;
-  is_from_lying_ = false;
   play(context, *approach, targets);
   return true;
 }
@@ -254,7 +263,7 @@ MotionGenerator::Phase PosturePathMotion::step_transition(const MotionContext& c
   if (!is_on_path_) failed_.push_back(transition_.sequence);
   // The next segment is chosen from the measured state, whether the transition succeeded or not.
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
-  rest();
+  rest(context);
   return Phase::kRunning;
 }
 

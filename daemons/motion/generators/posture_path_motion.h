@@ -59,7 +59,7 @@ class PosturePathMotion : public MotionGenerator {
   Phase step_resting(const MotionContext& context, JointTargets& targets);
   Phase step_transition(const MotionContext& context, JointTargets& targets);
   Phase step_line(const MotionContext& context, JointTargets& targets);
-  void stiffen(double dt, std::vector<double>& stiffness);
+  void stiffen(const MotionContext& context, std::vector<double>& stiffness);
   Phase choose_segment(const MotionContext& context, const JointTargets& targets);
   Phase choose_segment_in_goal_state(const MotionContext& context, const JointTargets& targets);
   /** @param state  State of the body, other than the goal's. */
@@ -67,7 +67,10 @@ class PosturePathMotion : public MotionGenerator {
                           const std::string& state);
   void play(const MotionContext& context, const KeyframeSequence& sequence,
             const JointTargets& targets);
-  void rest();
+  void rest(const MotionContext& context);
+  /** Takes notice of whether the robot gets up: from lying until it is on its feet or at the goal.
+   * @param state  Of the body. */
+  void note_getting_up(const std::string& state);
   /** Whether the body must come to rest before it moves on from a state. */
   bool must_rest(const MotionContext& context, const std::string& state) const;
   /** Starts to bring the feet together, if that may free legs that did not reach the posture.
@@ -97,8 +100,8 @@ class PosturePathMotion : public MotionGenerator {
   int num_feet_together_ = 0;
   /** Attempts to get up: a roll and the get-up motion after it count as one. */
   int num_tries_ = 0;
-  /** The transition that is played started from a lying state. */
-  bool is_from_lying_ = false;
+  /** The robot lay, and is neither on its feet yet nor in the goal's state. */
+  bool is_getting_up_ = false;
   /** The last transition ended where it should. */
   bool is_on_path_ = false;
   bool has_approached_ = false;

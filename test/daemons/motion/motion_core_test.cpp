@@ -298,10 +298,15 @@ TEST(MotionCore, GetsUpAfterTheSameTimeAtAnyControlPeriod) {
     PerfectRobot robot("StandInit", period);
     robot.settle(core);
     robot.lie_on_belly();
+    // When it begins to get up, and when its joints begin to move for that.
+    double begin = 0;
     double time = 0;
-    for (; time < 5 && core.motion_state().mode != Mode::kGettingUp; time += period) {
-      robot.step(core);
+    const std::vector<double> lying = robot.step(core).joint_targets->position;
+    for (std::vector<double> targets = lying; time < 5 && targets == lying; time += period) {
+      targets = robot.step(core).joint_targets->position;
+      if (core.motion_state().mode != Mode::kGettingUp) begin = time;
     }
+    EXPECT_NEAR(begin, MotionOptions().get_up_delay, 4 * period) << period;
     // The delay before it gets up, and the time for which it must lie still.
     EXPECT_NEAR(time, MotionOptions().get_up_delay + 0.1, 4 * period) << period;
   }

@@ -330,17 +330,16 @@ TEST_F(PlayLease, WaitsUntilAFallenRobotStands) {
   EXPECT_EQ(world_.core.state().phase, PlayPhase::kApproach);
 }
 
-// nao-motion is in the mode moving until a robot that lies has come to rest.
-TEST_F(PlayLease, CommandsNothingWhileTheRobotLies) {
+TEST_F(PlayLease, CommandsNothingWhileTheRobotGetsUp) {
   begin();
-  world_.mode = Mode::kMoving;
-  world_.is_upright = false;
+  world_.mode = Mode::kGettingUp;
   world_.commands.clear();
   steps(30);
   EXPECT_EQ(world_.core.state().phase, PlayPhase::kRecover);
-  EXPECT_EQ(world_.core.state().reason.code, "robot-fallen");
+  EXPECT_EQ(world_.core.state().reason.code, "robot-getting-up");
   EXPECT_THAT(world_.commands, SizeIs(0));
-  world_.is_upright = true;
+  // On its feet it goes on, while nao-motion still straightens the legs.
+  world_.mode = Mode::kMoving;
   steps(20);
   EXPECT_EQ(world_.core.state().phase, PlayPhase::kApproach);
 }

@@ -247,7 +247,6 @@ TEST(RobotViewer, SeesWhereTheCamerasLook) {
   std::vector<double> position(static_cast<size_t>(model.num_motors()), 0.0);
   RobotView view = viewer.look(torso, position);
   ASSERT_EQ(view.cameras.size(), 2u);
-  EXPECT_TRUE(view.is_upright);
   EXPECT_NEAR(view.feet_in_odometry.position.x(), 1, 0.05);
   EXPECT_NEAR(view.feet_in_odometry.position.y(), 2, 0.01);
   // Camera angles of the NAO: 1.2 and 39.7 degrees below the horizon.

@@ -36,7 +36,6 @@ void ToyWorld::command(Behavior behavior) {
 RobotView ToyWorld::view() const {
   RobotView view;
   view.feet_in_odometry = view.torso_in_odometry = feet;
-  view.is_upright = is_upright;
   view.head_yaw = head_yaw_;
   view.head_pitch = head_pitch_;
   view.cameras = {{"top", {0.05, 0, 0.45}, head_yaw_, head_pitch_},

@@ -31,7 +31,6 @@ class ToyWorld {
   Mode mode = Mode::kHolding;
   bool needs_help = false;
   bool has_robot = true;
-  bool is_upright = true;
   /** The camera works. */
   bool has_images = true;
   int image_status = 0;

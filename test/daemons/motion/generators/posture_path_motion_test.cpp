@@ -85,15 +85,41 @@ TEST_F(PosturePathMotionTest, LimpMotorsBecomeStiffFirst) {
 TEST_F(PosturePathMotionTest, GetsUpAlongATransitionAndContinuesOnALine) {
   lie();
   start("StandInit");
-  while (motion_->mode() != Mode::kGettingUp) ASSERT_EQ(step(), Phase::kRunning);
+  while (motion_->can_be_replaced()) ASSERT_EQ(step(), Phase::kRunning);
   EXPECT_FALSE(motion_->must_stay_upright());
-  EXPECT_FALSE(motion_->can_be_replaced());
   for (int i = 0; i < 30; ++i) step();
   stand();
   EXPECT_EQ(run(10), Phase::kDone);
   MotionState state;
   motion_->describe(state);
   EXPECT_EQ(state.num_tries, 1);
+}
+
+// Commands that the mode refuses would otherwise end it while it rests.
+TEST_F(PosturePathMotionTest, GetsUpFromItsStartUntilItIsOnItsFeetAlsoWhileItRests) {
+  lie();
+  start("StandInit");
+  EXPECT_EQ(motion_->mode(), Mode::kGettingUp);
+  int num_rests = 0;
+  bool rested = true;
+  // Long enough for a transition that fails, a rest, and the next transition.
+  for (int i = 0; i < 100; ++i) {
+    step();
+    EXPECT_EQ(motion_->mode(), Mode::kGettingUp) << i;
+    num_rests += motion_->can_be_replaced() && !rested ? 1 : 0;
+    rested = motion_->can_be_replaced();
+  }
+  EXPECT_GE(num_rests, 1);
+  stand();
+  while (!motion_->can_be_replaced()) step();
+  EXPECT_EQ(motion_->mode(), Mode::kMoving);
+}
+
+TEST_F(PosturePathMotionTest, ALyingRobotThatMovesItsJointsOnlyDoesNotGetUp) {
+  lie();
+  start("LyingBelly");
+  while (motion_->progress() == 0) ASSERT_EQ(step(), Phase::kRunning);
+  EXPECT_EQ(motion_->mode(), Mode::kMoving);
 }
 
 TEST_F(PosturePathMotionTest, TriesAnotherTransitionAfterAFailure) {
@@ -171,7 +197,7 @@ TEST_F(PosturePathMotionTest, GetsUpAgainAfterAFallThatBlocksAJoint) {
 TEST_F(PosturePathMotionTest, EndsBetweenTwoSegmentsWhenAskedTo) {
   lie();
   start("StandInit");
-  while (motion_->mode() != Mode::kGettingUp) ASSERT_EQ(step(), Phase::kRunning);
+  while (motion_->can_be_replaced()) ASSERT_EQ(step(), Phase::kRunning);
   motion_->finish();
   EXPECT_FALSE(motion_->can_be_replaced());
   for (int i = 0; i < 100; ++i) EXPECT_EQ(step(), Phase::kRunning);
