@@ -63,7 +63,7 @@ const char* image_status_name(ImageStatus status) {
 // The first state that holds: overexposed, covered, frozen, inverted; otherwise ok. Detectors run
 // on images that are ok only.
 ImageStatus ImageStatusMonitor::check(const cv::Mat& bgr, const std::string& camera, int64_t utime,
-                                      bool is_moving) {
+                                      bool is_moving, const std::optional<double>& horizon) {
   cv::Mat_<cv::Vec3b> small;
   cv::resize(bgr, small, {kWidth, kHeight}, 0, 0, cv::INTER_AREA);
   const uint64_t hash = hash_of(small);
@@ -90,6 +90,7 @@ ImageStatus ImageStatusMonitor::check(const cv::Mat& bgr, const std::string& cam
   }
   if (utime - history.utime >= kFrozenTime) return ImageStatus::kFrozen;
   // Field above and none below: the camera hangs upside down.
+  if (horizon && *horizon < bgr.rows / 3.0) return ImageStatus::kOk;
   const double upper = green_fraction(small, 0, kHeight / 3);
   const double lower = green_fraction(small, kHeight - kHeight / 3, kHeight);
   if (upper > 0.7 && lower < 0.15) return ImageStatus::kInverted;

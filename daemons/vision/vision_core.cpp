@@ -104,7 +104,9 @@ VisionResult VisionCore::process(const VisionInput& input) {
                 std::to_string(input.bgr.type()) + "; 64x48 pixels of 3 bytes are needed");
   }
   VisionResult result;
-  result.image_status = status_.check(input.bgr, input.camera, input.utime, input.is_moving);
+  const CameraGeometry geometry(input.calibration, input.pose_camera_in_heading);
+  result.image_status = status_.check(input.bgr, input.camera, input.utime, input.is_moving,
+                                      geometry.horizon_row(0.5 * input.bgr.cols));
   finish_stage("image status");
   // Predicted in every image, so that the ball's estimate ages also while it is not seen.
   ball_filter_.predict(input.utime);
@@ -115,7 +117,6 @@ VisionResult VisionCore::process(const VisionInput& input) {
   }
   if (result.image_status != ImageStatus::kOk) return result;
 
-  const CameraGeometry geometry(input.calibration, input.pose_camera_in_heading);
   const FieldView view = field_.detect(input.bgr, geometry);
   finish_stage("field");
   // The robot looks up or over the border: what looks like objects there is none.

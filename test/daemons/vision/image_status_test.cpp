@@ -47,6 +47,20 @@ TEST(ImageStatus, InvertedImageIsReported) {
   EXPECT_EQ(monitor.check(input.bgr, "top", 0, false), ImageStatus::kInverted);
 }
 
+TEST(ImageStatus, ACameraThatLooksDownOnTheRobotsBodyIsNotInverted) {
+  DrawnField field(0.7);
+  VisionInput input = field.input();
+  // Feet and trunk, or another robot, over the whole width.
+  cv::rectangle(input.bgr, {0, 300, input.bgr.cols, input.bgr.rows - 300}, {200, 200, 200}, -1);
+  VisionCore core;
+  EXPECT_EQ(core.process(input).image_status, ImageStatus::kOk);
+  // Nor is an upside-down camera that looks ahead taken for one that looks down.
+  DrawnField ahead(0.0);
+  input = ahead.input();
+  cv::flip(input.bgr, input.bgr, -1);
+  EXPECT_EQ(core.process(input).image_status, ImageStatus::kInverted);
+}
+
 TEST(ImageStatus, EqualImagesOfAMovingCameraAreFrozen) {
   const VisionInput input = scene();
   ImageStatusMonitor monitor;
