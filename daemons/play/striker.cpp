@@ -327,6 +327,7 @@ Decision Striker::approach(const Ball& ball, const Situation& situation) {
     return push(ball, situation);
   }
   stage_ = Stage::kSettle;
+  settled_aim_ = aim;
   return settle(ball, situation);
 }
 
@@ -390,7 +391,7 @@ Decision Striker::settle(const Ball& ball, const Situation& situation) {
   Decision decision;
   decision.phase = PlayPhase::kAlign;
   decision.gaze.point = ball.position;
-  const Aim aim = calc_aim(ball.position, situation);
+  const Aim& aim = settled_aim_;
   decision.target = aim.target;
   if (!situation.is_still) {
     still_since_.reset();

@@ -67,6 +67,9 @@ class Striker : public BehaviorMachine {
   /** Time at which the robot stood still before a kick, s; nothing: it walks yet. */
   std::optional<double> still_since_{};
   int num_settles_ = 0;
+  /** The aim for which the robot has stopped. It is kept: which side of a keeper is the wider one
+   * changes with what is seen. */
+  Aim settled_aim_{};
   /** 1: the left foot is to kick. */
   double side_ = 0;
   /** Ball and direction of the kick in progress, in the odometry frame, and its start, s. */

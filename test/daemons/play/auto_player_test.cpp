@@ -182,6 +182,26 @@ TEST_F(AutoPlayerTest, ShootsBesideAKeeperThatItDoesNotSee) {
   EXPECT_LT(std::abs(1.7 * std::tan(world.feet.heading)), 0.75);
 }
 
+TEST_F(AutoPlayerTest, KeepsItsAimOnceItHasStoppedForAShot) {
+  world.match->phase = MatchPhase::kPlaying;
+  world.match->kicks_off = true;
+  world.feet = {{2.0, 0}, 0};
+  world.ball = {2.8, 0};
+  const auto has_stopped = [&] {
+    const WalkCommand& walk = world.walk;
+    return (world.feet.position - world.ball).norm() < 0.25 && walk.vx == 0 && walk.vy == 0 &&
+           walk.wz == 0;
+  };
+  for (int i = 0; i < 1200 && !has_stopped(); ++i) world.step();
+  ASSERT_TRUE(has_stopped());
+  // Now the keeper is seen, on the side at which the shot goes: the other one would be wider.
+  world.robots = {{4.0, std::copysign(0.3, world.feet.heading)}};
+  const double heading = world.feet.heading;
+  for (int i = 0; i < 40 && world.actions.empty(); ++i) world.step();
+  EXPECT_FALSE(world.actions.empty());
+  EXPECT_NEAR(world.feet.heading, heading, 0.05);
+}
+
 TEST_F(AutoPlayerTest, GoesToABallThatOnlyATeammateSees) {
   world.match->phase = MatchPhase::kPlaying;
   world.match->kicks_off = true;
