@@ -4,20 +4,18 @@
 #include <cmath>
 #include <limits>
 
+#include "daemons/play/rolling_ball.h"
+
 namespace nao::play {
 namespace {
 
 using Eigen::Vector2d;
 
-/** Deceleration of a rolling ball, m/s^2, as in sim/world_options.h. */
-constexpr double kDeceleration = 0.3;
 /** A ball that was not seen for this long is looked for, s. */
 constexpr double kLookForBall = 4;
 /** Distance of the feet before the middle of the goal line, m: out far enough to cover more of the
  * goal's mouth, near enough that a dive comes in time. */
 constexpr double kOut = 0.5;
-/** Slower balls are not shots, m/s. */
-constexpr double kShotSpeed = 0.25;
 /** Half of the width that a block covers, and the greatest that a dive reaches, m. */
 constexpr double kBlockHalf = 0.2;
 constexpr double kDiveReach = 0.85;
@@ -29,24 +27,10 @@ constexpr double kBlockTime = 0.6;
 constexpr double kWideOfPost = 0.15;
 /** Greatest speed of a step aside, m/s. */
 constexpr double kAsideSpeed = 0.14;
-/** Ball ahead of the feet's line at which a foot stops it, m. */
-constexpr double kFootLength = 0.1;
 /** Least time between two actions, s: the second one would answer the same shot. */
 constexpr double kActionPause = 1;
 
 }  // namespace
-
-std::optional<Shot> predict_shot(const Vector2d& ball, const Vector2d& velocity) {
-  const double speed = velocity.norm();
-  if (speed < kShotSpeed || velocity.x() >= 0) return std::nullopt;
-  const double ahead = ball.x() - kFootLength;
-  if (ahead < 0) return std::nullopt;
-  // Along its straight path: s = v t - a t^2 / 2.
-  const double path = ahead * speed / -velocity.x();
-  const double root = speed * speed - 2 * kDeceleration * path;
-  if (root <= 0) return std::nullopt;
-  return Shot{(speed - std::sqrt(root)) / kDeceleration, ball.y() + velocity.y() * path / speed};
-}
 
 Pose2 Keeper::calc_place(const std::optional<Vector2d>& ball, const Situation& situation) const {
   const Pose2& field = situation.field_in_odometry;

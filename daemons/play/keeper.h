@@ -7,18 +7,6 @@
 
 namespace nao::play {
 
-/** A ball that rolls towards the robot. */
-struct Shot {
-  /** s until it passes the line through the feet, at right angles to the heading. */
-  double time = 0;
-  /** Where it passes, m to the left of the feet. */
-  double aside = 0;
-};
-
-/** Prediction of a rolling ball with constant deceleration.
- * @param ball, velocity  In F. @return Nothing if it does not come or stops before. */
-std::optional<Shot> predict_shot(const Eigen::Vector2d& ball, const Eigen::Vector2d& velocity);
-
 /** Keeps the own goal: stands between ball and goal, steps aside to a slow ball, blocks a shot at
  * the body and dives for one beside it. */
 class Keeper : public BehaviorMachine {

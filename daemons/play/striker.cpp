@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "daemons/play/ball_in_walk.h"
+#include "daemons/play/rolling_ball.h"
+
 namespace nao::play {
 namespace {
 
@@ -16,8 +19,6 @@ constexpr double kForgetAfterNear = 8;
 constexpr double kNear = 0.6;
 /** The search is given up after this time, s. */
 constexpr double kSearchTimeout = 120;
-/** Deceleration of a rolling ball, m/s^2: SPL carpet, as in sim/world_options.h. */
-constexpr double kRollingDeceleration = 0.3;
 /** Parts of the kick's reach at which the walk stops: the last step and the settling move the
  * feet by about a centimetre. */
 constexpr double kStopFraction = 0.55;
@@ -34,36 +35,11 @@ constexpr double kImageAge = 0.1;
  * ball. */
 constexpr double kLookDown = 0.6;
 constexpr double kWatchTime = 1.4;
-/** A kick during the walk: distance, m (nao-trial walk-kick: 2.1 m); farther from the goal than
- * this, m; where the ball is to lie, m ahead and aside; greatest deviation of the heading, rad;
- * greatest age of the ball's place, s; and the walk meanwhile, m/s. */
+/** Of a kick during the walk, m (nao-trial walk-kick), and the walk meanwhile, m/s. */
 constexpr double kPassingKickDistance = 2.1;
-constexpr double kPassingGoalDistance = 2.6;
-/** Nearer to the goal than this, m, the ball is carried on and shot from a stand, unless another
- * robot is nearer to it than kContestedDistance, m. Chosen with nao-trial match-error-model, seeds
- * 101 to 112. */
-constexpr double kShotDistance = 3.5;
-constexpr double kContestedDistance = 1.2;
-constexpr double kPassingNear = 0.28;
-constexpr double kPassingFar = 0.5;
-constexpr double kPassingAside = 0.12;
-constexpr double kPassingTolerance = 0.2;
-constexpr double kPassingAge = 0.3;
 constexpr double kPassingSpeed = 0.15;
-/** In a match, a ball that no other robot contests is carried to this distance from the goal, m,
- * before the shot: from 2.2 m and more a keeper's dive stops nearly every shot, and nearer than
- * 1.7 m the keeper comes out and clears the ball. Where the ball must lie for that, m ahead and
- * aside, and the greatest deviation of the heading, rad. Chosen on seeds 101 to 106. */
-constexpr double kCarryTo = 1.9;
-constexpr double kCarryNear = 0.1;
-constexpr double kCarryAside = 0.09;
-constexpr double kCarryTolerance = 0.3;
-/** A ball that rolls past the feet nearer than this, m, is stopped by them. Chosen: half the width
- * of a stance and the ball's radius. */
-constexpr double kStoppedByFeet = 0.2;
 /** Of the dribbled ball, m/s and m. */
 constexpr double kPushSpeed = 0.16;
-constexpr double kPushReach = 0.45;
 constexpr double kTargetReached = 0.3;
 /** A ball seen this far behind the goal line, m, has passed it: its radius, half of the line's
  * width, and some of the pose's error. A ball that lies nearer is kicked once more. */
@@ -166,16 +142,7 @@ std::optional<Ball> Striker::find_ball(const Situation& situation) const {
   const double distance = (ball.position - situation.robot.feet_in_odometry.position).norm();
   const double age = situation.time - ball.seen_time;
   if (age > (distance < kNear ? kForgetAfterNear : kForgetAfter)) return std::nullopt;
-  const double speed = ball.velocity.norm();
-  if (ball.is_rolling && speed > 0) {
-    const double path = std::min(speed * speed / (2 * kRollingDeceleration), kKickDistance);
-    const Vector2d way = ball.velocity / speed;
-    const Vector2d to_feet = situation.robot.feet_in_odometry.position - ball.position;
-    const double along = to_feet.dot(way);
-    const bool meets_feet =
-        along > 0 && along < path && (to_feet - along * way).norm() < kStoppedByFeet;
-    ball.position += (meets_feet ? along - kStoppedByFeet : path) * way;
-  }
+  ball.position = predict_rest(ball, situation.robot.feet_in_odometry.position);
   return ball;
 }
 
@@ -308,7 +275,8 @@ Decision Striker::approach(const Ball& ball, const Situation& situation) {
   look_at(ball, situation, decision);
   decision.walk = plan_approach(goal, feet, constants_.walk_limits);
   if (auto passing = kick_in_passing(ball, aim, situation)) return *passing;
-  if (can_carry(ball, aim, situation)) {
+  if (kicks_in_passing_ && task_ == Task::kScore &&
+      can_carry(ball, aim, situation, constants_.field)) {
     stage_ = Stage::kPush;
     return push(ball, situation);
   }
@@ -331,44 +299,12 @@ Decision Striker::approach(const Ball& ball, const Situation& situation) {
   return settle(ball, situation);
 }
 
-bool Striker::can_carry(const Ball& ball, const Aim& aim, const Situation& situation) const {
-  if (!kicks_in_passing_ || task_ != Task::kScore || situation.is_still) return false;
-  const Pose2& feet = situation.robot.feet_in_odometry;
-  const double to_goal = distance_to_goal(ball, situation);
-  const Vector2d in_feet = feet.inverse() * ball.position;
-  return to_goal > kCarryTo && to_goal < kShotDistance && in_feet.x() > kCarryNear &&
-         in_feet.x() < kPushReach && std::abs(in_feet.y()) < kCarryAside &&
-         std::abs(wrapped(aim.heading - feet.heading)) < kCarryTolerance &&
-         !is_contested(ball, situation);
-}
-
-double Striker::distance_to_goal(const Ball& ball, const Situation& situation) const {
-  const Vector2d goal = situation.field_in_odometry * Vector2d(0.5 * constants_.field.length, 0);
-  return (goal - ball.position).norm();
-}
-
-bool Striker::is_contested(const Ball& ball, const Situation& situation) {
-  return std::any_of(situation.robots.begin(), situation.robots.end(), [&](const Vector2d& robot) {
-    return (robot - ball.position).norm() < kContestedDistance;
-  });
-}
-
 std::optional<Decision> Striker::kick_in_passing(const Ball& ball, const Aim& aim,
                                                  const Situation& situation) {
-  if (!kicks_in_passing_ || !constants_.kick || situation.is_still || ball.is_rolling) {
-    return std::nullopt;
-  }
+  if (!kicks_in_passing_ || !constants_.kick) return std::nullopt;
+  if (!can_kick_in_passing(ball, aim, situation, constants_.field)) return std::nullopt;
   const Pose2& feet = situation.robot.feet_in_odometry;
   const Vector2d in_feet = feet.inverse() * ball.position;
-  const double tolerance = std::max(kPassingTolerance, aim.tolerance);
-  const bool is_right = in_feet.x() > kPassingNear && in_feet.x() < kPassingFar &&
-                        std::abs(in_feet.y()) < kPassingAside &&
-                        std::abs(wrapped(aim.heading - feet.heading)) < tolerance &&
-                        situation.time - ball.seen_time < kPassingAge;
-  const double to_goal = distance_to_goal(ball, situation);
-  if (!is_right || to_goal < kPassingGoalDistance) return std::nullopt;
-  // From here a kick while standing reaches the goal, if nobody comes first.
-  if (to_goal < kShotDistance && !is_contested(ball, situation)) return std::nullopt;
   Decision decision;
   decision.phase = PlayPhase::kKick;
   decision.target = aim.target;
@@ -446,10 +382,8 @@ Decision Striker::push(const Ball& ball, const Situation& situation) {
   const double aside = in_feet.y() - side_ * (constants_.kick ? constants_.kick->ball.y() : 0);
   const double turn = wrapped(aim.heading - feet.heading);
   decision.walk = {std::min(kPushSpeed, constants_.walk_limits.forward), 1.2 * aside, turn};
-  if (task_ == Task::kScore) {
-    if (distance_to_goal(ball, situation) < kCarryTo || is_contested(ball, situation)) {
-      stage_ = Stage::kApproach;
-    }
+  if (task_ == Task::kScore && !may_carry_on(ball, situation, constants_.field)) {
+    stage_ = Stage::kApproach;
   }
   if (in_feet.norm() > kPushReach || std::abs(aside) > 0.1 || std::abs(turn) > 0.5) {
     stage_ = Stage::kApproach;

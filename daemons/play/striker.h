@@ -46,12 +46,6 @@ class Striker : public BehaviorMachine {
   Decision look_for_ball(const Situation& situation);
   Decision approach(const Ball& ball, const Situation& situation);
   Decision settle(const Ball& ball, const Situation& situation);
-  /** Whether to walk on with the ball instead of shooting it from here. */
-  bool can_carry(const Ball& ball, const Aim& aim, const Situation& situation) const;
-  /** From the middle of the opponents' goal line, m. */
-  double distance_to_goal(const Ball& ball, const Situation& situation) const;
-  /** Whether another robot is near the ball. */
-  static bool is_contested(const Ball& ball, const Situation& situation);
   Decision push(const Ball& ball, const Situation& situation);
   Decision watch(const Situation& situation);
   void look_at(const Ball& ball, const Situation& situation, Decision& decision) const;

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/ball_rolling.h"
+
 namespace nao::vision {
 namespace {
 
-/** Deceleration of a ball that rolls on carpet, m/s^2 (B-Human Code Release 2025). */
-constexpr double kRollingDeceleration = 0.3;
 /** Spectral density of random acceleration, m^2/s^3: 0.3 m/s after 1 s. Chosen: kicks restart the
  * filter, so that only the carpet's unevenness and the odometry's drift remain. */
 constexpr double kAccelerationDensity = 0.09;
@@ -51,10 +51,10 @@ void BallFilter::predict(int64_t utime) {
   const double speed = state.tail<2>().norm();
   if (speed > 0) {
     // Exact for constant deceleration until it stops.
-    const double time = std::min(dt, speed / kRollingDeceleration);
+    const double time = std::min(dt, speed / kBallRollingDeceleration);
     const Eigen::Vector2d direction = state.tail<2>() / speed;
-    state.head<2>() += direction * (speed * time - 0.5 * kRollingDeceleration * time * time);
-    state.tail<2>() = direction * std::max(0.0, speed - kRollingDeceleration * dt);
+    state.head<2>() += direction * (speed * time - 0.5 * kBallRollingDeceleration * time * time);
+    state.tail<2>() = direction * std::max(0.0, speed - kBallRollingDeceleration * dt);
   }
   Eigen::Matrix4d& P = estimate_.covariance;
   P = (transition * P * transition.transpose()).eval();

@@ -1,0 +1,49 @@
+#include "daemons/play/rolling_ball.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/ball_rolling.h"
+#include "daemons/play/shot_aim.h"
+
+namespace nao::play {
+namespace {
+
+using Eigen::Vector2d;
+
+/** A ball that rolls past the feet nearer than this, m, is stopped by them. Chosen: half the width
+ * of a stance and the ball's radius. */
+constexpr double kStoppedByFeet = 0.2;
+/** Slower balls are not shots, m/s. */
+constexpr double kShotSpeed = 0.25;
+/** Ball ahead of the feet's line at which a foot stops it, m. */
+constexpr double kFootLength = 0.1;
+
+}  // namespace
+
+Vector2d predict_rest(const Ball& ball, const Vector2d& feet) {
+  const double speed = ball.velocity.norm();
+  if (!ball.is_rolling || speed <= 0) return ball.position;
+  const double path = std::min(speed * speed / (2 * kBallRollingDeceleration), kKickDistance);
+  const Vector2d way = ball.velocity / speed;
+  const Vector2d to_feet = feet - ball.position;
+  const double along = to_feet.dot(way);
+  const bool meets_feet =
+      along > 0 && along < path && (to_feet - along * way).norm() < kStoppedByFeet;
+  return ball.position + (meets_feet ? along - kStoppedByFeet : path) * way;
+}
+
+std::optional<Shot> predict_shot(const Vector2d& ball, const Vector2d& velocity) {
+  const double speed = velocity.norm();
+  if (speed < kShotSpeed || velocity.x() >= 0) return std::nullopt;
+  const double ahead = ball.x() - kFootLength;
+  if (ahead < 0) return std::nullopt;
+  // Along its straight path: s = v t - a t^2 / 2.
+  const double path = ahead * speed / -velocity.x();
+  const double root = speed * speed - 2 * kBallRollingDeceleration * path;
+  if (root <= 0) return std::nullopt;
+  return Shot{(speed - std::sqrt(root)) / kBallRollingDeceleration,
+              ball.y() + velocity.y() * path / speed};
+}
+
+}  // namespace nao::play

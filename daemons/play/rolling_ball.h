@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "daemons/play/situation.h"
+
+namespace nao::play {
+
+/** Where a ball comes to rest, m: of one that rolls, at the end of its straight path or before the
+ * feet that it meets; of any other, where it is. Frames of all: odometry.
+ * @param feet  Of the robot, m. */
+Eigen::Vector2d predict_rest(const Ball& ball, const Eigen::Vector2d& feet);
+
+/** A ball that rolls towards the robot. */
+struct Shot {
+  /** s until it passes the line through the feet, at right angles to the heading. */
+  double time = 0;
+  /** Where it passes, m to the left of the feet. */
+  double aside = 0;
+};
+
+/** Prediction of a rolling ball with constant deceleration.
+ * @param ball, velocity  In F. @return Nothing if it does not come or stops before. */
+std::optional<Shot> predict_shot(const Eigen::Vector2d& ball, const Eigen::Vector2d& velocity);
+
+}  // namespace nao::play
