@@ -3,8 +3,8 @@
 
 Usage: match_faults.py [--minutes M] [--seed N] [--json FILE]
 
-A robot's own programs killed: only that robot pauses. Simulator, gateway or referee killed: all pause. Afterwards score and
-clock must be right, every program ready and the world running within 10 s; a robot that stood and was not hit may not
+A robot's own programs killed: only that robot pauses; the other robots' nao-motion and nao-play must go on saying that they
+act. Simulator, gateway or referee killed: all pause. Afterwards score and clock must be right, every program ready and the world running within 10 s; a robot that stood and was not hit may not
 have fallen within 3 s for that reason alone (falls are counted, and compared with those of times without faults).
 """
 
@@ -17,11 +17,13 @@ import signal
 import sys
 import time
 
+from robot_pauses import Recording, find_pauses
 from stack import Stack
 
 SHARED = ("nao-sim", "nao-phone-gateway", "nao-referee")
 PER_ROBOT = ("nao-motion", "nao-motion-files", "nao-head-camera", "nao-vision", "nao-play", "nao-speaker")
 LIMIT = 10  # s until everything is whole again
+ROBOTS = ("NAO1", "NAO2", "NAO3", "NAO4")
 PAUSE = 8   # s of undisturbed play between two faults
 FALLEN = 0.2  # m, height of the torso
 
@@ -31,6 +33,8 @@ class Run:
         self.stack = stack
         self.random = random.Random(seed)
         self.rows = []
+        # Wall times at which undisturbed times began.
+        self.quiet = []
 
     def match(self):
         shown = self.stack.nao("match", "show")
@@ -67,7 +71,7 @@ class Run:
         name = self.random.choice(sorted(kinds))
         before, stood = self.match(), self.standing(self.truth())
         pid = next(row["pid"] for row in rows if row["program"] == name)
-        begin = time.monotonic()
+        begin, wall = time.monotonic(), time.time()
         os.kill(pid, signal.SIGKILL)
         time.sleep(0.5)
         while not self.is_whole(count):
@@ -81,15 +85,38 @@ class Run:
                         and sum(after["score"]) <= sum(before["score"]) + 1
                         and (after["half"] > before["half"] or before["left"] - took - 2 <= after["left"] <= before["left"]))
         fell = [i for i, (a, b) in enumerate(zip(stood, stands)) if a and not b]
-        self.rows.append({"killed": name, "whole_s": round(took, 1), "is_right": is_right, "fell": fell,
+        self.rows.append({"killed": name, "wall": wall, "whole_s": round(took, 1), "is_right": is_right, "fell": fell,
                           "before": before, "after": after})
         print(json.dumps(self.rows[-1]), flush=True)
 
     def undisturbed(self):
         """Falls in a time without faults, for comparison."""
         stood = self.standing(self.truth())
+        self.quiet.append(time.time())
         time.sleep(PAUSE)
         return sum(a and not b for a, b in zip(stood, self.standing(self.truth())))
+
+
+def is_played(match):
+    return match is not None and match["phase"] in ("ready", "set", "playing")
+
+
+def note_pauses(run, states, scale):
+    """Adds to each fault of one robot's program which robots paused, and why.
+    @return number of undisturbed times of a robot, and in how many of them it paused."""
+    for row in run.rows:
+        if row["killed"] in SHARED or not is_played(row["before"]) or not is_played(row["after"]):
+            continue
+        hit = row["killed"].rpartition("-")[2]
+        pauses = {robot: find_pauses(states, robot, row["wall"], row["wall"] + row["whole_s"], scale) for robot in ROBOTS}
+        row["pauses_of_hit"] = pauses.pop(hit)
+        row["pauses_of_others"] = sum(pauses.values(), [])
+        if row["pauses_of_others"]:
+            print(f"{row['killed']} killed, and others paused: {row['pauses_of_others']}")
+    quiet = [find_pauses(states, robot, begin, begin + PAUSE, scale) for begin in run.quiet for robot in ROBOTS]
+    for pauses in filter(None, quiet):
+        print(f"paused without a fault: {pauses}")
+    return len(quiet), sum(map(bool, quiet))
 
 
 def main():
@@ -102,6 +129,7 @@ def main():
     with Stack() as stack:
         stack.start_or_fail("--match", "2v2", "--autonomous", "all", "--seed", str(arguments.seed))
         run = Run(stack, arguments.seed)
+        recording = Recording(stack)
         count = len(run.programs())
         begin = time.monotonic()
         while (run.match() or {}).get("phase") != "playing":
@@ -113,19 +141,24 @@ def main():
                 stack.nao("match", "start")
             undisturbed_falls += run.undisturbed()
             run.fault(count)
+        num_quiet, num_quiet_pauses = note_pauses(run, recording.end(), arguments.time_scale)
         rows = run.rows
         late = [row for row in rows if row["whole_s"] > LIMIT * arguments.time_scale]
         wrong = [row for row in rows if not row["is_right"]]
         shared = [row for row in rows if row["killed"] in SHARED]
+        own = [row for row in rows if "pauses_of_others" in row]
+        spread = [row for row in own if row["pauses_of_others"]]
         times = sorted(row["whole_s"] for row in rows)
         print(f"{len(rows)} faults, {len(shared)} of them of simulator, gateway or referee; whole again after {times[len(times) // 2]} s "
               f"(median), {times[-1]} s (worst), {len(late)} later than {LIMIT * arguments.time_scale:g} s; score or clock wrong {len(wrong)} times; falls "
               f"{sum(len(row['fell']) for row in rows)} in {sum(times):.0f} s with faults, "
-              f"{undisturbed_falls} in {PAUSE * len(rows)} s without")
+              f"{undisturbed_falls} in {PAUSE * len(rows)} s without; {len(own)} faults of one robot's programs: it paused in "
+              f"{sum(bool(row['pauses_of_hit']) for row in own)}, another one in {len(spread)}; without faults a robot paused in "
+              f"{num_quiet_pauses} of {num_quiet} times of {PAUSE} s")
         if arguments.json:
             with open(arguments.json, "w", encoding="utf-8") as file:
                 json.dump(rows, file, indent=1)
-    return 1 if late or wrong else 0
+    return 1 if late or wrong or spread else 0
 
 
 if __name__ == "__main__":
