@@ -49,8 +49,9 @@ struct Row {
 };
 
 // Multiples of the scales. Found: those of robots/nao/gait.yaml, rounded, with a higher swing and a
-// greater load at touchdown, which joint torques tell less exactly than force sensors. Durations of
-// the control loop (lag, lead) do not scale.
+// greater load at touchdown, which joint torques tell less exactly than force sensors, and the feet
+// as far apart as in the ready posture, to which a walk ends. Durations of the control loop (lag,
+// lead) do not scale.
 constexpr std::array kRows = {
     Row{"timing", {}, 0, 0, 0, "Durations, s."},
     Row{"step_duration", Scale::kTime, 1.7, 1.2, 3.5, "of one step"},
@@ -65,7 +66,7 @@ constexpr std::array kRows = {
     Row{"stance", {}, 0, 0, 0, "Pose of torso and feet: m, rad, s."},
     Row{"hip_height", Scale::kHipHeight, 0.91, 0.8, 0.96, "hips over the ground"},
     Row{"torso_pitch", Scale::kOne, 0.03, -0.05, 0.2, "forward positive"},
-    Row{"foot_separation", Scale::kFootDistance, 0.95, 0.75, 1.2, "between the soles' origins"},
+    Row{"foot_separation", Scale::kFootDistance, 1, 0.75, 1.2, "between the soles' origins"},
     Row{"turn_center", Scale::kLength, 0.12, -0.1, 0.25, "body frame ahead of the soles"},
     Row{"zmp_forward", Scale::kToe, 0.08, -0.15, 0.4, "nominal zero moment point of a sole"},
     Row{"zmp_inward", Scale::kSoleWidth, 0.1, -0.2, 0.4, ""},

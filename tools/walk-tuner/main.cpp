@@ -41,6 +41,9 @@ const std::vector<std::string> kNotTuned = {
     "swing.late_speed",
     "swing.late_depth",
     "stance.turn_center",
+    // The robot stands up from a walk into its ready posture: where the feet are not as far apart
+    // there as in the walk, they press against the ground and each other.
+    "stance.foot_separation",
     "step_limits.max_forward",
     "step_limits.max_backward",
     "step_limits.max_outward",
