@@ -14,6 +14,19 @@ test("the app shows the robot's own groups, postures and actions", async () => {
   assert.ok(await phone.page.locator('.chip[data-name="crouch"]').count());
 });
 
+test("all of it is on the screen, from head to feet", async () => {
+  await until("it stands ready", async () => (await phone.look("mode")) === "holding");
+  const {width, height} = phone.page.viewportSize();
+  await until("the eye has come to rest", async () => {
+    const places = await phone.look("ballPlaces()");
+    const parts = ["head", "left elbow", "right elbow", "left ankle", "right ankle"].map((name) => places[name]);
+    const heights = parts.map(([, y]) => y);
+    // Not a spot in the distance either.
+    return parts.every(([x, y]) => x > 0 && x < width && y > 0 && y < height) &&
+        Math.max(...heights) - Math.min(...heights) > 0.2 * height;
+  }, 10_000);
+});
+
 test("its camera's images arrive", async () => {
   await until("an image of the head's camera comes", async () => (await phone.look("state.image.camera")) === "head");
 });

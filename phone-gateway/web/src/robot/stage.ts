@@ -10,6 +10,7 @@ import {makeRobotAxes, robotToScene} from "./frames";
 import {Orbit} from "./orbit";
 import type {View} from "./orbit";
 import {PixelBudget} from "./pixel_budget";
+import {calcHeight} from "./robot_height";
 import {RobotSurface} from "./robot_surface";
 import type {RobotTree} from "./robot_tree";
 
@@ -27,9 +28,21 @@ const kSoftwarePixelRatio = 0.5;
 const kSeenMove = 0.0002;
 /** A movement's first frame goes as far as any other, s. */
 const kWakeTime = 1 / 60;
-/** What shall fit the free part of the screen, m: the robot with some air, arms stretched. */
-const kShownHeight = 0.66;
-const kShownWidth = 0.5;
+/** What shall fit the free part of the screen, in heights of the robot: all of it with some air, arms stretched. */
+const kShownHeight = 1.15;
+const kShownWidth = 0.87;
+/** The point looked at: so high over the ground, in heights of the robot, and more by a part of the torso's height:
+ * it is lower when the robot lies or sits, but not on the ground. */
+const kFocusHeight = 0.28;
+const kFocusShare = 0.35;
+/** The sun from the robot, and how far around the robot shadows reach, in heights of the robot. */
+const kSunBehind = 1;
+const kSunLeft = 1.9;
+const kSunAbove = 3.8;
+const kShadowReach = 1.2;
+const kShadowDepth = 7;
+/** Until a robot has been loaded, m. */
+const kUnknownHeight = 0.6;
 
 /** The part of the canvas that no control covers, px from its top left. */
 export interface FreeArea {
@@ -57,6 +70,8 @@ export class Stage {
   private readonly sun = new DirectionalLight(0xfff2e0, 2.6);
   private readonly budget: PixelBudget;
   private robot: RobotTree | null = null;
+  /** m. */
+  private robotHeight = kUnknownHeight;
   private lastFrameMs = 0;
   private isRunning = false;
   private isOutdated = true;
@@ -93,8 +108,10 @@ export class Stage {
   setRobot(robot: RobotTree): void {
     if (this.robot) this.robotAxes.remove(this.robot.torso);
     this.robot = robot;
+    this.robotHeight = calcHeight(robot.torso);
     this.robotAxes.add(robot.torso);
-    this.outdate();
+    this.fitShadow();
+    this.frameRobot();
   }
 
   /** Something else than the robot's pose or the eye looks different: the next frame is drawn. */
@@ -157,10 +174,12 @@ export class Stage {
   private followRobot(dt: number): void {
     if (this.robot) {
       const {position} = this.robot.torso;
-      this.orbit.follow(position.x, position.y, 0.16 + 0.35 * position.z, this.heading, dt);
+      this.orbit.follow(position.x, position.y, kFocusHeight * this.robotHeight + kFocusShare * position.z,
+                        this.heading, dt);
       this.floor.moveTo(position.x, position.y);
       robotToScene(position.x, position.y, 0, this.sun.target.position);
-      robotToScene(position.x - 0.6, position.y + 1.1, 2.2, this.sun.position);
+      robotToScene(position.x - kSunBehind * this.robotHeight, position.y + kSunLeft * this.robotHeight,
+                   kSunAbove * this.robotHeight, this.sun.position);
     }
     this.orbit.eye(this.eye);
     robotToScene(this.eye.x, this.eye.y, this.eye.z, this.camera.position);
@@ -174,12 +193,18 @@ export class Stage {
     this.sun.shadow.mapSize.set(1024, 1024);
     this.sun.shadow.radius = 4;
     this.sun.shadow.bias = -0.0008;
-    const {camera} = this.sun.shadow;
-    camera.left = camera.bottom = -0.7;
-    camera.right = camera.top = 0.7;
-    camera.near = 0.5;
-    camera.far = 4;
+    this.fitShadow();
     this.scene.add(this.sun, this.sun.target, rim);
+  }
+
+  private fitShadow(): void {
+    const {camera} = this.sun.shadow;
+    const reach = kShadowReach * this.robotHeight;
+    camera.left = camera.bottom = -reach;
+    camera.right = camera.top = reach;
+    camera.near = 0.5 * this.robotHeight;
+    camera.far = kShadowDepth * this.robotHeight;
+    camera.updateProjectionMatrix();
   }
 
   private resize(): void {
@@ -225,7 +250,8 @@ export class Stage {
     const area = this.freeArea ?? {left: 0, top: 0, right: width, bottom: height};
     const freeWidth = Math.max(area.right - area.left, 0.2 * width);
     const freeHeight = Math.max(area.bottom - area.top, 0.2 * height);
-    const pixelsPerMetre = Math.min(freeWidth / kShownWidth, freeHeight / kShownHeight);
+    const pixelsPerMetre = Math.min(freeWidth / (kShownWidth * this.robotHeight),
+                                    freeHeight / (kShownHeight * this.robotHeight));
     const tangent = Math.tan((kFieldOfViewDeg * Math.PI) / 360);
     this.orbit.fitDistance = height / (2 * tangent * pixelsPerMetre);
     camera.setViewOffset(width, height, (width - area.left - area.right) / 2,
