@@ -7,7 +7,7 @@
 #include <exception>
 #include <limits>
 
-#include "sim/contact_assembler.h"
+#include "sim/contact_damping.h"
 #include "sim/simbody_model.h"
 
 namespace nao::sim {
@@ -20,12 +20,9 @@ using Eigen::Vector3d;
 constexpr double kMaxStep = 0.0005;
 /** Of the coupled joints, rad; chosen: a tenth of an encoder's step. */
 constexpr double kConstraintTolerance = 1e-4;
-/** Hunt and Crossley's dissipation, s/m. Robots: chosen with the step, so that a standing robot
- * does not bounce. Ball: chosen: a quarter of it, since its shell is elastic. */
-constexpr double kDissipation = 2;
-constexpr double kBallDissipation = 0.5;
-/** Sliding speed at which friction has 71 % of Coulomb's, m/s; below, contacts creep. */
-constexpr double kSlidingSpeed = 0.01;
+/** Speed of its surface below which the rolling resistance of a ball fades out, m/s: explicit, it
+ * would change direction from step to step at rest. */
+constexpr double kRollingSpeed = 0.01;
 /** Contact candidates of the scene, and of each robot. Chosen as for the fast engine. */
 constexpr int kMaxCandidates = 96;
 
@@ -62,51 +59,19 @@ void integrate(const SimTK::MultibodySystem& system, SimTK::Integrator& integrat
   while (integrator.getTime() < end - 1e-9) integrator.stepTo(end, end);
 }
 
+/** Substeps of at most kMaxStep into which a step is divided evenly. */
+int num_substeps(double step) {
+  return static_cast<int>(std::ceil(step / kMaxStep - 1e-9));
+}
+
 std::unique_ptr<SimTK::Integrator> make_integrator(const SimTK::MultibodySystem& system,
                                                    double step) {
-  // Substeps of at most kMaxStep that divide the step evenly.
-  const double substep = step / std::ceil(step / kMaxStep - 1e-9);
-  auto integrator = std::make_unique<SimTK::SemiExplicitEulerIntegrator>(system, substep);
+  auto integrator =
+      std::make_unique<SimTK::SemiExplicitEulerIntegrator>(system, step / num_substeps(step));
   integrator->setConstraintTolerance(kConstraintTolerance);
   // stepTo() then ends with a state of the integrator itself, from which the next step goes on.
   integrator->setAllowInterpolation(false);
   return integrator;
-}
-
-/** Velocity of a surface's point, m/s; both in W. */
-Vector3d velocity_of(const MovingBodies& bodies, const Surface& surface, int body,
-                     const Vector3d& point) {
-  if (surface.kind == Surface::Kind::kRobot) {
-    return bodies.robots[surface.robot]->dynamics().velocity_at(body, point);
-  }
-  if (surface.kind == Surface::Kind::kBall) return bodies.ball->velocity_at(point);
-  return Vector3d::Zero();
-}
-
-/** Force on surface a of a contact, N, in W: Hunt and Crossley's normal law with a linear spring,
- * k x (1 + 3/2 c x'), and Coulomb's friction with a continuous direction. */
-Vector3d force_on_a(const ContactCandidate& contact, const MovingBodies& bodies,
-                    const WorldOptions& options) {
-  // No force without penetration: Hunt and Crossley's law has no adhesion.
-  const double depth = -contact.proximity.distance;
-  if (!(depth > 0)) return Vector3d::Zero();
-  const Vector3d& normal = contact.proximity.normal;
-  const Vector3d& point = contact.proximity.point;
-  const Vector3d relative = velocity_of(bodies, contact.a, contact.body_a, point) -
-                            velocity_of(bodies, contact.b, contact.body_b, point);
-  // Positive while the surfaces separate; the factor 1 - 3/2 c v is clipped at 0, since a fast
-  // separation would pull.
-  const double opening = normal.dot(relative);
-  const bool is_ball = contact.a.kind == Surface::Kind::kBall;
-  const double dissipation = is_ball ? kBallDissipation : kDissipation;
-  const double pressing =
-      options.materials.contact_stiffness * depth * std::max(0.0, 1 - 1.5 * dissipation * opening);
-  // hypot(|v|, v_s) in the denominator makes Coulomb's force continuous at 0 sliding speed, at the
-  // cost of creep below v_s.
-  const Vector3d sliding = relative - opening * normal;
-  const double speed = std::hypot(sliding.norm(), kSlidingSpeed);
-  const double friction = friction_between(contact.a, contact.b, bodies, options.materials);
-  return pressing * (normal - friction / speed * sliding);
 }
 
 }  // namespace
@@ -120,6 +85,7 @@ class SimbodyEngine::RobotSystem {
         robot_(*engine.bodies_.robots[index]),
         model_(robot_.model(), robot_.options().mass_scale, robot_.options().errors.torso_com),
         forces_(model_.system()),
+        damping_(robot_.tree(), robot_.dynamics()),
         state_(robot_.state()),
         impulses_(Eigen::VectorXd::Zero(robot_.tree().num_dofs())) {
     // The force belongs to forces_.
@@ -151,10 +117,12 @@ class SimbodyEngine::RobotSystem {
     motors_.clear();
     impulses_.setZero();
     integrator_ = make_integrator(model_.system(), engine_.options_.step);
+    step_start_ = 0;
     integrator_->initialize(state);
   }
 
   void step(double h) {
+    step_start_ = integrator_->getTime();
     motors_ = robot_.begin_explicit_step(h);
     impulses_ = robot_.take_impulses();
     try {
@@ -178,9 +146,9 @@ class SimbodyEngine::RobotSystem {
     read(state);
     robot_.set_state(state_);
     add_weight(body_forces);
-    add_contacts(body_forces);
+    add_contacts(engine_.substep_at(state.getTime() - step_start_), body_forces);
     add_motors(mobility_forces);
-    add_rotors(state, body_forces, mobility_forces);
+    add_implicit_forces(state, body_forces, mobility_forces);
   }
 
  private:
@@ -213,7 +181,7 @@ class SimbodyEngine::RobotSystem {
   }
 
   // Gravity is applied here instead of by Simbody's Force::Gravity, so that it is among the forces
-  // that add_rotors() takes into account.
+  // that add_implicit_forces() takes into account.
   void add_weight(SimTK::Vector_<SimTK::SpatialVec>& body_forces) const {
     for (int body = 0; body < robot_.tree().num_bodies(); ++body) {
       add_force(body, robot_.dynamics().body_center_of_mass(body),
@@ -221,15 +189,19 @@ class SimbodyEngine::RobotSystem {
     }
   }
 
-  void add_contacts(SimTK::Vector_<SimTK::SpatialVec>& body_forces) const {
+  void add_contacts(int64_t substep, SimTK::Vector_<SimTK::SpatialVec>& body_forces) {
+    damping_.clear();
     // Contacts of all bodies are found, and those of this robot applied.
     for (const ContactCandidate& contact : engine_.find_candidates()) {
       const bool is_a = contact.a.kind == Surface::Kind::kRobot && contact.a.robot == index_;
       const bool is_b = contact.b.kind == Surface::Kind::kRobot && contact.b.robot == index_;
       if (!is_a && !is_b) continue;
-      const Vector3d force = force_on_a(contact, engine_.bodies_, engine_.options_);
-      if (is_a) add_force(contact.body_a, contact.proximity.point, force, body_forces);
-      if (is_b) add_force(contact.body_b, contact.proximity.point, -force, body_forces);
+      const CompliantForce force = engine_.law_.force(contact, substep);
+      const Vector3d& point = contact.proximity.point;
+      if (is_a) add_force(contact.body_a, point, force.on_a, body_forces);
+      if (is_b) add_force(contact.body_b, point, -force.on_a, body_forces);
+      if (force.damping.isZero(0)) continue;
+      damping_.add(is_a ? contact.body_a : -1, is_b ? contact.body_b : -1, point, force.damping);
     }
   }
 
@@ -265,12 +237,15 @@ class SimbodyEngine::RobotSystem {
     return -stiffness * bent - damping * state_.velocity[motor.dof];
   }
 
-  /** Adds the torques of the rotors' inertia J to all other forces f: -J u' with (M + J) u' = f, in
-   * the degrees of freedom of the tree, where coupled joints are one. */
-  // Simbody has no armature. Moving -J u' to the right side needs u' first: solved from the full
-  // mass matrix with the rotors on its diagonal, reduced to independent dofs.
-  void add_rotors(const SimTK::State& state, const SimTK::Vector_<SimTK::SpatialVec>& body_forces,
-                  SimTK::Vector& mobility_forces) {
+  /** Adds to all other forces f what depends on the acceleration u': the torques of the rotors'
+   * inertia J, -J u', and the change of the contacts' damping within the substep, with
+   * (M + J + h sum(J_c^T D J_c)) u' = f, in the degrees of freedom of the tree, where coupled
+   * joints are one. */
+  // Simbody has neither armature nor implicit forces. Moving them to the right side needs u' first:
+  // solved from the full mass matrix, reduced to independent dofs.
+  void add_implicit_forces(const SimTK::State& state,
+                           SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                           SimTK::Vector& mobility_forces) {
     const SimTK::SimbodyMatterSubsystem& matter = model_.matter();
     const int num_u = matter.getNumMobilities();
     SimTK::Vector residual;
@@ -295,13 +270,21 @@ class SimbodyEngine::RobotSystem {
       }
     }
     for (const JointForce& motor : motors_) reduced_mass_(motor.dof, motor.dof) += motor.inertia;
+    const double h = engine_.options_.step / num_substeps(engine_.options_.step);
+    damping_.add_to_mass(h, reduced_mass_);
     // On a stand the root's six are not solved for.
     const long count = tree.num_dofs() - first;
-    const Eigen::VectorXd acceleration =
+    Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(tree.num_dofs());
+    acceleration.tail(count) =
         reduced_mass_.bottomRightCorner(count, count).llt().solve(reduced_force_.tail(count));
     for (const JointForce& motor : motors_) {
       // The reaction of each rotor, in place of an armature in M.
-      mobility_forces[u_of_dof(motor.dof)] -= motor.inertia * acceleration[motor.dof - first];
+      mobility_forces[u_of_dof(motor.dof)] -= motor.inertia * acceleration[motor.dof];
+    }
+    for (const ContactDamping::Contact& contact : damping_.contacts()) {
+      const Vector3d force = ContactDamping::force_on_a(contact, h, acceleration);
+      if (contact.body_a >= 0) add_force(contact.body_a, contact.point, force, body_forces);
+      if (contact.body_b >= 0) add_force(contact.body_b, contact.point, -force, body_forces);
     }
   }
 
@@ -311,6 +294,8 @@ class SimbodyEngine::RobotSystem {
   SimbodyModel model_;
   SimTK::GeneralForceSubsystem forces_;
   std::unique_ptr<SimTK::Integrator> integrator_;
+  /** The integrator's time at the start of the step, s. */
+  double step_start_ = 0;
   std::vector<int> first_u_;
   /** Of each of Simbody's generalized speeds: our dof, of which it is `ratio` times the speed. */
   struct DofOfU {
@@ -318,6 +303,7 @@ class SimbodyEngine::RobotSystem {
     double ratio = 1;
   };
   std::vector<DofOfU> dof_of_u_;
+  ContactDamping damping_;
   Eigen::MatrixXd reduced_mass_;
   Eigen::VectorXd reduced_force_;
   /** As computed last. */
@@ -356,10 +342,12 @@ class SimbodyEngine::BallSystem {
     }
     impulse_.setZero();
     integrator_ = make_integrator(system_, engine_.options_.step);
+    step_start_ = 0;
     integrator_->initialize(state);
   }
 
   void step(double h) {
+    step_start_ = integrator_->getTime();
     impulse_ = ball_.take_impulse();
     integrate(system_, *integrator_, h);
     read(integrator_->getState());
@@ -372,9 +360,10 @@ class SimbodyEngine::BallSystem {
     Vector3d force =
         ball_.description().mass * engine_.options_.gravity + impulse_ / engine_.options_.step;
     Vector3d moment = Vector3d::Zero();
+    const int64_t substep = engine_.substep_at(state.getTime() - step_start_);
     for (const ContactCandidate& contact : engine_.find_candidates()) {
       if (contact.a.kind != Surface::Kind::kBall) continue;
-      const Vector3d pressing = force_on_a(contact, engine_.bodies_, engine_.options_);
+      const Vector3d pressing = engine_.law_.force(contact, substep).on_a;
       force += pressing;
       moment += (contact.proximity.point - now.position).cross(pressing);
       if (contact.b.kind != Surface::Kind::kFloor) continue;
@@ -383,7 +372,7 @@ class SimbodyEngine::BallSystem {
       const double arm = 1.4 * ball_.radius() *
                          engine_.options_.materials.ball_rolling_deceleration /
                          engine_.options_.gravity.norm();
-      const double rate = std::hypot(now.angular_velocity.norm(), kSlidingSpeed / ball_.radius());
+      const double rate = std::hypot(now.angular_velocity.norm(), kRollingSpeed / ball_.radius());
       moment -= arm * contact.proximity.normal.dot(pressing) / rate * now.angular_velocity;
     }
     body_forces[body_.getMobilizedBodyIndex()] +=
@@ -409,6 +398,8 @@ class SimbodyEngine::BallSystem {
   SimTK::GeneralForceSubsystem forces_;
   SimTK::MobilizedBody body_;
   std::unique_ptr<SimTK::Integrator> integrator_;
+  /** The integrator's time at the start of the step, s. */
+  double step_start_ = 0;
   Vector3d impulse_ = Vector3d::Zero();
 };
 
@@ -416,7 +407,8 @@ SimbodyEngine::SimbodyEngine(const SceneFile& scene, const WorldOptions& options
                              MovingBodies& bodies)
     : options_(options),
       bodies_(bodies),
-      detector_(scene, bodies, Floor(options.floor), options.step) {
+      detector_(scene, bodies, Floor(options.floor), options.step),
+      law_(bodies, options, options.step / num_substeps(options.step)) {
   whole_.has_ball = bodies_.ball.has_value();
   candidates_.reserve(kMaxCandidates);
   if (bodies_.ball) ball_ = std::make_unique<BallSystem>(*this);
@@ -442,10 +434,13 @@ void SimbodyEngine::reset() {
 
 void SimbodyEngine::forget_contacts_of_robot(int robot) {
   // A robot that is being added has no system yet.
-  if (robot < static_cast<int>(robots_.size())) robots_[robot]->start();
+  if (robot >= static_cast<int>(robots_.size())) return;
+  detector_.forget_robot(robot);
+  robots_[robot]->start();
 }
 
 void SimbodyEngine::forget_contacts_of_ball() {
+  detector_.forget_ball();
   if (ball_ != nullptr) ball_->start();
 }
 
@@ -466,10 +461,15 @@ const std::vector<ContactCandidate>& SimbodyEngine::find_candidates() {
   return candidates_.list();
 }
 
+int64_t SimbodyEngine::substep_at(double time) const {
+  const int count = num_substeps(options_.step);
+  return num_steps_ * count + std::lround(time / options_.step * count);
+}
+
 void SimbodyEngine::collect_contacts() {
   contacts_.clear();
   for (const ContactCandidate& contact : find_candidates()) {
-    const Vector3d force = force_on_a(contact, bodies_, options_);
+    const Vector3d force = law_.force(contact, substep_at(0)).on_a;
     if (force.isZero(0)) continue;
     const Vector3d& point = contact.proximity.point;
     contacts_.push_back({contact.a, contact.b, point, force});

@@ -3,17 +3,19 @@
 #include <memory>
 #include <vector>
 
+#include "sim/compliant_contact.h"
 #include "sim/contact_detector.h"
 #include "sim/engine.h"
 
 namespace nao::sim {
 
 /** Simbody's multibody dynamics, constraint solver and integrator (semi-explicit Euler at a fixed
- * step), with explicit compliant contacts of Hunt and Crossley's form, for comparisons.
+ * step), with compliant contacts (CompliantContact), for comparisons.
  *
  * The rotors' reflected inertia, which Simbody's joints do not have, is exact: the acceleration
  * that M + J gives, with Simbody's mass matrix M, is computed first, and the rotors' torques -J u'
- * are applied to Simbody's system, whose own accelerations then are u'. */
+ * are applied to Simbody's system, whose own accelerations then are u'. The damping of a robot's
+ * contacts is made implicit in the same way (ContactDamping). */
 class SimbodyEngine : public Engine {
  public:
   /** @param options, bodies  Must outlive this. */
@@ -38,10 +40,13 @@ class SimbodyEngine : public Engine {
   /** Of all bodies where they are now. */
   const std::vector<ContactCandidate>& find_candidates();
   void collect_contacts();
+  /** Number of the integrator's substep at a time since the start of the step, s. */
+  int64_t substep_at(double time) const;
 
   const WorldOptions& options_;
   MovingBodies& bodies_;
   ContactDetector detector_;
+  CompliantContact law_;
   /** All bodies: they are stepped together. */
   Island whole_;
   ContactCandidates candidates_;

@@ -175,6 +175,48 @@ TEST_P(EngineTest, StandsWithAllRealDisturbances) {
   }
 }
 
+TEST_P(EngineTest, HoldsARobotOnASlope) {
+  WorldOptions sloping = options();
+  // Downhill in y by 5 degrees, far below the friction angle.
+  const double angle = 5 * M_PI / 180;
+  sloping.gravity = kGravity * Vector3d(0, std::sin(angle), -std::cos(angle));
+  World world(SceneFile{}, sloping);
+  world.add_robot(nao_model(), ideal());
+  for (int i = 0; i < 300; ++i) world.step_tick();
+  const int sole = nao_model()->left_sole();
+  const Vector3d start = world.robot(0).link_pose(sole).translation();
+  for (int i = 0; i < 300; ++i) world.step_tick();
+  const double crept = (world.robot(0).link_pose(sole).translation() - start).norm();
+  // MuJoCo's friction is soft: its robot creeps.
+  EXPECT_LT(crept, GetParam() == "mujoco" ? 5e-3 : 1e-4);
+}
+
+TEST_P(EngineTest, WalksWithoutRepeatedSlidingOfItsFeet) {
+  ClosedLoopOptions trial;
+  trial.model = nao_model();
+  trial.engine = GetParam();
+  // Of this robot the play leaves light feet, on a stiff floor.
+  trial.disturbances = std::make_shared<DisturbanceSet>(DisturbanceSet::find("real"));
+  ClosedLoop loop(trial, 501);
+  loop.run(1);
+  loop.hold_walk({0.2, 0, 0});
+  loop.run(2.5);
+  const double friction = loop.world().options().materials.floor_friction *
+                          loop.world().robot(0).options().friction_scale;
+  int num_sliding = 0;
+  int num_ticks = 0;
+  for (; num_ticks < 300; ++num_ticks) {
+    loop.step();
+    Vector3d force = Vector3d::Zero();
+    for (const Contact& contact : loop.world().contacts()) force += contact.force_on_a;
+    if (force.head<2>().norm() > 0.8 * friction * force.z()) ++num_sliding;
+  }
+  // The walk needs a third of this floor's friction; feet that slide, or whose friction turns
+  // around from step to step, need all of it.
+  EXPECT_LT(num_sliding, num_ticks / 20);
+  EXPECT_LT(loop.torso_tilt(), 0.3);
+}
+
 TEST_P(EngineTest, GivesTheSameBitsAgain) {
   ClosedLoopOptions trial;
   trial.model = nao_model();
