@@ -1,11 +1,11 @@
 #include "calibration/calibration_estimator.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "common/constants.h"
+#include "common/linear_solver.h"
 
 namespace nao {
 namespace {
@@ -173,11 +173,12 @@ Calibration CalibrationEstimator::solve() {
         jacobian.col(k) = (calc_residuals(sample, moved) - rows) / kStep;
         moved[k] = parameters[k];
       }
-      normal += jacobian.transpose() * jacobian;
+      normal += jacobian.transpose().lazyProduct(jacobian);
       gradient += jacobian.transpose() * rows;
     }
     // (J^T J + prior) step = J^T r + prior * parameters.
-    parameters -= normal.ldlt().solve(gradient);
+    solve_positive_definite(normal, gradient);
+    parameters -= gradient;
   }
   pressure_error_after_ = calc_pressure_error(parameters);
   return to_calibration(parameters);

@@ -1,8 +1,9 @@
 #include "kinematics/numeric_leg_solver.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "common/linear_solver.h"
 
 namespace nao {
 namespace {
@@ -84,7 +85,8 @@ double NumericLegSolver::descend(const Eigen::Isometry3d& goal, LegAngles& angle
     while (!is_better && damping <= kGreatestDamping) {
       Matrix6d damped = normal;
       damped.diagonal().array() += damping;
-      const Vector6d change = damped.llt().solve(jacobian.transpose() * error);
+      Vector6d change = jacobian.transpose() * error;
+      solve_positive_definite(damped, change);
       LegAngles next = angles;
       for (int i = 0; i < 6; ++i) {
         next[i] = std::clamp(angles[i] + change[i], chain_.lower[i], chain_.upper[i]);

@@ -1,12 +1,12 @@
 // Compiled as C++17: Simbody's headers are not valid C++20.
 #include "sim/simbody_engine.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>
 
+#include "common/linear_solver.h"
 #include "sim/contact_damping.h"
 #include "sim/simbody_model.h"
 
@@ -25,10 +25,6 @@ constexpr double kConstraintTolerance = 1e-4;
 constexpr double kRollingSpeed = 0.01;
 /** Contact candidates of the scene, and of each robot. Chosen as for the fast engine. */
 constexpr int kMaxCandidates = 96;
-
-SimTK::Vec3 to_simbody(const Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 /** A force element that asks its owner. */
 template <class Owner>
@@ -274,9 +270,10 @@ class SimbodyEngine::RobotSystem {
     damping_.add_to_mass(h, reduced_mass_);
     // On a stand the root's six are not solved for.
     const long count = tree.num_dofs() - first;
-    Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(tree.num_dofs());
-    acceleration.tail(count) =
-        reduced_mass_.bottomRightCorner(count, count).llt().solve(reduced_force_.tail(count));
+    solve_positive_definite(reduced_mass_.bottomRightCorner(count, count),
+                            reduced_force_.tail(count));
+    reduced_force_.head(first).setZero();
+    const Eigen::VectorXd& acceleration = reduced_force_;
     for (const JointForce& motor : motors_) {
       // The reaction of each rotor, in place of an armature in M.
       mobility_forces[u_of_dof(motor.dof)] -= motor.inertia * acceleration[motor.dof];

@@ -5,11 +5,7 @@
 namespace nao::sim {
 namespace {
 
-SimTK::Vec3 to_simbody(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-SimTK::Transform to_simbody(const Eigen::Isometry3d& pose) {
+SimTK::Transform to_transform(const Eigen::Isometry3d& pose) {
   const Eigen::Matrix3d& m = pose.linear();
   return {SimTK::Rotation(SimTK::Mat33(m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2),
                                        m(2, 0), m(2, 1), m(2, 2))),
@@ -133,7 +129,7 @@ void SimbodyModel::add_body(int link, int parent, int joint_index, double mass_s
     const SimTK::Rotation axis_to_z(SimTK::UnitVec3(to_simbody(joint.axis)), SimTK::ZAxis);
     body.mobilized =
         SimTK::MobilizedBody::Pin(matter_.updMobilizedBody(bodies_[parent].mobilized),
-                                  to_simbody(joint_in_body) * SimTK::Transform(axis_to_z), rigid,
+                                  to_transform(joint_in_body) * SimTK::Transform(axis_to_z), rigid,
                                   SimTK::Transform(axis_to_z));
   }
   bodies_.push_back(body);

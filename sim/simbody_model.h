@@ -14,6 +14,10 @@
 
 namespace nao::sim {
 
+inline SimTK::Vec3 to_simbody(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
 /** The robot as a Simbody multibody system, in which links and joints become bodies.
  *
  * Links behind fixed joints are part of the body that carries them, with their mass. A motor whose

@@ -1,10 +1,10 @@
 #include "daemons/motion/estimator/ground_reaction.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "common/constants.h"
+#include "common/linear_solver.h"
 
 namespace nao::motion {
 namespace {
@@ -114,7 +114,8 @@ std::array<FootReaction, 2> GroundReaction::estimate(const Kinematics& kinematic
     const double scale = k % 6 < 3 ? kExpectedForce : kExpectedMoment * height_;
     equations.add(Vector12d(Vector12d::Unit(k)), 0, expected * scale * weight_);
   }
-  const Vector12d solution = equations.matrix.ldlt().solve(equations.right_side);
+  solve_positive_definite(equations.matrix, equations.right_side);
+  const Vector12d& solution = equations.right_side;
 
   std::array<FootReaction, 2> reactions;
   for (int i = 0; i < 2; ++i) {

@@ -1,0 +1,13 @@
+#include "common/linear_solver.h"
+
+#include <Eigen/Cholesky>
+
+namespace nao {
+
+void solve_positive_definite(Eigen::Ref<Eigen::MatrixXd> matrix,
+                             Eigen::Ref<Eigen::VectorXd> vector) {
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> decomposition(matrix);
+  decomposition.solveInPlace(vector);
+}
+
+}  // namespace nao
