@@ -34,11 +34,13 @@ def find_pauses(states, robot, begin, end, scale=1):
     codes = WAITING if scale > 1 else WAITING + WAITING_FOR_IMAGES
     for kind, longest in SILENCE.items():
         rows = states.get((robot, kind), [])
-        last = max((time for time, _ in rows if time <= begin), default=begin)
-        for now in [time for time, _ in rows if begin < time <= end] + [end]:
-            if now - last > longest * scale:
+        last, sent = max(((time, message["utime"]) for time, message in rows if time <= begin), default=(begin, None))
+        for now, message in [row for row in rows if begin < row[0] <= end] + [(end, None)]:
+            # A recorder that is late on a busy machine writes late messages: their own time counts.
+            own = (message["utime"] - sent) * 1e-6 if message and sent is not None else now - last
+            if min(now - last, own) > longest * scale:
                 pauses.append(f"{robot}: no {kind} for {now - last:.1f} s")
-            last = now
+            last, sent = now, message and message["utime"]
     said = {message["reason"] for time, message in states.get((robot, "PLAY_STATE"), [])
             if begin < time <= end and message["reason_code"] in codes}
     pauses += [f"{robot}: nao-play waits: {reason}" for reason in sorted(said)]

@@ -8,7 +8,7 @@ from robot_pauses import AUTO, NO_ROBOT, find_pauses, read
 
 
 def said(robot, kind, times, **message):
-    return [json.dumps({"log_wall_utime": round(time * 1e6), "channel": f"{robot}_{kind}", "message": message}) for time in times]
+    return [json.dumps({"log_wall_utime": round(time * 1e6), "channel": f"{robot}_{kind}", "message": {"utime": round(time * 1e6), **message}}) for time in times]
 
 
 def times(begin, end, rate):
@@ -35,6 +35,12 @@ class RobotPauses(unittest.TestCase):
             self.assertEqual(len(self.pauses("NAO1", left)), 1, kind)
             self.assertEqual(self.pauses("NAO2", left), [])
             self.assertEqual(self.pauses("NAO1", left, scale=6), [])
+
+    def test_a_late_recorder_is_no_pause(self):
+        rows = [json.loads(line) for line in self.lines]
+        for row in rows:
+            row["log_wall_utime"] = 6e6 if 4e6 < row["log_wall_utime"] < 6e6 else row["log_wall_utime"]
+        self.assertEqual(self.pauses("NAO1", [json.dumps(row) for row in rows]), [])
 
     def test_a_program_that_never_comes_back_is_a_pause(self):
         left = [line for line in self.lines if "NAO1_MOTION" not in line or json.loads(line)["log_wall_utime"] < 4e6]
