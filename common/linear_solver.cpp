@@ -5,9 +5,9 @@
 namespace nao {
 
 void solve_positive_definite(Eigen::Ref<Eigen::MatrixXd> matrix,
-                             Eigen::Ref<Eigen::VectorXd> vector) {
+                             Eigen::Ref<Eigen::VectorXd> vector) {  // NOLINT: it is written to
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> decomposition(matrix);
-  decomposition.solveInPlace(vector);
+  vector = decomposition.solve(vector);
 }
 
 }  // namespace nao
