@@ -51,7 +51,9 @@ LyingStill wait_until_still(ClosedLoop& trial) {
         const bool is_still = (now - up).norm() / trial.period() < kStillVelocity;
         up = now;
         num_still = is_still ? num_still + 1 : 0;
-        const bool gets_up = trial.core().motion_state().mode == Mode::kGettingUp;
+        // In the mode it may still lie and wait for its body to come to rest.
+        const motion::MotionState& state = trial.core().motion_state();
+        const bool gets_up = state.mode == Mode::kGettingUp && state.command_progress > 0;
         return gets_up || num_still >= kNumStill;
       },
       kLongestWait);
