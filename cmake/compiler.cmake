@@ -21,8 +21,8 @@ add_compile_options(-ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Where headers are precompiled, GCC 12 reports the small buffer of std::string as too short.
   add_compile_options(-fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
-  # No collection of the compiler's own garbage below 1 GiB: a tenth of its time. The greatest source takes
-  # 1.4 GB so, which scripts/lib.sh counts with.
+  # GCC collects garbage only above 1 GiB of memory: collections took a tenth of its time. The largest source
+  # then needs 1.4 GB; scripts/lib.sh allows 1.5 GB for each compiler.
   add_compile_options(--param=ggc-min-heapsize=1048576)
 endif()
 

@@ -14,6 +14,7 @@
 
 namespace nao::sim {
 
+/** The same vector in Simbody's type. */
 inline SimTK::Vec3 to_simbody(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }

@@ -1,4 +1,4 @@
-// Makes an image of the app while a finger walks a robot: node robot_picture.mjs FILE.png MODEL. Wants pngquant and
+// Makes an image of the app while a finger walks a robot: node robot_image.mjs FILE.png MODEL. Wants pngquant and
 // fonts-roboto-unhinted. NAO_BIN_DIR, NAO_WEB_SOURCE_DIR as for the tests.
 import {execFileSync} from "node:child_process";
 import {openBrowser, Phone} from "./phone.mjs";
@@ -11,7 +11,7 @@ const kPace = 0.3;
 const kWay = 0.5;
 
 const [file, model] = process.argv.slice(2);
-if (!model) throw new Error("usage: node robot_picture.mjs FILE.png MODEL");
+if (!model) throw new Error("usage: node robot_image.mjs FILE.png MODEL");
 
 const stack = new Stack(process.env.NAO_BIN_DIR);
 try {
