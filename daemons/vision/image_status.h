@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <map>
 #include <opencv2/core.hpp>
@@ -20,26 +21,34 @@ const char* image_status_name(ImageStatus status);
  *
  * - covered: nearly uniform and not green, or nearly black
  * - overexposed: most pixels are at the upper end of the range
- * - frozen: identical to the camera's images of the last 0.3 s; a sensor's noise makes each image
- *   of a working camera differ, so that this is only checked for cameras that have shown noise
+ * - frozen: identical, byte by byte, to the camera's images of at least the last 0.3 s, though the
+ *   camera has moved or turned since the first of them by more than such images allow. A camera
+ *   that is still may send the same image for long, and one near a carpet sees a single color.
  * - inverted: the field is above the horizon and not below it (an upside-down image). A camera that
  *   looks down so far that the horizon is not below its upper third sees the field above, and its
  *   robot's body or another robot below: nothing follows from that. */
 class ImageStatusMonitor {
  public:
   /** @param camera  Name; each has its own history. @param utime  Microseconds.
-   * @param is_moving  The camera has moved since its last image, so that equal images are an
-   *   error even without noise. @param horizon  Its row in the middle of the image, pixels, for a
-   *   camera that hangs as it should; nothing: unknown. */
-  ImageStatus check(const cv::Mat& bgr, const std::string& camera, int64_t utime, bool is_moving,
+   * @param pose_camera_in_heading  See VisionInput; nothing: unknown, and no image is frozen.
+   * @param horizon  Its row in the middle of the image, pixels, for a camera that hangs as it
+   *   should; nothing: unknown. */
+  ImageStatus check(const cv::Mat& bgr, const std::string& camera, int64_t utime,
+                    const std::optional<Eigen::Isometry3d>& pose_camera_in_heading,
                     const std::optional<double>& horizon = std::nullopt);
 
  private:
+  /** The first of equal images. */
   struct History {
-    uint64_t hash = 0;
-    /** Of the first of the equal images. */
+    cv::Mat bgr;
     int64_t utime = 0;
+    std::optional<Eigen::Isometry3d> pose_camera_in_heading;
   };
+
+  /** The image is one of equal ones that a moving camera cannot take. Remembers it if it is not. */
+  bool is_frozen(const cv::Mat& bgr, const std::string& camera, int64_t utime,
+                 const std::optional<Eigen::Isometry3d>& pose_camera_in_heading);
+
   std::map<std::string, History> history_;
 };
 

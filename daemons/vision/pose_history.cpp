@@ -10,9 +10,6 @@ namespace {
 constexpr int64_t kLength = 1000000;
 constexpr int64_t kMostGap = 100000;
 constexpr int64_t kMostLead = 30000;
-/** m/s and rad/s, above the noise of a standing robot's estimate. */
-constexpr double kStillSpeed = 0.002;
-constexpr double kStillTurn = 0.009;
 /** Cosine of the torso's tilt beyond which the robot falls or lies; 35 degrees. */
 constexpr double kUprightCosine = 0.82;
 
@@ -56,23 +53,20 @@ std::optional<CameraPose> PoseHistory::find(const std::string& camera, int64_t u
       history_.begin(), history_.end(), utime,
       [](const RobotPosture& posture, int64_t time) { return posture.utime < time; });
   RobotPosture posture;
-  const RobotPosture* from = nullptr;
   if (next == history_.end()) {
     posture = history_.back();
     // An image may be a little newer than the last state; that state is used then.
     if (utime - posture.utime > kMostLead) return std::nullopt;
-    if (history_.size() > 1) from = &history_[history_.size() - 2];
   } else if (next->utime == utime) {
     posture = *next;
-    if (next != history_.begin()) from = &*std::prev(next);
   } else {
     if (next == history_.begin()) return std::nullopt;
-    from = &*std::prev(next);
+    const RobotPosture& from = *std::prev(next);
     // A gap: the robot may have moved in between in ways that are not known.
-    if (next->utime - from->utime > kMostGap) return std::nullopt;
+    if (next->utime - from.utime > kMostGap) return std::nullopt;
     posture = interpolated(
-        *from, *next,
-        static_cast<double>(utime - from->utime) / static_cast<double>(next->utime - from->utime));
+        from, *next,
+        static_cast<double>(utime - from.utime) / static_cast<double>(next->utime - from.utime));
   }
   CameraPose result;
   const Eigen::Isometry3d pose = camera_in_odometry(posture, model->link);
@@ -84,13 +78,6 @@ std::optional<CameraPose> PoseHistory::find(const std::string& camera, int64_t u
   heading.linear() =
       Eigen::AngleAxisd(result.heading_in_odometry.heading, Eigen::Vector3d::UnitZ()).matrix();
   result.pose_camera_in_heading = heading.inverse() * pose;
-  // Whether the camera moves at the image's time, from two neighboring states.
-  if (from != nullptr && utime > from->utime) {
-    const double dt = 1e-6 * static_cast<double>(utime - from->utime);
-    const Eigen::Isometry3d step = camera_in_odometry(*from, model->link).inverse() * pose;
-    result.is_moving = step.translation().norm() > kStillSpeed * dt ||
-                       Eigen::AngleAxisd(step.linear()).angle() > kStillTurn * dt;
-  }
   return result;
 }
 

@@ -27,8 +27,6 @@ struct CameraPose {
   Pose2 heading_in_odometry;
   /** The torso is upright: the robot stands, walks or crouches. */
   bool is_upright = true;
-  /** The camera's speed was above what an image shows, 2 mm/s or 0.5 degrees/s. */
-  bool is_moving = false;
 };
 
 /** The last second of the robot's states, interpolated at the times of images. */

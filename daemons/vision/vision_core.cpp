@@ -105,8 +105,9 @@ VisionResult VisionCore::process(const VisionInput& input) {
   }
   VisionResult result;
   const CameraGeometry geometry(input.calibration, input.pose_camera_in_heading);
-  result.image_status = status_.check(input.bgr, input.camera, input.utime, input.is_moving,
-                                      geometry.horizon_row(0.5 * input.bgr.cols));
+  result.image_status =
+      status_.check(input.bgr, input.camera, input.utime, input.pose_camera_in_heading,
+                    geometry.horizon_row(0.5 * input.bgr.cols));
   finish_stage("image status");
   // Predicted in every image, so that the ball's estimate ages also while it is not seen.
   ball_filter_.predict(input.utime);

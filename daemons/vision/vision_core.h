@@ -37,8 +37,6 @@ struct VisionInput {
   std::optional<Pose2> heading_in_odometry;
   /** The robot stands or walks; what it sees while it falls does not serve localisation. */
   bool is_upright = true;
-  /** The camera has moved since its last image. */
-  bool is_moving = false;
 };
 
 /** What one image shows. */

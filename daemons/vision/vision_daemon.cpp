@@ -128,7 +128,6 @@ void VisionDaemon::process(const naolcm::image_t& image) {
     input.pose_camera_in_heading = pose->pose_camera_in_heading;
     input.heading_in_odometry = pose->heading_in_odometry;
     input.is_upright = pose->is_upright;
-    input.is_moving = pose->is_moving;
   }
   bus_.publish(channels_.vision_state,
                encode_result(core_.process(input), image.utime, image.camera));

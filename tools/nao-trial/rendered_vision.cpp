@@ -73,7 +73,6 @@ vision::VisionResult RenderedVision::look(const CameraModel& camera) {
     input.pose_camera_in_heading = pose->pose_camera_in_heading;
     input.heading_in_odometry = pose->heading_in_odometry;
     input.is_upright = pose->is_upright;
-    input.is_moving = pose->is_moving;
     heading_in_odometry_ = pose->heading_in_odometry;
   }
   pose_camera_in_heading_ = input.pose_camera_in_heading;
