@@ -21,6 +21,8 @@ OPTIONAL = ("nao-speaker",)
 # With --backend lola one more: the bridge of a real robot, which its watchdog starts.
 ROBOT = "nao-robot"
 ROBOT_WATCHDOG = "nao-robot-watchdog"
+# Replaces programs that hang: "nao watchdog".
+WATCHDOG = "nao-watchdog"
 # On a real robot, and where LoLA listens there.
 ROBOT_PROGRAMS = (ROBOT, "nao-motion", "nao-motion-files", "nao-head-camera", "nao-phone-gateway")
 LOLA_SOCKET = "/tmp/robocup"

@@ -15,7 +15,8 @@ from robots import (MAX_ROBOTS, Process, choose_autonomous, choose_processes, ch
                     number_of_robots, place_robots, team_sizes)
 from seat import check_seated
 from stack import (CALL, CAMERA, COMPANIONS, FOXGLOVE, LOLA_SOCKET, OPTIONAL, PLAY, PROGRAMS, ROBOT, ROBOT_PROGRAMS,
-                   REFEREE, ROBOT_WATCHDOG, ROOT, SIM, VISION, CommandLine, Failure, Stack, run_as_root, run_script, warn)
+                   REFEREE, ROBOT_WATCHDOG, ROOT, SIM, VISION, WATCHDOG, CommandLine, Failure, Stack, run_as_root,
+                   run_script, warn)
 
 # Ports that are tried first. 8080: registered for HTTP alternatives (IANA); 7668: next to LCM's 7667; 8765: what
 # Foxglove proposes.
@@ -61,6 +62,7 @@ ROBOT_STOP_WAIT_TIME = 10
 PROGRAM_SECTION = """
 [program:{name}]
 command={command}
+priority={priority}
 autorestart={restart}
 startsecs=5
 startretries=10
@@ -320,12 +322,12 @@ def gateway_options(stack, settings):
     return [*options, "--tls"] if settings["scheme"] == "https" else options
 
 
-def command_of(process, stack, settings, options, robots):
+def command_of(process, processes, stack, settings, options, robots):
     """Command line of a process, quoted for supervisor."""
     program, robot = process.program, process.robot
     bus = ["--lcm-url", settings["lcm_url"]]
-    if program == "nao-watchdog":
-        words = ["nao", "watchdog", *bus]
+    if program == WATCHDOG:
+        words = ["nao", "watchdog", *bus, "--programs", ",".join(each.program for each in processes)]
     elif program in (SIM, GATEWAY, REFEREE) and (len(robots) > 1 or robot.team):
         words = [program, *bus]
         for one in robots:
@@ -375,11 +377,13 @@ def command_of(process, stack, settings, options, robots):
 def write_configuration(stack, settings, options, processes, robots):
     paths = {"socket": escaped(stack.socket), "logs": escaped(stack.logs), "pid_file": escaped(stack.pid_file)}
     text = SUPERVISOR_SECTION.format(**paths, user="user=root" if os.geteuid() == 0 else "")
-    for process in [*processes, Process("nao-watchdog", "nao-watchdog", robots[0])]:
+    # First, so that it receives the first status of all others.
+    for process in [Process(WATCHDOG, WATCHDOG, robots[0]), *processes]:
         is_robot = process.program == ROBOT
         # The bridge ends with status 0 when it was ended by the robot's button.
         text += PROGRAM_SECTION.format(**paths, name=process.name,
-                                       command=command_of(process, stack, settings, options, robots),
+                                       command=command_of(process, processes, stack, settings, options, robots),
+                                       priority=1 if process.program == WATCHDOG else 2,
                                        restart="unexpected" if is_robot else "true",
                                        stop_time=ROBOT_STOP_WAIT_TIME if is_robot else STOP_WAIT_TIME)
     stack.configuration.write_text(text)
@@ -393,13 +397,13 @@ def failed_process(stack, processes):
 
 
 def wait_until_ready(stack, settings, options, processes):
-    """Waits until every program is ready. With --only, a program may wait for programs on other hosts: then a shorter
-    timeout applies and is not an error."""
+    """Waits until every program is ready, and the watchdog monitors them all. With --only, a program may wait for
+    programs on other hosts: then a shorter timeout applies and is not an error."""
     timeout = ONLY_READY_TIMEOUT if options.only else READY_TIMEOUT
     report = stack.logs / "start.log"
     with open(report, "w", encoding="utf-8") as output:
         waiter = subprocess.Popen([f"{settings['bin_dir']}/nao", "status", "--wait",
-                                   ",".join(process.program for process in processes), "--this-host",
+                                   ",".join([*(process.program for process in processes), WATCHDOG]), "--this-host",
                                    "--timeout", str(timeout), "--lcm-url", settings["lcm_url"]], stderr=output)
     ended = os.pidfd_open(waiter.pid)  # readable when the process has ended
     while not select.select([ended], [], [], POLL_PERIOD)[0]:

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLeast = 0.2;      // N s
 constexpr double kGreatest = 4.0;   // N s
-constexpr int kNumHalvings = 6;     // bisection: to (4.0 - 0.2) / 2^6 = 0.06 N s
+constexpr int kNumHalvings = 8;     // bisection: to (4.0 - 0.2) / 2^8 = 0.015 N s
 constexpr int kNumDirections = 24;  // in the plot
 constexpr double kWatch = 2.5;      // s after the push
 
@@ -45,7 +45,7 @@ Outcome push(const ScenarioOptions& options, uint64_t seed, double direction, do
   return outcome;
 }
 
-/** Bisection of the greatest impulse survived, to 0.06 N s. */
+/** Bisection of the greatest impulse survived, to 0.015 N s. */
 double find_boundary(const ScenarioOptions& options, uint64_t seed, double direction,
                      RunResult& result) {
   // Invariant: the robot survived `survived` (or it is the lower bound) and fell at `lost`.

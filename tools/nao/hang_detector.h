@@ -6,7 +6,8 @@
 
 namespace nao {
 
-/** Detects programs that still exist but have stopped publishing: hung, or stopped by a signal.
+/** Detects programs that still exist but have stopped publishing, or never began to: hung, or
+ * stopped by a signal.
  *
  * A missing status proves a hang only while the detector receives messages. Time therefore counts
  * only while the detector's own heartbeat returns over the bus and step() is called on time: a
@@ -17,6 +18,8 @@ class HangDetector {
   struct Limits {
     /** Time without a status that means a hang, s; every program publishes once a second. */
     double silence = 4.0;
+    /** The same before the first status, s. Chosen: as long as scripts/start waits for programs. */
+    double first_silence = 60.0;
     /** Maximum time between two calls of step() that counts as on time, s. */
     double max_step_period = 1.0;
     /** Maximum time between two received own heartbeats, s. */
@@ -33,6 +36,9 @@ class HangDetector {
 
   explicit HangDetector(const Limits& limits) : limits_(limits) {}
 
+  /** A process exists; it is monitored from now on, also if it never publishes. */
+  void handle_process(int process_id, const std::string& program);
+
   /** A program published its status. */
   void handle_status(int process_id, const std::string& program);
 
@@ -45,6 +51,9 @@ class HangDetector {
   /** Monitored processes. */
   std::vector<int> process_ids() const;
 
+  /** Number of monitored processes that have published. */
+  int num_published() const;
+
   /** Advances to time `now`; call it several times a second. @return The programs that hang; each
    * is returned once and then forgotten. */
   std::vector<Hung> step(double now);
@@ -53,6 +62,7 @@ class HangDetector {
   struct Program {
     std::string name;
     double silence = 0;
+    bool has_published = false;
   };
 
   Limits limits_;

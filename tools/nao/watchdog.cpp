@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <naolcm/daemon_status_t.hpp>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include "common/bus.h"
 #include "common/channels.h"
@@ -41,13 +45,34 @@ bool is_of_own_stack(int process_id) {
   return place == 0 || (place != std::string::npos && environment[place - 1] == '\0');
 }
 
-int run_watchdog(const CommonOptions& common) {
+/** Calls a function with the process id and program of each process of the own stack that is one of
+ * the programs. */
+template <typename Function>
+void for_each_process(const std::vector<std::string>& programs, const Function& function) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
+    int process_id = 0;
+    const std::string name = entry.path().filename();
+    const auto [end, problem] = std::from_chars(name.data(), name.data() + name.size(), process_id);
+    if (problem != std::errc() || *end != '\0') continue;
+    // Unreadable if the process has ended or is another user's: then there is no program.
+    const std::string program =
+        std::filesystem::read_symlink(entry.path() / "exe", error).filename();
+    if (std::find(programs.begin(), programs.end(), program) != programs.end() &&
+        is_of_own_stack(process_id)) {
+      function(process_id, program);
+    }
+  }
+}
+
+int run_watchdog(const CommonOptions& common, const std::vector<std::string>& programs) {
   EventLoop loop;
   Bus bus(common.lcm_url);
   StatusReporter reporter(bus, "nao-watchdog");
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   HangDetector detector({});
+  bool is_ready = false;
   bus.subscribe<naolcm::daemon_status_t>(
       kDaemonStatusChannel, Bus::Queue::kAll, [&](const naolcm::daemon_status_t& status) {
         if (status.host != host.data()) return;
@@ -61,6 +86,11 @@ int run_watchdog(const CommonOptions& common) {
   loop.every(kStepPeriod, [&] {
     const double now = monotonic_seconds();
     reporter.tick(now);
+    if (!is_ready && detector.num_published() >= static_cast<int>(programs.size())) {
+      is_ready = true;
+      reporter.set_state("ready");
+      reporter.publish();
+    }
     for (const int process_id : detector.process_ids()) {
       if (!is_of_own_stack(process_id)) detector.forget(process_id);
     }
@@ -70,9 +100,15 @@ int run_watchdog(const CommonOptions& common) {
       kill(hung.process_id, SIGKILL);
     }
   });
-  reporter.set_state("ready");
-  loop.every(kHeartbeatPeriod, [&reporter] { reporter.publish(); });
-  reporter.publish();
+  // A program that hangs before it is known here must be found as well.
+  const auto find_processes = [&] {
+    for_each_process(programs, [&detector](int process_id, const std::string& program) {
+      detector.handle_process(process_id, program);
+    });
+    reporter.publish();
+  };
+  loop.every(kHeartbeatPeriod, find_processes);
+  find_processes();
   logger::info("watching the programs on {}", common.lcm_url);
   logger::info("ended by {}", loop.run());
   return 0;
@@ -85,8 +121,14 @@ void add_watchdog_command(CommandLine& app, Invocation& invocation) {
       "watchdog",
       "Kill programs of the own stack that hang, so that supervisor restarts them; "
       "scripts/start runs it");
-  watchdog->on_parsed([&invocation] {
-    invocation.run = [&invocation] { return run_watchdog(invocation.common); };
+  auto programs = std::make_shared<std::vector<std::string>>();
+  watchdog
+      ->add_option("--programs", *programs,
+                   "The stack's programs, one name for each process: the watchdog is ready when "
+                   "all have published their status")
+      ->separated_by(',');
+  watchdog->on_parsed([&invocation, programs] {
+    invocation.run = [&invocation, programs] { return run_watchdog(invocation.common, *programs); };
   });
 }
 

@@ -38,6 +38,29 @@ TEST(HangDetector, DoesNotReportAProgramThatPublishes) {
   }
 }
 
+TEST(HangDetector, ReportsAProgramThatNeverPublishes) {
+  HangDetector detector({});
+  for (int second = 0; second < 60; ++second) {
+    // It is found again and again.
+    detector.handle_process(7, "nao-motion");
+    EXPECT_TRUE(run(detector, second, second + 0.9).empty());
+  }
+  EXPECT_EQ(detector.num_published(), 0);
+  const auto hung = run(detector, 60, 61);
+  ASSERT_EQ(hung.size(), 1u);
+  EXPECT_EQ(hung[0].process_id, 7);
+}
+
+TEST(HangDetector, AProcessThatIsFoundHasPublishedOnlyOnceItDid) {
+  HangDetector detector({});
+  detector.handle_process(7, "nao-motion");
+  detector.handle_process(8, "nao-sim");
+  detector.handle_status(7, "nao-motion");
+  detector.handle_process(7, "nao-motion");
+  EXPECT_EQ(detector.num_published(), 1);
+  EXPECT_EQ(run(detector, 0, 4.4).size(), 1u);
+}
+
 TEST(HangDetector, ReportsNothingWithoutItsOwnHeartbeat) {
   HangDetector detector({});
   run(detector, 0, 1);
