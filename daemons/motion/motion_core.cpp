@@ -33,7 +33,8 @@ MotionCore::MotionCore(const RobotModel& model, const MotionOptions& options)
       arbiter_(model, factory_, guard_),
       falls_(model, options_),
       limiter_(model),
-      reporter_(options.motion_state_period) {
+      reporter_(options.motion_state_period),
+      standing_(factory_.make_standing_balance()) {
   if (options.calibration) correction_.emplace(model, *options.calibration);
 }
 
@@ -57,7 +58,9 @@ Output MotionCore::step(const Input& input, double dt) {
   Output output;
   if (input.sensors) {
     move(dt);
+    balance(dt);
     output.joint_targets = targets_;
+    output.joint_targets->position = sent_;
     if (correction_) correction_->to_servos(output.joint_targets->position);
     output.robot_state = estimator_.state();
   }
@@ -101,6 +104,7 @@ void MotionCore::take_over(bool is_placed) {
   if (is_placed) clip_to_limits(*model_, targets_.position);
   targets_.velocity.assign(model_->num_motors(), 0.0);
   targets_.stiffness = sensors.stiffness;
+  sent_ = targets_.position;
 }
 
 void MotionCore::receive(const std::vector<Command>& commands) {
@@ -190,6 +194,18 @@ void MotionCore::limit_targets(const JointTargets& last, double dt) {
     // get.
     targets_.velocity[i] = dt > 0 ? (targets_.position[i] - last.position[i]) / dt : 0.0;
   }
+}
+
+// A motion that begins does not know of the balance's angles: they go back as fast as the motors
+// turn.
+void MotionCore::balance(double dt) {
+  std::vector<double> position = targets_.position;
+  if (standing_ && arbiter_.running() == nullptr && !falls_.has_fallen() && !is_relaxed() &&
+      find_body_state(*model_, estimator_.state(), options_.lying_tilt) == kOnFeet) {
+    standing_->add_to(estimator_.state(), position);
+  }
+  limiter_.limit(sent_, dt, position);
+  sent_ = std::move(position);
 }
 
 MotionContext MotionCore::context(double dt) const {

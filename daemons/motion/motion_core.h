@@ -19,6 +19,7 @@
 #include "daemons/motion/robot_state.h"
 #include "daemons/motion/sensor_correction.h"
 #include "daemons/motion/sensors.h"
+#include "daemons/motion/standing_balance.h"
 #include "daemons/motion/state_reporter.h"
 #include "messages/command.h"
 #include "robot_model/robot_model.h"
@@ -94,6 +95,9 @@ class MotionCore {
    * it is when it becomes stiff. */
   void follow_limp_joints();
   void limit_targets(const JointTargets& last, double dt);
+  /** Targets for the servos: those of the motions, or of the balance of a robot that only stands.
+   */
+  void balance(double dt);
 
   MotionContext context(double dt) const;
   Mode mode() const;
@@ -115,8 +119,11 @@ class MotionCore {
   FallSupervisor falls_;
   TargetLimiter limiter_;
   StateReporter reporter_;
-  /** As sent in the last step. */
+  std::optional<StandingBalance> standing_;
+  /** Of the motions, in the last step. */
   JointTargets targets_;
+  /** Positions that were sent in the last step. */
+  std::vector<double> sent_;
   /** s since the robot was taken over; the first motion is chosen when the estimate has settled. */
   double time_with_robot_ = 0;
   bool has_first_motion_ = false;

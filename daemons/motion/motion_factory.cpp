@@ -123,6 +123,11 @@ std::unique_ptr<MotionGenerator> MotionFactory::make_stand_path() const {
   return make_posture_path(*stand_);
 }
 
+std::optional<StandingBalance> MotionFactory::make_standing_balance() const {
+  if (!gait_) return std::nullopt;
+  return StandingBalance(gait_->standing, *legs_);
+}
+
 MotionPlan MotionFactory::plan_request(const WalkCommand& walk, const Situation& situation) {
   if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
   return std::make_unique<WalkMotion>(*model_, *gait_, make_stand_path(), walk);

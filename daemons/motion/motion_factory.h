@@ -13,6 +13,7 @@
 #include "daemons/motion/generators/motion_generator.h"
 #include "daemons/motion/guards/joint_change_guard.h"
 #include "daemons/motion/motion_options.h"
+#include "daemons/motion/standing_balance.h"
 #include "daemons/motion/transitions/transition_graph.h"
 #include "daemons/motion/walk/gait.h"
 #include "kinematics/leg_kinematics.h"
@@ -56,6 +57,9 @@ class MotionFactory {
   std::unique_ptr<MotionGenerator> make_posture_path(const Posture& posture) const;
   /** Path to the posture in which walks and actions begin. */
   std::unique_ptr<MotionGenerator> make_stand_path() const;
+
+  /** Balance of a standing robot with a gait; nothing without. */
+  std::optional<StandingBalance> make_standing_balance() const;
 
   /** The posture in which walks and actions begin. */
   const Posture& stand() const { return *stand_; }

@@ -49,8 +49,9 @@ class Run:
         return json.loads(shown.stdout) if shown.returncode == 0 else None
 
     def programs(self):
+        # Status 1 also where a program is not ready.
         shown = self.stack.script("status", "--json")
-        return json.loads(shown.stdout) if shown.returncode == 0 else []
+        return json.loads(shown.stdout) if shown.stdout else []
 
     def standing(self, truth):
         return [robot["position_torso_in_world"][2] > FALLEN for robot in truth["robots"]] if truth else []

@@ -99,6 +99,12 @@ struct Gait {
     double tilt_ankle_pitch = 0;
     double tilt_ankle_roll = 0;
   };
+  /** Feedback of the torso's angular velocity while the robot stands: s, s, rad/s. */
+  struct Standing {
+    double ankle_pitch = 0;
+    double hip_pitch = 0;
+    double least_rate = 0;
+  };
   /** Feedforward to the position servos: s, dimensionless scales. */
   struct Servo {
     double lead_time = 0;
@@ -125,6 +131,7 @@ struct Gait {
   Zmp zmp;
   Feedback feedback;
   Orientation orientation;
+  Standing standing;
   Servo servo;
   Kick kick;
   Arms arms;

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "daemons/motion/robot_state.h"
+#include "daemons/motion/walk/gait.h"
+#include "kinematics/leg_kinematics.h"
+
+namespace nao::motion {
+
+/** Keeps a robot that is pushed while it stands on its feet.
+ *
+ * Ankles and hips turn with the torso's angular velocity: the ankles put the center of pressure to
+ * the edge of the soles, the hips turn the trunk back against the fall, away from that edge. Below
+ * a least rate the servos alone hold the posture, so that sensor noise moves nothing. */
+class StandingBalance {
+ public:
+  /** @param gains, legs  Must outlive this. */
+  StandingBalance(const Gait::Standing& gains, const LegKinematics& legs)
+      : gains_(&gains), legs_(&legs) {}
+
+  /** Adds the joint angles to the targets of a standing robot. @param position  rad, (num_motors).
+   */
+  void add_to(const RobotState& state, std::vector<double>& position) const;
+
+ private:
+  const Gait::Standing* gains_;
+  const LegKinematics* legs_;
+};
+
+}  // namespace nao::motion

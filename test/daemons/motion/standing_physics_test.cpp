@@ -1,0 +1,31 @@
+// A standing robot is pushed.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "test/daemons/motion/physics_trial.h"
+
+namespace nao::trial {
+namespace {
+
+/** Whether a robot stands 2.5 s after a push, N s. */
+bool stands_after(double impulse, double direction, uint64_t seed) {
+  ClosedLoop trial(trial_options(), seed);
+  trial.run(0.5);
+  trial.world().push(0, 0, {impulse * std::cos(direction), impulse * std::sin(direction), 0});
+  trial.run(2.5);
+  return trial.torso_tilt() < 0.3 && trial.core().motion_state().mode == Mode::kHolding;
+}
+
+// The servos alone withstand 1.98 N s.
+TEST(StandingPhysics, WithstandsAPushAheadAndBack) {
+  for (uint64_t seed = 41; seed <= 44; ++seed) {
+    EXPECT_TRUE(stands_after(2.07, 0, seed)) << seed;
+    EXPECT_TRUE(stands_after(2.07, M_PI, seed)) << seed;
+    EXPECT_TRUE(stands_after(2.5, M_PI / 2, seed)) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace nao::trial
