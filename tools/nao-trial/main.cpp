@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
@@ -65,6 +66,15 @@ Summary run_all(const Scenario& scenario, const ScenarioOptions& options,
   return summary;
 }
 
+/** Robots of each team. @param text  Such as "2v2". @throws Error */
+std::array<int, 2> parse_teams(const std::string& text) {
+  const auto is_size = [](char digit) { return '1' <= digit && digit <= '5'; };
+  if (text.size() != 3 || !is_size(text[0]) || text[1] != 'v' || !is_size(text[2])) {
+    throw Error("--teams: '" + text + "' is not two teams of 1 to 5 robots, such as 2v2");
+  }
+  return {text[0] - '0', text[2] - '0'};
+}
+
 void write_file(const std::string& name, const std::string& text) {
   std::ofstream file(name);
   file << text;
@@ -88,6 +98,7 @@ int main(int argc, char** argv) {
   std::string plot_file;
   std::string model_name = "nao";
   bool is_verbose = false;
+  std::string teams = "2v2";
   std::string disturbances = "default";
   ScenarioOptions options;
   std::string chosen;
@@ -108,6 +119,8 @@ int main(int argc, char** argv) {
     command->add_option("--vx", options.velocity.x(), "Commanded velocity ahead, m/s");
     command->add_option("--vy", options.velocity.y(), "To the left, m/s");
     command->add_option("--wz", options.velocity.z(), "Turning to the left, rad/s");
+    command->add_option("--teams", teams, "match: robots of the two teams, 1 to 5 each")
+        ->show_default();
     command->add_option("--distance", options.distance, "Distance, m (0: the scenario's default)")
         ->show_default();
     command
@@ -153,6 +166,7 @@ int main(int argc, char** argv) {
       options.trial.disturbances =
           std::make_shared<nao::sim::DisturbanceSet>(nao::sim::DisturbanceSet::find(disturbances));
       options.trial.scene = nao::SceneFile::find(scenario->scene());
+      options.team_sizes = parse_teams(teams);
       options.is_for_plot = !plot_file.empty();
       Summary summary = run_all(*scenario, options, parse_seeds(seeds), is_verbose);
       summary.engine = options.trial.engine;

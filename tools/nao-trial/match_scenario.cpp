@@ -23,7 +23,6 @@ using Eigen::Vector2d;
 
 /** Of a match by default, s: two halves. */
 constexpr double kDuration = 300;
-constexpr int kTeamSize = 2;
 /** s between steps of the referee and between what teammates tell each other. */
 constexpr double kRefereePeriod = 0.05;
 constexpr double kTellPeriod = 0.2;
@@ -60,8 +59,9 @@ class Match {
       : options_(options), world_(ClosedLoop::make_world(options.trial, seed)) {
     std::vector<MatchPlayer> players;
     for (int team = 0; team < 2; ++team) {
-      for (int number = 1; number <= kTeamSize; ++number)
+      for (int number = 1; number <= options.team_sizes[team]; ++number) {
         add_player(team, number, perception, seed);
+      }
     }
     for (const auto& player : players_) players.push_back(player->who);
     referee::Rules rules;
@@ -111,8 +111,8 @@ class Match {
     player->who.number = number;
     player->loop = std::make_unique<ClosedLoop>(options_.trial, seed, world_);
     const FieldDimensions& field = *options_.trial.scene.field;
-    const Pose2 start =
-        kick_off_place(number, kTeamSize, false, {0.5 * field.length, 0.5 * field.width});
+    const Pose2 start = kick_off_place(number, options_.team_sizes[team], false,
+                                       {0.5 * field.length, 0.5 * field.width});
     player->robot = std::make_unique<PlayingRobot>(*player->loop, options_.trial.scene.name, start);
     place_standing(*player->loop, team_in_field(team) * start);
     player->robot->set_perception(
@@ -272,7 +272,7 @@ class Match {
 
 MatchScenario::MatchScenario(bool is_rendered, PerceptionFactory perception)
     : PlayScenario("match",
-                   "Two robots play against two, by themselves, --duration (300 s) in two halves",
+                   "Two teams (--teams) play by themselves, --duration (300 s) in two halves",
                    is_rendered, std::move(perception)) {}
 
 std::vector<RunResult> MatchScenario::run(const ScenarioOptions& options, uint64_t seed) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -30,6 +31,8 @@ struct ScenarioOptions {
   double duration = 0;
   /** Commanded velocity, where the scenario walks: m/s ahead, m/s to the left, rad/s. */
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  /** Robots of each team of a match. */
+  std::array<int, 2> team_sizes{2, 2};
   /** Distance, m; 0: the scenario's default. */
   double distance = 0;
   /** Calibrate each robot before its run, standing in so many directions; 0: not at all. */
