@@ -8,3 +8,11 @@ function(nao_targets_below folder result)
   endforeach()
   set(${result} ${found} PARENT_SCOPE)
 endfunction()
+
+# nao_add_program(NAME LIBRARY): a program whose main() only calls LIBRARY, where its options are read.
+function(nao_add_program name library)
+  add_executable(${name} main.cpp)
+  target_link_libraries(${name} PRIVATE ${library})
+  set_target_properties(${name} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
+  install(TARGETS ${name})
+endfunction()

@@ -1,56 +1,6 @@
-// nao-speaker: lets the robot speak. See README.md.
-#include "common/bus.h"
-#include "common/command_line.h"
-#include "common/data_path.h"
-#include "common/event_loop.h"
-#include "common/logger.h"
-#include "common/program.h"
-#include "daemons/speaker/audio_output.h"
-#include "daemons/speaker/espeak_synthesizer.h"
-#include "daemons/speaker/isolated_synthesizer.h"
-#include "daemons/speaker/speaker_daemon.h"
-#include "robot_model/robot_lights.h"
-#include "robot_model/robot_model.h"
+// nao-speaker
+#include "daemons/speaker/speaker_program.h"
 
 int main(int argc, char** argv) {
-  nao::CommandLine app("Speaks texts: on this host's loudspeaker, and on phones that ask for it",
-                       "nao-speaker");
-  nao::CommonOptions common;
-  nao::speaker::SpeakerOptions options;
-  nao::add_common_options(app, common);
-  std::string model_name = "nao";
-  std::string output = "auto";
-  app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
-      ->show_default();
-  app.add_option("--output", output,
-                 "Sound on this host: none, alsa, alsa:DEVICE, or auto: ALSA's default device if "
-                 "there is one")
-      ->show_default();
-  app.add_option("--language", options.language, "Of texts that have none, such as de")
-      ->check([](const std::string& tag) {
-        return nao::find_speech_language(tag).empty() ? "'" + tag + "' cannot be spoken"
-                                                      : std::string();
-      })
-      ->show_default();
-  return nao::run_program(app, common, argc, argv, [&] {
-    options.robot = common.robot;
-    options.language = nao::find_speech_language(options.language);
-    const auto model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
-    for (const nao::RobotLight& light : nao::load_robot_lights(model)) {
-      if (light.is_eye) options.eyes.push_back(light.name);
-    }
-    nao::EventLoop loop;
-    nao::speaker::EspeakSynthesizer espeak;
-    nao::speaker::IsolatedSynthesizer synthesizer(espeak);
-    auto audio_output = nao::speaker::make_audio_output(output);
-    nao::Bus bus(common.lcm_url);
-    nao::logger::info("version {}, bus {}, robot {}, sound on this host: {}", nao::version(),
-                      common.lcm_url, options.robot, audio_output ? output : "none");
-    nao::speaker::SpeakerDaemon daemon(bus, synthesizer, std::move(audio_output), options);
-    daemon.attach(loop);
-    const std::string reason = loop.run();
-    nao::logger::info("{}: {} texts spoken, {} messages in, {} out, {} dropped", reason,
-                      daemon.num_spoken(), bus.counters().num_in, bus.counters().num_out,
-                      bus.counters().num_dropped);
-  });
+  return nao::speaker::run_speaker(argc, argv);
 }
