@@ -61,8 +61,8 @@ TEST(RobotImport, ListsWhatIsMissing) {
 }
 
 TEST(RobotImport, TenHumanoidsOfRandomDimensionsStand) {
-  std::mt19937 random(10);
-  for (int i = 0; i < 10; ++i) {
+  std::mt19937 random(kHumanoidsSeed);
+  for (int i = 0; i < kNumHumanoids; ++i) {
     const TemporaryFolder folder;
     const TestBiped dimensions = random_biped(random);
     const auto model = import(folder.path(), dimensions);
