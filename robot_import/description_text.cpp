@@ -18,9 +18,9 @@ namespace {
 // How far the hips are below those of stretched legs, fraction of the leg's length.
 constexpr double kReadyBend = 0.05;
 constexpr double kCrouchBend = 0.2;
-// Froude number v^2 / (g l) of the walk limits' forward velocity. Chosen: v / sqrt(g l) = 0.15, a
+// Froude number v^2 / (g l) of the walk limits' forward velocity. Chosen: v / sqrt(g l) = 0.17, a
 // slow walk that every biped of these proportions should reach.
-constexpr double kFroudeVelocity = 0.15;
+constexpr double kFroudeVelocity = 0.17;
 
 std::ostringstream make_stream() {
   std::ostringstream text;

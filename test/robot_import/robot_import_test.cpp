@@ -61,8 +61,8 @@ TEST(RobotImport, ListsWhatIsMissing) {
 }
 
 TEST(RobotImport, TenHumanoidsOfRandomDimensionsStand) {
-  std::mt19937 random(10);
-  for (int i = 0; i < 10; ++i) {
+  std::mt19937 random(kHumanoidsSeed);
+  for (int i = 0; i < kNumHumanoids; ++i) {
     const TemporaryFolder folder;
     const TestBiped dimensions = random_biped(random);
     const auto model = import(folder.path(), dimensions);
@@ -73,6 +73,28 @@ TEST(RobotImport, TenHumanoidsOfRandomDimensionsStand) {
     const double height = model->references().heights.standing;
     EXPECT_LT(trial.torso_tilt(), 0.1) << "robot " << i << ", " << dimensions.mass << " kg";
     EXPECT_GT(trial.torso_height(), 0.95 * height) << "robot " << i;
+  }
+}
+
+// test/system/tune_humanoids.py measures it on more seeds, and tunes.
+TEST(RobotImport, TenHumanoidsOfRandomDimensionsWalkWithoutTuning) {
+  std::mt19937 random(kHumanoidsSeed);
+  for (int i = 0; i < kNumHumanoids; ++i) {
+    const TemporaryFolder folder;
+    const TestBiped dimensions = random_biped(random);
+    ClosedLoopOptions options;
+    options.model = import(folder.path(), dimensions);
+    ClosedLoop trial(options, 1);
+    trial.run(1);
+    const double speed = options.model->walk_limits().forward;
+    const int64_t walk = trial.hold_walk({speed, 0, 0});
+    trial.run(8);
+    EXPECT_GT(trial.torso_in_world().translation().head<2>().norm(), 0.5 * 8 * speed)
+        << "robot " << i;
+    trial.release_walk();
+    const auto end = trial.await_end(walk, 10);
+    EXPECT_TRUE(end && end->status == ResultStatus::kDone) << "robot " << i;
+    EXPECT_LT(trial.torso_tilt(), 0.2) << "robot " << i;
   }
 }
 

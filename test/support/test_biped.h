@@ -146,6 +146,10 @@ inline RobotModel make_biped(const TestBiped& dimensions) {
   return RobotModel::load(folder.path());
 }
 
+/** The ten humanoids that are imported, stand and walk: seed of random_biped(). */
+constexpr int kNumHumanoids = 10;
+constexpr unsigned kHumanoidsSeed = 10;
+
 /** A humanoid of random dimensions: leg length 0.2 to 0.9 m, 3 to 50 kg, either order of the hip's
  * axes, with a waist or without, with a leg that has a closed form or not. */
 inline TestBiped random_biped(std::mt19937& random) {

@@ -5,11 +5,14 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "robot_import/gait_text.h"
 
 namespace nao::tool {
 namespace {
 
 constexpr const char* kValue = ": {value: ";
+// In the place of kUntunedGait.
+constexpr const char* kTunedGait = "then tuned";
 
 /** Name of the group that a line begins ("timing:"), or "". */
 std::string group_of(const std::string& line) {
@@ -34,6 +37,10 @@ std::string with_gait_values(const std::string& text, const motion::Gait& gait,
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     if (!group_of(line).empty()) group = group_of(line);
+    const size_t untuned = line.find(kUntunedGait);
+    if (untuned != std::string::npos) {
+      line.replace(untuned, std::string(kUntunedGait).size(), kTunedGait);
+    }
     const std::string name = group + "." + key_of(line);
     for (size_t i = 0; i < left.size(); ++i) {
       if (left[i].name != name) continue;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "robot_import/gait_text.h"
 
 namespace nao::tool {
 namespace {
@@ -33,6 +34,13 @@ TEST(GaitFile, ReplacesValuesAndKeepsEverythingElse) {
             "stance:\n"
             "  # hip_height: {value: 7\n"
             "  hip_height: {value: 0.225, range: [0.1, 0.3]}  # m\n");
+}
+
+TEST(GaitFile, NoLongerSaysThatNobodyHasTunedTheGait) {
+  const std::string text = "# Scaled, " + std::string(kUntunedGait) +
+                           ".\nstance:\n  hip_height: {value: 1, range: [0, 2]}\n";
+  EXPECT_EQ(with_gait_values(text, Gait(), kHipHeight),
+            "# Scaled, then tuned.\nstance:\n  hip_height: {value: 0, range: [0, 2]}\n");
 }
 
 TEST(GaitFile, ReportsAParameterWithoutALine) {
