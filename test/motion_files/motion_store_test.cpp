@@ -7,22 +7,21 @@
 
 #include "common/error.h"
 #include "test/motion_files/motions.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao {
 namespace {
 
 class MotionStoreTest : public testing::Test {
  protected:
-  MotionStoreTest() { std::filesystem::remove_all(folder_); }
-  ~MotionStoreTest() override { std::filesystem::remove_all(folder_); }
-
   motion::ActionScript named(const std::string& name) {
     motion::ActionScript script = make_motion(kWave);
     script.sequence.name = name;
     return script;
   }
 
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "motion_store_test";
+  TemporaryFolder temporary_;
+  std::filesystem::path folder_ = temporary_.path() / "motions";
 };
 
 TEST_F(MotionStoreTest, KeepsMotionsBetweenRuns) {

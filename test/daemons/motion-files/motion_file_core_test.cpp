@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "test/motion_files/motions.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao::motion_files {
 namespace {
@@ -13,9 +14,6 @@ using testing::ElementsAre;
 
 class MotionFileCoreTest : public testing::Test {
  protected:
-  MotionFileCoreTest() { std::filesystem::remove_all(folder_); }
-  ~MotionFileCoreTest() override { std::filesystem::remove_all(folder_); }
-
   MotionFileCommand command(MotionFileOperation operation, const std::string& name = "") {
     MotionFileCommand result;
     result.source = "test";
@@ -52,8 +50,8 @@ class MotionFileCoreTest : public testing::Test {
     return results.empty() ? MotionFileResult{} : results[0];
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / "motion_file_core_test";
+  TemporaryFolder temporary_;
+  std::filesystem::path folder_ = temporary_.path() / "motions";
   MotionFileCore core_{*test_model(), folder_};
   int64_t last_id_ = 0;
 };

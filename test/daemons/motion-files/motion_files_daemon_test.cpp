@@ -8,6 +8,7 @@
 
 #include "common/wall_clock.h"
 #include "test/motion_files/motions.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao::motion_files {
 namespace {
@@ -20,7 +21,6 @@ class MotionFilesDaemonTest : public testing::Test {
     bus_.subscribe<naolcm::keyframe_motion_t>("NAO_KEYFRAME_MOTION", Bus::Queue::kAll,
                                               [this](const auto& m) { motions_.push_back(m); });
   }
-  ~MotionFilesDaemonTest() override { std::filesystem::remove_all(folder_); }
 
   /** Runs the loop until a condition holds; fails after a minute. */
   void run_until(const std::function<bool()>& condition) {
@@ -31,8 +31,8 @@ class MotionFilesDaemonTest : public testing::Test {
     EXPECT_TRUE(condition());
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / "motion_files_daemon_test";
+  TemporaryFolder temporary_;
+  std::filesystem::path folder_ = temporary_.path() / "motions";
   Bus bus_{"memq://"};
   EventLoop loop_;
   std::function<bool()> condition_;
@@ -42,7 +42,6 @@ class MotionFilesDaemonTest : public testing::Test {
 };
 
 TEST_F(MotionFilesDaemonTest, ChecksSavesAndAnnouncesAMotion) {
-  std::filesystem::remove_all(folder_);
   const MotionFilesDaemon daemon(bus_, loop_, *test_model(), test_options(), folder_, "NAO");
   loop_.every(0.01, [this] {
     if (condition_() || monotonic_seconds() > deadline_) loop_.stop("done");

@@ -7,6 +7,7 @@
 
 #include "common/error.h"
 #include "test/daemons/motion/nao_model.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao::motion {
 namespace {
@@ -14,9 +15,9 @@ namespace {
 class ActionScriptTest : public testing::Test {
  protected:
   std::vector<ActionScript> load(const std::string& text) {
-    const std::filesystem::path file =
-        std::filesystem::path(testing::TempDir()) / "action_script_test.yaml";
-    std::ofstream(file) << text;
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "actions.yaml";
+    write_text(file, text);
     return ActionScript::load(nao_model(), file);
   }
   /** Expects that the text is refused with a message that has the words in it. */
