@@ -207,6 +207,16 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
       text << "      - [" << corner.x() << ", " << corner.y() << "]\n";
     }
   }
+  std::string separator;
+  for (const FoundSole& sole : structure.soles) {
+    for (const int sensor : sole.sensors) {
+      text << (separator.empty() ? "\n# Links of the feet's force sensors.\nfoot_sensors: ["
+                                 : separator)
+           << quoted(model.links()[sensor].name);
+      separator = ", ";
+    }
+  }
+  if (!separator.empty()) text << "]\n";
   if (!structure.hands.empty()) {
     text << "\n# Links of the hands; the arms are the joints from the root to them.\nhands: {left: "
          << quoted(model.links()[structure.hands[0]].name)

@@ -77,6 +77,23 @@ void add_corners(const Shape& shape, std::vector<Vector3d>& points) {
   }
 }
 
+// Frames without mass that are fixed to a foot and called force sensors; one alone, as of a
+// six-axis sensor, tells no center of pressure.
+std::vector<int> find_force_sensors(const RobotModel& model, int foot) {
+  std::vector<int> sensors;
+  for (int link = 0; link < static_cast<int>(model.links().size()); ++link) {
+    if (model.links()[link].mass > 0 || model.find_body(link) != model.find_body(foot)) continue;
+    std::string name = model.links()[link].name;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char letter) { return std::tolower(letter); });
+    const bool is_sensor =
+        name.find("fsr") != std::string::npos || name.find("force") != std::string::npos;
+    if (is_sensor) sensors.push_back(link);
+  }
+  if (sensors.size() < 3) sensors.clear();
+  return sensors;
+}
+
 FoundSole find_sole(const RobotModel& model, const Chain& leg, const std::vector<Isometry3d>& poses,
                     Findings& findings) {
   FoundSole sole;
@@ -115,6 +132,7 @@ FoundSole find_sole(const RobotModel& model, const Chain& leg, const std::vector
   Isometry3d pose = Isometry3d::Identity();
   pose.translation() << ankle, lowest;
   sole.pose_in_foot = foot.inverse() * pose;
+  sole.sensors = find_force_sensors(model, leg.end);
   return sole;
 }
 

@@ -19,6 +19,8 @@ struct FoundSole {
   Eigen::Isometry3d pose_in_foot = Eigen::Isometry3d::Identity();
   /** Convex, counter-clockwise, m, in the sole's frame. */
   std::vector<Eigen::Vector2d> outline;
+  /** Links of the foot's force sensors; empty: none. */
+  std::vector<int> sensors;
 };
 
 /** What the structure of a robot says about its body. Left, right each. */

@@ -60,41 +60,54 @@ TEST(RobotImport, ListsWhatIsMissing) {
   EXPECT_THAT(lines, testing::Not(testing::Contains(testing::HasSubstr("standing:"))));
 }
 
-TEST(RobotImport, TenHumanoidsOfRandomDimensionsStand) {
+/** The ten humanoids, each without and with foot force sensors. */
+std::vector<TestBiped> humanoids() {
   std::mt19937 random(kHumanoidsSeed);
+  std::vector<TestBiped> result;
   for (int i = 0; i < kNumHumanoids; ++i) {
+    result.push_back(random_biped(random));
+    result.push_back(result.back());
+    result.back().has_foot_sensors = true;
+  }
+  return result;
+}
+
+std::string text_of(const TestBiped& biped) {
+  return std::to_string(biped.mass) + " kg, " + (biped.has_foot_sensors ? "with" : "without") +
+         " foot sensors";
+}
+
+TEST(RobotImport, TenHumanoidsOfRandomDimensionsStand) {
+  for (const TestBiped& biped : humanoids()) {
     const TemporaryFolder folder;
-    const TestBiped dimensions = random_biped(random);
-    const auto model = import(folder.path(), dimensions);
     ClosedLoopOptions options;
-    options.model = model;
+    options.model = import(folder.path(), biped);
+    EXPECT_EQ(options.model->foot_sensors().size(), biped.has_foot_sensors ? 8u : 0u);
     ClosedLoop trial(options, 1);
     trial.run(5);
-    const double height = model->references().heights.standing;
-    EXPECT_LT(trial.torso_tilt(), 0.1) << "robot " << i << ", " << dimensions.mass << " kg";
-    EXPECT_GT(trial.torso_height(), 0.95 * height) << "robot " << i;
+    const double height = options.model->references().heights.standing;
+    EXPECT_LT(trial.torso_tilt(), 0.1) << text_of(biped);
+    EXPECT_GT(trial.torso_height(), 0.95 * height) << text_of(biped);
   }
 }
 
 // test/system/tune_humanoids.py measures it on more seeds, and tunes.
 TEST(RobotImport, TenHumanoidsOfRandomDimensionsWalkWithoutTuning) {
-  std::mt19937 random(kHumanoidsSeed);
-  for (int i = 0; i < kNumHumanoids; ++i) {
+  for (const TestBiped& biped : humanoids()) {
     const TemporaryFolder folder;
-    const TestBiped dimensions = random_biped(random);
     ClosedLoopOptions options;
-    options.model = import(folder.path(), dimensions);
+    options.model = import(folder.path(), biped);
     ClosedLoop trial(options, 1);
     trial.run(1);
     const double speed = options.model->walk_limits().forward;
     const int64_t walk = trial.hold_walk({speed, 0, 0});
     trial.run(8);
     EXPECT_GT(trial.torso_in_world().translation().head<2>().norm(), 0.5 * 8 * speed)
-        << "robot " << i;
+        << text_of(biped);
     trial.release_walk();
     const auto end = trial.await_end(walk, 10);
-    EXPECT_TRUE(end && end->status == ResultStatus::kDone) << "robot " << i;
-    EXPECT_LT(trial.torso_tilt(), 0.2) << "robot " << i;
+    EXPECT_TRUE(end && end->status == ResultStatus::kDone) << text_of(biped);
+    EXPECT_LT(trial.torso_tilt(), 0.2) << text_of(biped);
   }
 }
 

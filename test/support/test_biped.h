@@ -27,6 +27,8 @@ struct TestBiped {
   double ankle_offset = 0;
   bool has_waist = false;
   bool has_arms = true;
+  /** Four force sensors in the sole's corners. */
+  bool has_foot_sensors = false;
 };
 
 namespace biped {
@@ -107,6 +109,13 @@ inline std::string make_biped_urdf(const TestBiped& dimensions) {
          << "\" type=\"fixed\"><parent link=\"" << name("foot") << "\"/><child link=\""
          << name("sole") << "\"/><origin xyz=\"0 0 " << -dimensions.foot_height
          << "\"/></joint>\n<link name=\"" << name("sole") << "\"/>\n";
+    for (int corner = 0; dimensions.has_foot_sensors && corner < 4; ++corner) {
+      const std::string sensor = name("force_" + std::to_string(corner));
+      text << "<joint name=\"" << sensor << "_mount\" type=\"fixed\"><parent link=\""
+           << name("foot") << "\"/><child link=\"" << sensor << "\"/><origin xyz=\""
+           << (corner < 2 ? 0.35 : -0.15) * size << " " << (corner % 2 == 0 ? 0.12 : -0.12) * size
+           << " " << -dimensions.foot_height << "\"/></joint>\n<link name=\"" << sensor << "\"/>\n";
+    }
     if (!dimensions.has_arms) continue;
     text << joint(name("shoulder_pitch"), "trunk", name("shoulder"),
                   {0, sign * 0.8 * dimensions.hip_width, size}, 'y', -2, 2, 0.2 * torque)
