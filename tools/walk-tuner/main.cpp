@@ -64,6 +64,9 @@ const std::vector<std::string> kNotTuned = {
     "velocity.dead_sensor_speed",
     "feedback.max_bias",
     "feedback.max_com_offset",
+    "standing.ankle_pitch",
+    "standing.hip_pitch",
+    "standing.least_rate",
     "kick.ball_distance",
     "kick.swing_reach",
     "kick.swing_lift",
@@ -143,9 +146,9 @@ int main(int argc, char** argv) {
   nao::add_search_options(app, options.search, "gait", "fraction of the parameters' ranges");
   app.add_option("--gait", options.gait_file, "Gait file to start from (default: the robot's)");
   app.add_option("--set", options.settings, "GROUP.KEY=NUMBER in place of the file's value");
-  app.add_option(
-      "--only", options.only,
-      "Parameters to tune, GROUP.KEY (default: all but limits, foot_separation, arms and kick)");
+  app.add_option("--only", options.only,
+                 "Parameters to tune, GROUP.KEY (default: all but limits, foot_separation, arms, "
+                 "kick and standing)");
   app.add_option("--courses", options.courses,
                  "Courses of ten walks for each candidate, engine and set of disturbances")
       ->positive()
