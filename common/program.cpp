@@ -34,6 +34,10 @@ void add_common_options(CommandLine& app, CommonOptions& options) {
       ->show_default();
 }
 
+void add_model_option(CommandLine& app, std::string& model) {
+  app.add_option("--model", model, "Folder of robots/ that describes the robot")->show_default();
+}
+
 int run_program(CommandLine& app, const CommonOptions& common, int argc, char** argv,
                 const std::function<void()>& body) {
   return run_program_with_status(app, common, argc, argv, [&body] {

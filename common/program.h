@@ -26,6 +26,10 @@ void add_bus_options(CommandLine& app, CommonOptions& options);
 /** Adds those and --robot to a program's options. */
 void add_common_options(CommandLine& app, CommonOptions& options);
 
+/** Adds --model, the folder of robots/ that describes the program's robot. @param model  Its
+ * default. */
+void add_model_option(CommandLine& app, std::string& model);
+
 /** Runs a program: parses the command line, sets up logging to stderr, runs the body.
  *
  * @param app     Options, all added; its name is the program's.

@@ -207,16 +207,15 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
       text << "      - [" << corner.x() << ", " << corner.y() << "]\n";
     }
   }
-  std::string separator;
+  std::string sensors;
   for (const FoundSole& sole : structure.soles) {
     for (const int sensor : sole.sensors) {
-      text << (separator.empty() ? "\n# Links of the feet's force sensors.\nfoot_sensors: ["
-                                 : separator)
-           << quoted(model.links()[sensor].name);
-      separator = ", ";
+      sensors += (sensors.empty() ? "" : ", ") + quoted(model.links()[sensor].name);
     }
   }
-  if (!separator.empty()) text << "]\n";
+  if (!sensors.empty()) {
+    text << "\n# Links of the feet's force sensors.\nfoot_sensors: [" << sensors << "]\n";
+  }
   if (!structure.hands.empty()) {
     text << "\n# Links of the hands; the arms are the joints from the root to them.\nhands: {left: "
          << quoted(model.links()[structure.hands[0]].name)

@@ -1,6 +1,7 @@
 #include "robot_import/robot_structure.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 

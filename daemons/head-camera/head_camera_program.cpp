@@ -88,8 +88,7 @@ int nao::camera::run_head_camera(int argc, char** argv) {
   HeadCameraOptions options;
   nao::add_common_options(app, common);
   std::string model_name = "nao";
-  app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
-      ->show_default();
+  nao::add_model_option(app, model_name);
   add_image_options(app, options);
   ConvertedValues sensor;
   add_sensor_options(app, options, sensor);

@@ -30,8 +30,7 @@ int nao::motion_files::run_motion_files(int argc, char** argv) {
   nao::add_common_options(app, common);
   std::string model_name = "nao";
   std::string folder;
-  app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
-      ->show_default();
+  nao::add_model_option(app, model_name);
   app.add_option("--folder", folder,
                  "Folder of the motions; default: ~/.local/state/nao-remote/motions");
   return nao::run_program(app, common, argc, argv, [&] {

@@ -23,8 +23,7 @@ int nao::motion::run_motion(int argc, char** argv) {
   std::string model_name = "nao";
   std::string calibration_file;
   nao::motion::MotionOptions options;
-  app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
-      ->show_default();
+  nao::add_model_option(app, model_name);
   app.add_option("--default-speed", options.default_speed,
                  "Speed of the robot's own motions, fraction of the maximum")
       ->show_default();

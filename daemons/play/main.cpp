@@ -20,8 +20,7 @@ int main(int argc, char** argv) {
   nao::add_common_options(app, common);
   std::string model_name = "nao";
   std::vector<double> start_pose = {0, 0, 0};
-  app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
-      ->show_default();
+  nao::add_model_option(app, model_name);
   app.add_option("--scene", options.scene, "Scene with the field's measures")->show_default();
   app.add_option(
          "--start-pose", start_pose,

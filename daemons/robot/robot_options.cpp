@@ -1,14 +1,14 @@
 #include "daemons/robot/robot_options.h"
 
 #include "common/command_line.h"
+#include "common/program.h"
 
 namespace nao::robot {
 
 void add_robot_options(CommandLine& app, RobotOptions& options) {
   app.add_option("--lola", options.lola_socket, "Unix socket of the robot's interface LoLA")
       ->show_default();
-  app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
-      ->show_default();
+  add_model_option(app, options.model);
   app.add_flag("--lock-step", options.lock_step,
                "Answer a frame only when the joint command for it has come, and count frames as "
                "time: with nao-sim --lola --lock-step");

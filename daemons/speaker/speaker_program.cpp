@@ -21,8 +21,7 @@ int nao::speaker::run_speaker(int argc, char** argv) {
   nao::add_common_options(app, common);
   std::string model_name = "nao";
   std::string output = "auto";
-  app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
-      ->show_default();
+  nao::add_model_option(app, model_name);
   app.add_option("--output", output,
                  "Sound on this host: none, alsa, alsa:DEVICE, or auto: ALSA's default device if "
                  "there is one")

@@ -67,7 +67,9 @@ bool ImageStatusMonitor::is_frozen(const cv::Mat& bgr, const std::string& camera
   History& first = history_[camera];
   if (utime < first.utime || !are_equal(bgr, first.bgr) || !first.pose_camera_in_heading ||
       !pose_camera_in_heading) {
-    first = {bgr.clone(), utime, pose_camera_in_heading};
+    bgr.copyTo(first.bgr);
+    first.utime = utime;
+    first.pose_camera_in_heading = pose_camera_in_heading;
     return false;
   }
   const Eigen::Isometry3d movement =
@@ -85,7 +87,7 @@ ImageStatus ImageStatusMonitor::check(
     const std::optional<double>& horizon) {
   cv::Mat_<cv::Vec3b> small;
   cv::resize(bgr, small, {kWidth, kHeight}, 0, 0, cv::INTER_AREA);
-  const bool is_frozen = this->is_frozen(bgr, camera, utime, pose_camera_in_heading);
+  const bool may_be_frozen = is_frozen(bgr, camera, utime, pose_camera_in_heading);
 
   cv::Scalar mean;
   cv::Scalar deviation;
@@ -103,7 +105,7 @@ ImageStatus ImageStatusMonitor::check(
   if (brightness < kDarkMean || (spread < kUniformDeviation && green < 0.5)) {
     return ImageStatus::kCovered;
   }
-  if (is_frozen && spread >= kUniformDeviation) return ImageStatus::kFrozen;
+  if (may_be_frozen && spread >= kUniformDeviation) return ImageStatus::kFrozen;
   // Field above and none below: the camera hangs upside down.
   if (horizon && *horizon < bgr.rows / 3.0) return ImageStatus::kOk;
   const double upper = green_fraction(small, 0, kHeight / 3);

@@ -43,8 +43,7 @@ int main(int argc, char** argv) {
   nao::vision::VisionOptions options;
   nao::add_common_options(app, common);
   std::string model_name = "nao";
-  app.add_option("--model", model_name, "Folder of robots/ that describes the robot")
-      ->show_default();
+  nao::add_model_option(app, model_name);
   app.add_option(
       "--request", options.request_camera,
       "Request images of this camera, or of any: the robot's first (default: process what others "

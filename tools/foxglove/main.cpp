@@ -44,8 +44,7 @@ void add_options(CommandLine& app, Options& options) {
       ->show_default();
   app.add_option("--port", options.network.port, "Port of WebSockets and HTTP; 0: any free")
       ->show_default();
-  app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
-      ->show_default();
+  add_model_option(app, options.model);
   app.add_option("--camera-width", options.camera_width,
                  "Width of the images that are requested while a client watches them, pixels")
       ->show_default();

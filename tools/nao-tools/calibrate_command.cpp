@@ -24,6 +24,7 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/event_loop.h"
+#include "common/program.h"
 #include "common/wall_clock.h"
 #include "messages/named_joints.h"
 #include "tools/nao/command_exchange.h"
@@ -221,8 +222,7 @@ void add_calibrate_command(CommandLine& app, Invocation& invocation) {
   const auto options = std::make_shared<CalibrateOptions>();
   CommandLine* command = app.add_subcommand(kCalibrateSubcommand.name, kCalibrateSubcommand.help);
   command->add_option("--output", options->file, "File to write")->show_default();
-  command->add_option("--model", options->model, "Folder of robots/ that describes the robot")
-      ->show_default();
+  add_model_option(*command, options->model);
   command
       ->add_option("--directions", options->num_stations,
                    "Directions in which it stands; with 1 it does not walk, and takes a slope of "

@@ -13,6 +13,7 @@
 #include "common/error.h"
 #include "common/json_writer.h"
 #include "common/log_reader.h"
+#include "common/program.h"
 #include "inspection/foxglove_converter.h"
 #include "inspection/foxglove_schemas.h"
 #include "inspection/message_json.h"
@@ -372,8 +373,7 @@ void add_log_command(CommandLine& app, Invocation& invocation) {
       "in Foxglove's own schemas",
       write_mcap);
   mcap->add_option("output", options->output, "File to write, such as run.mcap")->required();
-  mcap->add_option("--model", options->model, "Folder of robots/ that describes the robot")
-      ->show_default();
+  add_model_option(*mcap, options->model);
   add_channels(mcap);
 
   CommandLine* cut = add_log_subcommand(*log, invocation, options, "cut",

@@ -21,6 +21,7 @@
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/event_loop.h"
+#include "common/program.h"
 #include "common/wall_clock.h"
 #include "messages/named_joints.h"
 #include "tools/nao-tools/self_test.h"
@@ -236,8 +237,7 @@ int run_self_test(const CommonOptions& common, const std::string& model_name) {
 void add_self_test_command(CommandLine& app, Invocation& invocation) {
   const auto model = std::make_shared<std::string>("nao");
   CommandLine* command = app.add_subcommand(kSelfTestSubcommand.name, kSelfTestSubcommand.help);
-  command->add_option("--model", *model, "Folder of robots/ that describes the robot")
-      ->show_default();
+  add_model_option(*command, *model);
   command->on_parsed([&invocation, model] {
     invocation.run = [&invocation, model] { return run_self_test(invocation.common, *model); };
   });

@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
   std::string scene = "empty";
   std::string disturbances = "default";
   nao::ClosedLoopOptions options;
-  app.add_option("--model", model, "Folder of robots/ that describes the robot")->show_default();
+  nao::add_model_option(app, model);
   app.add_option("--scene", scene, "Name of a file in scenes/")->show_default();
   app.add_option("--engine", options.engine,
                  "Physics engine: fast, simbody, or mujoco where it was built")

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "common/command_line.h"
+#include "common/program.h"
 
 namespace nao {
 
@@ -24,8 +25,7 @@ std::map<std::string, std::string> SearchOptions::settings() const {
 
 void add_search_options(CommandLine& app, SearchOptions& options, const std::string& result,
                         const std::string& sigma_unit) {
-  app.add_option("--model", options.model, "Folder of robots/ that describes the robot")
-      ->show_default();
+  add_model_option(app, options.model);
   app.add_option("--output", options.output, "File for the tuned " + result)->show_default();
   app.add_option("--generations", options.generations, "Generations of the search")
       ->not_negative()
