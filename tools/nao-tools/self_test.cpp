@@ -246,7 +246,7 @@ SelfTestFinding SelfTest::judge_joint() const {
       other_moved = change;
     }
   }
-  const int status = motors_ && index < motors_->status.size() ? motors_->status[index] : 0;
+  const int8_t status = motors_ && index < motors_->status.size() ? motors_->status[index] : 0;
   if (!std::isfinite(moved)) {
     finding.text = "the encoder gives no number";
   } else if (std::abs(moved) < kStill && other != index && other_moved > kOtherJoint * kChange) {

@@ -31,7 +31,7 @@ struct SelfTestMotors {
   std::vector<double> current;
   std::vector<double> temperature;
   /** body_state_t's JOINT_STATUS_*. */
-  std::vector<int> status;
+  std::vector<int8_t> status;
 };
 
 /** One line of the result. */
