@@ -1,17 +1,28 @@
-"""Cost of several robots that all walk, without cameras; used by scripts/bench."""
+"""Cost of several robots that all walk, without cameras, and a match with two people; used by scripts/bench."""
 
 import contextlib
 import json
+import os
+import statistics
 import subprocess
+import tempfile
 import time
 
 # Numbers of robots of the table.
 COUNTS = (1, 2, 4, 8, 10)
+# Each number this many times, in turn: a shared machine's speed changes within minutes.
+ROUNDS = 3
 # Time to begin walking, and measured time, s.
 SETTLE_TIME = 4
 DURATION = 15
 # In circles of 0.2 m: the robots stay apart. m/s, m/s, rad/s.
 WALK = ("0.08", "0", "0.4")
+# Robots of a match of two against two that people drive; the others play by themselves.
+PEOPLE, AUTONOMOUS = ("NAO1", "NAO3"), ("NAO2", "NAO4")
+# Measured time of the match, s.
+MATCH_DURATION = 60
+# What the app asks for: states and images a second.
+PHONE = ("--rate", "60", "--images", "15")
 
 
 @contextlib.contextmanager
@@ -52,11 +63,83 @@ def measure_robots(stack, count, figure):
             figure(f"{prefix}.standing_robots", standing, "")]
 
 
-def measure(bin_dir, stack_class, figure, programs=None):
-    """@param programs  Only these, as --only of scripts/start names them; None: all but the cameras."""
-    figures = []
-    for count in COUNTS:
-        with stack_class(bin_dir) as stack:
-            stack.start("--robots", str(count), *(["--only", programs] if programs else ["--no-camera"]))
-            figures += measure_robots(stack, count, figure)
-    return figures
+def linear_fit(counts, costs):
+    """Least squares of costs = shared + each * count. @return shared, each, and the greatest deviation in % of the cost."""
+    mean_count, mean_cost = sum(counts) / len(counts), sum(costs) / len(costs)
+    each = (sum((count - mean_count) * (cost - mean_cost) for count, cost in zip(counts, costs))
+            / sum((count - mean_count) ** 2 for count in counts))
+    shared = mean_cost - each * mean_count
+    return shared, each, max(abs(cost / (shared + each * count) - 1) for count, cost in zip(counts, costs)) * 100
+
+
+@contextlib.contextmanager
+def people(stack):
+    """People drive their robots and see states and images until the end. @return lambda: images that each has received."""
+    # Lines at once: they are counted.
+    phone = ["stdbuf", "-oL", str(stack.bin_dir / "nao-phone"), "--port", stack.setting("tcp_port")]
+    quiet = {"stdin": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    logs, processes = [], []
+    try:
+        for name in PEOPLE:
+            logs.append(tempfile.TemporaryFile("w+"))
+            watch = [*phone, "--robot", name, "watch", *PHONE, "--duration", "600"]
+            processes.append(subprocess.Popen(watch, stdout=logs[-1], **quiet))
+            drive = [*phone, "--robot", name, "walk", *WALK, "--duration", "600"]
+            processes.append(subprocess.Popen(drive, stdout=subprocess.DEVNULL, **quiet))
+        yield lambda: [sum(line.startswith("image") for line in os.pread(log.fileno(), 1 << 26, 0).decode().splitlines())
+                       for log in logs]
+        if any(process.poll() is not None for process in processes):
+            raise RuntimeError("a phone has ended")
+    finally:
+        for process in processes:
+            process.terminate()
+            process.wait()
+        for log in logs:
+            log.close()
+
+
+def measure_match(bin_dir, stack_class, figure):
+    """Two against two, of which two are driven by people and two play by what they see, in real time."""
+    truth = lambda: json.loads(stack.nao("world", "show", "--json"))
+    with stack_class(bin_dir) as stack:
+        stack.start("--match", "2v2", "--vision", "--autonomous", ",".join(AUTONOMOUS))
+        with people(stack) as count_images:
+            stack.nao("match", "start")
+            time.sleep(SETTLE_TIME)
+            before, first, images, begin = stack.usage()[0], truth(), count_images(), time.monotonic()
+            log = f"{stack.folder.name}/vision.log"
+            stack.nao("record", "--channels", ".*_VISION_STATE", "--for", str(MATCH_DURATION), log)
+            seconds = time.monotonic() - begin
+            images, last = [b - a for a, b in zip(images, count_images())], truth()
+            percent = 100 * (stack.usage()[0] - before) / seconds
+        seen = {one["channel"]: one["messages"] / MATCH_DURATION
+                for one in json.loads(stack.nao("log", "info", "--json", log))["channels"]}
+    ticks = last["tick"] - first["tick"]
+    return [figure("match.people_core_percent", percent, "% of a core"),
+            figure("match.people_late_ticks_percent", 100 * (last["num_late_ticks"] - first["num_late_ticks"]) / ticks, "%"),
+            figure("match.people_late_commands_percent",
+                   100 * (last["num_late_commands"] - first["num_late_commands"]) / ticks / len(last["robots"]), "%"),
+            figure("match.people_real_time_factor", 1e-6 * (last["utime"] - first["utime"]) / seconds, "x"),
+            figure("match.people_images_per_s", min(images) / seconds, "1/s"),
+            figure("match.people_seen_images_per_s", min(seen[f"{name}_VISION_STATE"] for name in AUTONOMOUS), "1/s")]
+
+
+def measure_crowd(bin_dir, stack_class, figure):
+    """Robots that walk, of each number in COUNTS: medians."""
+    rounds = []
+    for _ in range(ROUNDS):
+        rounds.append([])
+        for count in COUNTS:
+            with stack_class(bin_dir) as stack:
+                stack.start("--robots", str(count), "--no-camera")
+                rounds[-1] += measure_robots(stack, count, figure)
+    figures = [{**same[0], "value": statistics.median(one["value"] for one in same)} for same in zip(*rounds)]
+    costs = [one["value"] for one in figures if one["name"].endswith("_core_percent")]
+    shared, each, deviation = linear_fit(COUNTS, costs)
+    return [*figures, figure("match.shared_core_percent", shared, "% of a core"),
+            figure("match.each_robot_core_percent", each, "% of a core"),
+            figure("match.linear_deviation_percent", deviation, "%")]
+
+
+def measure(bin_dir, stack_class, figure):
+    return measure_crowd(bin_dir, stack_class, figure) + measure_match(bin_dir, stack_class, figure)
