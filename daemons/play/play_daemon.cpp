@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <naolcm/action_command_t.hpp>
 #include <naolcm/camera_command_t.hpp>
 #include <naolcm/command_result_t.hpp>
@@ -34,14 +33,6 @@ constexpr double kRobotTimeout = 0.5;
 constexpr double kRequestPeriod = 1;
 /** A match that nobody tells of for so long is over, s: ten of nao-referee's messages. */
 constexpr double kMatchTimeout = 2;
-/** A robot plays by itself again so long after another sender's last command, s: the time after
- * which a phone's lease passes to another client that asks (phone-gateway/PROTOCOL.md,
- * TakeControl). After a stop it waits longer. Chosen: the person who stopped it may be about to
- * walk to it. */
-constexpr double kDrivenTimeout = 10;
-constexpr double kStoppedTimeout = 30;
-/** Between two repetitions of the own play command, s: less than its timeout. */
-constexpr double kAutoPeriod = 0.5;
 /** Size and rate of the requested images: what nao-vision is made for, at half of its greatest
  * rate. Chosen: two cameras in turn, and a host that renders them, too. */
 constexpr int kWidth = 640;
@@ -78,8 +69,7 @@ PlayDaemon::PlayDaemon(Bus& bus, const RobotModel& model, const PlayOptions& opt
       core_(make_constants(model, options), viewer_.head_limits(), viewer_.head_joints(), source_,
             wall_utime()),
       robot_(options.robot),
-      is_autonomous_(options.is_autonomous),
-      auto_id_(wall_utime()) {
+      autonomy_(options.is_autonomous, wall_utime()) {
   subscribe();
   publish_status(clock_());
 }
@@ -132,8 +122,7 @@ void PlayDaemon::watch_commands(const std::string& channel, CommandKind kind) {
   bus_.subscribe<Message>(channel, Bus::Queue::kAll, [this, kind](const Message& message) {
     if (message.source == source_) return;
     input_.other_command = kind;
-    const double pause = kind == CommandKind::kStop ? kStoppedTimeout - kDrivenTimeout : 0;
-    last_other_ = std::max(last_other_, clock_() + pause);
+    autonomy_.note_other_command(kind == CommandKind::kStop, clock_());
   });
 }
 
@@ -159,18 +148,14 @@ void PlayDaemon::watch_teammates(const MatchState& state) {
 }
 
 void PlayDaemon::request_auto(double now) {
-  const bool is_match_on = input_.match && input_.match->phase != MatchPhase::kInitial &&
-                           input_.match->phase != MatchPhase::kFinished;
-  if (!is_autonomous_ || !is_match_on || now - last_auto_ < kAutoPeriod) return;
-  const bool is_own = core_.state().command_source == source_;
-  if (!core_.is_active()) {
-    if (now - last_other_ < kDrivenTimeout || !input_.robot) return;
-    ++auto_id_;
-  } else if (!is_own) {
-    return;
-  }
-  last_auto_ = now;
-  input_.requests.push_back({source_, auto_id_, {Behavior::kAuto}});
+  AutonomyInput input;
+  input.is_match_on = input_.match && input_.match->phase != MatchPhase::kInitial &&
+                      input_.match->phase != MatchPhase::kFinished;
+  input.has_robot = input_.robot.has_value();
+  input.is_active = core_.is_active();
+  input.is_own = core_.state().command_source == source_;
+  const auto id = autonomy_.step(input, now);
+  if (id) input_.requests.push_back({source_, *id, {Behavior::kAuto}});
 }
 
 void PlayDaemon::attach(EventLoop& loop) {

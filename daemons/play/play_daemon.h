@@ -11,6 +11,7 @@
 #include "common/channels.h"
 #include "common/status_reporter.h"
 #include "common/wall_clock.h"
+#include "daemons/play/autonomy.h"
 #include "daemons/play/play_core.h"
 #include "daemons/play/play_messages.h"
 #include "daemons/play/robot_viewer.h"
@@ -30,7 +31,7 @@ struct PlayOptions {
   std::string scene = "soccer";
   /** Where the robot stood on the field when nao-motion started, m and rad. */
   Pose2 start_in_field{};
-  /** Plays by itself in a match, unless somebody drives the robot. */
+  /** Plays by itself in a match, unless a person drives the robot. */
   bool is_autonomous = false;
 };
 
@@ -66,7 +67,7 @@ class PlayDaemon {
   template <class Message>
   void watch_commands(const std::string& channel, CommandKind kind);
   void watch_teammates(const MatchState& state);
-  /** The command to play by itself, if it is time for one. */
+  /** Adds the command to play by itself, if one is due. */
   void request_auto(double now);
   void request_camera(const std::string& camera, double now);
 
@@ -87,17 +88,13 @@ class PlayDaemon {
   double last_robot_ = -1e9;
   double last_motion_ = -1e9;
   std::string robot_;
-  bool is_autonomous_;
+  Autonomy autonomy_;
   std::optional<MatchState> match_;
   std::map<std::string, TeamObservation> teammates_;
   /** Robots whose messages are received. */
   std::set<std::string> watched_;
-  /** s, monotonic: of the last match state, another sender's last command, and the last command to
-   * play by itself. */
+  /** s, monotonic: of the last match state. */
   double last_match_ = -1e9;
-  double last_other_ = -1e9;
-  double last_auto_ = -1e9;
-  int64_t auto_id_ = 0;
   std::string camera_;
   double last_camera_request_ = -1e9;
 };

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace nao::play {
+
+/** What decides whether a robot plays by itself. */
+struct AutonomyInput {
+  /** The referee's match is on: between its first kick-off and its end. */
+  bool is_match_on = false;
+  /** The robot's state is known. */
+  bool has_robot = false;
+  /** A behavior runs; and whether it was started by autonomy. */
+  bool is_active = false;
+  bool is_own = false;
+};
+
+/** Starts the behavior of a match by itself, unless another sender commands the robot. Times are
+ * monotonic, s. */
+class Autonomy {
+ public:
+  /** @param first_id  Less than the ids of its commands. */
+  Autonomy(bool is_enabled, int64_t first_id);
+
+  /** Another sender's command; a stop keeps the robot still for longer. */
+  void note_other_command(bool is_stop, double now);
+  /** @return  The id of the play command to send now, if one is due: a new one to begin, the same
+   * to go on. */
+  std::optional<int64_t> step(const AutonomyInput& input, double now);
+
+ private:
+  bool is_enabled_;
+  int64_t id_;
+  double last_other_ = -1e9;
+  double last_request_ = -1e9;
+};
+
+}  // namespace nao::play
