@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <deque>
+#include <iostream>
 #include <utility>
 
 namespace nao {
@@ -26,6 +27,21 @@ std::function<void()> with_usage_errors(std::function<void()> act) {
       throw CLI::ValidationError(error.option, error.what());
     }
   };
+}
+
+// CLI11 says only that a subcommand is missing where the word in its place is not one.
+bool refuse_unknown_subcommand(CLI::App& program) {
+  CLI::App* app = &program;
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+  const std::vector<std::string> unknown = app->remaining();
+  const std::vector<CLI::App*> known = app->get_subcommands(nullptr);
+  if (unknown.empty() || known.empty()) return false;
+  std::cerr << "'" << unknown.front() << "' is not one of";
+  for (const CLI::App* command : known) {
+    if (!command->get_name().empty()) std::cerr << " " << command->get_name();
+  }
+  std::cerr << "\nRun with --help for more information.\n";
+  return true;
 }
 
 }  // namespace
@@ -224,6 +240,9 @@ void CommandLine::on_parsed(std::function<void()> act) {
 std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
   try {
     parts_->app.parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    if (!refuse_unknown_subcommand(parts_->app)) parts_->app.exit(error);
+    return 2;
   } catch (const CLI::ParseError& error) {
     return parts_->app.exit(error) == 0 ? 0 : 2;
   }
