@@ -1,0 +1,40 @@
+#!/usr/bin/python3
+"""nao-trial refuses wrong arguments: which option, what is wrong with it, exit status 1 or 2, no trial begun."""
+
+import os
+import subprocess
+import unittest
+from pathlib import Path
+
+TRIAL = Path(os.environ["NAO_BIN_DIR"]) / "nao-trial"
+
+
+def trial(*arguments):
+    return subprocess.run([TRIAL, *arguments], capture_output=True, text=True, timeout=60, check=False)
+
+
+class Usage(unittest.TestCase):
+    def assert_refused(self, arguments, *words):
+        result = trial(*arguments)
+        self.assertIn(result.returncode, (1, 2), arguments)
+        self.assertEqual(result.stdout, "", arguments)
+        for word in words:
+            self.assertIn(word, result.stderr, arguments)
+
+    def test_sizes_of_teams(self):
+        for teams in ("", "2", "2v", "v2", "0v2", "2v6", "2x2", "2v2v2", "10v10", "-1v2", "2v2 "):
+            self.assert_refused(["match", "--teams", teams, "--seeds", "1"], "--teams")
+
+    def test_seeds(self):
+        for seeds in ("x", "3-1", "1-", "-1-2"):
+            self.assert_refused(["sprint", "--seeds", seeds], "seeds")
+
+    def test_names(self):
+        self.assert_refused(["sprint", "--engine", "bullet", "--seeds", "1"], "bullet")
+        self.assert_refused(["sprint", "--disturbances", "storm", "--seeds", "1"], "storm")
+        self.assert_refused(["sprint", "--model", "r2d2", "--seeds", "1"], "r2d2")
+        self.assert_refused(["gallop"], "gallop")
+
+
+if __name__ == "__main__":
+    unittest.main()
