@@ -7,11 +7,11 @@ namespace nao::play {
 
 /** What decides whether a robot plays by itself. */
 struct AutonomyInput {
-  /** The referee's match is on: between its first kick-off and its end. */
+  /** A match has begun and has not ended. */
   bool is_match_on = false;
   /** The robot's state is known. */
   bool has_robot = false;
-  /** A behavior runs; and whether it was started by autonomy. */
+  /** A behavior runs; and whether the last one was started by Autonomy. */
   bool is_active = false;
   bool is_own = false;
 };

@@ -1,21 +1,14 @@
 #!/usr/bin/python3
 """nao-trial refuses wrong arguments: which option, what is wrong with it, exit status 1 or 2, no trial begun."""
 
-import os
-import subprocess
 import unittest
-from pathlib import Path
 
-TRIAL = Path(os.environ["NAO_BIN_DIR"]) / "nao-trial"
-
-
-def trial(*arguments):
-    return subprocess.run([TRIAL, *arguments], capture_output=True, text=True, timeout=60, check=False)
+from stack import BIN_DIR, run
 
 
 class Usage(unittest.TestCase):
     def assert_refused(self, arguments, *words):
-        result = trial(*arguments)
+        result = run([BIN_DIR / "nao-trial", *arguments])
         self.assertIn(result.returncode, (1, 2), arguments)
         self.assertEqual(result.stdout, "", arguments)
         for word in words:
