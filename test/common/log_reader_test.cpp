@@ -1,12 +1,12 @@
 #include "common/log_reader.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <random>
 
 #include "common/error.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao {
 namespace {
@@ -15,8 +15,6 @@ using Bytes = std::vector<uint8_t>;
 
 class LogReaderTest : public testing::Test {
  protected:
-  ~LogReaderTest() override { std::filesystem::remove(path_); }
-
   /** All events read from these bytes. */
   std::vector<LogEvent> read(const Bytes& bytes) {
     std::ofstream(path_, std::ios::binary)
@@ -42,8 +40,8 @@ class LogReaderTest : public testing::Test {
     return bytes;
   }
 
-  const std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / ("nao-log-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_.path() / "test.log";
   int64_t num_bytes_skipped_ = 0;
 };
 

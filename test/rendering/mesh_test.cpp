@@ -2,12 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "common/data_path.h"
 #include "common/error.h"
@@ -15,6 +12,7 @@
 #include "rendering/mesh_file.h"
 #include "rendering/primitives.h"
 #include "robot_model/scene_file.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao {
 namespace {
@@ -106,14 +104,13 @@ TEST(MeshFile, NamesAFileThatIsMissing) {
 }
 
 TEST(MeshFile, RejectsAFileThatIsNotAMesh) {
-  const auto file =
-      std::filesystem::temp_directory_path() / ("mesh_test." + std::to_string(getpid()) + ".glb");
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "damaged.glb";
   for (const std::string& text : {std::string(), std::string("no mesh at all"),
                                   std::string("glTF\x02\0\0\0\xff\xff\xff\x7fJSON", 16)}) {
-    std::ofstream(file, std::ios::binary) << text;
+    write_text(file, text);
     EXPECT_THROW(load_mesh(file), ModelError);
   }
-  std::filesystem::remove(file);
 }
 
 TEST(Mesh, SimplifiedKeepsItsShapeWithFewerTriangles) {

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "common/data_path.h"
@@ -14,6 +12,7 @@
 #include "rendering/robot_shirt.h"
 #include "rendering/robot_visuals.h"
 #include "test/rendering/offscreen.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao {
 namespace {
@@ -206,17 +205,15 @@ TEST(SceneRenderer, RejectsAnInvalidImageSize) {
 }
 
 TEST(RobotVisual, DrawsCollisionShapesForAMeshThatCannotBeRead) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("robot_visual_test." + std::to_string(getpid()));
-  std::filesystem::copy(data_path() / "robots" / "nao", folder,
+  const TemporaryFolder folder;
+  std::filesystem::copy(data_path() / "robots" / "nao", folder.path(),
                         std::filesystem::copy_options::recursive);
-  const RobotModel whole = RobotModel::load(folder);
+  const RobotModel whole = RobotModel::load(folder.path());
   const std::filesystem::path mesh = whole.links()[whole.find_link("torso")].visuals.at(0).mesh;
-  std::ofstream(mesh) << "damaged";
-  const RobotModel model = RobotModel::load(folder);
+  write_text(mesh, "damaged");
+  const RobotModel model = RobotModel::load(folder.path());
   Offscreen offscreen(RendererOptions{.shadow_size = 0});
   const RobotVisual visual(model, offscreen.renderer);
-  std::filesystem::remove_all(folder);
 
   ASSERT_EQ(visual.problems().size(), 1u);
   EXPECT_NE(visual.problems()[0].find(mesh.filename().string()), std::string::npos);

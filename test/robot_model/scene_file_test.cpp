@@ -2,39 +2,23 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "common/error.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao {
 namespace {
 
-/** A scene file that lives as long as this. */
-class TemporaryScene {
- public:
-  explicit TemporaryScene(const std::string& text)
-      : path_(std::filesystem::temp_directory_path() /
-              ("scene_file_test." + std::to_string(getpid()) + ".yaml")) {
-    std::ofstream(path_) << text;
-  }
-  ~TemporaryScene() { std::filesystem::remove(path_); }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 void expect_refused(const std::string& text, const std::string& reason) {
-  const TemporaryScene scene(text);
+  const TemporaryFolder folder;
+  const std::filesystem::path scene = folder.path() / "scene.yaml";
+  write_text(scene, text);
   try {
-    SceneFile::load(scene.path());
+    SceneFile::load(scene);
     ADD_FAILURE() << "accepted: " << text;
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr(reason));
-    EXPECT_THAT(error.what(), testing::HasSubstr("scene_file_test"));
+    EXPECT_THAT(error.what(), testing::HasSubstr(scene.string()));
   }
 }
 

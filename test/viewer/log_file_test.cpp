@@ -1,12 +1,11 @@
 #include "viewer/log_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
 #include <utility>
 
 #include "common/error.h"
+#include "test/support/temporary_folder.h"
 #include "viewer/log_player.h"
 
 namespace nao::viewer {
@@ -35,10 +34,8 @@ class LogBytes {
 
 class LogFileTest : public testing::Test {
  protected:
-  ~LogFileTest() override { std::filesystem::remove(path_); }
-
   LogFile open(const std::string& bytes) {
-    std::ofstream(path_, std::ios::binary) << bytes;
+    write_text(path_, bytes);
     return LogFile(path_);
   }
 
@@ -65,8 +62,8 @@ class LogFileTest : public testing::Test {
   /** Returns and clears seen_. */
   std::string seen() { return std::exchange(seen_, ""); }
 
-  const std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / ("log_file_test." + std::to_string(getpid()));
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_.path() / "test.log";
   std::string seen_;
   std::vector<double> times_;
 };

@@ -7,8 +7,6 @@
 
 #include <array>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <lcm/lcm-cpp.hpp>
 #include <string>
 
@@ -16,15 +14,13 @@
 #include "rendering/image.h"
 #include "robot_model/robot_model.h"
 #include "test/daemons/head-camera/truth.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao::viewer {
 namespace {
 
 class ViewerProgram : public testing::Test {
  protected:
-  ViewerProgram() { std::filesystem::create_directories(folder_); }
-  ~ViewerProgram() override { std::filesystem::remove_all(folder_); }
-
   struct Outcome {
     int status;
     std::string text;
@@ -47,7 +43,7 @@ class ViewerProgram : public testing::Test {
 
   /** Ten seconds of a robot that stands for five seconds and then lies. */
   std::string make_log() const {
-    const std::filesystem::path file = folder_ / "test.log";
+    const std::filesystem::path file = folder_.path() / "test.log";
     const auto model = RobotModel::load(data_path() / "robots" / "nao");
     lcm::LogFile log(file.string(), "w");
     naolcm::world_truth_t truth = make_truth(model, "StandInit", 0.32);
@@ -77,12 +73,11 @@ class ViewerProgram : public testing::Test {
     return count;
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("viewer_test." + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(ViewerProgram, StartsBeforeAnythingElseAndDrawsWithoutAScreen) {
-  const std::string file = folder_ / "empty.png";
+  const std::string file = folder_.path() / "empty.png";
   const Outcome outcome = run("--offscreen --frames 3 --screenshot " + file);
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   const Image image = read_png(file);
@@ -93,7 +88,7 @@ TEST_F(ViewerProgram, StartsBeforeAnythingElseAndDrawsWithoutAScreen) {
 TEST_F(ViewerProgram, ShowsAnyTimeOfALog) {
   const std::string log = make_log();
   const auto shot = [&](const std::string& name, double time) {
-    const std::string file = folder_ / name;
+    const std::string file = folder_.path() / name;
     const Outcome outcome =
         run("--log " + log + " --paused --log-start " + std::to_string(time) +
             " --offscreen --no-panels --width 320 --height 240 --frames 2 --screenshot " + file);
@@ -111,8 +106,8 @@ TEST_F(ViewerProgram, ReportsMissingScreensAndWrongFiles) {
   EXPECT_EQ(display.status, 1);
   EXPECT_THAT(display.text, testing::HasSubstr("DISPLAY"));
   EXPECT_THAT(display.text, testing::HasSubstr("--offscreen"));
-  const std::string text = folder_ / "text.log";
-  std::ofstream(text) << "no log";
+  const std::string text = folder_.path() / "text.log";
+  write_text(text, "no log");
   const Outcome log = run("--offscreen --screenshot a.png --log " + text);
   EXPECT_EQ(log.status, 1);
   EXPECT_THAT(log.text, testing::HasSubstr("not a log of lcm-logger"));

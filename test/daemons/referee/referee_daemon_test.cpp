@@ -19,6 +19,7 @@
 #include "common/error.h"
 #include "common/text_file.h"
 #include "test/daemons/referee/game_controller_packet.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao::referee {
 namespace {
@@ -29,13 +30,9 @@ class RefereeDaemonTest : public testing::Test {
   /** @param change  Of the options, before the daemon is made. */
   explicit RefereeDaemonTest(const std::function<void(RefereeOptions&)>& change = {})
       : bus_("memq://") {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
     options_.robots = {{"NAO1", "nao", 0, 1}, {"NAO2", "nao", 1, 1}};
-    options_.state_file = folder_ / "match.json";
-    options_.events_file = folder_ / "match.jsonl";
+    options_.state_file = folder_.path() / "match.json";
+    options_.events_file = folder_.path() / "match.jsonl";
     bus_.subscribe<naolcm::match_state_t>(
         "MATCH_STATE", Bus::Queue::kAll,
         [this](const naolcm::match_state_t& message) { states_.push_back(message); });
@@ -108,7 +105,7 @@ class RefereeDaemonTest : public testing::Test {
     ASSERT_EQ(states_.back().phase, naolcm::match_state_t::PHASE_PLAYING);
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
   RefereeOptions options_;
   double now_ = 50;
   Bus bus_;

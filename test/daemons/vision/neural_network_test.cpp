@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <opencv2/imgproc.hpp>
 
 #include "common/data_path.h"
@@ -10,6 +9,7 @@
 #include "common/random.h"
 #include "daemons/vision/ball_detector.h"
 #include "daemons/vision/object_detector.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao::vision {
 namespace {
@@ -38,15 +38,12 @@ std::vector<cv::Mat> random_patches(int count) {
   return patches;
 }
 
-/** A file with the first `size` bytes of a network and then zeros, up to `total` bytes. */
-std::filesystem::path damaged(const std::string& name, size_t size, size_t total) {
-  std::ifstream stream(network_file(name), std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+/** The first `size` bytes of a network's file and then zeros, up to `total` bytes. */
+std::string damaged(const std::string& name, size_t size, size_t total) {
+  std::string bytes = read_text(network_file(name));
   bytes.resize(size);
   bytes.resize(total);
-  auto file = std::filesystem::path(testing::TempDir()) / "damaged.onnx";
-  std::ofstream(file, std::ios::binary) << bytes;
-  return file;
+  return bytes;
 }
 
 TEST(NeuralNetwork, JudgesSeveralPatchesAsEachAlone) {
@@ -95,11 +92,14 @@ TEST(NeuralNetwork, RefusesBrokenFiles) {
   };
   EXPECT_THAT(load("/no/such/ball.onnx"),
               ThrowsMessage<Error>(HasSubstr("network /no/such/ball.onnx is missing")));
-  EXPECT_THAT(load(damaged("ball.onnx", 0, 0)), ThrowsMessage<Error>(HasSubstr("cannot be read")));
-  EXPECT_THAT(load(damaged("ball.onnx", 40000, 40000)),
-              ThrowsMessage<Error>(HasSubstr("damaged.onnx")));
-  EXPECT_THAT(load(damaged("ball.onnx", 100, 100000)),
-              ThrowsMessage<Error>(HasSubstr("damaged.onnx")));
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "damaged.onnx";
+  write_text(file, "");
+  EXPECT_THAT(load(file), ThrowsMessage<Error>(HasSubstr("cannot be read")));
+  write_text(file, damaged("ball.onnx", 40000, 40000));
+  EXPECT_THAT(load(file), ThrowsMessage<Error>(HasSubstr("damaged.onnx")));
+  write_text(file, damaged("ball.onnx", 100, 100000));
+  EXPECT_THAT(load(file), ThrowsMessage<Error>(HasSubstr("damaged.onnx")));
 }
 
 TEST(NeuralNetwork, RefusesAnotherNetwork) {

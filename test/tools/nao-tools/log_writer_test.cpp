@@ -1,21 +1,18 @@
 #include "tools/nao-tools/log_writer.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "common/error.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao {
 namespace {
 
 class LogWriterTest : public testing::Test {
  protected:
-  LogWriterTest() { std::filesystem::create_directory(folder_); }
-  ~LogWriterTest() override { std::filesystem::remove_all(folder_); }
-
   /** Writes ten events of a bit more than 100 bytes each. */
   void write(const LogSplit& split) {
-    LogWriter writer(folder_ / "run", split);
+    LogWriter writer(folder_.path() / "run", split);
     for (int i = 0; i < 10; ++i) writer.write({0, i, "CHANNEL", std::vector<uint8_t>(100)});
     writer.flush();
     EXPECT_EQ(writer.num_events(), 10);
@@ -23,15 +20,14 @@ class LogWriterTest : public testing::Test {
 
   /** Times of the events of a file. */
   std::vector<int64_t> times(const std::string& name) {
-    LogReader reader(folder_ / name);
+    LogReader reader(folder_.path() / name);
     std::vector<int64_t> found;
     while (const auto event = reader.next()) found.push_back(event->wall_utime);
     EXPECT_EQ(reader.num_bytes_skipped(), 0);
     return found;
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("nao-logs-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 using Times = std::vector<int64_t>;
@@ -52,12 +48,12 @@ TEST_F(LogWriterTest, KeepsTheNewestFiles) {
   write({500, 2});
   EXPECT_EQ(times("run.0"), (Times{8, 9}));
   EXPECT_EQ(times("run.1"), (Times{4, 5, 6, 7}));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "run.2"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "run.2"));
 }
 
 TEST_F(LogWriterTest, DoesNotOverwriteARecording) {
   write({});
-  EXPECT_THROW(LogWriter(folder_ / "run", {}), Error);
+  EXPECT_THROW(LogWriter(folder_.path() / "run", {}), Error);
 }
 
 TEST_F(LogWriterTest, NamesTheFileThatCannotBeWritten) {

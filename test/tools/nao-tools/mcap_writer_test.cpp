@@ -1,12 +1,9 @@
 #include "tools/nao-tools/mcap_writer.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <fstream>
-#include <iterator>
 
 #include "common/error.h"
+#include "test/support/temporary_folder.h"
 
 namespace nao {
 namespace {
@@ -47,8 +44,6 @@ std::vector<Record> records(const std::string& bytes, size_t begin, size_t end) 
 
 class McapWriterTest : public testing::Test {
  protected:
-  ~McapWriterTest() override { std::filesystem::remove(path_); }
-
   std::string written(int num_messages, size_t message_size) {
     McapWriter writer(path_);
     const uint16_t schema = writer.add_schema("naolcm.test_t", "{}");
@@ -58,12 +53,11 @@ class McapWriterTest : public testing::Test {
       writer.add_message(i % 2 == 0 ? even : odd, 1000 + i, std::string(message_size, 'x'));
     }
     writer.finish();
-    std::ifstream file(path_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return read_text(path_);
   }
 
-  const std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / ("nao-mcap-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_.path() / "test.mcap";
 };
 
 TEST_F(McapWriterTest, TheIndexFindsEveryMessage) {

@@ -1,10 +1,9 @@
 #include "phone-gateway/server/http/web_pages.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <zlib.h>
 
-#include <fstream>
+#include "test/support/temporary_folder.h"
 
 namespace nao::gateway {
 namespace {
@@ -28,8 +27,6 @@ std::string gunzip(const std::string& zipped) {
 class WebPagesTest : public testing::Test {
  protected:
   WebPagesTest() {
-    std::string pattern = (fs::temp_directory_path() / "web_pages_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
     write("web/index.html", "<p>app</p>" + std::string(1000, ' '));
     write("web/assets/app-1234.js", "let a = 1;" + std::string(1000, ' '));
     write("web/icon.png", "png");
@@ -37,13 +34,12 @@ class WebPagesTest : public testing::Test {
     write("robots/nao/nao.urdf", "<robot/>" + std::string(1000, ' '));
     write("scenes/soccer.yaml", "field: 1");
     write("secret.txt", "secret");
-    pages_ = std::make_unique<WebPages>(folder_ / "");
+    pages_ = std::make_unique<WebPages>(folder_.path() / "");
   }
-  ~WebPagesTest() override { fs::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
+    fs::create_directories((folder_.path() / name).parent_path());
+    write_text(folder_.path() / name, text);
   }
 
   PageResponse get(const std::string& target) {
@@ -57,7 +53,7 @@ class WebPagesTest : public testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
   std::unique_ptr<WebPages> pages_;
 };
 
@@ -87,7 +83,7 @@ TEST_F(WebPagesTest, ServesNoFileOutsideItsFolders) {
 }
 
 TEST_F(WebPagesTest, TreatsNoPathAsAbsolute) {
-  const std::string file = (folder_ / "secret.txt").string();
+  const std::string file = (folder_.path() / "secret.txt").string();
   for (const std::string& target : {"/" + file, "//" + file, "/%2f" + file, "/robots/" + file,
                                     "/robots//" + file, "/.//" + file}) {
     const PageResponse response = get(target);
