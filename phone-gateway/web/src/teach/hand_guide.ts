@@ -45,14 +45,16 @@ export class HandGuide {
     if (this.pull) this.commander.stream(useCases.drag(this.pull.link, this.pull.point, this.pull.target));
   }
 
-  /** One group after the other: each has its stiffness before the next command, also of others, is sent. */
+  /** Commands one group after the other, and ends when all have their stiffness. */
   private async setStiffness(groups: readonly string[], stiffness: number): Promise<void> {
+    let isChanging = false;
     for (const group of groups) {
       // Refused for one joint of a limb: told once, and the others are left as they are.
-      if (!(await this.commander.command(useCases.setStiffness(group, stiffness)))) return;
+      if (!(await this.commander.command(useCases.setStiffness(group, stiffness)))) break;
       const others = this.store.get().relaxedGroups.filter((one) => one !== group);
       this.store.set({relaxedGroups: stiffness === 0 ? [...others, group] : others});
-      await new Promise((resolve) => setTimeout(resolve, kStiffnessMs));
+      isChanging = true;
     }
+    if (isChanging) await new Promise((resolve) => setTimeout(resolve, kStiffnessMs));
   }
 }
