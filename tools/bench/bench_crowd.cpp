@@ -17,7 +17,6 @@
 #include <naolcm/motion_state_t.hpp>
 #include <naolcm/robot_state_t.hpp>
 #include <naolcm/walk_command_t.hpp>
-#include <regex>
 #include <stdexcept>
 #include <thread>
 
@@ -30,6 +29,7 @@
 #include "common/wall_clock.h"
 #include "phone-gateway/protocol/framing.h"
 #include "tools/bench/figures.h"
+#include "tools/bench/ports.h"
 #include "tools/bench/wire_client.h"
 
 namespace nao::bench {
@@ -148,16 +148,8 @@ class Crowd {
       robots_.push_back(std::make_unique<FakeRobot>(bus_, i));
     }
     gateway_ = std::make_unique<ChildProcess>(command);
-    const std::regex ports("WebSocket on [^ ]*:(\\d+), TCP on [^ ]*:(\\d+)");
-    std::smatch found;
-    std::string log;
-    const double deadline = monotonic_seconds() + kDeadline;
-    while (!std::regex_search(log = gateway_->output(), found, ports)) {
-      if (monotonic_seconds() > deadline) throw std::runtime_error("no gateway:\n" + log);
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    http_port_ = static_cast<uint16_t>(std::stoi(found[1]));
-    tcp_port_ = static_cast<uint16_t>(std::stoi(found[2]));
+    http_port_ = wait_for_port(*gateway_, "WebSocket on ");
+    tcp_port_ = wait_for_port(*gateway_, "TCP on ");
     for (int i = 0; i < kNumDrivers; ++i) add_client(i, kDriverStates, kDriverImages, "top");
     run_until([this] { return num_connected_ == kNumDrivers; }, "all drivers are connected");
     run_for(1);

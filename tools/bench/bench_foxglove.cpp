@@ -1,23 +1,14 @@
 // Measures what nao-foxglove costs with clients that subscribe to every channel at its full rate,
 // in real time. Baseline: a bare loop that sends as many bytes as often to as many connections.
-// <utility> first: Boost 1.74's coroutine headers rely on it with GCC 12.
-#include <utility>
-//
+
 #include <poll.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <list>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -26,24 +17,27 @@
 #include "common/child_process.h"
 #include "common/command_line.h"
 #include "common/wall_clock.h"
+#include "tools/bench/bare_sender_cost.h"
 #include "tools/bench/figures.h"
-#include "tools/bench/wire_client.h"
+#include "tools/bench/ports.h"
+#include "tools/bench/websocket_client.h"
 
 namespace nao::bench {
 namespace {
-
-namespace asio = boost::asio;
-namespace websocket = boost::beast::websocket;
-using Tcp = asio::ip::tcp;
 
 constexpr int kNumClients = 3;
 // Time in which the programs must be ready, s. Chosen: no measurement, only the end of a benchmark
 // that cannot go on.
 constexpr double kDeadline = 60;
-// Time in which clients catch up with what has waited for them. Chosen: some MB take milliseconds.
-constexpr std::chrono::seconds kCatchUp{2};
+// Time in which clients catch up with what has waited for them, s. Chosen: some MB take
+// milliseconds.
+constexpr double kCatchUp = 2;
 // Size from which a message counts as an image, bytes.
 constexpr size_t kImageBytes = 16384;
+// Limit of a client; above every message of the bus.
+constexpr size_t kMaxMessageBytes = 64u << 20;
+// Opcode, subscription and time of the protocol's "message data".
+constexpr size_t kMessageHeadBytes = 1 + 4 + 8;
 
 /** Messages of a kind that were received. */
 struct Received {
@@ -54,15 +48,23 @@ struct Received {
 /** A client that subscribes to every channel and reads. */
 class Subscriber {
  public:
-  Subscriber(asio::io_context& io, uint16_t port) : socket_(io) {
-    socket_.next_layer().connect({asio::ip::address_v4::loopback(), port});
-    socket_.set_option(websocket::stream_base::decorator([](websocket::request_type& request) {
-      request.set(boost::beast::http::field::sec_websocket_protocol, "foxglove.sdk.v1");
-    }));
-    socket_.read_message_max(64u << 20);
-    socket_.handshake("127.0.0.1", "/");
-    read();
+  explicit Subscriber(uint16_t port)
+      : socket_({.port = port,
+                 .subprotocol = "foxglove.sdk.v1",
+                 .max_message_bytes = kMaxMessageBytes}) {}
+
+  void read() {
+    socket_.read();
+    for (const WebSocketClient::Message& message : socket_.take_messages()) {
+      if (message.is_text) {
+        subscribe(nlohmann::json::parse(message.bytes));
+      } else {
+        count(message.bytes);
+      }
+    }
   }
+
+  int descriptor() const { return socket_.descriptor(); }
 
   Received states;
   Received images;
@@ -70,21 +72,14 @@ class Subscriber {
   std::map<std::string, double> topics;
 
  private:
-  void read() {
-    socket_.async_read(buffer_, [this](const boost::system::error_code& error, size_t size) {
-      if (error) throw std::runtime_error("nao-foxglove ended: " + error.message());
-      const auto* bytes = static_cast<const uint8_t*>(buffer_.data().data());
-      if (socket_.got_text()) {
-        subscribe(nlohmann::json::parse(bytes, bytes + size));
-      } else if (size > 13) {
-        Received& received = size < kImageBytes ? states : images;
-        received.num += 1;
-        received.bytes += static_cast<double>(size);
-        topics[topics_[bytes[1] | bytes[2] << 8]] += 1;
-      }
-      buffer_.consume(size);
-      read();
-    });
+  /** A message: opcode, subscription (32 bits, the lowest byte first), time, data. */
+  void count(const std::string& message) {
+    if (message.size() <= kMessageHeadBytes) return;
+    Received& received = message.size() < kImageBytes ? states : images;
+    received.num += 1;
+    received.bytes += static_cast<double>(message.size());
+    const auto byte = [&](size_t index) { return static_cast<uint8_t>(message[index]); };
+    topics[topics_[byte(1) | byte(2) << 8]] += 1;
   }
 
   void subscribe(const nlohmann::json& message) {
@@ -94,75 +89,49 @@ class Subscriber {
       topics_[channel["id"]] = channel["topic"];
       request["subscriptions"].push_back({{"id", channel["id"]}, {"channelId", channel["id"]}});
     }
-    socket_.text(true);
-    socket_.write(asio::buffer(request.dump()));
+    socket_.send_text(request.dump());
   }
 
-  websocket::stream<Tcp::socket> socket_;
-  boost::beast::flat_buffer buffer_;
+  WebSocketClient socket_;
   std::map<int, std::string> topics_;
 };
 
-uint16_t wait_for_port(const ChildProcess& program, const std::string& pattern) {
-  std::smatch port;
-  std::string output;
-  const double deadline = monotonic_seconds() + kDeadline;
-  while (!std::regex_search(output, port, std::regex(pattern))) {
-    if (monotonic_seconds() > deadline) throw std::runtime_error("no port is open:\n" + output);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    output = program.output();
+/** Reads from all clients for a time, s. */
+void read_for(std::list<Subscriber>& clients, double time) {
+  std::vector<pollfd> polled;
+  for (const Subscriber& client : clients) polled.push_back({client.descriptor(), POLLIN, 0});
+  const double end = monotonic_seconds() + time;
+  while (monotonic_seconds() < end) {
+    poll(polled.data(), polled.size(), 10);
+    for (Subscriber& client : clients) client.read();
   }
-  return static_cast<uint16_t>(std::stoi(port[1]));
 }
 
-/** Processor time of a bare loop that sends the same, percent of a core. */
-double measure_bare_sender(const Subscriber& seen, double time) {
-  const auto rate = [time](const Received& received) {
-    return std::to_string(std::max(0.1, received.num / time));
+SentTraffic traffic_of(const Subscriber& seen, double time) {
+  const auto mean = [](const Received& received) {
+    return received.num > 0 ? received.bytes / received.num : 0;
   };
-  const auto bytes = [](const Received& received) {
-    return std::to_string(static_cast<int>(received.num > 0 ? received.bytes / received.num : 1));
-  };
-  const ChildProcess sender({program_folder() + "/nao-bare-sender", rate(seen.states),
-                             bytes(seen.states), rate(seen.images), bytes(seen.images)});
-  const uint16_t port = wait_for_port(sender, "port (\\d+)");
-  std::vector<pollfd> polled;
-  for (int i = 0; i < kNumClients; ++i) {
-    polled.push_back({connect_to_own_host(port), POLLIN, 0});
-  }
-  const double cpu_before = sender.cpu_seconds();
-  const double start = monotonic_seconds();
-  std::vector<char> part(65536);
-  while (monotonic_seconds() < start + time) {
-    poll(polled.data(), polled.size(), 100);
-    for (const pollfd& one : polled) {
-      if (one.revents != 0 && recv(one.fd, part.data(), part.size(), 0) <= 0) {
-        throw std::runtime_error("the bare sender ended");
-      }
-    }
-  }
-  const double percent = (sender.cpu_seconds() - cpu_before) / (monotonic_seconds() - start) * 100;
-  for (const pollfd& one : polled) close(one.fd);
-  return percent;
+  return {.state_rate = seen.states.num / time,
+          .image_rate = seen.images.num / time,
+          .state_bytes = mean(seen.states),
+          .image_bytes = mean(seen.images)};
 }
 
 /** One pair of measurements. */
-void measure(asio::io_context& io, std::list<Subscriber>& clients, const ChildProcess& server,
-             double time, std::vector<double>& server_percent, std::vector<double>& bare_percent) {
+void measure(std::list<Subscriber>& clients, const ChildProcess& server, double time,
+             std::vector<double>& server_percent, std::vector<double>& bare_percent) {
   // First what has waited while the clients did not read.
-  io.restart();
-  io.run_for(kCatchUp);
+  read_for(clients, kCatchUp);
   for (Subscriber& client : clients) {
     client.states = client.images = {};
     client.topics.clear();
   }
   const double cpu_before = server.cpu_seconds();
   const double start = monotonic_seconds();
-  io.restart();
-  io.run_for(std::chrono::microseconds(static_cast<int64_t>(time * 1e6)));
+  read_for(clients, time);
   server_percent.push_back((server.cpu_seconds() - cpu_before) / (monotonic_seconds() - start) *
                            100);
-  bare_percent.push_back(measure_bare_sender(clients.front(), time));
+  bare_percent.push_back(measure_bare_sender(traffic_of(clients.front(), time), kNumClients, time));
 }
 
 std::vector<Figure> run(int num_rounds, double time, bool prints_topics) {
@@ -179,26 +148,24 @@ std::vector<Figure> run(int num_rounds, double time, bool prints_topics) {
   start("nao-head-camera", {});
   start("nao-foxglove", {"--port", "0"});
   const ChildProcess& server = *programs.at("nao-foxglove");
-  const uint16_t port = wait_for_port(server, "ws://[^ ]*:(\\d+)");
+  const uint16_t port = wait_for_port(server, "ws://");
 
   const double idle_before = server.cpu_seconds();
   std::this_thread::sleep_for(std::chrono::duration<double>(time));
   const double idle = (server.cpu_seconds() - idle_before) / time * 100;
 
-  asio::io_context io(1);
   std::list<Subscriber> clients;
-  for (int i = 0; i < kNumClients; ++i) clients.emplace_back(io, port);
+  for (int i = 0; i < kNumClients; ++i) clients.emplace_back(port);
   // All channels have appeared, images come.
   const double deadline = monotonic_seconds() + kDeadline;
   while (clients.front().topics["/NAO/camera/top/image"] < 10) {
     if (monotonic_seconds() > deadline) throw std::runtime_error("no images come");
-    io.restart();
-    io.run_for(std::chrono::milliseconds(100));
+    read_for(clients, 0.1);
   }
   std::vector<double> server_percent;
   std::vector<double> bare_percent;
   for (int i = 0; i < num_rounds; ++i) {
-    measure(io, clients, server, time, server_percent, bare_percent);
+    measure(clients, server, time, server_percent, bare_percent);
   }
   const Subscriber& seen = clients.front();
   if (prints_topics) {

@@ -7,7 +7,7 @@
 
 #include "phone-gateway/protocol/framing.h"
 
-namespace nao {
+namespace nao::bench {
 namespace {
 
 // Chosen: 10000 requests and 1000 bytes per second, sent and read in turns of 10 ms.
@@ -73,4 +73,4 @@ void DisturbingClients::flood() {
   if (sent > 0) flood_.erase(0, static_cast<size_t>(sent));
 }
 
-}  // namespace nao
+}  // namespace nao::bench

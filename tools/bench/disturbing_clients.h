@@ -7,7 +7,7 @@
 
 #include "tools/bench/wire_client.h"
 
-namespace nao {
+namespace nao::bench {
 
 /** Three clients that must not affect other clients, in a thread of their own: one subscribes to
  * every state and image and never reads, one reads 1 kB a second, one sends 10,000 requests a
@@ -32,4 +32,4 @@ class DisturbingClients {
   std::thread thread_;
 };
 
-}  // namespace nao
+}  // namespace nao::bench

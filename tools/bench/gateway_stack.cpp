@@ -7,11 +7,11 @@
 #include <naolcm/joint_command_t.hpp>
 #include <naolcm/robot_state_t.hpp>
 #include <naolcm/sensor_state_t.hpp>
-#include <regex>
 #include <stdexcept>
 
 #include "common/channels.h"
 #include "common/wall_clock.h"
+#include "tools/bench/ports.h"
 
 namespace nao::bench {
 namespace {
@@ -54,14 +54,8 @@ GatewayStack::GatewayStack(const std::string& lcm_url) : bus_(lcm_url) {
   start("nao-head-camera", {});
   start("nao-phone-gateway", {"--bind", "127.0.0.1", "--http-port", "0", "--tcp-port", "0"});
   run_until([this] { return ready_.size() == programs_.size(); }, "every program is ready");
-  std::smatch ports;
-  const std::string log = gateway().output();
-  if (!std::regex_search(log, ports,
-                         std::regex("WebSocket on [^ ]*:(\\d+), TCP on [^ ]*:(\\d+)"))) {
-    throw std::runtime_error("the gateway does not listen:\n" + log);
-  }
-  http_port_ = static_cast<uint16_t>(std::stoi(ports[1]));
-  tcp_port_ = static_cast<uint16_t>(std::stoi(ports[2]));
+  http_port_ = wait_for_port(gateway(), "WebSocket on ");
+  tcp_port_ = wait_for_port(gateway(), "TCP on ");
   run_for(1);
 }
 

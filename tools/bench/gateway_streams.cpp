@@ -1,14 +1,7 @@
 #include "tools/bench/gateway_streams.h"
 
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <regex>
-#include <stdexcept>
-#include <thread>
-
 #include "common/wall_clock.h"
+#include "tools/bench/bare_sender_cost.h"
 #include "tools/bench/disturbing_clients.h"
 
 namespace nao::bench {
@@ -79,40 +72,15 @@ Watching watch(GatewayStack& stack, int num_clients, double state_rate, double i
   return seen;
 }
 
-/** Processor time of a bare Asio loop that sends as many bytes as often, percent of a core. */
-double measure_bare_sender(const Watching& seen, double state_rate, double image_rate,
-                           double time) {
-  const auto bytes = [](double sum, double number) {
-    return std::to_string(static_cast<int>(number > 0 ? sum / number : 0) + 4);
-  };
-  const ChildProcess sender({program_folder() + "/nao-bare-sender", std::to_string(state_rate),
-                             bytes(seen.state_bytes, seen.num_states), std::to_string(image_rate),
-                             bytes(seen.image_bytes, seen.num_images)});
-  std::smatch port;
-  std::string output;
-  for (int i = 0; i < 100 && !std::regex_search(output, port, std::regex("port (\\d+)")); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    output = sender.output();
-  }
-  if (port.empty()) throw std::runtime_error("the bare sender does not start");
-  std::vector<pollfd> polled;
-  for (int i = 0; i < kNumClients; ++i) {
-    polled.push_back({connect_to_own_host(static_cast<uint16_t>(std::stoi(port[1]))), POLLIN, 0});
-  }
-  const double cpu_before = sender.cpu_seconds();
-  const double start = monotonic_seconds();
-  std::vector<char> part(65536);
-  while (monotonic_seconds() < start + time) {
-    poll(polled.data(), polled.size(), 100);
-    for (const pollfd& one : polled) {
-      if (one.revents != 0 && recv(one.fd, part.data(), part.size(), 0) <= 0) {
-        throw std::runtime_error("the bare sender ended");
-      }
-    }
-  }
-  const double percent = (sender.cpu_seconds() - cpu_before) / (monotonic_seconds() - start) * 100;
-  for (const pollfd& one : polled) close(one.fd);
-  return percent;
+/** What each client received, as the baseline is to send it. */
+SentTraffic traffic_of(const Watching& seen, double state_rate, double image_rate) {
+  // Each message is preceded by its size.
+  constexpr double kFrameBytes = 4;
+  const auto mean = [](double sum, double number) { return number > 0 ? sum / number : 0; };
+  return {.state_rate = state_rate,
+          .image_rate = image_rate,
+          .state_bytes = mean(seen.state_bytes, seen.num_states) + kFrameBytes,
+          .image_bytes = mean(seen.image_bytes, seen.num_images) + kFrameBytes};
 }
 
 }  // namespace
@@ -127,7 +95,7 @@ void measure_streams(GatewayStack& stack, double time, std::vector<Figure>& figu
   const Watching few = watch(stack, 1, 30, 15, time);
   const Watching many = watch(stack, kNumClients, 30, 15, time);
   figures.push_back({"gateway.clients32_cpu_percent", many.cpu_percent, "%", "bare Asio loop",
-                     measure_bare_sender(many, 30, 15, time)});
+                     measure_bare_sender(traffic_of(many, 30, 15), kNumClients, time)});
   for (const auto& [share, word] : {std::pair{0.5, "p50"}, {0.9, "p90"}, {0.99, "p99"}}) {
     figures.push_back({std::string("gateway.clients32_state_age_ms.") + word,
                        percentile(many.state_age_ms, share), "ms", "one client",

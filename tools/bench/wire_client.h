@@ -7,7 +7,7 @@
 
 #include "remote.pb.h"
 
-namespace nao {
+namespace nao::bench {
 
 /** A client of the gateway that does as little as possible, so that a benchmark measures the
  * gateway.
@@ -41,8 +41,4 @@ class WireClient {
 std::unique_ptr<WireClient> connect_tcp(uint16_t port);
 std::unique_ptr<WireClient> connect_websocket(uint16_t port);
 
-/** Connects to a port of this host. @return The socket, which the caller closes.
- * @throws std::runtime_error  if nothing listens there. */
-int connect_to_own_host(uint16_t port);
-
-}  // namespace nao
+}  // namespace nao::bench
