@@ -4,7 +4,6 @@
 #include <sys/socket.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "common/error.h"
 #include "test/lola/lola_frames.h"
@@ -96,7 +95,7 @@ TEST_F(LolaSocket, ReplacesTheFileOfACrashedProgramAndNoOther) {
   listener_ = UnixSocket::listen(path());
   EXPECT_TRUE(UnixSocket::connect(path()));
   const std::string file = path() + ".txt";
-  std::ofstream(file) << "precious";
+  write_text(file, "precious");
   EXPECT_THROW(UnixSocket::listen(file), Error);
   EXPECT_EQ(std::filesystem::file_size(file), 8u);
 }

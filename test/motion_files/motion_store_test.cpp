@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "common/error.h"
 #include "test/motion_files/motions.h"
@@ -52,9 +51,9 @@ TEST_F(MotionStoreTest, NeverLeavesItsFolder) {
 
 TEST_F(MotionStoreTest, LeavesOtherFilesAlone) {
   std::filesystem::create_directories(folder_);
-  std::ofstream(folder_ / "notes.txt") << "x";
-  std::ofstream(folder_ / "broken.yaml") << "actions: [";
-  std::ofstream(folder_ / "renamed.yaml") << "actions: [{name: b, keyframes: [{duration: 1}]}]";
+  write_text(folder_ / "notes.txt", "x");
+  write_text(folder_ / "broken.yaml", "actions: [");
+  write_text(folder_ / "renamed.yaml", "actions: [{name: b, keyframes: [{duration: 1}]}]");
   MotionStore store(*test_model(), folder_);
   EXPECT_TRUE(store.names().empty());
   ASSERT_EQ(store.faults().size(), 2u);

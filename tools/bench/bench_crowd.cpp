@@ -28,6 +28,7 @@
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "phone-gateway/protocol/framing.h"
+#include "tools/bench/deadline.h"
 #include "tools/bench/figures.h"
 #include "tools/bench/ports.h"
 #include "tools/bench/wire_client.h"
@@ -52,8 +53,6 @@ constexpr double kWalkPeriod = 0.1;
 constexpr int kImageBytes = 7000;
 /** Connection attempts, 1/s. */
 constexpr int kAttemptRate = 1000;
-/** Time for what must happen, s. Chosen: only ends a benchmark that cannot go on. */
-constexpr double kDeadline = 60;
 
 std::string robot_name(int robot) {
   return "CROWD" + std::to_string(robot + 1);

@@ -18,6 +18,7 @@
 #include "common/command_line.h"
 #include "common/wall_clock.h"
 #include "tools/bench/bare_sender_cost.h"
+#include "tools/bench/deadline.h"
 #include "tools/bench/figures.h"
 #include "tools/bench/ports.h"
 #include "tools/bench/websocket_client.h"
@@ -26,9 +27,6 @@ namespace nao::bench {
 namespace {
 
 constexpr int kNumClients = 3;
-// Time in which the programs must be ready, s. Chosen: no measurement, only the end of a benchmark
-// that cannot go on.
-constexpr double kDeadline = 60;
 // Time in which clients catch up with what has waited for them, s. Chosen: some MB take
 // milliseconds.
 constexpr double kCatchUp = 2;

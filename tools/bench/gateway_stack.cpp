@@ -11,14 +11,12 @@
 
 #include "common/channels.h"
 #include "common/wall_clock.h"
+#include "tools/bench/deadline.h"
 #include "tools/bench/ports.h"
 
 namespace nao::bench {
 namespace {
 
-/** Time for anything that is awaited, s. Chosen: no measurement, only the end of a benchmark that
- * cannot go on. */
-constexpr double kDeadline = 60;
 /** Number of states whose times are kept. Chosen: 10 s of them, longer than any message needs to
  * reach a client. */
 constexpr size_t kMaxStateTimes = 1000;

@@ -10,33 +10,26 @@
 #include <thread>
 
 #include "common/wall_clock.h"
+#include "tools/bench/deadline.h"
 
 namespace nao::bench {
-namespace {
-
-// Time until a program must listen, s. Chosen: no measurement, only the end of a benchmark that
-// cannot go on.
-constexpr double kDeadline = 60;
-
-}  // namespace
-
 uint16_t wait_for_port(const ChildProcess& program, const std::string& label) {
-  std::string output;
-  size_t begin = 0;
-  size_t end = 0;
   const double deadline = monotonic_seconds() + kDeadline;
-  // The word is whole when something follows it.
-  while (end == 0) {
-    if (monotonic_seconds() > deadline) throw std::runtime_error("no port is open:\n" + output);
+  while (monotonic_seconds() < deadline) {
+    const std::string output = program.output();
+    const size_t found = output.find(label);
+    if (found != std::string::npos) {
+      const size_t begin = found + label.size();
+      // The word is whole when something follows it.
+      const size_t end = output.find_first_of(", \n", begin);
+      if (end != std::string::npos) {
+        const std::string word = output.substr(begin, end - begin);
+        return static_cast<uint16_t>(std::stoi(word.substr(word.rfind(':') + 1)));
+      }
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    output = program.output();
-    begin = output.find(label);
-    if (begin == std::string::npos) continue;
-    begin += label.size();
-    end = output.find_first_of(", \n", begin) + 1;
   }
-  const std::string word = output.substr(begin, end - 1 - begin);
-  return static_cast<uint16_t>(std::stoi(word.substr(word.rfind(':') + 1)));
+  throw std::runtime_error("no port is open:\n" + program.output());
 }
 
 int connect_to_own_host(uint16_t port) {

@@ -11,7 +11,6 @@
 #include <map>
 #include <naolcm/daemon_status_t.hpp>
 #include <naolcm/image_t.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -165,9 +164,7 @@ TEST_F(V4l2ProgramTest, ResetsAllCamerasWhenOneHangs) {
                             "share/nao-remote/robots/nao_v6",
                         robots / "nao_v6", std::filesystem::copy_options::recursive);
   const auto file = robots / "nao_v6/head_cameras.yaml";
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  std::string content = text.str();
+  std::string content = read_text(file);
   for (const auto& [name, fake] :
        std::map<std::string, std::string>{{"/dev/video-", "/fake/video-"},
                                           {"/dev/i2c-head", "/fake/i2c"},
@@ -177,7 +174,7 @@ TEST_F(V4l2ProgramTest, ResetsAllCamerasWhenOneHangs) {
     }
   }
   std::filesystem::remove(file);
-  std::ofstream(file) << content;
+  write_text(file, content);
 
   start({"--model", "nao_v6", "--camera", "bottom"},
         {{"FAKE_V4L2_HANG_AFTER", "10"}, {"NAO_REMOTE_DATA", folder_.path() / "share"}});

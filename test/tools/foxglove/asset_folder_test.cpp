@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "test/support/temporary_folder.h"
 
 namespace nao::foxglove {
@@ -20,7 +18,7 @@ class AssetFolderTest : public testing::Test {
     std::filesystem::create_symlink(folder_.path() / "outside", folder_.path() / "robot/link");
   }
   void write(const std::string& name, const std::string& content) {
-    std::ofstream(folder_.path() / name) << content;
+    write_text(folder_.path() / name, content);
   }
   std::string read(const std::string& path) {
     AssetFolder files(folder_.path() / "robot", folder_.path() / "robot/some.urdf");
