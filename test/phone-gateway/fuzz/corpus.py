@@ -11,36 +11,38 @@ import struct
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "build/dev/python"))
 
-from nao_remote import remote_pb2 as pb  # noqa: E402
-
-USE_CASES = {
-    "connect": dict(connect=pb.Connect(protocol_version=1, token="k", client_name="Ana")),
-    "get_state": dict(get_state=pb.GetState(with_image=True, image=pb.ImageRequest(camera="top", width=320))),
-    "subscribe": dict(subscribe=pb.Subscribe(state_rate=30, image_rate=15)),
-    "walk_turn": dict(walk_turn=pb.WalkTurn(vx=0.1, vy=-0.1, wz=1)),
-    "move_to": dict(move_to=pb.MoveTo(x=1, y=1, theta=1)),
-    "go_to_posture": dict(go_to_posture=pb.GoToPosture(posture="Crouch", speed=0.5)),
-    "change_joints": dict(change_joints=pb.ChangeJoints(group="head", yaw=0.1, pitch=0.1)),
-    "do_action": dict(do_action=pb.DoAction(action="wave", ball_x=0.2, ball_y=0, strength=1)),
-    "play": dict(play=pb.Play(behavior=pb.Play.KICK, target_x=1, target_y=0.5)),
-    "stop": dict(stop=pb.Stop()),
-    "release_control": dict(release_control=pb.ReleaseControl()),
-    "ping": dict(ping=pb.Ping(client_utime=1)),
-    "operate": dict(operate=pb.Operate(operation=pb.Operate.KICK, client_id=1)),
-}
-
-
-def encode(events, **use_case):
-    message = pb.Request(request_id=1, **use_case).SerializeToString()
-    return bytes([events, len(message)]) + message
+def use_cases(pb):
+    return {
+        "connect": dict(connect=pb.Connect(protocol_version=1, token="k", client_name="Ana")),
+        "get_state": dict(get_state=pb.GetState(with_image=True, image=pb.ImageRequest(camera="top", width=320))),
+        "subscribe": dict(subscribe=pb.Subscribe(state_rate=30, image_rate=15)),
+        "walk_turn": dict(walk_turn=pb.WalkTurn(vx=0.1, vy=-0.1, wz=1)),
+        "move_to": dict(move_to=pb.MoveTo(x=1, y=1, theta=1)),
+        "go_to_posture": dict(go_to_posture=pb.GoToPosture(posture="Crouch", speed=0.5)),
+        "change_joints": dict(change_joints=pb.ChangeJoints(group="head", yaw=0.1, pitch=0.1)),
+        "do_action": dict(do_action=pb.DoAction(action="wave", ball_x=0.2, ball_y=0, strength=1)),
+        "play": dict(play=pb.Play(behavior=pb.Play.KICK, target_x=1, target_y=0.5)),
+        "stop": dict(stop=pb.Stop()),
+        "release_control": dict(release_control=pb.ReleaseControl()),
+        "ping": dict(ping=pb.Ping(client_utime=1)),
+        "operate": dict(operate=pb.Operate(operation=pb.Operate.KICK, client_id=1)),
+    }
 
 
 def seed(folder):
-    begin = encode(6, **USE_CASES["connect"]) + encode(6, take_control=pb.TakeControl())
-    for name, use_case in USE_CASES.items():
-        (folder / name).write_bytes(begin + encode(14, **use_case) + encode(6, **use_case))
+    # Only here: packs are read and written without the protocol's classes, which the preset dev builds.
+    sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "build/dev/python"))
+    from nao_remote import remote_pb2 as pb
+
+    def encode(events, **use_case):
+        message = pb.Request(request_id=1, **use_case).SerializeToString()
+        return bytes([events, len(message)]) + message
+
+    requests = use_cases(pb)
+    begin = encode(6, **requests["connect"]) + encode(6, take_control=pb.TakeControl())
+    for name, request in requests.items():
+        (folder / name).write_bytes(begin + encode(14, **request) + encode(6, **request))
 
 
 def pack(folder, file):
