@@ -51,19 +51,24 @@ add_compile_options(-Wall -Wextra -Wpedantic)
 if(NAO_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif()
-if(NAO_SANITIZE)
+option(NAO_FUZZ "Build fuzzers with clang's libFuzzer, with the same sanitizers" OFF)
+if(NAO_SANITIZE OR NAO_FUZZ)
   # Instrumented code gives GCC false reports: warnings are errors in the other builds only.
-  # Not vptr: it stops at every message, inside LCM's own header, on an object that is sound.
+  # Not vptr: it stops at every message, inside LCM's own header, on an object that is sound. Not null, object-size and
+  # pointer-overflow, where the address sanitizer stops at the access that follows, nor alignment, which x86-64 does not
+  # need: they take a quarter of the compiler's time.
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
-                      -fno-sanitize=vptr -fno-omit-frame-pointer)
+                      -fno-sanitize=vptr,null,object-size,pointer-overflow,alignment -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  # A call for each check of an address instead of inlined code: the same checks, and up to a sixth less to compile.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(--param=asan-instrumentation-with-call-threshold=0)
+  else()
+    add_compile_options("SHELL:-mllvm -asan-instrumentation-with-call-threshold=0")
+  endif()
 endif()
-
-option(NAO_FUZZ "Build fuzzers with clang's libFuzzer" OFF)
 if(NAO_FUZZ)
-  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined
-                      -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
-  add_link_options(-fsanitize=address,undefined)
+  add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
 find_program(CCACHE_PROGRAM ccache)
