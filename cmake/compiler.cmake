@@ -34,8 +34,7 @@ option(NAO_UNITY_BUILD "Compile up to 32 sources of a library together" ON)
 set(CMAKE_UNITY_BUILD ${NAO_UNITY_BUILD})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 32)
 
-# GNU gold, which comes with GNU ld, links these programs in a third of its time. Not with clang, whose sanitizers it
-# links with a warning for each program.
+# GNU gold, which comes with GNU ld, links these programs in a third of its time.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   include(CheckLinkerFlag)
   check_linker_flag(CXX -fuse-ld=gold NAO_HAS_GOLD)
@@ -45,30 +44,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 option(NAO_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
-option(NAO_SANITIZE "Build with address and undefined-behaviour sanitizers" OFF)
 
 add_compile_options(-Wall -Wextra -Wpedantic)
 if(NAO_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
-endif()
-option(NAO_FUZZ "Build fuzzers with clang's libFuzzer, with the same sanitizers" OFF)
-if(NAO_SANITIZE OR NAO_FUZZ)
-  # Instrumented code gives GCC false reports: warnings are errors in the other builds only.
-  # Not vptr: it stops at every message, inside LCM's own header, on an object that is sound. Not null, object-size and
-  # pointer-overflow: the address sanitizer stops at the access, if one follows. Not alignment: x86-64 reads unaligned
-  # values, or stops by itself. These checks took a quarter of the compiler's time.
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
-                      -fno-sanitize=vptr,null,object-size,pointer-overflow,alignment -fno-omit-frame-pointer)
-  add_link_options(-fsanitize=address,undefined)
-  # A call for each check of an address instead of inlined code: the same checks, and up to a sixth less to compile.
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    add_compile_options(--param=asan-instrumentation-with-call-threshold=0)
-  else()
-    add_compile_options("SHELL:-mllvm -asan-instrumentation-with-call-threshold=0")
-  endif()
-endif()
-if(NAO_FUZZ)
-  add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
 find_program(CCACHE_PROGRAM ccache)

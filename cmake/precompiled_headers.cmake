@@ -24,7 +24,7 @@ function(nao_add_precompiled name header)
 endfunction()
 
 # Lets every target that compiles the same C++ read them: those that the target's property
-# NAO_PRECOMPILED names, or the one for tests, or the standard one.
+# NAO_PRECOMPILED names (NONE: none), or the one for tests, or the standard one.
 function(nao_use_precompiled)
   nao_targets_below(${CMAKE_SOURCE_DIR} targets)
   foreach(target IN LISTS targets)
@@ -36,7 +36,9 @@ function(nao_use_precompiled)
     endif()
     get_target_property(libraries ${target} LINK_LIBRARIES)
     get_target_property(precompiled ${target} NAO_PRECOMPILED)
-    if(NOT precompiled)
+    if(precompiled STREQUAL "NONE")
+      continue()
+    elseif(NOT precompiled)
       set(precompiled nao_precompiled)
       if(libraries MATCHES "GTest::")
         set(precompiled nao_precompiled_test)
