@@ -74,30 +74,32 @@ def read_struct(path):
     return name, plain_text(re.findall(COMMENT, head, re.S)), fields, constants
 
 
-def cpp_list(items):
-    return "{" + ", ".join(items) + "}"
-
-
-def write_layout(out, name, comment, fields, constants):
+def write_fields(out, message, fields, constants):
+    """The tables of one message's enumerations, and of its fields."""
     assigned = assign_constants(fields, constants)
-    out.write(f"      {{{json.dumps(name)}, {json.dumps(comment)},\n       {{\n")
+    for field, values in assigned.items():
+        rows = ", ".join(f"{{{json.dumps(name)}, {value}}}" for name, value in values)
+        out.write(f"constexpr ConstantRow kConstants_{message}_{field}[] = {{{rows}}};\n")
+    out.write(f"constexpr FieldRow kFields_{message}[] = {{\n")
     for kind, field, dimensions, description in fields:
-        named_values = cpp_list(f"{{{json.dumps(constant)}, {value}}}" for constant, value in assigned.get(field, []))
-        out.write(f"           {{FieldKind::{KINDS.get(kind, 'kStruct')}, {json.dumps(kind)}, {json.dumps(field)}, "
-                  f"{cpp_list(map(json.dumps, dimensions))}, {json.dumps(description)}, {named_values}}},\n")
-    out.write("       }},\n")
+        named_values = f"kConstants_{message}_{field}" if field in assigned else "{}"
+        out.write(f"    {{FieldKind::{KINDS.get(kind, 'kStruct')}, {json.dumps(kind)}, {json.dumps(field)}, "
+                  f"{json.dumps(' '.join(dimensions))}, {json.dumps(description)}, {named_values}}},\n")
+    out.write("};\n")
 
 
 def main():
     output, paths = sys.argv[1], sorted(sys.argv[2:])
     with open(output, "w", encoding="utf-8") as out:
         out.write("// Written by generate_message_layouts.py.\n"
-                  '#include "message_reflection/message_layout.h"\n\n'
-                  "namespace nao {\n\nconst std::vector<MessageLayout>& message_layouts() {\n"
-                  "  static const std::vector<MessageLayout> kLayouts{\n")
+                  '#include "message_reflection/layout_table.h"\n\nnamespace nao {\nnamespace {\n\n')
+        messages = []
         for path in paths:
-            write_layout(out, *read_struct(path))
-        out.write("  };\n  return kLayouts;\n}\n\n}  // namespace nao\n")
+            name, comment, fields, constants = read_struct(path)
+            write_fields(out, name, fields, constants)
+            messages.append(f"    {{{json.dumps(name)}, {json.dumps(comment)}, kFields_{name}}},\n")
+        out.write("\nconstexpr MessageRow kMessages[] = {\n" + "".join(messages) + "};\n\n}  // namespace\n\n"
+                  "std::span<const MessageRow> layout_table() { return kMessages; }\n\n}  // namespace nao\n")
 
 
 main()

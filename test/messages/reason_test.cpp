@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -46,10 +45,9 @@ TEST(Reason, WritesNumbersBriefly) {
 }
 
 TEST(ReasonTable, HasLowerCaseCodesWithHyphensOnceEach) {
-  const std::regex form("[a-z]+(-[a-z]+)*");
   std::set<std::string_view> codes;
   for (const ReasonEntry& entry : kReasons) {
-    EXPECT_TRUE(std::regex_match(std::string(entry.code), form)) << entry.code;
+    EXPECT_THAT(std::string(entry.code), testing::MatchesRegex("[a-z]+(-[a-z]+)*"));
     EXPECT_TRUE(codes.insert(entry.code).second) << entry.code << " is there twice";
   }
 }

@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <regex>
 #include <string>
 
 #include "common/command_line.h"
@@ -19,6 +18,7 @@
 #include "inspection/message_json.h"
 #include "message_reflection/message_types.h"
 #include "robot_model/robot_model.h"
+#include "tools/nao-tools/channel_pattern.h"
 #include "tools/nao-tools/log_statistics.h"
 #include "tools/nao-tools/mcap_writer.h"
 #include "tools/nao-tools/message_table.h"
@@ -110,14 +110,6 @@ class Undecodable {
   std::map<std::string, long> counts_;
 };
 
-std::regex compiled(const std::string& expression) {
-  try {
-    return std::regex(expression, std::regex::extended);
-  } catch (const std::regex_error& fault) {
-    throw ConfigError("--channels " + expression + " is not a regular expression: " + fault.what());
-  }
-}
-
 /** Standard output, or a file if one is named. */
 class Output {
  public:
@@ -198,11 +190,11 @@ int write_csv(const LogOptions& options) {
 /** Reads a log to its end and passes the messages of selected channels on: event, layout, JSON
  * text. @return Statistics of undecodable messages. */
 template <class Take>
-Undecodable read_as_json(Log& log, const std::regex& selected, Take take) {
+Undecodable read_as_json(Log& log, const ChannelPattern& selected, Take take) {
   Undecodable undecodable;
   LogEvent event;
   while (log.read(event)) {
-    if (!std::regex_match(event.channel, selected)) continue;
+    if (!selected.matches(event.channel)) continue;
     const MessageLayout* layout = layout_of(event);
     const auto message = layout != nullptr ? message_to_json(*layout, event.data) : std::nullopt;
     if (message) {
@@ -215,7 +207,7 @@ Undecodable read_as_json(Log& log, const std::regex& selected, Take take) {
 }
 
 int write_json(const LogOptions& options) {
-  const std::regex selected = compiled(options.channels);
+  const ChannelPattern selected("--channels", options.channels);
   Log log(options.file);
   Output output(options.output);
   const auto write = [&](const LogEvent& event, const MessageLayout& layout,
@@ -260,7 +252,7 @@ class McapChannels {
 };
 
 int write_mcap(const LogOptions& options) {
-  const std::regex selected = compiled(options.channels);
+  const ChannelPattern selected("--channels", options.channels);
   const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
   FoxgloveConverter converter(model, options.robot);
   Log log(options.file);
@@ -298,7 +290,7 @@ std::map<std::string, std::string> parse_renames(const std::vector<std::string>&
 }
 
 int write_cut(const LogOptions& options) {
-  const std::regex selected = compiled(options.channels);
+  const ChannelPattern selected("--channels", options.channels);
   const auto names = parse_renames(options.renames);
   Log log(options.file);
   Output output(options.output);
@@ -307,7 +299,7 @@ int write_cut(const LogOptions& options) {
   while (log.read(event)) {
     const double time = log.time_of(event);
     if (time < options.from || time > options.to) continue;
-    if (!std::regex_match(event.channel, selected)) continue;
+    if (!selected.matches(event.channel)) continue;
     const auto name = names.find(event.channel);
     if (name != names.end()) event.channel = name->second;
     event.number = number++;

@@ -3,13 +3,13 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <regex>
 #include <string>
 
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
+#include "tools/nao-tools/channel_pattern.h"
 #include "tools/nao-tools/log_writer.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/tools_subcommands.h"
@@ -42,14 +42,14 @@ std::string with_receive_buffer(const std::string& url) {
 /** Writes every selected message to the log. */
 struct Recorder {
   LogWriter writer;
-  std::optional<std::regex> without;
+  std::optional<ChannelPattern> without;
   /** Error of the last write; an exception must not propagate through LCM's C code. */
   std::string fault;
 
   void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
     // LCM's own self-test message, sent whenever a program opens the bus.
     if (channel == "LCM_SELF_TEST") return;
-    if (without && std::regex_match(channel, *without)) return;
+    if (without && without->matches(channel)) return;
     const auto* data = static_cast<const uint8_t*>(buffer->data);
     try {
       writer.write({0, buffer->recv_utime, channel, {data, data + buffer->data_size}});
@@ -66,8 +66,8 @@ int run_record(const CommonOptions& common, const RecordOptions& options) {
   if (!lcm.good()) {
     throw BusError("cannot open the message bus " + common.lcm_url + "; try: nao bus");
   }
-  std::optional<std::regex> without;
-  if (!options.without.empty()) without.emplace(options.without, std::regex::extended);
+  std::optional<ChannelPattern> without;
+  if (!options.without.empty()) without.emplace("--without", options.without);
   Recorder recorder{
       LogWriter(options.file, {static_cast<int64_t>(options.split_mb * 1e6), options.num_kept}),
       std::move(without),

@@ -210,9 +210,9 @@ export function getLanguage(): Language {
   return language;
 }
 
-/** The first of the wished languages ("pt-BR", "de") that the app speaks. */
-export function chooseLanguage(wished: readonly string[]): Language {
-  for (const tag of wished) {
+/** The first of the preferred languages ("pt-BR", "de") that the app speaks. */
+export function chooseLanguage(preferred: readonly string[]): Language {
+  for (const tag of preferred) {
     const found = kLanguages.find((known) => tag.toLowerCase().split("-")[0] === known);
     if (found) return found;
   }

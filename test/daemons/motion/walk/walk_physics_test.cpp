@@ -347,7 +347,7 @@ TEST_F(WalkPhysicsTest, StopsInTheAirAndRefusesToWalkThere) {
   EXPECT_EQ(last_result(again)->reason.code, "no-foot-contact");
 }
 
-TEST_F(WalkPhysicsTest, AWishForNoVelocityStartsNoWalk) {
+TEST_F(WalkPhysicsTest, ACommandOfNoVelocityStartsNoWalk) {
   ClosedLoop& trial = begin(9);
   const int64_t walk = trial.hold_walk({0, 0, 0});
   trial.run(0.1);

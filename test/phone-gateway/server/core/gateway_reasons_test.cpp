@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
-#include <regex>
 #include <set>
 
 namespace nao::gateway {
@@ -25,10 +24,9 @@ TEST(GatewayReasons, AreWrittenIntoResponsesAndNotices) {
 }
 
 TEST(GatewayReasons, HaveUniqueLowerCaseCodesThatNaoMotionDoesNotUse) {
-  const std::regex form("[a-z]+(-[a-z]+)*");
   std::set<std::string_view> codes;
   for (const ReasonEntry& entry : kGatewayReasons) {
-    EXPECT_TRUE(std::regex_match(std::string(entry.code), form)) << entry.code;
+    EXPECT_THAT(std::string(entry.code), testing::MatchesRegex("[a-z]+(-[a-z]+)*"));
     EXPECT_TRUE(codes.insert(entry.code).second) << entry.code << " is there twice";
     EXPECT_EQ(find_reason_entry(entry.code), kReasons.size()) << entry.code;
   }
