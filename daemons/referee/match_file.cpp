@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
+#include "common/json_text.h"
 
 namespace nao::referee {
 namespace {
@@ -34,7 +35,7 @@ std::string to_json(const MatchState& state) {
 MatchState match_from_json(const std::string& text) {
   naolcm::match_state_t message{};
   try {
-    const Json json = Json::parse(text);
+    const Json json = parse_json(text);
     message.match_id = json.at("match_id").get<int64_t>();
     message.phase = json.at("phase").get<int8_t>();
     message.half = json.at("half").get<int8_t>();

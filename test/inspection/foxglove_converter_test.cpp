@@ -9,6 +9,7 @@
 #include <random>
 
 #include "common/data_path.h"
+#include "common/json_text.h"
 #include "inspection/foxglove_schemas.h"
 
 namespace nao {
@@ -67,7 +68,7 @@ class FoxgloveConverterTest : public testing::Test {
     converter_.convert(
         channel, bytes, [](size_t) { return true; },
         [&](size_t output, const std::string& json) {
-          outputs[converter_.outputs()[output].topic] = Json::parse(json);
+          outputs[converter_.outputs()[output].topic] = parse_json(json);
         });
     return outputs;
   }
@@ -163,7 +164,7 @@ TEST_F(FoxgloveConverterTest, LeavesOutWhatIsNotMeasured) {
   state.joint_velocity = {std::numeric_limits<double>::quiet_NaN()};
   state.joint_torque = state.joint_target_position = state.joint_stiffness = {0};
   const Json message = convert("NAO_SENSOR_STATE", encoded(state)).at("/NAO/joint_states");
-  EXPECT_EQ(message["joints"], Json::parse(R"([{"name":"HeadYaw","position":0.25,"effort":0.0}])"));
+  EXPECT_EQ(message["joints"], parse_json(R"([{"name":"HeadYaw","position":0.25,"effort":0.0}])"));
 }
 
 TEST_F(FoxgloveConverterTest, ShowsTheLargestOfACamerasImages) {
@@ -249,7 +250,7 @@ TEST_F(FoxgloveConverterTest, IgnoresDamagedMessages) {
 TEST(FoxgloveSchemas, AreJsonAndNamedAsFoxgloveNamesThem) {
   const FoxgloveConverter converter(robot(), "NAO");
   for (const auto& output : converter.outputs()) {
-    const Json schema = Json::parse(foxglove_schema(output.schema));
+    const Json schema = parse_json(foxglove_schema(output.schema));
     EXPECT_EQ(schema["title"], output.schema);
     EXPECT_EQ(schema["type"], "object");
   }

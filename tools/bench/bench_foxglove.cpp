@@ -16,6 +16,7 @@
 
 #include "common/child_process.h"
 #include "common/command_line.h"
+#include "common/json_text.h"
 #include "common/wall_clock.h"
 #include "tools/bench/bare_sender_cost.h"
 #include "tools/bench/deadline.h"
@@ -55,7 +56,7 @@ class Subscriber {
     socket_.read();
     for (const WebSocketClient::Message& message : socket_.take_messages()) {
       if (message.is_text) {
-        subscribe(nlohmann::json::parse(message.bytes));
+        subscribe(parse_json(message.bytes));
       } else {
         count(message.bytes);
       }

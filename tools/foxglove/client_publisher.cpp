@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/channels.h"
+#include "common/json_text.h"
 #include "inspection/message_from_json.h"
 #include "message_reflection/message_types.h"
 
@@ -87,8 +88,9 @@ int64_t ClientPublisher::command_id(uint32_t client, const std::string& channel)
 
 std::string ClientPublisher::publish(uint32_t client, const std::string& channel,
                                      std::string_view json) {
-  Json message = Json::parse(json.begin(), json.end(), nullptr, false);
-  if (!message.is_object()) return "The message is no JSON object.";
+  auto parsed = try_parse_json(json);
+  if (!parsed || !parsed->is_object()) return "The message is no JSON object.";
+  Json& message = *parsed;
   if (!message.contains("command_id")) message["command_id"] = command_id(client, channel);
   message["source"] = source_ + "." + std::to_string(client);
   message["wall_utime"] = clock_();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "common/json_text.h"
 #include "common/json_writer.h"
 
 namespace nao::foxglove {
@@ -132,8 +133,9 @@ std::optional<std::string> choose_subprotocol(std::string_view offered) {
 }
 
 ClientRequest parse_client_text(std::string_view text) {
-  const Json message = Json::parse(text.begin(), text.end(), nullptr, false);
-  if (!message.is_object()) return Refused{"The text is no JSON object."};
+  const auto parsed = try_parse_json(text);
+  if (!parsed || !parsed->is_object()) return Refused{"The text is no JSON object."};
+  const Json& message = *parsed;
   const auto op = message.find("op");
   if (op == message.end() || !op->is_string()) return Refused{"The message has no text \"op\"."};
   const auto& name = op->get_ref<const std::string&>();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/data_path.h"
+#include "common/json_text.h"
 
 namespace nao::foxglove {
 namespace {
@@ -30,11 +31,11 @@ class BusRelayTest : public testing::Test {
   std::map<std::string, uint32_t> channels() {
     while (const auto message = core_.next_message(client_)) {
       if (!message->is_text) continue;
-      const RelayJson json = RelayJson::parse(message->head);
+      const RelayJson json = parse_json(message->head);
       if (json["op"] != "advertise") continue;
       for (const RelayJson& channel : json["channels"]) {
         channels_[channel["topic"]] = channel["id"];
-        EXPECT_TRUE(RelayJson::parse(channel["schema"].get<std::string>()).is_object());
+        EXPECT_TRUE(parse_json(channel["schema"].get<std::string>()).is_object());
       }
     }
     return channels_;
@@ -63,7 +64,7 @@ TEST_F(BusRelayTest, ChannelsOfTheBusAppearWithTheirFirstMessage) {
   subscribe(channels().at("NAO_STOP_COMMAND"));
   const auto message = core_.next_message(client_);
   ASSERT_TRUE(message && message->body);
-  EXPECT_EQ(RelayJson::parse(*message->body)["source"], "test");
+  EXPECT_EQ(parse_json(*message->body)["source"], "test");
 }
 
 TEST_F(BusRelayTest, AChannelWhoseTypeChangesIsToldAnew) {

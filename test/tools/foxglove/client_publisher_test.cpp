@@ -9,6 +9,7 @@
 #include <naolcm/world_command_t.hpp>
 #include <nlohmann/json.hpp>
 
+#include "common/json_text.h"
 #include "inspection/message_from_json.h"
 #include "inspection/message_json.h"
 #include "tools/foxglove/server_core.h"
@@ -136,7 +137,7 @@ TEST(MessageFromJson, ReversesMessageToJson) {
   ASSERT_EQ(encoded.fault, "");
   const auto json = message_to_json(layout, encoded.bytes);
   ASSERT_TRUE(json);
-  const EncodedMessage again = message_from_json(*type, layout, nlohmann::json::parse(*json));
+  const EncodedMessage again = message_from_json(*type, layout, parse_json(*json));
   EXPECT_EQ(again.fault, "");
   EXPECT_EQ(again.bytes, encoded.bytes);
 }

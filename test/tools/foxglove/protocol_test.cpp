@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/json_text.h"
+
 namespace nao::foxglove {
 namespace {
 
@@ -89,15 +91,15 @@ TEST(Protocol, WritesLittleEndianHeaders) {
 
 TEST(Protocol, DescribesChannels) {
   const Channel channel{3, "NAO_ROBOT_STATE", "naolcm.robot_state_t", R"({"type":"object"})"};
-  const Json json = Json::parse(advertise_text({&channel}));
+  const Json json = parse_json(advertise_text({&channel}));
   EXPECT_EQ(json["op"], "advertise");
   EXPECT_EQ(json["channels"][0]["id"], 3);
   EXPECT_EQ(json["channels"][0]["encoding"], "json");
   EXPECT_EQ(json["channels"][0]["schemaEncoding"], "jsonschema");
   EXPECT_EQ(json["channels"][0]["schema"], R"({"type":"object"})") << "a text, not an object";
-  const Json info = Json::parse(server_info_text("name", "1", false));
+  const Json info = parse_json(server_info_text("name", "1", false));
   EXPECT_EQ(info["capabilities"], Json::array({"assets"})) << "read-only";
-  const Json open = Json::parse(server_info_text("name", "1", true));
+  const Json open = parse_json(server_info_text("name", "1", true));
   EXPECT_EQ(open["capabilities"], Json::array({"assets", "clientPublish"}));
   EXPECT_EQ(open["supportedEncodings"], Json::array({"json"}));
 }

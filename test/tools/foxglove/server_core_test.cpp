@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "common/json_text.h"
+
 namespace nao::foxglove {
 namespace {
 
@@ -41,12 +43,12 @@ TEST_F(ServerCoreTest, IntroducesItselfAndItsChannels) {
   const uint32_t client = open();
   auto messages = received(client);
   ASSERT_EQ(messages.size(), 2u);
-  EXPECT_EQ(CoreJson::parse(messages[0])["op"], "serverInfo");
-  EXPECT_EQ(CoreJson::parse(messages[1])["channels"][0]["topic"], "A");
+  EXPECT_EQ(parse_json(messages[0])["op"], "serverInfo");
+  EXPECT_EQ(parse_json(messages[1])["channels"][0]["topic"], "A");
   core_.add_channel("B", "b", "{}");
   messages = received(client);
   ASSERT_EQ(messages.size(), 1u) << "a new channel is told to those who are there";
-  EXPECT_EQ(CoreJson::parse(messages[0])["channels"][0]["topic"], "B");
+  EXPECT_EQ(parse_json(messages[0])["channels"][0]["topic"], "B");
 }
 
 TEST_F(ServerCoreTest, SendsAChannelToItsSubscribersUnderTheirNumbers) {
@@ -82,7 +84,7 @@ TEST_F(ServerCoreTest, RefusesWhatItCannotDo) {
   const auto messages = received(client);
   EXPECT_EQ(messages.size(), 6u);
   for (const std::string& message : messages) {
-    EXPECT_EQ(CoreJson::parse(message)["op"], "status") << message;
+    EXPECT_EQ(parse_json(message)["op"], "status") << message;
   }
   EXPECT_EQ(core_.counters().num_refused, 6);
 }

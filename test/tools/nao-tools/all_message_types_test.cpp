@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "common/json_text.h"
 #include "inspection/message_json.h"
 #include "message_reflection/message_layout.h"
 #include "message_reflection/message_types.h"
@@ -191,13 +192,13 @@ TEST(AllMessageTypes, HaveEveryFieldAndEnumerationNameInJson) {
     const MessageLayout& layout = *find_message_layout(type.name);
     const auto text = message_to_json(layout, bytes);
     ASSERT_TRUE(text);
-    expect_all_fields(Json::parse(*text), layout);
+    expect_all_fields(parse_json(*text), layout);
   });
 }
 
 TEST(AllMessageTypes, HaveASchemaOfEveryFieldThatFoxgloveReads) {
   for (const MessageLayout& layout : message_layouts()) {
-    const Json schema = Json::parse(json_schema_of(layout));
+    const Json schema = parse_json(json_schema_of(layout));
     EXPECT_EQ(schema["title"], "naolcm." + layout.name);
     for (const FieldLayout& field : layout.fields) {
       SCOPED_TRACE(layout.name + "." + field.name);
