@@ -8,12 +8,12 @@
 namespace nao::vision {
 namespace {
 
-constexpr int kNumSamples = 150;
+constexpr int kNumCircleSamples = 150;
 /** Points this near to the circle are on it: m, and per m of their distance. */
-constexpr double kTolerance = 0.03;
-constexpr double kToleranceOfDistance = 0.015;
+constexpr double kCircleTolerance = 0.03;
+constexpr double kCircleToleranceOfDistance = 0.015;
 /** Points farther away are too uncertain to be on a circle, m. */
-constexpr double kReach = 5.0;
+constexpr double kCircleReach = 5.0;
 /** Least number of points, and of sectors of 10 degrees that have one. Tuned on rendered images:
  * rectangles of lines reach 9 sectors. */
 constexpr size_t kLeastPoints = 16;
@@ -25,7 +25,7 @@ constexpr double kMostResidual = 0.45;
 constexpr int kNumSectors = 36;
 
 double tolerance(const Eigen::Vector2d& point) {
-  return kTolerance + kToleranceOfDistance * point.norm();
+  return kCircleTolerance + kCircleToleranceOfDistance * point.norm();
 }
 
 /** Longest succession of sectors, around the circle. */
@@ -50,7 +50,7 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
   std::vector<size_t> index;
   for (size_t i = 0; i < ideal.size(); ++i) {
     const auto point = geometry.at_height(ideal[i], 0);
-    if (!point || point->norm() > kReach) continue;
+    if (!point || point->norm() > kCircleReach) continue;
     ground.push_back(*point);
     index.push_back(i);
   }
@@ -62,7 +62,7 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
   size_t best_sectors = 0;
   std::vector<size_t> best;
   Eigen::Vector2d best_center = Eigen::Vector2d::Zero();
-  for (int sample = 0; sample < kNumSamples; ++sample) {
+  for (int sample = 0; sample < kNumCircleSamples; ++sample) {
     const Eigen::Vector2d& a = ground[random.next() % ground.size()];
     const Eigen::Vector2d& b = ground[random.next() % ground.size()];
     const Eigen::Vector2d chord = b - a;

@@ -13,8 +13,8 @@ constexpr double kLeastImageAngle = 0.35;
 
 /** How far beyond its end a segment may reach the crossing, and how far inside of its end a
  * crossing still counts as its end, pixels; in line widths where that is more. */
-constexpr float kReach = 22;
-constexpr float kInside = 14;
+constexpr float kCrossingReach = 22;
+constexpr float kInsideSegment = 14;
 constexpr float kReachInWidths = 1.6f;
 
 struct Meeting {
@@ -31,8 +31,8 @@ Meeting meeting_of(const LineSegment& segment, const cv::Point2f& point, float o
   const cv::Point2f direction = (segment.to - segment.from) * (1 / segment.length());
   const float along = (point - segment.from).dot(direction);
   const float width = kReachInWidths * std::max(other_width, segment.width);
-  return {std::max(-along, along - segment.length()), std::max(kReach, width),
-          std::max(kInside, width)};
+  return {std::max(-along, along - segment.length()), std::max(kCrossingReach, width),
+          std::max(kInsideSegment, width)};
 }
 
 double ground_angle(const LineSegment& a, const LineSegment& b, const CameraGeometry& geometry) {

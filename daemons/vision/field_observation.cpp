@@ -9,9 +9,9 @@ namespace nao::vision {
 namespace {
 
 /** Farther parts of lines are not used, m: one degree of tilt moves them by a meter. */
-constexpr double kReach = 5.0;
+constexpr double kObservedReach = 5.0;
 /** Shorter lines are not used, m: many are parts of robots. */
-constexpr double kLeastLength = 0.25;
+constexpr double kLeastObservedLength = 0.25;
 /** Posts are located by their feet, whose distance is uncertain far away, m. */
 constexpr double kPostReach = 4.0;
 
@@ -79,11 +79,11 @@ FieldObservation observe_field(const Detections& detections, const CameraPlace& 
     if (!detection.has_position()) continue;
     const double distance = (detection.position - center).norm();
     if (detection.kind == Kind::kLine && detection.end.allFinite()) {
-      const auto line = clipped({detection.position, detection.end}, center, kReach);
-      if (line && (line->to - line->from).norm() >= kLeastLength) {
+      const auto line = clipped({detection.position, detection.end}, center, kObservedReach);
+      if (line && (line->to - line->from).norm() >= kLeastObservedLength) {
         observation.lines.push_back(*line);
       }
-    } else if (detection.kind == Kind::kCenterCircle && distance < kReach) {
+    } else if (detection.kind == Kind::kCenterCircle && distance < kObservedReach) {
       observation.circle = detection.position;
     } else if (detection.kind == Kind::kGoalPost && distance < kPostReach) {
       observation.posts.push_back(detection.position);

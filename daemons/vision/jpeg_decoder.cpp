@@ -10,7 +10,7 @@ namespace nao::vision {
 namespace {
 
 /** The largest image of a NAO V5's cameras, pixels. */
-constexpr int kMostWidth = 1280;
+constexpr int kMostImageWidth = 1280;
 constexpr int kMostHeight = 960;
 constexpr int kLeastWidth = 64;
 constexpr int kLeastHeight = 48;
@@ -31,7 +31,7 @@ std::string decode_jpeg(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
                           &colorspace) != 0) {
     return std::string("no JPEG image: ") + tjGetErrorStr2(decoder.get());
   }
-  if (width < kLeastWidth || width > kMostWidth || height < kLeastHeight || height > kMostHeight) {
+  if (width < kLeastWidth || width > kMostImageWidth || height < kLeastHeight || height > kMostHeight) {
     return "the image has " + std::to_string(width) + "x" + std::to_string(height) +
            " pixels; from 64x48 to 1280x960 are allowed";
   }

@@ -7,21 +7,21 @@ namespace nao::vision {
 namespace {
 
 /** Largest gap between neighboring points, pixels: three scan lines. */
-constexpr float kGap = 28;
+constexpr float kContinuationGap = 28;
 /** Farthest point of one continuation, pixels. Chosen: a bend of the center circle turns by less
  * than the greatest turn within it. */
-constexpr float kReach = 60;
+constexpr float kContinuationReach = 60;
 /** Shortest continuation, pixels: two scan lines. */
-constexpr float kLeastLength = 12;
-constexpr int kLeastPoints = 3;
+constexpr float kLeastContinuedLength = 12;
+constexpr int kLeastContinuedPoints = 3;
 /** Segments of fewer points are no strong evidence. */
 constexpr int kStrongPoints = 8;
 /** Cosine of the greatest turn at an end: 40 degrees, so that a crossing line is not taken for the
  * continuation. */
 constexpr float kLeastCosine = 0.766f;
 /** Points this near to the line belong to it, pixels; wider lines have noisier points. */
-constexpr float kTolerance = 1.6f;
-constexpr float kToleranceOfWidth = 0.08f;
+constexpr float kContinuationTolerance = 1.6f;
+constexpr float kContinuationToleranceOfWidth = 0.08f;
 /** Greatest ratio of a point's width to the segment's. */
 constexpr float kWidthRatio = 1.8f;
 /** Thin lines' widths are whole pixels. */
@@ -45,7 +45,7 @@ class Continuation {
   void follow(End end, std::vector<LineSegment>& found) {
     for (int step = 0; step < kMostSteps; ++step) {
       std::vector<int> run = best_run(end);
-      if (run.size() < kLeastPoints) return;
+      if (run.size() < kLeastContinuedPoints) return;
       for (const int i : run) is_used_[i] = 1;
       const cv::Point2f last = ideal_[run.back()];
       const cv::Point2f direction = mean_direction(end.place, run);
@@ -69,9 +69,9 @@ class Continuation {
     for (size_t i = 0; i < ideal_.size(); ++i) {
       if (is_used_[i]) continue;
       const cv::Point2f d = ideal_[i] - end.place;
-      if (std::abs(d.x) > kReach || std::abs(d.y) > kReach) continue;
+      if (std::abs(d.x) > kContinuationReach || std::abs(d.y) > kContinuationReach) continue;
       const auto distance = static_cast<float>(cv::norm(d));
-      if (distance < 1 || distance > kReach || d.dot(end.direction) < kLeastCosine * distance) {
+      if (distance < 1 || distance > kContinuationReach || d.dot(end.direction) < kLeastCosine * distance) {
         continue;
       }
       ahead.push_back({distance, static_cast<int>(i)});
@@ -83,22 +83,22 @@ class Continuation {
   // Each point ahead gives a direction; the one with the most points near its ray is taken.
   std::vector<int> best_run(const End& end) const {
     const auto ahead = ahead_of(end);
-    const float tolerance = kTolerance + kToleranceOfWidth * end.width;
+    const float tolerance = kContinuationTolerance + kContinuationToleranceOfWidth * end.width;
     std::vector<int> best;
     for (const auto& [length, candidate] : ahead) {
-      if (length < kLeastLength) continue;
+      if (length < kLeastContinuedLength) continue;
       const cv::Point2f direction = (ideal_[candidate] - end.place) * (1 / length);
       std::vector<int> run;
       float last = 0;
       for (const auto& [distance, i] : ahead) {
         const cv::Point2f d = ideal_[i] - end.place;
         if (std::abs(d.x * direction.y - d.y * direction.x) > tolerance) continue;
-        if (distance - last > kGap) break;
+        if (distance - last > kContinuationGap) break;
         if (!has_similar_width(i, end, direction)) continue;
         run.push_back(i);
         last = distance;
       }
-      if (last >= kLeastLength && run.size() > best.size()) best = std::move(run);
+      if (last >= kLeastContinuedLength && run.size() > best.size()) best = std::move(run);
     }
     return best;
   }

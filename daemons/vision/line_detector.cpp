@@ -18,7 +18,7 @@ constexpr float kTolerance = 1.6f;
 constexpr float kToleranceOfWidth = 0.06f;
 /** Largest gap between neighboring points of a segment, pixels: three scan lines. */
 constexpr float kGap = 34;
-constexpr int kLeastPoints = 5;
+constexpr int kLeastLinePoints = 5;
 constexpr float kLeastLength = 26;
 /** Least fraction of the scan lines across a segment that found it: of unrelated points few lie in
  * a row. Tuned on real and rendered images: 0.7 loses blurred lines, less keeps more false ones. */
@@ -140,7 +140,7 @@ std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
   std::vector<cv::Point2f> rejected_ideal;
   // Sequential RANSAC with a fixed seed: one segment in each round, whose points are then removed.
   Random random(1);
-  for (int round = 0; round < kMostSegments && points.size() >= kLeastPoints; ++round) {
+  for (int round = 0; round < kMostSegments && points.size() >= kLeastLinePoints; ++round) {
     std::vector<int> best;
     for (int sample = 0; sample < kNumSamples; ++sample) {
       const size_t i = random.next() % ideal.size();
@@ -152,7 +152,7 @@ std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
       std::vector<int> run = longest_run({ideal[i], step * (1 / base)}, points, ideal);
       if (run.size() > best.size()) best = std::move(run);
     }
-    if (best.size() < kLeastPoints) break;
+    if (best.size() < kLeastLinePoints) break;
     const Line line = fit(best, ideal);
     // With the fitted line; kept only if that has not lost points.
     std::vector<int> run = longest_run(line, points, ideal);

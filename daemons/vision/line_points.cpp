@@ -6,7 +6,7 @@ namespace nao::vision {
 namespace {
 
 /** Widest crossing, pixels: a line one foot length ahead of the robot seen at a flat angle. */
-constexpr int kMostWidth = 110;
+constexpr int kMostLineWidth = 110;
 /** A line is brighter than the field beside it by this many levels at least. Tuned on real images:
  * carpet texture stays below after smoothing, distant lines reach 15. */
 constexpr float kContrast = 13;
@@ -77,7 +77,7 @@ class Scan {
     if (is_line) {
       num_mixed_ = 0;
       num_end_ = 0;
-      if (i - first_ > kMostWidth) abandon();
+      if (i - first_ > kMostLineWidth) abandon();
     } else if (is_green) {
       if (++num_end_ < kEnd) return;
       close(i + 1 - num_end_ - num_mixed_);

@@ -27,7 +27,7 @@ constexpr int64_t kKeepPeriod = 200000;
 constexpr size_t kKeep = 40;
 /** The newest so many decide whether the pose fits, if they have this much to see, m. */
 constexpr size_t kRecent = 8;
-constexpr double kLeastLength = 3.0;
+constexpr double kLeastUsedLength = 3.0;
 /** Below this score the pose does not fit; so many times in succession it is lost. */
 constexpr double kMisfitScore = 0.35;
 constexpr int kMostMisfits = 4;
@@ -131,7 +131,7 @@ void Localizer::check() {
   const std::vector<FieldObservation> recent = newest(kRecent);
   double length = 0;
   for (const FieldObservation& observation : recent) length += observation.length();
-  if (length < kLeastLength) return;
+  if (length < kLeastUsedLength) return;
   const double score = search_.score(filter_.pose(), recent);
   if (!is_lost_) {
     num_misfits_ = score < kMisfitScore ? num_misfits_ + 1 : 0;

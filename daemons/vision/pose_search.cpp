@@ -10,18 +10,18 @@ namespace {
 
 /** Distance from a line at which it explains nothing any more: m, and for each m from the camera
  * (one degree of tilt at 3 m is 0.3 m). */
-constexpr double kTolerance = 0.10;
-constexpr double kToleranceOfDistance = 0.06;
+constexpr double kSearchTolerance = 0.10;
+constexpr double kSearchToleranceOfDistance = 0.06;
 /** Lines at a greater angle are others, rad. */
-constexpr double kMostAngle = 0.3;
+constexpr double kMostLineAngle = 0.3;
 /** An observed line may reach beyond its field line by this, m. */
-constexpr double kBeyond = 0.3;
+constexpr double kBeyondEnd = 0.3;
 /** Weight of a circle in the score, and greatest of a line, m. */
 constexpr double kCircleWeight = 1.5;
 constexpr double kMostLength = 2.0;
 /** Least angle between two lines of a hypothesis, rad, and their least length, m. */
 constexpr double kLeastCrossing = 1.2;
-constexpr double kLeastLength = 0.4;
+constexpr double kLeastPairLength = 0.4;
 /** Hypotheses come from so many of the newest observations, and pairs of lines of each. */
 constexpr int kNumSources = 4;
 constexpr int kNumPairs = 3;
@@ -33,11 +33,11 @@ constexpr double kSamePosition = 0.5;
 constexpr double kSameHeading = 0.35;
 /** Standard deviation of the tilt's error that observations have in common, rad, beside the tilt
  * that they are corrected by. */
-constexpr double kTiltSigma = 0.02;
+constexpr double kCommonTiltSigma = 0.02;
 /** The result explains at least this, and others less by the margin. Chosen; checked on synthetic
  * observations. */
-constexpr double kLeastScore = 0.55;
-constexpr double kMargin = 0.10;
+constexpr double kLeastPoseScore = 0.55;
+constexpr double kPoseMargin = 0.10;
 /** Poses that differ from the known heading by more are not considered, rad: 100 degrees. */
 constexpr double kMostTurn = 1.75;
 
@@ -83,10 +83,10 @@ PoseSearch::Match PoseSearch::match(const FieldLine& line) const {
     const Eigen::Vector2d step = candidate.to - candidate.from;
     const double length = step.norm();
     const Eigen::Vector2d along = step / length;
-    if (std::abs(along.dot(direction)) < std::cos(kMostAngle)) continue;
+    if (std::abs(along.dot(direction)) < std::cos(kMostLineAngle)) continue;
     const double s = (line.from - candidate.from).dot(along);
     const double t = (line.to - candidate.from).dot(along);
-    if (std::min(s, t) < -kBeyond || std::max(s, t) > length + kBeyond) continue;
+    if (std::min(s, t) < -kBeyondEnd || std::max(s, t) > length + kBeyondEnd) continue;
     const Eigen::Vector2d normal = quarter_turn(along);
     const double distance = std::max(std::abs(normal.dot(line.from - candidate.from)),
                                      std::abs(normal.dot(line.to - candidate.from)));
@@ -97,7 +97,7 @@ PoseSearch::Match PoseSearch::match(const FieldLine& line) const {
 
 double PoseSearch::line_score(const FieldLine& line, const Eigen::Vector2d& camera) const {
   const double range = (0.5 * (line.from + line.to) - camera).norm();
-  const double tolerance = kTolerance + kToleranceOfDistance * range;
+  const double tolerance = kSearchTolerance + kSearchToleranceOfDistance * range;
   double distance = match(line).distance;
   // A chord of the circle lies within a few centimeters of it.
   if ((line.to - line.from).norm() < 1) {
@@ -122,7 +122,7 @@ double PoseSearch::score(const Pose2& pose,
     }
     if (observation.circle) {
       const Eigen::Vector2d center = pose * *observation.circle;
-      const double tolerance = 2 * (kTolerance + kToleranceOfDistance * (center - camera).norm());
+      const double tolerance = 2 * (kSearchTolerance + kSearchToleranceOfDistance * (center - camera).norm());
       weights += kCircleWeight;
       sum += kCircleWeight * std::max(0.0, 1 - center.squaredNorm() / (tolerance * tolerance));
     }
@@ -134,7 +134,7 @@ void PoseSearch::add_hypotheses(const FieldObservation& observation, double head
                                 std::vector<Pose2>& hypotheses) const {
   std::vector<FieldLine> lines;
   for (const FieldLine& line : observation.lines) {
-    if ((line.to - line.from).norm() >= kLeastLength) lines.push_back(line);
+    if ((line.to - line.from).norm() >= kLeastPairLength) lines.push_back(line);
   }
   const auto length = [](const FieldLine& line) { return (line.to - line.from).norm(); };
   std::sort(lines.begin(), lines.end(),
@@ -187,7 +187,7 @@ PoseSearch::Result PoseSearch::refined(const Pose2& start,
   for (int iteration = 0; iteration < kNumIterations; ++iteration) {
     Matrix normal = Matrix::Identity() * 1e-3;
     Vector right = Vector::Zero();
-    const double prior = static_cast<double>(observations.size()) / (kTiltSigma * kTiltSigma);
+    const double prior = static_cast<double>(observations.size()) / (kCommonTiltSigma * kCommonTiltSigma);
     normal.diagonal().tail<2>().array() += prior;
     right.tail<2>() -= prior * tilt;
     const auto add = [&](const FieldObservation& observation, const Eigen::Vector2d& point,
@@ -204,7 +204,7 @@ PoseSearch::Result PoseSearch::refined(const Pose2& start,
     for (const FieldObservation& observation : corrected) {
       const Eigen::Vector2d camera = observation.camera.position.head<2>();
       const auto tolerance = [&](const Eigen::Vector2d& point) {
-        return kTolerance + kToleranceOfDistance * (point - camera).norm();
+        return kSearchTolerance + kSearchToleranceOfDistance * (point - camera).norm();
       };
       for (const FieldLine& line : observation.lines) {
         const Match found = match(moved(pose, line));
@@ -260,8 +260,8 @@ std::optional<PoseSearch::Result> PoseSearch::find(
   scored = thinned(std::move(scored), kNumRefined);
   for (Result& result : scored) result = refined(result.pose, observations);
   scored = thinned(std::move(scored), 2);
-  if (scored.empty() || scored[0].score < kLeastScore) return std::nullopt;
-  if (scored.size() > 1 && scored[1].score > scored[0].score - kMargin) return std::nullopt;
+  if (scored.empty() || scored[0].score < kLeastPoseScore) return std::nullopt;
+  if (scored.size() > 1 && scored[1].score > scored[0].score - kPoseMargin) return std::nullopt;
   return scored[0];
 }
 

@@ -1,8 +1,7 @@
 #include "phone-gateway/server/bus/audit_log.h"
 
-#include <nlohmann/json.hpp>
-
 #include "common/error.h"
+#include "common/json_writer.h"
 #include "common/logger.h"
 
 namespace nao::gateway {
@@ -18,12 +17,17 @@ constexpr size_t kMaxRefusals = 256;
 }  // namespace
 
 std::string to_json(const AuditEvent& event, int64_t wall_utime, int64_t num_kept_back) {
-  nlohmann::ordered_json json = {{"wall_utime", wall_utime},     {"event", event.event},
-                                 {"client_id", event.client_id}, {"name", event.name},
-                                 {"address", event.address},     {"detail", event.detail}};
-  if (num_kept_back > 0) json["num_kept_back"] = num_kept_back;
-  // A name that was cut within a character is no valid UTF-8: such bytes are replaced.
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  JsonWriter json;
+  json.begin_object();
+  json.add("wall_utime", wall_utime);
+  json.add("event", event.event);
+  json.add("client_id", int64_t{event.client_id});
+  json.add("name", event.name);
+  json.add("address", event.address);
+  json.add("detail", event.detail);
+  if (num_kept_back > 0) json.add("num_kept_back", num_kept_back);
+  json.end();
+  return json.take();
 }
 
 AuditLog::AuditLog(const std::string& file) {
