@@ -31,7 +31,8 @@ std::string decode_jpeg(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
                           &colorspace) != 0) {
     return std::string("no JPEG image: ") + tjGetErrorStr2(decoder.get());
   }
-  if (width < kLeastWidth || width > kMostImageWidth || height < kLeastHeight || height > kMostHeight) {
+  if (width < kLeastWidth || width > kMostImageWidth || height < kLeastHeight ||
+      height > kMostHeight) {
     return "the image has " + std::to_string(width) + "x" + std::to_string(height) +
            " pixels; from 64x48 to 1280x960 are allowed";
   }

@@ -71,7 +71,8 @@ class Continuation {
       const cv::Point2f d = ideal_[i] - end.place;
       if (std::abs(d.x) > kContinuationReach || std::abs(d.y) > kContinuationReach) continue;
       const auto distance = static_cast<float>(cv::norm(d));
-      if (distance < 1 || distance > kContinuationReach || d.dot(end.direction) < kLeastCosine * distance) {
+      if (distance < 1 || distance > kContinuationReach ||
+          d.dot(end.direction) < kLeastCosine * distance) {
         continue;
       }
       ahead.push_back({distance, static_cast<int>(i)});

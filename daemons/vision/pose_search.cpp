@@ -122,7 +122,8 @@ double PoseSearch::score(const Pose2& pose,
     }
     if (observation.circle) {
       const Eigen::Vector2d center = pose * *observation.circle;
-      const double tolerance = 2 * (kSearchTolerance + kSearchToleranceOfDistance * (center - camera).norm());
+      const double tolerance =
+          2 * (kSearchTolerance + kSearchToleranceOfDistance * (center - camera).norm());
       weights += kCircleWeight;
       sum += kCircleWeight * std::max(0.0, 1 - center.squaredNorm() / (tolerance * tolerance));
     }
@@ -187,7 +188,8 @@ PoseSearch::Result PoseSearch::refined(const Pose2& start,
   for (int iteration = 0; iteration < kNumIterations; ++iteration) {
     Matrix normal = Matrix::Identity() * 1e-3;
     Vector right = Vector::Zero();
-    const double prior = static_cast<double>(observations.size()) / (kCommonTiltSigma * kCommonTiltSigma);
+    const double prior =
+        static_cast<double>(observations.size()) / (kCommonTiltSigma * kCommonTiltSigma);
     normal.diagonal().tail<2>().array() += prior;
     right.tail<2>() -= prior * tilt;
     const auto add = [&](const FieldObservation& observation, const Eigen::Vector2d& point,
