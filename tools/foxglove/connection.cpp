@@ -7,7 +7,6 @@
 #include <array>
 #include <boost/asio/post.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
@@ -19,6 +18,7 @@
 
 #include "common/logger.h"
 #include "common/program.h"
+#include "phone-gateway/web_stream/web_stream.h"
 
 namespace nao::foxglove {
 namespace {
@@ -55,7 +55,7 @@ std::string_view view(beast::string_view text) {
 /** A client of the protocol. */
 class Client : public std::enable_shared_from_this<Client> {
  public:
-  Client(ConnectionContext& context, beast::tcp_stream stream)
+  Client(ConnectionContext& context, WebStream stream)
       : context_(context), socket_(std::move(stream)) {}
   ~Client() {
     --context_.num_connections;
@@ -141,7 +141,7 @@ class Client : public std::enable_shared_from_this<Client> {
   }
 
   ConnectionContext& context_;
-  websocket::stream<beast::tcp_stream> socket_;
+  websocket::stream<WebStream> socket_;
   Request request_;
   beast::flat_buffer buffer_;
   OutgoingMessage outgoing_;
@@ -155,7 +155,7 @@ class Client : public std::enable_shared_from_this<Client> {
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(ConnectionContext& context, Tcp::socket socket)
-      : context_(context), stream_(std::move(socket)) {
+      : context_(context), stream_(beast::tcp_stream(std::move(socket))) {
     ++context_.num_connections;
   }
   ~HttpConnection() {
@@ -167,7 +167,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void read() {
     parser_.emplace();
     parser_->header_limit(kMaxHeaderBytes);
-    stream_.expires_after(kHttpTimeout);
+    stream_.next_layer().expires_after(kHttpTimeout);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](const error_code& error, size_t) {
                        if (!error) self->on_request(self->parser_->get());
@@ -226,7 +226,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
   ConnectionContext& context_;
-  beast::tcp_stream stream_;
+  WebStream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   http::response<http::string_body> response_;

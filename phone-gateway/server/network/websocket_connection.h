@@ -1,13 +1,16 @@
 #pragma once
 
-#include "phone-gateway/server/network/web_stream.h"
+#include "phone-gateway/server/network/connection_context.h"
+#include "phone-gateway/web_stream/web_stream.h"
 //
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
 
 namespace nao::gateway {
 
-namespace http = boost::beast::http;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using boost::system::error_code;
 
 using WebRequest = http::request<http::empty_body>;
 

@@ -1,34 +1,33 @@
 #pragma once
 
-#include "phone-gateway/server/network/connection_context.h"
+// <utility> first: Boost 1.74's coroutine headers rely on it with GCC 12.
+#include <utility>
 //
 #include <array>
 #include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/associated_executor.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/beast/core/role.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <memory>
 #include <type_traits>
-#include <utility>
 
-namespace nao::gateway {
-
-namespace beast = boost::beast;
-using boost::system::error_code;
+namespace nao {
 
 /** A completion handler of any type: called once with the result and the number of bytes. */
 class Completion {
  public:
-  using executor_type = asio::any_io_executor;
+  using executor_type = boost::asio::any_io_executor;
 
   /** @param handler  Takes (error_code, size_t) or (error_code). @param executor  Where it is
    * called unless it names an executor itself. */
   template <class Handler>
   Completion(Handler&& handler, const executor_type& executor)
-      : executor_(asio::get_associated_executor(handler, executor)),
+      : executor_(boost::asio::get_associated_executor(handler, executor)),
         target_(std::make_unique<Target<std::decay_t<Handler>>>(std::forward<Handler>(handler))) {}
 
-  void operator()(const error_code& error, size_t num_bytes = 0) {
+  void operator()(const boost::system::error_code& error, size_t num_bytes = 0) {
     // The handler may start the next operation, and destroy this object.
     const std::unique_ptr<TargetBase> target = std::move(target_);
     target->call(error, num_bytes);
@@ -38,15 +37,15 @@ class Completion {
  private:
   struct TargetBase {
     virtual ~TargetBase() = default;
-    virtual void call(const error_code& error, size_t num_bytes) = 0;
+    virtual void call(const boost::system::error_code& error, size_t num_bytes) = 0;
   };
   template <class Handler>
   struct Target : TargetBase {
     explicit Target(Handler source) : handler(std::move(source)) {}
-    void call(const error_code& error, size_t num_bytes) override {
+    void call(const boost::system::error_code& error, size_t num_bytes) override {
       // Moved out first: the memory of an operation is released before its handler is called.
       Handler last = std::move(handler);
-      if constexpr (std::is_invocable_v<Handler&, error_code, size_t>) {
+      if constexpr (std::is_invocable_v<Handler&, boost::system::error_code, size_t>) {
         last(error, num_bytes);
       } else {
         last(error);
@@ -68,8 +67,8 @@ class BufferList {
 
   template <class Sequence>
   explicit BufferList(const Sequence& buffers) {
-    auto buffer = asio::buffer_sequence_begin(buffers);
-    const auto last = asio::buffer_sequence_end(buffers);
+    auto buffer = boost::asio::buffer_sequence_begin(buffers);
+    const auto last = boost::asio::buffer_sequence_end(buffers);
     for (; buffer != last && size_ < buffers_.size(); ++buffer) buffers_[size_++] = Buffer(*buffer);
   }
   const_iterator begin() const { return buffers_.data(); }
@@ -83,15 +82,15 @@ class BufferList {
 /** A TCP stream with or without TLS, as one type.
  *
  * HTTP and WebSocket of Boost.Beast are templates of their stream: with one type they are compiled
- * once, and TLS is compiled for one type of handler. */
+ * once, and TCP and TLS are compiled for one type of handler, here. */
 class WebStream {
  public:
-  using executor_type = beast::tcp_stream::executor_type;
-  using next_layer_type = beast::tcp_stream;
+  using executor_type = boost::beast::tcp_stream::executor_type;
+  using next_layer_type = boost::beast::tcp_stream;
 
-  explicit WebStream(beast::tcp_stream stream);
+  explicit WebStream(boost::beast::tcp_stream stream);
   /** With TLS: handshake() comes first. */
-  WebStream(beast::tcp_stream stream, asio::ssl::context& tls);
+  WebStream(boost::beast::tcp_stream stream, boost::asio::ssl::context& tls);
   ~WebStream();
   WebStream(WebStream&&) noexcept;
   WebStream& operator=(WebStream&&) noexcept;
@@ -104,19 +103,21 @@ class WebStream {
 
   /** The TLS handshake of a server. @param received  Bytes of it that have been read already; the
    * handler's second argument is how many of them it took. */
-  void handshake(asio::const_buffer received, Completion completion);
+  void handshake(boost::asio::const_buffer received, Completion completion);
 
   template <class Buffers, class Handler>
   void async_read_some(const Buffers& buffers, Handler&& handler) {
-    read_some(BufferList<asio::mutable_buffer>(buffers), erase(std::forward<Handler>(handler)));
+    read_some(BufferList<boost::asio::mutable_buffer>(buffers),
+              erase(std::forward<Handler>(handler)));
   }
   template <class Buffers, class Handler>
   void async_write_some(const Buffers& buffers, Handler&& handler) {
-    write_some(BufferList<asio::const_buffer>(buffers), erase(std::forward<Handler>(handler)));
+    write_some(BufferList<boost::asio::const_buffer>(buffers),
+               erase(std::forward<Handler>(handler)));
   }
   /** Ends a WebSocket's connection in the way of its stream; found by Boost.Beast. */
   template <class Handler>
-  friend void async_teardown(beast::role_type role, WebStream& stream, Handler&& handler) {
+  friend void async_teardown(boost::beast::role_type role, WebStream& stream, Handler&& handler) {
     stream.tear_down(role, stream.erase(std::forward<Handler>(handler)));
   }
 
@@ -127,13 +128,13 @@ class WebStream {
   Completion erase(Handler&& handler) {
     return Completion(std::forward<Handler>(handler), get_executor());
   }
-  void read_some(const BufferList<asio::mutable_buffer>& buffers, Completion completion);
-  void write_some(const BufferList<asio::const_buffer>& buffers, Completion completion);
-  void tear_down(beast::role_type role, Completion completion);
+  void read_some(const BufferList<boost::asio::mutable_buffer>& buffers, Completion completion);
+  void write_some(const BufferList<boost::asio::const_buffer>& buffers, Completion completion);
+  void tear_down(boost::beast::role_type role, Completion completion);
 
   /** Exactly one of them. */
-  std::unique_ptr<beast::tcp_stream> plain_;
+  std::unique_ptr<boost::beast::tcp_stream> plain_;
   std::unique_ptr<Secure> secure_;
 };
 
-}  // namespace nao::gateway
+}  // namespace nao

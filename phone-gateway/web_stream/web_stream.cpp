@@ -1,10 +1,13 @@
-#include "phone-gateway/server/network/web_stream.h"
+#include "phone-gateway/web_stream/web_stream.h"
 //
 #include <boost/beast/ssl.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 #include <boost/beast/websocket/teardown.hpp>
 
-namespace nao::gateway {
+namespace nao {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
 
 struct WebStream::Secure {
   beast::ssl_stream<beast::tcp_stream> stream;
@@ -56,4 +59,4 @@ void WebStream::tear_down(beast::role_type role, Completion completion) {
   }
 }
 
-}  // namespace nao::gateway
+}  // namespace nao
