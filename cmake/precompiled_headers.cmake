@@ -24,7 +24,8 @@ function(nao_add_precompiled name header)
 endfunction()
 
 # Lets every target that compiles the same C++ read them: those that the target's property
-# NAO_PRECOMPILED names (NONE: none), or the one for tests, or the standard one.
+# NAO_PRECOMPILED names (NONE: none), or the one for tests, or the standard one. A target with an optimisation level of its
+# own reads none: GCC would take the level from the precompiled header.
 function(nao_use_precompiled)
   nao_targets_below(${CMAKE_SOURCE_DIR} targets)
   foreach(target IN LISTS targets)
@@ -36,7 +37,8 @@ function(nao_use_precompiled)
     endif()
     get_target_property(libraries ${target} LINK_LIBRARIES)
     get_target_property(precompiled ${target} NAO_PRECOMPILED)
-    if(precompiled STREQUAL "NONE")
+    get_target_property(options ${target} COMPILE_OPTIONS)
+    if(precompiled STREQUAL "NONE" OR options MATCHES "(^|;)-O")
       continue()
     elseif(NOT precompiled)
       set(precompiled nao_precompiled)

@@ -46,6 +46,4 @@ add_link_options(-fsanitize=address,undefined)
 # A call for each check of an address instead of inlined code: the same checks, and up to a sixth less to compile.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(--param=asan-instrumentation-with-call-threshold=0)
-else()
-  add_compile_options("SHELL:-mllvm -asan-instrumentation-with-call-threshold=0")
 endif()
