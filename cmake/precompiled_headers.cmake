@@ -1,13 +1,16 @@
 # Precompiled headers. Every source reads the same standard, Eigen and GoogleTest headers, which cost
 # more than most of the sources themselves; those of the gateway also protobuf.
 
-# nao_add_precompiled(NAME HEADER [LIBRARIES ...] [IDENTIFIED_BY FILE...])
+# nao_add_precompiled(NAME HEADER [LIBRARIES ...] [OPTIONS ...] [IDENTIFIED_BY FILE...])
+# OPTIONS: of the compiler, for whatever reads these headers too; its optimisation level among them, for GCC takes that
+# of the precompiled header.
 # IDENTIFIED_BY: sources of what the header includes and cmake/precompiled does not hold.
 function(nao_add_precompiled name header)
-  cmake_parse_arguments(arg "" "" "LIBRARIES;IDENTIFIED_BY" ${ARGN})
+  cmake_parse_arguments(arg "" "" "LIBRARIES;OPTIONS;IDENTIFIED_BY" ${ARGN})
   add_library(${name} STATIC ${CMAKE_SOURCE_DIR}/cmake/precompiled/empty.cpp)
   target_precompile_headers(${name} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/precompiled/${header})
   target_link_libraries(${name} PRIVATE Eigen3::Eigen ${arg_LIBRARIES})
+  target_compile_options(${name} PRIVATE ${arg_OPTIONS})
   # Not through ccache: where a precompiled header exists already, it takes that one's sum for the sources.
   set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER "")
   if(CCACHE_PROGRAM AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -25,7 +28,7 @@ endfunction()
 
 # Lets every target that compiles the same C++ read them: those that the target's property
 # NAO_PRECOMPILED names (NONE: none), or the one for tests, or the standard one. A target with an optimisation level of its
-# own reads none: GCC would take the level from the precompiled header.
+# own reads none.
 function(nao_use_precompiled)
   nao_targets_below(${CMAKE_SOURCE_DIR} targets)
   foreach(target IN LISTS targets)
@@ -40,36 +43,50 @@ function(nao_use_precompiled)
     get_target_property(options ${target} COMPILE_OPTIONS)
     if(precompiled STREQUAL "NONE" OR options MATCHES "(^|;)-O")
       continue()
+    elseif(libraries MATCHES "GTest::")
+      set(precompiled nao_precompiled_test)
     elseif(NOT precompiled)
       set(precompiled nao_precompiled)
-      if(libraries MATCHES "GTest::")
-        set(precompiled nao_precompiled_test)
-        target_compile_options(${target} PRIVATE ${test_options})
-      endif()
+    endif()
+    get_target_property(options ${precompiled} COMPILE_OPTIONS)
+    if(options)
+      target_compile_options(${target} PRIVATE ${options})
     endif()
     target_precompile_headers(${target} REUSE_FROM ${precompiled})
   endforeach()
 endfunction()
 
 nao_add_precompiled(nao_precompiled standard.h)
-if(GTest_FOUND)
-  # Sources of tests are compiled more often than they run: what they test is in the libraries. -Og needs 0.7 of the
-  # compiler's time for -O1, measured on five translation units; -O0 needs as much, and its code is slow.
-  set(test_options -Og)
+
+# For what is compiled more often than its speed matters: tests (what they test is in the libraries), and programs that wait
+# for people or for the bus, or compute in other libraries. -Og needs 0.7 of the compiler's time for -O1 and for -O2, measured on
+# eleven translation units; -O0 needs as much, and its code is slow. The Debian package is optimised throughout.
+set(light_options)
+if(NOT CMAKE_BUILD_TYPE STREQUAL "Release")
+  set(light_options -Og)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12 reports values as uninitialized at -Og that are not.
-    list(APPEND test_options -Wno-maybe-uninitialized)
-    if(NAO_SANITIZE)
-      # Use of a test's own variables after their scope is not checked, which takes a tenth of the compiler's time; that
-      # of the libraries' is.
-      list(APPEND test_options -fno-sanitize-address-use-after-scope)
-    endif()
+    list(APPEND light_options -Wno-maybe-uninitialized)
   endif()
-  nao_add_precompiled(nao_precompiled_test test.h LIBRARIES GTest::gmock)
-  target_compile_options(nao_precompiled_test PRIVATE ${test_options})
+endif()
+nao_add_precompiled(nao_precompiled_light standard.h OPTIONS ${light_options})
+
+if(GTest_FOUND)
+  set(test_options ${light_options})
+  if(NAO_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Use of a test's own variables after their scope is not checked, which takes a tenth of the compiler's time; that
+    # of the libraries' is.
+    list(APPEND test_options -fno-sanitize-address-use-after-scope)
+  endif()
+  nao_add_precompiled(nao_precompiled_test test.h LIBRARIES GTest::gmock OPTIONS ${test_options})
 endif()
 if(TARGET nao_phone_protocol)
+  set(protocol_options)
+  if(CMAKE_BUILD_TYPE STREQUAL "RelWithDebInfo")
+    set(protocol_options -O1)
+  endif()
   nao_add_precompiled(nao_precompiled_protocol protocol.h
-    LIBRARIES nao_phone_protocol IDENTIFIED_BY ${CMAKE_SOURCE_DIR}/phone-gateway/protocol/remote.proto)
+    LIBRARIES nao_phone_protocol OPTIONS ${protocol_options}
+    IDENTIFIED_BY ${CMAKE_SOURCE_DIR}/phone-gateway/protocol/remote.proto)
 endif()
 nao_use_precompiled()

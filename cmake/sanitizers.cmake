@@ -2,15 +2,6 @@
 
 option(NAO_SANITIZE "Build with address and undefined-behaviour sanitizers, and the fuzzers" OFF)
 
-# nao_skip_coverage(TARGET...): libraries that parse nothing and compute much; counting would take a tenth of their time.
-function(nao_skip_coverage)
-  if(TARGET nao_coverage)
-    foreach(target IN LISTS ARGN)
-      target_compile_options(${target} PRIVATE -fno-sanitize-coverage=trace-pc,trace-cmp)
-    endforeach()
-  endif()
-endfunction()
-
 if(NOT NAO_SANITIZE)
   return()
 endif()
@@ -30,8 +21,9 @@ if(archives AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     DEPENDS ${archive} VERBATIM)
   add_custom_target(nao_libfuzzer DEPENDS ${NAO_LIBFUZZER})
   add_custom_target(fuzzers)
+  # Of the libraries that fuzzers try (nao_add_fuzzer), which others use too.
   link_libraries(nao_coverage)
-  add_compile_options(-fsanitize-coverage=trace-pc,trace-cmp)
+  set(NAO_COVERAGE -fsanitize-coverage=trace-pc,trace-cmp)
 else()
   message(STATUS "Without fuzzers: they need GCC and libFuzzer (scripts/setup --with optional)")
 endif()

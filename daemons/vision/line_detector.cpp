@@ -17,7 +17,7 @@ constexpr float kMostBase = 140;
 constexpr float kTolerance = 1.6f;
 constexpr float kToleranceOfWidth = 0.06f;
 /** Largest gap between neighboring points of a segment, pixels: three scan lines. */
-constexpr float kGap = 34;
+constexpr float kLargestGap = 34;
 constexpr int kLeastLinePoints = 5;
 constexpr float kLeastLength = 26;
 /** Least fraction of the scan lines across a segment that found it: of unrelated points few lie in
@@ -58,7 +58,7 @@ std::vector<int> longest_run(const Line& line, const std::vector<LinePoint>& poi
   size_t best_count = 0;
   size_t first = 0;
   for (size_t i = 0; i < inliers.size(); ++i) {
-    if (i > 0 && inliers[i].first - inliers[i - 1].first > kGap) first = i;
+    if (i > 0 && inliers[i].first - inliers[i - 1].first > kLargestGap) first = i;
     if (i + 1 - first > best_count) {
       best_count = i + 1 - first;
       best_first = first;

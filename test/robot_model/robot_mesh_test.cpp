@@ -9,8 +9,8 @@
 #include <map>
 #include <set>
 
-#include "common/data_path.h"
 #include "robot_model/robot_model.h"
+#include "test/robot_model/nao_robot.h"
 
 namespace nao {
 namespace {
@@ -46,11 +46,6 @@ std::vector<Triangle> read_mesh(const std::filesystem::path& file) {
     }
   }
   return triangles;
-}
-
-const RobotModel& nao_robot() {
-  static const RobotModel robot = RobotModel::load(data_path() / "robots" / "nao");
-  return robot;
 }
 
 /** Triangles of every link that has any, by its name. */
