@@ -11,9 +11,9 @@ namespace {
 
 /** The largest image of a NAO V5's cameras, pixels. */
 constexpr int kMostImageWidth = 1280;
-constexpr int kMostHeight = 960;
-constexpr int kLeastWidth = 64;
-constexpr int kLeastHeight = 48;
+constexpr int kMostImageHeight = 960;
+constexpr int kLeastImageWidth = 64;
+constexpr int kLeastImageHeight = 48;
 
 }  // namespace
 
@@ -31,8 +31,8 @@ std::string decode_jpeg(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
                           &colorspace) != 0) {
     return std::string("no JPEG image: ") + tjGetErrorStr2(decoder.get());
   }
-  if (width < kLeastWidth || width > kMostImageWidth || height < kLeastHeight ||
-      height > kMostHeight) {
+  if (width < kLeastImageWidth || width > kMostImageWidth || height < kLeastImageHeight ||
+      height > kMostImageHeight) {
     return "the image has " + std::to_string(width) + "x" + std::to_string(height) +
            " pixels; from 64x48 to 1280x960 are allowed";
   }
