@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/constants.h"
 #include "common/error.h"
 #include "common/yaml_entry.h"
 
@@ -113,7 +114,7 @@ std::string Calibration::to_yaml(const RobotModel& model) const {
     if (joint_zero[motor] == 0) continue;
     has_zero = true;
     text += "\n  " + model.motor_names()[motor] + ": " + format("%.5f", joint_zero[motor]);
-    text += "  # " + format("%.2f", joint_zero[motor] * 180 / M_PI) + " deg";
+    text += "  # " + format("%.2f", joint_zero[motor] / kDegree) + " deg";
   }
   text += has_zero ? "\n" : " {}\n";
   text +=

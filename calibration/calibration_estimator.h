@@ -77,6 +77,7 @@ class CalibrationEstimator {
   double pressure_error_after() const { return pressure_error_after_; }
 
  private:
+  /** Residuals of a stand: tilt of both soles (4), CoP against CoM (2), weight (1). */
   static constexpr int kNumRows = 7;
   using Rows = Eigen::Matrix<double, kNumRows, 1>;
 

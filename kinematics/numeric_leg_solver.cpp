@@ -8,6 +8,7 @@
 namespace nao {
 namespace {
 
+// Bounds the time that a pose out of reach takes.
 constexpr int kMaxIterations = 60;
 // Norm of the error, in rad and leg lengths, below which the sole is there; and below which a
 // descent that has come to rest still counts as there.

@@ -5,6 +5,7 @@
 namespace nao {
 namespace {
 
+/** Characters. Chosen: a name fits a line on a phone. */
 constexpr size_t kMaxNameLength = 40;
 
 }  // namespace

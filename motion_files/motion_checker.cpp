@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/constants.h"
 #include "daemons/motion/guards/joint_limits.h"
 #include "daemons/motion/transitions/keyframes.h"
 #include "motion_files/rollout.h"
@@ -99,10 +100,9 @@ std::optional<MotionFault> MotionChecker::find_limit_fault(const ActionScript& s
     for (int motor = 0; motor < model_->num_motors(); ++motor) {
       const double excess = std::abs(targets[k][motor] - clipped[motor]);
       if (excess < 1e-9) continue;
-      return MotionFault{
-          static_cast<int>(k) - 1,
-          Reason("motion-beyond-limit",
-                 {model_->motor_names()[motor], fmt::format("{:.1f}", excess * 180 / M_PI)})};
+      return MotionFault{static_cast<int>(k) - 1,
+                         Reason("motion-beyond-limit", {model_->motor_names()[motor],
+                                                        fmt::format("{:.1f}", excess / kDegree)})};
     }
   }
   return std::nullopt;

@@ -17,6 +17,7 @@ FacingTriangles::FacingTriangles(const Mesh& mesh) : indices_(mesh.indices) {
 void FacingTriangles::append(const Eigen::Vector4f& from, std::vector<uint32_t>& indices) const {
   size_t end = indices.size();
   indices.resize(end + indices_.size());
+  // Triangles whose heights lie in the first-level cache.
   constexpr Eigen::Index kBlock = 64;
   Eigen::Matrix<float, kBlock, 1> heights;
   for (Eigen::Index first = 0; first < planes_.rows(); first += kBlock) {

@@ -5,14 +5,13 @@
 #include <limits>
 #include <sstream>
 
+#include "common/constants.h"
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/yaml_entry.h"
 
 namespace nao::sim {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 /** A unit that a file may name, and its size in the unit that the simulator uses. */
 struct Unit {
@@ -41,6 +40,7 @@ struct Rule {
 
 /** In the order of Disturbance. */
 const std::vector<Rule>& rules() {
+  // Chosen: more than ten times what the joints of `real` have.
   constexpr double kMaxPlay = 20 * kDegree;
   static const std::vector<Rule> all{
       {"backlash.hip", kAngle, {"joint"}, 0, kMaxPlay},

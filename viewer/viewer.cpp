@@ -9,13 +9,13 @@
 
 #include "backends/imgui_impl_opengl3.h"
 #include "common/bus.h"
+#include "common/constants.h"
 #include "common/wall_clock.h"
 #include "viewer/panels/panels.h"
 
 namespace nao::viewer {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 /** Interval of walk messages, s: each is valid for 0.5 s. */
 constexpr double kWalkPeriod = 0.1;
 /** Interval of image requests, s: each is valid for 2 s. */

@@ -4,6 +4,7 @@
 
 #include "common/bus.h"
 #include "common/command_line.h"
+#include "common/constants.h"
 #include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
@@ -33,7 +34,7 @@ int main(int argc, char** argv) {
                "In a match: play by itself, but for 10 s after another program's last command");
   return nao::run_program(app, common, argc, argv, [&] {
     options.robot = common.robot;
-    options.start_in_field = {{start_pose[0], start_pose[1]}, start_pose[2] * M_PI / 180};
+    options.start_in_field = {{start_pose[0], start_pose[1]}, start_pose[2] * nao::kDegree};
     const auto model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::string_view kHeader = "RGme";
 constexpr std::string_view kReturnHeader = "RGrt";
+/** Versions of the GameController's message that are read, and of the answer to it. */
 constexpr int kOldestVersion = 15;
 constexpr int kNewestVersion = 18;
 constexpr uint8_t kReturnVersion = 4;

@@ -66,6 +66,7 @@ struct GameControllerReturn {
   std::array<double, 2> ball{};
 };
 
+/** Bytes. */
 inline constexpr size_t kGameControllerReturnSize = 32;
 
 std::array<uint8_t, kGameControllerReturnSize> encode(const GameControllerReturn& data);

@@ -1,4 +1,5 @@
 #include "daemons/robot/health_monitor.h"
+#include "common/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ constexpr int kOffStatus = 3;
 /** A dead motor: no current, though it is stiff and more than 2 degrees from its target, for 83
  * frames: rUNSWift. */
 constexpr double kDeadTime = 1.0;
-constexpr double kDeadDeviation = 2 * M_PI / 180;
+constexpr double kDeadDeviation = 2 * kDegree;
 constexpr double kLeastCurrent = 1e-3;
 constexpr double kLeastStiffness = 0.05;
 /** Time for which a value must be bad, s. Chosen: longer than a peak of a step, shorter than a fall

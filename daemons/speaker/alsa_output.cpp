@@ -65,6 +65,7 @@ class AlsaOutput : public AudioOutput {
   }
 
  private:
+  /** Samples that are handed to the device at once. Chosen: copied in microseconds. */
   static constexpr long kBlock = 1024;
 
   static long ssize(const std::deque<int16_t>& samples) {

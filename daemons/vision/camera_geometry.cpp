@@ -1,4 +1,5 @@
 #include "daemons/vision/camera_geometry.h"
+#include "common/constants.h"
 
 #include <cmath>
 #include <opencv2/calib3d.hpp>
@@ -28,7 +29,7 @@ bool CameraCalibration::is_valid() const {
 
 CameraCalibration CameraCalibration::guess(int width, int height) {
   CameraCalibration calibration;
-  calibration.fx = calibration.fy = 0.5 * width / std::tan(0.5 * 60.9 * M_PI / 180);
+  calibration.fx = calibration.fy = 0.5 * width / std::tan(0.5 * 60.9 * kDegree);
   calibration.cx = 0.5 * (width - 1);
   calibration.cy = 0.5 * (height - 1);
   return calibration;

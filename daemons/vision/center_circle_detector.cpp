@@ -8,6 +8,8 @@
 namespace nao::vision {
 namespace {
 
+/** Pairs of points that are tried. If a fifth of the points lie on the circle, both of one pair do
+ * with the probability 1 - (1 - 0.2^2)^150 = 0.998. */
 constexpr int kNumCircleSamples = 150;
 /** Points this near to the circle are on it: m, and per m of their distance. */
 constexpr double kCircleTolerance = 0.03;

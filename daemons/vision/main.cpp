@@ -7,6 +7,7 @@
 
 #include "common/bus.h"
 #include "common/command_line.h"
+#include "common/constants.h"
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/event_loop.h"
@@ -22,7 +23,7 @@ namespace {
 std::pair<nao::vision::FieldModel, nao::Pose2> read_start(const std::vector<double>& start,
                                                           const std::string& scene) {
   const nao::vision::FieldModel field(nao::SceneFile::find(scene));
-  const nao::Pose2 pose{{start[0], start[1]}, nao::wrapped(start[2] * M_PI / 180)};
+  const nao::Pose2 pose{{start[0], start[1]}, nao::wrapped(start[2] * nao::kDegree)};
   // Beside the carpet at most: wherever a person could have put the robot.
   const bool is_near = (pose.position.cwiseAbs() - field.half_carpet()).maxCoeff() < 1;
   if (!is_near || !std::isfinite(pose.heading)) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calibration/calibration_run.h"
+#include "common/constants.h"
 #include "common/random.h"
 #include "test/calibration/synthetic_robot.h"
 #include "test/daemons/motion/nao_model.h"
@@ -16,8 +17,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using motion::nao_model;
 using motion::nao_motor;
-
-constexpr double kDegree = M_PI / 180;
 
 /** Stands in all poses of a calibration, in some directions. */
 void stand_everywhere(SyntheticRobot& robot, int num_stations, CalibrationEstimator& estimator) {

@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "common/constants.h"
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"
 
 namespace nao::sim {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 class BacklashTest : public testing::Test {
  protected:

@@ -36,6 +36,7 @@
 namespace nao::bench {
 namespace {
 
+/** A hundred clients: a phone for each of eight robots, the others watch. */
 constexpr int kNumDrivers = 8;
 constexpr int kNumSpectators = 92;
 /** Rates of a driver's phone, and of a spectator's, 1/s. */

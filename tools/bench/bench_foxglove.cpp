@@ -27,6 +27,7 @@
 namespace nao::bench {
 namespace {
 
+// Chosen: a robot's developers at one table.
 constexpr int kNumClients = 3;
 // Time in which clients catch up with what has waited for them, s. Chosen: some MB take
 // milliseconds.

@@ -13,7 +13,6 @@
 namespace nao {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 /** Change of each joint, rad, and of a hand's opening. */
 constexpr double kChange = 2 * kDegree;
 constexpr double kOpeningChange = 0.1;

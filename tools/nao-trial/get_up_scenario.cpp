@@ -8,7 +8,7 @@ namespace nao::trial {
 namespace {
 
 constexpr double kGetUpTimeout = 60;  // s, six tries and the waiting between
-constexpr int kMaxTries = 3;
+constexpr int kMaxTries = 3;          // of a success
 
 }  // namespace
 
@@ -44,7 +44,7 @@ std::vector<RunResult> GetUpScenario::run(const ScenarioOptions& options, uint64
   result.metrics.emplace_back("time_s", trial.time() - start);
   result.metrics.emplace_back("time_from_" + side + "_s", trial.time() - start);
   result.is_success = num_tries <= kMaxTries;
-  if (!result.is_success) result.failure = "more than 3 tries";
+  if (!result.is_success) result.failure = "more than " + std::to_string(kMaxTries) + " tries";
   return {result};
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/constants.h"
 #include "common/error.h"
 #include "daemons/motion/actions/kick.h"
 #include "kinematics/pose2.h"
@@ -71,7 +72,7 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   result.metrics = {{"ball_m", distance}, {"ball_speed_mps", speed}};
   if (distance > 0.1) {
     result.metrics.emplace_back("direction_error_deg",
-                                std::abs(std::atan2(way.y(), way.x())) * 180 / M_PI);
+                                std::abs(std::atan2(way.y(), way.x())) / kDegree);
   }
   return {result};
 }
@@ -122,7 +123,7 @@ std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uin
   result.metrics = {{"ball_m", way.norm()}};
   if (way.norm() > 0.1) {
     const double off = wrapped(std::atan2(way.y(), way.x()) - heading);
-    result.metrics.emplace_back("direction_error_deg", std::abs(off) * 180 / M_PI);
+    result.metrics.emplace_back("direction_error_deg", std::abs(off) / kDegree);
   }
   return {result};
 }

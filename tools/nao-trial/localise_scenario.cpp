@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/constants.h"
 #include "common/error.h"
 #include "tools/nao-trial/field_detection_statistics.h"
 #include "tools/nao-trial/field_error_model.h"
@@ -278,7 +279,7 @@ std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uin
     ++num_known;
     const Vector3d error = error_of(estimate, true_pose(trial));
     session.metrics.emplace_back("position_error_m", error.head<2>().norm());
-    session.metrics.emplace_back("heading_error_deg", std::abs(error.z()) * 180 / M_PI);
+    session.metrics.emplace_back("heading_error_deg", std::abs(error.z()) / kDegree);
     // Normalized estimation error squared: its mean is 3 if the covariance is right (Bar-Shalom,
     // Li, Kirubarajan, "Estimation with applications to tracking and navigation", 2001, 5.4).
     session.metrics.emplace_back("nees", error.dot(estimate.covariance.inverse() * error));

@@ -11,6 +11,7 @@ namespace {
 
 using Eigen::Vector2d;
 
+/** Without --duration, s. */
 constexpr double kTimeLimit = 90;
 /** m from the lines at which ball and robot are placed at least. */
 constexpr double kMargin = 0.3;

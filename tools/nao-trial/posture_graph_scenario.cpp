@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/constants.h"
 #include "tools/nao-trial/scenarios.h"
 
 namespace nao::trial {
@@ -11,8 +12,8 @@ namespace {
 constexpr double kSpeed = 0.5;   // fraction of the fastest motion
 constexpr double kTimeout = 60;  // s for one way, getting up and trying again included
 // Greatest difference of a joint from the posture, rad.
-constexpr double kTolerance = 3 * M_PI / 180;
-constexpr double kLyingTolerance = 8 * M_PI / 180;
+constexpr double kTolerance = 3 * kDegree;
+constexpr double kLyingTolerance = 8 * kDegree;
 
 /** Moves from one posture to another. @return Cause of the failure; empty on success. */
 std::string go(ClosedLoop& trial, const Posture& goal, RunResult& result) {
@@ -26,9 +27,9 @@ std::string go(ClosedLoop& trial, const Posture& goal, RunResult& result) {
   trial.run(0.3);
   std::string joint;
   const double deviation = trial.deviation_from(goal, &joint);
-  result.metrics.emplace_back("deviation_deg", deviation * 180 / M_PI);
+  result.metrics.emplace_back("deviation_deg", deviation / kDegree);
   if (deviation > (goal.is_lying() ? kLyingTolerance : kTolerance)) {
-    return fmt::format("{} is {:.1f} degrees off", joint, deviation * 180 / M_PI);
+    return fmt::format("{} is {:.1f} degrees off", joint, deviation / kDegree);
   }
   const bool is_upright = goal.family == "standing" || goal.family == "crouching";
   if (is_upright && trial.torso_tilt() > 0.3) return "fell";

@@ -6,6 +6,7 @@
 #include <optional>
 #include <sstream>
 
+#include "common/constants.h"
 #include "common/error.h"
 #include "kinematics/pose2.h"
 #include "tools/nao-trial/fall_warning.h"
@@ -328,7 +329,7 @@ std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint6
     return (from.inverse() * to.position - goal).norm();
   };
   const auto turn_miss = [&](const Pose2& from, const Pose2& to) {
-    return std::abs(wrapped(to.heading - from.heading - turn)) * 180 / M_PI;
+    return std::abs(wrapped(to.heading - from.heading - turn)) / kDegree;
   };
   const double by_odometry = miss(estimated_start, estimated_pose(trial));
   const double turned = turn_miss(estimated_start, estimated_pose(trial));
@@ -385,7 +386,7 @@ std::vector<RunResult> WalkPushScenario::run(const ScenarioOptions& options, uin
   result.is_success = survives(kAsked);
   if (!result.is_success) result.failure = "fell";
   result.metrics.emplace_back("impulse_Ns", low);
-  result.metrics.emplace_back("direction_deg", direction * 180 / M_PI);
+  result.metrics.emplace_back("direction_deg", direction / kDegree);
   return {result};
 }
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "common/constants.h"
 #include "common/error.h"
 
 namespace nao {
@@ -17,7 +18,7 @@ double parse_angle(const std::string& text) {
   const std::string unit = end;
   if (end == text.c_str() || !std::isfinite(number)) return std::nan("");
   if (unit.empty() || unit == "rad") return number;
-  if (unit == "deg") return number * std::numbers::pi / 180;
+  if (unit == "deg") return number * kDegree;
   return std::nan("");
 }
 

@@ -9,6 +9,7 @@
 namespace nao::vision {
 namespace {
 
+/** Size of the images, pixels: that of the images nao-vision works on. */
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
 

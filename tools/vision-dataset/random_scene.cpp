@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/constants.h"
 #include "daemons/vision/field_model.h"
 #include "kinematics/pose2.h"
 
 namespace nao::vision {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 Eigen::Vector3f random_color(Random& random, double lower, double upper) {
   return {static_cast<float>(random.uniform(lower, upper)),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/constants.h"
 #include "kinematics/pose2.h"
 
 namespace nao::vision {
@@ -177,7 +178,7 @@ std::string Scores::table() const {
       fmt::format("{:14} {:11} {:>8} {:>9} {:>7} {:>10} {:>11} {:>11}\n", "kind", "distance",
                   "labels", "recall", "false", "precision", "bearing deg", "distance");
   for (const auto& [key, row] : rows_) {
-    const double bearing = median(row.bearing_errors) * 180 / M_PI;
+    const double bearing = median(row.bearing_errors) / kDegree;
     const double distance = 100 * median(row.distance_errors);
     text += fmt::format(
         "{:14} {:11} {:8.0f} {:>9} {:7.0f} {:>10} {:11.2f} {:9.1f} %\n", key.first,

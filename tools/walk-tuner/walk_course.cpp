@@ -148,6 +148,7 @@ WalkResult WalkCourse::run(ClosedLoopOptions options, const motion::Gait& gait, 
   const Vector3d velocities[kNumVelocities] = {
       {forward, 0, 0},  {0.6 * forward, 0, 0}, {-speed_ * limits.backward, 0, 0},
       {0, sideways, 0}, {0, 0, turning},       {0.6 * forward, 0.4 * sideways, -0.4 * turning}};
+  // Two walks with a joystick, then those with a push.
   constexpr int kFirstPush = 8;
 
   options.motion.gait = gait;

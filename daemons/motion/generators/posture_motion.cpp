@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/constants.h"
 #include "daemons/motion/standing_rates.h"
 
 namespace nao::motion {
@@ -39,7 +40,7 @@ MotionGenerator::Phase PostureMotion::step(const MotionContext& context, JointTa
   if (time_ < trajectory_.duration() + kArrivalTime) return Phase::kRunning;
   reason_ = Reason("posture-not-reached",
                    {context.model.motor_joint(deviation.motor).name,
-                    std::to_string(std::lround(deviation.angle * 180 / M_PI)), posture_->name});
+                    std::to_string(std::lround(deviation.angle / kDegree)), posture_->name});
   return Phase::kFailed;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/constants.h"
 #include "daemons/motion/transitions/body_state.h"
 
 namespace nao::motion {
@@ -29,7 +30,7 @@ constexpr const char* kFeetTogether = "feet-together";
 constexpr int kMaxFeetTogether = 3;
 // Deviation from a standing posture above which the feet are brought together once, rad (2.5
 // degrees). Chosen: servos alone stay closer.
-constexpr double kOffPosture = 2.5 * M_PI / 180;
+constexpr double kOffPosture = 2.5 * kDegree;
 // Deviation from a posture below which no approach transition is needed, rad.
 constexpr double kNearPosture = 0.3;
 // Fraction of the progress that a transition stands for: what follows it is not known yet.

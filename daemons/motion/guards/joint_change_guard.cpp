@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "common/constants.h"
 #include "daemons/motion/generators/joint_change_motion.h"
 #include "daemons/motion/transitions/body_state.h"
 
@@ -16,7 +17,7 @@ constexpr double kUpperBodyWeight = 1e-3;
 
 /** An angle as an argument, in degrees, rounded towards 0. @param angle  rad. */
 std::string whole_degrees(double angle) {
-  return std::to_string(std::lround(std::trunc(angle * 180 / M_PI)));
+  return std::to_string(std::lround(std::trunc(angle / kDegree)));
 }
 
 /** @param direction  Horizontal, torso frame: x forward, y to the left. */

@@ -4,12 +4,11 @@
 
 #include <cmath>
 
+#include "common/constants.h"
 #include "test/daemons/motion/nao_model.h"
 
 namespace nao::motion {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 /** Up as measured in the torso of a robot whose soles are level, with an error of the inertial unit
  * about x and about y, rad. */
