@@ -57,24 +57,9 @@ function(nao_use_precompiled)
 endfunction()
 
 nao_add_precompiled(nao_precompiled standard.h)
-
-# For what is compiled more often than its speed matters: tests (what they test is in the libraries), and programs that wait
-# for people or for the bus, or compute in other libraries. -Og needs 0.7 of the compiler's time for -O2 and 0.8 of that for -O1,
-# measured on 14 translation units; -O0 needs more than -Og, and its code is slow. The Debian package is optimised throughout.
-# Not for what is linked before physics or motion: of an inline function that both contain the linker keeps the first copy, and
-# a sprint of nao-trial took 1.3 times as long.
-set(light_options)
-if(NOT CMAKE_BUILD_TYPE STREQUAL "Release")
-  set(light_options -Og)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # GCC 12 reports values as uninitialized at -Og that are not.
-    list(APPEND light_options -Wno-maybe-uninitialized)
-  endif()
-endif()
-nao_add_precompiled(nao_precompiled_light standard.h OPTIONS ${light_options})
-
+nao_add_precompiled(nao_precompiled_light standard.h OPTIONS ${NAO_LIGHT_OPTIONS})
 if(GTest_FOUND)
-  set(test_options ${light_options})
+  set(test_options ${NAO_LIGHT_OPTIONS})
   if(NAO_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Use of a test's own variables after their scope is not checked, which takes a tenth of the compiler's time; that
     # of the libraries' is.
@@ -83,13 +68,8 @@ if(GTest_FOUND)
   nao_add_precompiled(nao_precompiled_test test.h LIBRARIES GTest::gmock OPTIONS ${test_options})
 endif()
 if(TARGET nao_phone_protocol)
-  # The gateway's time goes to system calls: with 32 clients it takes as much with -O1 as with -O2, and the compiler 0.7.
-  set(protocol_options)
-  if(CMAKE_BUILD_TYPE STREQUAL "RelWithDebInfo")
-    set(protocol_options -O1)
-  endif()
   nao_add_precompiled(nao_precompiled_protocol protocol.h
-    LIBRARIES nao_phone_protocol OPTIONS ${protocol_options}
+    LIBRARIES nao_phone_protocol OPTIONS ${NAO_GATEWAY_OPTIONS}
     IDENTIFIED_BY ${CMAKE_SOURCE_DIR}/phone-gateway/protocol/remote.proto)
 endif()
 nao_use_precompiled()

@@ -21,7 +21,7 @@ if(archives AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     DEPENDS ${archive} VERBATIM)
   add_custom_target(nao_libfuzzer DEPENDS ${NAO_LIBFUZZER})
   add_custom_target(fuzzers)
-  # Of the libraries that fuzzers try (nao_add_fuzzer), which others use too.
+  # Every program links it: nao_add_fuzzer compiles libraries with NAO_COVERAGE, and tests use them too.
   link_libraries(nao_coverage)
   set(NAO_COVERAGE -fsanitize-coverage=trace-pc,trace-cmp)
 else()

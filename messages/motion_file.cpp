@@ -5,7 +5,7 @@
 namespace nao {
 namespace {
 
-/** Characters. Chosen: a name fits a line on a phone. */
+/** Characters. Chosen: short enough for a line of a list. */
 constexpr size_t kMaxNameLength = 40;
 
 }  // namespace

@@ -27,7 +27,7 @@
 namespace nao::bench {
 namespace {
 
-// Chosen: a robot's developers at one table.
+// Chosen: more than one developer at a time.
 constexpr int kNumClients = 3;
 // Time in which clients catch up with what has waited for them, s. Chosen: some MB take
 // milliseconds.

@@ -116,7 +116,7 @@ std::map<std::string, Latency> measure_paths(GatewayStack& stack, int num_rounds
   std::map<std::string, std::vector<double>> phases;
   std::mt19937 random(1);
   for (const auto& [name, ask] : ways) phases[name] = tick_phases(num_rounds, random);
-  // s; a joint has then reached its target, and stands.
+  // Between two commands, s: the motion of one has ended before the next.
   constexpr double kPause = 0.3;
   double change = kYawChange;
   for (int round = 0; round < num_rounds; ++round) {

@@ -8,7 +8,7 @@ namespace nao::trial {
 namespace {
 
 constexpr double kGetUpTimeout = 60;  // s, six tries and the waiting between
-constexpr int kMaxTries = 3;          // of a success
+constexpr int kMaxTries = 3;          // of a run that succeeds
 
 }  // namespace
 

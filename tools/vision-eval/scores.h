@@ -18,7 +18,7 @@ namespace nao::vision {
  * (precision). A crossing of another type than its label is an error of the type only. */
 class Scores {
  public:
-  /** Fraction of an object. Chosen: of less even a person is unsure. */
+  /** Fraction of an object. Chosen: more than half of it. */
   static constexpr double kLeastVisible = 0.6;
 
   /** Distance of an object: to 3 m, 3 to 5 m, farther, unknown. */
