@@ -9,7 +9,7 @@ from pathlib import Path
 from stack import COMPANIONS, PROGRAMS
 
 # Included by most sources of the programs.
-TOUCHED_HEADER = "robot_model/robot_model.h"
+TOUCHED_HEADER = "libs/robot_model/robot_model.h"
 
 
 def copy_sources(root, folder):

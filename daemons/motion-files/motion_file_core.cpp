@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "daemons/motion-files/motion_text.h"
 #include "messages/command.h"
-#include "motion_files/motion_text.h"
 
 namespace nao::motion_files {
 namespace {

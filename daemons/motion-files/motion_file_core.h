@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "daemons/motion-files/motion_checker.h"
+#include "daemons/motion-files/motion_store.h"
 #include "messages/motion_file.h"
-#include "motion_files/motion_checker.h"
-#include "motion_files/motion_store.h"
 #include "robot_model/robot_model.h"
 
 namespace nao::motion_files {

@@ -11,8 +11,8 @@
 #include "common/channels.h"
 #include "common/event_loop.h"
 #include "common/status_reporter.h"
+#include "daemons/motion-files/motion_checker.h"
 #include "daemons/motion-files/motion_file_core.h"
-#include "motion_files/motion_checker.h"
 #include "robot_model/robot_model.h"
 
 namespace nao::motion_files {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "daemons/play/approach.h"
-#include "match/formation.h"
+#include "kinematics/formation.h"
 
 namespace nao::play {
 namespace {

@@ -11,7 +11,7 @@ from programs import DEADLINE, Robot, wait_until
 import phone
 from nao_remote import remote_pb2 as pb
 
-# robots/nao/postures.yaml: the torso of a crouching NAO is 0.229 m above the floor.
+# data/robots/nao/postures.yaml: the torso of a crouching NAO is 0.229 m above the floor.
 CROUCH_HEIGHT = 0.229
 TOLERANCE = 0.015
 

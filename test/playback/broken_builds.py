@@ -26,7 +26,7 @@ FLIPS = [
      "readings_.gyroscope = truth.angular_velocity", "readings_.gyroscope = -truth.angular_velocity"),
     ("nao-motion", "daemons/motion/message_conversion.cpp",
      "WalkCommand{message.vx, message.vy, message.wz}", "WalkCommand{message.vx, message.vy, -message.wz}"),
-    ("nao-head-camera", "rendering/pinhole_camera.cpp",
+    ("nao-head-camera", "libs/rendering/pinhole_camera.cpp",
      "matrix(1, 1) = 2 * camera.fy", "matrix(1, 1) = -2 * camera.fy"),
     ("nao-phone-gateway", "phone-gateway/server/core/robot_mirror.cpp",
      "add_joint_position(static_cast<float>(position))", "add_joint_position(-static_cast<float>(position))"),

@@ -11,7 +11,7 @@ sys.path.insert(0, str(ROOT / "tools/nao-trial"))
 
 import check_matches  # noqa: E402
 
-SCENE = yaml.safe_load((ROOT / "scenes/soccer.yaml").read_text())
+SCENE = yaml.safe_load((ROOT / "data/scenes/soccer.yaml").read_text())
 
 
 def roll(start, velocity, seconds, begin=0.0, phase="playing"):

@@ -15,7 +15,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import deploy  # noqa: E402
 import seat  # noqa: E402
 
-MODEL = ROOT / "robots/nao"
+MODEL = ROOT / "data/robots/nao"
 
 
 def run(command, **keywords):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""robots/derive.py makes complete files of a robot that extends another."""
+"""data/robots/derive.py makes complete files of a robot that extends another."""
 
 import sys
 import tempfile
@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "robots"))
+sys.path.insert(0, str(ROOT / "data/robots"))
 import derive  # noqa: E402
 
 BASE_YAML = """# Head.
@@ -42,7 +42,7 @@ class Derive(unittest.TestCase):
             "# Of cameras.\ncameras:\n  - one\n  # comment inside\n  - two\n", "# Other cameras.\ncameras: [three]\n") + "own: 2\n")
 
     def test_without_differences_the_file_is_the_same(self):
-        for file in (ROOT / "robots/nao").glob("*.yaml"):
+        for file in (ROOT / "data/robots/nao").glob("*.yaml"):
             self.assertEqual(derive.merge_yaml(file.read_text(), "extends: nao\n"), file.read_text(), file)
 
     def test_a_section_that_is_there_twice_is_refused(self):
@@ -77,7 +77,7 @@ class Derive(unittest.TestCase):
 
     def test_the_v6_differs_from_the_v5_as_its_files_say(self):
         with tempfile.TemporaryDirectory() as folder:
-            base, own, output = ROOT / "robots/nao", ROOT / "robots/nao_v6", Path(folder)
+            base, own, output = ROOT / "data/robots/nao", ROOT / "data/robots/nao_v6", Path(folder)
             derive.derive(base, own, output)
             self.assertEqual(derive.files_of(output), sorted([*derive.files_of(base), "head_cameras.yaml"]))
 

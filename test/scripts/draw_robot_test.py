@@ -10,7 +10,7 @@ import unittest
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
-ROBOTS = Path(__file__).resolve().parents[2] / "robots"
+ROBOTS = Path(__file__).resolve().parents[2] / "data/robots"
 
 # A trunk with a leg of one joint along y, in sizes of a small and of a large robot.
 URDF = """<robot name="x">

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "closed_loop/closed_loop.h"
 #include "common/constants.h"
 #include "common/error.h"
+#include "sim/closed_loop/closed_loop.h"
 #include "sim/floor.h"
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"

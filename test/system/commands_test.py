@@ -32,7 +32,7 @@ class Commands(unittest.TestCase):
 
     def test_goes_to_postures(self):
         self.obeyed("posture", "Crouch")
-        # robots/nao/postures.yaml: a crouching NAO's torso is 0.229 m above the floor.
+        # data/robots/nao/postures.yaml: a crouching NAO's torso is 0.229 m above the floor.
         self.assertAlmostEqual(self.stack.torso_height(), 0.229, delta=0.01)
         self.assertEqual(self.stack.state()["motion_state"]["posture"], "Crouch")
         self.obeyed("posture", "Stand")

@@ -53,7 +53,7 @@ class Documents(unittest.TestCase):
 
     def test_every_channel_of_the_code_is_in_the_table(self):
         table = (ROOT / "lcmtypes/README.md").read_text()
-        code = (ROOT / "common/channels.h").read_text()
+        code = (ROOT / "libs/common/channels.h").read_text()
         names = ["NAO" + suffix for suffix in re.findall(r'robot \+ "(_[A-Z_]+)"', code)]
         names += re.findall(r'= "([A-Z_]+)";', code)
         self.assertGreater(len(names), 10)

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "clients" / "python"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "phone-gateway/clients/python"))
 import built_package  # noqa: E402, F401
 import nao_remote  # noqa: E402
 from nao_remote import Mode  # noqa: E402

@@ -77,7 +77,7 @@ class SeveralHosts(unittest.TestCase):
         self.assertAlmostEqual(self.truth()["position_torso_in_world"][2], height, delta=0.02)
 
     def test_a_phone_moves_the_robot_and_sees_it(self):
-        # robots/nao/postures.yaml: heights of the torso.
+        # data/robots/nao/postures.yaml: heights of the torso.
         self.assert_obeys("Crouch", 0.229)
         self.assert_obeys("StandInit", 0.322)
         image = self.part[GATEWAY].run_dir / "image.jpg"

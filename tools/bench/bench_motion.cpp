@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "closed_loop/closed_loop.h"
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "robot_model/robot_model.h"
+#include "sim/closed_loop/closed_loop.h"
 #include "tools/bench/cpu_time.h"
 #include "tools/bench/figures.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "closed_loop/closed_loop.h"
 #include "common/data_path.h"
+#include "sim/closed_loop/closed_loop.h"
 
 namespace nao {
 

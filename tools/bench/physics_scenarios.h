@@ -12,7 +12,7 @@ namespace nao {
 /** Period of joint targets, s. */
 inline constexpr double kControlPeriod = 0.01;
 
-/** The model robots/nao, loaded once. */
+/** The model data/robots/nao, loaded once. */
 std::shared_ptr<const RobotModel> nao_model();
 
 /** Motion of the robot, in both simulators. */

@@ -136,7 +136,7 @@ def summarize(matches):
 
 def main():
     arguments, options = parse_arguments()
-    scene = yaml.safe_load((ROOT / "scenes/soccer.yaml").read_text())
+    scene = yaml.safe_load((ROOT / "data/scenes/soccer.yaml").read_text())
     first, _, last = arguments.seeds.partition("-")
     with tempfile.TemporaryDirectory() as temporary, ThreadPoolExecutor(arguments.jobs) as pool:
         folder = arguments.traces or temporary

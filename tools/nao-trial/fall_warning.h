@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "closed_loop/closed_loop.h"
+#include "sim/closed_loop/closed_loop.h"
 
 namespace nao::trial {
 

@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "closed_loop/calibrate.h"
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
+#include "sim/closed_loop/calibrate.h"
 #include "tools/nao-trial/scenario.h"
 #include "tools/nao-trial/statistics.h"
 #ifdef NAO_TRIAL_HAS_VISION

@@ -12,7 +12,7 @@
 #include "common/error.h"
 #include "daemons/play/match_view.h"
 #include "daemons/referee/referee_core.h"
-#include "match/formation.h"
+#include "kinematics/formation.h"
 #include "messages/match_state.h"
 #include "tools/nao-trial/play_trial.h"
 

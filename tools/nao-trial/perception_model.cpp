@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "match/formation.h"
+#include "kinematics/formation.h"
 
 namespace nao::trial {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "closed_loop/closed_loop.h"
 #include "daemons/play/play_core.h"
 #include "daemons/play/robot_viewer.h"
+#include "sim/closed_loop/closed_loop.h"
 #include "tools/nao-trial/trial_perception.h"
 
 namespace nao::trial {

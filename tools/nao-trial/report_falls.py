@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Which disturbance costs how many falls: runs a scenario of nao-trial with each entry of
-disturbances/real.yaml alone, and with whole files, and prints a table in Markdown."""
+data/disturbances/real.yaml alone, and with whole files, and prints a table in Markdown."""
 
 import argparse
 import json
@@ -29,7 +29,7 @@ def parse_arguments():
 
 
 def entries_of_real():
-    text = (ROOT / "disturbances/real.yaml").read_text()
+    text = (ROOT / "data/disturbances/real.yaml").read_text()
     return re.findall(r"^([a-z_]+):", text, re.MULTILINE)
 
 

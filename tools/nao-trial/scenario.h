@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "closed_loop/closed_loop.h"
+#include "sim/closed_loop/closed_loop.h"
 
 namespace nao::trial {
 

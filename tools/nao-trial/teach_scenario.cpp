@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "common/wall_clock.h"
-#include "motion_files/motion_checker.h"
-#include "motion_files/rollout.h"
+#include "daemons/motion-files/motion_checker.h"
+#include "daemons/motion-files/rollout.h"
 #include "tools/nao-trial/teach_motions.h"
 
 namespace nao::trial {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "closed_loop/closed_loop.h"
 #include "daemons/play/situation.h"
+#include "sim/closed_loop/closed_loop.h"
 
 namespace nao::trial {
 

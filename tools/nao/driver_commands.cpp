@@ -7,7 +7,7 @@
 
 #include "common/command_line.h"
 #include "common/json_writer.h"
-#include "phone-gateway/client/phone_client.h"
+#include "phone-gateway/clients/cpp/phone_client.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/text_table.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "closed_loop/closed_loop.h"
+#include "sim/closed_loop/closed_loop.h"
 #include "simulation.pb.h"
 
 namespace nao::simulation_server {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "closed_loop/closed_loop.h"
+#include "sim/closed_loop/closed_loop.h"
 #include "simulation.pb.h"
 
 /** Between the messages of simulation.proto and the closed loop's types. */

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "closed_loop/closed_loop.h"
 #include "daemons/motion/transitions/transition_graph.h"
+#include "sim/closed_loop/closed_loop.h"
 
 namespace nao {
 

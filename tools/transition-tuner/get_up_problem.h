@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "closed_loop/closed_loop.h"
+#include "sim/closed_loop/closed_loop.h"
 #include "tools/transition-tuner/get_up_course.h"
 #include "tools/transition-tuner/transition_text.h"
 #include "tools/tuning/trial_conditions.h"

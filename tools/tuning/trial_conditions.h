@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "closed_loop/closed_loop.h"
+#include "sim/closed_loop/closed_loop.h"
 #include "sim/disturbances.h"
 
 namespace nao {

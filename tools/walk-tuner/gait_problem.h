@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "closed_loop/closed_loop.h"
 #include "daemons/motion/walk/gait.h"
+#include "sim/closed_loop/closed_loop.h"
 #include "tools/tuning/trial_conditions.h"
 #include "tools/tuning/tuning_problem.h"
 #include "tools/walk-tuner/walk_course.h"

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "closed_loop/closed_loop.h"
 #include "daemons/motion/walk/gait.h"
+#include "sim/closed_loop/closed_loop.h"
 
 namespace nao::tool {
 

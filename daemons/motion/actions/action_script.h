@@ -9,8 +9,9 @@
 
 namespace nao::motion {
 
-/** An action that is kept as data: the robot's own from a stand, robots/NAME/actions/keeper.yaml,
- * which says what each key means; or one that people taught (TaughtMotionText). */
+/** An action that is kept as data: the robot's own from a stand,
+ * data/robots/NAME/actions/keeper.yaml, which says what each key means; or one that people taught
+ * (TaughtMotionText). */
 struct ActionScript {
   /** kHolds: of taught motions; the robot holds its last keyframe. */
   enum class End { kOnFeet, kGetsUp, kHolds };

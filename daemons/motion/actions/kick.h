@@ -11,8 +11,8 @@ namespace nao::motion {
 /** Of a kick, in the robot's folder. */
 constexpr const char* kKickFile = "actions/kick.yaml";
 
-/** A kick as robots/NAME/actions/kick.yaml describes it; the members carry the file's keys, and the
- * file says what each means. */
+/** A kick as data/robots/NAME/actions/kick.yaml describes it; the members carry the file's keys,
+ * and the file says what each means. */
 struct Kick {
   struct Phase {
     std::string name;

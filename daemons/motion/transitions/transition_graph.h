@@ -10,7 +10,7 @@
 
 namespace nao::motion {
 
-/** States of the body and the verified transitions between them: robots/NAME/transitions.yaml.
+/** States of the body and the verified transitions between them: data/robots/NAME/transitions.yaml.
  *
  * States are "on-feet" for any upright stand on both soles; "belly", "back", "left" and "right" for
  * the side on which the body lies, at any joint angles; and the sitting postures by their names.

@@ -6,7 +6,7 @@
 
 namespace nao::motion {
 
-/** All tuned parameters of a robot's walk, as read from robots/NAME/gait.yaml.
+/** All tuned parameters of a robot's walk, as read from data/robots/NAME/gait.yaml.
  *
  * Groups and members carry the file's keys. The file states for each value its unit, its meaning,
  * the range in which nao-walk-tuner may choose it, and how it was found. */
@@ -147,7 +147,7 @@ struct Gait {
     double value(Gait gait) const { return in(gait); }
   };
 
-  /** Reads robots/NAME/gait.yaml, which must hold every parameter.
+  /** Reads data/robots/NAME/gait.yaml, which must hold every parameter.
    * @param parameters  If given, set to all entries with their ranges, in the file's order.
    * @throws ModelError  naming the file, the line and the fault. */
   static Gait load(const std::filesystem::path& file, std::vector<Parameter>* parameters = nullptr);

@@ -51,7 +51,7 @@ class PathTracker {
  private:
   // Limit of the heading's error, rad: what turns a robot with joint zeros of 0.5 degrees (up to
   // 0.1 rad/s) is answered by gain times error. Chosen with nao-trial: of 20 sprints of 10 m under
-  // disturbances/real.yaml 8 succeed with a limit of 0.15, and 13 with 0.5 or more.
+  // data/disturbances/real.yaml 8 succeed with a limit of 0.15, and 13 with 0.5 or more.
   static constexpr double kMaxTurn = 0.5;
 
   double max_offset_;

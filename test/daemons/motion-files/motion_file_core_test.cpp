@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "test/motion_files/motions.h"
+#include "test/daemons/motion-files/motions.h"
 #include "test/support/temporary_folder.h"
 
 namespace nao::motion_files {

@@ -7,7 +7,7 @@
 #include <naolcm/keyframe_motion_t.hpp>
 
 #include "common/wall_clock.h"
-#include "test/motion_files/motions.h"
+#include "test/daemons/motion-files/motions.h"
 #include "test/support/temporary_folder.h"
 
 namespace nao::motion_files {

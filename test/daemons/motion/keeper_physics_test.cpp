@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "closed_loop/closed_loop.h"
+#include "sim/closed_loop/closed_loop.h"
 
 namespace nao::trial {
 namespace {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "closed_loop/closed_loop.h"
 #include "daemons/motion/actions/kick.h"
+#include "sim/closed_loop/closed_loop.h"
 
 namespace nao::trial {
 namespace {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "test/robot_model/copied_robot.h"
+#include "test/libs/robot_model/copied_robot.h"
 
 namespace nao::motion {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "closed_loop/closed_loop.h"
+#include "sim/closed_loop/closed_loop.h"
 
 namespace nao::trial {
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "match/formation.h"
+#include "kinematics/formation.h"
 #include "test/daemons/play/toy_world.h"
 
 namespace nao::play {

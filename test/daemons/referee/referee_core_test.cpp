@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "common/error.h"
-#include "match/formation.h"
+#include "kinematics/formation.h"
 
 namespace nao::referee {
 namespace {

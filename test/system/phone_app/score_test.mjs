@@ -12,7 +12,7 @@ const kPace = 0.25;
 const kScoreMs = 240_000;
 // A person taps again, too, when the robot has given up, or has kicked past the goal.
 const kMaxTaps = 3;
-// Line of the opponent's goal, and half its width, m: scenes/soccer.yaml.
+// Line of the opponent's goal, and half its width, m: data/scenes/soccer.yaml.
 const kGoalLine = 4.5;
 const kHalfGoal = 0.75;
 // play_state_t's BEHAVIOR_*.

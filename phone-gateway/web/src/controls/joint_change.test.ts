@@ -6,7 +6,7 @@ import type {JointChange} from "../protocol/use_cases";
 import {changeFromStick, kJointRate} from "./joint_change";
 import {JointDriver, kJointPeriodMs} from "./joint_driver";
 
-const groups = readJointGroups(new URL("../../../../robots/nao", import.meta.url).pathname)
+const groups = readJointGroups(new URL("../../../../data/robots/nao", import.meta.url).pathname)
     .map((group) => create(JointGroupSchema, group));
 const group = (name: string) => groups.find((one) => one.name === name)!;
 

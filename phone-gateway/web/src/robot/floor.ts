@@ -5,7 +5,7 @@ import {
   Vector2, Vector4,
 } from "three";
 
-/** The lines of a field, m; see scenes/soccer.yaml for the meaning. */
+/** The lines of a field, m; see data/scenes/soccer.yaml for the meaning. */
 export interface FieldLines {
   length: number;
   width: number;

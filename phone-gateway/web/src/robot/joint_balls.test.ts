@@ -8,7 +8,7 @@ import {JointBalls, kAxes, kAxisColors} from "./joint_balls";
 import {RobotSurface} from "./robot_surface";
 import {RobotTree} from "./robot_tree";
 
-const urdf = readUrdf(new URL("../../../../robots/nao", import.meta.url).pathname);
+const urdf = readUrdf(new URL("../../../../data/robots/nao", import.meta.url).pathname);
 const groups = [
   create(JointGroupSchema, {name: "head", yawJoint: "HeadYaw", pitchJoint: "HeadPitch"}),
   create(JointGroupSchema, {name: "left shoulder", pitchJoint: "LShoulderPitch", rollJoint: "LShoulderRoll"}),

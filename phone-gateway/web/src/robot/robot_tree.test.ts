@@ -7,7 +7,7 @@ import {makeRobotAxes, robotToScene} from "./frames";
 import {PoseMirror} from "./pose_mirror";
 import {RobotTree} from "./robot_tree";
 
-const kRobot = new URL("../../../../robots/nao", import.meta.url).pathname;
+const kRobot = new URL("../../../../data/robots/nao", import.meta.url).pathname;
 const urdf = readUrdf(kRobot);
 const joints = readJoints(kRobot);
 

@@ -4,7 +4,7 @@ import {readJointGroups, readUrdf} from "../../test_support/nao_files";
 import {JointGroupSchema} from "../protocol/generated/remote_pb";
 import {jointsOfChange, jointsOfGroups, limbOf} from "./limbs";
 
-const folder = new URL("../../../../robots/nao", import.meta.url).pathname;
+const folder = new URL("../../../../data/robots/nao", import.meta.url).pathname;
 const urdf = readUrdf(folder);
 const groups = readJointGroups(folder).map((group) => create(JointGroupSchema, group));
 

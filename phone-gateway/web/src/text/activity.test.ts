@@ -10,7 +10,7 @@ const inWords = (kind: CommandKind, name = "", needsHelp = false): string =>
 
 describe("activityInWords", () => {
   it("names postures and actions as their buttons do", () => {
-    setLabels(readLabels(new URL("../../../../robots/nao", import.meta.url).pathname));
+    setLabels(readLabels(new URL("../../../../data/robots/nao", import.meta.url).pathname));
     setLanguage("de");
     expect(inWords(CommandKind.POSTURE, "StandInit")).toBe("Startklar");
     expect(inWords(CommandKind.ACTION, "kick-left")).toBe("Schuss links");

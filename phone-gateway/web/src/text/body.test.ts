@@ -12,7 +12,7 @@ const robot = create(RobotDescriptionSchema, {
 
 describe("bodyInWords", () => {
   it("tells battery, hottest motor and warnings in three languages", () => {
-    setLabels(readLabels(new URL("../../../../robots/nao", import.meta.url).pathname));
+    setLabels(readLabels(new URL("../../../../data/robots/nao", import.meta.url).pathname));
     const body = create(BodySchema, {
       batteryCharge: 0.634, isCharging: true, hottestJoint: "LKneePitch", hottestTemperature: 76.4,
       warnings: ["joint-hot", "shell-open"], faultyJoints: ["LKneePitch", "LKneePitch", "Tail"],

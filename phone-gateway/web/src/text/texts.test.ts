@@ -24,7 +24,7 @@ describe("texts", () => {
   });
 
   it("call all that the robot does and each of its joint groups as the robot says, in every language", () => {
-    const folder = new URL("../../../../robots/nao", import.meta.url).pathname;
+    const folder = new URL("../../../../data/robots/nao", import.meta.url).pathname;
     const labels = readLabels(folder);
     const keys = [...Object.keys(readPostures(folder)).map((name) => `posture ${name}`),
                   ...readActions(folder).map((name) => `action ${name}`),

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
-#include "closed_loop/closed_loop.h"
 #include "robot_model/scene_file.h"
+#include "sim/closed_loop/closed_loop.h"
 #include "tools/nao-trial/fall_warning.h"
 
 namespace nao::trial {

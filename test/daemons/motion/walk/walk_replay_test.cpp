@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "closed_loop/closed_loop.h"
+#include "sim/closed_loop/closed_loop.h"
 #include "sim/mujoco_baseline.h"
 
 namespace nao::trial {

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "phone-gateway/client/phone_client.h"
+#include "phone-gateway/clients/cpp/phone_client.h"
 
 namespace nao::gateway {
 namespace {
