@@ -1,7 +1,7 @@
 """A client for tests: one connection to nao-phone-gateway over raw TCP.
 
 It sends what a test tells it, and pings only inside its waiting methods: it falls silent when a test stops calling them, and never
-connects again by itself. Programs use the package nao_remote (clients/python) instead.
+connects again by itself. Programs use the package nao_remote (phone-gateway/clients/python) instead.
 """
 
 import socket

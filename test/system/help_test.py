@@ -26,7 +26,7 @@ def commands():
     """All commands for users: name as in the documents -> file."""
     # nao-bare-sender is the baseline that nao-bench-gateway starts; users do not call it.
     found = {file.name: file for file in BIN_DIR.glob("nao*") if "_" not in file.name and file.name != "nao-bare-sender"}
-    for file in tracked("scripts/*", ".ci/*", "test/*.py", "test/playback/record", "tools/*.py", "phone-gateway/*.py"):
+    for file in tracked("scripts/*", ".ci/*", "test/*.py", "test/playback/record", "tools/*.py"):
         if os.access(file, os.X_OK):
             found[str(file.relative_to(ROOT))] = file
     return found

@@ -14,7 +14,7 @@ PROTOS = ["phone-gateway/protocol/remote.proto", "tools/simulation-server/simula
 
 
 def find(proto):
-    for candidate in (HERE / "protocols" / Path(proto).name, HERE.parents[2] / proto):
+    for candidate in (HERE / "protocols" / Path(proto).name, *(folder / proto for folder in HERE.parents)):
         if candidate.is_file():
             return candidate
     raise SystemExit(f"{proto} is missing: build from the repository or from a source archive")

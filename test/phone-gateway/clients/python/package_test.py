@@ -35,11 +35,10 @@ class Package(unittest.TestCase):
                 self.skipTest(f"python module {module} is missing (Debian: python3-setuptools, python3-wheel, python3-venv)")
         self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         # Builds write into the sources' folder.
-        (self.folder / "repository/clients").mkdir(parents=True)
         self.sources = self.folder / "repository/phone-gateway/clients/python"
         shutil.copytree(SOURCES, self.sources, ignore=shutil.ignore_patterns("build", "dist", "*.egg-info", "__pycache__"))
         for proto in ("phone-gateway/protocol/remote.proto", "tools/simulation-server/simulation.proto"):
-            (self.folder / "repository" / proto).parent.mkdir(parents=True)
+            (self.folder / "repository" / proto).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / proto, self.folder / "repository" / proto)
 
     def install(self, *packages):

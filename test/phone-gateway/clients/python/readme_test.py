@@ -28,7 +28,7 @@ class Readme(unittest.TestCase):
         shutil.copytree(ROOT / "phone-gateway/clients/python", self.folder / "repository/phone-gateway/clients/python",
                         ignore=shutil.ignore_patterns("build", "dist", "*.egg-info", "__pycache__"))
         for proto in ("phone-gateway/protocol/remote.proto", "tools/simulation-server/simulation.proto"):
-            (self.folder / "repository" / proto).parent.mkdir(parents=True)
+            (self.folder / "repository" / proto).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / proto, self.folder / "repository" / proto)
 
     def run_command(self, command, url):
