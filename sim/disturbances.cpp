@@ -112,7 +112,7 @@ double read_size(const YamlEntry& entry, const Rule& rule, const Unit& unit, dou
   return number;
 }
 
-const Unit& read_unit(const YamlEntry& entry, const Rule& rule) {
+Unit read_unit(const YamlEntry& entry, const Rule& rule) {
   // Collects the allowed names for the error message; entry.fail() throws.
   const std::string name = entry.text();
   std::vector<std::string> names;
@@ -125,7 +125,7 @@ const Unit& read_unit(const YamlEntry& entry, const Rule& rule) {
 
 Distribution read_distribution(const YamlEntry& entry, const Rule& rule) {
   entry.allow_only({"value", "uniform", "sigma", "unit", "per", "source"});
-  const Unit& unit = read_unit(entry.at("unit"), rule);
+  const Unit unit = read_unit(entry.at("unit"), rule);
   const std::string per = entry.at("per").text();
   if (std::find(rule.per.begin(), rule.per.end(), per) == rule.per.end()) {
     entry.at("per").fail("is \"" + per + "\" and must be " +

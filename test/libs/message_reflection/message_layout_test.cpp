@@ -12,7 +12,7 @@
 namespace nao {
 namespace {
 
-const FieldLayout& field(const std::string& message, const std::string& name) {
+FieldLayout field(const std::string& message, const std::string& name) {
   const std::vector<FieldLayout>& fields = find_message_layout(message)->fields;
   return *std::find_if(fields.begin(), fields.end(),
                        [&](const FieldLayout& layout) { return layout.name == name; });
@@ -27,7 +27,7 @@ TEST(MessageLayout, EveryTypeHasALayout) {
 }
 
 TEST(MessageLayout, DescribesFieldsAsTheLcmFileDoes) {
-  const FieldLayout& position = field("joint_command_t", "joint_position");
+  const FieldLayout position = field("joint_command_t", "joint_position");
   EXPECT_EQ(position.kind, FieldKind::kDouble);
   EXPECT_EQ(position.dimensions, std::vector<std::string>{"num_joints"});
   EXPECT_THAT(field("walk_command_t", "vx").description, testing::HasSubstr("m/s"));
@@ -37,11 +37,11 @@ TEST(MessageLayout, DescribesFieldsAsTheLcmFileDoes) {
 TEST(MessageLayout, NamesTheValuesOfEnumerations) {
   using naolcm::command_result_t;
   using naolcm::motion_state_t;
-  const FieldLayout& status = field("command_result_t", "status");
+  const FieldLayout status = field("command_result_t", "status");
   EXPECT_EQ(*find_constant_name(status, command_result_t::STATUS_DONE), "STATUS_DONE");
   EXPECT_EQ(status.constants.size(), 5u);
   EXPECT_EQ(find_constant_name(status, 100), nullptr);
-  const FieldLayout& kind = field("motion_state_t", "command_kind");
+  const FieldLayout kind = field("motion_state_t", "command_kind");
   EXPECT_EQ(*find_constant_name(kind, motion_state_t::COMMAND_KIND_NONE), "COMMAND_KIND_NONE");
   EXPECT_EQ(*find_constant_name(kind, motion_state_t::COMMAND_KIND_STOP), "COMMAND_KIND_STOP");
 }
