@@ -51,6 +51,15 @@ class Documents(unittest.TestCase):
                 with self.subTest(document=document.name, name=name):
                     self.assertTrue((ROOT / "scripts" / name).exists())
 
+    def test_every_path_that_is_named_is_there(self):
+        folders = {name.split("/")[0] for name in run(["git", "-C", ROOT, "ls-files"]).stdout.splitlines() if "/" in name}
+        for document in documents():
+            for word in " ".join(re.findall(r"`([^`\n]+)`", document.read_text())).split():
+                path = word.strip(".,:;").replace("NAME", "*")
+                if path.split("/")[0] in folders and re.fullmatch(r"[\w./*-]+", path):
+                    with self.subTest(document=document.name, path=word):
+                        self.assertTrue([*ROOT.glob(path), *document.parent.glob(path), *ROOT.glob(f"{path}.*")])
+
     def test_every_channel_of_the_code_is_in_the_table(self):
         table = (ROOT / "lcmtypes/README.md").read_text()
         code = (ROOT / "libs/common/channels.h").read_text()
