@@ -96,7 +96,7 @@ class HeadCamera {
   std::vector<uint8_t> distorted_;
   Scene scene_;
   std::vector<std::string> problems_;
-  /** Of visuals_.problems(), those that take_problems() returned. */
+  /** Number of visuals_.problems() that take_problems() has returned. */
   size_t num_told_problems_ = 0;
   CameraFrame frame_;
 };

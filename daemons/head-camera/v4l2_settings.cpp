@@ -32,7 +32,7 @@ constexpr std::array<std::pair<const char*, uint32_t>, 15> kControls{{
     {"power_line_frequency", V4L2_CID_POWER_LINE_FREQUENCY},
     {"backlight_compensation", V4L2_CID_BACKLIGHT_COMPENSATION},
 }};
-/** Of an address on an I2C bus: 7 bits. */
+/** Greatest address on an I2C bus, which has 7 bits. */
 constexpr int kMaxAddress = 127;
 
 int integer(const YamlEntry& entry, int least, int greatest) {

@@ -99,7 +99,7 @@ class Watch {
   std::set<std::pair<int, int>> touching_;
   int keyframe_ = -1;
   double contact_time_ = 0;
-  /** Of each motor: time for which it has been away from its target, s. */
+  /** Time for which each motor has been away from its target, s. */
   std::vector<double> blocked_time_;
   std::optional<MotionFault> fault_;
 };

@@ -190,8 +190,8 @@ void MotionCore::limit_targets(const JointTargets& last, double dt) {
   // motor turns.
   limiter_.limit(last.position, dt, targets_.position);
   for (size_t i = 0; i < last.position.size(); ++i) {
-    // Of the limited targets, so that a motion that starts now continues what the servos really
-    // get.
+    // The velocity of the limited targets lets a motion that starts now continue what the servos
+    // really receive.
     targets_.velocity[i] = dt > 0 ? (targets_.position[i] - last.position[i]) / dt : 0.0;
   }
 }

@@ -120,7 +120,7 @@ class MotionCore {
   TargetLimiter limiter_;
   StateReporter reporter_;
   std::optional<StandingBalance> standing_;
-  /** Of the motions, in the last step. */
+  /** Targets of the motions in the last step. */
   JointTargets targets_;
   /** Positions that were sent in the last step. */
   std::vector<double> sent_;

@@ -30,7 +30,7 @@ class SensorCorrection {
  private:
   Calibration calibration_;
   FootPressure pressure_;
-  /** Of foot sensors, those of scale 0. */
+  /** For each foot sensor, whether its scale is 0. */
   std::vector<bool> is_dead_;
   /** Re-expresses in the torso frame a vector given in the inertial unit's axes. */
   Eigen::Matrix3d torso_from_unit_;

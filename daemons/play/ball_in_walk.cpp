@@ -14,8 +14,8 @@ using Eigen::Vector2d;
 constexpr double kPassingGoalDistance = 2.6;
 constexpr double kShotDistance = 3.5;
 constexpr double kContestedDistance = 1.2;
-/** Of a kick during the walk: where the ball is to lie, m ahead and aside; greatest deviation of
- * the heading, rad; and greatest age of the ball's place, s. */
+/** Conditions of a kick during the walk: where the ball must lie, m ahead and sideways; the
+ * greatest heading error, rad; and the greatest age of the ball's position, s. */
 constexpr double kPassingNear = 0.28;
 constexpr double kPassingFar = 0.5;
 constexpr double kPassingAside = 0.12;

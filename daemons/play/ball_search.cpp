@@ -16,8 +16,8 @@ constexpr double kDwell = 0.8;
 constexpr double kScanDepression = 0.28;
 /** Directions of the scan, rad to the left: with a field of view of 1.06 rad they leave no gap. */
 constexpr double kScanBearings[] = {0, 0.85, -0.85};
-/** Of the turn, rad/s: an image's motion blur stays below half a degree, and what it shows is in
- * sight for more than a second. */
+/** Rate of the turn, rad/s. The motion blur of an image stays below half a degree, and what it
+ * shows is in view for more than a second. */
 constexpr double kTurnRate = 0.7;
 /** Longest way to another place, s. */
 constexpr double kRoamTime = 12;

@@ -9,7 +9,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** Of the kick's direction, rad: its worst error (1.7 degrees) and that of the heading. */
+/** Error of the kick's direction, rad: its own worst error (1.7 degrees) and that of the heading.
+ */
 constexpr double kDirectionError = 0.06;
 /** Least tolerance of a kick that does not reach the goal, rad: 0.9 m aside at its end, where the
  * next kick is aimed anew. Chosen. */

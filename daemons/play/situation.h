@@ -143,7 +143,7 @@ struct Decision {
   Gaze gaze{};
   /** Where the robot walks to or the ball shall go, m, in the odometry frame. */
   std::optional<Eigen::Vector2d> target{};
-  /** Of a behavior that has several. */
+  /** Role, if the behavior has several. */
   std::optional<PlayRole> role{};
   /** The behavior has reached its aim, or (with a reason) cannot. */
   bool is_done = false;

@@ -36,10 +36,11 @@ constexpr double kImageAge = 0.1;
  * ball. */
 constexpr double kLookDown = 0.6;
 constexpr double kWatchTime = 1.4;
-/** Of a kick during the walk, m (nao-trial walk-kick), and the walk meanwhile, m/s. */
+/** Distance of a kick during the walk, m (nao-trial walk-kick), and the walking speed in it, m/s.
+ */
 constexpr double kPassingKickDistance = 2.1;
 constexpr double kPassingSpeed = 0.15;
-/** Of the dribbled ball, m/s and m. */
+/** Speed of the dribbled ball, m/s, and the distance to its target at which it has arrived, m. */
 constexpr double kPushSpeed = 0.16;
 constexpr double kTargetReached = 0.3;
 /** A ball seen this far behind the goal line, m, has passed it: its radius, half of the line's

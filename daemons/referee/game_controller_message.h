@@ -19,7 +19,7 @@ inline constexpr uint16_t kGameControllerReturnPort = 3939;
 struct GameControllerData {
   enum class State { kInitial, kReady, kSet, kPlaying, kFinished, kStandby };
   enum class SetPlay { kNone, kGoalKick, kPushingFreeKick, kCornerKick, kKickIn, kPenaltyKick };
-  /** Of a player. */
+  /** Penalty of a player. */
   struct Penalty {
     /** 0: none. */
     uint8_t code = 0;
@@ -39,7 +39,7 @@ struct GameControllerData {
   bool is_first_half = true;
   /** Number of a team; 255: none. */
   int kicking_team = 255;
-  /** Of this half, s; negative: it should have ended. */
+  /** Time left in this half, s; negative if the half should have ended. */
   int time_left = 0;
   std::array<Team, 2> teams{};
 };

@@ -13,7 +13,7 @@ namespace nao::referee {
 
 /** Durations, s, of simulated time. */
 struct Rules {
-  /** Of a half. Chosen: half of the league's, for visitors. */
+  /** Duration of a half, s. Chosen: half of the league's, for visitors. */
   double half_duration = 300;
   /** In which the robots walk to their places for a kick-off (SPL rules: 45 s), and which they have
    * at least. */
@@ -77,7 +77,7 @@ class RefereeCore : public Referee {
   RefereeOutput output_;
   double time_ = 0;
   bool has_time_ = false;
-  /** Of the phase, s. */
+  /** Time since the start of the phase, s. */
   double phase_time_ = 0;
   std::optional<int> last_team_{};
   /** s without a touch of the ball. */

@@ -37,7 +37,7 @@ inline std::array<double, 3> eye_color(EyeState state) {
   }
 }
 
-/** Of the chest's light, which is in the button: what a press would change. */
+/** Color of the chest light, which is in the button: it shows what a press would change. */
 inline std::array<double, 3> chest_color(Phase phase) {
   switch (phase) {
     case Phase::kStiffening:

@@ -74,7 +74,7 @@ class Safety {
   void step(const Input& input, Targets& targets);
 
   Phase phase() const { return phase_; }
-  /** Of the last sitting down or going limp. */
+  /** Why the robot last sat down or went limp. */
   Cause cause() const { return cause_; }
   /** Joint commands have come in the last frames. */
   bool has_controller() const { return frames_without_command_ < kLostFrames; }
@@ -112,11 +112,11 @@ class Safety {
   /** In the present phase, s. */
   double time_ = 0;
   int frames_without_command_ = kLostFrames;
-  /** Of the beginning of kStiffening; in kDriven difference of the first command to what was held.
-   */
+  /** Targets at the start of kStiffening; in kDriven, the difference between the first command and
+   * the targets held before it. */
   Targets held_;
   bool has_followed_ = false;
-  /** Of the first command that is followed, s ago. */
+  /** Time since the first command that is followed, s. */
   double follow_time_ = 0;
 };
 

@@ -37,7 +37,7 @@ struct Detection {
   Eigen::Vector2d position = Eigen::Vector2d::Constant(kUnknown);
   /** Lines: second end on the ground in H, m; NaN otherwise. */
   Eigen::Vector2d end = Eigen::Vector2d::Constant(kUnknown);
-  /** Of `position`, m^2; NaN if unknown. */
+  /** Covariance of `position`, m^2; NaN if unknown. */
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Constant(kUnknown);
   /** 0 to 1. */
   double confidence = 0;

@@ -35,7 +35,7 @@ class FieldModel {
   const std::vector<FieldCrossing>& crossings() const { return crossings_; }
   /** Where the axes of the goal posts meet the ground, m; empty without goals. */
   const std::vector<Eigen::Vector2d>& goal_posts() const { return goal_posts_; }
-  /** Of the center circle, to the middle of its line, m. */
+  /** Radius of the center circle, to the middle of its line, m. */
   double circle_radius() const { return circle_radius_; }
   /** Half of the carpet's length and width, with the border strip, m. */
   const Eigen::Vector2d& half_carpet() const { return half_carpet_; }

@@ -69,8 +69,8 @@ std::vector<int> longest_run(const Line& line, const std::vector<LinePoint>& poi
   return run;
 }
 
-// Of the scatter matrix the larger eigenvector, in closed form: angle = atan2(2 xy, xx - yy) / 2.
-/** Total least squares: the direction of the greatest variance. */
+/** Total least squares: the direction of the greatest variance, which is the scatter matrix's
+ * eigenvector of the larger eigenvalue. In closed form: angle = atan2(2 xy, xx - yy) / 2. */
 Line fit(const std::vector<int>& run, const std::vector<cv::Point2f>& ideal) {
   cv::Point2f mean(0, 0);
   for (const int i : run) mean += ideal[i] * (1.0f / static_cast<float>(run.size()));

@@ -17,7 +17,7 @@ struct FieldPose {
   bool is_known = false;
   /** Heading frame (on the ground below the torso) in the field frame. */
   Pose2 pose;
-  /** Of x, y, m, and heading, rad. */
+  /** Covariance of x, y, m, and heading, rad. */
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 

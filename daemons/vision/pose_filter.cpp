@@ -34,11 +34,12 @@ constexpr double kTiltNoise = 0.008;
 /** Standard deviation of a line's ends across it: pixels, and m on the ground. */
 constexpr double kPixelSigma = 1.2;
 constexpr double kLineSigma = 0.010;
-/** Of the circle's center, m and for each m of its distance. Measured in rendered images: a median
- * error of 0.04 m, and a tenth above 0.25 m, most of which do not pass the gate. */
+/** Deviation of the circle's center, m, and its increase for each m of distance. Measured in
+ * rendered images: a median error of 0.04 m; a tenth are above 0.25 m, most of which do not pass
+ * the gate. */
 constexpr double kCircleSigma = 0.04;
 constexpr double kCircleSigmaPerDistance = 0.02;
-/** Of a post's foot: relative error of the distance, and m across the view. */
+/** Deviation of a post's foot: as a fraction of the distance, and m across the view. */
 constexpr double kPostDistanceSigma = 0.12;
 constexpr double kPostSideSigma = 0.06;
 

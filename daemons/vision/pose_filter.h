@@ -42,7 +42,7 @@ class PoseFilter {
   void update(const FieldObservation& observation);
 
   Pose2 pose() const { return {state_.head<2>(), state_[2]}; }
-  /** Of x, y and heading. */
+  /** Covariance of x, y and heading. */
   Eigen::Matrix3d covariance() const { return covariance_.topLeftCorner<3, 3>(); }
   /** Estimated slow errors of the camera's tilt, rad. */
   Eigen::Vector2d tilt() const { return state_.segment<2>(3); }
@@ -62,7 +62,7 @@ class PoseFilter {
 
     Eigen::Matrix<double, 2, 7> jacobian;
     Eigen::Vector2d innovation;
-    /** Of the measurement's own noise. */
+    /** Covariance of the measurement's own noise. */
     Eigen::Matrix2d covariance;
   };
   /** Nothing if a landmark fits nothing, or several things. */

@@ -242,7 +242,7 @@ std::optional<PoseSearch::Result> PoseSearch::find(
     if (hypotheses.size() > before) ++num_sources;
   }
   const auto is_better = [](const Result& a, const Result& b) { return a.score > b.score; };
-  // Of each place the best hypothesis.
+  // Keeps the best hypothesis of each place.
   const auto thinned = [&](std::vector<Result> results, size_t limit) {
     std::sort(results.begin(), results.end(), is_better);
     std::vector<Result> kept;

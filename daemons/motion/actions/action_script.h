@@ -20,7 +20,8 @@ struct ActionScript {
   /** Share of the capture point's error that the ankles' torque answers; 0: keyframes alone. */
   double balance_gain = 0;
   End end = End::kOnFeet;
-  /** Of taught motions: posture that it starts from, and how often its keyframes are played. */
+  /** Taught motions only: the posture that the motion starts from, and how often its keyframes are
+   * played. */
   std::string start;
   int num_repetitions = 1;
 

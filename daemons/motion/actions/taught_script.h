@@ -20,7 +20,7 @@ struct TaughtMotionBounds {
   /** s. */
   static constexpr double kMinDuration = 0.1;
   static constexpr double kMaxDuration = 60;
-  /** Of all keyframes once, s. */
+  /** Greatest duration of all keyframes, each played once, s. */
   static constexpr double kMaxTotal = 120;
 };
 

@@ -82,7 +82,7 @@ class CommandArbiter {
 
   /** Results since the last call, in the order in which they were made. */
   std::vector<CommandResult> take_results() { return std::exchange(results_, {}); }
-  /** Of the last refused command; none if there was none. */
+  /** Why the last refused command was refused; none if no command was refused. */
   const Reason& last_refusal() const { return last_refusal_; }
 
  private:

@@ -22,7 +22,7 @@ class BodyOutline {
   struct Point {
     int link;
     Eigen::Vector3d position_in_link;
-    /** Of the sphere around the point, m. */
+    /** Radius of the sphere around the point, m. */
     double radius;
   };
 

@@ -26,7 +26,7 @@ class FootPressure {
   size_t num_sensors() const { return terms_.size(); }
 
  private:
-  /** Of each foot, and at the end none. */
+  /** Sensors of each foot; the last entry is empty, for sensors that are on no foot. */
   std::vector<std::vector<int>> feet_;
   /** Index into feet_, of each sensor. */
   std::vector<size_t> foot_;

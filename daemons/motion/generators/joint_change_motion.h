@@ -62,11 +62,11 @@ class JointChangeMotion : public MotionGenerator {
   JointChangeCommand change_;
   /** Brings the joints that do not turn to rest. */
   JointTrajectory stop_;
-  /** Of the joints that turn: the named ones, and those whose limits depend on them. */
+  /** Trajectory of the joints that turn: the named ones, and those whose limits depend on them. */
   JointTrajectory trajectory_;
   /** Motors of trajectory_. */
   std::vector<int> turning_;
-  /** Of older motions, one for each motor. */
+  /** Ramps of earlier motions, one for each motor. */
   std::vector<StiffnessRamp> continued_;
   std::vector<RunningRamp> stiffness_;
   bool is_started_ = false;

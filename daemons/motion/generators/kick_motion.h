@@ -80,7 +80,7 @@ class KickMotion : public MotionGenerator {
   Eigen::Vector2d last_planned_com_ = Eigen::Vector2d::Zero();
   /** S at the start. */
   Pose2 start_in_odometry_;
-  /** Of all motors, rad, without what balance and feedforward add. */
+  /** Positions of all motors, rad, without what balance and feedforward add. */
   std::vector<double> reference_position_;
   GyroscopeFilter gyroscope_;
   Reason reason_;

@@ -69,7 +69,7 @@ class KickTrajectory {
   double duration_ = 0;
   /** Ahead of the middle between the soles, m. */
   double ball_x_;
-  /** Of the ball's center ahead of the sole's origin when they touch, m. */
+  /** Distance of the ball's center ahead of the sole's origin when they touch, m. */
   double ball_contact_;
   KickReference stand_;
   KickReference impact_;

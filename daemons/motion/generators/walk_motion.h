@@ -113,7 +113,7 @@ class MoveToMotion : public WalkingMotion {
   Pose2 standing_body(const RobotState& state) const;
 
   MoveToCommand command_;
-  /** Of the body between the feet. */
+  /** Goal of the body frame, which is between the feet. */
   Pose2 goal_in_odometry_;
   double turn_center_;
   WalkLimits limits_;

@@ -30,8 +30,8 @@ struct Keyframe {
     double greatest = std::numeric_limits<double>::infinity();
     bool has(double value) const { return value >= least && value <= greatest; }
   };
-  /** Of the direction of up along x, y, z of the torso frame at its end; outside, the motion has
-   * failed. */
+  /** Ranges of the x, y and z components of the up direction in the torso frame at the end; outside
+   * them the motion has failed. */
   Range up[3];
 };
 

@@ -83,7 +83,7 @@ class StepPlanner {
   DcmPlan dcm_;
   /** Deviation of the DCM at the end of steps on the left and on the right foot, m: mean. */
   std::array<Eigen::Vector2d, 2> bias_ = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
-  /** Of the present step, beyond the bias, m. */
+  /** Deviation of the current step beyond the bias, m. */
   Eigen::Vector2d deviation_ = Eigen::Vector2d::Zero();
 };
 

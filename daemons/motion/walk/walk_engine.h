@@ -77,7 +77,7 @@ class WalkEngine {
 
   Stage stage() const { return stage_; }
   const LegKinematics& legs() const { return body_.pose().legs(); }
-  /** Of the present step, after clipping: m/s, m/s, rad/s. */
+  /** Velocity of the current step after clipping: m/s, m/s, rad/s. */
   const Eigen::Vector3d& velocity() const { return velocity_.velocity(); }
   /** The next footstep first; soles in odometry. */
   std::vector<PlannedStep> footsteps_in_odometry() const;

@@ -42,11 +42,11 @@ class WalkKick {
 
   /** State of the last kick that was asked for. */
   State state() const { return state_; }
-  /** The present step kicks. */
+  /** The current step kicks. */
   bool is_striking() const { return is_striking_; }
   /** The steps lead to a ball. */
   bool seeks_ball() const { return state_ == State::kPending && ball_; }
-  /** Of the present step. @param phase  Elapsed fraction of the step. */
+  /** Offset of the swing foot in the current step. @param phase  Elapsed fraction of the step. */
   SwingOffset swing_offset(double phase) const;
 
  private:

@@ -37,7 +37,7 @@ class WalkObserver {
   const PendulumState& com() const { return com_; }
   /** Torso against its commanded orientation: roll, pitch, 0; rad. */
   const Eigen::Vector3d& tilt() const { return tilt_; }
-  /** Of the torso, low-pass filtered, rad/s, torso frame. */
+  /** Angular velocity of the torso, low-pass filtered, rad/s, torso frame. */
   const Eigen::Vector3d& angular_velocity() const { return gyroscope_.value(); }
   /** Load on the foot that was the swing foot in the last update(), N. */
   double swing_force() const { return swing_force_; }

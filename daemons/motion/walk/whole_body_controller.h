@@ -21,7 +21,7 @@ struct BodyCommand {
 
   const ComReference& reference;
   const Feet& feet;
-  /** Of a kick. */
+  /** Offset of the swing foot by a kick. */
   SwingOffset swing_offset;
   /** Fraction of the weight on the foot that is not the support foot, 0..1. */
   double other_load_ratio;
