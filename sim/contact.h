@@ -12,7 +12,7 @@ namespace nao::sim {
 struct Surface {
   enum class Kind { kFloor, kRobot, kBall, kGoal, kNet };
   Kind kind = Kind::kFloor;
-  /** Of kRobot: index of the robot in the world, and of its link. */
+  /** For kRobot: indices of the robot in the world and of its link. */
   int robot = -1;
   int link = -1;
 };

@@ -36,7 +36,7 @@ ContactAssembler::ContactAssembler(MovingBodies& bodies, const WorldOptions& opt
 void ContactAssembler::reserve(int max_contacts, int num_dofs, int max_chain) {
   active_.reserve(max_contacts);
   contacts_.reserve(max_contacts);
-  // Of a ball if there is no robot.
+  // A ball has 6 dofs; it may be alone in the world.
   const int most = num_pairs(std::max(max_chain, 6));
   body_rows_.rows.resize(6 * most);
   surface_rows_.resize(3 * most);

@@ -94,7 +94,7 @@ class ContactAssembler {
   std::vector<ActiveContact> active_;
   std::vector<Contact> contacts_;
   double elastic_energy_ = 0;
-  /** Of the body whose contact was assembled last. */
+  /** Rows of the body whose contact was assembled last. */
   BodyRows body_rows_;
   /** Workspace for a contact of two bodies that move: their dofs, place of each dof among them, and
    * the rows of one body. */

@@ -42,7 +42,9 @@ class IslandStepper {
   void reset_count();
   size_t max_contacts() const { return max_contacts_; }
 
-  /** Of the last step: contacts with a force; what their springs store, J; solver iterations. */
+  /** Results of the last step: contacts with a force; energy in their springs, J; solver
+   * iterations.
+   */
   const std::vector<Contact>& contacts() const { return assembler_.contacts(); }
   double elastic_energy() const { return assembler_.elastic_energy(); }
   int iterations() const { return iterations_; }

@@ -103,7 +103,8 @@ class JointDrives {
   Eigen::VectorXd last_target_;
   /** N m. */
   Eigen::VectorXd torque_;
-  /** Of each dof, the last dof of its limb: of those that it moves, the one that is moved by most.
+  /** For each dof, the last dof of its limb: among the dofs that it moves, the one that most dofs
+   * move.
    */
   std::vector<int> end_of_limb_;
   /** The solver's chain of each last dof of a limb in this step, -1 if there is none. */

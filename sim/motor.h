@@ -55,16 +55,16 @@ struct Drive {
     double viscosity = 0;
   };
   Plan plan;
-  /** Of a motor that is free of its link in this step: speed at its end, rad/s. */
+  /** Speed at the end of this step, rad/s, of a motor that is free of its link in it. */
   double planned_free_velocity = 0;
 
   /** A row in the solver. */
   struct Row {
-    /** In this step; -1 if absent. */
+    /** Index in this step; -1 if absent. */
     int index = -1;
-    /** Of the last step, N m s: the start value. */
+    /** Impulse of the last step, N m s: the start value. */
     double impulse = 0;
-    /** Of a torque bound: it includes back-EMF, since the motor brakes. */
+    /** Whether a torque bound includes back-EMF, since the motor brakes. */
     bool is_braking = false;
   };
   Row stop;

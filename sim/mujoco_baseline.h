@@ -66,7 +66,7 @@ class MujocoBaseline {
   MujocoDataPointer data_;
   std::optional<MujocoRobot> robot_;
   std::vector<int> actuator_of_motor_;
-  /** Of each actuator, N m s/rad. */
+  /** Back-EMF constant of each actuator, N m s/rad. */
   std::vector<double> back_emf_;
 };
 

@@ -55,7 +55,7 @@ class MujocoEngine : public Engine {
   MujocoModelPointer model_;
   MujocoDataPointer data_;
   std::vector<MujocoRobot> robots_;
-  /** Of the ball; -1 without one. */
+  /** Addresses of the ball; -1 without one. */
   int ball_position_ = -1;
   int ball_dof_ = -1;
   std::vector<Geom> geoms_;

@@ -54,9 +54,9 @@ class SensorAccumulator {
   Eigen::VectorXd torque_impulse_;
   /** Sum of the accelerometer's changes of velocity, m/s, each in the torso frame of its time. */
   Eigen::Vector3d velocity_change_ = Eigen::Vector3d::Zero();
-  /** Of the accelerometer at the end of the last step, m/s, in W. */
+  /** Velocity of the accelerometer at the end of the last step, m/s, in W. */
   Eigen::Vector3d accelerometer_velocity_ = Eigen::Vector3d::Zero();
-  /** Torso's angular velocity integrated, rad, in the torso frame. */
+  /** Integral of the torso's angular velocity, rad, in the torso frame. */
   Eigen::Vector3d rotation_ = Eigen::Vector3d::Zero();
   /** Impulses and their moments. */
   std::array<TrueMotion::FootLoad, 2> foot_impulse_;

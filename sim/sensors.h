@@ -38,7 +38,7 @@ struct SensorReadings {
 
 /** The true values at the end of a control tick, and over it; as SensorReadings otherwise. */
 struct TrueMotion {
-  /** Of the motors, whose encoders read them. */
+  /** Positions of the motors, rad, which their encoders read. */
   Eigen::VectorXd position;
   Eigen::VectorXd torque;
   Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();

@@ -145,12 +145,12 @@ class SimRobot {
   SensorAccumulator accumulator_;
   Sensors sensors_;
   Floor floor_;
-  /** Of what is lost. */
+  /** Decides which messages are lost. */
   Random random_;
   bool are_readings_lost_ = false;
   bool are_targets_lost_ = false;
   LinkDrag drag_;
-  /** For which the drag still acts, s. */
+  /** Time for which the drag still acts, s. */
   double drag_time_ = 0;
   int first_dof_ = 0;
   bool is_in_contact_ = false;

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 /** Longest step of the integrator, s. Measured: a standing robot with rotor inertia and explicit
  * contacts is stable at 0.5 ms. */
 constexpr double kMaxStep = 0.0005;
-/** Of the coupled joints, rad; chosen: a tenth of an encoder's step. */
+/** Tolerance of the coupled joints, rad. Chosen: a tenth of an encoder's step. */
 constexpr double kConstraintTolerance = 1e-4;
 /** Speed of its surface below which the rolling resistance of a ball fades out, m/s: explicit, it
  * would change direction from step to step at rest. */
@@ -294,7 +294,7 @@ class SimbodyEngine::RobotSystem {
   /** The integrator's time at the start of the step, s. */
   double step_start_ = 0;
   std::vector<int> first_u_;
-  /** Of each of Simbody's generalized speeds: our dof, of which it is `ratio` times the speed. */
+  /** Our dof for each of Simbody's generalized speeds, which is `ratio` times the dof's speed. */
   struct DofOfU {
     int dof = 0;
     double ratio = 1;

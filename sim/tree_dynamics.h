@@ -105,8 +105,8 @@ class TreeDynamics {
    * @param velocity  Generalized velocity; its first six are changed. @return The change. */
   SpatialVector set_momentum(const SpatialVector& target, Eigen::VectorXd& velocity);
 
-  /** Of the whole tree: center of mass, m; linear momentum, N s; angular momentum about the center
-   * of mass, N m s; kinetic energy, J, without the rotors. All in W. */
+  /** Quantities of the whole tree: center of mass, m; linear momentum, N s; angular momentum about
+   * the center of mass, N m s; kinetic energy, J, without the rotors. All in W. */
   Eigen::Vector3d center_of_mass() const { return origin_ + center_of_mass_from_origin(); }
   Eigen::Vector3d center_of_mass_from_origin() const;
   Eigen::Vector3d linear_momentum() const;
@@ -124,10 +124,10 @@ class TreeDynamics {
     SpatialVector motion;
     double rate = 0;
     SpatialVector velocity;
-    /** Of the body, and of the body with all its descendants. */
+    /** Inertia of the body, and of the body with all its descendants. */
     SpatialInertia inertia;
     SpatialInertia composite;
-    /** Of the recursive Newton-Euler algorithm, with generalized accelerations of 0. */
+    /** Terms of the recursive Newton-Euler algorithm with generalized accelerations of 0. */
     SpatialVector acceleration;
     SpatialVector force;
   };

@@ -90,7 +90,7 @@ struct RobotOptions {
   std::string name = "NAO";
   /** Posture that it starts in, and that its servos hold until targets are set. */
   std::string posture{};
-  /** Of the torso over the ground, m, and heading, rad. */
+  /** Position of the torso on the ground, m, and its heading, rad. */
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double heading = 0;
   /** Factors on all masses, on the motors' torques, and on the friction of the robot on the floor:
