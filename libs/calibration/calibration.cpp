@@ -120,7 +120,7 @@ std::string Calibration::to_yaml(const RobotModel& model) const {
   text +=
       "# Rotation vector of the inertial unit's mounting in the torso (x ahead, y left), rad.\n";
   text += "imu_mount: " + list_of(imu_mount) + "\n";
-  text += "# Of the gyroscope's axes: reading = scale * true value + offset; 1 and rad/s.\n";
+  text += "# Axes of the gyroscope: reading = scale * true value + offset; 1 and rad/s.\n";
   text += "gyroscope_scale: " + list_of(gyroscope_scale) + "\n";
   text += "gyroscope_offset: " + list_of(gyroscope_offset) + "\n";
   text += "# Reading per force of each force sensor of the feet; 0: the sensor is dead.\n";

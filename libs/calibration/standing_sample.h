@@ -17,7 +17,7 @@ struct StandingSample {
   std::vector<double> foot_force;
   /** The feet have not moved between samples of one number, from 0. */
   int station = 0;
-  /** Of the robot, counterclockwise, rad, from any direction that all samples have in common. */
+  /** Heading of the robot, counterclockwise, rad, from any direction common to all samples. */
   double heading = 0;
 };
 
@@ -42,7 +42,8 @@ class SampleMean {
 
   int num_samples() const { return num_samples_; }
 
-  /** Of at least one sample. Station and heading are those of the first. */
+  /** Mean of the samples, of which there must be at least one. Station and heading are the first's.
+   */
   StandingSample mean() const {
     StandingSample mean = sum_;
     for (double& angle : mean.position) angle /= num_samples_;

@@ -115,7 +115,7 @@ std::string FoxgloveConverter::transforms_of(const naolcm::robot_state_t& state)
       {kOdometryFrame, kHeadingFrame, projected_on_ground(torso)},
       {kOdometryFrame, transforms_.root(), torso}};
   std::vector<double> position;
-  // Of another robot model the root alone is known.
+  // For another robot model only the root is known.
   if (!read_named_joints(model_.motor_names(), state.joint_names,
                          {{"position", state.joint_position, position}})) {
     transforms_.append_moving(position, "", transforms);

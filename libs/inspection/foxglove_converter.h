@@ -88,7 +88,7 @@ class FoxgloveConverter {
   std::string robot_;
   RobotChannels channels_;
   std::vector<Output> outputs_;
-  // Of the present call of convert().
+  // Arguments of the current call of convert().
   const IsWanted* is_wanted_ = nullptr;
   const Emit* emit_ = nullptr;
   /** Robot time of the last message of each output, microseconds; with the fixed transforms. */

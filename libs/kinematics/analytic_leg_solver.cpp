@@ -83,7 +83,7 @@ double AnalyticLegSolver::solve_knee(double distance, bool& is_reachable) const 
   const double bend = knee_bend(thigh_.norm(), tibia_.norm(), distance, is_reachable);
   // Knee angle of a straight leg: 0 only where thigh and tibia are in line at the angles 0.
   const double straight = angle_in_plane(thigh_) - angle_in_plane(tibia_);
-  // Of the two solutions the one that is nearer to the middle of the knee's range.
+  // Take the solution nearer to the middle of the knee's range.
   const double middle = 0.5 * (chain_.lower[3] + chain_.upper[3]);
   const double up = wrapped(straight + bend);
   const double down = wrapped(straight - bend);
@@ -102,8 +102,8 @@ LegSolution AnalyticLegSolver::solve(const Eigen::Isometry3d& sole_in_torso) con
 
   // Roll turns the hip into the plane of the leg: the component along the pitch axis becomes 0.
   const Vector3d u = leg_axes_.transpose() * to_hip;
-  // Of the two solutions the one with |roll| below 90 degrees, also if the hip of a folded leg is
-  // below the ankle.
+  // Take the solution with |roll| below 90 degrees, even if the hip of a folded leg is below the
+  // ankle.
   const double up = std::copysign(std::hypot(u.y(), u.z()), u.z());
   q[5] = std::atan2(u.y() / up, u.z() / up);
   // Hip seen from the ankle with the knee bent, in the plane of the leg; pitch turns it onto u.

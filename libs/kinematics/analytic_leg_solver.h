@@ -44,7 +44,7 @@ class AnalyticLegSolver {
   LegChain chain_;
   Eigen::Vector3d hip_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d ankle_ = Eigen::Vector3d::Zero();
-  /** Of the ankle in the sole's frame. */
+  /** Position of the ankle in the sole's frame. */
   Eigen::Vector3d ankle_in_sole_ = Eigen::Vector3d::Zero();
   /** Columns X, Y, Z of the leg, and the hip's first two axes and their cross product. */
   Eigen::Matrix3d leg_axes_ = Eigen::Matrix3d::Identity();

@@ -110,7 +110,7 @@ class LegKinematics {
 
   std::array<LegChain, 2> chains_;
   Method method_ = Method::kNumeric;
-  // Of these only the ones of the method have values; left, right.
+  // Left and right; only the pair of the chosen method has values.
   std::array<CoupledLeg, 2> coupled_{};
   std::array<std::optional<AnalyticLegSolver>, 2> analytic_;
   std::array<std::optional<NumericLegSolver>, 2> numeric_;

@@ -54,7 +54,7 @@ class BodyPass {
   LitProgram ball_program_;
   MeshId ball_mesh_;
   std::vector<Goal> goals_;
-  // Of the image that is being drawn.
+  // Draws of the current image.
   /** Opaque bodies. */
   MeshDraws near_;
   MeshDraws far_;

@@ -17,8 +17,8 @@ constexpr float kTop = 0.7f;
 /** Distance of the band from the torso, and of the number from the band, m. */
 constexpr float kThickness = 0.004f;
 constexpr float kNumberOffset = 0.001f;
-/** Of a digit: height as a fraction of the band's, width and thickness of the strokes as fractions
- * of its height. */
+/** Height of a digit as a fraction of the band's; its width and stroke thickness as fractions of
+ * its height. */
 constexpr float kDigitHeight = 0.7f;
 constexpr float kDigitWidth = 0.5f;
 constexpr float kStroke = 0.16f;

@@ -66,7 +66,7 @@ class RobotVisual {
   const RobotModel& model_;
   std::vector<Part> parts_;
   RobotShirt shirt_;
-  /** Of its band; -1: none. */
+  /** Mesh of the shirt's band; -1 if there is none. */
   MeshId shirt_mesh_ = -1;
   int torso_ = -1;
   std::vector<LightSurface> lights_;

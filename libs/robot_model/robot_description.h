@@ -102,7 +102,7 @@ struct Action {
 
   std::string name;
   Kind kind = Kind::kGesture;
-  /** Of kicks and dives. */
+  /** Side of kicks and dives. */
   Side side = Side::kNone;
   /** Blocks, dives and gestures: name of the keyframe motion that is played. */
   std::string keyframes;
@@ -124,15 +124,15 @@ struct WalkingArmJoint {
   double swing = 0;
 };
 
-/** Sizes of the body by which its state is told, m. */
+/** Heights by which the state of the body is recognized, m. */
 struct BodyHeights {
-  /** Of the root above the ground in the ready posture. */
+  /** Height of the root above the ground in the ready posture. */
   double standing = 0;
-  /** Upright with the root above this it is on its feet, below it sits. */
+  /** An upright robot is on its feet if the root is above this height; below, it sits. */
   double on_feet = 0;
 };
 
-/** Forces by which contact with the ground is told, N. */
+/** Forces by which ground contact is detected, N. */
 struct ContactForces {
   /** Least force on a foot in contact. */
   double contact = 0;
@@ -145,9 +145,9 @@ struct WalkingStance {
   /** Distance of the soles from each other. */
   double least_width = 0;
   double greatest_width = 0;
-  /** Of one sole ahead of the other. */
+  /** Greatest distance of one sole ahead of the other. */
   double greatest_lead = 0;
-  /** Of the hips above the soles. */
+  /** Least height of the hips above the soles. */
   double least_hip_height = 0;
 };
 
