@@ -60,7 +60,7 @@ class Localisation {
     statistics_.add(detections_, trial_.world().robot(0).link_pose(camera.link), *pose_camera_,
                     trial_.world().ball().position);
   }
-  /** Of the images from now on. */
+  /** Whether the images from now on are counted. */
   void keep_statistics(bool keep) { keeps_statistics_ = keep; }
   const FieldDetectionStatistics& statistics() const { return statistics_; }
   /** Now: the pose at the last image, moved by the odometry since, as nao-play uses it. */
@@ -85,7 +85,8 @@ class Localisation {
   vision::FieldModel field_;
   PinholeCamera pinhole_;
   vision::CameraCalibration calibration_;
-  /** Of the last image; and the camera in the heading frame by the robot's sensors. */
+  /** Detections in the last image, and the camera's pose in the heading frame by the robot's
+   * sensors. */
   vision::Detections detections_;
   std::optional<Eigen::Isometry3d> pose_camera_;
 

@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** Of a match by default, s: two halves. */
+/** Default duration of a match, s: two halves. */
 constexpr double kDuration = 300;
 /** s between steps of the referee and between what teammates tell each other. */
 constexpr double kRefereePeriod = 0.05;

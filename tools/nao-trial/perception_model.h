@@ -25,8 +25,8 @@ struct PerceptionErrors {
    * camera: while walking the pose comes from the estimated state. */
   double bearing = 0.008;
   double depression = 0.012;
-  /** Of the pose on the field: m in each direction, and rad; both change slowly. Chosen: half of
-   * what localisation is to reach (6 cm and 3 degrees in the median). */
+  /** Errors of the pose on the field: m in each direction, and rad; both change slowly. Chosen from
+   * the median errors that localisation must reach (6 cm and 3 degrees). */
   double position = 0.05;
   double heading = 0.035;
   /** Probability that a robot nearer than 3 m is found, and standard deviation of its distance as a

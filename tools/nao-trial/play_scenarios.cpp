@@ -17,13 +17,13 @@ constexpr double kTimeLimit = 90;
 constexpr double kMargin = 0.3;
 /** m between ball and robot at least. */
 constexpr double kApart = 0.4;
-/** Of a shot: distance from the goal's middle, m; greatest speed at the goal line, m/s; s in which
- * the keeper takes its place before. */
+/** Shots: distance from the goal's middle, m; greatest speed at the goal line, m/s; and time before
+ * the shot in which the keeper takes its position, s. */
 constexpr double kShotDistance = 2;
 constexpr double kShotSpeed = 1.5;
 constexpr double kPreparation = 8;
 constexpr double kShotTimeout = 12;
-/** Slowest shot at the goal line, m/s: a ball that stops there is no shot. Chosen. */
+/** Slowest shot at the goal line, m/s: a ball that stops there is not a shot. Chosen. */
 constexpr double kLeastShotSpeed = 0.15;
 /** Placement has numbers of its own: it does not change with what else is drawn. */
 constexpr uint64_t kPlacementSeed = 0x51ed270b;

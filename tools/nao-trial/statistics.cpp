@@ -11,7 +11,7 @@
 namespace nao::trial {
 namespace {
 
-/** Of a cause of failures, in a line of the table. */
+/** Most seeds listed for one cause of failure, in a line of the table. */
 constexpr size_t kMaxSeedsListed = 8;
 
 bool ends_with(const std::string& text, const std::string& end) {

@@ -137,7 +137,7 @@ ActionScript draw_taught_motion(const RobotModel& model, uint64_t seed) {
   ActionScript script = begin_script("taught");
   const bool is_wild = seed % 2 == 1;
   const std::vector<bool> is_leg = find_legs(model);
-  // Of the upright and sitting postures; a person rarely teaches a robot that lies.
+  // Only upright and sitting postures: a person rarely teaches a robot that lies.
   std::vector<const Posture*> postures;
   for (const Posture& posture : model.postures()) {
     if (!posture.is_lying()) postures.push_back(&posture);

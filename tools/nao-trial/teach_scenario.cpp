@@ -48,7 +48,7 @@ RunResult check_and_play(const ScenarioOptions& options, const motion::ActionScr
   result.metrics.emplace_back("wrongly_refused", !is_accepted && !fault ? 1 : 0);
   result.metrics.emplace_back("repaired", report.repaired ? 1 : 0);
   result.is_success = !is_accepted || (!fault && !stop_fault);
-  // Of a motion that was refused without need: to see why.
+  // Shows why a motion was refused without need.
   if (!is_accepted && !fault) result.failure = describe_fault(*report.fault);
   if (is_accepted && fault) result.failure = "accepted, but " + describe_fault(*fault);
   if (stop_fault) {

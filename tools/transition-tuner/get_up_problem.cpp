@@ -21,7 +21,7 @@ constexpr double kHeightCounts = 6;
 // they decide between motions of about the same time.
 constexpr double kLoadCost = 0.4;
 constexpr double kShakingCost = 0.01;
-// Of the squared distance of a number outside its range, s/rad^2 and s/s^2.
+// Cost of the squared distance of a number outside its range, s/rad^2 and s/s^2.
 constexpr double kOutsideCost = 10;
 
 GetUpResult to_result(const Figures& figures) {

@@ -22,7 +22,7 @@ struct GetUpProblemOptions {
   /** First and last keyframe whose numbers are searched. */
   int first_keyframe = 0;
   int last_keyframe = 1000;
-  /** Of the robot's other files: digest_files(). */
+  /** Digest of the robot's other files, from digest_files(). */
   uint64_t robot_digest = 0;
 };
 

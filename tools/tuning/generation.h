@@ -12,7 +12,7 @@ namespace nao {
 /** Candidates that were evaluated in the same trials. */
 struct EvaluatedGeneration {
   std::vector<double> costs;
-  /** Of all trials that were run. */
+  /** Figures of all trials that were run. */
   std::vector<Figures> trials;
   /** Sum and maximum of the trials' processor times, s. */
   double total_time = 0;

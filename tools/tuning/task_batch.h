@@ -24,7 +24,7 @@ class TaskBatch {
   void finish(size_t worker, Outcome outcome);
   bool is_done() const { return num_finished_ == outcomes_.size(); }
 
-  /** Of the finished batch, in the order of the tasks.
+  /** Takes the outcomes of the finished batch, in the order of the tasks.
    * @throws Error  with the text of the first task, in their order, that has failed. */
   std::vector<Outcome> take();
 

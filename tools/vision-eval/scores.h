@@ -30,7 +30,7 @@ class Scores {
     double num_found = 0;
     double num_detections = 0;
     double num_false = 0;
-    /** Of those found: rad, and fraction of the distance. */
+    /** Errors of the objects found: rad, and as a fraction of the distance. */
     std::vector<double> bearing_errors;
     std::vector<double> distance_errors;
 

@@ -19,7 +19,7 @@ struct GaitProblemOptions {
   double speed = 1;
   /** Courses of each candidate, for each engine and set of disturbances. */
   int courses = 1;
-  /** Of the robot's other files: digest_files(). */
+  /** Digest of the robot's other files, from digest_files(). */
   uint64_t robot_digest = 0;
 };
 

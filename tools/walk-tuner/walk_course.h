@@ -25,7 +25,7 @@ struct WalkResult {
  *   0.4. */
 class WalkCourse {
  public:
-  /** Of a seed: six constant velocities, two with a joystick, two with a push. */
+  /** Walks of a seed: six at constant velocities, two with a joystick, two with a push. */
   static constexpr int kNumWalks = 10;
 
   /** @param speed  Fraction of the model's walk limits that is commanded. */
