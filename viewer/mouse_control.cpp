@@ -78,7 +78,7 @@ const Handle* MouseControl::handle_at(const WorldView& world, const Eigen::Vecto
     const double depth = to_handle.dot(ray);
     const double miss = (to_handle - depth * ray).norm();
     if (depth <= 0 || miss > kGrabFactor * handle.radius) continue;
-    // Of several handles on the ray the nearest one.
+    // Take the nearest of several handles on the ray.
     if (nearest == nullptr || depth < nearest_depth) {
       nearest = &handle;
       nearest_depth = depth;

@@ -72,7 +72,7 @@ class WorldView {
   Markers markers_;
   SceneSurroundings surroundings_;
   OdometryAlignment odometry_;
-  // Of the last update.
+  // Results of the last update.
   Scene scene_;
   std::vector<std::string> problems_;
   std::vector<Handle> handles_;
