@@ -15,7 +15,7 @@ struct CourseRow {
   double y = 0;
   double heading = 0;
   double height = 0;
-  /** Of NAO_MOTION_STATE. */
+  /** Mode in NAO_MOTION_STATE. */
   std::string mode;
 };
 

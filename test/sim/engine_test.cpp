@@ -195,7 +195,7 @@ TEST_P(EngineTest, WalksWithoutRepeatedSlidingOfItsFeet) {
   ClosedLoopOptions trial;
   trial.model = nao_model();
   trial.engine = GetParam();
-  // Of this robot the play leaves light feet, on a stiff floor.
+  // This disturbed robot has play in its joints, so that its feet are light on a stiff floor.
   trial.disturbances = std::make_shared<DisturbanceSet>(DisturbanceSet::find("real"));
   ClosedLoop loop(trial, 501);
   loop.run(1);

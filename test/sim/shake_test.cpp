@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 /** How deep parts of the robot were in the floor. */
 struct Depth {
-  /** Of the deepest point, m. */
+  /** Depth of the deepest point, m. */
   double greatest = 0;
   /** Height of the lowest center of a part, m: below 0 it has gone through. */
   double lowest_center = 1;

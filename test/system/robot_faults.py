@@ -26,7 +26,7 @@ PROGRAMS = ("nao-robot", "nao-motion", "nao-phone-gateway")
 SITUATIONS = ("standing", "walking", "lying")
 # Time in which the robot has come to rest, s: the watchdog waits 0.3 s, sitting down takes 3 s.
 REST_TIME = 12
-# Of a moment after the beginning of the situation, s: a few steps.
+# Range of the time of the fault after the beginning of the situation, s: a few steps.
 MOMENT_RANGE = 2.0
 # Longest wait for one step of the preparation, s.
 STEP_TIME = 40

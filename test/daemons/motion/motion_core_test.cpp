@@ -251,7 +251,7 @@ TEST_F(MotionCoreTest, SilentSensorsMeanNoRobot) {
 /** What a head turn and a crouch of a standing robot end with. */
 struct Course {
   std::vector<double> targets;
-  /** Of the crouch, s. */
+  /** Duration of the crouch, s. */
   double duration = 0;
 };
 

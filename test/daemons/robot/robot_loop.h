@@ -175,7 +175,7 @@ class RobotLoop {
   std::vector<Command> commands_;
   int64_t num_frames_ = 0;
   int64_t last_id_ = 0;
-  /** Of the last frame; empty before the first one. */
+  /** Targets of the last frame; empty before the first one. */
   std::vector<double> last_targets_;
   int num_too_fast_ = 0;
   ResultStatus last_status_ = ResultStatus::kAccepted;
