@@ -85,7 +85,7 @@ void V4l2Device::fail(const std::string& step) const {
 void V4l2Device::check_capabilities() {
   v4l2_capability capability{};
   if (control(descriptor_, VIDIOC_QUERYCAP, &capability) < 0) {
-    throw Error(device_ + " is no video device");
+    throw Error(device_ + " is not a video device");
   }
   const uint32_t flags = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0
                              ? capability.device_caps

@@ -57,7 +57,7 @@ std::vector<V4l2CameraSettings::Control> read_controls(const YamlEntry& map) {
     if (known == kControls.end()) {
       std::string names;
       for (const auto& control : kControls) names += std::string(" ") + control.first;
-      value.fail("is no control; there are:" + names);
+      value.fail("is not a control; there are:" + names);
     }
     controls.push_back({name, known->second, integer(value, INT16_MIN, 1 << 20)});
   }

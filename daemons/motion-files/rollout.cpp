@@ -76,8 +76,8 @@ class Watch {
     return contact.a.kind == sim::Surface::Kind::kRobot &&
            contact.b.kind == sim::Surface::Kind::kRobot;
   }
-  /** What blocks a joint may be the floor, which is no self-contact, or a link that touched before.
-   */
+  /** A joint may be blocked by the floor, which is not a self-contact, or by a link that touched
+   * before. */
   void look_for_blocked_joints() {
     const sim::MotorTargets& targets = trial_.world().targets(0);
     const Eigen::VectorXd error = targets.position - trial_.world().sensors(0).position;

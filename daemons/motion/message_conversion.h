@@ -38,7 +38,7 @@ Command to_command(const naolcm::joint_change_command_t& message);
 Command to_command(const naolcm::action_command_t& message);
 Command to_command(const naolcm::stop_command_t& message);
 
-/** @throws Error  if it is no motion of this robot: it must not reach the core. */
+/** @throws Error  if it is not a motion of this robot: it must not reach the core. */
 TaughtChange to_taught(const RobotModel& model, const naolcm::keyframe_motion_t& message);
 
 /** @param names  Of all motors' joints, in motor order. */

@@ -13,11 +13,11 @@
 namespace nao::motion {
 namespace {
 
-// Silence of the sensors after which commands are answered without them, and the period of these
+// Time without sensor data after which commands are answered without them, and the period of these
 // steps, s of wall time. Chosen: a tenth of the time after which there is no robot.
 constexpr double kSilencePeriod = 0.05;
-// Control periods between two sensor states above which the time between them is a pause or another
-// robot, and no lost ticks.
+// Control periods between two sensor states above which the gap means a pause or another robot
+// instead of lost ticks.
 constexpr double kMaxStepPeriods = 10;
 // Slack of a comparison of times that are multiples of a microsecond, s.
 constexpr double kRounding = 5e-7;

@@ -19,7 +19,8 @@ class RobotPresence {
     kLost,
   };
 
-  /** @param model  Must outlive this. @param timeout  Silence after which there is no robot, s. */
+  /** @param model  Must outlive this. @param timeout  Time without data after which there is no
+   * robot, s. */
   RobotPresence(const RobotModel& model, double timeout) : model_(&model), timeout_(timeout) {}
 
   /** Sensor data have arrived. @param dt  Robot time since the last ones, s. */

@@ -27,7 +27,7 @@ namespace {
 const char* const kProgram = "nao-play";
 /** s. */
 constexpr double kStatusPeriod = 1;
-/** Silence of nao-motion after which there is no robot, s: robot_state_t. */
+/** Time without a message of nao-motion after which there is no robot, s: robot_state_t. */
 constexpr double kRobotTimeout = 0.5;
 /** The camera's requests are valid for 2 s. */
 constexpr double kRequestPeriod = 1;

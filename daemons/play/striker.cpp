@@ -208,7 +208,7 @@ std::optional<Decision> Striker::find_end(const Ball& ball, const Situation& sit
   return std::nullopt;
 }
 
-// Standing: what is no ball is not seen again.
+// A standing robot does not see a false ball again.
 Decision Striker::look_at_candidate(const Ball& ball) {
   Decision decision;
   decision.phase = PlayPhase::kSearch;

@@ -27,8 +27,9 @@ namespace nao::robot {
 namespace {
 
 /** Heartbeats that may be missing before nao-robot counts as hung: 0.3 s. Chosen: two and a half
- * times the silence after which nao-robot itself lets the robot sit down. They are counted by this
- * process's own waits, so that a machine that was stopped as a whole is no hang. */
+ * times the time without commands after which nao-robot itself makes the robot sit down. They are
+ * counted by this process's own waits, so that a pause of the whole machine does not count as a
+ * hang. */
 constexpr int kMaxMissed = 15;
 /** The same before the first heartbeat, 10 s: it loads the robot's model, on a busy machine. */
 constexpr int kMaxMissedAtStart = 500;

@@ -19,7 +19,7 @@ constexpr float kInner = 0.65f;
 /** Weight of the side that is least like field. */
 constexpr float kTouching = 0.4f;
 /** Levels of FieldView::other: least mean of the box inside, least score. Chosen low, since the
- * network rejects what is no ball. */
+ * network rejects what is not a ball. */
 constexpr float kInside = 60;
 constexpr float kLeastScore = 45;
 /** Distance between columns for which the expected radius is computed, pixels of the half-size

@@ -14,7 +14,7 @@ constexpr float kContinuationReach = 60;
 /** Shortest continuation, pixels: two scan lines. */
 constexpr float kLeastContinuedLength = 12;
 constexpr int kLeastContinuedPoints = 3;
-/** Segments of fewer points are no strong evidence. */
+/** Segments of fewer points are weak evidence. */
 constexpr int kStrongPoints = 8;
 /** Cosine of the greatest turn at an end: 40 degrees, so that a crossing line is not taken for the
  * continuation. */

@@ -78,7 +78,7 @@ class VisionCore {
     if (on_stage_) on_stage_(name);
   }
   void localize(const VisionInput& input, VisionResult& result);
-  /** @param obstacles  Hide the lines; what is in their boxes is no line. */
+  /** @param obstacles  They hide the lines; what is in their boxes is not a line. */
   void find_lines(const FieldView& view, const CameraGeometry& geometry,
                   const Detections& obstacles, VisionResult& result);
 
