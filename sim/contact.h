@@ -44,7 +44,7 @@ struct ContactMemory {
 struct ContactCandidate {
   Surface a;
   Surface b;
-  /** Bodies in their robots' trees; -1 where the surface is no robot's. */
+  /** Bodies in their robots' trees; -1 where the surface is not a robot's. */
   int body_a = -1;
   int body_b = -1;
   /** Foot that surface a's point belongs to: 0 left, 1 right, -1 none. */

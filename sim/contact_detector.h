@@ -46,7 +46,7 @@ class ContactDetector {
    * fixed order. */
   void find(const Island& island, ContactCandidates& found);
   /** Adds candidates for a robot's points that would be in the floor after the step with the
-   * velocities that its dynamics has now, and are no candidates yet.
+   * velocities that its dynamics has now, and are not candidates yet.
    * @return Whether there were any. */
   bool find_missed_floor_contacts(int robot, ContactCandidates& found);
 

@@ -207,9 +207,8 @@ class Writer {
     out_ << "</body>\n";
   }
 
-  // Pairs that may collide by contype and conaffinity but are no self-collision pairs of the
-  // collision model: excluded by name. MuJoCo excludes only parent and child by itself.
-  /** Pairs of bodies without self-collision. */
+  /** Excludes by name the pairs of bodies that may collide by contype and conaffinity but are not
+   * self-collision pairs of the collision model. MuJoCo itself excludes only parent and child. */
   void write_excluded_pairs(int index) {
     const CollisionModel& shapes = robot(index).collisions();
     std::set<std::pair<int, int>> touching;
@@ -317,7 +316,8 @@ MujocoRobot::MujocoRobot(const mjModel& model, const SimRobot& sim_robot, int ro
     position_address_[i] = model.jnt_qposadr[joint_[i]];
     velocity_address_[i] = model.jnt_dofadr[joint_[i]];
   }
-  // Dofs 0..5 are the root's; each further one belongs to the body whose joint is no mimic.
+  // Dofs 0..5 are the root's; each further one belongs to the body whose joint is not a mimic
+  // joint.
   for (int dof = 6; dof < tree.num_dofs(); ++dof) {
     dof_address_[dof] = velocity_address_[tree.body_of_dof(dof)];
   }

@@ -322,7 +322,7 @@ std::string SimCore::add_robot(const WorldCommand& command) {
   if (options_.robots.size() >= kMaxRobots) return fmt::format("there are {} robots", kMaxRobots);
   const std::string& model = command.model.empty() ? options_.robots[0].model : command.model;
   if (model.starts_with('.') || model.find('/') != std::string::npos) {
-    return fmt::format("\"{}\" is no name of a robot's folder", model);
+    return fmt::format("\"{}\" is not a valid name of a robot's folder", model);
   }
   if (!is_within(command.position, kMaxPosition)) {
     return fmt::format("position {} must be finite and within {} m", to_text(command.position),
