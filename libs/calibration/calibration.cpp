@@ -51,7 +51,7 @@ Calibration read(const RobotModel& model, const YamlEntry& root) {
   if (root.has("joint_zero")) {
     for (const auto& [name, entry] : root.at("joint_zero").entries()) {
       const int motor = model.find_motor(name);
-      if (motor < 0) entry.fail("is no joint with a motor of " + model.name());
+      if (motor < 0) entry.fail("is not a joint with a motor of " + model.name());
       result.joint_zero[motor] = number_within(entry, -kMaxAngle, kMaxAngle);
     }
   }
@@ -67,7 +67,7 @@ Calibration read(const RobotModel& model, const YamlEntry& root) {
   if (root.has("foot_sensor_scale")) {
     for (const auto& [name, entry] : root.at("foot_sensor_scale").entries()) {
       const int sensor = find_foot_sensor(model, name);
-      if (sensor < 0) entry.fail("is no foot force sensor of " + model.name());
+      if (sensor < 0) entry.fail("is not a foot force sensor of " + model.name());
       // 0 is outside of the range, and means a dead sensor.
       const bool is_dead = entry.number() == 0;
       result.foot_sensor_scale[sensor] = is_dead ? 0 : number_within(entry, kMinScale, kMaxScale);

@@ -86,7 +86,7 @@ FieldPatches::FieldPatches(const FieldDimensions& field, float reach) {
   const auto strip = static_cast<float>(field.border_strip_width);
   const Vector2f edge = half_of(field.length, field.width).array() + strip;
   add_frame(edge, 0, true);
-  // Parts of the same line do not touch sideways: they are no other line to each other.
+  // Parts of the same line do not touch sideways, and do not count as other lines to each other.
   for (Piece& piece : pieces_) {
     for (const Piece& other : pieces_) {
       const bool is_same_line = !piece.normal.isZero() &&

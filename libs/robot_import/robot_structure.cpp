@@ -221,7 +221,7 @@ Symmetry find_symmetry(const RobotModel& model) {
     if (other == motor) {
       symmetry.pairs.push_back({name, motor, -1});
     } else if (place(motor).y() > place(other).y()) {
-      // A star marks the names of pairs, which are no names of joints.
+      // A star marks the names of pairs, which are not joint names.
       symmetry.pairs.push_back({name + "*", motor, other});
     }
   }

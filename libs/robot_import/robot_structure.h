@@ -30,11 +30,12 @@ struct RobotStructure {
   std::vector<int> hands;
 };
 
-/** Finds legs and arms of a humanoid in its tree: mirrored pairs of chains, the legs reach lowest.
+/** Finds the legs and arms of a humanoid in its tree: mirrored pairs of chains, of which the legs
+ * reach lowest.
  *
  * x is ahead, y to the left, z up, in the root's frame at the angle 0 of all joints.
  * @param findings  Receives what was assumed.
- * @throws ModelError  if there are no two legs. */
+ * @throws ModelError  if it does not find two legs. */
 RobotStructure find_structure(const RobotModel& model, Findings& findings);
 
 /** Mirror images of the joints: a joint's image has its axis and place reflected in the plane of x

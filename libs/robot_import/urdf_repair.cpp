@@ -94,7 +94,7 @@ void UrdfRepair::load() {
 }
 
 void UrdfRepair::find_root() {
-  // The root is the only link that is no joint's child.
+  // The root is the only link that is not a child of a joint.
   std::set<std::string> children;
   for (const TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {

@@ -247,8 +247,8 @@ void RobotModelReader::read_inertial_unit(const YamlEntry& entry) {
   model_.gyroscope_ = link_named(entry.at("gyroscope"));
 }
 
-// Which contacts of links are no self-collision: without an entry those of parent and child; with
-// clusters all within a cluster and between clusters that a joint connects.
+// Decides which contacts of links do not count as self-collisions: without an entry, those of
+// parent and child; with clusters, all within a cluster and between clusters that a joint connects.
 void RobotModelReader::read_contact_clusters(const YamlEntry& robot) {
   if (!robot.has("contact_clusters")) {
     for (const Joint& joint : model_.joints_) {

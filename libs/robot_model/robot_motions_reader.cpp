@@ -56,7 +56,7 @@ std::vector<double> RobotModelReader::read_pose(const YamlEntry& joints) const {
       continue;
     }
     const JointPair* pair = model_.symmetry_.find_pair(name);
-    if (pair == nullptr) entry.fail("is no joint and no name in mirrored_joints");
+    if (pair == nullptr) entry.fail("is neither a joint nor a name in mirrored_joints");
     set(pair->left, angle, entry);
     const MirrorMotor& mirror = model_.symmetry_.mirrors[pair->left];
     set(mirror.motor, mirror.sign * angle, entry);
@@ -149,7 +149,7 @@ void RobotModelReader::read_walking_arms(const YamlEntry& entry) {
   std::vector<double> swing(angles.size(), 0.0);
   for (const auto& [name, factor] : entry.at("swing").entries()) {
     const JointPair* pair = model_.symmetry_.find_pair(name);
-    if (pair == nullptr || pair->right < 0) factor.fail("is no pair of mirrored_joints");
+    if (pair == nullptr || pair->right < 0) factor.fail("is not a pair of mirrored_joints");
     if (std::isnan(angles[pair->left])) factor.fail("has no angle");
     // The arms swing in opposite phases.
     swing[pair->left] = factor.number();
