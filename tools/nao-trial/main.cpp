@@ -24,7 +24,7 @@ std::vector<uint64_t> parse_seeds(const std::string& text) {
   unsigned long first = 0;
   unsigned long last = 0;
   char rest = 0;
-  // %c matches only if something follows the number: "1-10x" is no range.
+  // %c matches only if something follows the number: "1-10x" is not a range.
   const int num_read = std::sscanf(text.c_str(), "%lu-%lu%c", &first, &last, &rest);
   if (num_read == 1 && text.find_first_not_of("0123456789") == std::string::npos) last = first;
   const bool is_range = num_read == 2 && last >= first && last - first < 1000000;

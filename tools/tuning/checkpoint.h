@@ -23,7 +23,8 @@ struct Checkpoint {
   bool operator==(const Checkpoint&) const = default;
 
   std::string to_text() const;
-  /** @param name  Of the file, for errors. @throws ConfigError  if the text is no checkpoint. */
+  /** @param name  Name of the file, for errors.
+   * @throws ConfigError  if the text is not a checkpoint. */
   static Checkpoint parse(const std::string& text, const std::string& name);
 
   /** @throws ConfigError  that names the settings which differ from those of the present search. */
