@@ -23,7 +23,7 @@ struct CourseRow {
 struct Course {
   /** Twice a second. */
   std::vector<CourseRow> rows;
-  /** What became of each command that is no walk, in their order: "posture done". */
+  /** Result of each command other than walk commands, in order: "posture done". */
   std::vector<std::string> results;
   /** Over all joint commands, bit by bit; not part of the file, for it differs with every change.
    */
@@ -33,7 +33,7 @@ struct Course {
 /** Text that read_course() reads. */
 std::string to_text(const Course& course);
 
-/** @throws Error  if the file is no course. */
+/** @throws Error  if the file is not a course. */
 Course read_course(const std::filesystem::path& file);
 
 /** Where a course differs from the expected one by more than a robot that walks a little better or

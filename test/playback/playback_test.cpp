@@ -126,7 +126,7 @@ TEST(Playback, ACourseThatIsMissedIsTold) {
   EXPECT_TRUE(find_differences(expected, expected).empty());
   Course slower = expected;
   for (CourseRow& row : slower.rows) row.x *= 0.9;
-  EXPECT_TRUE(find_differences(expected, slower).empty()) << "a little worse is no fault";
+  EXPECT_TRUE(find_differences(expected, slower).empty()) << "a little worse is not a fault";
   Course mirrored = expected;
   for (CourseRow& row : mirrored.rows) row.x = -row.x;
   EXPECT_FALSE(find_differences(expected, mirrored).empty());

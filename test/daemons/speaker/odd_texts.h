@@ -6,7 +6,7 @@
 namespace nao::speaker {
 
 /** More than 200 texts that nobody says to a robot with good intentions, or that few programs
- * expect: emoji, right-to-left, markup, shell syntax, control characters, bytes that are no text.
+ * expect: emoji, right-to-left, markup, shell syntax, control characters, bytes that are not text.
  */
 std::vector<std::string> odd_texts();
 

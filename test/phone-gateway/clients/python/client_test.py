@@ -373,7 +373,7 @@ class Errors(WithGateway):
             self.assertNotIn("k7", str(lost.exception))
 
     def test_other_services_are_no_gateways(self):
-        # protobuf warns of bytes that are no message.
+        # protobuf warns about bytes that are not a message.
         self.enterContext(warnings.catch_warnings())
         warnings.simplefilter("ignore", RuntimeWarning)
         for reply in (b"HTTP/1.1 400 Bad Request\r\n\r\n", b"\xff\xff\xff\xff", b"\0\0\0\5hello", b""):
