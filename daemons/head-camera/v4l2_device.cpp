@@ -21,13 +21,13 @@ namespace {
 /** Buffers shared with the driver. Chosen as B-Human (3) and HULKs (4): one is shown, one is
  * filled, the others bridge delays. */
 constexpr uint32_t kNumBuffers = 4;
-/** At least these, else no image can be kept while the next one arrives. */
+/** Least number of buffers; with fewer no image can be kept while the next one arrives. */
 constexpr uint32_t kLeastBuffers = 2;
 constexpr size_t kImageBytes = static_cast<size_t>(2) * kFullWidth * kFullHeight;
 /** V4L2_CID_EXPOSURE_ABSOLUTE's unit, s. */
 constexpr double kExposureUnit = 1e-4;
 
-/** ioctl(2), again when a signal interrupts it. */
+/** Calls ioctl(2), and repeats it if a signal interrupts it. */
 template <class Argument>
 int control(int descriptor, unsigned long request, Argument* argument) {
   int result = 0;
@@ -186,7 +186,7 @@ bool V4l2Device::receive() {
       queue(index);
       continue;
     }
-    // The one that was newest goes back to the driver.
+    // The previously newest buffer goes back to the driver.
     if (newest_ >= 0) queue(newest_);
     newest_ = index;
     has_new = true;

@@ -38,7 +38,7 @@ class RobotPresence {
   const RobotModel* model_;
   double timeout_;
   bool has_robot_ = false;
-  /** s since the last sensor data. */
+  /** Time since the last sensor data, s. */
   double silence_ = 0;
   Sensors sensors_;
 };

@@ -14,7 +14,7 @@ namespace nao::motion {
  * core knows the robot of the model only. Takes no memory after construction. */
 class SensorCorrection {
  public:
-  /** @param calibration  Of the robot; Calibration(model): nothing is corrected. */
+  /** @param calibration  Calibration of the robot; Calibration(model): nothing is corrected. */
   SensorCorrection(const RobotModel& model, const Calibration& calibration);
 
   /** Readings to what the model's sensors would have read; the servos' targets to the model's

@@ -21,8 +21,8 @@ constexpr double kKickOffWait = 10;
  * to the ball when the striker loses it. */
 constexpr double kBehindBall = 1.2;
 constexpr double kBesideBall = 0.9;
-/** s from the referee's saying that the ball has left the field until it lies where it goes on: 1 s
- * (nao-referee), and what messages and images take. */
+/** Time from the referee's message that the ball has left the field until the ball lies where play
+ * restarts, s: 1 s (nao-referee), plus the latency of messages and images. */
 constexpr double kBallReturn = 1.4;
 /** A ball that only teammates see is looked for from nearer than this, m: they see it with an error
  * of their own places, too. */

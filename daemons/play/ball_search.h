@@ -16,7 +16,7 @@ class BallSearch {
   bool is_active() const { return is_active_; }
   void stop() { is_active_ = false; }
 
-  /** s since the start. */
+  /** Time since the start, s. */
   double duration(const Situation& situation) const { return situation.time - start_; }
 
   /** One step; start() must have been called. */

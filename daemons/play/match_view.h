@@ -38,9 +38,10 @@ struct MatchView {
   int number = 1;
   int team_size = 1;
   bool kicks_off = false;
-  /** s since the last kick-off; less than 0: there was none. */
+  /** Time since the last kick-off, s; negative if there was none. */
   double since_kick_off = -1;
-  /** s since the ball left the field, and whether the own team goes on; nothing: long ago. */
+  /** Time since the ball left the field, s, and whether the own team restarts; nothing if that was
+   * long ago. */
   struct BallOut {
     double age = 0;
     bool is_own = false;
@@ -64,7 +65,7 @@ std::optional<Eigen::Vector2d> find_team_ball(const MatchView& match,
 /** The robot's task in its team. The highest number of those that play by themselves keeps the goal
  * if the team has another player without a penalty; of the others the one nearest to the ball is
  * the striker.
- * @param position  Of the robot, m. @param ball  Nothing: unknown.
+ * @param position  Position of the robot, m. @param ball  Nothing: unknown.
  * @param present  Its role until now, which it keeps where the distances differ little. */
 PlayRole choose_role(const MatchView& match, const Eigen::Vector2d& position,
                      const std::optional<Eigen::Vector2d>& ball, PlayRole present);

@@ -70,7 +70,8 @@ class PlayCore {
   static constexpr double kCommandTimeout = 2;
 
   /** @param head_joints  Names: yaw and pitch; empty where the robot has none.
-   * @param source  Of the commands, unique on the bus. @param first_id  Number of the first one. */
+   * @param source  Source of the commands, unique on the bus. @param first_id  Number of the first
+   * one. */
   PlayCore(const PlayConstants& constants, const HeadLimits& head_limits,
            std::vector<std::string> head_joints, const std::string& source, int64_t first_id);
   // The behaviors refer to the constants.

@@ -42,7 +42,7 @@ struct PlayOptions {
  */
 class PlayDaemon {
  public:
-  /** s between two steps, and between two play_state_t. */
+  /** Time between two steps, and between two play_state_t, s. */
   static constexpr double kStepPeriod = 0.05;
   static constexpr double kStatePeriod = 0.2;
 

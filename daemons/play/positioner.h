@@ -15,7 +15,8 @@ class Positioner {
   explicit Positioner(const PlayConstants& constants) : constants_(constants) {}
 
   /** One step.
-   * @param place  Of the feet, in the odometry frame. @param ball  m, in the odometry frame. */
+   * @param place  Position of the feet, in the odometry frame. @param ball  m, in the odometry
+   * frame. */
   Decision step(const Pose2& place, const std::optional<Eigen::Vector2d>& ball,
                 const Situation& situation);
 

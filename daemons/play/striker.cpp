@@ -27,7 +27,7 @@ constexpr double kKickFraction = 0.9;
  * it waits for an image. */
 constexpr double kSettleTime = 0.3;
 constexpr double kSettleTimeout = 2.0;
-/** s from the start of a kick until the foot has struck: phases of
+/** Time from the start of a kick until the foot has struck, s: phases of
  * data/robots/nao/actions/kick.yaml. */
 constexpr double kStrikeTime = 1.2;
 /** Age of an image when it is known, s. */

@@ -60,7 +60,7 @@ struct GameControllerReturn {
   bool is_fallen = false;
   /** m, m, rad; in the team's frame: x towards the opponents' goal. */
   std::array<double, 3> pose{};
-  /** s since the robot saw the ball; nothing: never. */
+  /** Time since the robot saw the ball, s; nothing: never. */
   std::optional<double> ball_age{};
   /** m, ahead of the robot and to its left. */
   std::array<double, 2> ball{};

@@ -73,7 +73,7 @@ GameControllerReturn to_return(const MatchPlayer& player, const RobotSighting& r
  * what robots tell it; publishes MATCH_STATE, MATCH_COMMAND_RESULT and WORLD_COMMAND. */
 class RefereeDaemon {
  public:
-  /** s between two match_state_t, and between two transmissions of a world command. */
+  /** Time between two match_state_t, and between two transmissions of a world command, s. */
   static constexpr double kStatePeriod = 0.2;
   static constexpr double kRepeatPeriod = 0.1;
 

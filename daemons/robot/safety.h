@@ -66,7 +66,7 @@ class Safety {
   };
 
   /** @param starts_itself  Gets stiff without the button whenever it may: for simulators.
-   * @param model, map  Must outlive this. @param period  Of frames, s. */
+   * @param model, map  Must outlive this. @param period  Period of frames, s. */
   Safety(const RobotModel& model, const LolaMap& map, double period, bool starts_itself);
 
   /** One frame. @param targets  Those sent last; gets those to be sent, still without limit on

@@ -56,11 +56,12 @@ class SpeechCore {
   static constexpr double kLoudnessPeriod = 0.2;
 
   /** @param synthesizer  Must outlive this.
-   * @param language  Of texts without one: of kSpeechLanguages. */
+   * @param language  Language of texts without one: of kSpeechLanguages. */
   SpeechCore(Synthesizer& synthesizer, std::string language)
       : synthesizer_(synthesizer), language_(std::move(language)) {}
 
-  /** @param requests  Received since the last step, in order. @param dt  s since the last step. */
+  /** @param requests  Received since the last step, in order. @param dt  Time since the last step,
+   * s. */
   SpeechOutput step(const std::vector<SpeechRequest>& requests, double dt);
 
   bool is_speaking() const { return current_.has_value(); }
@@ -75,7 +76,7 @@ class SpeechCore {
     /** Samples that are due by now, and that were published. */
     double position = 0;
     int64_t num_published = 0;
-    /** s until the loudness is told next. */
+    /** Time until the loudness is told next, s. */
     double loudness_due = 0;
   };
 

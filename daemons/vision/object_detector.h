@@ -34,7 +34,7 @@ class ObjectDetector {
   explicit ObjectDetector(std::shared_ptr<NeuralNetwork> network) : network_(std::move(network)) {}
 
   /** @param half  The image at half of its size, 8 bits a color, blue first.
-   * @param width, height  Of the image, pixels. */
+   * @param width, height  Size of the image, pixels. */
   FoundObjects detect(const cv::Mat& half, int width, int height,
                       const CameraGeometry& geometry) const;
 

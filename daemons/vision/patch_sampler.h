@@ -26,7 +26,8 @@ class PatchSampler {
   /** The image at half of its size. */
   const cv::Mat& half() const { return levels_[1]; }
 
-  /** @param half_width  Of the patch in the image, pixels. What lies outside of the image is black.
+  /** @param half_width  Half width of the patch in the image, pixels. What lies outside of the
+   * image is black.
    * @return kSize x kSize pixels, 8 bits a color, blue first. */
   cv::Mat sample(const cv::Point2f& center, float half_width) const;
 

@@ -41,7 +41,8 @@ class GroundReaction {
   /** @param model  Must outlive this. */
   explicit GroundReaction(const RobotModel& model);
 
-  /** @param kinematics  Of the measured angles. @param torque  Measured, N m, (num_motors).
+  /** @param kinematics  Kinematics of the measured angles. @param torque  Measured, N m,
+   * (num_motors).
    * @param up  Unit vector upwards, torso frame. @return Left foot, right foot. */
   std::array<FootReaction, 2> estimate(const Kinematics& kinematics,
                                        const std::vector<double>& torque,

@@ -67,7 +67,7 @@ class FallSupervisor {
   const MotionOptions* options_;
   FallMonitor monitor_;
   bool has_fallen_ = false;
-  /** s for which it has lain after a fall without a motion. */
+  /** Time for which it has lain still after a fall, without a motion, s. */
   double time_fallen_ = 0;
   /** Lay when no motion ran last, or when one was done: it lies on purpose, or the fall is known.
    */

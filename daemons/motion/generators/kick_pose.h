@@ -24,7 +24,7 @@ class KickPose {
  public:
   KickPose(const RobotModel& model, bool is_left);
 
-  /** Defines S. @param kinematics  Of the joint targets at the start.
+  /** Defines S. @param kinematics  Kinematics of the joint targets at the start.
    * @return The stand in S. */
   KickReference start(const Kinematics& kinematics);
 

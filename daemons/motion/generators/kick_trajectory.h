@@ -21,7 +21,8 @@ struct KickReference {
 };
 
 /** Fraction 0..1 to which the kicking foot moves independently of the ground: 0 while it stands,
- * 1 from the height on at which nothing of it can touch the ground. @param height  Of the sole, m.
+ * 1 from the height on at which nothing of it can touch the ground. @param height  Height of the
+ * sole, m.
  */
 double airborne_fraction(double height);
 

@@ -25,7 +25,7 @@ struct MotionContext {
   const Sensors& sensors;
   const RobotState& state;
   const Kinematics& kinematics;
-  /** s since the last step. */
+  /** Time since the last step, s. */
   double dt;
 };
 

@@ -69,7 +69,7 @@ class PosturePathMotion : public MotionGenerator {
             const JointTargets& targets);
   void rest(const MotionContext& context);
   /** Takes notice of whether the robot gets up: from lying until it is on its feet or at the goal.
-   * @param state  Of the body. */
+   * @param state  State of the body. */
   void note_getting_up(const std::string& state);
   /** Whether the body must come to rest before it moves on from a state. */
   bool must_rest(const MotionContext& context, const std::string& state) const;
@@ -87,9 +87,9 @@ class PosturePathMotion : public MotionGenerator {
   bool is_exact_;
 
   Segment segment_ = Segment::kStiffening;
-  /** s since the segment began. */
+  /** Time since the segment began, s. */
   double time_ = 0;
-  /** s for which the torso has not turned. */
+  /** Time for which the torso has not turned, s. */
   double time_still_ = 0;
   Transition transition_;
   std::optional<PostureMotion> line_;

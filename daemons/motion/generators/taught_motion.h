@@ -50,7 +50,7 @@ class TaughtMotion : public MotionGenerator {
   /** Time along the path, s, and its rate: 1, and falling to 0 while it stops. */
   double time_ = 0;
   double rate_ = 1;
-  /** s since it was asked to end. */
+  /** Time since it was asked to end, s. */
   double time_finishing_ = 0;
   /** Times that the keyframes have been played. */
   int num_passes_ = 0;

@@ -12,12 +12,12 @@
 namespace nao::motion {
 
 /** Why legs of this stiffness must not walk; nothing if they may.
- * @param stiffness  Of all motors, motor order. */
+ * @param stiffness  Stiffness of all motors, motor order. */
 std::optional<Reason> find_soft_leg(const LegKinematics& legs,
                                     const std::vector<double>& stiffness);
 
 /** Why the robot must not start to walk; nothing if it may.
- * @param stiffness  Of all motors, motor order. */
+ * @param stiffness  Stiffness of all motors, motor order. */
 std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
                                          const std::vector<double>& stiffness);
 
@@ -89,7 +89,7 @@ class WalkMotion : public WalkingMotion {
  private:
   const RobotModel* model_;
   WalkCommand command_;
-  /** s since the command came. */
+  /** Time since the command came, s. */
   double age_ = 0;
 };
 

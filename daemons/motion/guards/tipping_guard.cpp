@@ -125,7 +125,7 @@ std::vector<Eigen::Vector2d> find_support(const std::array<Sole, 2>& soles,
 
 /** Whether a body at rest on a face of its hull stays there: no corner is below the face, and the
  * center of mass projects into it.
- * @param height  Of the face along up, m. */
+ * @param height  Height of the face along up, m. */
 bool rests_on(const Eigen::Vector3d& up, double height, const std::vector<Eigen::Vector3d>& corners,
               const Eigen::Vector3d& center_of_mass) {
   const LevelAxes axes(up);

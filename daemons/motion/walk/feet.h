@@ -38,7 +38,7 @@ class Feet {
   /** Between these two, m, in S. */
   Eigen::Vector2d midpoint() const { return 0.5 * (support_zmp() + other_zmp()); }
 
-  /** Soles in S. @param offset  Of a kick. */
+  /** Soles in S. @param offset  Offset of a kick. */
   Eigen::Isometry3d support_sole() const;
   Eigen::Isometry3d swing_sole(const SwingOffset& offset) const;
   double support_height() const { return support_height_; }

@@ -26,7 +26,7 @@ struct LoadPlan {
  * clamped to the sole; on the other foot at the nominal point. In double support the ZMP lies
  * between the feet, and each foot is loaded around its nominal point.
  *
- * @param mass  Of the robot, kg. @param torso  In the support frame S. */
+ * @param mass  Mass of the robot, kg. @param torso  In the support frame S. */
 std::array<FootLoad, 2> plan_foot_loads(const Gait& gait, double mass, const Feet& feet,
                                         const ComReference& reference, const LoadPlan& plan,
                                         const Eigen::Isometry3d& torso);

@@ -33,7 +33,7 @@ class PendulumEstimator {
   }
 
   /** Takes in one measurement.
-   * @param position  Of the center of mass, m. @param zmp  m. @param omega  1/s.
+   * @param position  Position of the center of mass, m. @param zmp  m. @param omega  1/s.
    * @param dt        s since the last measurement. */
   void update(const Eigen::Vector2d& position, const Eigen::Vector2d& zmp, double omega,
               double dt) {
@@ -45,8 +45,8 @@ class PendulumEstimator {
   }
 
   /** Changes to the frame of the other foot, which is the support foot from now on.
-   * @param position  Measured, in the new frame, m. @param heading  Of the new frame in the old
-   * one, rad. */
+   * @param position  Measured, in the new frame, m. @param heading  Heading of the new frame in the
+   * old one, rad. */
   void change_frame(const Eigen::Vector2d& position, double heading) {
     state_.position = position;
     state_.velocity = Eigen::Rotation2Dd(-heading) * state_.velocity;

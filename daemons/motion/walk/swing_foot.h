@@ -10,8 +10,8 @@ namespace nao::motion {
  * position and velocity to rest at the foothold. The height is a polynomial of the swing phase. */
 class SwingFoot {
  public:
-  /** Lifts off at rest. @param start  In the support frame. @param height  Of the sole over the
-   * ground now, m; not 0 where the ground was met early or late. */
+  /** Lifts off at rest. @param start  In the support frame. @param height  Height of the sole over
+   * the ground now, m; not 0 where the ground was met early or late. */
   void start(const Pose2& start, double height);
 
   /** One tick.

@@ -22,7 +22,7 @@ class VelocityPlanner {
    * linear between. */
   void set_slowness(double slowness) { slowness_ = slowness; }
 
-  /** @param fraction  Of the robot's limits, beside what slowness leaves; 1: all. */
+  /** @param fraction  Fraction of the robot's limits, in addition to the slowdown; 1: all. */
   void set_speed_fraction(double fraction) { speed_fraction_ = fraction; }
 
   /** The greatest velocity along the direction of the given one that lies in the envelope

@@ -20,7 +20,8 @@ Eigen::Vector2d clamp_to_sole(const Gait::Zmp& gait, const Eigen::Vector2d& zmp,
 /** ZMP in single support, m, in S: from the nominal one towards the ZMP that would bring the DCM to
  * its planned end point at the end of the step, clamped to the sole.
  *
- * @param nominal  Of the support foot, m. @param dcm, end_dcm  Now and at the end of the step, m.
+ * @param nominal  Nominal point of the support foot, m. @param dcm, end_dcm  Now and at the end of
+ * the step, m.
  * @param omega    1/s. @param remaining  Time to the end of the step, s. */
 Eigen::Vector2d control_single_support(const Gait::Zmp& gait, const Eigen::Vector2d& nominal,
                                        const Eigen::Vector2d& dcm, const Eigen::Vector2d& end_dcm,
