@@ -63,7 +63,8 @@ class Ball {
                          EntryPair* rows) const;
   /** Adds rolling resistance to the contact with the floor that was added last: a bound on the
    * torque, deceleration * (I + m r^2) / r, as a fraction of the normal force m g.
-   * @param frame  As above. @param deceleration  Of a rolling ball, m/s^2. @param gravity  m/s^2.
+   * @param frame  As above. @param deceleration  Deceleration of a rolling ball, m/s^2.
+   * @param gravity  m/s^2.
    */
   void add_rolling_resistance(const Eigen::Matrix3d& frame, double deceleration, double gravity,
                               ConstraintSolver& solver) const;

@@ -48,8 +48,8 @@ struct CollisionModel {
   CollisionModel(const RobotModel& model, const Tree& tree, int num_sole_points, double spacing);
 };
 
-/** Points of a square grid that lie within a convex outline, m. @param spacing  Of the grid, above
- * 0.
+/** Points of a square grid that lie within a convex outline, m. @param spacing  Spacing of the
+ * grid, above 0.
  */
 std::vector<Eigen::Vector2d> inner_points(const std::vector<Eigen::Vector2d>& outline,
                                           double spacing);

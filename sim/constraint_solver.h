@@ -145,7 +145,8 @@ class ConstraintSolver {
   void enter(int chain, double* z);
   /** Writes local_ back to z. */
   void leave(double* z);
-  /** Solve one constraint. @param normal_impulse  Of the block before, N s; for rolling blocks.
+  /** Solve one constraint. @param normal_impulse  Normal impulse of the block before, N s; for
+   * rolling blocks.
    * @param z  Of its chain. @return By how much its velocity was off, m/s or rad/s. */
   static double solve_block(ContactBlock& block, int num_pairs, double normal_impulse,
                             EntryPair* z);

@@ -34,8 +34,8 @@ class ContactAssembler {
   /** @param bodies  Must outlive this. */
   ContactAssembler(MovingBodies& bodies, const WorldOptions& options);
 
-  /** Takes memory. @param num_dofs  Of all bodies. @param max_chain  Most dofs between a root and a
-   * body of its robot. */
+  /** Takes memory. @param num_dofs  Number of dofs of all bodies. @param max_chain  Most dofs
+   * between a root and a body of its robot. */
   void reserve(int max_contacts, int num_dofs, int max_chain);
 
   /** Forgets the last step's contacts. */

@@ -30,7 +30,7 @@ class ContactDamping {
     Eigen::Matrix3Xd rows;
   };
 
-  /** @param tree, dynamics  Of the robot. Must outlive this. */
+  /** @param tree, dynamics  Tree and dynamics of the robot. Must outlive this. */
   ContactDamping(const Tree& tree, const TreeDynamics& dynamics)
       : tree_(tree), dynamics_(dynamics) {}
 

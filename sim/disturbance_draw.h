@@ -18,7 +18,7 @@ void draw_world(const DisturbanceSet& set, uint64_t seed, WorldOptions& options)
  * Each disturbance has its own stream of random numbers: it is the same whatever else disturbs the
  * robot. Without any disturbance (DisturbanceSet::is_none()) sensors are ideal and motors follow at
  * once.
- * @param index  Of the robot in its world: robots differ. @param world  As drawn before.
+ * @param index  Index of the robot in its world: robots differ. @param world  As drawn before.
  * @param options  The other options, and what is not disturbed. */
 void draw_robot(const DisturbanceSet& set, uint64_t seed, int index, const RobotModel& model,
                 const WorldOptions& world, RobotOptions& options);

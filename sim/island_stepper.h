@@ -31,7 +31,8 @@ class IslandStepper {
   /** All must outlive this. @param detector  The same one for all islands. */
   IslandStepper(MovingBodies& bodies, const WorldOptions& options, ContactDetector& detector);
 
-  /** Takes memory. @param max_robots  Of an island. @param num_dofs  Of all bodies.
+  /** Takes memory. @param max_robots  Greatest number of robots of an island.
+   * @param num_dofs  Number of dofs of all bodies.
    * @param max_chain  Most dofs between a root and a body of its robot. */
   void reserve(int max_robots, int num_dofs, int max_chain);
 

@@ -59,11 +59,12 @@ class JointDrives {
   /** Plans the torques and adds them to the momentum. */
   void begin_step(double h, const MotorTargets& targets, TreeIntegrator& integrator);
   /** Adds the rows that the state at the step's start asks for.
-   * @param first_dof  Of the robot in the solver's vector. */
+   * @param first_dof  First dof of the robot in the solver's vector. */
   void add_rows(double h, const TreeState& state, const TreeDynamics& dynamics, int first_dof,
                 ConstraintSolver& solver);
   /** Adds bounds for motors that exceed their torque at a velocity.
-   * @param velocity  Of the solver's present solution, (num_dofs). @return Whether there were any.
+   * @param velocity  Velocity of the solver's present solution, (num_dofs). @return Whether there
+   * were any.
    */
   bool add_missed_bounds(double h, const Eigen::VectorXd& velocity, const TreeDynamics& dynamics,
                          int first_dof, ConstraintSolver& solver);

@@ -102,7 +102,7 @@ struct Drive {
   /** Weight of the speed at the step's end in the speed that damping acts on, 0.5 to 1; the rest is
    * the speed at its start. 0.5 is of second order in h (trapezoidal rule). A damper that would
    * more than stop the rotor within the step has the weight that just stops it.
-   * @param damping  Of all dampers on the joint, N m s/rad. */
+   * @param damping  Total damping of all dampers on the joint, N m s/rad. */
   double end_weight(double h, double damping) const {
     const double decay = h * damping;
     return decay > 2 * motor.reflected_inertia ? 1 - motor.reflected_inertia / decay : 0.5;

@@ -94,7 +94,8 @@ class Sensors {
 
   /** Switches on: tick 0, new biases, and a true orientation estimate. @param truth  At rest. */
   void reset(const TrueMotion& truth);
-  /** Goes on as if it had been switched on so many ticks ago. @param period  Of a tick, s. */
+  /** Goes on as if it had been switched on so many ticks ago. @param period  Period of a tick, s.
+   */
   void set_tick(int64_t tick, double period);
   /** Measures at the end of a control tick. @param period  Its length, s. */
   void update(const TrueMotion& truth, double period);

@@ -79,7 +79,7 @@ std::shared_ptr<const RobotModel> load_model(const std::string& name) {
   return std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / name));
 }
 
-/** @param index  Of the robot among all that ever were in the world: part of its seed. */
+/** @param index  Index of the robot among all that ever were in the world: part of its seed. */
 void add_robot_to(World& world, const SimOptions& options, const std::string& name,
                   const std::shared_ptr<const RobotModel>& model, const StartPlace& place,
                   int index) {

@@ -83,7 +83,8 @@ class SimRobot {
   void return_to_start();
   /** Tick 0: servos on, motors cold, sensors with new biases. */
   void switch_on();
-  /** For a robot that joins a world which has run so many ticks. @param period  Of a tick, s. */
+  /** For a robot that joins a world which has run so many ticks. @param period  Period of a tick,
+   * s. */
   void set_tick(int64_t tick, double period) { sensors_.set_tick(tick, period); }
   /** Impulse at a link's center of mass in the next step, N s, in W. */
   void push(int link, const Eigen::Vector3d& impulse);
@@ -104,7 +105,7 @@ class SimRobot {
   /** Adds the constraint rows of joints and motors. */
   void add_joint_rows(double h, ConstraintSolver& solver);
   /** Adds bounds for motors that exceed their torque with the solver's present solution.
-   * @param scaled_velocity  Of all bodies. @return Whether there were any. */
+   * @param scaled_velocity  Scaled velocities of all bodies. @return Whether there were any. */
   bool add_missed_bounds(double h, const Eigen::VectorXd& scaled_velocity,
                          ConstraintSolver& solver);
   /** Takes over the velocities of the solution that add_missed_bounds() was given last. */

@@ -44,7 +44,7 @@ class TickScheduler {
   /** The indices of the robots after it fall by one. */
   void remove_robot(int robot) { commands_.erase(commands_.begin() + robot); }
 
-  /** A robot's joint command was received. @param answered_tick  Of the sensor state. */
+  /** A robot's joint command was received. @param answered_tick  Tick of the sensor state. */
   void note_command(int robot, int64_t answered_tick, double now);
 
   /** Whether the tick after `tick` may be run, as far as pause and lock-step decide. */

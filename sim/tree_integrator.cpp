@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr double kMaxRate = 300;
 /** m/s. */
 constexpr double kMaxSpeed = 100;
-/** m from the origin, and below the floor (a lying torso is above 0). */
+/** Distance from the origin, and below the floor, m (a lying torso is above 0). */
 constexpr double kMaxDistance = 1000;
 constexpr double kMaxDepth = 0.2;
 

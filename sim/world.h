@@ -90,7 +90,7 @@ class World {
   void reset();
   /** Places a robot at rest. @param posture  Angles of all motors, or nullptr to keep them.
    * @param position  x, y of the torso, and least height of the robot over the floor; m.
-   * @param orientation  Of the torso. nullptr: as the posture rests, facing along x. */
+   * @param orientation  Orientation of the torso. nullptr: as the posture rests, facing along x. */
   void place_robot(int robot, const Posture* posture, const Eigen::Vector3d& position,
                    const Eigen::Quaterniond* orientation = nullptr);
   /** @param position  x, y, and height of the ball's lowest point over the floor; m. Without a

@@ -40,7 +40,7 @@ struct Materials {
    * kSpringMass, in proportion, so that its weight presses its soles as deep into the floor as that
    * of a robot of kSpringMass. On springs for the weight of a NAO (5.3 kg) a robot of 32 kg stands
    * as on a mattress: a sole 10 cm wide on springs of 1e4 N/m resists tilting with less than the
-   * robot's weight times its height. @param mass  Of the robot, kg. */
+   * robot's weight times its height. @param mass  Mass of the robot, kg. */
   void bear(double mass) {
     const double ratio = std::max(1.0, mass / kSpringMass);
     contact_stiffness *= ratio;

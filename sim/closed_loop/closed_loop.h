@@ -120,7 +120,7 @@ class ClosedLoop {
   }
 
   // The true state.
-  /** s since the start. */
+  /** Time since the start, s. */
   double time() const { return world_->time(); }
   Eigen::Isometry3d torso_in_world() const;
   double torso_height() const { return torso_in_world().translation().z(); }
