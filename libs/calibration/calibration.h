@@ -19,7 +19,7 @@ struct Calibration {
    * have no difference.
    * @throws ConfigError  naming file, line and key of what is wrong. */
   static Calibration load(const RobotModel& model, const std::filesystem::path& file);
-  /** The same from a text. @param name  Of the text, for errors. */
+  /** The same from a text. @param name  Name of the text, for errors. */
   static Calibration parse(const RobotModel& model, const std::string& text,
                            const std::string& name);
   /** Text of a file, with units. */

@@ -31,8 +31,8 @@ class CalibrationRun {
   std::optional<CalibrationCommand> next_command();
   /** The command has ended. @param fault  Why it was not carried out; empty if it was. */
   void end_command(const std::string& fault);
-  /** Takes in one tick. @param sample  Of the sensors; its station and heading are ignored.
-   * @param dt  s since the last one. */
+  /** Takes in one tick. @param sample  Sample of the sensors; its station and heading are ignored.
+   * @param dt  Time since the last one, s. */
   void measure(StandingSample sample, double dt);
 
   bool is_done() const { return phase_ == Phase::kDone; }

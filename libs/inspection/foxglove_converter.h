@@ -31,7 +31,7 @@ class FoxgloveConverter {
   using IsWanted = std::function<bool(size_t)>;
   using Emit = std::function<void(size_t, std::string)>;
 
-  /** @param model  Of the robot; must outlive this. @param robot  Its name, "NAO". */
+  /** @param model  Model of the robot; must outlive this. @param robot  Its name, "NAO". */
   FoxgloveConverter(const RobotModel& model, const std::string& robot);
   FoxgloveConverter(const FoxgloveConverter&) = delete;
   FoxgloveConverter& operator=(const FoxgloveConverter&) = delete;

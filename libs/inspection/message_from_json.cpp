@@ -53,7 +53,7 @@ std::optional<int64_t> fixed_length(const std::string& dimension) {
 /** Encodes the fields of one struct. */
 class StructEncoder {
  public:
-  /** @param object  Null if the struct is absent. @param path  Of the struct, "a." or "". */
+  /** @param object  Null if the struct is absent. @param path  Path of the struct, "a." or "". */
   StructEncoder(const MessageLayout& layout, const Json* object, std::string path,
                 WireWriter& writer)
       : layout_(layout), object_(object), path_(std::move(path)), writer_(writer) {}

@@ -68,8 +68,8 @@ class LegKinematics {
 
   /** Both legs. Coupled hips: the first angle is the weighted mean of what solve() gives for the
    * two feet, the other angles are those of solve_with_hip_yaw_pitch(). Others: solve() for each.
-   * @param left_weight  Of the left foot, 0..1: 1 while it is the only support foot, 0.5 in double
-   *   support. */
+   * @param left_weight  Load ratio of the left foot, 0..1: 1 while it is the only support foot, 0.5
+   * in double support. */
   LegsSolution solve_both(const Eigen::Isometry3d& left_sole_in_torso,
                           const Eigen::Isometry3d& right_sole_in_torso,
                           double left_weight = 0.5) const;

@@ -37,7 +37,7 @@ class RobotVisual {
                     int team, int number, int hidden_link = -1) const;
 
   /** Adds the robot to a scene.
-   * @param link_poses_in_world  Of all links, in the order of model().links().
+   * @param link_poses_in_world  Poses of all links, in the order of model().links().
    * @param tint  Factor on its colors; an opacity below 1 makes it translucent.
    * @param hidden_link  Index of a link that is not drawn, -1 for none: the head that contains the
    *   camera is not visible to it. */
