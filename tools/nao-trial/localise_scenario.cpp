@@ -20,9 +20,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using vision::FieldPose;
 
-/** s between images. A rendered one costs about 30 ms of processor time. */
+/** Time between images, s. A rendered one costs about 30 ms of processor time. */
 constexpr double kSparseImagePeriod = 0.2;
-/** s between the values of a metric. */
+/** Time between the values of a metric, s. */
 constexpr double kSamplePeriod = 0.5;
 constexpr double kDuration = 600;
 /** The driver keeps the robot this far inside of the outer lines, m. */

@@ -23,7 +23,7 @@ using Eigen::Vector2d;
 
 /** Default duration of a match, s: two halves. */
 constexpr double kDuration = 300;
-/** s between steps of the referee and between what teammates tell each other. */
+/** Time between steps of the referee and between what teammates tell each other, s. */
 constexpr double kRefereePeriod = 0.05;
 constexpr double kTellPeriod = 0.2;
 /** A torso that leans by more than this, rad, is not on its feet. Chosen: nao-referee's value. */

@@ -68,7 +68,7 @@ class PerceptionModel : public TrialPerception {
   vision::BallFilter filter_;
   play::Vision known_;
   std::deque<Pending> pending_;
-  /** s since the last image. */
+  /** Time since the last image, s. */
   double since_image_ = 0;
   Eigen::Vector3d field_error_ = Eigen::Vector3d::Zero();
 };

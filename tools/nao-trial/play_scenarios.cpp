@@ -13,9 +13,9 @@ using Eigen::Vector2d;
 
 /** Without --duration, s. */
 constexpr double kTimeLimit = 90;
-/** m from the lines at which ball and robot are placed at least. */
+/** Distance from the lines at which ball and robot are placed at least, m. */
 constexpr double kMargin = 0.3;
-/** m between ball and robot at least. */
+/** Distance between ball and robot at least, m. */
 constexpr double kApart = 0.4;
 /** Shots: distance from the goal's middle, m; greatest speed at the goal line, m/s; and time before
  * the shot in which the keeper takes its position, s. */
@@ -28,7 +28,7 @@ constexpr double kLeastShotSpeed = 0.15;
 /** Placement has numbers of its own: it does not change with what else is drawn. */
 constexpr uint64_t kPlacementSeed = 0x51ed270b;
 
-/** s between the lines of a trace. */
+/** Time between the lines of a trace, s. */
 constexpr double kTracePeriod = 0.1;
 /** The whole ball has passed the line: its radius and half of the line's width, m. */
 constexpr double kBehindLine = 0.075;

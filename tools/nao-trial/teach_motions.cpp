@@ -37,7 +37,7 @@ double needed_duration(const RobotModel& model, const std::vector<double>& from,
   return duration;
 }
 
-/** Adds a keyframe of all joints. @param slowness  Of the least duration, 1 or more. */
+/** Adds a keyframe of all joints. @param slowness  Factor on the least duration, 1 or more. */
 void add_keyframe(const RobotModel& model, std::vector<double>& last, std::vector<double> position,
                   double slowness, double pause, ActionScript& script) {
   motion::clip_to_limits(model, position);

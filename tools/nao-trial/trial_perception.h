@@ -9,8 +9,8 @@
 
 namespace nao::trial {
 
-/** s from an image to what it shows being known: exposure, compression, nao-vision's processing and
- * the bus on a busy host. Chosen. */
+/** Time from an image to what it shows being known, s: exposure, compression, nao-vision's
+ * processing and the bus on a busy host. Chosen. */
 constexpr double kImageLatency = 0.08;
 
 /** What a robot in a trial knows by its cameras. The field is the simulated world; the

@@ -12,7 +12,7 @@ namespace nao {
 struct GetUpResult {
   /** It stood at the end of the first try. */
   bool is_up = false;
-  /** s from lying still to standing in StandInit, or to the failure. */
+  /** Time from lying still to standing in StandInit, or to the failure, s. */
   double time = 0;
   /** Greatest height of the upright torso, as a fraction of the standing height. */
   double height = 0;

@@ -33,7 +33,7 @@ double cost_of(const GetUpResult& result);
 /** Search of the numbers of get-up motions. A candidate is a list of these numbers. */
 class GetUpProblem : public TuningProblem {
  public:
-  /** @param text  Of the transitions and the numbers in it.
+  /** @param text  Text of the transitions and the numbers in it.
    * @throws ConfigError  if there is no such start. */
   GetUpProblem(GetUpProblemOptions options, TrialConditions conditions, TransitionText text);
 

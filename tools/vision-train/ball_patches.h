@@ -21,8 +21,9 @@ class BallPatches {
  public:
   enum class Source { kMoved, kPlace, kRandom, kSecond };
 
-  /** @param objects  Of ObjectDetector; its places of balls are judged.
-   * @param ball  Of BallDetector; adds the patches that it would judge a second time. May be null.
+  /** @param objects  Network of ObjectDetector; its places of balls are judged.
+   * @param ball  Network of BallDetector; adds the patches that it would judge a second time. May
+   * be null.
    */
   BallPatches(PatchFile& file, std::shared_ptr<NeuralNetwork> objects,
               std::shared_ptr<NeuralNetwork> ball, uint64_t seed);

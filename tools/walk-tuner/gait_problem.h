@@ -27,7 +27,7 @@ struct GaitProblemOptions {
  * is one walk of a course. */
 class GaitProblem : public TuningProblem {
  public:
-  /** @param text        Of the gait file that the search starts from.
+  /** @param text        Text of the gait file that the search starts from.
    * @param start       Its gait, with other values where the command line sets them.
    * @param parameters  All parameters of the file. @param tuned  Those that are searched. */
   GaitProblem(GaitProblemOptions options, TrialConditions conditions, std::string text,

@@ -32,7 +32,7 @@ class WalkCourse {
   explicit WalkCourse(double speed) : speed_(speed) {}
 
   /** @param options  Model, scene, engine, disturbances and late ticks.
-   * @param seed  Of the course; equal seeds give equal walks.
+   * @param seed  Seed of the course; equal seeds give equal walks.
    * @param walk  Which of its walks, below kNumWalks. */
   WalkResult run(ClosedLoopOptions options, const motion::Gait& gait, uint64_t seed,
                  int walk) const;
