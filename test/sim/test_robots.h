@@ -18,7 +18,7 @@ struct TestFeet {
 /** Reads a robot from a URDF text whose root is called "torso".
  * @param motors   Lines of robot.yaml's `motors`, "  {}" for none.
  * @param motor    Fields of the motor type "motor".
- * @param outline  Of each sole.
+ * @param outline  Outline of each sole.
  * @param posture  Joints of its one posture, "Start". */
 inline std::shared_ptr<const RobotModel> make_robot(
     const std::string& urdf, const std::string& motors, const std::string& motor,

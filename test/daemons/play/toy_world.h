@@ -36,7 +36,7 @@ class ToyWorld {
   int image_status = 0;
   /** The ball can be seen; nothing: wherever the camera looks. */
   bool is_ball_visible = true;
-  /** m from the feet. */
+  /** Distance from the feet, m. */
   double sight = 4;
   std::optional<CommandKind> other_command;
   std::optional<MatchView> match;

@@ -27,7 +27,7 @@ namespace {
 /** A world of two robots, whose simulator obeys. */
 class RefereeDaemonTest : public testing::Test {
  protected:
-  /** @param change  Of the options, before the daemon is made. */
+  /** @param change  Change of the options, before the daemon is made. */
   explicit RefereeDaemonTest(const std::function<void(RefereeOptions&)>& change = {})
       : bus_("memq://") {
     options_.robots = {{"NAO1", "nao", 0, 1}, {"NAO2", "nao", 1, 1}};
