@@ -156,7 +156,7 @@ std::optional<MotionFault> MotionChecker::find_collision(const ActionScript& scr
     motion::SelfCollision collision;
     const size_t last = guard_.find_last_free(rest, collision);
     if (last + 1 == rest.size()) return std::nullopt;
-    // The reference is not a point of the path.
+    // `rest` begins with the reference, so this is the point after the last free one.
     index += last;
     const auto nearer = std::find_if(
         model_->postures().begin(), model_->postures().end(), [&](const Posture& posture) {

@@ -67,7 +67,7 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
 
 template <class Message>
 void MotionDaemon::subscribe_to_command(const std::string& channel) {
-  // Bus counts an exception as a dropped message; the sender repeats its command.
+  // The bus counts an exception as a dropped message; the sender repeats its command.
   bus_.subscribe<Message>(channel, Bus::Queue::kAll, [this](const Message& message) {
     if (commands_.size() >= kMaxWaitingCommands) {
       throw Error("more than " + std::to_string(kMaxWaitingCommands) + " commands in one step");
@@ -150,8 +150,8 @@ void MotionDaemon::publish(const CommandResult& result) {
 }
 
 void MotionDaemon::publish_status() {
-  // With a simulator that runs as fast as it can this program never waits, and must not keep others
-  // from the processor.
+  // With a simulator that runs as fast as it can, this program never waits, so it must yield the
+  // processor to others.
   if (std::exchange(robot_time_, 0) > kFastRatio * kStatusPeriod) {
     use_normal_scheduling();
   } else {

@@ -11,7 +11,7 @@
 
 namespace nao::play {
 
-/** What another robot of the own team has seen, from its messages. */
+/** What another robot of the same team has seen, from its messages. */
 struct TeamObservation {
   /** Robot time, s. */
   double time = 0;
@@ -21,7 +21,7 @@ struct TeamObservation {
   std::optional<Eigen::Vector2d> ball{};
 };
 
-/** Another player of the own team. */
+/** Another player of the same team. */
 struct Teammate {
   int number = 1;
   /** Plays by itself, without a penalty. */
@@ -55,18 +55,18 @@ struct MatchView {
 std::optional<MatchView> view_match(const MatchState& state, const std::string& robot, double time,
                                     const std::map<std::string, TeamObservation>& seen);
 
-/** Where a team knows the ball to be, m, on the field as the team sees it: from the robot itself,
- * otherwise from the teammate that saw it last.
- * @param own  Nothing: the robot itself does not know. @param time  Robot time, s. */
+/** Position of the ball as a team knows it, m, on the field as the team sees it: from the robot
+ * itself, otherwise from the teammate that saw it last. @param own  Nothing: the robot itself does
+ * not know. @param time  Robot time, s. */
 std::optional<Eigen::Vector2d> find_team_ball(const MatchView& match,
                                               const std::optional<Eigen::Vector2d>& own,
                                               double time);
 
-/** The robot's task in its team. The highest number of those that play by themselves keeps the goal
- * if the team has another player without a penalty; of the others the one nearest to the ball is
- * the striker.
+/** The robot's task in its team. Of the players that play by themselves, the one with the highest
+ * number keeps the goal if the team has another player without a penalty; the one nearest to the
+ * ball among the others is the striker.
  * @param position  Position of the robot, m. @param ball  Nothing: unknown.
- * @param present  Its role until now, which it keeps where the distances differ little. */
+ * @param present  Its role until now, which it keeps if the distances differ little. */
 PlayRole choose_role(const MatchView& match, const Eigen::Vector2d& position,
                      const std::optional<Eigen::Vector2d>& ball, PlayRole present);
 

@@ -10,8 +10,8 @@
 
 namespace nao::play {
 
-/** Commands nao-motion: a walk, one action at a time, and the head meanwhile. Repeats what is not
- * answered, and ends what it began. Time: robot time, s. */
+/** Commands nao-motion: a walk, one action at a time, and at the same time the head. Repeats
+ * unanswered commands, and ends what it began. Times are robot times, s. */
 class MotionDriver {
  public:
   /** @param head_joints  Yaw and pitch; an empty name: no such joint. */
@@ -32,7 +32,7 @@ class MotionDriver {
   void abandon();
 
   void handle_result(const CommandResult& result, double time);
-  /** @return What is to be sent now. */
+  /** @return The commands to send now. */
   std::vector<Command> step(double time);
 
   bool is_walking() const { return walk_id_ != 0; }

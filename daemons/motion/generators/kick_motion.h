@@ -51,7 +51,7 @@ class KickMotion : public MotionGenerator {
   /** S in the odometry frame. */
   Pose2 support_in_odometry(const RobotState& state) const;
   void follow(const MotionContext& context, const KickReference& planned, JointTargets& targets);
-  /** From the reference of the CoM to the ZMP, m, in S, that corrects the measured DCM.
+  /** Vector from the reference of the CoM to the ZMP that corrects the measured DCM, m, in S.
    * @param com_velocity  Velocity of the reference, m/s. */
   Eigen::Vector2d calc_zmp_offset(const RobotState& state, const KickReference& reference,
                                   const Eigen::Vector2d& com_velocity) const;

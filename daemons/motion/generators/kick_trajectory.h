@@ -68,7 +68,7 @@ class KickTrajectory {
 
   std::vector<Segment> segments_;
   double duration_ = 0;
-  /** Ahead of the middle between the soles, m. */
+  /** Position of the ball ahead of the middle between the soles, m. */
   double ball_x_;
   /** Distance of the ball's center ahead of the sole's origin when they touch, m. */
   double ball_contact_;

@@ -201,7 +201,7 @@ double TippingGuard::find_safe_fraction(const std::vector<double>& from,
       std::clamp(static_cast<int>(std::ceil(largest / kSampleAngle)), 1, kMaxSamples);
   const Eigen::Vector3d standing_up = find_support_normal(from, up_in_torso);
   Eigen::Vector3d up = standing_up;
-  // A robot that stands badly at the start may move, as long as it does not become worse.
+  // A robot with a poor margin at the start may move as long as the margin does not decrease.
   const Equilibrium start = find_equilibrium(from, up);
   double needed_margin = std::min(kReserve, start.margin);
   const double allowed_lifting = std::max(kMaxLifting, start.lifting + kMaxLifting / 4);
