@@ -8,7 +8,7 @@
 
 namespace nao::play {
 
-/** Takes a place on the field and stays there, with the head towards the ball. */
+/** Walks to a place on the field and stays there, with the head towards the ball. */
 class Positioner {
  public:
   /** @param constants  Must outlive this. */

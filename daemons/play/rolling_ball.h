@@ -7,8 +7,8 @@
 
 namespace nao::play {
 
-/** Where a ball comes to rest, m: of one that rolls, at the end of its straight path or before the
- * feet that it meets; of any other, where it is. Frames of all: odometry.
+/** Where a ball comes to rest, m: a rolling one at the end of its straight path or before the feet
+ * that it meets; any other where it is. All is in the odometry frame.
  * @param feet  Position of the robot, m. */
 Eigen::Vector2d predict_rest(const Ball& ball, const Eigen::Vector2d& feet);
 

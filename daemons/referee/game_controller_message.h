@@ -12,7 +12,7 @@ namespace nao::referee {
 inline constexpr uint16_t kGameControllerPort = 3838;
 inline constexpr uint16_t kGameControllerReturnPort = 3939;
 
-/** What the RoboCup GameController of the Standard Platform League says twice a second.
+/** Message that the RoboCup GameController of the Standard Platform League sends twice a second.
  *
  * Source of all fields and values: RoboCupGameControlData.h of RoboCup-SPL/GameController3,
  * versions 15 to 18 of the message, which have one layout: 118 bytes, little-endian. */
@@ -44,8 +44,7 @@ struct GameControllerData {
   std::array<Team, 2> teams{};
 };
 
-/** Codes of penalties that have a name of their own here; all others are the referees' decisions.
- */
+/** Codes of penalties that are named here; all others are the referees' decisions. */
 inline constexpr uint8_t kPenaltyPlayerPushing = 2;
 inline constexpr uint8_t kPenaltyInactivePlayer = 4;
 inline constexpr uint8_t kPenaltyLeavingTheField = 6;

@@ -6,7 +6,7 @@
 
 namespace nao::referee {
 
-/** A match as one JSON object, from which another referee can go on. */
+/** A match as one JSON object, from which another referee can continue. */
 std::string to_json(const MatchState& state);
 
 /** @throws Error  if the text is not a match, or a value is outside its range. */

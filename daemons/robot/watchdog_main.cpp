@@ -1,5 +1,5 @@
 // Starts nao-robot, and takes over when it dies or hangs: a robot keeps its stiffness when its
-// program has ended. Ends after that; supervisor or systemd starts it anew.
+// program has ended. Ends after that; supervisor or systemd restarts it.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -39,7 +39,7 @@ class Child {
  public:
   explicit Child(std::vector<std::string> command) {
     std::array<int, 2> ends{};
-    // Both ends do not block: a child that hangs must not hang its watchdog.
+    // Neither end blocks: a hung child must not hang its watchdog.
     if (pipe2(ends.data(), O_NONBLOCK) != 0) throw Error("cannot make a pipe");
     heartbeat_ = ends[0];
     // The child inherits the writing end only.
@@ -51,10 +51,10 @@ class Child {
     pid_ = fork();
     if (pid_ < 0) throw Error("cannot start nao-robot");
     if (pid_ == 0) {
-      // Without a watchdog it ends in an orderly way.
+      // Without a watchdog, the child ends in an orderly way.
       prctl(PR_SET_PDEATHSIG, SIGTERM);
       execv(words[0], words.data());
-      // As a shell reports a program that it cannot start.
+      // The exit status of a shell for a program that it cannot start.
       _exit(127);
     }
     close(ends[1]);
@@ -93,9 +93,9 @@ class Child {
 std::string watch(Child& child, int signals) {
   bool has_begun = false;
   int num_missed = 0;
-  // Ends with the child, or with its silence.
+  // The loop ends when the child ends or falls silent.
   while (!child.has_ended()) {
-    // Not the heartbeat: it is readable for good when the child has ended.
+    // The heartbeat is not polled: it stays readable after the child has ended.
     pollfd polled{signals, POLLIN, 0};
     poll(&polled, 1, static_cast<int>(kHeartbeatPeriod * 1e3));
     signalfd_siginfo signal{};

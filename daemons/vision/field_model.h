@@ -21,7 +21,7 @@ struct FieldCrossing {
   Eigen::Vector2d position;
 };
 
-/** What a camera can recognize of a soccer field, made of the dimensions of a scene.
+/** The parts of a soccer field that a camera can recognize, made from the dimensions of a scene.
  *
  * Field frame: origin at the center, x towards the opponents' goal, y left. The field is symmetric:
  * turned by half a turn about its center it looks the same. */
@@ -42,8 +42,8 @@ class FieldModel {
 
  private:
   void add_line(double x1, double y1, double x2, double y2);
-  /** An area before a goal: a rectangle that has the goal line as one side. @param sign  Of the
-   * goal's x. */
+  /** An area before a goal: a rectangle that has the goal line as one side. @param sign  Sign of
+   * the goal's x. */
   void add_area(double sign, double goal_line, double depth, double half_width);
 
   std::vector<FieldLine> lines_;

@@ -28,17 +28,18 @@ constexpr size_t kKeep = 40;
 /** The newest so many decide whether the pose fits, if they have this much to see, m. */
 constexpr size_t kRecent = 8;
 constexpr double kLeastUsedLength = 3.0;
-/** Below this score the pose does not fit; so many times in succession it is lost. */
+/** Score below which the pose does not fit; and the number of times in succession after which it is
+ * lost. */
 constexpr double kMisfitScore = 0.35;
 constexpr int kMostMisfits = 4;
-/** Above this score no other pose is searched. */
+/** Score above which no other pose is searched. */
 constexpr double kGoodScore = 0.6;
 /** Least gain of the mean tilt with each observation: 10 s. Chosen: much longer than a misfit lasts
  * before the pose is given up. */
 constexpr double kTiltGain = 0.02;
 /** Another pose replaces a tracked one if its score is better by this. */
 constexpr double kBetter = 0.25;
-/** Between two searches, microseconds: each takes about as long as an image. */
+/** Time between two searches, microseconds: each takes about as long as an image. */
 constexpr int64_t kLostSearchPeriod = 600000;
 constexpr int64_t kSearchPeriod = 2000000;
 

@@ -11,7 +11,7 @@ struct Circle {
   float radius = 0;
 };
 
-/** Cuts square patches out of an image, whatever their size there, as input of a NeuralNetwork.
+/** Cuts square patches of any size out of an image, as input of a NeuralNetwork.
  *
  * The image is halved several times; a patch comes from the level whose pixels are the largest that
  * are not larger than those of the patch, so that nothing is skipped. */

@@ -16,8 +16,8 @@ namespace nao::vision {
  * together, most those far away; as part of the state it is estimated from them. Its slow part is a
  * first-order Gauss-Markov process, its noise is independent in every image.
  *
- * The landmarks of an image are taken one after the other, those that fit best first: what they
- * say about the tilt of this image decides what the others can be. */
+ * The landmarks of an image are used one after the other, those that fit best first: the tilt that
+ * they imply for this image decides what the others can be. */
 class PoseFilter {
  public:
   using State = Eigen::Matrix<double, 7, 1>;
@@ -65,7 +65,7 @@ class PoseFilter {
     /** Covariance of the measurement's own noise. */
     Eigen::Matrix2d covariance;
   };
-  /** Nothing if a landmark fits nothing, or several things. */
+  /** Nothing if a landmark fits nothing, or several parts of the field. */
   using Match = std::optional<Measurement>;
 
   /** An observed point, corrected by the estimated tilt, on the field. */
