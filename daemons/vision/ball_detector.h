@@ -19,7 +19,7 @@ struct BallCandidate {
   float probability = 0;
 };
 
-/** Tells which of the places where a ball may be is the ball.
+/** Decides which of the possible places has the ball.
  *
  * A network judges a patch around each place, and tells where in it the ball's circle lies. The
  * best ones are judged again by patches around those circles. */
