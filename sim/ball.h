@@ -35,7 +35,7 @@ class Ball {
   /** Whether the state is finite and within 1000 m of the origin. */
   bool is_within_bounds() const;
 
-  /** At rest where the scene puts it. */
+  /** Puts the ball at rest where the scene has it. */
   void reset();
   /** @param position  x, y, and height of the lowest point; m. @param velocity  m/s. */
   void place(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity);
@@ -43,7 +43,7 @@ class Ball {
   void push(const Eigen::Vector3d& impulse) { impulse_ += impulse; }
 
   const BallDescription& description() const { return description_; }
-  /** For other engines than the fast one: takes the pushes since the last step, N s, in W, and sets
+  /** For engines other than the fast one: takes the pushes since the last step, N s, in W, and sets
    * the state at the end of a step. */
   Eigen::Vector3d take_impulse() { return std::exchange(impulse_, Eigen::Vector3d::Zero()); }
   void set_state(const BallState& state) { state_ = state; }

@@ -21,7 +21,7 @@ struct CollisionModel {
     double radius = 0;
     /** Radius of the sphere about the center that contains the whole part, m. */
     double bounding_radius = 0;
-    /** Its points in `points`, which collide with the floor: first, and one past the last. */
+    /** Its points in `points`, which collide with the floor: the first, and one past the last. */
     int first_point = 0;
     int end_point = 0;
   };

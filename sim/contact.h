@@ -27,7 +27,7 @@ struct Contact {
   Eigen::Vector3d force_on_a = Eigen::Vector3d::Zero();
 };
 
-/** What one possible contact keeps from one step to the next. */
+/** State that one possible contact keeps from one step to the next. */
 struct ContactMemory {
   /** Impulse of the last step, N s, in W: the start value of the solver (warm start). */
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
@@ -35,7 +35,7 @@ struct ContactMemory {
   Eigen::Vector3d spring_deflection = Eigen::Vector3d::Zero();
   /** The last step in which the contact was a constraint. */
   int64_t last_step = -2;
-  /** Direction from b to a in which two shapes were apart when their distance was measured last, in
+  /** Direction from b to a in which two shapes were apart when their distance was last measured, in
    * W; 0 if it never was. */
   Eigen::Vector3d separating_axis = Eigen::Vector3d::Zero();
 };

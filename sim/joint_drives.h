@@ -14,8 +14,8 @@
 
 namespace nao::sim {
 
-/** What a motor does to its joint in a step of an engine that takes forces from the state at the
- * step's start. All 0 but `dof` where the motor is free in its gear's play. */
+/** Effect of a motor on its joint in a step of an engine that takes forces from the state at the
+ * step's start. All except `dof` are 0 if the motor is free in its gear's play. */
 struct JointForce {
   /** Our degree of freedom. */
   int dof = -1;
@@ -51,7 +51,7 @@ class JointDrives {
 
   /** Motors at rest at these angles, rad, (num_motors). */
   void place(const std::vector<double>& position);
-  /** Windings at ambient temperature. */
+  /** Sets the windings to ambient temperature. */
   void switch_on();
 
   // A step of h seconds, in this order.
@@ -71,7 +71,7 @@ class JointDrives {
   /** Reads the solution. @param velocity  At the step's end, (num_dofs). */
   void end_step(double h, const Eigen::VectorXd& velocity, const ConstraintSolver& solver);
 
-  // A step of h seconds in another engine than the fast one, in this order.
+  // A step of h seconds in an engine other than the fast one, in this order.
 
   /** Forces from a state; valid until the next call. */
   const std::vector<JointForce>& begin_explicit_step(double h, const MotorTargets& targets,

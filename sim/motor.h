@@ -36,10 +36,10 @@ struct Drive {
   double zero = 0;
   Backlash gear;
 
-  /** Angle of an opening (of others: in TreeState). */
+  /** Angle of an opening (other angles are in TreeState). */
   double opening = 0;
   /** Mean of the squared torque over the winding's time constant, in units of the squared
-   * continuous torque: at 1 the motor gives its continuous torque only. */
+   * continuous torque: at 1 the motor gives only its continuous torque. */
   double heat = 0;
 
   /** Torques in a step as functions of the joint's speed v' at its end, N m, and N m s/rad:
@@ -138,7 +138,7 @@ struct Drive {
       damping = plan.line + plan.viscosity;
       velocity = (inertia * speed + h * (demand - plan.emf - plan.drag)) / (inertia + h * damping);
     }
-    // Dry friction slows the motor down, and holds it.
+    // Applies dry friction, which slows the motor down and holds it.
     const double held = h * motor.dry_friction / (inertia + h * damping);
     velocity = std::copysign(std::max(0.0, std::abs(velocity) - held), velocity);
     torque = demand - plan.emf - plan.line * velocity;

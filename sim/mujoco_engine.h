@@ -16,7 +16,7 @@ class MujocoEngine : public Engine {
   MujocoEngine(const SceneFile& scene, const WorldOptions& options, MovingBodies& bodies);
 
   const char* name() const override { return "mujoco"; }
-  /** Makes the whole model anew. */
+  /** Rebuilds the whole model. */
   void add_robot() override;
   void step() override;
   void reset() override;

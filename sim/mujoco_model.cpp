@@ -27,7 +27,7 @@ std::string numbers(const Eigen::Quaterniond& q) {
   return text.str();
 }
 
-// The first robot's names have no prefix, so that the model of a single robot is plain to read.
+// The first robot's names have no prefix, so that the model of a single robot is easy to read.
 std::string prefix(int robot) {
   return robot == 0 ? "" : "robot" + std::to_string(robot) + "_";
 }
@@ -99,7 +99,8 @@ class Writer {
     // MuJoCo takes the greater friction of two geoms.
     if (options_.has_materials) out_ << " friction=\"0.001 0.005 0.0001\"";
     const FloorOptions& floor = world_.floor;
-    // At the height of the highest bump: MuJoCo looks at spheres only that reach below the plane.
+    // The plane is at the height of the highest bump: MuJoCo considers only spheres that reach
+    // below it.
     out_ << " pos=\"0 0 " << floor.bump_height << "\" user=\"" << floor.bump_height << ' '
          << floor.bump_grid << ' ' << floor.seed << "\"/>\n";
   }

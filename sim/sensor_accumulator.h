@@ -30,7 +30,7 @@ class SensorAccumulator {
 
   /** The motors' torques integrated over the tick so far, N m s. */
   const Eigen::VectorXd& torque_impulse() const { return torque_impulse_; }
-  /** Means over the tick so far; at its beginning what holds at rest.
+  /** Means over the tick so far; at its beginning the values at rest.
    * @param position, torque  Positions and torques of the motors now. */
   const TrueMotion& means(const Eigen::VectorXd& position, const Eigen::VectorXd& torque,
                           const TreeState& state, const TreeDynamics& dynamics);

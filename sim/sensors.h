@@ -77,7 +77,7 @@ struct SensorOptions {
   double foot_force_noise = 0.02;
   double foot_force_step = 0.05;
   double foot_force_range = 25;
-  /** Those of this robot's inertial unit and feet. */
+  /** Errors of this robot's inertial unit and feet. */
   RobotErrors errors;
 };
 
@@ -94,7 +94,7 @@ class Sensors {
 
   /** Switches on: tick 0, new biases, and a true orientation estimate. @param truth  At rest. */
   void reset(const TrueMotion& truth);
-  /** Goes on as if it had been switched on so many ticks ago. @param period  Period of a tick, s.
+  /** Continues as if it had been switched on so many ticks ago. @param period  Period of a tick, s.
    */
   void set_tick(int64_t tick, double period);
   /** Measures at the end of a control tick. @param period  Its length, s. */

@@ -35,7 +35,7 @@ constexpr double kLeastDistance = 0.4;
 /** Distance of a dragged point from its link's origin, m: more than a link is long. */
 constexpr double kMaxDragPoint = 1;
 
-/** Nothing if none were asked for. */
+/** Empty if none were requested. */
 std::optional<DisturbanceSet> find_disturbances(const SimOptions& options) {
   if (options.disturbances.empty()) return std::nullopt;
   return DisturbanceSet::find(options.disturbances);

@@ -28,7 +28,7 @@ class SimCore {
   /** Starts the clock: the first tick is due one period from now. */
   void start(double now) { scheduler_.restart(now); }
 
-  /** With the teams that with_teams() gave, and the robots that are there now. */
+  /** Options, with the teams from with_teams() and the present robots. */
   const SimOptions& options() const { return options_; }
   const World& world() const { return world_; }
   const TickScheduler& scheduler() const { return scheduler_; }

@@ -39,7 +39,7 @@ class SimDaemon {
 
  private:
   void subscribe_world();
-  /** After robots were added or removed. */
+  /** Updates channels after robots were added or removed. */
   void update_robots();
   void serve_lola();
   /** Passes a command to the robot of this name, which may have been removed. */

@@ -17,7 +17,7 @@
 
 namespace nao::sim {
 
-/** A hand that pulls at a robot: a spring and a damper between a point of a link and a target. */
+/** A person's pull on a robot: a spring and a damper between a point of a link and a target. */
 struct LinkDrag {
   int link = 0;
   /** m, in the link's frame. */
@@ -30,8 +30,8 @@ struct LinkDrag {
 /** One simulated robot: the order in which its bodies (TreeIntegrator), motors (JointDrives) and
  * sensors take part in a tick and in a step.
  *
- * Users of a World see it const; World and Stepper call the rest. It has more than 25 methods since
- * the phases of a step, which the contacts of all robots couple, are separate calls. */
+ * Users of a World see it as const; World and Stepper call the rest. It has more than 25 methods
+ * since the phases of a step, which the contacts of all robots couple, are separate calls. */
 class SimRobot {
  public:
   /** At rest with servos on, where the options say.
@@ -79,7 +79,7 @@ class SimRobot {
   /** See World::place_robot(). */
   void place(const Posture* posture, const Eigen::Vector3d& ground_position,
              const Eigen::Quaterniond* orientation);
-  /** Places the robot as its options say; its clock and its sensors' noise go on. */
+  /** Places the robot as its options say; its clock and its sensors' noise continue. */
   void return_to_start();
   /** Tick 0: servos on, motors cold, sensors with new biases. */
   void switch_on();
@@ -117,7 +117,7 @@ class SimRobot {
   /** Reads the solution and moves on. */
   void end_step(double h, const ConstraintSolver& solver);
 
-  // A step of h seconds in another engine than the fast one: its joint forces and pushes, the
+  // A step of h seconds in an engine other than the fast one: its joint forces and pushes, the
   // floor's impulses on the soles (add_foot_load()), then its end.
 
   const std::vector<JointForce>& begin_explicit_step(double h) {

@@ -31,7 +31,7 @@ struct SpatialVector {
 };
 
 /** Poses, mass matrix and bias forces of a tree in one state, and linear systems with its mass
- * matrix. All memory is taken in the constructor.
+ * matrix. All memory is allocated in the constructor.
  *
  * Spatial vectors are expressed in W's axes about the root's present origin O, so that no quantity
  * has to be transformed from body to body. Source: R. Featherstone, Rigid Body Dynamics Algorithms
