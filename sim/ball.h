@@ -73,7 +73,7 @@ class Ball {
   double rolling_arm(double deceleration, double gravity) const;
   /** Moment of inertia about the center, kg m^2. */
   double inertia() const { return inertia_; }
-  /** Takes over the solver's velocities and moves on by h seconds. */
+  /** Takes over the solver's velocities and advances by h seconds. */
   void end_step(double h, const Eigen::VectorXd& scaled_velocity);
 
  private:

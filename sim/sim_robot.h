@@ -114,7 +114,7 @@ class SimRobot {
   void mark_in_contact() { is_in_contact_ = true; }
   /** The floor's impulse on a sole, N s, at a point; both in W. @param foot  0 left, 1 right. */
   void add_foot_load(int foot, const Eigen::Vector3d& point, const Eigen::Vector3d& impulse);
-  /** Reads the solution and moves on. */
+  /** Reads the solution and advances. */
   void end_step(double h, const ConstraintSolver& solver);
 
   // A step of h seconds in an engine other than the fast one: its joint forces and pushes, the

@@ -97,8 +97,8 @@ class TreeDynamics {
   /** Motion of the tree as one rigid body, joints held, that has a momentum about O. After
    * update_mass_matrix(). */
   SpatialVector rigid_motion(const SpatialVector& momentum) const;
-  /** Momentum of the whole tree about O with a generalized velocity, which may be another than that
-   * of the state. After update_mass_matrix(); not with a fixed root. */
+  /** Momentum of the whole tree about O with a generalized velocity, which may differ from that of
+   * the state. After update_mass_matrix(); not with a fixed root. */
   SpatialVector momentum_at(const Eigen::VectorXd& velocity) const;
   /** Changes the root's velocity so that the whole tree has a momentum about O; joint rates stay.
    * After update_mass_matrix().

@@ -103,7 +103,7 @@ void TreeIntegrator::begin_step(double h) {
     work_.segment<3>(3) += h * back.linear;
   }
   dynamics_.multiply_by_mass(work_, momentum_);
-  // M u + impulses - h c: momentum after the step's smooth forces, but for the joints' (added by
+  // M u + impulses - h c: momentum after the step's smooth forces, except the joints' (added by
   // JointDrives).
   momentum_ += external_impulse_ - h * bias_;
   // The root's rows of M are the unit matrix on a stand: zero momentum keeps it at rest.
