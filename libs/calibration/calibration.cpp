@@ -68,7 +68,7 @@ Calibration read(const RobotModel& model, const YamlEntry& root) {
     for (const auto& [name, entry] : root.at("foot_sensor_scale").entries()) {
       const int sensor = find_foot_sensor(model, name);
       if (sensor < 0) entry.fail("is not a foot force sensor of " + model.name());
-      // 0 is outside of the range, and means a dead sensor.
+      // 0 is outside the range and means a dead sensor.
       const bool is_dead = entry.number() == 0;
       result.foot_sensor_scale[sensor] = is_dead ? 0 : number_within(entry, kMinScale, kMaxScale);
     }
@@ -101,7 +101,8 @@ Calibration Calibration::parse(const RobotModel& model, const std::string& text,
   return read(model, YamlEntry::parse<ConfigError>(text, name));
 }
 
-// In the form that read() accepts; angles with 0.00001 rad, far below an encoder's step.
+// Writes the form that read() accepts; angles are rounded to 0.00001 rad, far below an encoder's
+// step.
 std::string Calibration::to_yaml(const RobotModel& model) const {
   std::string text =
       "# How one " + model.name() +

@@ -25,7 +25,7 @@ struct Calibration {
   /** Text of a file, with units. */
   std::string to_yaml(const RobotModel& model) const;
 
-  /** When it was made, as a text; empty if it was not. */
+  /** When the calibration was made, as a text; empty if it was not. */
   std::string date;
   /** What the encoders read at the joints' angle 0, rad; (num_motors), motor order. */
   std::vector<double> joint_zero;

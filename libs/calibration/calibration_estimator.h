@@ -54,13 +54,13 @@ struct CalibrationPrior {
  *     sum (1 + k_i) f_i = m g                     the feet carry the robot           1 equation
  *
  * with the CoP p_cop = sum (1 + k_i) f_i p_i / sum (1 + k_i) f_i. A sensor that reads nothing while
- * the others of its foot are loaded is dead: its force is what is missing to the weight. With two
- * or more dead sensors the last three equations are left out.
+ * the others of its foot are loaded is dead: its force is the weight less the other sensors'
+ * forces. With two or more dead sensors the last three equations are left out.
  *
- * What the samples do not tell apart (slope and mounting without a turn, joints that turn the sole
- * in the same way) is divided by the prior: sets of errors that no stand tells apart have the same
- * effect on all stands. Gauss-Newton with the prior's information added.
- * The gyroscope is taken for still in all samples: its offset is their mean. */
+ * The prior divides what the samples cannot distinguish (slope and mounting without a turn, joints
+ * that turn the sole in the same way): sets of errors that no stand distinguishes have the same
+ * effect on all stands. Gauss-Newton with the prior's information added. The gyroscope is assumed
+ * to be at rest in all samples: its offset is their mean. */
 class CalibrationEstimator {
  public:
   explicit CalibrationEstimator(const RobotModel& model, const CalibrationPrior& prior = {});

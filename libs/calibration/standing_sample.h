@@ -5,8 +5,8 @@
 
 namespace nao {
 
-/** What the sensors of a robot that stands still on both feet read, without any correction: one
- * tick, or the mean of some time. */
+/** Sensor readings of a robot that stands still on both feet, without any correction: one tick, or
+ * a mean over time. */
 struct StandingSample {
   /** Encoder angles, rad, (num_motors), motor order. */
   std::vector<double> position;

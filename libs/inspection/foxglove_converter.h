@@ -18,7 +18,8 @@ namespace nao {
 /** Converts the bus of one robot to channels in Foxglove's schemas, which its 3D and image panels
  * draw. `nao-foxglove` and `nao log mcap` share it.
  *
- * What is only drawn (transforms, scenes) is converted at most 50 times a second of robot time. */
+ * Messages that are only drawn (transforms, scenes) are converted at most 50 times a second of
+ * robot time. */
 class FoxgloveConverter {
  public:
   /** A channel that is written. */

@@ -61,7 +61,7 @@ void LegKinematics::choose_method(const RobotModel& model) {
 LegKinematics::CoupledLeg LegKinematics::read_coupled(const RobotModel& model, Leg leg) {
   const LegDescription& description = model.legs()[index(leg)];
   // The closed form below assumes the NAO's geometry; a model that differs is refused at start with
-  // what differs, instead of solving wrongly.
+  // the difference, instead of solving wrongly.
   const auto require = [&](bool holds, const std::string& what) {
     if (!holds) {
       throw ModelError(std::string(leg == Leg::kLeft ? "the left" : "the right") + " leg of " +

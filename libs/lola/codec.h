@@ -11,7 +11,8 @@
 
 namespace nao {
 
-/** Writes a state frame: a map of 13 keys in fixed order, every number as float32 but the status.
+/** Writes a state frame: a map of 13 keys in fixed order, every number except the status as
+ * float32.
  * @return Bytes written, 896 if ids have 20 and versions 5 characters; 0 if the memory is too
  * small. */
 size_t encode(const LolaState& state, std::span<uint8_t> memory);
@@ -48,7 +49,7 @@ class LolaStream {
 
   /** Memory for the next bytes, never empty after next() has returned false. */
   std::span<uint8_t> free_memory() { return std::span(memory_).subspan(size_); }
-  /** So many bytes were written to free_memory(). */
+  /** Reports how many bytes were written to free_memory(). */
   void note_received(size_t num_bytes) { size_ += num_bytes; }
 
   /** @return Whether there was a whole message, which is then in `message`. After an error() there

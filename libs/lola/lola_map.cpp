@@ -70,7 +70,7 @@ void read_signs(const YamlEntry& list, std::array<double, N>& signs) {
 }
 
 template <class Values>
-// Lights are all arrays of floats but the joints'.
+// Lights are all arrays of floats except the joints'.
 constexpr bool kIsLight = false;
 template <size_t N>
 constexpr bool kIsLight<std::array<float, N>> = N != kLolaJoints;

@@ -172,12 +172,12 @@ void append_number(Scene& scene, const RobotShirt& shirt,
     }
   };
   for (int i = 0; i < num_digits; ++i) {
-    // A robot that looks along x has y to its left, which is on the right of one who faces it.
+    // A robot that looks along x has y to its left, which is on the right for a person facing it.
     const float center = (static_cast<float>(i) - 0.5f * static_cast<float>(num_digits - 1)) * step;
     const float left = center - width / 2;
     const int digit = num_digits == 2 && i == 0 ? number / 10 % 10 : number % 10;
     if (digit == 1) {
-      // A seven-segment display has it at the side.
+      // A seven-segment display has this stroke at the side.
       add_bar(center - stroke / 2, center + stroke / 2, 0, height);
       continue;
     }

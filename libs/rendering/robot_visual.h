@@ -26,7 +26,7 @@ class RobotVisual {
 
   const RobotModel& model() const { return model_; }
 
-  /** Adds the lights that are lit to a scene, unlit by others, as lights are.
+  /** Adds the lights that are on to a scene; no other light affects them.
    * @param hidden_link  As in append(). A light that the robot does not have is not drawn. */
   void append_lights(Scene& scene, const std::vector<Eigen::Isometry3d>& link_poses_in_world,
                      const std::vector<LitLight>& lights, int hidden_link = -1) const;

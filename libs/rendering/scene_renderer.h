@@ -45,8 +45,7 @@ class SceneRenderer {
   /** Draws one image.
    * @param pose_camera_in_world  Camera axes: x along the view, y left, z up.
    * @param framebuffer  OpenGL's number of the target; its lower left corner is used.
-   * @param covered  Parts that are going to be covered by something else: they are not drawn, which
-   *   saves the time. */
+   * @param covered  Parts that something else will cover: they are not drawn, which saves time. */
   RenderStatistics render(const Scene& scene, const PinholeCamera& camera,
                           const Eigen::Isometry3d& pose_camera_in_world, unsigned framebuffer,
                           const std::vector<PixelBox>& covered = {});

@@ -47,7 +47,7 @@ std::string make_sole_name(const RobotModel& model, int side) {
   return name;
 }
 
-// nullopt for legs without an inverse kinematics: such a robot is imported, but cannot walk.
+// nullopt for legs without inverse kinematics: such a robot is imported, but cannot walk.
 std::optional<LegKinematics> find_leg_kinematics(const RobotModel& model) {
   try {
     return LegKinematics(model);
@@ -123,7 +123,7 @@ std::string make_groups(const RobotModel& model) {
     add_limb_groups(model, name, new_motors(model, model.legs()[side].joints, known),
                     {{"hip", 3}, {"knee", 1}, {"ankle", 2}}, limbs);
   }
-  // What is in no arm, leg or waist: the head.
+  // Joints that are in no arm, leg or waist belong to the head.
   std::vector<int> head;
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     if (known.count(motor) == 0) head.push_back(motor);
@@ -165,11 +165,12 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
     legs->write(Leg::kLeft, solution.left, position);
     legs->write(Leg::kRight, solution.right, position);
     kinematics.update(position);
-    // Fixed-point iteration: soles go ahead by what the center of mass is ahead of them.
+    // Fixed-point iteration: the soles move forward by the distance of the center of mass ahead of
+    // them.
     ahead +=
         kinematics.center_of_mass().x() - (kinematics.left_sole().translation().x() + center.x());
   }
-  // A solution beyond a joint's limits is none.
+  // A solution beyond a joint's limits is not accepted.
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     if (model.clip_to_limits(motor, position[motor], position) != position[motor]) {
       return std::nullopt;
@@ -192,7 +193,7 @@ void add_posture(const RobotModel& model, const std::string& name, const std::st
 std::string make_structure_text(const RobotModel& model, const RobotStructure& structure,
                                 const std::string& urdf) {
   std::ostringstream text = make_stream();
-  // In the form that RobotModelReader reads.
+  // Writes the form that RobotModelReader reads.
   const std::string root = quoted(model.links().front().name);
   text << "urdf: " << urdf << "\n\n"
        << "# Frames of the inertial unit.\n"

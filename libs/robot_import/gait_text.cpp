@@ -14,7 +14,7 @@
 namespace nao {
 namespace {
 
-/** What a parameter is a multiple of. */
+/** Scale of which a parameter is a multiple. */
 enum class Scale {
   kOne,
   /** Length of the leg, hip to ankle, m. */
@@ -34,7 +34,7 @@ enum class Scale {
   kSoleWidth,
   kToe,
   kHeel,
-  /** Hips over the ground with stretched legs, m. */
+  /** Height of the hips above the ground with stretched legs, m. */
   kHipHeight,
 };
 
@@ -44,13 +44,13 @@ struct Row {
   double value;
   double lower;
   double upper;
-  /** As in data/robots/nao/gait.yaml. */
+  /** Keys, as in data/robots/nao/gait.yaml. */
   const char* comment;
 };
 
 // Multiples of the scales. Found: those of data/robots/nao/gait.yaml, rounded, with a higher swing
-// and a greater load at touchdown, which joint torques tell less exactly than force sensors, and
-// the feet as far apart as in the ready posture, to which a walk ends. Durations of the control
+// and a greater load at touchdown, which joint torques measure less accurately than force sensors,
+// and the feet as far apart as in the ready posture, in which a walk ends. Durations of the control
 // loop (lag, lead) do not scale.
 constexpr std::array kRows = {
     Row{"timing", {}, 0, 0, 0, "Durations, s."},

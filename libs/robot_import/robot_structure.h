@@ -14,8 +14,8 @@ namespace nao {
 struct FoundSole {
   /** Link of the foot. */
   int foot = -1;
-  /** Below the last joint's origin, on the foot's lowest points, with the root's axes at the angle
-   * 0 of all joints. */
+  /** Frame of the sole: below the last joint's origin, on the foot's lowest points, with the root's
+   * axes at the angle 0 of all joints. */
   Eigen::Isometry3d pose_in_foot = Eigen::Isometry3d::Identity();
   /** Convex, counter-clockwise, m, in the sole's frame. */
   std::vector<Eigen::Vector2d> outline;
@@ -23,7 +23,7 @@ struct FoundSole {
   std::vector<int> sensors;
 };
 
-/** What the structure of a robot says about its body. Left, right each. */
+/** Parts of a robot's body that follow from its structure; each left, right. */
 struct RobotStructure {
   std::array<FoundSole, 2> soles;
   /** Links; empty if there are no arms. */

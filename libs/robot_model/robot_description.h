@@ -7,7 +7,7 @@
 
 namespace nao {
 
-/** A side of the robot, for what has one. */
+/** A side of the robot. */
 enum class Side { kNone, kLeft, kRight };
 
 /** A named posture: the angles of all motors. */
@@ -67,7 +67,7 @@ struct LegDescription {
 /** An arm: the frame of its hand, and the joints from the root to it. */
 struct ArmDescription {
   int hand = -1;
-  /** As of LegDescription. */
+  /** As in LegDescription. */
   std::vector<int> joints;
 };
 
@@ -96,7 +96,7 @@ struct Symmetry {
   const JointPair* find_pair(const std::string& name) const;
 };
 
-/** What users can make the robot do by its name. */
+/** An action that users can start by its name. */
 struct Action {
   enum class Kind { kStandUp, kRest, kKick, kBlock, kDive, kGesture };
 
@@ -153,7 +153,8 @@ struct WalkingStance {
 
 /** Reference postures and poses of the robot's own motions. */
 struct MotionReferences {
-  /** Names of postures: in which walks and actions begin; upright; without load on the motors. */
+  /** Names of the postures in which walks and actions begin, in which the robot is upright, and in
+   * which the motors carry no load. */
   std::string ready;
   std::string stand;
   std::string rest;
@@ -164,7 +165,7 @@ struct MotionReferences {
   WalkingStance walking_stance;
 };
 
-/** Words of people for one of the robot's names. */
+/** People's words for one of the robot's names. */
 struct Label {
   /** "posture", "action", "group" or "camera", and the name. */
   std::string kind;

@@ -9,8 +9,8 @@
 namespace nao {
 namespace {
 
-// Fraction of the standing height above which an upright robot is on its feet, where robot.yaml
-// does not say it. Chosen: a NAO stands at 0.32 m, crouches at 0.229 m and sits at 0.12 m.
+// Fraction of the standing height above which an upright robot is on its feet, if robot.yaml does
+// not state it. Chosen: a NAO stands at 0.32 m, crouches at 0.229 m and sits at 0.12 m.
 constexpr double kOnFeetFraction = 0.6;
 // The same for contact: fractions of the weight on a foot in contact, and of the difference of
 // loads at which the other foot becomes the support foot. Chosen: above the noise of force sensors
@@ -153,7 +153,7 @@ void RobotModelReader::read_walking_arms(const YamlEntry& entry) {
     if (std::isnan(angles[pair->left])) factor.fail("has no angle");
     // The arms swing in opposite phases.
     swing[pair->left] = factor.number();
-    // Without the minus sign both arms would swing alike in the mirrored sense.
+    // Without the minus sign both arms would swing in the same phase in the mirrored sense.
     swing[pair->right] = -model_.symmetry_.mirrors[pair->left].sign * factor.number();
   }
   for (int motor = 0; motor < model_.num_motors(); ++motor) {
