@@ -20,7 +20,7 @@ struct RendererOptions {
   float ground_reach = 60;
 };
 
-/** Draws the robot's world with OpenGL 3.3, into whichever context is current.
+/** Draws the robot's world with OpenGL 3.3, into the current context.
  *
  * It creates no context and has no global state, so a window and an offscreen camera use it alike.
  * Create, use and destroy it while the same context is current. It sets every OpenGL state that it
