@@ -11,9 +11,9 @@
 
 namespace nao::trial {
 
-/** How well the field was found in images, as FieldErrorModel describes it: the same for rendered
- * images and for that model, which is fitted by it. Also the distance of the ball with the
- * estimated pose of the camera. */
+/** How well the field was found in images, in the terms of FieldErrorModel, which is fitted with
+ * it; it is computed in the same way for rendered images and for that model. Also the distance of
+ * the ball with the estimated pose of the camera. */
 class FieldDetectionStatistics {
  public:
   /** @param field  Must outlive this. */

@@ -33,12 +33,11 @@ struct PerceptionErrors {
    * fraction: with the exact pose of the camera the median error is 4 %. */
   double robot_recall = 0.88;
   double robot_distance = 0.1;
-  /** s in which these errors change. Chosen. */
+  /** Time constant of these errors, s. Chosen. */
   double time_constant = 10;
 };
 
-/** What the robot would see: from the truth, with errors. The ball goes through nao-vision's own
- * filter. */
+/** Perception made from the truth, with errors. The ball passes through nao-vision's own filter. */
 class PerceptionModel : public TrialPerception {
  public:
   /** @param trial  Must outlive this. @param team  0: it plays along the world's x axis. */

@@ -25,7 +25,7 @@ constexpr double kPreparation = 8;
 constexpr double kShotTimeout = 12;
 /** Slowest shot at the goal line, m/s: a ball that stops there is not a shot. Chosen. */
 constexpr double kLeastShotSpeed = 0.15;
-/** Placement has numbers of its own: it does not change with what else is drawn. */
+/** The placement has a separate seed, so that it does not change with other draws. */
 constexpr uint64_t kPlacementSeed = 0x51ed270b;
 
 /** Time between the lines of a trace, s. */
@@ -33,7 +33,7 @@ constexpr double kTracePeriod = 0.1;
 /** The whole ball has passed the line: its radius and half of the line's width, m. */
 constexpr double kBehindLine = 0.075;
 
-/** @param side  1: the opponent's goal, -1: the own one. */
+/** @param side  1: the opponent's goal; -1: the robot's own. */
 bool is_in_goal(const Vector2d& ball, const play::Field& field, double side) {
   return side * ball.x() > 0.5 * field.length + kBehindLine &&
          std::abs(ball.y()) < 0.5 * field.goal_width;

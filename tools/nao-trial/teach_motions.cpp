@@ -83,7 +83,7 @@ void apply(const RobotModel& model, const Pose& pose, std::vector<double>& posit
   }
 }
 
-/** A motion through poses: of a posture, with some joints elsewhere. */
+/** A motion through poses, each a posture with some joints changed. */
 ActionScript through(const RobotModel& model, const std::string& posture,
                      const std::vector<Pose>& poses, double slowness, int repetitions) {
   ActionScript script = begin_script("good");

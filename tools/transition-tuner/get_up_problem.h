@@ -11,7 +11,7 @@
 
 namespace nao {
 
-/** What the transition tuner searches. */
+/** Search problem of the transition tuner. */
 struct GetUpProblemOptions {
   /** Model and scene of all trials. */
   ClosedLoopOptions trial;
@@ -27,7 +27,7 @@ struct GetUpProblemOptions {
 };
 
 /** Cost of a trial, s: the time, if the robot stood at the end of the first try, plus a little for
- * torque and shaking; otherwise more than any time, the less the higher the torso came. */
+ * torque and shaking; otherwise more than any time, and less the higher the torso rose. */
 double cost_of(const GetUpResult& result);
 
 /** Search of the numbers of get-up motions. A candidate is a list of these numbers. */

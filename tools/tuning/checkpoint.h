@@ -7,13 +7,13 @@
 
 namespace nao {
 
-/** What a search needs to go on after an interruption: the costs of all candidates so far. The
- * search is a function of its settings and these, so repeating it with them takes no trial and
- * leads to the same state bit for bit.
+/** Data with which a search continues after an interruption: the costs of all candidates so far.
+ * The search is a function of its settings and these costs, so repeating it with them needs no
+ * trial and leads to the same state bit for bit.
  *
  * As a text: one JSON object with `settings`, `costs` (a list for each generation) and `mean`. */
 struct Checkpoint {
-  /** Everything else that the search depends on, by name, such as "population". */
+  /** Everything else on which the search depends, by name, such as "population". */
   std::map<std::string, std::string> settings{};
   /** Costs of each generation's candidates. */
   std::vector<std::vector<double>> costs{};

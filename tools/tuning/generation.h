@@ -22,8 +22,8 @@ struct EvaluatedGeneration {
 /** Runs all trials of all candidates.
  *
  * With `screen` above 0 and below the number of trials, the worst third of the candidates after
- * that many trials is given up: it costs more than every other candidate, in the order of the costs
- * of its few trials. CMA-ES learns from the better half only.
+ * that many trials is dropped: these get costs above every other candidate, in the order of the
+ * costs of their few trials. CMA-ES learns from the better half only.
  * @throws Error  if a trial fails, or a cost is not finite. */
 EvaluatedGeneration evaluate_generation(const TuningProblem& problem, Evaluator& evaluator,
                                         const std::vector<Eigen::VectorXd>& candidates,

@@ -17,7 +17,7 @@ class TaskBatch {
   /** @param slots  Tasks that each worker runs at a time; at least one worker must have a slot. */
   TaskBatch(size_t num_tasks, std::vector<int> slots);
 
-  /** Index of the task that a worker shall run next; none if all of its slots are taken or no task
+  /** Index of the task that a worker must run next; none if all of its slots are taken or no task
    * is left. */
   std::optional<size_t> assign(size_t worker);
   /** @throws Error  if that worker does not run that task. */

@@ -12,7 +12,7 @@
 
 namespace nao::vision {
 
-/** Patches of balls and of what the ball detector might take for one.
+/** Patches of balls and of objects that the ball detector might take for one.
  *
  * Numbers of a record: 1 for a ball, 0 for none; the network's three regression targets
  * (BallDetector::kNumOutputs); visible fraction of the ball, 0 to 1; radius of the circle, pixels;

@@ -11,7 +11,7 @@
 
 namespace nao::tool {
 
-/** What the walk tuner searches. */
+/** Search problem of the walk tuner. */
 struct GaitProblemOptions {
   /** Model, scene and late ticks of all walks. */
   ClosedLoopOptions trial;
@@ -29,7 +29,8 @@ class GaitProblem : public TuningProblem {
  public:
   /** @param text        Text of the gait file that the search starts from.
    * @param start       Its gait, with other values where the command line sets them.
-   * @param parameters  All parameters of the file. @param tuned  Those that are searched. */
+   * @param parameters  All parameters of the file. @param tuned       Parameters that are searched.
+   */
   GaitProblem(GaitProblemOptions options, TrialConditions conditions, std::string text,
               const motion::Gait& start, std::vector<motion::Gait::Parameter> parameters,
               std::vector<motion::Gait::Parameter> tuned);
