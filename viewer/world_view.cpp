@@ -96,7 +96,7 @@ void WorldView::add_truth(const naolcm::world_truth_t& truth, const ViewChoice& 
       pose_torso_in_world_ = robot.pose_torso_in_world;
       has_robot_ = true;
     }
-    // Beside the estimate the truth is tinted, so that both can be told apart.
+    // The truth is tinted if the estimate is also drawn, so that they can be distinguished.
     const bool is_compared = is_own && has_estimate && choice.estimated_robot;
     Scene hidden;
     add_handles(robot, visuals_.append(is_own && !choice.true_robot ? hidden : scene_, robot,
