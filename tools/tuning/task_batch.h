@@ -7,11 +7,11 @@
 
 namespace nao {
 
-/** Distributes the tasks of a batch among workers, and orders what comes back.
+/** Distributes the tasks of a batch among workers, and orders the results.
  *
  * Workers differ in speed: each gets its next task when it has finished one. The results are in the
- * order of the tasks, whichever worker ran them and in whichever order they ended. No clock, thread
- * or connection: those belong to the evaluators. */
+ * order of the tasks, independent of the workers that ran them and the order in which they ended.
+ * No clock, thread or connection: those belong to the evaluators. */
 class TaskBatch {
  public:
   /** @param slots  Tasks that each worker runs at a time; at least one worker must have a slot. */
