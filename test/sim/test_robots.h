@@ -111,8 +111,9 @@ inline std::shared_ptr<const RobotModel> make_biped_with_three_sensors() {
       {"LSole", "RSole", "[LToe, LHeelOut, LHeelIn, RMiddle]"});
 }
 
-/** A block on so many spheres of 1 cm in a square grid. Each touches the floor but the first two:
- * there the soles are, whose outlines at the height of the spheres' centers are their points. */
+/** A block on so many spheres of 1 cm in a square grid. Each touches the floor except the first
+ * two, which carry the soles: their points are the outlines at the height of the spheres' centers.
+ */
 inline std::shared_ptr<const RobotModel> make_bed_of_spheres(int spheres_a_side) {
   std::string urdf = R"(<robot name="bed"><link name="torso">
     <inertial><mass value="1"/>

@@ -593,7 +593,7 @@ class Reconnection(WithGateway):
             self.gateway.start()
             robot.wait_until_connected(DEADLINE)
             self.assertIsInstance(next(events), nao_remote.Connected)
-            # The stream goes on; the walk does not.
+            # The stream continues; the walk does not.
             wait_until(lambda: self.gateway.received("subscribe"), "the subscription")
             self.gateway.send(state=state(vx=1))
             self.assertEqual(next(states).vx, 1)
