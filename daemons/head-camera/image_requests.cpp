@@ -40,8 +40,7 @@ std::string check_request(const ImageRequest& request, const std::vector<CameraM
   return "";
 }
 
-// A sender's request for one camera and width replaces its earlier one and starts its validity
-// anew.
+// A sender's request for one camera and width replaces its earlier one and restarts its validity.
 void ImageRequests::add(const std::string& source, const ImageRequest& request, double now) {
   const auto key = std::make_tuple(source, request.camera, request.width);
   if (entries_.size() >= kMaxEntries && entries_.count(key) == 0) return;

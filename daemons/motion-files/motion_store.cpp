@@ -28,7 +28,7 @@ ActionScript read_motion_file(const RobotModel& model, const std::filesystem::pa
     throw Error(file.string() + " has a motion of another name, " + script.sequence.name);
   }
   if (is_temporary_motion(script.sequence.name)) {
-    throw Error(file.string() + ": names that begin with _ are of motions without a file");
+    throw Error(file.string() + ": names that begin with _ are for motions without a file");
   }
   return script;
 }

@@ -5,15 +5,14 @@
 
 namespace nao::motion {
 
-/** Detects whether there is a robot, and whether it was switched on anew or placed elsewhere. */
+/** Detects whether there is a robot, and whether it was restarted or placed elsewhere. */
 class RobotPresence {
  public:
   enum class Change {
     kNone,
     /** The first sensor data after none. */
     kAppeared,
-    /** Its control ticks began anew, or joints jumped: it was switched on anew or placed elsewhere.
-     */
+    /** Its control ticks restarted, or joints jumped: it was restarted or placed elsewhere. */
     kPlaced,
     /** No sensor data for the timeout. */
     kLost,

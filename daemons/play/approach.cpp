@@ -23,7 +23,7 @@ constexpr double kFar = 0.8;
  * the walk's lag of about 0.4 s (two steps) both are stable. */
 constexpr double kPositionGain = 1.2;
 constexpr double kHeadingGain = 1.4;
-/** Greatest velocities near the ball, m/s: ahead and aside. */
+/** Greatest velocities near the ball, m/s: ahead and sideways. */
 constexpr double kNearForward = 0.14;
 constexpr double kNearSideways = 0.1;
 /** Fractions of the gait's limits that are commanded: the rest is for its feedback. */
@@ -39,7 +39,7 @@ Vector2d on_circle(const Vector2d& center, double radius, double angle) {
   return center + radius * Vector2d(std::cos(angle), std::sin(angle));
 }
 
-/** Velocity to a point at a heading. @param fastest  Limits of speed, m/s ahead and aside. */
+/** Velocity to a point at a heading. @param fastest  Speed limits, m/s ahead and sideways. */
 WalkCommand head_for(const Vector2d& point, double heading, const Pose2& feet,
                      const Vector2d& fastest, const WalkLimits& limits) {
   const Vector2d error = Eigen::Rotation2Dd(-feet.heading) * (point - feet.position);

@@ -21,8 +21,8 @@ constexpr double kScanBearings[] = {0, 0.85, -0.85};
 constexpr double kTurnRate = 0.7;
 /** Longest walk to another place, s. */
 constexpr double kRoamTime = 12;
-/** Places that are walked to, as fractions of half the field's length and width, in the own half
- * and just beyond its line. */
+/** Places to which the robot walks, as fractions of half the field's length and width, in its own
+ * half and just beyond its line. */
 constexpr double kPlaces[][2] = {{-0.35, 0}, {0.2, 0.3}, {-0.6, 0.4}, {-0.6, -0.4}, {0.2, -0.3}};
 /** Distance at which a place is reached, m. */
 constexpr double kReached = 0.3;

@@ -40,8 +40,8 @@ struct MatchView {
   bool kicks_off = false;
   /** Time since the last kick-off, s; negative if there was none. */
   double since_kick_off = -1;
-  /** Time since the ball left the field, s, and whether the own team restarts; nothing if that was
-   * long ago. */
+  /** Time since the ball left the field, s, and whether the robot's team restarts; nothing if that
+   * was long ago. */
   struct BallOut {
     double age = 0;
     bool is_own = false;

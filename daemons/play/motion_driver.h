@@ -22,7 +22,7 @@ class MotionDriver {
 
   /** Walks at a velocity; all zero ends the walk. */
   void walk(const WalkCommand& velocity, double time);
-  /** Begins an action. @param walks_on  The walk goes on; otherwise it ends. */
+  /** Begins an action. @param walks_on  The walk continues; otherwise it ends. */
   void perform(const ActionCommand& action, bool walks_on, double time);
   /** Turns the head: absolute angles, rad, in the order of the joints. */
   void turn_head(const std::vector<double>& angles, double time);

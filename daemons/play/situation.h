@@ -78,7 +78,7 @@ struct Field {
  * foot. */
 struct KickPlace {
   Eigen::Vector2d ball = Eigen::Vector2d::Zero();
-  /** Greatest distance from there, ahead and aside. */
+  /** Greatest distance from there, ahead and sideways. */
   Eigen::Vector2d reach = Eigen::Vector2d::Zero();
 };
 

@@ -161,7 +161,7 @@ RefereeDaemon::RefereeDaemon(Bus& bus, const RefereeOptions& options, std::funct
   if (!options_.state_file.empty() && std::filesystem::exists(options_.state_file)) {
     const MatchState kept = match_from_json(read_file(options_.state_file));
     referee_->restore(kept);
-    logger::info("goes on with a match: {}, {}:{}, {:.0f} s left of half {}", to_string(kept.phase),
+    logger::info("continues a match: {}, {}:{}, {:.0f} s left of half {}", to_string(kept.phase),
                  kept.score[0], kept.score[1], kept.time_left, kept.half);
   }
   subscribe();

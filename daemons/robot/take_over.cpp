@@ -41,7 +41,7 @@ std::optional<UnixSocket> connect(const std::string& path) {
 
 std::string take_over(const RobotModel& model, const std::string& lola_socket) {
   auto socket = connect(lola_socket);
-  if (!socket) return "no LoLA at " + lola_socket + ", nothing to be done";
+  if (!socket) return "no LoLA at " + lola_socket + "; nothing to do";
   LolaConnection<LolaState> connection(std::move(*socket));
   const LolaMap map = LolaMap::load(model);
   RobotCore core(model, map, false);

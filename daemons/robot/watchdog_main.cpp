@@ -140,9 +140,9 @@ int run(const RobotOptions& options, const std::vector<std::string>& arguments) 
 
 int main(int argc, char** argv) {
   nao::CommandLine app(
-      "Runs nao-robot with the same options; when that dies or hangs, it kills it, lets the robot "
-      "sit "
-      "down and go limp, and ends with status 1.",
+      "Runs nao-robot with the same options. If that dies or hangs, this program kills it, makes "
+      "the "
+      "robot sit down and go limp, and ends with status 1.",
       "nao-robot-watchdog");
   nao::CommonOptions common;
   nao::add_common_options(app, common);

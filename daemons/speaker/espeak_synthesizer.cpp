@@ -29,7 +29,7 @@ struct Target {
 };
 Target target;
 
-/** @return 0 to go on, 1 to end the synthesis. */
+/** @return 0 to continue, 1 to end the synthesis. */
 int take_samples(short* samples, int num_samples, espeak_EVENT* /*events*/) {
   if (samples == nullptr || target.samples == nullptr) return 0;
   const size_t space = target.max_samples - target.samples->size();

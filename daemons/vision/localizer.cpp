@@ -12,7 +12,7 @@ constexpr double kStartHeading = 0.09;
 /** More than this between two images, m and m/s, was not walked. Chosen: twice the fastest walk. */
 constexpr double kJumpDistance = 0.3;
 constexpr double kJumpSpeed = 0.7;
-/** Standard deviations after such a jump, m and rad: the robot may have moved meanwhile. */
+/** Standard deviations after such a jump, m and rad: the robot may have moved in the meantime. */
 constexpr double kJumpPosition = 0.15;
 constexpr double kJumpHeading = 0.2;
 /** Standard deviations after a fall, m and rad. Chosen: half of the robot's height. */

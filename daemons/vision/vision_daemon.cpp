@@ -118,7 +118,7 @@ void VisionDaemon::process(const naolcm::image_t& image) {
   const std::string problem = decode_jpeg(image.data.data(), image.data.size(), bgr_);
   if (!problem.empty()) throw Error(problem);
   if (bgr_.cols != image.width || bgr_.rows != image.height) {
-    throw Error("the image has another size than its message says");
+    throw Error("the size of the image differs from its message's");
   }
   input.bgr = bgr_;
   input.utime = image.utime;

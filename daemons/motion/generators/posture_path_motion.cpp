@@ -20,8 +20,8 @@ constexpr double kStiffeningTime = 0.5;
 // any case, s.
 constexpr double kStillTime = 0.1;
 constexpr double kMaxRestTime = 0.6;
-// Angular velocity of the torso below which it lies still, and below which it may go on from one
-// transition to the next that was planned, rad/s.
+// Angular velocity of the torso below which it lies still, and below which it may continue from one
+// transition to the next planned one, rad/s.
 constexpr double kStillVelocity = 0.3;
 constexpr double kContinueVelocity = 4;
 // Transition that brings feet together that stand too far apart to turn under their load, and how
@@ -146,8 +146,8 @@ void PosturePathMotion::note_getting_up(const std::string& state) {
 }
 
 bool PosturePathMotion::must_rest(const MotionContext& context, const std::string& state) const {
-  // On its feet the robot need not wait. Between planned transitions a moving body may go on; any
-  // other lying body must have come to rest, since its state is not known before.
+  // On its feet the robot need not wait. Between planned transitions a moving body may continue;
+  // any other lying body must have come to rest, since its state is not known before.
   if (state == kOnFeet) return false;
   if (is_on_path_) return context.state.angular_velocity_torso.norm() > kContinueVelocity;
   return time_still_ < kStillTime;

@@ -60,7 +60,7 @@ MotionGenerator::Phase ScriptMotion::play(const MotionContext& context, JointTar
   player_.sample(time_, targets.position, targets.stiffness);
   if (script_->balance_gain > 0) balance(context, targets);
   if (time_ < player_.duration()) return Phase::kRunning;
-  // A script that ends on the ground (a keeper's dive) goes on with getting up.
+  // A script that ends on the ground (a keeper's dive) continues with getting up.
   if (script_->end == ActionScript::End::kOnFeet) return Phase::kDone;
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
   part_ = Part::kGettingUp;

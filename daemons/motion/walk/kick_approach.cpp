@@ -6,8 +6,9 @@
 namespace nao::motion {
 namespace {
 
-// The step kicks if the ball is this near to its best place, m ahead and aside. Chosen within the
-// range by which the swing of the kick is adjusted (kMaxKickOffset in walk_kick.cpp).
+// Distance of the ball from its best place, m ahead and sideways, within which the step kicks.
+// Chosen within the range by which the swing of the kick is adjusted (kMaxKickOffset in
+// walk_kick.cpp).
 constexpr double kToleranceAhead = 0.025;
 constexpr double kToleranceAside = 0.02;
 // Greatest number of steps of an approach: about eight seconds.

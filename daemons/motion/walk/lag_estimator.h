@@ -18,7 +18,7 @@ namespace nao::motion {
  * Memory is allocated once, by the first update(). */
 class LagEstimator {
  public:
-  /** Starts anew. @param lag  Assumed until the joints have moved enough, s. */
+  /** Restarts. @param lag  Value assumed until the joints have moved enough, s. */
   void start(double lag);
 
   /** One control tick, before this tick's command is computed.

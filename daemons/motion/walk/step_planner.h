@@ -30,8 +30,9 @@ class StepPlanner {
 
   /** Plans footsteps and DCM from the present step on.
    *
-   * While the walk goes on: five steps ahead. At its end: the present step is the last one if the
-   * ZMP can bring the DCM to rest between the feet within it, else one more step follows.
+   * While the walk continues, it plans five steps ahead. At its end: the present step is the last
+   * one if the ZMP can bring the DCM to rest between the feet within it, else one more step
+   * follows.
    * @param velocity   Velocity of the steps: m/s, m/s, rad/s.
    * @param remaining  Time to the end of the present step, s. */
   void plan(const Feet& feet, const ComReference& reference, const Eigen::Vector3d& velocity,

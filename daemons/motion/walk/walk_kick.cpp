@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 // Time after which a kick whose ball was not reached is given up, s. Chosen: longer than the
 // longest approach (8 s, see kick_approach.cpp).
 constexpr double kTimeLimit = 10;
-// Greatest displacement of the kicking swing towards the ball, m ahead and aside. Chosen: the
+// Greatest displacement of the kicking swing towards the ball, m ahead and sideways. Chosen: the
 // distance by which an approach may miss the ball's best place (kick_approach.cpp).
 const Vector2d kMaxKickOffset(0.03, 0.02);
 
