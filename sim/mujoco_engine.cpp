@@ -72,7 +72,7 @@ void MujocoEngine::add_robot() {
   build();
 }
 
-// The whole model is compiled anew whenever a robot is added: MuJoCo's sizes are fixed.
+// The whole model is recompiled whenever a robot is added: MuJoCo's sizes are fixed.
 void MujocoEngine::build() {
   MujocoScene scene;
   for (const auto& robot : bodies_.robots) scene.robots.push_back(robot.get());

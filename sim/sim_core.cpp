@@ -315,7 +315,7 @@ std::string SimCore::touch(const WorldCommand& command) {
 std::string SimCore::add_robot(const WorldCommand& command) {
   if (lola_) return "LoLA serves one robot";
   if (!world_.can_change_robots()) {
-    return fmt::format("the engine {} takes no further robots", options_.engine);
+    return fmt::format("the engine {} cannot add robots", options_.engine);
   }
   if (std::string fault = fault_of_robot_name(command.robot); !fault.empty()) return fault;
   if (find_robot(command.robot) >= 0) return fmt::format("there is a robot {}", command.robot);
@@ -352,9 +352,9 @@ std::string SimCore::add_robot(const WorldCommand& command) {
 std::string SimCore::remove_robot(const WorldCommand& command) {
   const int robot = command.robot.empty() ? -1 : find_robot(command.robot);
   if (robot < 0) return fmt::format("there is no robot \"{}\"", command.robot);
-  if (world_.num_robots() == 1) return "the last robot stays";
+  if (world_.num_robots() == 1) return "the last robot cannot be removed";
   if (!world_.can_change_robots()) {
-    return fmt::format("the engine {} keeps its robots", options_.engine);
+    return fmt::format("the engine {} cannot remove robots", options_.engine);
   }
   world_.remove_robot(robot);
   targets_.erase(targets_.begin() + robot);

@@ -230,7 +230,7 @@ void SimDaemon::warn_of_failures(double now) {
   const int64_t num_dropped = std::exchange(num_dropped_contacts_, world.num_dropped_contacts());
   if (num_dropped_contacts_ > num_dropped && dropped_contact_warnings_.allow(now)) {
     logger::warn(
-        "more contacts than memory was taken for at tick {}: bodies may pass through each "
+        "more contacts than the reserved memory holds at tick {}: bodies may pass through each "
         "other ({} contacts left out so far)",
         world.tick(), num_dropped_contacts_);
   }
