@@ -256,7 +256,7 @@ std::string make_description_text(const RobotModel& model) {
     if (pair.right >= 0) text << ", right: " << quoted(model.motor_joint(pair.right).name);
     text << ", sign: " << symmetry.mirrors[pair.left].sign << "}\n";
   }
-  text << "\n# Joints as a person sees them.\n" << make_groups(model);
+  text << "\n# Joints as people name them.\n" << make_groups(model);
   const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
   const double height = -poses[model.left_sole()].translation().z();
   const double width =
@@ -269,7 +269,7 @@ std::string make_description_text(const RobotModel& model) {
        << 0.7 * width << ", " << 1.8 * width << "], greatest_lead: " << 0.25 * length
        << ", least_hip_height: " << 0.6 * length << "}\n"
        << "\n# Slow: v / sqrt(g * leg length) = " << kFroudeVelocity
-       << ". nao-walk-tuner finds what the robot holds.\nwalk_limits: {forward: " << speed
+       << ". nao-walk-tuner finds what the robot sustains.\nwalk_limits: {forward: " << speed
        << ", backward: " << 0.6 * speed << ", sideways: " << 0.5 * speed << ", turning: 0.5}\n"
        << "\nactions:\n  - {name: get-up, does: stand-up}\n  - {name: rest, does: rest}\n";
   return text.str();
