@@ -141,9 +141,10 @@ int main(int argc, char** argv) {
                      "Physics engine: fast, simbody, or mujoco where it was built")
         ->show_default();
     command
-        ->add_option("--disturbances", disturbances,
-                     "What is drawn for each seed: none, default, moderate, real, or entries of "
-                     "real such as backlash,floor_slope")
+        ->add_option(
+            "--disturbances", disturbances,
+            "Disturbances to draw for each seed: none, default, moderate, real, or entries of "
+            "real such as backlash,floor_slope")
         ->show_default();
     command
         ->add_option("--calibrate", options.num_calibration_directions,

@@ -71,7 +71,7 @@ protocol::Response SimulationCore::handle(const protocol::Request& request) {
         step(request.step(), *response.mutable_state());
         break;
       case protocol::Request::REQUEST_NOT_SET:
-        response.set_error("the request is none of describe, reset and step");
+        response.set_error("the request is not describe, reset or step");
         break;
     }
   } catch (const Error& error) {
