@@ -49,7 +49,7 @@ WorldView::WorldView(const RobotModel& model, SceneRenderer& renderer, const std
       markers_(renderer),
       surroundings_(renderer) {}
 
-// Builds the scene of this frame anew: truth, estimate, footsteps, or the waiting robot if nothing
+// Rebuilds the scene for this frame: truth, estimate, footsteps, or the waiting robot if nothing
 // has come. A message that does not decode is reported, and the rest is drawn.
 void WorldView::update(const MessageStore& store, const ViewChoice& choice) {
   scene_.clear();
