@@ -19,7 +19,7 @@ class ToyWorld {
   void command(Behavior behavior);
   void stop_commanding() { commanded_ = Behavior::kNone; }
   void step();
-  /** Steps until no behavior is active. @return s that it took; `timeout` if it goes on. */
+  /** Steps until no behavior is active. @return Time that it took, s; `timeout` if it continues. */
   double run(double timeout);
 
   PlayCore core;
