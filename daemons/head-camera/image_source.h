@@ -35,9 +35,9 @@ class ImageSource {
   /** The newest image. @param min_width  Sizes below this width are not computed.
    * @return Valid until the next call. @throws Error  if has_image() is false. */
   virtual const CameraFrame& take(const std::string& camera, int min_width) = 0;
-  /** What went wrong since the last call, one sentence each. */
+  /** Problems since the last call, one sentence each. */
   virtual std::vector<std::string> take_problems() = 0;
-  /** What the images are made with, for the log. */
+  /** Description of the source, for the log. */
   virtual std::string description() const = 0;
 };
 

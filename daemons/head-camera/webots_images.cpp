@@ -101,7 +101,8 @@ bool WebotsImages::has_clients(const std::string& camera) {
   return !server->clients.empty();
 }
 
-// What does not fit into the socket's memory waits for the client, but not longer than `wait_ms`.
+// Bytes that do not fit into the socket's memory wait for the client, but not longer than
+// `wait_ms`.
 bool WebotsImages::continue_sending(Client& client, double now, int wait_ms) {
   while (client.num_sent < client.message.size()) {
     const ssize_t count = ::send(client.descriptor, client.message.data() + client.num_sent,

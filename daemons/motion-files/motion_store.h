@@ -24,7 +24,7 @@ class MotionStore {
    * @param model  Must outlive this. */
   MotionStore(const RobotModel& model, std::filesystem::path folder);
 
-  /** What was wrong with the files that were left alone, one sentence for each. */
+  /** Faults of the files that were left alone, one sentence for each. */
   const std::vector<std::string>& faults() const { return faults_; }
 
   const std::filesystem::path& folder() const { return folder_; }

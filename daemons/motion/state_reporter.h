@@ -16,7 +16,7 @@ class StateReporter {
   /** @param period  Period of the reports while nothing changes, s. */
   explicit StateReporter(double period) : period_(period) {}
 
-  /** What the state is built from. */
+  /** Input from which the state is built. */
   struct Inputs {
     /** Measurements and estimate; the last known ones while there is no robot. */
     const MotionContext& context;

@@ -11,7 +11,7 @@
 
 namespace nao::play {
 
-/** What another robot of the same team has seen, from its messages. */
+/** Sightings of another robot of the same team, from its messages. */
 struct TeamObservation {
   /** Robot time, s. */
   double time = 0;

@@ -23,7 +23,7 @@ struct PlayRequest {
   PlayCommand command;
 };
 
-/** What has arrived since the last step. */
+/** Messages that have arrived since the last step. */
 struct PlayInput {
   /** Monotonic time, s, for the age of play commands. */
   double now = 0;
@@ -54,7 +54,7 @@ struct PlayState {
   Reason reason{};
 };
 
-/** What one step sends. */
+/** Messages that one step sends. */
 struct PlayOutput {
   std::vector<Command> commands;
   std::vector<CommandResult> results;

@@ -48,7 +48,7 @@ struct Ball {
   bool is_rolling = false;
 };
 
-/** What perception says. */
+/** Output of perception. */
 struct Vision {
   /** Robot time of the last image, s. */
   double time = -std::numeric_limits<double>::infinity();
@@ -101,7 +101,7 @@ struct PlayConstants {
   Pose2 start_in_field{};
 };
 
-/** What a behavior sees. */
+/** Input of a behavior. */
 struct Situation {
   /** Robot time, s. */
   double time = 0;
@@ -132,7 +132,7 @@ struct Gaze {
   size_t camera = 0;
 };
 
-/** What a behavior commands in one step. */
+/** Commands of a behavior in one step. */
 struct Decision {
   PlayPhase phase = PlayPhase::kIdle;
   /** All zero: the robot stands. Ignored while an action is in progress. */

@@ -52,7 +52,7 @@ inline constexpr uint8_t kPenaltyLeavingTheField = 6;
 /** @throws Error  naming what is wrong: size, header, version, a value. */
 GameControllerData decode_game_controller(std::span<const uint8_t> message);
 
-/** What a robot tells the GameController. Source as above, version 4 of the return message. */
+/** Message of a robot to the GameController. Source as above, version 4 of the return message. */
 struct GameControllerReturn {
   int player_number = 1;
   int team_number = 0;

@@ -50,7 +50,7 @@ struct RefereeOptions {
   std::filesystem::path events_file{};
 };
 
-/** What the referee sees of the simulated world: ball and robots, without play states.
+/** The simulated world as the referee sees it: ball and robots, without play states.
  * @param names  Robots that take part. */
 RefereeInput to_input(const naolcm::world_truth_t& truth, const std::vector<MatchPlayer>& players);
 
@@ -64,7 +64,8 @@ struct RobotKnowledge {
 };
 void update(RobotKnowledge& knowledge, const naolcm::vision_state_t& vision);
 
-/** What a robot tells the GameController, without the team's number. @param now  Robot time, s. */
+/** Message of a robot to the GameController, without the team's number. @param now  Robot time, s.
+ */
 GameControllerReturn to_return(const MatchPlayer& player, const RobotSighting& robot,
                                const RobotKnowledge& knowledge, double now);
 

@@ -6,7 +6,7 @@
 
 namespace nao::robot {
 
-/** What the eyes show. */
+/** State that the eyes show. */
 enum class EyeState { kNoClient, kReady, kDriver, kLinkLost, kFault };
 
 /** @param has_driver  A client drives the robot. @param fault  Present fault. */

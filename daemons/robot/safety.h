@@ -13,7 +13,7 @@
 
 namespace nao::robot {
 
-/** What the robot's servos are doing. */
+/** State of the robot's servos. */
 enum class Phase {
   /** Without torque, targets at the measured angles. A seated robot's hips keep a little. */
   kLimp,
@@ -86,7 +86,7 @@ class Safety {
  private:
   void begin(const Input& input, Targets& targets);
   void change_phase(const Input& input, const Targets& targets);
-  /** What forbids staying stiff; none if nothing does. @param press  None if it is ignored. */
+  /** Reason not to stay stiff; none if there is none. @param press  None if it is ignored. */
   Cause find_cause(const Input& input, Press press) const;
   bool may_start(const Input& input) const;
   bool are_legs_stiff(const std::vector<double>& stiffness) const;

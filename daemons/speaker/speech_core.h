@@ -30,7 +30,7 @@ struct AudioPiece {
   std::vector<int16_t> samples;
 };
 
-/** What one step publishes. */
+/** Messages that one step publishes. */
 struct SpeechOutput {
   /** Results in order, including repetitions. */
   std::vector<CommandResult> results;

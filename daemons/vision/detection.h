@@ -8,7 +8,7 @@ namespace nao::vision {
 
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/** What a detection is; the order is that of detection_t's KIND_*. */
+/** Kind of a detection, in the order of detection_t's KIND_*. */
 enum class Kind {
   kBall,
   kLine,

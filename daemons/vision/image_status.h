@@ -11,7 +11,7 @@
 
 namespace nao::vision {
 
-/** What is wrong with an image; the order is that of vision_state_t's IMAGE_STATUS_*. */
+/** Fault of an image, in the order of vision_state_t's IMAGE_STATUS_*. */
 enum class ImageStatus { kOk, kCovered, kOverexposed, kFrozen, kInverted };
 
 /** "ok", "covered", "overexposed", "frozen", "inverted". */

@@ -57,7 +57,7 @@ void Localizer::restart(const Pose2& heading_in_odometry) {
   num_fits_ = 0;
   remembered_utime_ = searched_utime_ = 0;
   filter_.start(start_, kStartPosition, kStartHeading);
-  // What was walked before this program started adds its uncertainty.
+  // The walk before this program started adds its uncertainty.
   filter_.predict(heading_in_odometry, 0);
 }
 
@@ -122,7 +122,7 @@ void Localizer::give_up() {
   // Carrying the robot does not change the errors of its joints and of the torso's orientation, but
   // what was taken for lines of the wrong place spoiled the estimated tilt.
   filter_.start(filter_.pose(), kFoundPosition, kFoundHeading, usual_tilt_);
-  // What was seen before belongs to where the robot was before.
+  // Earlier observations belong to the robot's earlier place.
   if (window_.size() > kRecent) {
     window_.erase(window_.begin(), window_.end() - static_cast<std::ptrdiff_t>(kRecent));
   }

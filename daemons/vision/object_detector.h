@@ -11,7 +11,7 @@
 
 namespace nao::vision {
 
-/** What ObjectDetector finds in an image. */
+/** Objects that ObjectDetector finds in an image. */
 struct FoundObjects {
   /** Where a ball may be, most probable first. */
   std::vector<Circle> balls;

@@ -10,7 +10,7 @@
 
 namespace nao::motion {
 
-/** What the load on the feet is planned from. */
+/** Input from which the load on the feet is planned. */
 struct LoadPlan {
   /** Measured DCM minus the reference's, m, in S. */
   Eigen::Vector2d dcm_error = Eigen::Vector2d::Zero();
