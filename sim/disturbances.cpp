@@ -26,7 +26,7 @@ const Units kLength{{"m", 1}, {"mm", 1e-3}};
 const Units kStiffness{{"N/m", 1}};
 const Units kMilliseconds{{"ms", 1}};
 
-/** What a file may say about a disturbance. */
+/** Properties of a disturbance in a file. */
 struct Rule {
   const char* name;
   const Units& units;

@@ -31,7 +31,7 @@ class MujocoEngine : public Engine {
   const mjData& data() const { return *data_; }
 
  private:
-  /** What a geom is. */
+  /** The surface to which a geom belongs. */
   struct Geom {
     Surface surface;
     /** Foot that it is a point of: 0 left, 1 right, -1 none. */

@@ -13,7 +13,7 @@
 
 namespace nao::sim {
 
-/** What a robot's sensors read at the end of a control tick, in motor and sensor order. */
+/** Readings of a robot's sensors at the end of a control tick, in motor and sensor order. */
 struct SensorReadings {
   int64_t tick = 0;
   /** Since the robot was switched on, s. */
