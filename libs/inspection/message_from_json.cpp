@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/** What is wrong with a field. It ends the encoding; message_from_json() returns its text. */
+/** Fault of a field. It ends the encoding; message_from_json() returns its text. */
 class Fault : public std::runtime_error {
  public:
   Fault(const std::string& path, const std::string& what)

@@ -21,14 +21,14 @@ size_t encode(const LolaState& state, std::span<uint8_t> memory);
  * @return Bytes written, 786 at most; 0 if the memory is too small. */
 size_t encode(const LolaCommand& command, std::span<uint8_t> memory);
 
-/** What decode() found. */
+/** Result of decode(). */
 struct LolaDecoding {
   enum class Status { kDone, kIncomplete, kMalformed };
 
   Status status = Status::kIncomplete;
   /** Bytes of the map, if it is complete. */
   size_t size = 0;
-  /** What is wrong with it, if it is malformed. */
+  /** Its fault, if it is malformed. */
   std::string error;
 };
 
