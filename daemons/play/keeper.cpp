@@ -23,7 +23,7 @@ constexpr double kDiveReach = 0.85;
  * a block after 0.21 s (nao-trial block), and images and bus delay the decision. */
 constexpr double kDiveTime = 1.0;
 constexpr double kBlockTime = 0.6;
-/** Distance, m, by which a ball that misses the goal passes a post; it is ignored. */
+/** Distance from a post, m, beyond which a ball that passes the goal is ignored. */
 constexpr double kWideOfPost = 0.15;
 /** Greatest speed of a sidestep, m/s. */
 constexpr double kAsideSpeed = 0.14;
