@@ -26,15 +26,15 @@ class AnswerLatency {
     least_ = std::min(least_, now - ticks_[index_of(tick)].time);
   }
 
-  /** s; infinite if there was no answer. */
+  /** Latency, s; infinite if there was no answer. */
   double least() const { return std::min(least_, last_least_); }
 
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
   /** Length of a window, s: the minimum is that of the present and the last one. Chosen: long
-   * beside a hold-up of the other program, short beside a person's patience. */
+   * compared with a pause of the other program, short compared with a person's patience. */
   static constexpr double kWindow = 1;
-  /** More than a second of ticks: later answers tell nothing about the present. */
+  /** More than a second of ticks: later answers say nothing about the present. */
   static constexpr size_t kNumTicks = 128;
 
   struct Tick {

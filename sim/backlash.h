@@ -30,7 +30,7 @@ struct Backlash {
     motor_velocity = 0;
   }
   /** Ends a step in which the gear was engaged.
-   * @param velocity  Of motor and link, rad/s. @param torque  From motor to link, N m. */
+   * @param velocity  Velocity of motor and link, rad/s. @param torque  From motor to link, N m. */
   void end_engaged_step(double velocity, double torque) {
     motor_velocity = velocity;
     if (flank * torque < 0) flank = 0;

@@ -35,7 +35,7 @@ class Ball {
   /** Whether the state is finite and within 1000 m of the origin. */
   bool is_within_bounds() const;
 
-  /** At rest where the scene puts it. */
+  /** Puts the ball at rest where the scene has it. */
   void reset();
   /** @param position  x, y, and height of the lowest point; m. @param velocity  m/s. */
   void place(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity);
@@ -43,7 +43,7 @@ class Ball {
   void push(const Eigen::Vector3d& impulse) { impulse_ += impulse; }
 
   const BallDescription& description() const { return description_; }
-  /** For other engines than the fast one: takes the pushes since the last step, N s, in W, and sets
+  /** For engines other than the fast one: takes the pushes since the last step, N s, in W, and sets
    * the state at the end of a step. */
   Eigen::Vector3d take_impulse() { return std::exchange(impulse_, Eigen::Vector3d::Zero()); }
   void set_state(const BallState& state) { state_ = state; }
@@ -63,7 +63,8 @@ class Ball {
                          EntryPair* rows) const;
   /** Adds rolling resistance to the contact with the floor that was added last: a bound on the
    * torque, deceleration * (I + m r^2) / r, as a fraction of the normal force m g.
-   * @param frame  As above. @param deceleration  Of a rolling ball, m/s^2. @param gravity  m/s^2.
+   * @param frame  As above. @param deceleration  Deceleration of a rolling ball, m/s^2.
+   * @param gravity  m/s^2.
    */
   void add_rolling_resistance(const Eigen::Matrix3d& frame, double deceleration, double gravity,
                               ConstraintSolver& solver) const;
@@ -72,7 +73,7 @@ class Ball {
   double rolling_arm(double deceleration, double gravity) const;
   /** Moment of inertia about the center, kg m^2. */
   double inertia() const { return inertia_; }
-  /** Takes over the solver's velocities and moves on by h seconds. */
+  /** Takes over the solver's velocities and advances by h seconds. */
   void end_step(double h, const Eigen::VectorXd& scaled_velocity);
 
  private:

@@ -72,7 +72,7 @@ std::vector<Eigen::Vector2d> simplify_outline(std::vector<Eigen::Vector2d> outli
 
 std::vector<Eigen::Vector2d> inner_points(const std::vector<Eigen::Vector2d>& outline,
                                           double spacing) {
-  // Fewer corners than a triangle have no inside.
+  // Fewer than three corners enclose no area.
   std::vector<Eigen::Vector2d> points;
   if (outline.size() < 3) return points;
   // Bounding box, and twice the signed area by the shoelace formula: positive for a
@@ -172,7 +172,7 @@ CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int nu
   }
 
   // Pairs that are tested for self-collision: parts of one body do not move relative to each other,
-  // and the model lists pairs of links whose contact is none.
+  // and the model lists pairs of links that may touch.
   const auto& allowed = model.allowed_contacts();
   for (size_t i = 0; i < parts.size(); ++i) {
     for (size_t j = i + 1; j < parts.size(); ++j) {

@@ -21,7 +21,7 @@ struct CollisionModel {
     double radius = 0;
     /** Radius of the sphere about the center that contains the whole part, m. */
     double bounding_radius = 0;
-    /** Its points in `points`, which collide with the floor: first, and one past the last. */
+    /** Its points in `points`, which collide with the floor: the first, and one past the last. */
     int first_point = 0;
     int end_point = 0;
   };
@@ -48,8 +48,8 @@ struct CollisionModel {
   CollisionModel(const RobotModel& model, const Tree& tree, int num_sole_points, double spacing);
 };
 
-/** Points of a square grid that lie within a convex outline, m. @param spacing  Of the grid, above
- * 0.
+/** Points of a square grid that lie within a convex outline, m. @param spacing  Spacing of the
+ * grid, above 0.
  */
 std::vector<Eigen::Vector2d> inner_points(const std::vector<Eigen::Vector2d>& outline,
                                           double spacing);

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 constexpr double kDissipation = 6.8;
 /** Ball: chosen, since its shell is elastic. */
 constexpr double kBallDissipation = 0.5;
-/** Of the ball's friction while it sticks, N s/m: small, since a ball is integrated explicitly.
+/** Damping of the ball's static friction, N s/m: small, since a ball is integrated explicitly.
  * Chosen: a third of the critical damping of its tangential spring. */
 constexpr double kBallTangentDamping = 10;
 
@@ -53,7 +53,7 @@ CompliantForce CompliantContact::force(const ContactCandidate& contact, int64_t 
   const int64_t passed = substep - memory.last_step;
   // A contact that was open in the last substep starts without deflection.
   if (passed > 1) deflection.setZero();
-  // Of two bodies that are integrated one after the other, the first one moves the spring.
+  // If two bodies are integrated one after the other, the first one moves the spring.
   if (passed == 1) deflection += substep_ * sliding;
   memory.last_step = std::max(memory.last_step, substep);
   // The normal may have turned.

@@ -32,7 +32,7 @@ struct CompliantForce {
  */
 class CompliantContact {
  public:
-  /** @param bodies, options  Must outlive this. @param substep  Of the integrator, s. */
+  /** @param bodies, options  Must outlive this. @param substep  Substep of the integrator, s. */
   CompliantContact(const MovingBodies& bodies, const WorldOptions& options, double substep)
       : bodies_(bodies), options_(options), substep_(substep) {}
 

@@ -40,8 +40,8 @@ void ConstraintSolver::clear() {
   num_entries_ = 0;
 }
 
-// Full: the caller leaves its constraint out, and the stepper counts it as dropped. No memory is
-// taken while the simulation runs.
+// If the memory is full, the caller leaves its constraint out, and the stepper counts it as
+// dropped. No memory is allocated while the simulation runs.
 int ConstraintSolver::add_chain(const int* dofs, int count, int first_dof) {
   if (chains_.size() == chains_.capacity() || chain_dofs_.size() + count > chain_dofs_.capacity() ||
       num_pairs(count) > static_cast<int>(local_.size())) {
@@ -105,7 +105,7 @@ void ConstraintSolver::replace_row(int index, const JointRow& other) {
   row.impulse = impulse;
   const double diagonal = dot(row.entries, row.entries, row.num_pairs);
   // Diagonal entry of the regularized row. A torque bound measures against the direction in which
-  // it acts; its entry is positive all the same: softness is 1 / (h slope), and the joint has h
+  // it acts; its entry is positive in both cases: softness is 1 / (h slope), and the joint has h
   // slope on the diagonal of the implicit mass matrix, so that measure * apply * diagonal >=
   // -softness.
   row.scale = row.measure * row.apply * diagonal + row.softness;

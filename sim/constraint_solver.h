@@ -32,7 +32,7 @@ struct ContactBlock {
    * implicit diagonal: row by row, for all dofs of the chain. */
   const EntryPair* entries = nullptr;
   bool is_rolling = false;
-  /** Coulomb's coefficient, or of a rolling block its lever arm, m. */
+  /** Coulomb's coefficient; for a rolling block, its lever arm, m. */
   double friction = 0;
   double spinning = 0;
   /** Velocity per impulse, m/s per N s: the regularization of a spring and a damper, see
@@ -93,7 +93,7 @@ struct JointRow {
  *
  * The unknown is z = L u, the generalized velocity u scaled by the mass matrix's factor: an impulse
  * p of a row with entries y = L^-T J^T changes z by y p, and J u = y . z, so that no row needs
- * M^-1. The caller gets u = L^-1 z. Memory is taken once, in reserve().
+ * M^-1. The caller gets u = L^-1 z. Memory is allocated once, in reserve().
  *
  * Rows that follow each other and act on the same chain of degrees of freedom, such as the contacts
  * of a foot and the joints of a limb, work on a copy of the chain's part of z, which is contiguous.
@@ -102,18 +102,19 @@ class ConstraintSolver {
  public:
   struct Options {
     int max_iterations = 50;
-    /** An iteration that changes no row's velocity by more, m/s or rad/s, is the last. */
+    /** Tolerance, m/s or rad/s: the iteration stops when no row's velocity changes by more. */
     double tolerance = 1e-5;
   };
 
-  /** Takes memory. @param max_blocks, max_rows, max_chains, max_pairs  Most that a step may add.
+  /** Allocates memory. @param max_blocks, max_rows, max_chains, max_pairs  Greatest numbers that a
+   * step may add.
    * @param max_chain  Most dofs of a chain. */
   void reserve(int max_blocks, int max_rows, int max_chains, int max_chain, int max_pairs);
 
   /** Removes all constraints. */
   void clear();
 
-  /** Adds a chain of degrees of freedom. @param first_dof  Is added to each: the result are indices
+  /** Adds a chain of degrees of freedom. @param first_dof  Added to each; the results are indices
    * in the scaled velocity. @return Index, or -1 without memory. */
   int add_chain(const int* dofs, int count, int first_dof);
   /** Memory for entries, or null if it is used up. */
@@ -122,7 +123,7 @@ class ConstraintSolver {
   /** Adds a constraint; its entries must be complete. @return Index, or -1 without memory. */
   int add_block(const ContactBlock& block);
   int add_row(const JointRow& row);
-  /** Gives a row other values; it keeps its impulse. */
+  /** Changes the values of a row; it keeps its impulse. */
   void replace_row(int index, const JointRow& row);
 
   /** Applies the start values to the scaled velocity. Call once, before solve(); rows added later
@@ -141,12 +142,13 @@ class ConstraintSolver {
   };
 
   int num_pairs_of(int chain) const { return num_pairs(chains_[chain].count); }
-  /** Lets local_ be the part of z that belongs to a chain. */
+  /** Makes local_ the part of z that belongs to a chain. */
   void enter(int chain, double* z);
   /** Writes local_ back to z. */
   void leave(double* z);
-  /** Solve one constraint. @param normal_impulse  Of the block before, N s; for rolling blocks.
-   * @param z  Of its chain. @return By how much its velocity was off, m/s or rad/s. */
+  /** Solve one constraint. @param normal_impulse  Normal impulse of the block before, N s; for
+   * rolling blocks.
+   * @param z  Of its chain. @return Error of its velocity before, m/s or rad/s. */
   static double solve_block(ContactBlock& block, int num_pairs, double normal_impulse,
                             EntryPair* z);
   static double solve_row(JointRow& row, EntryPair* z);

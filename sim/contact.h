@@ -12,7 +12,7 @@ namespace nao::sim {
 struct Surface {
   enum class Kind { kFloor, kRobot, kBall, kGoal, kNet };
   Kind kind = Kind::kFloor;
-  /** Of kRobot: index of the robot in the world, and of its link. */
+  /** For kRobot: indices of the robot in the world and of its link. */
   int robot = -1;
   int link = -1;
 };
@@ -27,7 +27,7 @@ struct Contact {
   Eigen::Vector3d force_on_a = Eigen::Vector3d::Zero();
 };
 
-/** What one possible contact keeps from one step to the next. */
+/** State that one possible contact keeps from one step to the next. */
 struct ContactMemory {
   /** Impulse of the last step, N s, in W: the start value of the solver (warm start). */
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
@@ -35,7 +35,7 @@ struct ContactMemory {
   Eigen::Vector3d spring_deflection = Eigen::Vector3d::Zero();
   /** The last step in which the contact was a constraint. */
   int64_t last_step = -2;
-  /** Direction from b to a in which two shapes were apart when their distance was measured last, in
+  /** Direction from b to a in which two shapes were apart when their distance was last measured, in
    * W; 0 if it never was. */
   Eigen::Vector3d separating_axis = Eigen::Vector3d::Zero();
 };
@@ -44,7 +44,7 @@ struct ContactMemory {
 struct ContactCandidate {
   Surface a;
   Surface b;
-  /** Bodies in their robots' trees; -1 where the surface is no robot's. */
+  /** Bodies in their robots' trees; -1 where the surface is not a robot's. */
   int body_a = -1;
   int body_b = -1;
   /** Foot that surface a's point belongs to: 0 left, 1 right, -1 none. */

@@ -10,8 +10,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/** Approach speed below which a ball does not rebound, m/s: some times the speed that gravity gives
- * it in a step of 2 ms, so that a ball comes to rest. Chosen. */
+/** Approach speed below which a ball does not rebound, m/s: several times the speed that gravity
+ * gives it in a step of 2 ms, so that a ball comes to rest. Chosen. */
 constexpr double kMinReboundSpeed = 0.05;
 
 /** Orthonormal frame of a contact: the normal, and two tangents, as columns. */
@@ -36,7 +36,7 @@ ContactAssembler::ContactAssembler(MovingBodies& bodies, const WorldOptions& opt
 void ContactAssembler::reserve(int max_contacts, int num_dofs, int max_chain) {
   active_.reserve(max_contacts);
   contacts_.reserve(max_contacts);
-  // Of a ball if there is no robot.
+  // A ball has 6 dofs; it may be alone in the world.
   const int most = num_pairs(std::max(max_chain, 6));
   body_rows_.rows.resize(6 * most);
   surface_rows_.resize(3 * most);
@@ -83,8 +83,8 @@ void ContactAssembler::set_normal_law(const ContactCandidate& candidate,
     // softness: the row is rigid.
     block.bias[0] = -materials.ball_restitution * candidate.approach_speed;
   } else if (distance > 0) {
-    // Still apart: the row allows an approach that closes the gap within this step, v >= -d / h.
-    // The spring would pull on the surfaces here, so that only its softness is kept.
+    // The surfaces are still apart: the row allows an approach that closes the gap within this
+    // step, v >= -d / h. The spring would pull on them here, so that only its softness is kept.
     block.bias[0] = distance / h;
     block.normal_softness = 1 / (h * strength);
   } else {
@@ -111,7 +111,7 @@ bool ContactAssembler::add(const ContactCandidate& candidate, ConstraintSolver& 
   // from step to step. Without it a standing robot would creep, since velocities alone carry no
   // memory of where a contact stuck.
   ContactMemory& memory = *candidate.memory;
-  // A contact that was open in the last step starts from nothing.
+  // A contact that was open in the last step starts without impulse and deflection.
   if (memory.last_step != step_number_ - 1) memory = ContactMemory();
   memory.last_step = step_number_;
   const double tangent_strength = h * materials.tangent_stiffness + materials.tangent_damping;
@@ -158,8 +158,8 @@ ContactAssembler::BodyRows& ContactAssembler::rows_of_body(int robot, int body) 
 
 namespace {
 
-/** Rows of the velocity of a body's point along the axes of a frame. @param rows  Of the body's
- * spatial velocity. @param arm  From the point that they are about to the point, m. */
+/** Rows of the velocity of a body's point along the axes of a frame. @param rows  Rows of the
+ * body's spatial velocity. @param arm  Vector from the rows' reference point to the point, m. */
 void calc_point_rows(const EntryPair* rows, int count, const Vector3d& arm, const Matrix3d& frame,
                      EntryPair* result) {
   for (int i = 0; i < count; ++i) {
@@ -197,7 +197,7 @@ bool ContactAssembler::set_entries_of_body(const ActiveContact& contact, Contact
 }
 
 // Two bodies of one robot share a part of their chains, which both contribute to; or one body is
-// the ball, and the other one of a robot or nothing that moves.
+// the ball, and the other one belongs to a robot or does not move.
 bool ContactAssembler::set_entries_of_two(const ActiveContact& contact, ContactBlock& block,
                                           ConstraintSolver& solver) {
   const ContactCandidate& candidate = *contact.candidate;
@@ -292,7 +292,7 @@ void ContactAssembler::end_step(const ConstraintSolver& solver) {
       elastic_energy_ += 0.5 * options_.materials.contact_stiffness * depth * depth;
     }
     update_spring(contact, block);
-    // Contacts without force are candidates only; they are not published.
+    // Contacts without force are only candidates and are not published.
     if (!(block.impulse[0] > 0)) continue;
     const Vector3d force = memory.impulse / h;
     contacts_.push_back({candidate.a, candidate.b, candidate.proximity.point, force});

@@ -34,8 +34,8 @@ class ContactAssembler {
   /** @param bodies  Must outlive this. */
   ContactAssembler(MovingBodies& bodies, const WorldOptions& options);
 
-  /** Takes memory. @param num_dofs  Of all bodies. @param max_chain  Most dofs between a root and a
-   * body of its robot. */
+  /** Allocates memory. @param num_dofs  Number of dofs of all bodies. @param max_chain  Most dofs
+   * between a root and a body of its robot. */
   void reserve(int max_contacts, int num_dofs, int max_chain);
 
   /** Forgets the last step's contacts. */
@@ -50,7 +50,7 @@ class ContactAssembler {
 
   /** Contacts with a force in the last step, in the order in which they were added. */
   const std::vector<Contact>& contacts() const { return contacts_; }
-  /** What the springs of the last step's contacts store, J. */
+  /** Energy in the springs of the last step's contacts, J. */
   double elastic_energy() const { return elastic_energy_; }
 
  private:
@@ -64,7 +64,7 @@ class ContactAssembler {
     double deflection_to_bias = 0;
   };
 
-  /** What a robot's body contributes to the rows of all its contacts in a step. */
+  /** Contribution of a robot's body to the rows of all its contacts in a step. */
   struct BodyRows {
     int robot = -1;
     int body = -1;
@@ -94,7 +94,7 @@ class ContactAssembler {
   std::vector<ActiveContact> active_;
   std::vector<Contact> contacts_;
   double elastic_energy_ = 0;
-  /** Of the body whose contact was assembled last. */
+  /** Rows of the body whose contact was assembled last. */
   BodyRows body_rows_;
   /** Workspace for a contact of two bodies that move: their dofs, place of each dof among them, and
    * the rows of one body. */

@@ -7,12 +7,12 @@
 
 namespace nao::sim {
 
-/** The contact candidates of a step, in memory that is taken once; those beyond it are left out and
- * counted. */
+/** The contact candidates of a step, in memory that is allocated once; further ones are left out
+ * and counted. */
 class ContactCandidates {
  public:
   void reserve(int max_candidates) { list_.reserve(max_candidates); }
-  /** Removes the candidates, and goes on counting. */
+  /** Removes the candidates, and continues to count. */
   void clear() { list_.clear(); }
   void reset_count() { num_dropped_ = 0; }
 

@@ -7,9 +7,9 @@
 
 namespace nao::sim {
 
-/** Makes the damping of a robot's contacts implicit in a step that is explicit otherwise (a
- * linearly implicit Euler step, E. Hairer, G. Wanner, "Solving ordinary differential equations II",
- * 1996, section IV.9).
+/** Makes the damping of a robot's contacts implicit in an otherwise explicit step (a linearly
+ * implicit Euler step, E. Hairer, G. Wanner, "Solving ordinary differential equations II", 1996,
+ * section IV.9).
  *
  * With the velocity at the end of a step of length h, the damping D of a contact whose velocity is
  * J u changes its force by -h D J u'. The equations of motion are then (M + h sum(J^T D J)) u' = f,
@@ -30,7 +30,7 @@ class ContactDamping {
     Eigen::Matrix3Xd rows;
   };
 
-  /** @param tree, dynamics  Of the robot. Must outlive this. */
+  /** @param tree, dynamics  Tree and dynamics of the robot. Must outlive this. */
   ContactDamping(const Tree& tree, const TreeDynamics& dynamics)
       : tree_(tree), dynamics_(dynamics) {}
 

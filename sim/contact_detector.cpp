@@ -11,7 +11,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/** Surfaces farther apart than this at the start of a step are not looked at, m: chosen for
+/** Distance of surfaces at the start of a step beyond which they are ignored, m. Chosen for
  * approach speeds up to 15 m/s at steps of 2 ms. Faster impacts of robot points on the floor are
  * found by find_missed_floor_contacts(). */
 constexpr double kReach = 0.03;
@@ -19,8 +19,8 @@ constexpr double kReach = 0.03;
  * where the part's center will be: 1 + 300 rad/s (the largest rate that a valid state has) times
  * 2 ms. */
 constexpr double kMaxSweptRadius = 1.6;
-/** By how much parts must be farther apart along an axis than they may approach each other, m, for
- * their distance not to be measured. Chosen: far above rounding, so that no contact is missed. */
+/** Excess of the parts' distance along an axis over their greatest approach, m, for which their
+ * distance is not measured. Chosen: far above rounding, so that no contact is missed. */
 constexpr double kApartMargin = 1e-6;
 
 /** Half the extent of a shape along a unit axis, m. */
@@ -76,7 +76,8 @@ void ContactDetector::remove_robot(int robot) {
   }
 }
 
-// After a robot was placed elsewhere: its old impulses would push it at the new place.
+// This is needed after a robot was placed elsewhere: its old impulses would push it at the new
+// place.
 void ContactDetector::forget_robot(int robot) {
   RobotMemory& memory = robot_memory_[robot];
   for (auto* memories : {&memory.floor, &memory.self, &memory.statics, &memory.ball}) {
@@ -166,7 +167,7 @@ bool ContactDetector::is_near_ball(int index) const {
 
 void ContactDetector::find(const Island& island, ContactCandidates& found) {
   // Order: floor, self, goals, pairs of robots, ball. The order decides in which sequence the
-  // solver visits contacts, and so the last digits: it must not depend on anything but the state.
+  // solver visits contacts, and so the last digits: it must depend on the state only.
   for (const int robot : island.robots) place_parts(robot);
   for (const int robot : island.robots) {
     find_floor_contacts(robot, found);
@@ -208,7 +209,7 @@ void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int bo
   // become constraints now, so that they cannot pass through each other before the next detection.
   if (proximity.distance - step_ * std::max(approach_speed, 0.0) > kMargin) return;
   if (found.add({a, b, body_a, body_b, foot, proximity, approach_speed, &memory})) return;
-  // Marked as looked at, so that it is counted once in a step.
+  // It is marked, so that it is counted once in a step.
   memory = ContactMemory();
   memory.last_step = step_number_;
 }
@@ -352,7 +353,7 @@ void ContactDetector::find_goal_contacts(int index, ContactCandidates& found) {
   for (size_t s = 0; s < statics_.size(); ++s) {
     const RoundedBox& fixed = statics_[s].shape;
     const double far = model.reach + kReach + fixed.half.norm() + fixed.radius;
-    // Nets stop the ball only.
+    // Nets stop only the ball.
     if (statics_[s].is_net || (center - fixed.center).squaredNorm() > far * far) continue;
     for (size_t p = 0; p < parts.size(); ++p) {
       const double reach = parts[p].bounding_radius + fixed.half.norm() + fixed.radius + kMargin;

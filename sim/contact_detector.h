@@ -40,13 +40,13 @@ class ContactDetector {
   bool are_near(int robot_a, int robot_b) const;
   bool is_near_ball(int robot) const;
 
-  // Of different islands at the same time.
+  // These may be called for different islands at the same time.
 
   /** Adds the candidates of an island, with positions and velocities at the step's start, in a
    * fixed order. */
   void find(const Island& island, ContactCandidates& found);
   /** Adds candidates for a robot's points that would be in the floor after the step with the
-   * velocities that its dynamics has now, and are no candidates yet.
+   * velocities that its dynamics has now, and are not candidates yet.
    * @return Whether there were any. */
   bool find_missed_floor_contacts(int robot, ContactCandidates& found);
 
@@ -106,7 +106,7 @@ class ContactDetector {
   /** Parts of each robot. */
   std::vector<std::vector<PlacedPart>> placed_;
   std::vector<RobotMemory> robot_memory_;
-  /** Of (0, 1), (0, 2), (1, 2), (0, 3)... */
+  /** Memories of the pairs (0, 1), (0, 2), (1, 2), (0, 3)... */
   std::vector<PairMemory> pair_memory_;
   ContactMemory ball_floor_memory_;
   std::vector<ContactMemory> ball_static_memory_;

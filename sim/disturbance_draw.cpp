@@ -61,7 +61,7 @@ Vector3d draw_axes(const DisturbanceSet& set, Disturbance disturbance, uint64_t 
 }
 
 /** Class of a motor's joint by the last word of the joint group that robot.yaml lists it in: "left
- * knee". Groups that are no part of a leg or head belong to the arms. */
+ * knee". Groups that are not part of a leg or head belong to the arms. */
 Disturbance backlash_of(const RobotModel& model, int motor) {
   for (const JointGroup& group : model.joint_groups()) {
     if (group.yaw_motor != motor && group.pitch_motor != motor && group.roll_motor != motor) {

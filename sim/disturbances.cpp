@@ -26,7 +26,7 @@ const Units kLength{{"m", 1}, {"mm", 1e-3}};
 const Units kStiffness{{"N/m", 1}};
 const Units kMilliseconds{{"ms", 1}};
 
-/** What a file may say about a disturbance. */
+/** Properties of a disturbance in a file. */
 struct Rule {
   const char* name;
   const Units& units;
@@ -40,7 +40,7 @@ struct Rule {
 
 /** In the order of Disturbance. */
 const std::vector<Rule>& rules() {
-  // Chosen: more than ten times what the joints of `real` have.
+  // Chosen: more than ten times the value of the joints in `real`.
   constexpr double kMaxPlay = 20 * kDegree;
   static const std::vector<Rule> all{
       {"backlash.hip", kAngle, {"joint"}, 0, kMaxPlay},
@@ -131,7 +131,7 @@ Distribution read_distribution(const YamlEntry& entry, const Rule& rule) {
     entry.at("per").fail("is \"" + per + "\" and must be " +
                          joined({rule.per.begin(), rule.per.end()}));
   }
-  // The source of a number is required to be there, and is for people only.
+  // The source of a number is required, but only for people.
   entry.at("source").text();
   // Each has() is 0 or 1.
   if (entry.has("value") + entry.has("uniform") + entry.has("sigma") != 1) {

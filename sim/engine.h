@@ -18,7 +18,7 @@ namespace nao::sim {
  * engine; the engine contributes rigid-body dynamics, contacts, joint stops and friction. */
 class Engine {
  public:
-  /** What a step of the fast engine consists of, in this order. */
+  /** Stages of a step of the fast engine, in this order. */
   enum class Stage { kDynamics, kCollision, kRows, kSolve, kIntegrate };
   using StageProbe = void (*)(Stage, void*);
 
@@ -30,13 +30,14 @@ class Engine {
   virtual void add_robot() = 0;
   /** Whether robots may be added after the first step, and removed. */
   virtual bool can_change_robots() const { return false; }
-  /** The robot of this index was removed from the bodies; only if can_change_robots(). */
+  /** Removes the robot of this index, which was removed from the bodies; only if
+   * can_change_robots(). */
   virtual void remove_robot(int /*robot*/) {}
   virtual void step() = 0;
   /** Forgets all contacts and counts from 0 again. */
   virtual void reset() = 0;
 
-  /** Tells that a body was placed somewhere else. */
+  /** Reports that a body was placed elsewhere. */
   virtual void forget_contacts_of_robot(int robot) = 0;
   virtual void forget_contacts_of_ball() = 0;
 
@@ -44,11 +45,11 @@ class Engine {
   virtual int64_t num_steps() const = 0;
   /** Contact points with a force in the last step. */
   virtual const std::vector<Contact>& contacts() const = 0;
-  /** Contacts left out since reset() because there were more than memory was taken for. */
+  /** Contacts left out since reset() because memory was not sufficient. */
   virtual int64_t num_dropped_contacts() const = 0;
-  /** What the springs of the contacts store, J; 0 where the engine does not tell. */
+  /** Energy in the springs of the contacts, J; 0 if the engine does not report it. */
   virtual double elastic_energy() const { return 0; }
-  /** Iterations of the constraint solver in the last step; 0 where the engine has none. */
+  /** Iterations of the constraint solver in the last step; 0 if the engine has none. */
   virtual int last_iterations() const { return 0; }
   /** Calls `probe(stage, user)` after each stage of every step, if the engine has stages. */
   virtual void set_stage_probe(StageProbe /*probe*/, void* /*user*/) {}

@@ -8,8 +8,8 @@
 namespace nao::sim {
 namespace {
 
-/** Speed within which the direction of dry friction is blurred where only its sign matters, rad/s.
- * Chosen: a tenth of the slowest joint motion that is visible. */
+/** Speed below which the sign of dry friction is smoothed, rad/s. Chosen: a tenth of the slowest
+ * joint motion that is visible. */
 constexpr double kStill = 0.01;
 
 }  // namespace
@@ -33,7 +33,7 @@ const std::vector<JointForce>& JointDrives::begin_explicit_step(double h,
     const double error = target - (state.coordinate[drive.dof] + gear.offset + drive.zero);
     JointForce force;
     force.dof = drive.dof;
-    // In the play the link feels nothing of its motor, which moves alone.
+    // Within the play the motor exerts no torque on the link and moves alone.
     if (!gear.is_engaged()) {
       drive.plan_step(h, targets.stiffness[k], error, speed);
       plan_free_motor(h, i);
@@ -68,7 +68,7 @@ void JointDrives::end_explicit_step(double h, const TreeState& state) {
     if (drive.dof < 0 || !drive.gear.has_play()) continue;
     const double speed = state.velocity[drive.dof];
     // Dry friction of the step from the sign of the speed, blurred by tanh: the engine does not
-    // tell the friction that it applied.
+    // report the friction that it applied.
     drive.friction.impulse = -h * drive.motor.dry_friction * std::tanh(speed / kStill);
     drive.plan.drag = 0;
     drive.plan.viscosity = drive.motor.viscous_friction;

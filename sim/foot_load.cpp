@@ -49,7 +49,8 @@ FootLoad::FootLoad(std::vector<Vector2d> positions)
       fractions_(positions_.size(), 0.0),
       is_loaded_(positions_.size(), false) {}
 
-// Front, rear, left and right sensors are where their order says: bilinear weights need that.
+// Checks that front, rear, left and right sensors are where their order says, as bilinear weights
+// require.
 bool FootLoad::has_four_corners() const {
   if (positions_.size() != 4) return false;
   const Vector2d& front_left = positions_[0];

@@ -19,7 +19,7 @@ namespace nao::sim {
  * - No sensor: nothing. */
 class FootLoad {
  public:
-  /** @param positions  Of the sensors in the sole's frame (x ahead, y left), m. */
+  /** @param positions  Positions of the sensors in the sole's frame (x ahead, y left), m. */
   explicit FootLoad(std::vector<Eigen::Vector2d> positions);
 
   /** Fraction of the load on each sensor, in their order. Allocates nothing.

@@ -4,7 +4,7 @@
 
 namespace nao::sim {
 
-/** Bodies of which none can touch one outside the island within a step. */
+/** Bodies that cannot touch a body outside the island within a step. */
 struct Island {
   /** Indices, rising. */
   std::vector<int> robots;

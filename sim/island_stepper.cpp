@@ -5,15 +5,16 @@
 namespace nao::sim {
 namespace {
 
-/** Contacts that memory is taken for. Chosen: a standing NAO has 16, a lying one about 11
- * (nao-bench-physics); the contacts of ball and goals share the first number. */
+/** Number of contacts for which memory is allocated. Chosen: a standing NAO has 16, a lying one
+ * about 11 (nao-bench-physics); the contacts of ball and goals share the first number. */
 constexpr int kContactsPerWorld = 64;
 constexpr int kContactsPerRobot = 96;
 /** Rows of one joint at most: stop, dry friction, upper and lower torque bound. */
 constexpr int kRowsPerJoint = 4;
 /** Degrees of freedom of a ball. */
 constexpr int kDofsOfBall = 6;
-/** Times that constraints are added to a solved step at most. Chosen: one is usual in an impact. */
+/** Greatest number of times that constraints are added to a solved step. Chosen: one is usual in an
+ * impact. */
 constexpr int kMaxRounds = 4;
 
 }  // namespace
@@ -86,7 +87,7 @@ void IslandStepper::solve(const Island& island, Eigen::VectorXd& scaled_velocity
   iterations_ = solver_.solve(scaled_velocity, how);
   // Impulses that act within the step (a push, an impact elsewhere) may drive a motor beyond its
   // torque, or into the floor a point that did not move towards it before. Such constraints are
-  // added, and the solution goes on from where it is.
+  // added, and the iterations continue from the present solution.
   for (int round = 0; add_missed_constraints(island, scaled_velocity) && round < kMaxRounds;
        ++round) {
     iterations_ += solver_.solve(scaled_velocity, how);
@@ -110,8 +111,8 @@ bool IslandStepper::add_missed_constraints(const Island& island,
   return has_missed;
 }
 
-// The assembler first: it tells robots which of their feet carry load, and whether they are in
-// contact.
+// The assembler comes first: it tells robots which of their feet carry load, and whether they are
+// in contact.
 void IslandStepper::end_step(const Island& island, const Eigen::VectorXd& scaled_velocity) {
   assembler_.end_step(solver_);
   for (const int robot : island.robots) bodies_.robots[robot]->end_step(options_.step, solver_);

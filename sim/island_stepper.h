@@ -21,7 +21,7 @@ namespace nao::sim {
  * different islands may be stepped at the same time. */
 class IslandStepper {
  public:
-  /** What a step needs to know beside the island. */
+  /** Input of a step besides the island. */
   struct Step {
     int64_t number = 0;
     Engine::StageProbe probe = nullptr;
@@ -31,7 +31,8 @@ class IslandStepper {
   /** All must outlive this. @param detector  The same one for all islands. */
   IslandStepper(MovingBodies& bodies, const WorldOptions& options, ContactDetector& detector);
 
-  /** Takes memory. @param max_robots  Of an island. @param num_dofs  Of all bodies.
+  /** Allocates memory. @param max_robots  Greatest number of robots of an island.
+   * @param num_dofs  Number of dofs of all bodies.
    * @param max_chain  Most dofs between a root and a body of its robot. */
   void reserve(int max_robots, int num_dofs, int max_chain);
 
@@ -42,7 +43,9 @@ class IslandStepper {
   void reset_count();
   size_t max_contacts() const { return max_contacts_; }
 
-  /** Of the last step: contacts with a force; what their springs store, J; solver iterations. */
+  /** Results of the last step: contacts with a force; energy in their springs, J; solver
+   * iterations.
+   */
   const std::vector<Contact>& contacts() const { return assembler_.contacts(); }
   double elastic_energy() const { return assembler_.elastic_energy(); }
   int iterations() const { return iterations_; }

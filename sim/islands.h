@@ -16,8 +16,8 @@ class Islands {
   /** Takes memory. */
   void reserve(int num_robots, bool has_ball);
 
-  /** @param detector  Tells who is near whom. @return Ordered by their first robot; the ball's own
-   * one last. Valid until the next call. Allocates nothing. */
+  /** @param detector  Decides which bodies are near each other. @return Ordered by their first
+   * robot; the ball's own one last. Valid until the next call. Allocates nothing. */
   std::span<const Island> find(const ContactDetector& detector);
 
  private:

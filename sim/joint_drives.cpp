@@ -15,8 +15,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kBoundFraction = 0.8;
 /** Fraction of the limit by which a torque may exceed it without a new round of the solver. */
 constexpr double kBoundTolerance = 1e-3;
-/** A joint this near to its stop, rad, has the stop's row at any speed. Chosen: a row for nothing
- * only costs time. */
+/** Distance from its stop, rad, within which a joint has the stop's row at any speed. Chosen: an
+ * unneeded row only costs time. */
 constexpr double kStopMargin = 0.01;
 /** Time constant with which an opening follows its target, s. Assumed. */
 constexpr double kOpeningTime = 0.1;
@@ -262,8 +262,8 @@ void JointDrives::add_rows(double h, const TreeState& state, const TreeDynamics&
   }
 }
 
-// Bounds that the solved step violates although no row was added for them: adds them, and tells
-// whether any was. The stepper solves again then.
+// Adds bounds that the solved step violates and that have no row yet, and returns whether there
+// were any; the stepper then solves again.
 bool JointDrives::add_missed_bounds(double h, const Eigen::VectorXd& velocity,
                                     const TreeDynamics& dynamics, int first_dof,
                                     ConstraintSolver& solver) {

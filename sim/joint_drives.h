@@ -14,8 +14,8 @@
 
 namespace nao::sim {
 
-/** What a motor does to its joint in a step of an engine that takes forces from the state at the
- * step's start. All 0 but `dof` where the motor is free in its gear's play. */
+/** Effect of a motor on its joint in a step of an engine that takes forces from the state at the
+ * step's start. All except `dof` are 0 if the motor is free in its gear's play. */
 struct JointForce {
   /** Our degree of freedom. */
   int dof = -1;
@@ -51,7 +51,7 @@ class JointDrives {
 
   /** Motors at rest at these angles, rad, (num_motors). */
   void place(const std::vector<double>& position);
-  /** Windings at ambient temperature. */
+  /** Sets the windings to ambient temperature. */
   void switch_on();
 
   // A step of h seconds, in this order.
@@ -59,18 +59,19 @@ class JointDrives {
   /** Plans the torques and adds them to the momentum. */
   void begin_step(double h, const MotorTargets& targets, TreeIntegrator& integrator);
   /** Adds the rows that the state at the step's start asks for.
-   * @param first_dof  Of the robot in the solver's vector. */
+   * @param first_dof  First dof of the robot in the solver's vector. */
   void add_rows(double h, const TreeState& state, const TreeDynamics& dynamics, int first_dof,
                 ConstraintSolver& solver);
   /** Adds bounds for motors that exceed their torque at a velocity.
-   * @param velocity  Of the solver's present solution, (num_dofs). @return Whether there were any.
+   * @param velocity  Velocity of the solver's present solution, (num_dofs). @return Whether there
+   * were any.
    */
   bool add_missed_bounds(double h, const Eigen::VectorXd& velocity, const TreeDynamics& dynamics,
                          int first_dof, ConstraintSolver& solver);
   /** Reads the solution. @param velocity  At the step's end, (num_dofs). */
   void end_step(double h, const Eigen::VectorXd& velocity, const ConstraintSolver& solver);
 
-  // A step of h seconds in another engine than the fast one, in this order.
+  // A step of h seconds in an engine other than the fast one, in this order.
 
   /** Forces from a state; valid until the next call. */
   const std::vector<JointForce>& begin_explicit_step(double h, const MotorTargets& targets,
@@ -103,7 +104,8 @@ class JointDrives {
   Eigen::VectorXd last_target_;
   /** N m. */
   Eigen::VectorXd torque_;
-  /** Of each dof, the last dof of its limb: of those that it moves, the one that is moved by most.
+  /** For each dof, the last dof of its limb: among the dofs that it moves, the one that most dofs
+   * move.
    */
   std::vector<int> end_of_limb_;
   /** The solver's chain of each last dof of a limb in this step, -1 if there is none. */

@@ -101,8 +101,8 @@ void LolaRobot::read_joints(const SensorReadings& sensed, const MotorTargets& ta
   }
 }
 
-// A LoLA message may leave out keys, and values that are not finite: what it leaves out keeps the
-// last value. The command that results is complete, as if it had come by the bus.
+// A LoLA message may lack keys, or have values that are not finite; these keep the last value. The
+// resulting command is complete, as if it had come over the bus.
 JointCommand LolaRobot::take(const LolaCommand& command, const MotorTargets& targets,
                              int64_t tick) {
   // Pairs of new and held values: key by key, value by value.

@@ -27,9 +27,8 @@ class LolaRobot {
   /** The newest frame. */
   const LolaState& state() const { return state_; }
 
-  /** Takes the keys of a command; what it does not have stays as it is. Values that are not finite
-   * do, too. @param targets  What the servos hold. @return Targets of all joints, as answer to a
-   * tick. */
+  /** Takes the keys of a command; keys that it lacks, or whose values are not finite, keep theirs.
+   * @param targets  What the servos hold. @return Targets of all joints, as answer to a tick. */
   JointCommand take(const LolaCommand& command, const MotorTargets& targets, int64_t tick);
 
   /** Presses a button or touches a sensor for so many ticks from now on.
@@ -37,7 +36,7 @@ class LolaRobot {
   bool touch(const std::string& name, int64_t num_ticks);
 
   const LolaMap& map() const { return map_; }
-  /** The newest value of every key that any command had; lights are those of this command. */
+  /** The newest value of every key that a command had; lights are those of this command. */
   const LolaCommand& held() const { return held_; }
 
  private:

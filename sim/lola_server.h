@@ -13,7 +13,7 @@ namespace nao::sim {
 /** Serves LoLA on a Unix stream socket, to one client at a time: others wait until it has gone. */
 class LolaServer {
  public:
-  /** What the user of a server does. */
+  /** Functions that the user of a server provides. */
   struct Handlers {
     /** A client has connected; it expects a state without asking. */
     std::function<void()> on_client;
@@ -28,7 +28,7 @@ class LolaServer {
   LolaServer& operator=(const LolaServer&) = delete;
 
   bool has_client() const { return client_.has_value(); }
-  /** Sends a frame, if there is a client. One that does not read is left. */
+  /** Sends a frame, if there is a client. A client that does not read is disconnected. */
   void send(const LolaState& state);
 
  private:

@@ -16,7 +16,7 @@ namespace nao::sim {
 JointCommand to_core(const naolcm::joint_command_t& message);
 WorldCommand to_core(const naolcm::world_command_t& message);
 
-/** What a robot measures, and the targets that its servos hold. */
+/** Measurements of a robot, and the targets that its servos hold. */
 naolcm::sensor_state_t sensor_state_of(const World& world, int robot);
 
 /** Lights of a robot on the bus; the other parts of a body are not simulated: no motors, touch

@@ -36,10 +36,10 @@ struct Drive {
   double zero = 0;
   Backlash gear;
 
-  /** Angle of an opening (of others: in TreeState). */
+  /** Angle of an opening (other angles are in TreeState). */
   double opening = 0;
   /** Mean of the squared torque over the winding's time constant, in units of the squared
-   * continuous torque: at 1 the motor gives its continuous torque only. */
+   * continuous torque: at 1 the motor gives only its continuous torque. */
   double heat = 0;
 
   /** Torques in a step as functions of the joint's speed v' at its end, N m, and N m s/rad:
@@ -55,16 +55,16 @@ struct Drive {
     double viscosity = 0;
   };
   Plan plan;
-  /** Of a motor that is free of its link in this step: speed at its end, rad/s. */
+  /** Speed at the end of this step, rad/s, of a motor that is free of its link in it. */
   double planned_free_velocity = 0;
 
   /** A row in the solver. */
   struct Row {
-    /** In this step; -1 if absent. */
+    /** Index in this step; -1 if absent. */
     int index = -1;
-    /** Of the last step, N m s: the start value. */
+    /** Impulse of the last step, N m s: the start value. */
     double impulse = 0;
-    /** Of a torque bound: it includes back-EMF, since the motor brakes. */
+    /** Whether a torque bound includes back-EMF, since the motor brakes. */
     bool is_braking = false;
   };
   Row stop;
@@ -102,7 +102,7 @@ struct Drive {
   /** Weight of the speed at the step's end in the speed that damping acts on, 0.5 to 1; the rest is
    * the speed at its start. 0.5 is of second order in h (trapezoidal rule). A damper that would
    * more than stop the rotor within the step has the weight that just stops it.
-   * @param damping  Of all dampers on the joint, N m s/rad. */
+   * @param damping  Total damping of all dampers on the joint, N m s/rad. */
   double end_weight(double h, double damping) const {
     const double decay = h * damping;
     return decay > 2 * motor.reflected_inertia ? 1 - motor.reflected_inertia / decay : 0.5;
@@ -138,7 +138,7 @@ struct Drive {
       damping = plan.line + plan.viscosity;
       velocity = (inertia * speed + h * (demand - plan.emf - plan.drag)) / (inertia + h * damping);
     }
-    // Dry friction slows the motor down, and holds it.
+    // Applies dry friction, which slows the motor down and holds it.
     const double held = h * motor.dry_friction / (inertia + h * damping);
     velocity = std::copysign(std::max(0.0, std::abs(velocity) - held), velocity);
     torque = demand - plan.emf - plan.line * velocity;

@@ -13,7 +13,7 @@ namespace nao::sim {
  * the solver's vector are the robots', one after the other, and then the ball's. */
 struct MovingBodies {
   std::vector<std::unique_ptr<SimRobot>> robots;
-  /** Nothing in a scene without a ball. */
+  /** Empty in a scene without a ball. */
   std::optional<Ball> ball;
 
   int num_robots() const { return static_cast<int>(robots.size()); }

@@ -21,7 +21,7 @@ enum class BaselineFeet {
 enum class BaselineLaws {
   /** MuJoCo's defaults, which suit its step of 2 ms; pyramidal friction cone. */
   kMujoco,
-  /** Those of our physics: the same points with the same springs and dampers against the floor,
+  /** The laws of our physics: the same points with the same springs and dampers against the floor,
    * elliptic friction cone, the same joint stops and torque limit of a braking motor; dry friction
    * and coupled joints rigid. For steps of 0.1 ms or less, since MuJoCo's springs are explicit. Two
    * differences remain: a sticking contact has a damper along the surface in MuJoCo and a spring
@@ -66,7 +66,7 @@ class MujocoBaseline {
   MujocoDataPointer data_;
   std::optional<MujocoRobot> robot_;
   std::vector<int> actuator_of_motor_;
-  /** Of each actuator, N m s/rad. */
+  /** Back-EMF constant of each actuator, N m s/rad. */
   std::vector<double> back_emf_;
 };
 

@@ -20,7 +20,7 @@ mjfCollision collide_with_plane = nullptr;
 
 /** Contact of a sphere with the floor, whose bumps are in the user data of the plane's geom. Our
  * surface in the place of MuJoCo's height fields: these are made for shapes that are not small
- * beside a cell. */
+ * compared with a cell. */
 // mjCOLLISIONFUNC's signature. Returns the number of contacts written: 0 or 1. MuJoCo completes the
 // contact's frame from its first axis; the second is left 0 for that.
 int collide_with_floor(const mjModel* model, const mjData* data, mjContact* contact, int plane,
@@ -53,7 +53,7 @@ void use_our_floor() {
   collide_with_plane = std::exchange(function, collide_with_floor);
 }
 
-/** Which side of a contact is told first: the ball, then robots. */
+/** Decides which side of a contact is reported first: the ball, then robots. */
 int rank(const Surface& surface) {
   if (surface.kind == Surface::Kind::kBall) return 0;
   return surface.kind == Surface::Kind::kRobot ? 1 : 2;
@@ -72,7 +72,7 @@ void MujocoEngine::add_robot() {
   build();
 }
 
-// The whole model is compiled anew whenever a robot is added: MuJoCo's sizes are fixed.
+// The whole model is recompiled whenever a robot is added: MuJoCo's sizes are fixed.
 void MujocoEngine::build() {
   MujocoScene scene;
   for (const auto& robot : bodies_.robots) scene.robots.push_back(robot.get());
@@ -199,8 +199,8 @@ void MujocoEngine::apply_forces(int index) {
   }
 }
 
-// Rolling resistance is ours: MuJoCo's has a pyramidal cone, with which a ball that rolls ahead
-// rolls aside without any, and it lets a resting ball creep.
+// Rolling resistance is ours: MuJoCo's has a pyramidal cone, with which a ball that rolls forward
+// has none sideways, and it lets a resting ball creep.
 void MujocoEngine::apply_forces_on_ball() {
   Ball& ball = *bodies_.ball;
   const double h = options_.step;
@@ -276,8 +276,8 @@ bool MujocoEngine::has_failed() const {
 }
 
 void MujocoEngine::read_states() {
-  // MuJoCo resets itself after a step that is not finite. The world is told by a state that is not
-  // finite either, and puts everything back to its start.
+  // MuJoCo resets itself after a step that is not finite. The engine then reports a state that is
+  // not finite, and the world resets everything.
   const bool is_valid = !has_failed();
   const double lost = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < bodies_.num_robots(); ++i) {

@@ -16,7 +16,7 @@ class MujocoEngine : public Engine {
   MujocoEngine(const SceneFile& scene, const WorldOptions& options, MovingBodies& bodies);
 
   const char* name() const override { return "mujoco"; }
-  /** Makes the whole model anew. */
+  /** Rebuilds the whole model. */
   void add_robot() override;
   void step() override;
   void reset() override;
@@ -31,7 +31,7 @@ class MujocoEngine : public Engine {
   const mjData& data() const { return *data_; }
 
  private:
-  /** What a geom is. */
+  /** The surface to which a geom belongs. */
   struct Geom {
     Surface surface;
     /** Foot that it is a point of: 0 left, 1 right, -1 none. */
@@ -55,7 +55,7 @@ class MujocoEngine : public Engine {
   MujocoModelPointer model_;
   MujocoDataPointer data_;
   std::vector<MujocoRobot> robots_;
-  /** Of the ball; -1 without one. */
+  /** Addresses of the ball; -1 without one. */
   int ball_position_ = -1;
   int ball_dof_ = -1;
   std::vector<Geom> geoms_;

@@ -27,7 +27,7 @@ std::string numbers(const Eigen::Quaterniond& q) {
   return text.str();
 }
 
-// The first robot's names have no prefix, so that the model of a single robot is plain to read.
+// The first robot's names have no prefix, so that the model of a single robot is easy to read.
 std::string prefix(int robot) {
   return robot == 0 ? "" : "robot" + std::to_string(robot) + "_";
 }
@@ -99,7 +99,8 @@ class Writer {
     // MuJoCo takes the greater friction of two geoms.
     if (options_.has_materials) out_ << " friction=\"0.001 0.005 0.0001\"";
     const FloorOptions& floor = world_.floor;
-    // At the height of the highest bump: MuJoCo looks at spheres only that reach below the plane.
+    // The plane is at the height of the highest bump: MuJoCo considers only spheres that reach
+    // below it.
     out_ << " pos=\"0 0 " << floor.bump_height << "\" user=\"" << floor.bump_height << ' '
          << floor.bump_grid << ' ' << floor.seed << "\"/>\n";
   }
@@ -207,9 +208,8 @@ class Writer {
     out_ << "</body>\n";
   }
 
-  // Pairs that may collide by contype and conaffinity but are no self-collision pairs of the
-  // collision model: excluded by name. MuJoCo excludes only parent and child by itself.
-  /** Pairs of bodies without self-collision. */
+  /** Excludes by name the pairs of bodies that may collide by contype and conaffinity but are not
+   * self-collision pairs of the collision model. MuJoCo itself excludes only parent and child. */
   void write_excluded_pairs(int index) {
     const CollisionModel& shapes = robot(index).collisions();
     std::set<std::pair<int, int>> touching;
@@ -317,7 +317,8 @@ MujocoRobot::MujocoRobot(const mjModel& model, const SimRobot& sim_robot, int ro
     position_address_[i] = model.jnt_qposadr[joint_[i]];
     velocity_address_[i] = model.jnt_dofadr[joint_[i]];
   }
-  // Dofs 0..5 are the root's; each further one belongs to the body whose joint is no mimic.
+  // Dofs 0..5 are the root's; each further one belongs to the body whose joint is not a mimic
+  // joint.
   for (int dof = 6; dof < tree.num_dofs(); ++dof) {
     dof_address_[dof] = velocity_address_[tree.body_of_dof(dof)];
   }

@@ -14,7 +14,7 @@
 
 namespace nao::sim {
 
-/** What a MuJoCo model contains beside a floor. */
+/** Contents of a MuJoCo model besides the floor. */
 struct MujocoScene {
   std::vector<const SimRobot*> robots;
   /** nullptr: none. */
@@ -77,11 +77,11 @@ class MujocoRobot {
   int root_body_;
   int root_position_ = -1;
   int root_dof_ = -1;
-  /** Of each body: joint, and addresses in qpos and qvel. */
+  /** Joint of each body, and its addresses in qpos and qvel. */
   std::vector<int> joint_;
   std::vector<int> position_address_;
   std::vector<int> velocity_address_;
-  /** Of each of our degrees of freedom. */
+  /** Address of each of our degrees of freedom. */
   std::vector<int> dof_address_;
 };
 

@@ -6,7 +6,7 @@ namespace nao::sim {
 
 /** Schedules control ticks so that simulated time keeps pace with the wall clock.
  *
- * Late ticks are caught up with at twice the pace at most; a delay of more than kMaxBacklog (a
+ * Late ticks are made up at no more than twice the pace; a delay of more than kMaxBacklog (a
  * suspended machine) is skipped. Times are seconds of a monotonic clock; all calls take the present
  * one. */
 class Pacer {
@@ -40,8 +40,8 @@ class Pacer {
     if (now - due_ > kMaxBacklog) restart(now);
   }
 
-  /** Largest delay that is caught up with, s. Chosen: half a second at twice the pace is hardly
-   * seen, and a walk command is valid for as long. */
+  /** Largest delay that is made up, s. Chosen: half a second at twice the pace is hardly visible,
+   * and a walk command is valid for as long. */
   static constexpr double kMaxBacklog = 0.5;
 
  private:

@@ -4,8 +4,8 @@
 
 namespace nao::sim {
 
-/** How one robot differs from its model: in joints, sensors, and the delivery of messages. The
- * default is no difference. */
+/** How one robot differs from its model: in joints, sensors, and the delivery of messages. By
+ * default it does not differ. */
 struct RobotErrors {
   /** Total play between motor and link, rad, and what the encoder reads at the joint's angle 0,
    * rad; in motor order, (num_motors) or empty. */
@@ -22,7 +22,7 @@ struct RobotErrors {
   /** Factor on the reading of each force sensor of the feet, 0 if it is dead; in the order of
    * RobotModel::foot_sensors(), or empty. */
   Eigen::VectorXd foot_sensor_scale;
-  /** Of the root link's center of mass, m, in its frame. */
+  /** Offset of the root link's center of mass, m, in its frame. */
   Eigen::Vector3d torso_com = Eigen::Vector3d::Zero();
   /** Probability in each control tick that the sensor readings, or the joint command that is given
    * in it, do not arrive. */

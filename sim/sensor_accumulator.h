@@ -30,8 +30,8 @@ class SensorAccumulator {
 
   /** The motors' torques integrated over the tick so far, N m s. */
   const Eigen::VectorXd& torque_impulse() const { return torque_impulse_; }
-  /** Means over the tick so far; at its beginning what holds at rest.
-   * @param position, torque  Of the motors now. */
+  /** Means over the tick so far; at its beginning the values at rest.
+   * @param position, torque  Positions and torques of the motors now. */
   const TrueMotion& means(const Eigen::VectorXd& position, const Eigen::VectorXd& torque,
                           const TreeState& state, const TreeDynamics& dynamics);
 
@@ -54,9 +54,9 @@ class SensorAccumulator {
   Eigen::VectorXd torque_impulse_;
   /** Sum of the accelerometer's changes of velocity, m/s, each in the torso frame of its time. */
   Eigen::Vector3d velocity_change_ = Eigen::Vector3d::Zero();
-  /** Of the accelerometer at the end of the last step, m/s, in W. */
+  /** Velocity of the accelerometer at the end of the last step, m/s, in W. */
   Eigen::Vector3d accelerometer_velocity_ = Eigen::Vector3d::Zero();
-  /** Torso's angular velocity integrated, rad, in the torso frame. */
+  /** Integral of the torso's angular velocity, rad, in the torso frame. */
   Eigen::Vector3d rotation_ = Eigen::Vector3d::Zero();
   /** Impulses and their moments. */
   std::array<TrueMotion::FootLoad, 2> foot_impulse_;

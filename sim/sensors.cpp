@@ -10,8 +10,8 @@ using Eigen::Quaterniond;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/** Specific force, m/s^2, this far from gravity has no influence on the tilt estimate: the robot
- * accelerates. Assumed. */
+/** Deviation of the specific force from gravity, m/s^2, at which it has no influence on the tilt
+ * estimate, since the robot accelerates. Assumed. */
 constexpr double kMaxTiltDeviation = 2;
 
 /** Quaternion of a rotation vector. */

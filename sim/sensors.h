@@ -13,7 +13,7 @@
 
 namespace nao::sim {
 
-/** What a robot's sensors read at the end of a control tick, in motor and sensor order. */
+/** Readings of a robot's sensors at the end of a control tick, in motor and sensor order. */
 struct SensorReadings {
   int64_t tick = 0;
   /** Since the robot was switched on, s. */
@@ -38,7 +38,7 @@ struct SensorReadings {
 
 /** The true values at the end of a control tick, and over it; as SensorReadings otherwise. */
 struct TrueMotion {
-  /** Of the motors, whose encoders read them. */
+  /** Positions of the motors, rad, which their encoders read. */
   Eigen::VectorXd position;
   Eigen::VectorXd torque;
   Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();
@@ -77,7 +77,7 @@ struct SensorOptions {
   double foot_force_noise = 0.02;
   double foot_force_step = 0.05;
   double foot_force_range = 25;
-  /** Those of this robot's inertial unit and feet. */
+  /** Errors of this robot's inertial unit and feet. */
   RobotErrors errors;
 };
 
@@ -94,7 +94,8 @@ class Sensors {
 
   /** Switches on: tick 0, new biases, and a true orientation estimate. @param truth  At rest. */
   void reset(const TrueMotion& truth);
-  /** Goes on as if it had been switched on so many ticks ago. @param period  Of a tick, s. */
+  /** Continues as if it had been switched on so many ticks ago. @param period  Period of a tick, s.
+   */
   void set_tick(int64_t tick, double period);
   /** Measures at the end of a control tick. @param period  Its length, s. */
   void update(const TrueMotion& truth, double period);

@@ -35,7 +35,7 @@ constexpr double kLeastDistance = 0.4;
 /** Distance of a dragged point from its link's origin, m: more than a link is long. */
 constexpr double kMaxDragPoint = 1;
 
-/** Nothing if none were asked for. */
+/** Empty if none were requested. */
 std::optional<DisturbanceSet> find_disturbances(const SimOptions& options) {
   if (options.disturbances.empty()) return std::nullopt;
   return DisturbanceSet::find(options.disturbances);
@@ -79,7 +79,7 @@ std::shared_ptr<const RobotModel> load_model(const std::string& name) {
   return std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / name));
 }
 
-/** @param index  Of the robot among all that ever were in the world: part of its seed. */
+/** @param index  Index of the robot among all that ever were in the world: part of its seed. */
 void add_robot_to(World& world, const SimOptions& options, const std::string& name,
                   const std::shared_ptr<const RobotModel>& model, const StartPlace& place,
                   int index) {
@@ -315,14 +315,14 @@ std::string SimCore::touch(const WorldCommand& command) {
 std::string SimCore::add_robot(const WorldCommand& command) {
   if (lola_) return "LoLA serves one robot";
   if (!world_.can_change_robots()) {
-    return fmt::format("the engine {} takes no further robots", options_.engine);
+    return fmt::format("the engine {} cannot add robots", options_.engine);
   }
   if (std::string fault = fault_of_robot_name(command.robot); !fault.empty()) return fault;
   if (find_robot(command.robot) >= 0) return fmt::format("there is a robot {}", command.robot);
   if (options_.robots.size() >= kMaxRobots) return fmt::format("there are {} robots", kMaxRobots);
   const std::string& model = command.model.empty() ? options_.robots[0].model : command.model;
   if (model.starts_with('.') || model.find('/') != std::string::npos) {
-    return fmt::format("\"{}\" is no name of a robot's folder", model);
+    return fmt::format("\"{}\" is not a valid name of a robot's folder", model);
   }
   if (!is_within(command.position, kMaxPosition)) {
     return fmt::format("position {} must be finite and within {} m", to_text(command.position),
@@ -352,9 +352,9 @@ std::string SimCore::add_robot(const WorldCommand& command) {
 std::string SimCore::remove_robot(const WorldCommand& command) {
   const int robot = command.robot.empty() ? -1 : find_robot(command.robot);
   if (robot < 0) return fmt::format("there is no robot \"{}\"", command.robot);
-  if (world_.num_robots() == 1) return "the last robot stays";
+  if (world_.num_robots() == 1) return "the last robot cannot be removed";
   if (!world_.can_change_robots()) {
-    return fmt::format("the engine {} keeps its robots", options_.engine);
+    return fmt::format("the engine {} cannot remove robots", options_.engine);
   }
   world_.remove_robot(robot);
   targets_.erase(targets_.begin() + robot);

@@ -28,13 +28,13 @@ class SimCore {
   /** Starts the clock: the first tick is due one period from now. */
   void start(double now) { scheduler_.restart(now); }
 
-  /** With the teams that with_teams() gave, and the robots that are there now. */
+  /** Options, with the teams from with_teams() and the present robots. */
   const SimOptions& options() const { return options_; }
   const World& world() const { return world_; }
   const TickScheduler& scheduler() const { return scheduler_; }
-  /** Index; -1 if there is no robot of that name. The empty name is the first robot's. */
+  /** @return Index; -1 if no robot has that name. The empty name means the first robot. */
   int find_robot(const std::string& name) const;
-  /** Of the last world command; id 0 if there was none. */
+  /** Outcome of the last world command; id 0 if there was none. */
   const WorldCommandOutcome& last_world_command() const { return outcome_; }
 
   /** Sets a robot's targets. @return Nothing, or why the command is rejected: see
@@ -46,7 +46,7 @@ class SimCore {
   [[nodiscard]] std::optional<Reason> take_light_command(int robot, const LightCommand& command) {
     return lights_[static_cast<size_t>(robot)].take(command);
   }
-  /** Of a robot on the bus; with LoLA its lights are in lola(). */
+  /** Lights of a robot on the bus; with LoLA they are in lola(). */
   const SimLights& lights(int robot) const { return lights_[static_cast<size_t>(robot)]; }
   /** Nothing unless options().lola_socket is set. */
   const std::optional<LolaRobot>& lola() const { return lola_; }

@@ -26,7 +26,7 @@ constexpr double kIdlePeriod = 0.1;
 /** Longest time that ticks are run without returning to the event loop, s. Chosen: half the default
  * control period. */
 constexpr double kMaxBurst = 0.005;
-/** Between two body states, s of the robot's time. */
+/** Time between two body states, s of the robot's time. */
 constexpr double kBodyStatePeriod = 0.1;
 
 }  // namespace
@@ -146,7 +146,8 @@ void SimDaemon::take_world_command(const naolcm::world_command_t& message) {
       logger::warn("world command {} from {} rejected: {}", message.command, message.source, error);
     }
   } else if (message.command == "drag" || message.command == "drag-in-torso") {
-    // Ten times a second: not worth a line each, nor another state of the world.
+    // These come ten times a second and need neither a line in the log nor another state of the
+    // world.
     return;
   } else {
     logger::info("world command {} from {}", message.command, message.source);
@@ -165,7 +166,7 @@ void SimDaemon::take_world_command(const naolcm::world_command_t& message) {
 }
 
 // Runs ticks while they are due, for kMaxBurst at most: the event loop must see signals and
-// messages also when the simulator cannot keep up. The timer continues where it stopped.
+// messages even when the simulator cannot keep up. The timer continues where it stopped.
 void SimDaemon::run_due_ticks() {
   double now = monotonic_seconds();
   const double end = now + kMaxBurst;
@@ -229,7 +230,7 @@ void SimDaemon::warn_of_failures(double now) {
   const int64_t num_dropped = std::exchange(num_dropped_contacts_, world.num_dropped_contacts());
   if (num_dropped_contacts_ > num_dropped && dropped_contact_warnings_.allow(now)) {
     logger::warn(
-        "more contacts than memory was taken for at tick {}: bodies may pass through each "
+        "more contacts than the reserved memory holds at tick {}: bodies may pass through each "
         "other ({} contacts left out so far)",
         world.tick(), num_dropped_contacts_);
   }

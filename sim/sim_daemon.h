@@ -39,10 +39,10 @@ class SimDaemon {
 
  private:
   void subscribe_world();
-  /** After robots were added or removed. */
+  /** Updates channels after robots were added or removed. */
   void update_robots();
   void serve_lola();
-  /** Of the robot that has this name; there may be none any more. */
+  /** Passes a command to the robot of this name, which may have been removed. */
   void take_joint_command(const std::string& robot, const naolcm::joint_command_t& message);
   void take_light_command(const std::string& robot, const naolcm::light_command_t& message);
   void take_world_command(const naolcm::world_command_t& message);

@@ -11,10 +11,10 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/** Of a drag: time for which one command acts, s (world_command_t); stiffness, N/m, damping, N s/m,
- * and greatest force, N. Chosen: a limp arm hangs 1 cm below the target, does not swing, and a
- * robot that stands is not pulled over at once. The damping is stable with steps of 2 ms down to 16
- * g. */
+/** Parameters of a drag: time for which one command acts, s (world_command_t); stiffness, N/m;
+ * damping, N s/m; and greatest force, N. Chosen: a limp arm hangs 1 cm below the target and does
+ * not swing, and a standing robot is not pulled over at once. The damping is stable with steps of 2
+ * ms down to a mass of 16 g. */
 constexpr double kDragTime = 0.2;
 constexpr double kDragStiffness = 400;
 constexpr double kDragDamping = 8;

@@ -17,7 +17,7 @@
 
 namespace nao::sim {
 
-/** A hand that pulls at a robot: a spring and a damper between a point of a link and a target. */
+/** A person's pull on a robot: a spring and a damper between a point of a link and a target. */
 struct LinkDrag {
   int link = 0;
   /** m, in the link's frame. */
@@ -30,8 +30,8 @@ struct LinkDrag {
 /** One simulated robot: the order in which its bodies (TreeIntegrator), motors (JointDrives) and
  * sensors take part in a tick and in a step.
  *
- * Users of a World see it const; World and Stepper call the rest. It has more than 25 methods since
- * the phases of a step, which the contacts of all robots couple, are separate calls. */
+ * Users of a World see it as const; World and Stepper call the rest. It has more than 25 methods
+ * since the phases of a step, which the contacts of all robots couple, are separate calls. */
 class SimRobot {
  public:
   /** At rest with servos on, where the options say.
@@ -79,11 +79,12 @@ class SimRobot {
   /** See World::place_robot(). */
   void place(const Posture* posture, const Eigen::Vector3d& ground_position,
              const Eigen::Quaterniond* orientation);
-  /** Places the robot as its options say; its clock and its sensors' noise go on. */
+  /** Places the robot as its options say; its clock and its sensors' noise continue. */
   void return_to_start();
   /** Tick 0: servos on, motors cold, sensors with new biases. */
   void switch_on();
-  /** For a robot that joins a world which has run so many ticks. @param period  Of a tick, s. */
+  /** For a robot that joins a world which has run so many ticks. @param period  Period of a tick,
+   * s. */
   void set_tick(int64_t tick, double period) { sensors_.set_tick(tick, period); }
   /** Impulse at a link's center of mass in the next step, N s, in W. */
   void push(int link, const Eigen::Vector3d& impulse);
@@ -104,7 +105,7 @@ class SimRobot {
   /** Adds the constraint rows of joints and motors. */
   void add_joint_rows(double h, ConstraintSolver& solver);
   /** Adds bounds for motors that exceed their torque with the solver's present solution.
-   * @param scaled_velocity  Of all bodies. @return Whether there were any. */
+   * @param scaled_velocity  Scaled velocities of all bodies. @return Whether there were any. */
   bool add_missed_bounds(double h, const Eigen::VectorXd& scaled_velocity,
                          ConstraintSolver& solver);
   /** Takes over the velocities of the solution that add_missed_bounds() was given last. */
@@ -113,10 +114,10 @@ class SimRobot {
   void mark_in_contact() { is_in_contact_ = true; }
   /** The floor's impulse on a sole, N s, at a point; both in W. @param foot  0 left, 1 right. */
   void add_foot_load(int foot, const Eigen::Vector3d& point, const Eigen::Vector3d& impulse);
-  /** Reads the solution and moves on. */
+  /** Reads the solution and advances. */
   void end_step(double h, const ConstraintSolver& solver);
 
-  // A step of h seconds in another engine than the fast one: its joint forces and pushes, the
+  // A step of h seconds in an engine other than the fast one: its joint forces and pushes, the
   // floor's impulses on the soles (add_foot_load()), then its end.
 
   const std::vector<JointForce>& begin_explicit_step(double h) {
@@ -145,12 +146,12 @@ class SimRobot {
   SensorAccumulator accumulator_;
   Sensors sensors_;
   Floor floor_;
-  /** Of what is lost. */
+  /** Decides which messages are lost. */
   Random random_;
   bool are_readings_lost_ = false;
   bool are_targets_lost_ = false;
   LinkDrag drag_;
-  /** For which the drag still acts, s. */
+  /** Time for which the drag still acts, s. */
   double drag_time_ = 0;
   int first_dof_ = 0;
   bool is_in_contact_ = false;

@@ -18,9 +18,9 @@ using Eigen::Vector3d;
 /** Longest step of the integrator, s. Measured: a standing robot with rotor inertia and explicit
  * contacts is stable at 0.5 ms. */
 constexpr double kMaxStep = 0.0005;
-/** Of the coupled joints, rad; chosen: a tenth of an encoder's step. */
+/** Tolerance of the coupled joints, rad. Chosen: a tenth of an encoder's step. */
 constexpr double kConstraintTolerance = 1e-4;
-/** Speed of its surface below which the rolling resistance of a ball fades out, m/s: explicit, it
+/** Surface speed of a ball below which its rolling resistance fades out, m/s: it is explicit, and
  * would change direction from step to step at rest. */
 constexpr double kRollingSpeed = 0.01;
 /** Contact candidates of the scene, and of each robot. Chosen as for the fast engine. */
@@ -65,7 +65,7 @@ std::unique_ptr<SimTK::Integrator> make_integrator(const SimTK::MultibodySystem&
   auto integrator =
       std::make_unique<SimTK::SemiExplicitEulerIntegrator>(system, step / num_substeps(step));
   integrator->setConstraintTolerance(kConstraintTolerance);
-  // stepTo() then ends with a state of the integrator itself, from which the next step goes on.
+  // stepTo() then ends with a state of the integrator itself, from which the next step continues.
   integrator->setAllowInterpolation(false);
   return integrator;
 }
@@ -102,8 +102,8 @@ class SimbodyEngine::RobotSystem {
   }
 
   /** Takes over the robot's state. */
-  // Also called after a jump: the integrator begins with the new state, without forces of the old
-  // one.
+  // This is also called after a jump: the integrator begins with the new state, without forces of
+  // the old one.
   void start() {
     SimTK::State state = model_.default_state();
     model_.set_state(robot_.tree(), robot_.state(), state);
@@ -125,8 +125,8 @@ class SimbodyEngine::RobotSystem {
       integrate(model_.system(), *integrator_, h);
       read(integrator_->getState());
     } catch (const std::exception&) {
-      // Simbody rejects a state that is not finite. The world is told by such a state, and puts the
-      // robot back to its start.
+      // Simbody rejects a state that is not finite. The engine then reports such a state, and the
+      // world resets the robot.
       state_.position.setConstant(std::numeric_limits<double>::quiet_NaN());
     }
     robot_.set_state(state_);
@@ -209,7 +209,7 @@ class SimbodyEngine::RobotSystem {
     }
     for (const JointForce& motor : motors_) {
       const double speed = state_.velocity[motor.dof];
-      // Dry friction is blurred below the speed that it would stop within a step.
+      // Dry friction is smoothed below the speed that it would stop within a step.
       const double blur = std::max(0.01, kMaxStep * motor.dry_friction / motor_inertia(motor));
       mobility_forces[u_of_dof(motor.dof)] += motor.torque - motor.viscous_friction * speed -
                                               motor.dry_friction * std::tanh(speed / blur) +
@@ -226,7 +226,7 @@ class SimbodyEngine::RobotSystem {
     // Angle beyond the range, rad, with its sign.
     const double bent = std::max(0.0, angle - joint.upper) + std::min(0.0, angle - joint.lower);
     if (bent == 0) return 0;
-    // As stiff and as damped as an explicit step allows.
+    // The stop is as stiff and as damped as an explicit step allows.
     const double inertia = motor_inertia(motor);
     const double stiffness = std::min(kStopStiffness, 0.2 * inertia / (kMaxStep * kMaxStep));
     const double damping = std::min(kStopDamping, 0.3 * inertia / kMaxStep);
@@ -294,7 +294,7 @@ class SimbodyEngine::RobotSystem {
   /** The integrator's time at the start of the step, s. */
   double step_start_ = 0;
   std::vector<int> first_u_;
-  /** Of each of Simbody's generalized speeds: our dof, of which it is `ratio` times the speed. */
+  /** Our dof for each of Simbody's generalized speeds, which is `ratio` times the dof's speed. */
   struct DofOfU {
     int dof = 0;
     double ratio = 1;
@@ -364,8 +364,8 @@ class SimbodyEngine::BallSystem {
       force += pressing;
       moment += (contact.proximity.point - now.position).cross(pressing);
       if (contact.b.kind != Surface::Kind::kFloor) continue;
-      // As Ball::add_rolling_resistance(); the direction is blurred near rest as sliding is.
-      // Rolling resistance: a torque of 7/5 r a / g N slows a solid sphere down by a.
+      // As Ball::add_rolling_resistance(); the direction is smoothed near rest, as that of sliding
+      // is. Rolling resistance: a torque of 7/5 r a / g N slows a solid sphere down by a.
       const double arm = 1.4 * ball_.radius() *
                          engine_.options_.materials.ball_rolling_deceleration /
                          engine_.options_.gravity.norm();

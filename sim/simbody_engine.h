@@ -37,7 +37,7 @@ class SimbodyEngine : public Engine {
   class RobotSystem;
   class BallSystem;
 
-  /** Of all bodies where they are now. */
+  /** Finds the contact candidates of all bodies in their current state. */
   const std::vector<ContactCandidate>& find_candidates();
   void collect_contacts();
   /** Number of the integrator's substep at a time since the start of the step, s. */

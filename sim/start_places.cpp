@@ -14,11 +14,11 @@ namespace {
 
 /** Distance between robots without a team, m: arms do not meet. */
 constexpr double kRobotSpacing = 0.8;
-/** Half the length and width of the field where the scene has none, m: the soccer scene's. */
+/** Half the length and width of the field if the scene has none, m: the soccer scene's. */
 const Eigen::Vector2d kDefaultHalfField(4.5, 3.0);
-/** Places of a team by order, in halves of the field's length and width; x away from the own goal
- * line is less. Chosen: a striker in front of the center circle, two players behind it, a keeper
- * before the goal, one more at the side. */
+/** Places of a team by order, in halves of the field's length and width; x away from the team's own
+ * goal line is less. Chosen: a striker in front of the center circle, two players behind it, a
+ * keeper before the goal, one more at the side. */
 constexpr std::array<std::array<double, 2>, kMaxTeamSize> kFormation{
     {{-0.24, 0}, {-0.5, 0.4}, {-0.5, -0.4}, {-0.93, 0}, {-0.3, -0.75}}};
 

@@ -3,8 +3,8 @@
 namespace nao::sim {
 namespace {
 
-/** Looks for the next round before a thread goes to sleep: about 50 us, longer than what the
- * calling thread does alone between two steps of a tick, and much shorter than a tick. */
+/** Number of polls for the next round before a thread goes to sleep: about 50 us, longer than the
+ * calling thread's own work between two steps of a tick, and much shorter than a tick. */
 constexpr int kLooks = 1000;
 
 void pause() {
@@ -38,8 +38,8 @@ void StepThreads::run(int count, Call call, void* context) {
   ++round_;
   round_.notify_all();
   take_items();
-  // A thread that was not given the processor in time has nothing left to do, but must have seen
-  // that before the next round.
+  // A thread that was not scheduled in time has nothing left to do, but must notice that before the
+  // next round.
   for (int looks = 0; num_working_ > 0; ++looks) {
     if (looks < kLooks) {
       pause();

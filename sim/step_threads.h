@@ -10,7 +10,7 @@ namespace nao::sim {
  * they look for work without going to sleep. The calling thread is one of them. */
 class StepThreads {
  public:
-  /** @param count  With the calling thread, 1 or more. */
+  /** @param count  Number of threads, including the calling one; 1 or more. */
   explicit StepThreads(int count);
   ~StepThreads();
   StepThreads(const StepThreads&) = delete;

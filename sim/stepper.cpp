@@ -26,7 +26,7 @@ void Stepper::remove_robot(int robot) {
 }
 
 // Gives each robot and the ball its range of dofs in the common vector of scaled velocities, and
-// takes memory for the most constraints. A step allocates nothing.
+// allocates memory for the greatest number of constraints. A step allocates nothing.
 void Stepper::reserve() {
   int num_dofs = 0;
   size_t max_chain = 0;
@@ -50,7 +50,7 @@ void Stepper::reserve() {
   }
   size_t max_contacts = 0;
   for (size_t i = 0; i < max_islands; ++i) {
-    // Before the island of this index come as many others, with a robot each.
+    // As many islands come before this index, each with at least one robot.
     steppers_[i]->reserve(num_robots - static_cast<int>(i), num_dofs, static_cast<int>(max_chain));
     max_contacts += steppers_[i]->max_contacts();
   }

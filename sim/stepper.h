@@ -20,7 +20,7 @@ namespace nao::sim {
  * Semi-implicit Euler: forces and constraints give the velocities at the end of the step, and the
  * positions follow with them. Servos, the motors' torque-speed lines and viscous friction are
  * implicit (on the diagonal of the mass matrix); contacts, joint stops, dry friction and torque
- * limits are constraints that a projected Gauss-Seidel solver meets. See docs/physics.md.
+ * limits are constraints that a projected Gauss-Seidel solver satisfies. See docs/physics.md.
  *
  * Islands are stepped one after the other, or by several threads (WorldOptions::num_threads), with
  * the same bits as result: no island reads what another one writes. */
@@ -30,7 +30,7 @@ class Stepper : public Engine {
   Stepper(const SceneFile& scene, const WorldOptions& options, MovingBodies& bodies);
 
   const char* name() const override { return "fast"; }
-  /** Numbers the degrees of freedom and takes memory. */
+  /** Numbers the degrees of freedom and allocates memory. */
   void add_robot() override;
   bool can_change_robots() const override { return true; }
   void remove_robot(int robot) override;
@@ -55,7 +55,7 @@ class Stepper : public Engine {
  private:
   void reserve();
   void clear_contacts();
-  /** Puts together what the islands' steps left. */
+  /** Combines the results of the islands' steps. */
   void collect(size_t num_islands);
 
   const WorldOptions& options_;

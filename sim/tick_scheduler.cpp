@@ -5,15 +5,15 @@
 namespace nao::sim {
 namespace {
 
-/** Delay from which on a tick counts as late, s; world_truth_t has the same number. */
+/** Delay above which a tick counts as late, s; world_truth_t has the same number. */
 constexpr double kLateTick = 0.002;
-/** A robot without a command for this time has no controller, s; joint_command_t has the same
+/** Time without a command after which a robot has no controller, s; joint_command_t has the same
  * number. */
 constexpr double kSilence = 0.5;
 /** Control periods after the last tick that a tick waits for a missing answer. Chosen: commands may
  * be one or two ticks late without a fall. */
 constexpr double kMaxWaitPeriods = 3;
-/** The controller must have answered within this time for a tick to wait for it, s. Chosen: longer
+/** Time within which the controller must have answered for a tick to wait for it, s. Chosen: longer
  * than any wait, shorter than kSilence. */
 constexpr double kActive = 0.1;
 

@@ -13,10 +13,10 @@ namespace nao::sim {
  *
  * In lock-step a tick is run as soon as all robots' commands for the one before are there.
  * Otherwise it is run when it is due by the wall clock; if a robot's controller is nearby (it has
- * answered within a period lately) and its answer is missing, the tick waits for it, up to three
+ * recently answered within a period) and its answer is missing, the tick waits for it, up to three
  * periods after the last tick: on a busy machine a world that is a little late is better than a
- * robot that falls. Controllers at the far end of a slow network are not waited for, which would
- * slow the world down for good. */
+ * robot that falls. It does not wait for controllers at the far end of a slow network, which would
+ * slow down the world permanently. */
 class TickScheduler {
  public:
   /** The clock begins at 0. @param period  Control period, s. @param pace  As set_pace(); in
@@ -35,7 +35,7 @@ class TickScheduler {
   bool is_stopped() const { return is_paused_ && ticks_to_step_ == 0; }
   void pause() { is_paused_ = true; }
   void resume(double now);
-  /** Runs so many ticks, after those asked for before, and pauses. */
+  /** Runs so many ticks, after those requested before, and pauses. */
   void step(int64_t num_ticks, double now);
   /** The world was reset to tick 0. */
   void reset(double now);
@@ -44,7 +44,7 @@ class TickScheduler {
   /** The indices of the robots after it fall by one. */
   void remove_robot(int robot) { commands_.erase(commands_.begin() + robot); }
 
-  /** A robot's joint command was received. @param answered_tick  Of the sensor state. */
+  /** A robot's joint command was received. @param answered_tick  Tick of the sensor state. */
   void note_command(int robot, int64_t answered_tick, double now);
 
   /** Whether the tick after `tick` may be run, as far as pause and lock-step decide. */

@@ -91,7 +91,7 @@ Tree::Tree(const SimbodyModel& model) {
         dof_ancestors_.push_back(parent_chain);
         dof_body_.push_back(index);
       }
-      // body_of_dof() means the leader's body, also where the follower was found first.
+      // body_of_dof() means the leader's body, even if the follower was found first.
       if (joint.mimic_joint < 0) dof_body_[body.dof] = index;
       body.chain = parent_chain;
       body.chain.push_back(body.dof);

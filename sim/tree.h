@@ -39,10 +39,10 @@ struct TreeBody {
 /** A robot's bodies and joints as constants, as plain arrays for a physics step.
  *
  * **Generalized velocity.** Degrees of freedom (dofs) 0..2 are the root's angular velocity and 3..5
- * the velocity of its origin, both in the world, W; then one for each joint that is no mimic, in
- * the order of the bodies. A mimic joint shares the dof of the joint that it follows. The dofs form
- * a tree (`dof_ancestors`): entry (i, j) of the mass matrix is 0 unless one of the two is an
- * ancestor of the other (branch-induced sparsity; Featherstone, Rigid Body Dynamics Algorithms,
+ * the velocity of its origin, both in the world, W; then one for each joint that is not a mimic
+ * joint, in the order of the bodies. A mimic joint shares the dof of the joint that it follows. The
+ * dofs form a tree (`dof_ancestors`): entry (i, j) of the mass matrix is 0 unless one of the two is
+ * an ancestor of the other (branch-induced sparsity; Featherstone, Rigid Body Dynamics Algorithms,
  * 2008, 6.4). */
 class Tree {
  public:

@@ -31,7 +31,7 @@ struct SpatialVector {
 };
 
 /** Poses, mass matrix and bias forces of a tree in one state, and linear systems with its mass
- * matrix. All memory is taken in the constructor.
+ * matrix. All memory is allocated in the constructor.
  *
  * Spatial vectors are expressed in W's axes about the root's present origin O, so that no quantity
  * has to be transformed from body to body. Source: R. Featherstone, Rigid Body Dynamics Algorithms
@@ -97,16 +97,16 @@ class TreeDynamics {
   /** Motion of the tree as one rigid body, joints held, that has a momentum about O. After
    * update_mass_matrix(). */
   SpatialVector rigid_motion(const SpatialVector& momentum) const;
-  /** Momentum of the whole tree about O with a generalized velocity, which may be another than that
-   * of the state. After update_mass_matrix(); not with a fixed root. */
+  /** Momentum of the whole tree about O with a generalized velocity, which may differ from that of
+   * the state. After update_mass_matrix(); not with a fixed root. */
   SpatialVector momentum_at(const Eigen::VectorXd& velocity) const;
   /** Changes the root's velocity so that the whole tree has a momentum about O; joint rates stay.
    * After update_mass_matrix().
    * @param velocity  Generalized velocity; its first six are changed. @return The change. */
   SpatialVector set_momentum(const SpatialVector& target, Eigen::VectorXd& velocity);
 
-  /** Of the whole tree: center of mass, m; linear momentum, N s; angular momentum about the center
-   * of mass, N m s; kinetic energy, J, without the rotors. All in W. */
+  /** Quantities of the whole tree: center of mass, m; linear momentum, N s; angular momentum about
+   * the center of mass, N m s; kinetic energy, J, without the rotors. All in W. */
   Eigen::Vector3d center_of_mass() const { return origin_ + center_of_mass_from_origin(); }
   Eigen::Vector3d center_of_mass_from_origin() const;
   Eigen::Vector3d linear_momentum() const;
@@ -124,10 +124,10 @@ class TreeDynamics {
     SpatialVector motion;
     double rate = 0;
     SpatialVector velocity;
-    /** Of the body, and of the body with all its descendants. */
+    /** Inertia of the body, and of the body with all its descendants. */
     SpatialInertia inertia;
     SpatialInertia composite;
-    /** Of the recursive Newton-Euler algorithm, with generalized accelerations of 0. */
+    /** Terms of the recursive Newton-Euler algorithm with generalized accelerations of 0. */
     SpatialVector acceleration;
     SpatialVector force;
   };

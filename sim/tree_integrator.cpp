@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr double kMaxRate = 300;
 /** m/s. */
 constexpr double kMaxSpeed = 100;
-/** m from the origin, and below the floor (a lying torso is above 0). */
+/** Distance from the origin, and below the floor, m (a lying torso is above 0). */
 constexpr double kMaxDistance = 1000;
 constexpr double kMaxDepth = 0.2;
 
@@ -103,7 +103,7 @@ void TreeIntegrator::begin_step(double h) {
     work_.segment<3>(3) += h * back.linear;
   }
   dynamics_.multiply_by_mass(work_, momentum_);
-  // M u + impulses - h c: momentum after the step's smooth forces, but for the joints' (added by
+  // M u + impulses - h c: momentum after the step's smooth forces, except the joints' (added by
   // JointDrives).
   momentum_ += external_impulse_ - h * bias_;
   // The root's rows of M are the unit matrix on a stand: zero momentum keeps it at rest.

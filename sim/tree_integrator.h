@@ -7,7 +7,7 @@
 
 namespace nao::sim {
 
-/** State of one robot's tree, and its way through a time step: momentum, velocities, positions.
+/** State of one robot's tree, and its time step: momentum, velocities, positions.
  *
  * Semi-implicit Euler in terms of momentum. With mass matrix M, velocity u, bias forces c (Coriolis
  * and gravity), joint forces f and their implicit part D (damping, and reflected rotor inertia):
@@ -36,7 +36,7 @@ class TreeIntegrator {
   void add_impulse_at(int body, const Eigen::Vector3d& point, const Eigen::Vector3d& impulse);
 
   /** Generalized impulses of the pushes since the last step, N m s and N s, (num_dofs), for other
-   * engines; they are taken out. */
+   * engines; they are removed. */
   Eigen::VectorXd take_impulses();
   /** Takes over a state that another engine has computed. */
   void set_state(const TreeState& state);
@@ -61,7 +61,7 @@ class TreeIntegrator {
   }
   /** Takes over the result of the last velocity_of() as the tree's velocity. */
   void take_velocity();
-  /** Moves on by h seconds. @param is_in_contact  Whether a contact force acted in the step. */
+  /** Advances by h seconds. @param is_in_contact  Whether a contact force acted in the step. */
   void integrate(double h, bool is_in_contact);
 
   /** Whether the state is finite and within what a valid simulation reaches: 300 rad/s, 100 m/s,

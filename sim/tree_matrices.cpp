@@ -113,7 +113,7 @@ void TreeDynamics::calc_body_rows(int body_index, EntryPair* rows) const {
       const bool has_entry = !is_root_fixed_ && 2 * pair <= axis;
       sum[axis] = has_entry ? inverse_row(axis)[pair] : EntryPair::Zero();
     }
-    // Joints on the way from the body to the root: their motions, once for each of their entries.
+    // Joints between the body and the root: their motions, once for each of their entries.
     int place = static_cast<int>(chain.size()) - 1;
     for (int index = body_index; index > 0 && place >= 2 * pair; --place) {
       const SpatialVector& motion = bodies_[index].motion;

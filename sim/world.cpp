@@ -105,8 +105,8 @@ void World::step_tick() {
 
 void World::check_states() {
   for (int i = 0; i < num_robots(); ++i) {
-    // A diverged state would spread through contacts to other bodies. Its robot starts again, the
-    // others go on.
+    // A diverged state would spread through contacts to other bodies. Its robot restarts, and the
+    // others continue.
     if (robot(i).is_within_bounds()) continue;
     ++num_bad_states_;
     return_to_start(i);

@@ -16,7 +16,7 @@
 
 namespace nao::sim {
 
-/** A simulated world: a floor, robots, and as the scene has them a ball and goals.
+/** A simulated world: a floor, robots, and, if the scene has them, a ball and goals.
  *
  * Frame W: x along the field, y left, z up, origin on the ground at the center of the field.
  * SI units and rad. The same calls on the same build give the same bits, with any number of
@@ -31,7 +31,7 @@ namespace nao::sim {
  *     }
  *
  * It has more than 25 methods since it is the whole interface of the physics: users change robots
- * and ball through it only (robot() is const). The work is done by Engine, SimRobot and Ball. */
+ * and ball only through it (robot() is const). The work is done by Engine, SimRobot and Ball. */
 class World {
  public:
   using Stage = Engine::Stage;
@@ -49,7 +49,8 @@ class World {
 
   /** Whether robots may be added after the first tick, and removed: with the fast engine. */
   bool can_change_robots() const { return engine_->can_change_robots(); }
-  /** Takes a robot away; only if can_change_robots(). The indices of those after it fall by one. */
+  /** Removes a robot; only if can_change_robots(). The indices of those after it decrease by one.
+   */
   void remove_robot(int robot);
 
   int num_robots() const { return bodies_.num_robots(); }
@@ -86,11 +87,11 @@ class World {
   /** Contact points with a force in the last step. A pair of bodies may have several. */
   const std::vector<Contact>& contacts() const { return engine_->contacts(); }
 
-  /** Everything as at the start, at tick 0. Only the sensors' noise goes on. */
+  /** Resets everything to the start, at tick 0. Only the sensors' noise continues. */
   void reset();
   /** Places a robot at rest. @param posture  Angles of all motors, or nullptr to keep them.
    * @param position  x, y of the torso, and least height of the robot over the floor; m.
-   * @param orientation  Of the torso. nullptr: as the posture rests, facing along x. */
+   * @param orientation  Orientation of the torso. nullptr: as the posture rests, facing along x. */
   void place_robot(int robot, const Posture* posture, const Eigen::Vector3d& position,
                    const Eigen::Quaterniond* orientation = nullptr);
   /** @param position  x, y, and height of the ball's lowest point over the floor; m. Without a
@@ -103,14 +104,14 @@ class World {
   /** Without a ball: no effect. */
   void push_ball(const Eigen::Vector3d& impulse);
 
-  /** Times since reset() that a robot or the ball had left all physical bounds (see
+  /** How often since reset() a robot or the ball has left all physical bounds (see
    * SimRobot::is_within_bounds()) and was put back to its start. */
   int64_t num_bad_states() const { return num_bad_states_; }
-  /** Contacts since reset() that carried no force, because a step had more than memory was taken
-   * for (64, and 96 for each robot). */
+  /** Contacts since reset() that carried no force, because a step had more than the reserved memory
+   * holds (64, and 96 for each robot). */
   int64_t num_dropped_contacts() const { return engine_->num_dropped_contacts(); }
-  /** Kinetic (with rotors) and potential energy of robots and ball, and what the springs of
-   * contacts and joint stops store, J. */
+  /** Kinetic (with rotors) and potential energy of robots and ball, and the energy in the springs
+   * of contacts and joint stops, J. */
   double energy() const;
   /** Calls `probe(stage, user)` after each stage of every step; for measurements. */
   void set_stage_probe(Engine::StageProbe probe, void* user) {
@@ -120,7 +121,7 @@ class World {
   int last_iterations() const { return engine_->last_iterations(); }
 
  private:
-  /** Puts back what has left all physical bounds. */
+  /** Puts back bodies that have left all physical bounds. */
   void check_states();
   void return_to_start(int robot);
   void return_ball_to_start();

@@ -6,8 +6,7 @@
 
 namespace nao::sim {
 
-/** A change of the simulated world; world_command_t, which it is read from, describes every field.
- */
+/** A change of the simulated world, read from world_command_t, which describes every field. */
 struct WorldCommand {
   std::string source;
   int64_t id = 0;
@@ -28,7 +27,7 @@ struct WorldCommand {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
 };
 
-/** What became of a world command. */
+/** Result of a world command. */
 struct WorldCommandOutcome {
   std::string source;
   int64_t id = 0;

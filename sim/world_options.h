@@ -38,9 +38,9 @@ struct Materials {
 
   /** Stiffens the springs and dampers of contact points for a robot that is heavier than
    * kSpringMass, in proportion, so that its weight presses its soles as deep into the floor as that
-   * of a robot of kSpringMass. On springs for the weight of a NAO (5.3 kg) a robot of 32 kg stands
-   * as on a mattress: a sole 10 cm wide on springs of 1e4 N/m resists tilting with less than the
-   * robot's weight times its height. @param mass  Of the robot, kg. */
+   * of a robot of kSpringMass. On springs for the weight of a NAO (5.3 kg) a robot of 32 kg would
+   * tip over: a sole 10 cm wide on springs of 1e4 N/m resists tilting with less than the robot's
+   * weight times its height. @param mass  Mass of the robot, kg. */
   void bear(double mass) {
     const double ratio = std::max(1.0, mass / kSpringMass);
     contact_stiffness *= ratio;
@@ -49,8 +49,8 @@ struct Materials {
     tangent_damping *= ratio;
   }
 
-  /** Greatest mass of a robot that the springs above are meant for, kg. Chosen: just above a NAO's.
-   */
+  /** Greatest mass of a robot for which the springs above are meant, kg. Chosen: just above a
+   * NAO's. */
   static constexpr double kSpringMass = 6;
 };
 
@@ -90,7 +90,7 @@ struct RobotOptions {
   std::string name = "NAO";
   /** Posture that it starts in, and that its servos hold until targets are set. */
   std::string posture{};
-  /** Of the torso over the ground, m, and heading, rad. */
+  /** Position of the torso on the ground, m, and its heading, rad. */
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double heading = 0;
   /** Factors on all masses, on the motors' torques, and on the friction of the robot on the floor:
@@ -98,8 +98,7 @@ struct RobotOptions {
   double mass_scale = 1;
   double torque_scale = 1;
   double friction_scale = 1;
-  /** Control ticks between setting a target and the motors' following it, 0 to 10. A real NAO: 1.
-   */
+  /** Control ticks until the motors follow a new target, 0 to 10. A real NAO has 1. */
   int command_latency_ticks = 1;
   /** Holds the torso fixed where it starts. */
   bool is_on_stand = false;

@@ -17,8 +17,8 @@
 namespace nao::viewer {
 namespace {
 
-/** s. Chosen: a period of many times the latency of a bus on one network, and ten repetitions, of
- * which a receiver that runs answers at least one. */
+/** Period and end of the repetitions, s. Chosen: a period of many times the latency of a bus on one
+ * network, and ten repetitions, of which a running receiver answers at least one. */
 constexpr CommandRetry::Timing kTiming{.repeat_period = 0.2, .answer_timeout = 2.0};
 
 }  // namespace
@@ -39,7 +39,7 @@ Message CommandSender::make_command() {
   return message;
 }
 
-// Sent now, and repeated by repeat() until it is answered.
+// The command is sent now, and repeated by repeat() until it is answered.
 void CommandSender::send(const std::string& name, int64_t id, std::function<void()> publish) {
   const double now = monotonic_seconds();
   Pending& pending =
@@ -95,7 +95,7 @@ void CommandSender::place_ball(double x, double y) {
   message.command = "place-ball";
   message.position_in_world[0] = x;
   message.position_in_world[1] = y;
-  // Only the last place of a ball that is dragged counts: earlier ones are not repeated.
+  // Only the last place of a dragged ball counts: earlier ones are not repeated.
   std::erase_if(pending_, [&](const Pending& pending) { return pending.name == message.command; });
   send_world(message);
 }

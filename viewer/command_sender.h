@@ -38,7 +38,7 @@ class CommandSender {
   void end_walk();
 
   /** Sends a command of the simulator without arguments: "pause", "resume", "step" or "reset".
-   * @param num_ticks  Of "step". */
+   * @param num_ticks  Number of ticks of "step". */
   void send_world_command(const std::string& command, int64_t num_ticks = 0);
   /** Places the ball; replaces an earlier placement that is not acknowledged yet.
    * @param x, y  m, in the world. */

@@ -27,7 +27,7 @@ ImageTexture::~ImageTexture() {
 }
 
 bool ImageTexture::load_jpeg(const std::vector<uint8_t>& file) {
-  // One for each file: after an error in a header it would refuse every file that follows.
+  // Each file gets its own decoder: after an error in a header, one would refuse all later files.
   const std::unique_ptr<void, decltype(&tjDestroy)> decoder(tjInitDecompress(), &tjDestroy);
   if (decoder == nullptr) throw Error("libturbojpeg cannot decompress");
   int width = 0;

@@ -29,7 +29,7 @@ class LogPlayer {
     log_.read(time_ - window, time_, visit);
   }
 
-  /** s since the first message of the log. */
+  /** Time since the first message of the log, s. */
   double time() const { return time_; }
   double duration() const { return log_.duration(); }
 

@@ -15,7 +15,8 @@ constexpr double kMaxImpulse = 10;
 const Color kPushColor(0.95f, 0.75f, 0.05f, 1);
 /** Factor on the radius of a handle in which it is grabbed. */
 constexpr double kGrabFactor = 1.3;
-/** The ball is placed at most this often, s, and only after it was dragged this far, m. */
+/** Least time between two placements of the ball, s, and least distance by which it was dragged
+ * before, m. */
 constexpr double kBallPeriod = 0.1;
 constexpr double kMinBallMotion = 1e-3;
 /** Limit of the ball's distance from the origin, m: outside of the hall. A ray near the horizon
@@ -78,7 +79,7 @@ const Handle* MouseControl::handle_at(const WorldView& world, const Eigen::Vecto
     const double depth = to_handle.dot(ray);
     const double miss = (to_handle - depth * ray).norm();
     if (depth <= 0 || miss > kGrabFactor * handle.radius) continue;
-    // Of several handles on the ray the nearest one.
+    // Take the nearest of several handles on the ray.
     if (nearest == nullptr || depth < nearest_depth) {
       nearest = &handle;
       nearest_depth = depth;

@@ -31,7 +31,7 @@ class MouseControl {
  private:
   enum class Drag { kNone, kView, kBall, kPush };
 
-  /** Starts to drag what is under the mouse: a handle, or the view. */
+  /** Starts to drag the object under the mouse: a handle, or the view. */
   void start_drag(const WorldView& world, const Eigen::Vector3d& ray_in_camera, bool can_grab);
   /** @return nullptr if the ray hits no handle. */
   const Handle* handle_at(const WorldView& world, const Eigen::Vector3d& ray_in_camera,

@@ -25,16 +25,18 @@ struct OrbitCamera {
   /** Rotates by a mouse movement. @param du, dv  Pixels, to the right and down. */
   void rotate(double du, double dv);
 
-  /** Moves the target with the mouse. @param du, dv  Pixels. @param height  Of the image, pixels.
+  /** Moves the target with the mouse. @param du, dv  Pixels. @param height  Height of the image,
+   * pixels.
    */
   void pan(double du, double dv, int height);
 
-  /** @param steps  Of the mouse wheel; positive: nearer. */
+  /** @param steps  Steps of the mouse wheel; positive: nearer. */
   void zoom(double steps);
 };
 
 /** Intersection of a camera's ray with a horizontal plane.
- * @param pose_camera_in_world  Camera axes as OrbitCamera::pose(). @param height  Of the plane, m.
+ * @param pose_camera_in_world  Camera axes as OrbitCamera::pose(). @param height  Height of the
+ * plane, m.
  * @param point  The intersection in the world, m.
  * @return false if the ray does not hit the plane in front of the camera. */
 bool intersect_plane(const Eigen::Isometry3d& pose_camera_in_world,

@@ -2,7 +2,7 @@
 
 namespace nao::viewer {
 
-/** What the 3D view shows. */
+/** Contents of the 3D view. */
 struct ViewChoice {
   bool estimated_robot = true;
   bool true_robot = true;
@@ -14,7 +14,7 @@ struct ViewChoice {
   /** Draws the estimated robot translucent, so that markings inside of it are visible. */
   bool translucent = false;
 
-  /** The estimated robot only. */
+  /** Draws only the estimated robot. */
   static ViewChoice without_markings() {
     return {true, false, false, false, false, false, false, false};
   }

@@ -97,7 +97,7 @@ void Viewer::seek(double time) {
 }
 
 LogFile::Visitor Viewer::log_visitor() {
-  // A log may contain channels of other projects, so messages that do not decode are no error.
+  // A log may contain channels of other projects, so messages that do not decode are not an error.
   return [this](const std::string& channel, const std::vector<uint8_t>& data, double time) {
     store_.receive(channel, data.data(), static_cast<int>(data.size()), time);
     plots_.receive(channel, data.data(), static_cast<int>(data.size()), time);

@@ -37,7 +37,7 @@ struct ViewerOptions {
   std::vector<std::string> plots;
   /** Posture shown before a state is received. */
   std::string waiting_posture{};
-  /** The view follows the robot. */
+  /** Whether the view follows the robot. */
   bool follow = true;
   /** Draw no markings: forces, center of mass, footsteps and so on. */
   bool without_marks = false;

@@ -49,7 +49,7 @@ WorldView::WorldView(const RobotModel& model, SceneRenderer& renderer, const std
       markers_(renderer),
       surroundings_(renderer) {}
 
-// Builds the scene of this frame anew: truth, estimate, footsteps, or the waiting robot if nothing
+// Rebuilds the scene for this frame: truth, estimate, footsteps, or the waiting robot if nothing
 // has come. A message that does not decode is reported, and the rest is drawn.
 void WorldView::update(const MessageStore& store, const ViewChoice& choice) {
   scene_.clear();
@@ -96,7 +96,7 @@ void WorldView::add_truth(const naolcm::world_truth_t& truth, const ViewChoice& 
       pose_torso_in_world_ = robot.pose_torso_in_world;
       has_robot_ = true;
     }
-    // Beside the estimate the truth is tinted, so that both can be told apart.
+    // The truth is tinted if the estimate is also drawn, so that they can be distinguished.
     const bool is_compared = is_own && has_estimate && choice.estimated_robot;
     Scene hidden;
     add_handles(robot, visuals_.append(is_own && !choice.true_robot ? hidden : scene_, robot,

@@ -40,7 +40,7 @@ class WorldView {
   const Scene& scene() const { return scene_; }
   /** Faults of messages and files in the last update, one sentence each. */
   const std::vector<std::string>& problems() const { return problems_; }
-  /** What the mouse can grab. */
+  /** Handles that the mouse can grab. */
   const std::vector<Handle>& handles() const { return handles_; }
 
   /** Pose of the robot's torso, for a camera that follows it; valid if has_robot(). */
@@ -72,7 +72,7 @@ class WorldView {
   Markers markers_;
   SceneSurroundings surroundings_;
   OdometryAlignment odometry_;
-  // Of the last update.
+  // Results of the last update.
   Scene scene_;
   std::vector<std::string> problems_;
   std::vector<Handle> handles_;

@@ -16,8 +16,8 @@
 namespace nao::camera {
 namespace {
 
-/** After each write, so that the held line is seen as a reset. Chosen: far above the milliseconds
- * that a reset input needs. */
+/** Pause after each write, s, so that the held line acts as a reset. Chosen: far above the
+ * milliseconds that a reset input needs. */
 constexpr std::chrono::milliseconds kPause{100};
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace {
 
 /** Selects the bytes 0 and 2 of a pixel; the zeros above each leave room for the sum of four. */
 constexpr uint32_t kEveryOther = 0x00ff00ff;
-/** 2 in both sums: rounds the division by 4 to the nearest. */
+/** Adding 2 to both sums rounds the division by 4 to the nearest. */
 constexpr uint32_t kRounding = 0x00020002;
 
 uint32_t load(const uint8_t* pixel) {

@@ -11,8 +11,8 @@
 namespace nao::camera {
 namespace {
 
-/** Images whose mean is a blurred one. Chosen: each costs a full rendering, and steps in the blur
- * are visible only above a few pixels a step. */
+/** Number of images whose mean is a blurred image. Chosen: each costs a full rendering, and steps
+ * in the blur are visible only above a few pixels a step. */
 constexpr int kNumExposureSamples = 4;
 
 CameraModel find_camera(const RobotModel& model, const std::string& name) {
@@ -95,7 +95,7 @@ void HeadCamera::read_back() {
   framebuffer_.read(frame_.bgrx[0]);
 }
 
-// Each level from the one above: 640, 320, 160 pixels wide, down to what is asked for.
+// Each level is made from the one above: 640, 320, 160 pixels wide, down to the requested width.
 void HeadCamera::make_smaller(int min_width) {
   for (int level = 1; level <= CameraFrame::level(min_width); ++level) {
     halve(frame_.bgrx[level - 1], kFullWidth >> (level - 1), kFullHeight >> (level - 1),
@@ -106,7 +106,7 @@ void HeadCamera::make_smaller(int min_width) {
 void HeadCamera::expose(const WorldState& earlier, const WorldState& world,
                         const std::string& camera) {
   // The exposure ends at the time of `world`. It is divided into equal parts with one sample in the
-  // middle of each, so that the mean time of the samples is mid exposure, which the frame states.
+  // middle of each, so that the mean time of the samples is the mid exposure that the frame states.
   const double interval = 1e-6 * static_cast<double>(world.utime - earlier.utime);
   exposure_.clear();
   for (int i = 0; i < kNumExposureSamples; ++i) {
@@ -143,7 +143,7 @@ const CameraFrame& HeadCamera::take(const WorldState& world, const std::string& 
     read_back();
     frame_.exposure_time = 0;
   }
-  // Order of a real camera: lens, then sensor noise, then the smaller sizes made of it.
+  // The order is that of a real camera: lens, then sensor noise, then the smaller sizes.
   distort();
   if (noise_ && camera != kOverviewCamera) noise_->add(frame_.bgrx[0], frame_.utime);
   make_smaller(min_width);

@@ -52,9 +52,9 @@ class HeadCamera {
    *   image over itself. */
   HeadCamera(const RobotModel& model, const HeadCameraOptions& options);
 
-  /** Computes the image of one camera, also available as frame().
+  /** Computes the image of one camera, which frame() returns, too.
    * @param camera  Name of a camera of the robot, or kOverviewCamera: without lens distortion,
-   *   exposure and noise, and also where the robot is not in the world.
+   * exposure and noise, even if the robot is not in the world.
    * @param min_width  Sizes below this width are not computed.
    * @param earlier  A state shortly before `world`, from which the motion during the exposure is
    *   interpolated; nullptr if there is none: the image is then not blurred, and its exposure time
@@ -63,7 +63,8 @@ class HeadCamera {
   const CameraFrame& take(const WorldState& world, const std::string& camera, int min_width,
                           const WorldState* earlier = nullptr);
 
-  /** The steps of take(), for measuring them: drawing, reading back, the smaller sizes. */
+  /** The steps of take(), public so that they can be measured: drawing, reading back, the smaller
+   * sizes. */
   void draw(const WorldState& world, const std::string& camera);
   void read_back();
   void make_smaller(int min_width);
@@ -89,14 +90,14 @@ class HeadCamera {
   RobotVisuals visuals_;
   SceneSurroundings surroundings_;
   gl::Framebuffer framebuffer_;
-  /** By camera name; empty without distortion. */
+  /** Lens of each camera name; empty without distortion. */
   std::map<std::string, Lens> lenses_;
   std::optional<ImageNoise> noise_;
   Exposure exposure_;
   std::vector<uint8_t> distorted_;
   Scene scene_;
   std::vector<std::string> problems_;
-  /** Of visuals_.problems(), those that take_problems() returned. */
+  /** Number of visuals_.problems() that take_problems() has returned. */
   size_t num_told_problems_ = 0;
   CameraFrame frame_;
 };

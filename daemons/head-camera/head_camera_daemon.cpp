@@ -112,7 +112,7 @@ void HeadCameraDaemon::step(const std::string& camera, double now) {
   std::vector<ImageRequest> due = schedules_[camera].due(requests);
   if (!source_->has_image(camera, now)) return;
   remove_unchanged(due, now);
-  // A failed image must not end the program; requests and states go on.
+  // A failed image must not end the program; requests and states continue.
   try {
     send_images(camera, due, now);
   } catch (const std::exception& error) {

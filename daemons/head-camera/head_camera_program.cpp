@@ -72,7 +72,7 @@ void add_sensor_options(nao::CommandLine& app, HeadCameraOptions& options,
                  "Standard deviation of the noise of each color, 0 to 60 levels of 255")
       ->show_default();
   app.add_option("--exposure", sensor.exposure_ms,
-                 "Exposure time, 0 to 33 ms; blurs what moves (default: 0)");
+                 "Exposure time, 0 to 33 ms; blurs motion (default: 0)");
   app.add_option("--webots-images", sensor.webots_port,
                  "Also serve YUYV images of 640x480 to programs made for the Webots LoLA "
                  "controller: TCP port, on this host only, of the first camera; the next camera "

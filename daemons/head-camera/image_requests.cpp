@@ -12,8 +12,7 @@ constexpr double kValidity = 2.0;
 /** Limit of stored requests, against a sender that changes its name with every message. Chosen: far
  * above the number of receivers on a bus. */
 constexpr size_t kMaxEntries = 256;
-/** Credit from which an image is due: 1 without the rounding error of sums such as 1/3 + 1/3 + 1/3.
- */
+/** Credit at which an image is due: 1, less the rounding error of sums such as 1/3 + 1/3 + 1/3. */
 constexpr double kDue = 1 - 1e-6;
 /** JPEG qualities above this give larger files without visible gain (libjpeg's documentation). */
 constexpr int kMaxQuality = 95;
@@ -41,8 +40,7 @@ std::string check_request(const ImageRequest& request, const std::vector<CameraM
   return "";
 }
 
-// A sender's request for one camera and width replaces its earlier one and starts its validity
-// anew.
+// A sender's request for one camera and width replaces its earlier one and restarts its validity.
 void ImageRequests::add(const std::string& source, const ImageRequest& request, double now) {
   const auto key = std::make_tuple(source, request.camera, request.width);
   if (entries_.size() >= kMaxEntries && entries_.count(key) == 0) return;
@@ -50,7 +48,7 @@ void ImageRequests::add(const std::string& source, const ImageRequest& request, 
 }
 
 std::vector<ImageRequest> ImageRequests::merged(double now) {
-  // Requests that were not repeated expire; a receiver that ends need not say so.
+  // Requests that were not repeated expire; a receiver need not announce its end.
   std::erase_if(entries_, [now](const auto& entry) { return entry.second.end < now; });
   // The widest image of a camera first: a receiver that takes the first one gets the best.
   std::map<std::pair<std::string, int>, ImageRequest> merged;

@@ -31,7 +31,8 @@ inline constexpr int kFullHeight = 480;
 inline constexpr double kMaxRate = 30;
 
 /** Checks a request.
- * @param cameras  Of the robot. @return Why it cannot be served, a sentence; empty if it can. */
+ * @param cameras  Cameras of the robot. @return Why it cannot be served, a sentence; empty if it
+ * can. */
 std::string check_request(const ImageRequest& request, const std::vector<CameraModel>& cameras);
 
 /** The valid requests of all receivers. A request is valid for 2 s after its last repetition. */
@@ -50,7 +51,7 @@ class ImageRequests {
     /** End of validity, s. */
     double end;
   };
-  /** By source, camera and width. */
+  /** Requests by source, camera and width. */
   std::map<std::tuple<std::string, std::string, int>, Entry> entries_;
 };
 

@@ -21,10 +21,10 @@ class ImageSource {
   ImageSource(const ImageSource&) = delete;
   ImageSource& operator=(const ImageSource&) = delete;
 
-  /** Registers with the loop what the source waits for. @param on_image  To be called whenever an
-   * image of the camera that it names can be taken. */
+  /** Registers with the loop what the source waits for. @param on_image  Called with a camera's
+   * name whenever its image can be taken. */
   virtual void attach(EventLoop& loop, std::function<void(const std::string&)> on_image) = 0;
-  /** The cameras that it has images of: names and fields of view. */
+  /** Names and fields of view of the cameras that it has images of. */
   virtual std::vector<CameraModel> cameras() const = 0;
   /** Why no camera has an image, in words; empty if one has. @param now  s, monotonic. */
   virtual std::string missing_input(double now) const = 0;
@@ -35,9 +35,9 @@ class ImageSource {
   /** The newest image. @param min_width  Sizes below this width are not computed.
    * @return Valid until the next call. @throws Error  if has_image() is false. */
   virtual const CameraFrame& take(const std::string& camera, int min_width) = 0;
-  /** What went wrong since the last call, one sentence each. */
+  /** Problems since the last call, one sentence each. */
   virtual std::vector<std::string> take_problems() = 0;
-  /** What the images are made with, for the log. */
+  /** Description of the source, for the log. */
   virtual std::string description() const = 0;
 };
 

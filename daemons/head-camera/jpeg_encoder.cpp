@@ -32,7 +32,7 @@ std::vector<uint8_t> JpegEncoder::encode(const std::vector<uint8_t>& bgrx, int w
                 " pixels cannot have " + std::to_string(bgrx.size()) + " bytes");
   }
   while (true) {
-    // The buffer grows as libturbojpeg needs and is used again. Rows are bottom up, as OpenGL has
+    // The buffer grows as libturbojpeg requires, and is reused. Rows are bottom up, as OpenGL has
     // them.
     unsigned long num_bytes = buffer_bytes_;
     if (tjCompress2(handle_, bgrx.data(), width, 4 * width, height, TJPF_BGRX, &buffer_, &num_bytes,
@@ -47,7 +47,7 @@ std::vector<uint8_t> JpegEncoder::encode(const std::vector<uint8_t>& bgrx, int w
       throw Error("an image of " + std::to_string(width) + "x" + std::to_string(height) +
                   " pixels does not fit into " + std::to_string(max_bytes) + " bytes");
     }
-    // Too large for one message: again with less quality.
+    // It is too large for one message: try again with less quality.
     quality = std::max(1, static_cast<int>(quality * kQualityFactor));
   }
 }

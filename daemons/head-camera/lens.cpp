@@ -38,8 +38,8 @@ double widening(const PinholeCamera& camera, const Distortion& distortion) {
 }  // namespace
 
 Lens::Lens(const PinholeCamera& camera, const Distortion& distortion) : source_(camera) {
-  // A barrel distortion shows points outside of the ideal image: render with a shorter focal
-  // length.
+  // A barrel distortion shows points outside the ideal image, so the image is rendered with a
+  // shorter focal length.
   const double factor = widening(camera, distortion);
   source_.fx /= factor;
   source_.fy /= factor;

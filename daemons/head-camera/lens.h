@@ -15,8 +15,8 @@ class Lens {
    * @throws ConfigError  if the image would fold over itself. */
   Lens(const PinholeCamera& camera, const Distortion& distortion);
 
-  /** Pinhole camera to render with: of the same size, and with a field of view wide enough for
-   * every pixel of the distorted image. */
+  /** Pinhole camera to render with. It has the same size, and a field of view wide enough for every
+   * pixel of the distorted image. */
   const PinholeCamera& source() const { return source_; }
 
   /** Distorts an image by bilinear interpolation.

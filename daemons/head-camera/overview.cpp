@@ -9,10 +9,9 @@ namespace {
  * lean outwards. */
 constexpr double kHorizontalFov = 1.22;
 const double kVerticalFov = 2 * std::atan(0.75 * std::tan(0.5 * kHorizontalFov));
-/** Angle by which the view goes down, rad. Chosen: robots hide few others, and are not seen from
- * above. */
+/** Depression of the view, rad. Chosen: robots hide few others, and are not seen from above. */
 constexpr double kDepression = 0.7;
-/** Seen beyond the field's ends, m. */
+/** Margin that is visible beyond the field's ends, m. */
 constexpr double kMargin = 0.4;
 /** Distance from robots without a field, m. */
 constexpr double kDistance = 2.5;
@@ -41,8 +40,8 @@ CameraModel overview_camera() {
 Eigen::Isometry3d overview_pose(const std::optional<FieldDimensions>& field,
                                 const WorldState& world) {
   if (field) {
-    // The near side line is to fill the width of the image, in which it lies below the middle: its
-    // distance along the view decides.
+    // The near side line must fill the width of the image, in which it lies below the middle. Its
+    // distance along the view determines that of the camera.
     const double along_view = (0.5 * field->length + kMargin) / std::tan(0.5 * kHorizontalFov);
     const double to_side_line = 0.5 * field->width * std::cos(kDepression);
     return looking_at(Eigen::Vector3d::Zero(), along_view + to_side_line);

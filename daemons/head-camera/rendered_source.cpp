@@ -19,8 +19,8 @@ namespace {
 /** Truth that is older than this by the wall clock is not rendered: the simulator has ended, s.
  * Chosen: as long as a request is valid. */
 constexpr double kTruthValidity = 2.0;
-/** Truth whose time is earlier by less than this was overtaken by a newer message and is dropped; a
- * larger difference means that the simulation was restarted. Microseconds. */
+/** Truth that is older than the last one by less than this, microseconds, was overtaken by a newer
+ * message and is dropped; a larger difference means that the simulation was restarted. */
 constexpr int64_t kRestartThreshold = 1000000;
 
 /** A robot with all joints at 0, for rendering before any message has arrived. */
@@ -41,7 +41,8 @@ WorldState default_world(const RobotModel& model, const std::string& robot) {
 
 RenderedSource::RenderedSource(Bus& bus, const RobotModel& model, const HeadCameraOptions& options)
     : model_(model), models_(model), robot_(options.robot), camera_(model, options) {
-  // The first image of a camera compiles shaders and takes memory: done before the first request.
+  // The first image of a camera compiles shaders and allocates memory; this is done before the
+  // first request.
   for (const CameraModel& camera : model.cameras()) {
     camera_.take(default_world(model, options.robot), camera.name, kFullWidth / 4);
   }

@@ -26,7 +26,7 @@ class RenderedSource : public ImageSource {
   RenderedSource(Bus& bus, const RobotModel& model, const HeadCameraOptions& options);
 
   void attach(EventLoop& loop, std::function<void(const std::string&)> on_image) override;
-  /** Those of the robot, and the overview. */
+  /** Cameras of the robot, and the overview. */
   std::vector<CameraModel> cameras() const override;
   std::string missing_input(double now) const override;
   bool has_image(const std::string& camera, double now) const override;

@@ -21,13 +21,13 @@ namespace {
 /** Buffers shared with the driver. Chosen as B-Human (3) and HULKs (4): one is shown, one is
  * filled, the others bridge delays. */
 constexpr uint32_t kNumBuffers = 4;
-/** At least these, else no image can be kept while the next one arrives. */
+/** Least number of buffers; with fewer no image can be kept while the next one arrives. */
 constexpr uint32_t kLeastBuffers = 2;
 constexpr size_t kImageBytes = static_cast<size_t>(2) * kFullWidth * kFullHeight;
 /** V4L2_CID_EXPOSURE_ABSOLUTE's unit, s. */
 constexpr double kExposureUnit = 1e-4;
 
-/** ioctl(2), again when a signal interrupts it. */
+/** Calls ioctl(2), and repeats it if a signal interrupts it. */
 template <class Argument>
 int control(int descriptor, unsigned long request, Argument* argument) {
   int result = 0;
@@ -85,7 +85,7 @@ void V4l2Device::fail(const std::string& step) const {
 void V4l2Device::check_capabilities() {
   v4l2_capability capability{};
   if (control(descriptor_, VIDIOC_QUERYCAP, &capability) < 0) {
-    throw Error(device_ + " is no video device");
+    throw Error(device_ + " is not a video device");
   }
   const uint32_t flags = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0
                              ? capability.device_caps
@@ -180,13 +180,14 @@ bool V4l2Device::receive() {
       fail("receive an image");
     }
     const int index = static_cast<int>(buffer.index);
-    if (buffer.index >= buffers_.size()) throw Error(device_ + " names a buffer that it has not");
+    if (buffer.index >= buffers_.size())
+      throw Error(device_ + " names a buffer that it does not have");
     if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.bytesused != kImageBytes) {
       ++num_damaged_;
       queue(index);
       continue;
     }
-    // The one that was newest goes back to the driver.
+    // The previously newest buffer goes back to the driver.
     if (newest_ >= 0) queue(newest_);
     newest_ = index;
     has_new = true;

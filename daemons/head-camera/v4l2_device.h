@@ -31,7 +31,7 @@ class V4l2Device {
   bool has_image() const { return newest_ >= 0; }
   /** YUYV of the newest image, rows from the top down. Valid until receive(). */
   std::span<const uint8_t> image() const;
-  /** Start of its exposure by the driver, or, where the driver does not tell, its arrival: s of
+  /** Start of its exposure as the driver reports it, else its time of arrival: s of
    * CLOCK_MONOTONIC. */
   double image_time() const { return image_time_; }
   /** Fixed exposure time, s; 0 if the camera chooses it. */

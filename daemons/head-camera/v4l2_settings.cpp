@@ -32,7 +32,7 @@ constexpr std::array<std::pair<const char*, uint32_t>, 15> kControls{{
     {"power_line_frequency", V4L2_CID_POWER_LINE_FREQUENCY},
     {"backlight_compensation", V4L2_CID_BACKLIGHT_COMPENSATION},
 }};
-/** Of an address on an I2C bus: 7 bits. */
+/** Greatest address on an I2C bus, which has 7 bits. */
 constexpr int kMaxAddress = 127;
 
 int integer(const YamlEntry& entry, int least, int greatest) {
@@ -57,7 +57,7 @@ std::vector<V4l2CameraSettings::Control> read_controls(const YamlEntry& map) {
     if (known == kControls.end()) {
       std::string names;
       for (const auto& control : kControls) names += std::string(" ") + control.first;
-      value.fail("is no control; there are:" + names);
+      value.fail("is not a control; there are:" + names);
     }
     controls.push_back({name, known->second, integer(value, INT16_MIN, 1 << 20)});
   }

@@ -17,7 +17,7 @@ struct V4l2CameraSettings {
   std::string camera;
   /** Device file. */
   std::string device;
-  /** A control of the camera's USB extension unit: what the kernel has no name for. */
+  /** A control of the camera's USB extension unit, for which the kernel has no name. */
   struct Extension {
     uint8_t unit = 0;
     uint8_t selector = 0;
@@ -44,7 +44,7 @@ struct V4l2ResetSettings {
   };
   /** In this order. */
   std::vector<Write> writes;
-  /** Until the cameras can be opened again, s. */
+  /** Time until the cameras can be opened again, s. */
   double wait = 0;
 };
 

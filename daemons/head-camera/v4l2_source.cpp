@@ -15,12 +15,12 @@
 namespace nao::camera {
 namespace {
 
-/** A camera without an image for this time hangs, s: what B-Human and HULKs wait. */
+/** Time without an image after which a camera counts as hung, s: the value of B-Human and HULKs. */
 constexpr double kHangTime = 1.0;
 /** The same for the first image after the start of the stream, s. Chosen: exposure control and
  * firmware take some time. */
 constexpr double kFirstImageTime = 3.0;
-/** Between two attempts to open a camera, s. Chosen. */
+/** Time between two attempts to open a camera, s. Chosen. */
 constexpr double kRetryTime = 1.0;
 /** Period of the checks, s. Chosen: a tenth of the shortest time that they measure. */
 constexpr double kCheckPeriod = 0.1;

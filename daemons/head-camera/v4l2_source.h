@@ -12,7 +12,7 @@
 namespace nao::camera {
 
 /** Images of real cameras. A camera that delivers nothing, or fails, is closed and opened again;
- * where the robot's files say how, all cameras are reset before. */
+ * before that, all cameras are reset if the robot's files say how. */
 class V4l2Source : public ImageSource {
  public:
   /** @param model  Gives the fields of view; must outlive this. @param distortion  That the lenses
@@ -35,7 +35,7 @@ class V4l2Source : public ImageSource {
     std::unique_ptr<V4l2Device> device;
     /** When the last image came, or the device was opened, s, monotonic. */
     double last_time = 0;
-    /** When to open it, s, monotonic. */
+    /** Time at which to open it, s, monotonic. */
     double open_time = 0;
     /** Why it delivers nothing. */
     std::string fault = "not opened yet";

@@ -26,7 +26,7 @@ constexpr int64_t kCycle = 12000;
 constexpr size_t kMaxClients = 4;
 /** Time for a client to take an image, ms: a third of the interval between two. */
 constexpr int kWait = 10;
-/** A client that takes nothing for this time has gone, s. Chosen. */
+/** Time after which a client that takes nothing counts as gone, s. Chosen. */
 constexpr double kClientTime = 1.0;
 
 void write_uint16(uint8_t* target, int64_t value) {
@@ -45,7 +45,7 @@ WebotsImages::WebotsImages(const std::vector<std::string>& cameras, uint16_t por
     : message_(kWebotsHeaderBytes + kPixelBytes) {
   for (const std::string& camera : cameras) {
     const int descriptor = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    // In the list at once, so that it is closed whatever happens.
+    // It enters the list at once, so that it is closed in any case.
     servers_.push_back({camera, descriptor, port, {}});
     const int yes = 1;
     setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -101,7 +101,8 @@ bool WebotsImages::has_clients(const std::string& camera) {
   return !server->clients.empty();
 }
 
-// What does not fit into the socket's memory waits for the client, but not longer than `wait_ms`.
+// Bytes that do not fit into the socket's memory wait for the client, but not longer than
+// `wait_ms`.
 bool WebotsImages::continue_sending(Client& client, double now, int wait_ms) {
   while (client.num_sent < client.message.size()) {
     const ssize_t count = ::send(client.descriptor, client.message.data() + client.num_sent,
@@ -132,7 +133,7 @@ void WebotsImages::send(const CameraFrame& frame, double now) {
                std::span(message_).subspan(kWebotsHeaderBytes));
   std::erase_if(server->clients, [&](Client& client) {
     if (client.last_time < 0) client.last_time = now;
-    // One that still has to take the last image is not waited for again.
+    // The server does not wait again for a client that still has to take the last image.
     bool is_there = true;
     if (client.num_sent < client.message.size()) is_there = continue_sending(client, now, 0);
     if (is_there && client.num_sent == client.message.size()) {

@@ -22,8 +22,8 @@ namespace nao::camera {
  * Source: the controller's README. */
 class WebotsImages {
  public:
-  /** Listens on the loopback interface. @param cameras  Names. @param port  Of the first camera;
-   * the next ones follow. 0: free ports. @throws Error  if a port is in use. */
+  /** Listens on the loopback interface. @param cameras  Names. @param port  Port of the first
+   * camera; the next ones follow. 0: free ports. @throws Error  if a port is in use. */
   WebotsImages(const std::vector<std::string>& cameras, uint16_t port);
   ~WebotsImages();
   WebotsImages(const WebotsImages&) = delete;
@@ -43,7 +43,7 @@ class WebotsImages {
  private:
   struct Client {
     int descriptor;
-    /** Sent so far of message. */
+    /** Bytes of message that were sent so far. */
     size_t num_sent;
     std::vector<uint8_t> message;
     /** When the last image was taken completely, s. */

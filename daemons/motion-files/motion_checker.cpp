@@ -31,20 +31,20 @@ constexpr int kCheckedPasses = 2;
 constexpr double kPathPeriod = 0.005;
 constexpr double kPathAngle = 0.05;
 // Least distance of two links on the path, m: less than for joint changes, because simulations of
-// the motion show contacts, too. Chosen with nao-trial teach: at 3 mm a tenth of the motions that
-// touch nothing was refused.
+// the motion show contacts, too. Chosen with nao-trial teach: with 3 mm, a tenth of the motions
+// without contacts were refused.
 constexpr double kClearance = 0.001;
-// Pause that is simulated, s: a robot that has not fallen after it stands still.
+// Simulated pause, s: a robot that has not fallen by its end stands still.
 constexpr double kSimulatedPause = 1.5;
 // Simulations of a motion, and the simulated time that all of them may take, s. Chosen: measured by
 // nao-trial teach, see docs/performance.md; the time keeps the longest motions below half a minute.
 constexpr int kNumRollouts = 6;
 constexpr double kRolloutBudget = 400;
-// Seeds of these simulations: none that trials use.
+// Seeds of these simulations, which trials do not use.
 constexpr uint64_t kFirstSeed = 900001;
 // Factors by which a motion that falls is slowed down.
 constexpr double kSlowFactors[] = {1.5, 2.5};
-// By which a keyframe becomes longer than its motors need.
+// Factor by which a keyframe becomes longer than its motors need.
 constexpr double kSpeedReserve = 1.02;
 
 /** The motion as it is checked: pauses cut, and no more passes than needed. */
@@ -147,7 +147,7 @@ std::optional<MotionFault> MotionChecker::find_collision(const ActionScript& scr
     }
   }
   // Links may come as near to each other as they are at the start, or in a posture of the robot's
-  // own: those are tried out. Where the path leaves one of them, another one is sought.
+  // own: those are tried in turn. Where the path leaves one of them, the next is searched.
   std::vector<double> reference = path.front();
   size_t index = 0;
   while (true) {
@@ -156,7 +156,7 @@ std::optional<MotionFault> MotionChecker::find_collision(const ActionScript& scr
     motion::SelfCollision collision;
     const size_t last = guard_.find_last_free(rest, collision);
     if (last + 1 == rest.size()) return std::nullopt;
-    // The reference is one more point than the path has.
+    // `rest` begins with the reference, so this is the point after the last free one.
     index += last;
     const auto nearer = std::find_if(
         model_->postures().begin(), model_->postures().end(), [&](const Posture& posture) {
@@ -185,7 +185,7 @@ std::optional<MotionFault> MotionChecker::find_dynamic_fault(const ActionScript&
 
 void MotionChecker::clip(ActionScript& script, double tolerance) const {
   for (size_t k = 0; k < script.sequence.keyframes.size(); ++k) {
-    // Anew for each keyframe: the next ones continue from what was clipped.
+    // Recomputed for each keyframe: the next ones continue from what was clipped.
     const std::vector<double> target = calc_targets(script)[k + 1];
     std::vector<double> clipped = target;
     motion::clip_to_limits(*model_, clipped);

@@ -13,12 +13,12 @@
 
 namespace nao {
 
-/** What checking a taught motion found. */
+/** Result of checking a taught motion. */
 struct MotionReport {
-  /** Nothing: it is safe. */
+  /** Nothing if the motion is safe. */
   std::optional<motion::MotionFault> fault;
-  /** The motion, with angles that are beyond their limits by no more than a measured pose may be
-   * moved to them. */
+  /** The motion, in which angles beyond their limits by no more than the tolerance of a measured
+   * pose are moved to the limits. */
   motion::ActionScript script;
   /** A changed motion without the fault, if one was found, and what was changed: "slowed-down" or
    * "clipped". */
@@ -51,9 +51,9 @@ class MotionChecker {
   std::optional<motion::MotionFault> find_collision(const motion::ActionScript& script);
   /** Moves angles to their limits that are beyond them by up to `tolerance`, rad. */
   void clip(motion::ActionScript& script, double tolerance) const;
-  /** Makes keyframes longer that are too short for a motor, and all by a factor. */
+  /** Lengthens keyframes that are too short for a motor, and all by a factor. */
   void slow_down(motion::ActionScript& script, double factor) const;
-  /** Seeks a changed motion that has no fault. */
+  /** Searches for a changed motion without a fault. */
   void repair(MotionReport& report);
 
   ClosedLoopOptions options_;

@@ -146,7 +146,7 @@ void MotionFileCore::finish(const MotionReport& report) {
     answer(job.command, report.fault, repaired, report.repair);
     return;
   }
-  // Another motion of this name may have been saved meanwhile.
+  // Another motion of this name may have been saved in the meantime.
   const std::string& name = job.script.sequence.name;
   if (auto fault = find_name_fault(job.command, name)) {
     answer(job.command, MotionFault{-1, *std::move(fault)});

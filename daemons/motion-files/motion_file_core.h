@@ -28,7 +28,7 @@ class MotionFileCore {
     motion::ActionScript script;
   };
 
-  /** @param model  Must outlive this. @param folder  Of the motions' files. */
+  /** @param model  Must outlive this. @param folder  Folder of the motions' files. */
   MotionFileCore(const RobotModel& model, std::filesystem::path folder)
       : model_(&model), store_(model, std::move(folder)) {}
 
@@ -63,7 +63,7 @@ class MotionFileCore {
                                         const std::string& name) const;
   void get(const MotionFileCommand& command);
   void erase(const MotionFileCommand& command);
-  /** @param motion  Of the answer; may be none. */
+  /** @param motion  Motion of the answer; may be none. */
   void answer(const MotionFileCommand& command, const std::optional<motion::MotionFault>& fault,
               const motion::ActionScript* motion = nullptr, const std::string& repair = "");
 

@@ -13,9 +13,9 @@ namespace nao::motion_files {
 namespace {
 
 constexpr const char* kMotionProgram = "nao-motion";
-// Periods, s: of looking for the end of a check, of the list and the status, and of the
-// announcement of one motion after the other. Chosen: the first is not noticed by a user, with the
-// last one a few hundred motions are announced within minutes.
+// Periods, s, of looking for the end of a check, of the list and the status, and of announcing one
+// motion after the other. Chosen: a user does not notice the first; with the last one, a few
+// hundred motions are announced within minutes.
 constexpr double kStepPeriod = 0.02;
 constexpr double kListPeriod = 1.0;
 constexpr double kAnnouncePeriod = 0.5;
@@ -46,8 +46,8 @@ MotionFilesDaemon::MotionFilesDaemon(Bus& bus, EventLoop& loop, const RobotModel
   bus_.subscribe<naolcm::daemon_status_t>(
       kDaemonStatusChannel, Bus::Queue::kAll, [this](const naolcm::daemon_status_t& message) {
         if (message.program != kMotionProgram) return;
-        // A new nao-motion knows no motion. Those of other robots are told apart by nothing; they
-        // do not listen.
+        // A new nao-motion has no taught motions. Those of other robots cannot be distinguished,
+        // but do not listen.
         if (!motion_processes_.insert({message.host, message.process_id}).second) return;
         for (const std::string& name : core_.store().names()) announcements_.push_back({0, name});
       });

@@ -21,7 +21,8 @@ namespace nao::motion_files {
  * announces them to nao-motion on NAO_KEYFRAME_MOTION. */
 class MotionFilesDaemon {
  public:
-  /** @param bus, loop, model  Must outlive this. @param options  Of the simulations that check.
+  /** @param bus, loop, model  Must outlive this. @param options  Options of the simulations that
+   * check.
    * @param robot  Prefix of its channels. */
   MotionFilesDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
                     const ClosedLoopOptions& options, const std::filesystem::path& folder,
@@ -36,7 +37,7 @@ class MotionFilesDaemon {
   /** Starts and ends checks, publishes what is due. */
   void step();
   void announce_due(double now);
-  /** In turn, so that nao-motion has a motion whose message was lost. */
+  /** Announces the motions in turn, so that nao-motion also receives one whose message was lost. */
   void announce_next();
   void publish_list();
   void publish_status();

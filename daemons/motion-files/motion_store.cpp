@@ -15,7 +15,7 @@ namespace {
 
 using motion::ActionScript;
 
-/** @throws Error  if it is no motion of this robot. */
+/** @throws Error  if it is not a motion of this robot. */
 ActionScript read_motion_file(const RobotModel& model, const std::filesystem::path& file) {
   if (std::filesystem::file_size(file) > kMaxMotionTextBytes) {
     throw Error(file.string() + " is too long for a motion");
@@ -28,7 +28,7 @@ ActionScript read_motion_file(const RobotModel& model, const std::filesystem::pa
     throw Error(file.string() + " has a motion of another name, " + script.sequence.name);
   }
   if (is_temporary_motion(script.sequence.name)) {
-    throw Error(file.string() + ": names that begin with _ are of motions without a file");
+    throw Error(file.string() + ": names that begin with _ are for motions without a file");
   }
   return script;
 }
@@ -78,7 +78,7 @@ size_t MotionStore::num_kept() const {
 
 std::filesystem::path MotionStore::file_of(const std::string& name) const {
   // The name comes from a client: nothing that leads out of the folder passes.
-  if (!is_motion_name(name)) throw Error("\"" + name + "\" is no name of a motion");
+  if (!is_motion_name(name)) throw Error("\"" + name + "\" is not a valid motion name");
   return folder_ / (name + ".yaml");
 }
 

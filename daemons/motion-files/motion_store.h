@@ -20,11 +20,11 @@ class MotionStore {
   static constexpr size_t kMaxMotions = 200;
   static constexpr size_t kMaxTemporary = 8;
 
-  /** Reads the folder, if it exists. Files that are no motion of this robot are left alone.
+  /** Reads the folder, if it exists. Files that are not motions of this robot are left alone.
    * @param model  Must outlive this. */
   MotionStore(const RobotModel& model, std::filesystem::path folder);
 
-  /** What was wrong with the files that were left alone, one sentence for each. */
+  /** Faults of the files that were left alone, one sentence for each. */
   const std::vector<std::string>& faults() const { return faults_; }
 
   const std::filesystem::path& folder() const { return folder_; }

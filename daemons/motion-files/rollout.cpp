@@ -12,13 +12,14 @@ namespace {
 using motion::ActionScript;
 using motion::MotionFault;
 
-// Before the command, until estimates and contacts have settled, s, and after its end, in which a
-// robot that has lost its balance falls, s.
+// Time before the command, in which estimates and contacts settle, s; and time after its end, in
+// which a robot that has lost its balance falls, s.
 constexpr double kSettlingTime = 1.0;
 constexpr double kHoldingTime = 1.5;
-// Beyond the motion's own duration, s: the path to the start posture, and what blocks it.
+// Time allowed beyond the motion's own duration, s: the path to the start posture, and obstacles on
+// it.
 constexpr double kPatience = 20;
-// Self-contact that is a brush and does not count, s: as long as one control period.
+// Self-contact of up to this duration, s, does not count: one control period.
 constexpr double kBrush = 0.01;
 // A joint is blocked if it stays farther than this from its target, rad, for this long, s. Chosen
 // with nao-trial: hand-made motions of loaded and fast joints stay beyond 0.2 rad for 0.25 s.
@@ -76,8 +77,8 @@ class Watch {
     return contact.a.kind == sim::Surface::Kind::kRobot &&
            contact.b.kind == sim::Surface::Kind::kRobot;
   }
-  /** What blocks a joint may be the floor, which is no self-contact, or a link that touched before.
-   */
+  /** A joint may be blocked by the floor, which is not a self-contact, or by a link that touched
+   * before. */
   void look_for_blocked_joints() {
     const sim::MotorTargets& targets = trial_.world().targets(0);
     const Eigen::VectorXd error = targets.position - trial_.world().sensors(0).position;
@@ -99,7 +100,7 @@ class Watch {
   std::set<std::pair<int, int>> touching_;
   int keyframe_ = -1;
   double contact_time_ = 0;
-  /** Of each motor: time for which it has been away from its target, s. */
+  /** Time for which each motor has been away from its target, s. */
   std::vector<double> blocked_time_;
   std::optional<MotionFault> fault_;
 };

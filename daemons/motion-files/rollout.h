@@ -22,7 +22,7 @@ struct RolloutEnd {
  * and some time of holding the last one.
  *
  * @param options  Model, scene, engine and disturbances; the start posture is the motion's.
- * @param seed     Of what is drawn.
+ * @param seed     Seed of what is drawn.
  * @return What went wrong, and at which keyframe: "motion-fall", "motion-self-contact",
  *   "motion-joint-blocked" or "motion-blocked"; nothing if the motion was played to its end. */
 std::optional<motion::MotionFault> roll_out(const ClosedLoopOptions& options, uint64_t seed,

@@ -154,7 +154,8 @@ Command to_command(const naolcm::stop_command_t& message) {
 }
 
 TaughtChange to_taught(const RobotModel& model, const naolcm::keyframe_motion_t& message) {
-  if (!is_motion_name(message.name)) throw Error(quoted(message.name) + " is no name of a motion");
+  if (!is_motion_name(message.name))
+    throw Error(quoted(message.name) + " is not a valid motion name");
   if (message.num_keyframes == 0) return {message.name, nullptr};
   const auto motion = from_message(message);
   if (!motion) throw Error("the lists of motion " + message.name + " have unequal lengths");

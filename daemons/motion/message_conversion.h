@@ -38,10 +38,10 @@ Command to_command(const naolcm::joint_change_command_t& message);
 Command to_command(const naolcm::action_command_t& message);
 Command to_command(const naolcm::stop_command_t& message);
 
-/** @throws Error  if it is no motion of this robot: it must not reach the core. */
+/** @throws Error  if it is not a motion of this robot: it must not reach the core. */
 TaughtChange to_taught(const RobotModel& model, const naolcm::keyframe_motion_t& message);
 
-/** @param names  Of all motors' joints, in motor order. */
+/** @param names  Names of all motors' joints, in motor order. */
 naolcm::joint_command_t to_message(const JointTargets& targets, const RobotState& state,
                                    const std::vector<std::string>& names);
 naolcm::robot_state_t to_message(const RobotState& state, const std::vector<std::string>& names);

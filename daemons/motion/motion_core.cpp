@@ -53,7 +53,7 @@ Output MotionCore::step(const Input& input, double dt) {
     wait_for_sensors(dt);
   }
   for (const TaughtChange& change : input.taught) factory_.set_taught(change.name, change.script);
-  // Commands are received without a robot, too: they are refused with the reason "no-robot".
+  // Commands are received even without a robot, and refused with the reason "no-robot".
   receive(input.commands);
   Output output;
   if (input.sensors) {
@@ -91,8 +91,8 @@ void MotionCore::wait_for_sensors(double dt) {
   if (presence_.wait(dt) == RobotPresence::Change::kLost) arbiter_.abort_all({"no-robot"});
 }
 
-// A robot appears, or was placed elsewhere: what was known of it is forgotten, and its targets are
-// the start of all motions.
+// A robot has appeared, or was placed elsewhere: everything known about it is reset, and all
+// motions start from its targets.
 void MotionCore::take_over(bool is_placed) {
   const Sensors& sensors = presence_.sensors();
   time_with_robot_ = 0;
@@ -190,14 +190,14 @@ void MotionCore::limit_targets(const JointTargets& last, double dt) {
   // motor turns.
   limiter_.limit(last.position, dt, targets_.position);
   for (size_t i = 0; i < last.position.size(); ++i) {
-    // Of the limited targets, so that a motion that starts now continues what the servos really
-    // get.
+    // The velocity of the limited targets lets a motion that starts now continue what the servos
+    // really receive.
     targets_.velocity[i] = dt > 0 ? (targets_.position[i] - last.position[i]) / dt : 0.0;
   }
 }
 
-// A motion that begins does not know of the balance's angles: they go back as fast as the motors
-// turn.
+// A motion that begins does not include the balance's angles; they return to 0 as fast as the
+// motors turn.
 void MotionCore::balance(double dt) {
   std::vector<double> position = targets_.position;
   if (standing_ && arbiter_.running() == nullptr && !falls_.has_fallen() && !is_relaxed() &&

@@ -120,11 +120,12 @@ class MotionCore {
   TargetLimiter limiter_;
   StateReporter reporter_;
   std::optional<StandingBalance> standing_;
-  /** Of the motions, in the last step. */
+  /** Targets of the motions in the last step. */
   JointTargets targets_;
   /** Positions that were sent in the last step. */
   std::vector<double> sent_;
-  /** s since the robot was taken over; the first motion is chosen when the estimate has settled. */
+  /** Time since the robot was taken over, s; the first motion is chosen when the estimate has
+   * settled. */
   double time_with_robot_ = 0;
   bool has_first_motion_ = false;
 };

@@ -13,11 +13,11 @@
 namespace nao::motion {
 namespace {
 
-// Silence of the sensors after which commands are answered without them, and the period of these
+// Time without sensor data after which commands are answered without them, and the period of these
 // steps, s of wall time. Chosen: a tenth of the time after which there is no robot.
 constexpr double kSilencePeriod = 0.05;
-// Control periods between two sensor states above which the time between them is a pause or another
-// robot, and no lost ticks.
+// Control periods between two sensor states above which the gap means a pause or another robot
+// instead of lost ticks.
 constexpr double kMaxStepPeriods = 10;
 // Slack of a comparison of times that are multiples of a microsecond, s.
 constexpr double kRounding = 5e-7;
@@ -67,7 +67,7 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
 
 template <class Message>
 void MotionDaemon::subscribe_to_command(const std::string& channel) {
-  // Bus counts an exception as a dropped message; the sender repeats its command.
+  // The bus counts an exception as a dropped message; the sender repeats its command.
   bus_.subscribe<Message>(channel, Bus::Queue::kAll, [this](const Message& message) {
     if (commands_.size() >= kMaxWaitingCommands) {
       throw Error("more than " + std::to_string(kMaxWaitingCommands) + " commands in one step");
@@ -150,8 +150,8 @@ void MotionDaemon::publish(const CommandResult& result) {
 }
 
 void MotionDaemon::publish_status() {
-  // With a simulator that runs as fast as it can this program never waits, and must not keep others
-  // from the processor.
+  // With a simulator that runs as fast as it can, this program never waits, so it must yield the
+  // processor to others.
   if (std::exchange(robot_time_, 0) > kFastRatio * kStatusPeriod) {
     use_normal_scheduling();
   } else {

@@ -50,7 +50,7 @@ class MotionDaemon {
   std::vector<TaughtChange> taught_;
   int64_t num_steps_ = 0;
   int64_t num_missed_ticks_ = 0;
-  /** Of the last sensor state. */
+  /** Time of the last sensor state, microseconds. */
   int64_t last_utime_ = 0;
   int64_t last_tick_ = -1;
   /** Answer to the last sensor state. */

@@ -22,13 +22,14 @@ constexpr const char* kTransitionFile = "transitions.yaml";
 constexpr const char* kGaitFile = "gait.yaml";
 constexpr const char* kScriptFile = "actions/keeper.yaml";
 
-// nao-transition-tuner gives transitions of its own; otherwise the robot's file.
+// nao-transition-tuner provides its own transitions; otherwise they come from the robot's file.
 TransitionGraph load_graph(const RobotModel& model, const MotionOptions& options) {
   if (options.transitions) return *options.transitions;
   return TransitionGraph::load(model, model.folder() / kTransitionFile);
 }
 
-// Stiffness below which a joint cannot carry the robot. Chosen: that up to which legs do not walk.
+// Stiffness below which a joint cannot carry the robot. Chosen: the value up to which walking is
+// refused.
 constexpr double kCarryingStiffness = 0.6;
 
 /** A state of the body as an argument of a reason. */

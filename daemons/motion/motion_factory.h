@@ -45,8 +45,8 @@ class MotionFactory {
   MotionPlan plan(const Command& command, const MotionContext& context,
                   const JointTargets& targets);
 
-  /** Makes a taught motion an action of its name; nullptr: it is none any longer. The robot's own
-   * actions go before taught ones of the same name. */
+  /** Makes a taught motion an action of its name; nullptr removes it. The robot's own actions go
+   * before taught ones of the same name. */
   void set_taught(const std::string& name, std::shared_ptr<const ActionScript> script);
   bool has_taught(const std::string& name) const { return taught_.contains(name); }
 

@@ -25,7 +25,7 @@ struct MotionOptions {
   /** Greatest deviation of every joint in a posture that was reached, rad (5 degrees): the servos'
    * tracking error under load. */
   double posture_tolerance = 0.09;
-  /** The same of a lying posture, rad (8 degrees): limbs lie on the floor, whose friction weak
+  /** The same for a lying posture, rad (8 degrees): limbs lie on the floor, whose friction weak
    * wrists do not overcome. */
   double lying_posture_tolerance = 0.14;
   double tolerance_of(const Posture& posture) const {

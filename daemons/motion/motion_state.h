@@ -41,7 +41,7 @@ struct MotionState {
   /** m/s forward, m/s to the left, rad/s. */
   Eigen::Vector3d walk_velocity = Eigen::Vector3d::Zero();
   double stiffness = 0;
-  /** Of the last refused command; none if there was none. */
+  /** Why the last refused command was refused; none if no command was refused. */
   Reason last_refusal;
   std::vector<Footstep> footsteps;
 };

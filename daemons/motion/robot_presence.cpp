@@ -5,8 +5,9 @@
 namespace nao::motion {
 namespace {
 
-// A joint that turned this much farther in one step than its motor can was not turned by it, rad.
-// Chosen: far above what the encoders' resolution of 0.1 degrees and an impact can make of a step.
+// Turn of a joint in one step beyond what its motor can do, rad, which means that the robot was
+// placed elsewhere. Chosen: far above what the encoders' resolution of 0.1 degrees and an impact
+// can make of a step.
 constexpr double kPlacedAngle = 0.5;
 
 }  // namespace

@@ -5,21 +5,21 @@
 
 namespace nao::motion {
 
-/** Detects whether there is a robot, and whether it was switched on anew or placed elsewhere. */
+/** Detects whether there is a robot, and whether it was restarted or placed elsewhere. */
 class RobotPresence {
  public:
   enum class Change {
     kNone,
     /** The first sensor data after none. */
     kAppeared,
-    /** Its control ticks began anew, or joints jumped: it was switched on anew or placed elsewhere.
-     */
+    /** Its control ticks restarted, or joints jumped: it was restarted or placed elsewhere. */
     kPlaced,
     /** No sensor data for the timeout. */
     kLost,
   };
 
-  /** @param model  Must outlive this. @param timeout  Silence after which there is no robot, s. */
+  /** @param model  Must outlive this. @param timeout  Time without data after which there is no
+   * robot, s. */
   RobotPresence(const RobotModel& model, double timeout) : model_(&model), timeout_(timeout) {}
 
   /** Sensor data have arrived. @param dt  Robot time since the last ones, s. */
@@ -37,7 +37,7 @@ class RobotPresence {
   const RobotModel* model_;
   double timeout_;
   bool has_robot_ = false;
-  /** s since the last sensor data. */
+  /** Time since the last sensor data, s. */
   double silence_ = 0;
   Sensors sensors_;
 };

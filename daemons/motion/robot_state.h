@@ -42,7 +42,7 @@ struct RobotState {
   Eigen::Isometry3d left_sole_in_odometry = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d right_sole_in_odometry = Eigen::Isometry3d::Identity();
 
-  /** s for which torso and joints have not moved. */
+  /** Time for which torso and joints have not moved, s. */
   double rest_time = 0;
 
   /** Convex, counter-clockwise from above, m, in O; empty while no foot carries weight. */

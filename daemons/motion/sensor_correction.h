@@ -11,18 +11,18 @@
 namespace nao::motion {
 
 /** Corrects a robot's sensors, and its servos' targets, by its calibration: the rest of the motion
- * core knows the robot of the model only. Takes no memory after construction. */
+ * core works with the model's robot only. Allocates no memory after construction. */
 class SensorCorrection {
  public:
-  /** @param calibration  Of the robot; Calibration(model): nothing is corrected. */
+  /** @param calibration  Calibration of the robot; Calibration(model): nothing is corrected. */
   SensorCorrection(const RobotModel& model, const Calibration& calibration);
 
-  /** Readings to what the model's sensors would have read; the servos' targets to the model's
-   * angles. A dead foot sensor gets the force that a pressure that is linear in the position gives
-   * it, from the other sensors of its foot. */
+  /** Converts readings to those of the model's sensors, and the servos' targets to the model's
+   * angles. A dead foot sensor gets the force that a linear pressure through the other sensors of
+   * its foot implies. */
   void correct(Sensors& sensors) const;
 
-  /** The model's angles to the servos' targets. @param position  rad, (num_motors). */
+  /** Converts the model's angles to the servos' targets. @param position  rad, (num_motors). */
   void to_servos(std::vector<double>& position) const {
     for (size_t i = 0; i < position.size(); ++i) position[i] += calibration_.joint_zero[i];
   }
@@ -30,7 +30,7 @@ class SensorCorrection {
  private:
   Calibration calibration_;
   FootPressure pressure_;
-  /** Of foot sensors, those of scale 0. */
+  /** For each foot sensor, whether its scale is 0. */
   std::vector<bool> is_dead_;
   /** Re-expresses in the torso frame a vector given in the inertial unit's axes. */
   Eigen::Matrix3d torso_from_unit_;

@@ -10,9 +10,9 @@ namespace nao::motion {
 
 /** Keeps a robot that is pushed while it stands on its feet.
  *
- * Ankles and hips turn with the torso's angular velocity: the ankles put the center of pressure to
- * the edge of the soles, the hips turn the trunk back against the fall, away from that edge. Below
- * a least rate the servos alone hold the posture, so that sensor noise moves nothing. */
+ * Ankles and hips turn with the torso's angular velocity: the ankles move the center of pressure to
+ * the edge of the soles, and the hips turn the trunk against the fall, away from that edge. Below a
+ * least rate only the servos hold the posture, so that sensor noise does not move the robot. */
 class StandingBalance {
  public:
   /** @param gains, legs  Must outlive this. */

@@ -64,7 +64,7 @@ std::optional<MotionState> StateReporter::update(const Inputs& inputs, double dt
   const bool changes = has_changed(state, state_);
   const bool is_due = time_since_report_ >= period_ - kPeriodRounding;
   state_ = std::move(state);
-  // A change is reported at once, and the period starts anew.
+  // A change is reported at once, and the period restarts.
   if (changes) {
     time_since_report_ = 0;
     return state_;

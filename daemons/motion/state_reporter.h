@@ -13,10 +13,10 @@ namespace nao::motion {
 /** Builds the motion state, and decides when it is due: at each change, and once a period. */
 class StateReporter {
  public:
-  /** @param period  Of the reports while nothing changes, s. */
+  /** @param period  Period of the reports while nothing changes, s. */
   explicit StateReporter(double period) : period_(period) {}
 
-  /** What the state is built from. */
+  /** Input from which the state is built. */
   struct Inputs {
     /** Measurements and estimate; the last known ones while there is no robot. */
     const MotionContext& context;
@@ -26,7 +26,7 @@ class StateReporter {
     bool needs_help;
   };
 
-  /** One control step. @param dt  s since the last one. @return The state, if it is due. */
+  /** One control step. @param dt  Time since the last one, s. @return The state, if it is due. */
   std::optional<MotionState> update(const Inputs& inputs, double dt);
 
   /** As of the last update(). */

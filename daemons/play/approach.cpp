@@ -12,18 +12,18 @@ using Eigen::Vector2d;
  * behind it: half a foot's length and the ball's radius, and 0.12 m for steps that are longer than
  * planned. */
 constexpr double kCircle = 0.3;
-/** Least angle, rad, by which the next point of the way around the ball leads. */
+/** Least angle, rad, by which the next point of the path around the ball leads. */
 constexpr double kLeastLead = 0.6;
-/** The feet are behind the ball: polar angle to the goal's below this, rad. Chosen: from there the
- * straight way to the goal does not touch the ball. */
+/** Polar angle to the goal's below which the feet are behind the ball, rad. Chosen: from there the
+ * straight path to the goal does not touch the ball. */
 constexpr double kBehind = 0.45;
-/** Farther from the next point than this, m, the robot looks where it walks. */
+/** Distance from the next point, m, beyond which the robot looks where it walks. */
 constexpr double kFar = 0.8;
-/** Gains from errors to velocities, 1/s. Chosen: as the gait's own path gain and above; at the
- * walk's lag of about 0.4 s (two steps) both are stable. */
+/** Gains from errors to velocities, 1/s. Chosen: the gait's own path gain and a larger one; with
+ * the walk's lag of about 0.4 s (two steps) both are stable. */
 constexpr double kPositionGain = 1.2;
 constexpr double kHeadingGain = 1.4;
-/** Greatest velocities near the ball, m/s: ahead and aside. */
+/** Greatest velocities near the ball, m/s: ahead and sideways. */
 constexpr double kNearForward = 0.14;
 constexpr double kNearSideways = 0.1;
 /** Fractions of the gait's limits that are commanded: the rest is for its feedback. */
@@ -39,7 +39,7 @@ Vector2d on_circle(const Vector2d& center, double radius, double angle) {
   return center + radius * Vector2d(std::cos(angle), std::sin(angle));
 }
 
-/** Velocity to a point at a heading. @param fastest  Limits of speed, m/s ahead and aside. */
+/** Velocity to a point at a heading. @param fastest  Speed limits, m/s ahead and sideways. */
 WalkCommand head_for(const Vector2d& point, double heading, const Pose2& feet,
                      const Vector2d& fastest, const WalkLimits& limits) {
   const Vector2d error = Eigen::Rotation2Dd(-feet.heading) * (point - feet.position);
@@ -85,7 +85,7 @@ WalkCommand plan_approach(const ApproachGoal& goal, const Pose2& feet, const Wal
   const bool is_behind = std::abs(to_go) < kBehind;
   const double heading_error = std::abs(wrapped(goal.heading - feet.heading));
   if (is_behind && distance < kCircle + 0.25) {
-    // The last steps: turn first if the feet could touch the ball meanwhile.
+    // In the last steps, the robot turns first if its feet could touch the ball.
     if (heading_error > 0.4 && distance < kCircle) {
       const Vector2d back = on_circle(goal.ball, kCircle, angle);
       return head_for(back, goal.heading, feet, near_speed, limits);
@@ -97,7 +97,7 @@ WalkCommand plan_approach(const ApproachGoal& goal, const Pose2& feet, const Wal
   const double step = std::max(tangent, kLeastLead);
   const double angle_to =
       std::abs(to_go) <= step ? goal.heading + M_PI : angle + std::copysign(step, to_go);
-  // At its end, the way around passes the goal's line where the straight way begins.
+  // At its end, the path around the ball meets the goal's line where the straight path begins.
   const Vector2d next = on_circle(goal.ball, kCircle + 0.05, angle_to);
   if ((next - feet.position).norm() > kFar) {
     return head_for(next, angle_of(next, feet.position), feet, far_speed, limits);

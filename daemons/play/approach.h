@@ -21,12 +21,12 @@ struct ApproachGoal {
   Pose2 feet() const;
 };
 
-/** Where the feet are relative to the goal: ahead and left, m, in the goal's frame, and rad. */
+/** Pose of the feet relative to the goal: ahead and left, m, in the goal's frame, and rad. */
 Pose2 calc_approach_error(const ApproachGoal& goal, const Pose2& feet);
 
 /** Velocity that leads the feet to the goal on a curve that does not touch the ball: tangentially
  * around a circle about it, then straight ahead to the goal. Far from the ball the robot looks
- * where it walks, near it at the ball and then along the goal's heading. */
+ * where it walks; near it, it looks at the ball and then along the goal's heading. */
 WalkCommand plan_approach(const ApproachGoal& goal, const Pose2& feet, const WalkLimits& limits);
 
 /** Velocity that leads the feet straight to a pose, turning to it on the way. */

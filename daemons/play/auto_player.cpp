@@ -11,25 +11,25 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** A ball seen longer ago than this, s, may be elsewhere. */
+/** Age of a sighting, s, above which the ball may be elsewhere. */
 constexpr double kForgetBall = 4;
 /** The team that does not kick off waits until the ball has moved by this, m, or for so long, s
  * (SPL rules, "Kick-off": 10 s). */
 constexpr double kBallMoved = 0.3;
 constexpr double kKickOffWait = 10;
-/** A supporter stands so far behind the ball, and aside, m. Chosen: it is in nobody's way, and next
- * to the ball when the striker loses it. */
+/** Distance of a supporter behind the ball, and sideways, m. Chosen: it does not obstruct others,
+ * and is next to the ball when the striker loses it. */
 constexpr double kBehindBall = 1.2;
 constexpr double kBesideBall = 0.9;
-/** s from the referee's saying that the ball has left the field until it lies where it goes on: 1 s
- * (nao-referee), and what messages and images take. */
+/** Time from the referee's message that the ball has left the field until the ball lies where play
+ * restarts, s: 1 s (nao-referee), plus the latency of messages and images. */
 constexpr double kBallReturn = 1.4;
-/** A ball that only teammates see is looked for from nearer than this, m: they see it with an error
- * of their own places, too. */
+/** Distance, m, within which the robot searches for a ball that only teammates see: their sighting
+ * includes the error of their own poses. */
 constexpr double kToldDistance = 1.2;
-/** The keeper kicks a resting ball away that is nearer to it than the first, until it is farther
- * than the second, m, and nearer than the third to the goal line. Chosen: it is back before a shot
- * comes. */
+/** The keeper kicks away a resting ball that is nearer to it than the first distance, m, and nearer
+ * to the goal line than the third, until it is farther than the second. Chosen: it is back before a
+ * shot comes. */
 constexpr double kClearDistance = 1.0;
 constexpr double kClearedDistance = 1.6;
 constexpr double kClearZone = 1.7;
@@ -86,7 +86,7 @@ std::optional<Vector2d> AutoPlayer::find_ball(const Situation& situation) const 
 
 Decision AutoPlayer::step(const Situation& situation) {
   if (situation.match) note_ball_out(situation);
-  // A kick or a dive goes on to its end.
+  // A kick or a dive continues to its end.
   if (situation.is_performing || situation.ended) return play(situation);
   if (!situation.match) return stand(situation, Reason("match-not-played"));
   if (situation.match->penalty != Penalty::kNone) {
@@ -185,7 +185,7 @@ Decision AutoPlayer::strike(const Situation& situation) {
     striker_ = std::make_unique<Striker>(constants_, Striker::Task::kScore, std::nullopt, true);
   }
   Decision decision = striker_->step(situation);
-  // A match goes on after a goal, and with a ball that nobody has found.
+  // A match continues after a goal, and while nobody has found the ball.
   if (decision.is_done) {
     striker_.reset();
     decision.is_done = false;

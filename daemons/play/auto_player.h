@@ -10,8 +10,8 @@
 
 namespace nao::play {
 
-/** Plays a match: takes its place for the kick-off, stands where the rules want it, and otherwise
- * does what its role in the team is: striker, supporter or keeper. */
+/** Plays a match: takes its place for the kick-off, stands where the rules require it, and
+ * otherwise plays its role in the team: striker, supporter or keeper. */
 class AutoPlayer : public BehaviorMachine {
  public:
   /** @param constants  Must outlive this. */
@@ -21,11 +21,11 @@ class AutoPlayer : public BehaviorMachine {
   void restart() override;
 
  private:
-  /** Whether the robot itself has seen the ball lately. */
+  /** Whether the robot itself has seen the ball recently. */
   bool sees_ball(const Situation& situation) const;
-  /** Where the team knows the ball to be, or where the rules put it, m, on the field. */
+  /** Position of the ball as the team knows it, or where the rules put it, m, on the field. */
   std::optional<Eigen::Vector2d> find_ball(const Situation& situation) const;
-  /** Takes notice of the referee's saying that the ball has left the field. */
+  /** Notes the referee's message that the ball has left the field. */
   void note_ball_out(const Situation& situation);
   Decision stand(const Situation& situation, const Reason& reason);
   Decision take_place(const Situation& situation);
@@ -34,7 +34,7 @@ class AutoPlayer : public BehaviorMachine {
   /** Walks to a ball that only teammates see. */
   Decision go_where_told(const Situation& situation, const Eigen::Vector2d& ball);
   Decision support(const Situation& situation, const Eigen::Vector2d& ball);
-  /** Whether the keeper leaves its place to kick a ball away that lies before it. */
+  /** Whether the keeper leaves its place to kick away a ball in front of it. */
   bool is_to_be_cleared(const Situation& situation, const std::optional<Eigen::Vector2d>& ball,
                         const Eigen::Vector2d& position) const;
   bool must_wait_for_kick_off(const Situation& situation,
@@ -46,7 +46,7 @@ class AutoPlayer : public BehaviorMachine {
   std::unique_ptr<Striker> striker_;
   PlayRole role_ = PlayRole::kNone;
   bool is_clearing_ = false;
-  /** Where the ball probably was put after it had left the field, m, on the field, and when, s. */
+  /** Where the ball was probably put after it had left the field, m, on the field, and when, s. */
   std::optional<Eigen::Vector2d> restart_{};
   double restart_time_ = -1e9;
 };

@@ -5,13 +5,13 @@
 namespace nao::play {
 namespace {
 
-/** A robot plays by itself again so long after another sender's last command, s: the time after
- * which a phone's lease passes to another client that asks (phone-gateway/PROTOCOL.md,
+/** Time after another sender's last command after which a robot plays by itself again, s: the time
+ * after which a phone's lease passes to another client that asks (phone-gateway/PROTOCOL.md,
  * TakeControl). After a stop it waits longer. Chosen: the person who stopped it may be about to
  * walk to it. */
 constexpr double kDrivenTimeout = 10;
 constexpr double kStoppedTimeout = 30;
-/** Between two repetitions of the own play command, s: less than its timeout. */
+/** Time between two repetitions of its own play command, s: less than its timeout. */
 constexpr double kRequestPeriod = 0.5;
 
 }  // namespace

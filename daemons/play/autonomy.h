@@ -5,7 +5,7 @@
 
 namespace nao::play {
 
-/** What decides whether a robot plays by itself. */
+/** Conditions that decide whether a robot plays by itself. */
 struct AutonomyInput {
   /** A match has begun and has not ended. */
   bool is_match_on = false;
@@ -23,10 +23,10 @@ class Autonomy {
   /** @param first_id  Less than the ids of its commands. */
   Autonomy(bool is_enabled, int64_t first_id);
 
-  /** Another sender's command; a stop keeps the robot still for longer. */
+  /** Takes another sender's command; a stop keeps the robot still for longer. */
   void note_other_command(bool is_stop, double now);
-  /** @return  The id of the play command to send now, if one is due: a new one to begin, the same
-   * to go on. */
+  /** @return The id of the play command to send now, if one is due: a new id to begin, the same to
+   * continue. */
   std::optional<int64_t> step(const AutonomyInput& input, double now);
 
  private:

@@ -8,29 +8,29 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** Nearer to the goal than the first, m, no ball is kicked during the walk. Between it and the
- * second a ball is carried on and shot from a stand, unless another robot is nearer to it than
- * kContestedDistance, m. Chosen with nao-trial match-error-model, seeds 101 to 112. */
+/** Nearer to the goal than the first distance, m, no ball is kicked during the walk. Between it and
+ * the second, a ball is dribbled and then shot from a stand, unless another robot is nearer to it
+ * than kContestedDistance, m. Chosen with nao-trial match-error-model, seeds 101 to 112. */
 constexpr double kPassingGoalDistance = 2.6;
 constexpr double kShotDistance = 3.5;
 constexpr double kContestedDistance = 1.2;
-/** Of a kick during the walk: where the ball is to lie, m ahead and aside; greatest deviation of
- * the heading, rad; and greatest age of the ball's place, s. */
+/** Conditions of a kick during the walk: where the ball must lie, m ahead and sideways; the
+ * greatest heading error, rad; and the greatest age of the ball's position, s. */
 constexpr double kPassingNear = 0.28;
 constexpr double kPassingFar = 0.5;
 constexpr double kPassingAside = 0.12;
 constexpr double kPassingTolerance = 0.2;
 constexpr double kPassingAge = 0.3;
-/** A ball is carried to this distance from the goal, m, before the shot: from 2.2 m and more a
+/** Distance from the goal, m, to which a ball is dribbled before the shot: from 2.2 m and more a
  * keeper's dive stops nearly every shot, and nearer than 1.7 m the keeper comes out and clears the
- * ball. Where the ball must lie for that, m ahead and aside, and the greatest deviation of the
- * heading, rad. Chosen on seeds 101 to 106. */
+ * ball. Then, where the ball must lie for dribbling, m ahead and sideways, and the greatest heading
+ * error, rad. Chosen on seeds 101 to 106. */
 constexpr double kCarryTo = 1.9;
 constexpr double kCarryNear = 0.1;
 constexpr double kCarryAside = 0.09;
 constexpr double kCarryTolerance = 0.3;
 
-/** From the middle of the opponents' goal line, m. */
+/** Distance from the middle of the opponents' goal line, m. */
 double distance_to_goal(const Ball& ball, const Situation& situation, const Field& field) {
   const Vector2d goal = situation.field_in_odometry * Vector2d(0.5 * field.length, 0);
   return (goal - ball.position).norm();

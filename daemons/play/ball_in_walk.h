@@ -5,12 +5,13 @@
 
 namespace nao::play {
 
-// What a robot does in a match with a ball before its walking feet. Frame of all: odometry.
+// What a robot does in a match with a ball in front of its walking feet. All is in the odometry
+// frame.
 
-/** Farther before the feet than this, m, a ball is not pushed by them. */
+/** Distance ahead of the feet, m, beyond which they do not push a ball. */
 inline constexpr double kPushReach = 0.45;
 
-/** Whether a ball lies right to be kicked during the walk and need not go far: far from the goal,
+/** Whether a ball is well placed for a kick during the walk and need not go far: far from the goal,
  * or where another robot may come first. */
 bool can_kick_in_passing(const Ball& ball, const Aim& aim, const Situation& situation,
                          const Field& field);
@@ -18,7 +19,7 @@ bool can_kick_in_passing(const Ball& ball, const Aim& aim, const Situation& situ
 /** Whether to walk on with the ball instead of shooting it from here. */
 bool can_carry(const Ball& ball, const Aim& aim, const Situation& situation, const Field& field);
 
-/** Whether a ball that is carried shall be carried farther. */
+/** Whether a ball that is being dribbled should be dribbled farther. */
 bool may_carry_on(const Ball& ball, const Situation& situation, const Field& field);
 
 }  // namespace nao::play

@@ -5,13 +5,13 @@
 namespace nao::play {
 namespace {
 
-/** Sightings of a ball that is one. Chosen: false balls in two successive images about one place
- * are rare, and a ball at 4 m is seen about twice a second (docs/vision.md). */
+/** Sightings after which a candidate counts as a ball. Chosen: false balls in two successive images
+ * about one place are rare, and a ball at 4 m is seen about twice a second (docs/vision.md). */
 constexpr int kConfirmed = 3;
-/** A candidate is looked at for this long after it was seen last, s. */
+/** Time for which the robot looks at a candidate after it was seen last, s. */
 constexpr double kDoubt = 1.2;
-/** About one place: m, and for each m of distance, since an error of the camera's tilt moves a ball
- * far away more. */
+/** Distance within which sightings are of one place: m, and its increase for each m of distance,
+ * since an error of the camera's tilt moves a distant ball more. */
 constexpr double kAgreement = 0.4;
 constexpr double kAgreementPerDistance = 0.15;
 

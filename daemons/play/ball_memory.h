@@ -6,7 +6,7 @@
 
 namespace nao::play {
 
-/** Tells a ball from what was taken for one in a single image: counts how often it was seen about
+/** Distinguishes a ball from a false detection in a single image: counts how often it was seen near
  * one place. */
 class BallMemory {
  public:
@@ -14,7 +14,8 @@ class BallMemory {
   void take(const std::optional<Ball>& ball, const Pose2& feet_in_odometry);
   /** The ball of the last take() was seen several times. */
   bool is_confirmed() const;
-  /** It was not, but shortly before `time`: worth a look. @param time  Robot time, s. */
+  /** It was not, but was seen shortly before `time`, so that a look is worthwhile.
+   * @param time  Robot time, s. */
   bool is_candidate(double time) const;
 
  private:

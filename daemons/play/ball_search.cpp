@@ -16,13 +16,13 @@ constexpr double kDwell = 0.8;
 constexpr double kScanDepression = 0.28;
 /** Directions of the scan, rad to the left: with a field of view of 1.06 rad they leave no gap. */
 constexpr double kScanBearings[] = {0, 0.85, -0.85};
-/** Of the turn, rad/s: an image's motion blur stays below half a degree, and what it shows is in
- * sight for more than a second. */
+/** Rate of the turn, rad/s. The motion blur of an image stays below half a degree, and what it
+ * shows is in view for more than a second. */
 constexpr double kTurnRate = 0.7;
-/** Longest way to another place, s. */
+/** Longest walk to another place, s. */
 constexpr double kRoamTime = 12;
-/** Places that are walked to, as fractions of half the field's length and width, in the own half
- * and just beyond its line. */
+/** Places to which the robot walks, as fractions of half the field's length and width, in its own
+ * half and just beyond its line. */
 constexpr double kPlaces[][2] = {{-0.35, 0}, {0.2, 0.3}, {-0.6, 0.4}, {-0.6, -0.4}, {0.2, -0.3}};
 /** Distance at which a place is reached, m. */
 constexpr double kReached = 0.3;
@@ -76,7 +76,8 @@ void BallSearch::scan(const Situation& situation, Decision& decision) {
     --index;
   }
   const size_t num_cameras = situation.robot.cameras.size();
-  // Cameras in turn: the lower ones straight ahead, then the first one in all directions.
+  // The cameras are used in turn: the lower ones straight ahead, then the first one in all
+  // directions.
   if (index + 1 < static_cast<int>(num_cameras)) {
     decision.gaze.camera = static_cast<size_t>(index) + 1;
     decision.gaze.depression += 0.6;
@@ -96,7 +97,7 @@ void BallSearch::turn(const Situation& situation, const PlayConstants& constants
   turned_ += wrapped(heading - heading_);
   heading_ = heading;
   decision.walk.wz = direction_ * std::min(kTurnRate, constants.walk_limits.turning);
-  // The cameras in turn, for what is far and for what is near.
+  // The cameras are used in turn, for far and near objects.
   const auto cycle = static_cast<size_t>((situation.time - stage_start_) / kDwell);
   const bool looks_down = cycle % 4 == 3 && situation.robot.cameras.size() > 1;
   decision.gaze.camera = looks_down ? 1 : 0;
@@ -115,7 +116,7 @@ void BallSearch::roam(const Situation& situation, const PlayConstants& constants
   const Eigen::Vector2d goal = situation.field_in_odometry * in_field;
   decision.target = goal;
   decision.walk = plan_walk_to({goal, feet.heading}, feet, constants.walk_limits);
-  // From side to side on the way.
+  // While it walks, the robot looks from side to side.
   decision.gaze.bearing = 0.7 * std::sin(2 * (situation.time - stage_start_));
   const bool is_there = (goal - feet.position).norm() < kReached;
   if (is_there || situation.time - stage_start_ > kRoamTime) enter(Stage::kScan, situation);

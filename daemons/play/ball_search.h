@@ -6,17 +6,17 @@
 
 namespace nao::play {
 
-/** Looks for the ball: where it was, then all around with the head, then by turning, then by
- * walking to another place of the own half, and again. */
+/** Searches for the ball: where it was, then all around with the head, then by turning, then by
+ * walking to another place in its own half, and again. */
 class BallSearch {
  public:
-  /** Begins anew. @param last  Where it was last known, m, in the odometry frame. */
+  /** Restarts. @param last  Where the ball was last known, m, in the odometry frame. */
   void start(const std::optional<Eigen::Vector2d>& last, const Situation& situation);
 
   bool is_active() const { return is_active_; }
   void stop() { is_active_ = false; }
 
-  /** s since the start. */
+  /** Time since the start, s. */
   double duration(const Situation& situation) const { return situation.time - start_; }
 
   /** One step; start() must have been called. */
@@ -37,7 +37,7 @@ class BallSearch {
   std::optional<Eigen::Vector2d> last_;
   /** 1: to the left. */
   double direction_ = 1;
-  /** Turned so far, rad, and the heading in the last step. */
+  /** Angle turned so far, rad, and the heading in the last step. */
   double turned_ = 0;
   double heading_ = 0;
   int num_roams_ = 0;

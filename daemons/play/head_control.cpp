@@ -6,12 +6,12 @@
 namespace nao::play {
 namespace {
 
-/** rad by which another camera must be better to replace the present one. Chosen. */
+/** Advantage of another camera, rad, for it to replace the present one. Chosen. */
 constexpr double kHysteresis = 0.15;
-/** Cost of a pitch away from 0, relative to that of missing the point: a head that looks ahead
- * sees landmarks, too. Chosen. */
+/** Cost of a pitch other than 0, relative to that of missing the point: a head that looks ahead
+ * also sees landmarks. Chosen. */
 constexpr double kPitchCost = 0.4;
-/** Height of a ball's center, m: what is looked at is a little above the ground. */
+/** Height of a ball's center, m: the target of a gaze is slightly above the ground. */
 constexpr double kHeight = 0.05;
 
 }  // namespace

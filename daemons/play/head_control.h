@@ -14,15 +14,15 @@ struct HeadLimits {
   double greatest_pitch = 0;
 };
 
-/** Angles of the joints that turn the cameras, rad, and the camera that is to be used. */
+/** Angles of the joints that turn the cameras, rad, and the camera to use. */
 struct HeadTarget {
   double yaw = 0;
   double pitch = 0;
   std::string camera;
 };
 
-/** Chooses camera and angles for a gaze: of several cameras the one that comes nearest to it, with
- * hysteresis. The joints turn about z and y (pitch positive downwards), as in every robot here. */
+/** Chooses camera and angles for a gaze: the camera that comes nearest to it, with hysteresis. The
+ * joints turn about z and y (pitch positive downwards), as in every robot here. */
 class HeadControl {
  public:
   explicit HeadControl(const HeadLimits& limits) : limits_(limits) {}

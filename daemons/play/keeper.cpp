@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** A ball that was not seen for this long is looked for, s. */
+/** Time without a sighting after which the keeper searches for the ball, s. */
 constexpr double kLookForBall = 4;
 /** Distance of the feet before the middle of the goal line, m: out far enough to cover more of the
  * goal's mouth, near enough that a dive comes in time. */
@@ -19,15 +19,15 @@ constexpr double kOut = 0.5;
 /** Half of the width that a block covers, and the greatest that a dive reaches, m. */
 constexpr double kBlockHalf = 0.2;
 constexpr double kDiveReach = 0.85;
-/** s before the ball comes at which the robot moves: a dive is on the ground after 0.66 s, a block
- * after 0.21 s (nao-trial block), and the decision is later by images and bus. */
+/** Time before the ball arrives at which the robot moves, s: a dive is on the ground after 0.66 s,
+ * a block after 0.21 s (nao-trial block), and images and bus delay the decision. */
 constexpr double kDiveTime = 1.0;
 constexpr double kBlockTime = 0.6;
-/** A ball that passes beside a post by this, m, is left alone. */
+/** Distance from a post, m, beyond which a ball that passes the goal is ignored. */
 constexpr double kWideOfPost = 0.15;
-/** Greatest speed of a step aside, m/s. */
+/** Greatest speed of a sidestep, m/s. */
 constexpr double kAsideSpeed = 0.14;
-/** Least time between two actions, s: the second one would answer the same shot. */
+/** Least time between two actions, s, since the second one would react to the same shot. */
 constexpr double kActionPause = 1;
 
 }  // namespace
@@ -78,7 +78,7 @@ std::optional<Decision> Keeper::answer_shot(const Ball& ball, const Situation& s
     last_action_ = situation.time;
     return decision;
   }
-  // There is time to step aside.
+  // There is time for a sidestep.
   if (aside > 0.5 * kBlockHalf && shot->time > kDiveTime) {
     const double most = std::min(kAsideSpeed, constants_.walk_limits.sideways);
     decision.walk.vy = std::clamp(shot->aside, -most, most);

@@ -7,8 +7,8 @@
 
 namespace nao::play {
 
-/** Keeps the own goal: stands between ball and goal, steps aside to a slow ball, blocks a shot at
- * the body and dives for one beside it. */
+/** Keeps its own goal: stands between ball and goal, sidesteps towards a slow ball, blocks a shot
+ * at the body and dives for one beside it. */
 class Keeper : public BehaviorMachine {
  public:
   /** @param constants  Must outlive this. */
@@ -18,7 +18,7 @@ class Keeper : public BehaviorMachine {
   void restart() override { positioner_.stop_search(); }
 
  private:
-  /** Where the feet are to be, in the odometry frame. */
+  /** Target position of the feet, in the odometry frame. */
   Pose2 calc_place(const std::optional<Eigen::Vector2d>& ball, const Situation& situation) const;
   bool is_towards_goal(const Ball& ball, const Situation& situation) const;
   std::optional<Decision> answer_shot(const Ball& ball, const Situation& situation);

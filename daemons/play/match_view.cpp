@@ -5,10 +5,10 @@
 namespace nao::play {
 namespace {
 
-/** What teammates say counts for this long, s. Chosen: their images come 5 to 15 times a second. */
+/** Validity of teammates' messages, s. Chosen: their images come 5 to 15 times a second. */
 constexpr double kSeenTimeout = 2;
-/** The referee's last word on the ball counts for this long, s. Chosen: a robot walks
- * 9 m meanwhile. */
+/** Validity of the referee's last message about the ball, s. Chosen: a robot walks 9 m in that
+ * time. */
 constexpr double kBallOutTimeout = 30;
 /** Advantage of the present striker, m. Chosen: more than the ball's error at 3 m. */
 constexpr double kRoleHysteresis = 0.5;
@@ -77,7 +77,7 @@ PlayRole choose_role(const MatchView& match, const Eigen::Vector2d& position,
   for (const Teammate& mate : match.teammates) {
     if (!mate.is_playing || mate.number == keeper) continue;
     if (!ball || !mate.seen.position) {
-      // Nothing tells them apart but their numbers.
+      // Only their numbers distinguish them.
       if (mate.number < match.number) return PlayRole::kSupporter;
       continue;
     }

@@ -11,7 +11,7 @@
 
 namespace nao::play {
 
-/** What another robot of the own team has seen, from its messages. */
+/** Sightings of another robot of the same team, from its messages. */
 struct TeamObservation {
   /** Robot time, s. */
   double time = 0;
@@ -21,7 +21,7 @@ struct TeamObservation {
   std::optional<Eigen::Vector2d> ball{};
 };
 
-/** Another player of the own team. */
+/** Another player of the same team. */
 struct Teammate {
   int number = 1;
   /** Plays by itself, without a penalty. */
@@ -38,9 +38,10 @@ struct MatchView {
   int number = 1;
   int team_size = 1;
   bool kicks_off = false;
-  /** s since the last kick-off; less than 0: there was none. */
+  /** Time since the last kick-off, s; negative if there was none. */
   double since_kick_off = -1;
-  /** s since the ball left the field, and whether the own team goes on; nothing: long ago. */
+  /** Time since the ball left the field, s, and whether the robot's team restarts; nothing if that
+   * was long ago. */
   struct BallOut {
     double age = 0;
     bool is_own = false;
@@ -54,18 +55,18 @@ struct MatchView {
 std::optional<MatchView> view_match(const MatchState& state, const std::string& robot, double time,
                                     const std::map<std::string, TeamObservation>& seen);
 
-/** Where a team knows the ball to be, m, on the field as the team sees it: from the robot itself,
- * otherwise from the teammate that saw it last.
- * @param own  Nothing: the robot itself does not know. @param time  Robot time, s. */
+/** Position of the ball as a team knows it, m, on the field as the team sees it: from the robot
+ * itself, otherwise from the teammate that saw it last. @param own  Nothing: the robot itself does
+ * not know. @param time  Robot time, s. */
 std::optional<Eigen::Vector2d> find_team_ball(const MatchView& match,
                                               const std::optional<Eigen::Vector2d>& own,
                                               double time);
 
-/** The robot's task in its team. The highest number of those that play by themselves keeps the goal
- * if the team has another player without a penalty; of the others the one nearest to the ball is
- * the striker.
- * @param position  Of the robot, m. @param ball  Nothing: unknown.
- * @param present  Its role until now, which it keeps where the distances differ little. */
+/** The robot's task in its team. Of the players that play by themselves, the one with the highest
+ * number keeps the goal if the team has another player without a penalty; the one nearest to the
+ * ball among the others is the striker.
+ * @param position  Position of the robot, m. @param ball  Nothing: unknown.
+ * @param present  Its role until now, which it keeps if the distances differ little. */
 PlayRole choose_role(const MatchView& match, const Eigen::Vector2d& position,
                      const std::optional<Eigen::Vector2d>& ball, PlayRole present);
 

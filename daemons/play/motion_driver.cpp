@@ -7,13 +7,14 @@
 namespace nao::play {
 namespace {
 
-/** Between two commands of a walk, s: twice the least rate of walk_command_t. */
+/** Time between two commands of a walk, s: twice the least rate of walk_command_t. */
 constexpr double kWalkPeriod = 0.1;
 /** Transmissions of zero velocity at the end of a walk, as the gateway does. */
 constexpr int kNumZeros = 3;
-/** Between two transmissions of an action that was accepted, s: its result may have been lost. */
+/** Time between two transmissions of an action that was accepted, s: its result may have been lost.
+ */
 constexpr double kConfirmPeriod = 1;
-/** An action without any answer has failed, s. */
+/** Time after which an action without any answer has failed, s. */
 constexpr double kAnswerTimeout = 1.5;
 /** Least change of the head's angles that is commanded, rad, and least time between two, s. */
 constexpr double kHeadStep = 0.03;
@@ -52,7 +53,7 @@ void MotionDriver::walk(const WalkCommand& velocity, double /*time*/) {
 
 void MotionDriver::perform(const ActionCommand& action, bool walks_on, double time) {
   if (!walks_on) {
-    // Without zeros: the action replaces the walk.
+    // No zeros are sent: the action replaces the walk.
     walk_id_ = 0;
     num_zeros_left_ = 0;
   }
@@ -63,7 +64,7 @@ void MotionDriver::perform(const ActionCommand& action, bool walks_on, double ti
 }
 
 void MotionDriver::turn_head(const std::vector<double>& angles, double time) {
-  // During an action the head is the action's.
+  // During an action, the action controls the head.
   if (action_ || time - last_head_ < kHeadPeriod) return;
   double change = head_angles_.empty() ? 2 * kHeadStep : 0;
   for (size_t i = 0; i < head_angles_.size(); ++i) {

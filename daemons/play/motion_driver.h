@@ -10,8 +10,8 @@
 
 namespace nao::play {
 
-/** Commands nao-motion: a walk, one action at a time, and the head meanwhile. Repeats what is not
- * answered, and ends what it began. Time: robot time, s. */
+/** Commands nao-motion: a walk, one action at a time, and at the same time the head. Repeats
+ * unanswered commands, and ends what it began. Times are robot times, s. */
 class MotionDriver {
  public:
   /** @param head_joints  Yaw and pitch; an empty name: no such joint. */
@@ -22,7 +22,7 @@ class MotionDriver {
 
   /** Walks at a velocity; all zero ends the walk. */
   void walk(const WalkCommand& velocity, double time);
-  /** Begins an action. @param walks_on  The walk goes on; otherwise it ends. */
+  /** Begins an action. @param walks_on  The walk continues; otherwise it ends. */
   void perform(const ActionCommand& action, bool walks_on, double time);
   /** Turns the head: absolute angles, rad, in the order of the joints. */
   void turn_head(const std::vector<double>& angles, double time);
@@ -32,7 +32,7 @@ class MotionDriver {
   void abandon();
 
   void handle_result(const CommandResult& result, double time);
-  /** @return What is to be sent now. */
+  /** @return The commands to send now. */
   std::vector<Command> step(double time);
 
   bool is_walking() const { return walk_id_ != 0; }

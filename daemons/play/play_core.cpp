@@ -11,8 +11,9 @@
 namespace nao::play {
 namespace {
 
-/** Without an image for this long the robot stands, s; and after the longer one, the behavior
- * fails. Chosen: 4 images a second are analysed on a busy host, and a camera starts within 2 s. */
+/** Time without an image after which the robot stands, s; and a longer time after which the
+ * behavior fails. Chosen: a busy host analyses 4 images a second, and a camera starts within 2 s.
+ */
 constexpr double kVisionTimeout = 1.5;
 constexpr double kVisionGivenUp = 15;
 /** Names of vision_state_t's IMAGE_STATUS_*. */
@@ -46,7 +47,8 @@ PlayOutput PlayCore::step(const PlayInput& input) {
   last_image_ = input.vision.time;
   robots_.forget(input.time);
   for (const CommandResult& result : input.results) motion_.handle_result(result, input.time);
-  // Before the requests: what another sender commanded has ended the old behavior, not the new one.
+  // This comes before the requests: another sender's command has ended the old behavior, not the
+  // new one.
   if (behavior_) end_if_necessary(input, output);
   for (const PlayRequest& request : input.requests) take(request, input, output);
   if (behavior_) run(input, output);
@@ -149,7 +151,7 @@ void PlayCore::end(ResultStatus status, const Reason& reason, bool stops, double
   behavior_.reset();
   if (stops) motion_.stop(time);
   report(request_, status, reason, output);
-  // What remains to be seen of it: how it ended.
+  // The behavior still learns how the action ended.
   state_.phase = status == ResultStatus::kDone ? PlayPhase::kDone : PlayPhase::kIdle;
   state_.behavior = Behavior::kNone;
   state_.role = PlayRole::kNone;
@@ -219,7 +221,7 @@ void PlayCore::run(const PlayInput& input, PlayOutput& output) {
     execute(behavior_->step(situation), situation, input, output);
     return;
   }
-  // Without images: stand, ask for them, and go on when they come.
+  // Without images, the robot stands, requests them, and continues when they arrive.
   if (!waits_since_) waits_since_ = input.time;
   motion_.walk({}, input.time);
   state_.phase = PlayPhase::kSearch;
@@ -266,7 +268,7 @@ std::vector<Eigen::Vector2d> PlayCore::find_robots(const PlayInput& input) const
   return result;
 }
 
-// Until the robot is localised: it began where the options say.
+// Until the robot is localised, it is assumed to have started where the options say.
 Pose2 PlayCore::field_in_odometry() const {
   return last_field_ ? *last_field_ : constants_.start_in_field.inverse();
 }

@@ -23,16 +23,16 @@ struct PlayRequest {
   PlayCommand command;
 };
 
-/** What has arrived since the last step. */
+/** Messages that have arrived since the last step. */
 struct PlayInput {
-  /** s of a monotonic clock: for the age of play commands. */
+  /** Monotonic time, s, for the age of play commands. */
   double now = 0;
   /** Robot time, s. */
   double time = 0;
   std::vector<PlayRequest> requests{};
   /** Results of this program's commands. */
   std::vector<CommandResult> results{};
-  /** Kind of a motion command that another sender gave. */
+  /** Kind of a motion command from another sender. */
   std::optional<CommandKind> other_command{};
   Mode mode = Mode::kNoRobot;
   bool needs_help = false;
@@ -43,7 +43,7 @@ struct PlayInput {
   std::optional<MatchView> match{};
 };
 
-/** What play_state_t says; it documents every field. */
+/** Contents of play_state_t, which documents every field. */
 struct PlayState {
   Behavior behavior = Behavior::kNone;
   PlayRole role = PlayRole::kNone;
@@ -54,7 +54,7 @@ struct PlayState {
   Reason reason{};
 };
 
-/** What one step sends. */
+/** Messages that one step sends. */
 struct PlayOutput {
   std::vector<Command> commands;
   std::vector<CommandResult> results;
@@ -62,15 +62,16 @@ struct PlayOutput {
   std::string camera;
 };
 
-/** Runs behaviors without clock and bus: takes play commands, ends what nobody repeats, keeps the
- * robot safe, and lets the behavior of the command decide. */
+/** Runs behaviors without clock and bus: takes play commands, ends commands that nobody repeats,
+ * keeps the robot safe, and lets the command's behavior decide. */
 class PlayCore {
  public:
-  /** A play command that is not repeated for this long ends the behavior, s: play_command_t. */
+  /** Time after which a play command that was not repeated ends the behavior, s: play_command_t. */
   static constexpr double kCommandTimeout = 2;
 
   /** @param head_joints  Names: yaw and pitch; empty where the robot has none.
-   * @param source  Of the commands, unique on the bus. @param first_id  Number of the first one. */
+   * @param source  Source of the commands, unique on the bus. @param first_id  Number of the first
+   * one. */
   PlayCore(const PlayConstants& constants, const HeadLimits& head_limits,
            std::vector<std::string> head_joints, const std::string& source, int64_t first_id);
   // The behaviors refer to the constants.
@@ -109,10 +110,10 @@ class PlayCore {
   std::unique_ptr<BehaviorMachine> behavior_;
   CommandLedger ledger_;
   ResultReminder reminder_;
-  /** s, monotonic: of the last play command, and of the last step. */
+  /** Monotonic times of the last play command and of the last step, s. */
   double last_command_ = -1e9;
   double last_step_ = 0;
-  /** Robot time, s, since which the behavior waits for images; nothing: it does not. */
+  /** Robot time, s, since which the behavior has been waiting for images; nothing if it is not. */
   std::optional<double> waits_since_;
   std::optional<Pose2> last_field_;
   RobotMemory robots_;

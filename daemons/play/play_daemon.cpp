@@ -27,14 +27,14 @@ namespace {
 const char* const kProgram = "nao-play";
 /** s. */
 constexpr double kStatusPeriod = 1;
-/** Silence of nao-motion after which there is no robot, s: robot_state_t. */
+/** Time without a message of nao-motion after which there is no robot, s: robot_state_t. */
 constexpr double kRobotTimeout = 0.5;
 /** The camera's requests are valid for 2 s. */
 constexpr double kRequestPeriod = 1;
-/** A match that nobody tells of for so long is over, s: ten of nao-referee's messages. */
+/** Time without match messages after which a match is over, s: ten of nao-referee's messages. */
 constexpr double kMatchTimeout = 2;
-/** Size and rate of the requested images: what nao-vision is made for, at half of its greatest
- * rate. Chosen: two cameras in turn, and a host that renders them, too. */
+/** Size and rate of the requested images: the size that nao-vision is made for, at half of its
+ * greatest rate. Chosen: two cameras in turn, and a host that renders them, too. */
 constexpr int kWidth = 640;
 constexpr double kRate = 15;
 
@@ -137,7 +137,7 @@ void PlayDaemon::watch_teammates(const MatchState& state) {
         RobotChannels(player.robot).vision_state, Bus::Queue::kLatest,
         [this, name = player.robot](const naolcm::vision_state_t& message) {
           const TeamObservation seen = decode_observation(message);
-          // An image without the ball does not take back what the one before has shown.
+          // An image without the ball does not cancel the previous sighting.
           TeamObservation& kept = teammates_[name];
           const bool keeps_ball = !seen.ball && seen.time - kept.time < 1;
           const auto ball = keeps_ball ? kept.ball : seen.ball;
@@ -188,7 +188,7 @@ void PlayDaemon::step(double now) {
   request_camera(output.camera, now);
 }
 
-// Repeated, as requests expire.
+// The request is repeated because requests expire.
 void PlayDaemon::request_camera(const std::string& camera, double now) {
   const bool is_due = camera != camera_ || now - last_camera_request_ >= kRequestPeriod;
   camera_ = camera;

@@ -31,7 +31,7 @@ struct PlayOptions {
   std::string scene = "soccer";
   /** Where the robot stood on the field when nao-motion started, m and rad. */
   Pose2 start_in_field{};
-  /** Plays by itself in a match, unless a person drives the robot. */
+  /** Whether the robot plays by itself in a match, unless a person drives it. */
   bool is_autonomous = false;
 };
 
@@ -42,7 +42,7 @@ struct PlayOptions {
  */
 class PlayDaemon {
  public:
-  /** s between two steps, and between two play_state_t. */
+  /** Time between two steps, and between two play_state_t, s. */
   static constexpr double kStepPeriod = 0.05;
   static constexpr double kStatePeriod = 0.2;
 
@@ -57,7 +57,7 @@ class PlayDaemon {
   void step(double now);
   void publish_state();
   void publish_status(double now);
-  /** The program ends: what it moves stops. */
+  /** Stops all that the program moves, when it ends. */
   void shut_down(double now);
 
   const PlayCore& core() const { return core_; }
@@ -81,10 +81,10 @@ class PlayDaemon {
   std::string source_;
   PlayCore core_;
   TorsoHistory torso_;
-  /** What the next step gets. */
+  /** Input of the next step. */
   PlayInput input_;
   int64_t utime_ = 0;
-  /** s, monotonic: when state and motion state were received last. */
+  /** Monotonic times at which state and motion state were last received, s. */
   double last_robot_ = -1e9;
   double last_motion_ = -1e9;
   std::string robot_;
@@ -93,7 +93,7 @@ class PlayDaemon {
   std::map<std::string, TeamObservation> teammates_;
   /** Robots whose messages are received. */
   std::set<std::string> watched_;
-  /** s, monotonic: of the last match state. */
+  /** Monotonic time of the last match state, s. */
   double last_match_ = -1e9;
   std::string camera_;
   double last_camera_request_ = -1e9;

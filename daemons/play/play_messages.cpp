@@ -36,7 +36,7 @@ RobotPose decode_pose(const RobotModel& model, const naolcm::robot_state_t& stat
 }
 
 void TorsoHistory::add(int64_t utime, const Pose2& torso_in_odometry) {
-  // Time may go back: another simulation.
+  // Time goes back when another simulation starts.
   if (!poses_.empty() && utime < poses_.back().first) poses_.clear();
   poses_.emplace_back(utime, torso_in_odometry);
   while (utime - poses_.front().first > kHistoryLength) poses_.pop_front();
@@ -69,7 +69,7 @@ Vision decode_vision(const naolcm::vision_state_t& message, const TorsoHistory& 
     }
     vision.ball = ball;
   }
-  // Without the state of that time nothing can be related to the odometry.
+  // Without the state at that time, nothing can be related to the odometry.
   const auto then = torso.find(message.utime);
   for (const naolcm::detection_t& detection : message.detections) {
     const Eigen::Vector2d place(detection.position_in_heading);

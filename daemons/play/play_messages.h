@@ -25,7 +25,8 @@ struct RobotPose {
 /** @throws Error  for an unknown or missing joint, or a number that is not finite. */
 RobotPose decode_pose(const RobotModel& model, const naolcm::robot_state_t& state);
 
-/** The torso's ground pose of the last second, to relate what was seen to what was then. */
+/** The torso's ground poses in the last second, to relate what was seen to the pose at that time.
+ */
 class TorsoHistory {
  public:
   void add(int64_t utime, const Pose2& torso_in_odometry);
@@ -39,7 +40,7 @@ class TorsoHistory {
 /** @throws Error  for a number that is not finite. */
 Vision decode_vision(const naolcm::vision_state_t& message, const TorsoHistory& torso);
 
-/** What a teammate's vision says of itself and the ball.
+/** Converts what a teammate's vision reports about itself and the ball.
  * @throws Error  for a number that is not finite. */
 TeamObservation decode_observation(const naolcm::vision_state_t& message);
 

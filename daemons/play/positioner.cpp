@@ -7,7 +7,8 @@
 namespace nao::play {
 namespace {
 
-/** Hysteresis of the place: stops within the first, walks beyond the second, m and rad. */
+/** Hysteresis of the position: the robot stops within the first and walks beyond the second, m and
+ * rad. */
 constexpr double kInPlace = 0.06;
 constexpr double kOutOfPlace = 0.2;
 constexpr double kTurned = 0.15;
@@ -33,7 +34,7 @@ Decision Positioner::step(const Pose2& place, const std::optional<Eigen::Vector2
     decision.gaze.point = ball;
     return decision;
   }
-  // The head looks for the ball; the feet do not.
+  // Only the head searches for the ball; the robot does not walk for it.
   decision.reason = Reason("ball-not-in-sight");
   if (!search_.is_active()) search_.start(std::nullopt, situation);
   decision.gaze = search_.step(situation, constants_).gaze;

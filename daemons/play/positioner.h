@@ -8,14 +8,15 @@
 
 namespace nao::play {
 
-/** Takes a place on the field and stays there, with the head towards the ball. */
+/** Walks to a place on the field and stays there, with the head towards the ball. */
 class Positioner {
  public:
   /** @param constants  Must outlive this. */
   explicit Positioner(const PlayConstants& constants) : constants_(constants) {}
 
   /** One step.
-   * @param place  Of the feet, in the odometry frame. @param ball  m, in the odometry frame. */
+   * @param place  Position of the feet, in the odometry frame. @param ball  m, in the odometry
+   * frame. */
   Decision step(const Pose2& place, const std::optional<Eigen::Vector2d>& ball,
                 const Situation& situation);
 

@@ -8,19 +8,20 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** A robot counts for this long after it was seen, s. Chosen: the head turns away for up to 2 s. */
+/** Time for which a robot is remembered after it was seen, s. Chosen: the head turns away for up to
+ * 2 s. */
 constexpr double kForgetRobotAfter = 2;
-/** Two sightings within this are of one robot, m: an error of the camera's tilt of one degree moves
- * one at 2.5 m by 0.25 m. */
+/** Distance within which two sightings are of one robot, m: an error of the camera's tilt of one
+ * degree moves one at 2.5 m by 0.25 m. */
 constexpr double kSameRobot = 0.4;
-/** Between the middles of two robots, m: nearer than the first, no velocity towards the other is
- * left (shoulders are 0.3 m wide); beyond the second, all. */
+/** Distances between the middles of two robots, m: nearer than the first, no velocity towards the
+ * other remains (shoulders are 0.3 m wide); beyond the second, all of it remains. */
 constexpr double kStopDistance = 0.38;
 constexpr double kFreeDistance = 0.8;
 /** Allowed velocity towards a robot per m of distance beyond the first, 1/s: stops within a step.
  */
 constexpr double kApproachGain = 0.6;
-/** Velocity to the side with which a robot in the way is passed, m/s. */
+/** Sideways velocity with which a robot in the way is passed, m/s. */
 constexpr double kPassSpeed = 0.08;
 
 }  // namespace
@@ -59,7 +60,7 @@ WalkCommand keep_clear(WalkCommand walk, const std::vector<Vector2d>& robots, co
     const double approach = velocity.dot(towards);
     const double allowed = kApproachGain * std::max(0.0, distance - kStopDistance);
     if (approach <= allowed) continue;
-    // Around it: at right angles, to the side to which the rest of the velocity points.
+    // The robot passes it at right angles, on the side to which the rest of the velocity points.
     const Vector2d left(-towards.y(), towards.x());
     const double side = velocity.dot(left) >= 0 ? 1 : -1;
     const double aside = side * std::max(std::abs(velocity.dot(left)), kPassSpeed);

@@ -8,7 +8,7 @@
 
 namespace nao::play {
 
-/** Where other robots were seen lately. */
+/** Remembers where other robots were seen recently. */
 class RobotMemory {
  public:
   /** @param robots  m, in the odometry frame. @param time  Robot time, s. */
@@ -25,8 +25,8 @@ class RobotMemory {
   std::vector<Seen> seen_;
 };
 
-/** The walk without what would bring the robot into others: near a robot the velocity towards it
- * falls to zero, and the robot passes on the side that is nearer to its way.
+/** Removes from the walk what would lead to a collision: near another robot the velocity towards it
+ * falls to zero, and the robot passes on the side that is nearer to its path.
  * @param robots  m, in the odometry frame. @param feet  In the odometry frame. */
 WalkCommand keep_clear(WalkCommand walk, const std::vector<Eigen::Vector2d>& robots,
                        const Pose2& feet);

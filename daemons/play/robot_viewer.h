@@ -11,8 +11,8 @@
 
 namespace nao::play {
 
-/** Where feet and cameras are, from the torso's pose and the joints; and what the robot's files
- * say that behaviors need. */
+/** Computes where feet and cameras are from the torso's pose and the joints; and holds what
+ * behaviors need from the robot's files. */
 class RobotViewer {
  public:
   /** @param model  Must outlive this. */

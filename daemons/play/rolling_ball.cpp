@@ -11,12 +11,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** A ball that rolls past the feet nearer than this, m, is stopped by them. Chosen: half the width
- * of a stance and the ball's radius. */
+/** Distance, m, within which the feet stop a ball that rolls past. Chosen: half the width of a
+ * stance and the ball's radius. */
 constexpr double kStoppedByFeet = 0.2;
-/** Slower balls are not shots, m/s. */
+/** Least speed of a shot, m/s. */
 constexpr double kShotSpeed = 0.25;
-/** Ball ahead of the feet's line at which a foot stops it, m. */
+/** Distance of the ball ahead of the feet's line at which a foot stops it, m. */
 constexpr double kFootLength = 0.1;
 
 }  // namespace

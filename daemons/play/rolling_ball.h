@@ -7,14 +7,14 @@
 
 namespace nao::play {
 
-/** Where a ball comes to rest, m: of one that rolls, at the end of its straight path or before the
- * feet that it meets; of any other, where it is. Frames of all: odometry.
- * @param feet  Of the robot, m. */
+/** Where a ball comes to rest, m: a rolling one at the end of its straight path or before the feet
+ * that it meets; any other where it is. All is in the odometry frame.
+ * @param feet  Position of the robot, m. */
 Eigen::Vector2d predict_rest(const Ball& ball, const Eigen::Vector2d& feet);
 
 /** A ball that rolls towards the robot. */
 struct Shot {
-  /** s until it passes the line through the feet, at right angles to the heading. */
+  /** Time until it passes the line through the feet, at right angles to the heading, s. */
   double time = 0;
   /** Where it passes, m to the left of the feet. */
   double aside = 0;

@@ -9,29 +9,31 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** Of the kick's direction, rad: its worst error (1.7 degrees) and that of the heading. */
+/** Error of the kick's direction, rad: its own worst error (1.7 degrees) and that of the heading.
+ */
 constexpr double kDirectionError = 0.06;
-/** Least tolerance of a kick that does not reach the goal, rad: 0.9 m aside at its end, where the
- * next kick is aimed anew. Chosen. */
+/** Least tolerance of a kick that does not reach the goal, rad: 0.9 m sideways at its end, where
+ * the next kick is aimed again. Chosen. */
 constexpr double kFarTolerance = 0.2;
 /** Margin, m, to a goal post: the ball's radius and some of the pose's error. */
 constexpr double kPostMargin = 0.15;
-/** A robot nearer than this to the middle of the goal line, m, keeps the goal: the shot goes beside
- * it, by half the width that a standing keeper covers, m. */
+/** A robot nearer than this to the middle of the goal line, m, is the keeper. The shot passes it by
+ * half the width that a standing keeper covers, m. */
 constexpr double kKeeperDistance = 1.3;
 constexpr double kKeeperHalf = 0.25;
-/** Where a keeper that is not seen stands, m before the middle of the goal line. */
+/** Assumed distance of an unseen keeper before the middle of the goal line, m. */
 constexpr double kKeeperOut = 0.5;
-/** Openings beside a keeper that differ by less, rad, are as good as each other. */
+/** Difference of the openings beside a keeper, rad, below which they are equally good. */
 constexpr double kEqualSides = 0.1;
 /** A robot nearer to the ball than this, m, and in the direction of the kick within the angle, rad,
  * would stop it. The kick goes past it by that angle. Chosen: shoulders are 0.3 m wide. */
 constexpr double kBlockingDistance = 1.0;
 constexpr double kBlockingAngle = 0.6;
-/** Tolerance of such a kick, rad: it is to get the ball away. */
+/** Tolerance of such a kick, rad, which only has to clear the ball. */
 constexpr double kPastTolerance = 0.25;
 
-/** Robots, in the field, that may keep the goal from a ball there. @param ball  In the field. */
+/** Robots that may keep the goal against a ball there, in the field frame. @param ball  In the
+ * field frame. */
 std::vector<Vector2d> find_keepers(const Vector2d& ball, const Situation& situation,
                                    const Field& measures) {
   const Vector2d goal(0.5 * measures.length, 0);
@@ -43,7 +45,7 @@ std::vector<Vector2d> find_keepers(const Vector2d& ball, const Situation& situat
         (keeper - goal).norm() < kKeeperDistance && way.x() > 0.3 && way.norm() > kKeeperHalf;
     if (is_keeper) keepers.push_back(keeper);
   }
-  // Out of sight it is where a keeper stands.
+  // An unseen keeper is assumed at its usual place.
   const bool has_keeper = situation.match && situation.match->team_size > 1;
   if (keepers.empty() && has_keeper && ball.x() < goal.x() - kKeeperDistance) {
     keepers.push_back(goal + kKeeperOut * (ball - goal).normalized());
@@ -58,7 +60,8 @@ Aim aim_at_goal(const Vector2d& ball, const Situation& situation, const Field& m
   const Vector2d in_field = field.inverse() * ball;
   const double goal_x = 0.5 * measures.length;
   const double half = std::max(0.2, 0.5 * measures.goal_width - kPostMargin);
-  // From a ball on the goal line the opening has no direction: a little before it.
+  // From a ball on the goal line the opening has no direction, so a point slightly before it is
+  // used.
   const double depth = std::max(0.15, goal_x - in_field.x());
   double left = std::atan2(half - in_field.y(), depth);
   double right = std::atan2(-half - in_field.y(), depth);
@@ -68,7 +71,7 @@ Aim aim_at_goal(const Vector2d& ball, const Situation& situation, const Field& m
     const double bearing = std::atan2(way.y(), way.x());
     const double cover = std::asin(kKeeperHalf / way.norm());
     if (bearing + cover < right || bearing - cover > left) continue;
-    // The wider side; of two that are about equal the one that the robot faces already.
+    // Choose the wider side; if both are about equal, the one that the robot already faces.
     double more_on_left = left - (bearing + cover) - ((bearing - cover) - right);
     if (std::abs(more_on_left) < kEqualSides) {
       const Vector2d facing =
@@ -96,7 +99,7 @@ Aim aim_past_robots(const Aim& aim, const Vector2d& ball, const Situation& situa
     const Vector2d way = robot - ball;
     const double bearing = wrapped(std::atan2(way.y(), way.x()) - aim.heading);
     if (way.norm() > kBlockingDistance || std::abs(bearing) > kBlockingAngle) continue;
-    // To the side on which more of the field is, unless the robot leaves one side open.
+    // Turn to the side with more of the field, unless the robot leaves one side open.
     const double middle = (situation.field_in_odometry.inverse() * ball).y() > 0 ? -1 : 1;
     const double side = std::abs(bearing) < 0.3 * kBlockingAngle ? middle : (bearing > 0 ? -1 : 1);
     Aim past = aim;

@@ -13,9 +13,9 @@ inline constexpr double kKickDistance = 4.5;
 inline constexpr double kLeastTolerance = 0.06;
 inline constexpr double kGreatestTolerance = 0.3;
 
-/** Where the ball is to go. */
+/** Where the ball should go. */
 struct Aim {
-  /** rad, in the odometry frame, and how far the feet may be off. */
+  /** Direction in the odometry frame, rad, and the tolerance of the feet. */
   double heading = 0;
   double tolerance = 0;
   /** m, in the odometry frame. */
@@ -26,8 +26,8 @@ struct Aim {
  * two or more have a keeper also where none is seen. @param ball  m, in the odometry frame. */
 Aim aim_at_goal(const Eigen::Vector2d& ball, const Situation& situation, const Field& field);
 
-/** The aim turned past a robot that stands before the ball. @param ball  m, in the odometry frame.
- */
+/** Turns the aim past a robot that stands in front of the ball. @param ball  m, in the odometry
+ * frame. */
 Aim aim_past_robots(const Aim& aim, const Eigen::Vector2d& ball, const Situation& situation);
 
 }  // namespace nao::play

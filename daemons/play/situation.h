@@ -48,7 +48,7 @@ struct Ball {
   bool is_rolling = false;
 };
 
-/** What perception says. */
+/** Output of perception. */
 struct Vision {
   /** Robot time of the last image, s. */
   double time = -std::numeric_limits<double>::infinity();
@@ -64,7 +64,7 @@ struct Vision {
 
 /** Lengths of the field that the behaviors need, m. */
 struct Field {
-  /** Between the centers of the goal lines, and of the side lines. */
+  /** Distances between the centers of the goal lines, and of the side lines. */
   double length = 0;
   double width = 0;
   /** Inner width of a goal, and its depth behind the center of the goal line. */
@@ -74,10 +74,11 @@ struct Field {
   Eigen::Vector2d goal_area = Eigen::Vector2d::Zero();
 };
 
-/** Where the robot's kick wants the ball, m, in F: ahead, and to the side of the kicking foot. */
+/** Best place of the ball for the robot's kick, m, in F: ahead, and to the side of the kicking
+ * foot. */
 struct KickPlace {
   Eigen::Vector2d ball = Eigen::Vector2d::Zero();
-  /** Greatest distance from there, ahead and aside. */
+  /** Greatest distance from there, ahead and sideways. */
   Eigen::Vector2d reach = Eigen::Vector2d::Zero();
 };
 
@@ -90,7 +91,7 @@ struct ActionNames {
   std::string dive_right;
 };
 
-/** What is always the same. */
+/** Constants of a behavior. */
 struct PlayConstants {
   Field field;
   WalkLimits walk_limits;
@@ -100,7 +101,7 @@ struct PlayConstants {
   Pose2 start_in_field{};
 };
 
-/** What a behavior sees. */
+/** Input of a behavior. */
 struct Situation {
   /** Robot time, s. */
   double time = 0;
@@ -108,9 +109,9 @@ struct Situation {
   /** As last seen; a behavior decides how old it may be. */
   std::optional<Ball> ball{};
   Pose2 field_in_odometry;
-  /** Other robots as seen lately or told by teammates, m, in the odometry frame. */
+  /** Other robots as seen recently or reported by teammates, m, in the odometry frame. */
   std::vector<Eigen::Vector2d> robots{};
-  /** No motion is in progress but, perhaps, that of the head. */
+  /** No motion is in progress, except perhaps that of the head. */
   bool is_still = false;
   /** An action that the behavior commanded is in progress. */
   bool is_performing = false;
@@ -131,7 +132,7 @@ struct Gaze {
   size_t camera = 0;
 };
 
-/** What a behavior commands in one step. */
+/** Commands of a behavior in one step. */
 struct Decision {
   PlayPhase phase = PlayPhase::kIdle;
   /** All zero: the robot stands. Ignored while an action is in progress. */
@@ -141,11 +142,11 @@ struct Decision {
   /** The robot walks on during the action, with `walk`. */
   bool walks_on = false;
   Gaze gaze{};
-  /** Where the robot walks to or the ball shall go, m, in the odometry frame. */
+  /** Where the robot walks or the ball should go, m, in the odometry frame. */
   std::optional<Eigen::Vector2d> target{};
-  /** Of a behavior that has several. */
+  /** Role, if the behavior has several. */
   std::optional<PlayRole> role{};
-  /** The behavior has reached its aim, or (with a reason) cannot. */
+  /** The behavior has reached its goal, or (with a reason) cannot reach it. */
   bool is_done = false;
   bool has_failed = false;
   /** Why it waits or has ended. */
@@ -158,7 +159,7 @@ class BehaviorMachine {
   virtual ~BehaviorMachine() = default;
   /** One step; called about 20 times a second. */
   virtual Decision step(const Situation& situation) = 0;
-  /** The robot has fallen and stands again: what was in progress is not continued. */
+  /** The robot has fallen and stands again; actions in progress are not continued. */
   virtual void restart() = 0;
 };
 

@@ -12,34 +12,35 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** A ball that was not seen for this long is looked for, s; near the feet, where the robot's own
- * steps move the image, longer. Chosen. */
+/** Time without a sighting after which the robot searches for the ball, s; longer near the feet,
+ * where its own steps move the image. Chosen. */
 constexpr double kForgetAfter = 5;
 constexpr double kForgetAfterNear = 8;
 constexpr double kNear = 0.6;
-/** The search is given up after this time, s. */
+/** Time after which the search is given up, s. */
 constexpr double kSearchTimeout = 120;
-/** Parts of the kick's reach at which the walk stops: the last step and the settling move the
+/** Fractions of the kick's reach at which the walk stops: the last step and the settling move the
  * feet by about a centimetre. */
 constexpr double kStopFraction = 0.55;
 constexpr double kKickFraction = 0.9;
-/** s for which the robot stands before it judges the place of the ball, and the longest time that
- * it waits for an image. */
+/** Time for which the robot stands before it judges the place of the ball, and the longest time for
+ * which it waits for an image, s. */
 constexpr double kSettleTime = 0.3;
 constexpr double kSettleTimeout = 2.0;
-/** s from the start of a kick until the foot has struck: phases of
+/** Time from the start of a kick until the foot has struck, s: phases of
  * data/robots/nao/actions/kick.yaml. */
 constexpr double kStrikeTime = 1.2;
-/** Age of an image when it is known, s. */
+/** Age of an image when its contents are known, s. */
 constexpr double kImageAge = 0.1;
-/** After a kick: s that the robot looks before its feet, in case that it missed, and after the
- * ball. */
+/** Times after a kick for which the robot looks in front of its feet, in case it missed, and then
+ * after the ball, s. */
 constexpr double kLookDown = 0.6;
 constexpr double kWatchTime = 1.4;
-/** Of a kick during the walk, m (nao-trial walk-kick), and the walk meanwhile, m/s. */
+/** Distance of a kick during the walk, m (nao-trial walk-kick), and the walking speed in it, m/s.
+ */
 constexpr double kPassingKickDistance = 2.1;
 constexpr double kPassingSpeed = 0.15;
-/** Of the dribbled ball, m/s and m. */
+/** Speed of the dribbled ball, m/s, and the distance to its target at which it has arrived, m. */
 constexpr double kPushSpeed = 0.16;
 constexpr double kTargetReached = 0.3;
 /** A ball seen this far behind the goal line, m, has passed it: its radius, half of the line's
@@ -49,9 +50,9 @@ constexpr double kBehindLine = 0.11;
  * 0.02 m at 0.5 m, 0.17 m at 2 m. Under `moderate` the tilt is off by up to 1.3 degrees. */
 constexpr double kTiltError = 0.018;
 constexpr double kCameraHeight = 0.45;
-/** Where the ball has gone is judged from nearer than this, m. */
+/** Distance, m, within which the robot can judge where the ball has gone. */
 constexpr double kJudgeDistance = 2;
-/** Go to the ball: distance of the feet from it at the end, m. */
+/** Distance of the feet from the ball at the end of going to it, m. */
 constexpr double kBeforeBall = 0.25;
 /** A robot that walks far looks for landmarks every kLandmarkPeriod s, for kLandmarkTime s, while
  * the ball is beyond kLandmarkDistance m. Chosen. */
@@ -95,7 +96,7 @@ Decision Striker::step(const Situation& situation) {
     return look_for_ball(situation);
   }
   search_.stop();
-  // Out of sight again, as after a kick, it is looked for where it rolls to.
+  // If the ball is out of sight again, as after a kick, the robot searches where it rolls to.
   const Vector2d way = ball->position - situation.robot.feet_in_odometry.position;
   expected_.reset();
   if (way.norm() > kLandmarkDistance) expected_ = into_field(ball->position, 0, situation);
@@ -114,7 +115,7 @@ void Striker::handle_end(const CommandResult& result, const Situation& situation
   stage_start_ = situation.time;
   still_since_.reset();
   if (result.status != ResultStatus::kDone) {
-    // Refused or failed: the ball has moved, or the robot stood badly.
+    // The kick was refused or failed: the ball has moved, or the robot stood badly.
     stage_ = Stage::kApproach;
     return;
   }
@@ -159,7 +160,7 @@ Aim Striker::calc_aim(const Vector2d& ball, const Situation& situation) const {
   } else {
     aim = aim_past_robots(aim_at_goal(ball, situation, constants_.field), ball, situation);
   }
-  // A robot that could not stop well enough several times is content with less.
+  // A robot that several times could not stop accurately enough accepts a larger error.
   aim.tolerance =
       std::min(kGreatestTolerance, aim.tolerance + 0.04 * std::max(0, num_settles_ - 2));
   return aim;
@@ -168,8 +169,8 @@ Aim Striker::calc_aim(const Vector2d& ball, const Situation& situation) const {
 ApproachGoal Striker::make_goal(const Vector2d& ball, const Aim& aim, const Pose2& feet) {
   if (task_ == Task::kGoToBall) return {ball, aim.heading, {kBeforeBall, 0}};
   const Vector2d place = constants_.kick ? constants_.kick->ball : Vector2d(kBeforeBall, 0);
-  // The foot on whose side the feet are: with the ball to their left, the left one. With
-  // hysteresis, m, and no change near the ball.
+  // Chooses the foot on the ball's side: the left one if the ball is to the left. It has a
+  // hysteresis, m, and does not change near the ball.
   const Pose2 ball_in_odometry{ball, aim.heading};
   const Vector2d from_ball = ball_in_odometry.inverse() * feet.position;
   const bool may_change = from_ball.norm() > 0.4 && std::abs(from_ball.y()) > 0.1;
@@ -207,7 +208,7 @@ std::optional<Decision> Striker::find_end(const Ball& ball, const Situation& sit
   return std::nullopt;
 }
 
-// Standing: what is no ball is not seen again.
+// A standing robot does not see a false ball again.
 Decision Striker::look_at_candidate(const Ball& ball) {
   Decision decision;
   decision.phase = PlayPhase::kSearch;
@@ -284,7 +285,7 @@ Decision Striker::approach(const Ball& ball, const Situation& situation) {
   const bool is_before_ball = task_ == Task::kGoToBall && distance < kBeforeBall + 0.08;
   const Vector2d reach =
       kStopFraction * (constants_.kick ? constants_.kick->reach : Vector2d(0.05, 0.025));
-  // Where the ball is seen from the feet, also where the aim is met only roughly.
+  // Position of the ball seen from the feet, used even if the aim is met only roughly.
   const Vector2d off = (feet.inverse() * ball.position - goal.ball_in_feet).cwiseAbs();
   const bool is_in_place =
       off.x() < reach.x() && off.y() < reach.y() && std::abs(error.heading) < 0.8 * aim.tolerance;
@@ -378,7 +379,7 @@ Decision Striker::push(const Ball& ball, const Situation& situation) {
   decision.phase = PlayPhase::kKick;
   decision.target = aim.target;
   decision.gaze.point = ball.position;
-  // Carried on by the foot before which it lies.
+  // The foot in front of which the ball lies dribbles it.
   if (task_ == Task::kScore) side_ = in_feet.y() > 0 ? 1 : -1;
   const double aside = in_feet.y() - side_ * (constants_.kick ? constants_.kick->ball.y() : 0);
   const double turn = wrapped(aim.heading - feet.heading);

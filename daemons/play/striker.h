@@ -18,8 +18,8 @@ class Striker : public BehaviorMachine {
 
   /** @param constants  Must outlive this.
    * @param target  Where the ball shall go, m, in the odometry frame; nothing: the opponent's goal.
-   * @param kicks_in_passing  Far from the goal the ball is kicked during the walk: sooner, less
-   * far and less exactly. */
+   * @param kicks_in_passing  Far from the goal the ball is kicked during the walk: earlier, but
+   * less far and less accurately. */
   Striker(const PlayConstants& constants, Task task, const std::optional<Eigen::Vector2d>& target,
           bool kicks_in_passing = false)
       : constants_(constants), task_(task), target_(target), kicks_in_passing_(kicks_in_passing) {}
@@ -31,10 +31,10 @@ class Striker : public BehaviorMachine {
   enum class Stage { kApproach, kSettle, kPush, kWatch };
 
   void handle_end(const CommandResult& result, const Situation& situation);
-  /** The ball if it may still be where it was seen; of a rolling one where it will be. */
+  /** The ball if it may still be where it was seen; for a rolling ball, where it will be. */
   std::optional<Ball> find_ball(const Situation& situation) const;
   Aim calc_aim(const Eigen::Vector2d& ball, const Situation& situation) const;
-  /** Kicks in passing a ball that lies right and need not go far. */
+  /** Kicks during the walk a ball that is well placed and need not go far. */
   std::optional<Decision> kick_in_passing(const Ball& ball, const Aim& aim,
                                           const Situation& situation);
   /** The nearest point of the field, m, in the odometry frame. @param margin  From its lines, m. */
@@ -58,11 +58,11 @@ class Striker : public BehaviorMachine {
   BallSearch search_;
   Stage stage_ = Stage::kApproach;
   double stage_start_ = 0;
-  /** Time at which the robot stood still before a kick, s; nothing: it walks yet. */
+  /** Time at which the robot stood still before a kick, s; nothing if it still walks. */
   std::optional<double> still_since_{};
   int num_settles_ = 0;
-  /** The aim for which the robot has stopped. It is kept: which side of a keeper is the wider one
-   * changes with what is seen. */
+  /** The aim for which the robot has stopped. It is kept, since the wider side of a keeper may
+   * change with each sighting. */
   Aim settled_aim_{};
   /** 1: the left foot is to kick. */
   double side_ = 0;
@@ -71,7 +71,7 @@ class Striker : public BehaviorMachine {
   double kick_heading_ = 0;
   double kick_start_ = 0;
   bool is_passing_ = false;
-  /** What was seen before a kick does not count afterwards, s. */
+  /** Time before which sightings do not count, since they are from before a kick, s. */
   double ignore_before_ = -1e9;
   /** Where a kicked ball probably is. */
   std::optional<Eigen::Vector2d> expected_{};

@@ -34,7 +34,7 @@ std::optional<BallExit> judge_ball(const Eigen::Vector3d& ball, std::optional<in
   }
   if (std::abs(ball.y()) > half_width + beyond) {
     BallExit exit;
-    // Without a touch it went out by itself: the defenders go on.
+    // Without a touch it went out by itself: the defenders restart.
     exit.restart_team = 1 - last_team.value_or(attacker);
     exit.restart = {ball.x(), side * half_width};
     return exit;

@@ -42,7 +42,7 @@ uint16_t GameControllerLink::port() const {
 }
 
 std::optional<std::vector<uint8_t>> GameControllerLink::receive() {
-  // Longer than any message; a longer datagram is cut, and has the wrong size all the same.
+  // The buffer is longer than any message; a longer datagram is cut and still has the wrong size.
   std::vector<uint8_t> bytes(1024);
   socklen_t size = sizeof sender_;
   const ssize_t count = recvfrom(socket_, bytes.data(), bytes.size(), 0,
@@ -56,7 +56,7 @@ void GameControllerLink::send(std::span<const uint8_t> message) const {
   if (!controller_) return;
   sockaddr_in address = *controller_;
   address.sin_port = htons(return_port_);
-  // A GameController that is away misses it; the next message comes soon.
+  // A GameController that is not running misses it; the next message comes soon.
   (void)sendto(socket_, message.data(), message.size(), 0,
                reinterpret_cast<const sockaddr*>(&address), sizeof address);
 }

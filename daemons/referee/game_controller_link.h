@@ -17,7 +17,7 @@ namespace nao::referee {
 class GameControllerLink {
  public:
   /** @param port  For the GameController's messages; 0: any free one. Others on this host may use
-   * it, too. @param return_port  Of the GameController, for those of the robots.
+   * it, too. @param return_port  Port of the GameController, for those of the robots.
    * @throws Error  if the port cannot be opened. */
   GameControllerLink(uint16_t port, uint16_t return_port);
   ~GameControllerLink();

@@ -62,7 +62,7 @@ void write_float(double value, uint8_t* bytes) {
 GameControllerData decode_game_controller(std::span<const uint8_t> message) {
   if (message.size() < kVersion + 1 ||
       !std::equal(kHeader.begin(), kHeader.end(), message.begin())) {
-    throw Error("this is no message of a GameController");
+    throw Error("this is not a GameController message");
   }
   GameControllerData data;
   data.version = message[kVersion];

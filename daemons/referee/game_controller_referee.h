@@ -12,8 +12,8 @@
 namespace nao::referee {
 
 /** A referee that decides nothing: phases, score, clock and penalties are those that the RoboCup
- * GameController says. It is the hands of the people who press the GameController's buttons: it
- * puts ball and robots where their decisions want them. */
+ * GameController says. For the people who press the GameController's buttons, it puts ball and
+ * robots where their decisions require. */
 class GameControllerReferee : public Referee {
  public:
   /** @param team_numbers  The GameController's numbers of team 0 and team 1; messages about other

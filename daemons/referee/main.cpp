@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
                "Begin when all robots are there, without nao match start");
   app.add_flag("--game-controller", follows_game_controller,
                "The RoboCup GameController decides instead of nao-referee's own rules, which then "
-               "only puts ball and robots to their places");
+               "only puts ball and robots in their places");
   app.add_option("--game-controller-port", game_controller_port,
                  "UDP port of the GameController's messages; 0: any free")
       ->show_default();
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
                  "ignored (default: of any two teams, in the message's order)")
       ->count(2);
   app.add_option("--state-file", state_file,
-                 "File that keeps the match, from which another referee goes on (default: none)");
+                 "File to save the match, from which another referee can continue (default: none)");
   app.add_option("--events-file", events_file,
                  "File to which every event is added, a line of JSON each (default: none)");
   return nao::run_program(app, common, argc, argv, [&] {

@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** Around the mark, m, in which no robot may stand: a foot's length before the torso, the ball, and
- * some room. */
+/** Radius around the mark, m, in which no robot may stand: a foot's length before the torso, the
+ * ball, and some room. */
 constexpr double kFreeMark = 0.25;
 /** Where penalised robots stand: beyond the side line, and apart from one another, m. */
 constexpr double kBesideField = 0.35;

@@ -17,7 +17,7 @@ Pose2 kick_off_place_of(const MatchPlayer& player, const MatchState& state, cons
 bool is_legal_at_kick_off(const MatchPlayer& player, const RobotSighting& robot,
                           const MatchState& state, const SceneFile& scene);
 
-/** The ball onto its mark, and the robots that stand where they may not to their places. */
+/** Puts the ball onto its mark, and robots that stand where they may not to their places. */
 std::vector<Placement> prepare_kick_off(const RefereeInput& input, const MatchState& state,
                                         const SceneFile& scene);
 

@@ -30,7 +30,7 @@ struct RefereeInput {
   std::vector<RobotSighting> robots{};
 };
 
-/** What the referee's hands do: put the ball, or a robot on its feet, somewhere. */
+/** An action of the referee: puts the ball, or a robot on its feet, at a place. */
 struct Placement {
   /** Empty: the ball. */
   std::string robot{};
@@ -43,7 +43,7 @@ struct RefereeOutput {
   std::vector<MatchEvent> events;
 };
 
-/** Who decides in a match, without clock and bus. */
+/** Decides in a match, without clock and bus. */
 class Referee {
  public:
   Referee() = default;
@@ -51,10 +51,10 @@ class Referee {
   Referee(const Referee&) = delete;
   Referee& operator=(const Referee&) = delete;
 
-  /** Goes on with a match that another referee began; with its own players. */
+  /** Continues a match that another referee began, with its own players. */
   virtual void restore(const MatchState& state) = 0;
   virtual RefereeOutput step(const RefereeInput& input) = 0;
-  /** Overrules. @return Nothing, or why not. */
+  /** Overrules the referee's own decision. @return Nothing, or why it cannot. */
   [[nodiscard]] virtual std::optional<Reason> overrule(const MatchCommand& command) = 0;
   virtual const MatchState& state() const = 0;
 };

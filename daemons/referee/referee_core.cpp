@@ -12,10 +12,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** A robot is in its place within this, m. Chosen: what robots reach without stepping about. */
+/** Distance within which a robot is at its place, m. Chosen: what robots reach without further
+ * steps. */
 constexpr double kPlaceTolerance = 0.4;
-/** Time that goes on in one step at most, s: of longer gaps (the simulator was restarted or paused)
- * nobody has seen anything. */
+/** Greatest time of one step, s: during longer gaps (the simulator was restarted or paused) nothing
+ * was observed. */
 constexpr double kMaxStep = 1;
 
 }  // namespace
@@ -152,7 +153,7 @@ bool RefereeCore::is_in_place(const MatchPlayer& player, const RobotSighting& ro
               kPlaceTolerance);
 }
 
-// Robots walk to their places; in the end those that are where they may not be are put there.
+// Robots walk to their places; at the end those in forbidden places are put there.
 void RefereeCore::wait_for_robots(const RefereeInput& input) {
   bool is_prepared = phase_time_ >= rules_.min_ready_duration;
   for (const MatchPlayer& player : state_.players) {
@@ -205,7 +206,7 @@ RefereeOutput RefereeCore::step(const RefereeInput& input) {
   time_ = input.time;
   has_time_ = true;
   const bool is_on = state_.phase != MatchPhase::kInitial && state_.phase != MatchPhase::kFinished;
-  // A new simulator has put everything to its start: the half goes on with a kick-off.
+  // A new simulator has reset everything: the half continues with a kick-off.
   if (is_restarted && is_on) begin_kick_off(state_.kickoff_team);
   phase_time_ += dt;
   count_penalties(is_on ? dt : 0, input);

@@ -13,29 +13,30 @@ namespace nao::referee {
 
 /** Durations, s, of simulated time. */
 struct Rules {
-  /** Of a half. Chosen: half of the league's, for visitors. */
+  /** Duration of a half, s. Chosen: half of the league's, for visitors. */
   double half_duration = 300;
-  /** In which the robots walk to their places for a kick-off (SPL rules: 45 s), and which they have
-   * at least. */
+  /** Greatest time in which the robots walk to their places for a kick-off (SPL rules: 45 s), and
+   * the least. */
   double max_ready_duration = 45;
   double min_ready_duration = 10;
-  /** In which they stand there before the whistle. Chosen: long enough to see it. */
+  /** Time for which they stand there before the whistle. Chosen: long enough to see it. */
   double set_duration = 3;
-  /** In which a penalised robot stands beside the field. Chosen: shorter than the league's 45 s. */
+  /** Time for which a penalised robot stands beside the field. Chosen: shorter than the league's 45
+   * s. */
   double penalty_duration = 30;
-  /** A robot that is not upright (SPL rules: 20 s) or outside the carpet for so long is penalised.
-   */
+  /** Time not upright (SPL rules: 20 s), and time outside the carpet, after which a robot is
+   * penalised. */
   double max_down_duration = 20;
   double max_outside_duration = 5;
-  /** From the ball's leaving the field to its being put back. Chosen: long enough to see it. */
+  /** Time from the ball leaving the field until it is put back. Chosen: long enough to see it. */
   double ball_return_delay = 1;
-  /** A match in which nobody touches the ball for so long goes on with a kick-off. Chosen: a robot
-   * that has lost the ball searches half of the field meanwhile. */
+  /** Time without a touch of the ball after which the match continues with a kick-off. Chosen: in
+   * this time a robot that has lost the ball searches half of the field. */
   double max_untouched_duration = 60;
 };
 
-/** Our own rules: kick-offs, goals, ball out, time, penalties. The clock of a
- * half runs in the phase playing only. Teams do not change sides. */
+/** Our own rules: kick-offs, goals, ball out, time, penalties. The clock of a half runs only in the
+ * phase playing. Teams do not change sides. */
 class RefereeCore : public Referee {
  public:
   /** @param players  Robots, teams and numbers. @param scene  With field, goals and ball.
@@ -49,7 +50,7 @@ class RefereeCore : public Referee {
   const MatchState& state() const override { return state_; }
 
  private:
-  /** What is counted for a player. */
+  /** Counters of a player. */
   struct Watch {
     double down_time = 0;
     double outside_time = 0;
@@ -77,12 +78,12 @@ class RefereeCore : public Referee {
   RefereeOutput output_;
   double time_ = 0;
   bool has_time_ = false;
-  /** Of the phase, s. */
+  /** Time since the start of the phase, s. */
   double phase_time_ = 0;
   std::optional<int> last_team_{};
-  /** s without a touch of the ball. */
+  /** Time without a touch of the ball, s. */
   double untouched_time_ = 0;
-  /** Where the ball comes back to, and in how many s. */
+  /** Where the ball will be put back, and the time until then, s. */
   std::optional<BallExit> exit_{};
   double return_in_ = 0;
 };

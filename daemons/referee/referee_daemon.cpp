@@ -25,20 +25,21 @@ namespace nao::referee {
 namespace {
 
 const char* const kProgram = "nao-referee";
-/** s of robot time between two steps of the core. */
+/** Robot time between two steps of the core, s. */
 constexpr double kStepPeriod = 0.05;
 /** s. */
 constexpr double kStatusPeriod = 1;
-/** A play_state_t counts for this long, s: many of its periods. */
+/** Validity of a play_state_t, s: many of its periods. */
 constexpr double kPlayTimeout = 2;
-/** Without the truth for this long the simulator is gone, s. */
+/** Time without the truth after which the simulator counts as gone, s. */
 constexpr double kTruthTimeout = 2;
-/** Without a message of the GameController, which come twice a second, it is gone, s. */
+/** Time without a message of the GameController, which sends two a second, after which it counts as
+ * gone, s. */
 constexpr double kGameControllerTimeout = 3;
-/** Between two messages of a robot to the GameController, s (SPL rules, "GameController": one to
- * four a second). */
+/** Time between two messages of a robot to the GameController, s (SPL rules, "GameController": one
+ * to four a second). */
 constexpr double kReturnPeriod = 0.5;
-/** The match is kept this often, s. */
+/** Period at which the match is saved, s. */
 constexpr double kSavePeriod = 1;
 /** A torso that leans by more than this, rad, is not on its feet. Chosen: a kick leans by 0.3. */
 constexpr double kMaxTilt = 0.8;
@@ -71,7 +72,7 @@ std::map<std::string, std::string> ready_postures_of(const std::vector<RobotOpti
 }
 
 int64_t random_id() {
-  // 53 bits: also readers of JSON that know only double keep it.
+  // 53 bits, which even JSON readers that know only double preserve.
   std::random_device device;
   return std::uniform_int_distribution<int64_t>(1, int64_t{1} << 53)(device);
 }
@@ -160,7 +161,7 @@ RefereeDaemon::RefereeDaemon(Bus& bus, const RefereeOptions& options, std::funct
   if (!options_.state_file.empty() && std::filesystem::exists(options_.state_file)) {
     const MatchState kept = match_from_json(read_file(options_.state_file));
     referee_->restore(kept);
-    logger::info("goes on with a match: {}, {}:{}, {:.0f} s left of half {}", to_string(kept.phase),
+    logger::info("continues a match: {}, {}:{}, {:.0f} s left of half {}", to_string(kept.phase),
                  kept.score[0], kept.score[1], kept.time_left, kept.half);
   }
   subscribe();

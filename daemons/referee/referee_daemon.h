@@ -33,11 +33,11 @@ class EventLoop;
 namespace nao::referee {
 
 struct RefereeOptions {
-  /** All with teams and numbers. */
+  /** Robots, all with teams and numbers. */
   std::vector<RobotOption> robots;
   std::string scene = "soccer";
   Rules rules;
-  /** Begins the match by itself when all robots are there. */
+  /** Whether the match begins by itself when all robots are there. */
   bool starts_by_itself = false;
   /** The RoboCup GameController decides, at this UDP port; and the port at which it hears robots.
    */
@@ -45,18 +45,18 @@ struct RefereeOptions {
   uint16_t return_port = kGameControllerReturnPort;
   /** See GameControllerReferee. */
   std::optional<std::array<int, 2>> team_numbers{};
-  /** Where the match is kept for another referee, and its events; empty: nowhere. */
+  /** Files in which the match is saved for another referee, and its events; empty: none. */
   std::filesystem::path state_file{};
   std::filesystem::path events_file{};
 };
 
-/** What the referee sees of the simulated world: ball and robots, without play states.
+/** The simulated world as the referee sees it: ball and robots, without play states.
  * @param names  Robots that take part. */
 RefereeInput to_input(const naolcm::world_truth_t& truth, const std::vector<MatchPlayer>& players);
 
-/** What a robot knows by its own cameras. */
+/** What a robot knows from its own cameras. */
 struct RobotKnowledge {
-  /** Its place, in its team's frame. */
+  /** Its pose, in its team's frame. */
   std::optional<Pose2> pose{};
   /** The ball as it was seen last, m, ahead of the robot and to its left, and its robot time, s. */
   std::optional<Eigen::Vector2d> ball{};
@@ -64,7 +64,8 @@ struct RobotKnowledge {
 };
 void update(RobotKnowledge& knowledge, const naolcm::vision_state_t& vision);
 
-/** What a robot tells the GameController, without the team's number. @param now  Robot time, s. */
+/** Message of a robot to the GameController, without the team's number. @param now  Robot time, s.
+ */
 GameControllerReturn to_return(const MatchPlayer& player, const RobotSighting& robot,
                                const RobotKnowledge& knowledge, double now);
 
@@ -73,7 +74,7 @@ GameControllerReturn to_return(const MatchPlayer& player, const RobotSighting& r
  * what robots tell it; publishes MATCH_STATE, MATCH_COMMAND_RESULT and WORLD_COMMAND. */
 class RefereeDaemon {
  public:
-  /** s between two match_state_t, and between two transmissions of a world command. */
+  /** Time between two match_state_t, and between two transmissions of a world command, s. */
   static constexpr double kStatePeriod = 0.2;
   static constexpr double kRepeatPeriod = 0.1;
 
@@ -96,7 +97,7 @@ class RefereeDaemon {
   uint16_t game_controller_port() const { return link_ ? link_->port() : 0; }
   /** Takes what the GameController has sent. */
   void receive_game_controller();
-  /** Sends it what the robots have to say. */
+  /** Sends the robots' messages to it. */
   void answer_game_controller();
 
  private:
@@ -132,9 +133,9 @@ class RefereeDaemon {
   CommandLedger ledger_;
   int64_t utime_ = 0;
   int64_t sequence_ = 0;
-  /** s, monotonic: of the last truth. */
+  /** Monotonic time of the last truth, s. */
   double last_truth_ = -1e9;
-  /** Touches of the ball since the last step: a contact is short. */
+  /** Touches of the ball since the last step; contacts are shorter than steps. */
   std::map<std::string, bool> touches_;
   double next_step_ = 0;
   double last_saved_ = -1e9;

@@ -5,11 +5,11 @@ namespace nao::robot {
 /** Presses of the chest button. */
 enum class Press { kNone, kOnce, kTwice, kLong };
 
-/** Tells presses of a button apart. A long press counts while it lasts, a single one when no second
- * has followed it. */
+/** Distinguishes the kinds of presses of a button. A long press counts while it lasts, a single one
+ * when no second press has followed it. */
 class ChestButton {
  public:
-  /** @param dt  Since the last call, s. */
+  /** @param dt  Time since the last call, s. */
   Press step(bool is_pressed, double dt) {
     const bool was_pressed = is_pressed_;
     is_pressed_ = is_pressed;
@@ -27,16 +27,16 @@ class ChestButton {
   }
 
  private:
-  /** Length of a long press, s: what robot soccer teams use to shut a robot down. */
+  /** Length of a long press, s: the value with which robot soccer teams shut a robot down. */
   static constexpr double kLongTime = 3;
   /** Time after a press in which a second one belongs to it, s. Chosen: as of a mouse's double
    * click. */
   static constexpr double kPauseTime = 0.5;
 
   bool is_pressed_ = false;
-  /** Since the button was pressed or released, s. */
+  /** Time since the button was pressed or released, s. */
   double time_ = 0;
-  /** That no kind of press was made of yet. */
+  /** Presses that do not yet form a kind of press. */
   int num_presses_ = 0;
 };
 

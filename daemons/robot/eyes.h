@@ -6,10 +6,10 @@
 
 namespace nao::robot {
 
-/** What the eyes show. */
+/** State that the eyes show. */
 enum class EyeState { kNoClient, kReady, kDriver, kLinkLost, kFault };
 
-/** @param has_driver  A client drives the robot. @param fault  Present one. */
+/** @param has_driver  A client drives the robot. @param fault  Present fault. */
 inline EyeState eye_state(const Safety& safety, bool has_driver, Fault fault) {
   if (fault != Fault::kNone) return EyeState::kFault;
   if (safety.cause() == Cause::kLinkLost && safety.phase() != Phase::kDriven &&
@@ -20,8 +20,8 @@ inline EyeState eye_state(const Safety& safety, bool has_driver, Fault fault) {
   return has_driver ? EyeState::kDriver : EyeState::kReady;
 }
 
-/** Red, green, blue, 0 to 1. Chosen: red and yellow warn, as everywhere; blue is told from green by
- * people who confuse red and green. */
+/** Red, green, blue, 0 to 1. Chosen: red and yellow warn, as usual; people who confuse red and
+ * green can distinguish blue from green. */
 inline std::array<double, 3> eye_color(EyeState state) {
   switch (state) {
     case EyeState::kNoClient:
@@ -37,7 +37,7 @@ inline std::array<double, 3> eye_color(EyeState state) {
   }
 }
 
-/** Of the chest's light, which is in the button: what a press would change. */
+/** Color of the chest light, which is in the button: it shows what a press would change. */
 inline std::array<double, 3> chest_color(Phase phase) {
   switch (phase) {
     case Phase::kStiffening:

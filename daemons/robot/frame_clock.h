@@ -6,8 +6,8 @@
 
 namespace nao::robot {
 
-/** Robot time of frames that carry none: each adds one period, and the sum follows the clock by
- * which they arrive, so that their jitter does not become one of robot time. */
+/** Computes the robot time of frames that carry none: each adds one period, and the sum follows the
+ * clock of their arrival, so that their jitter does not affect robot time. */
 class FrameClock {
  public:
   /** A frame's time. */
@@ -43,8 +43,8 @@ class FrameClock {
   }
 
  private:
-  /** Part of a frame's delay by which the time is corrected. Chosen: follows a difference of the
-   * clocks within 20 frames, and passes a twentieth of the jitter on. */
+  /** Fraction of a frame's delay by which the time is corrected. Chosen: it follows a difference of
+   * the clocks within 20 frames, and passes on a twentieth of the jitter. */
   static constexpr double kGain = 0.05;
   /** Bound of the number of lost frames. */
   static constexpr double kMaxLost = 1e6;

@@ -7,13 +7,13 @@
 namespace nao::robot {
 namespace {
 
-/** Charges below which there is a warning, and below which the robot sits down: rUNSWift and
+/** Charges below which a warning is shown, and below which the robot sits down: rUNSWift and
  * Bembelbots. */
 constexpr double kLowCharge = 0.25;
 constexpr double kEmptyCharge = 0.1;
 /** Temperature of a hot motor, degrees Celsius: rUNSWift. */
 constexpr double kHotMotor = 75;
-/** LoLA's status from which on the robot reduces the torque by more than 30 %. */
+/** Least status of LoLA with which the robot reduces the torque by more than 30 %. */
 constexpr int kReducedStatus = 2;
 constexpr int kOffStatus = 3;
 /** A dead motor: no current, though it is stiff and more than 2 degrees from its target, for 83
@@ -30,8 +30,8 @@ constexpr double kConfirmTime = 0.5;
 
 HealthMonitor::HealthMonitor(int num_motors) : motors_(static_cast<size_t>(num_motors)) {}
 
-// Conditions are counted by time, so that single bad readings mean nothing. Of several faults the
-// first in this order is reported: a dead motor is the one that cannot wait.
+// Conditions are counted by time, so that single bad readings have no effect. The first of several
+// faults in this order is reported: a dead motor cannot wait.
 void HealthMonitor::step(const Measurement& measured, const Targets& sent, double dt) {
   time_empty_ = measured.battery_charge < kEmptyCharge ? time_empty_ + dt : 0;
   is_battery_low_ = measured.battery_charge < kLowCharge;
@@ -65,7 +65,7 @@ void HealthMonitor::watch(const Measurement& measured, const Targets& sent, size
   if (is_stiff && is_off_target && is_without_current) {
     watched.time_without_current += dt;
   } else if (!is_without_current || watched.time_without_current < kDeadTime) {
-    // A motor that was found dead stays so until it draws current.
+    // A motor that was found dead remains so until it draws current.
     watched.time_without_current = 0;
   }
   if (watched.time_without_current >= kDeadTime) {

@@ -33,7 +33,7 @@ void Lights::step(EyeState eyes, Phase phase, double dt, LolaCommand& command) {
     LightColor color{};
     if (is_eye(key)) color = eye_color(eyes);
     if (key == "Chest") color = chest_color(phase);
-    // Faults are shown whatever was asked for.
+    // Faults are shown in any case.
     const auto setting = settings_.color(i);
     if (setting && !(is_eye(key) && eyes == EyeState::kFault)) color = *setting;
     shown_[i] = color;

@@ -10,7 +10,7 @@
 
 namespace nao::robot {
 
-/** The robot's lights: colors that light_command_t asks for, over those that show the robot's
+/** The robot's lights: colors that light_command_t requests, over those that show the robot's
  * state. */
 class Lights {
  public:

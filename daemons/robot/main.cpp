@@ -14,10 +14,10 @@
 
 namespace {
 
-/** Time to sit down and go limp, s: twice what it takes. */
+/** Time allowed to sit down and go limp, s: twice the usual time. */
 constexpr double kEndTime = 6;
 
-/** Lets the robot sit down, whatever signals come meanwhile. */
+/** Makes the robot sit down, even if further signals arrive. */
 void end(nao::EventLoop& loop, nao::robot::RobotDaemon& daemon) {
   // The wait is limited: without frames the robot cannot be moved.
   bool is_too_late = false;

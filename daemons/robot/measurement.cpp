@@ -28,7 +28,8 @@ void take(const LolaMap& map, const std::array<float, N>& values, bool is_angle,
 
 }  // namespace
 
-// Roll and pitch, not the angle to the vertical: the thresholds of other teams are in these.
+// Roll and pitch are used instead of the angle to the vertical because the thresholds of other
+// teams refer to them.
 double Measurement::tilt() const {
   return std::max(std::abs(roll), std::abs(pitch));
 }
@@ -74,14 +75,14 @@ void MeasurementReader::read_joints(const LolaState& state, double dt) {
     result.status[static_cast<size_t>(map_.joints[i].motor)] = state.status[i];
   }
   for (size_t i = 0; i < result.position.size(); ++i) {
-    // LoLA tells no velocities.
+    // LoLA sends no velocities.
     result.velocity[i] = is_first_ || dt <= 0 ? 0 : (result.position[i] - last_position_[i]) / dt;
   }
 }
 
 void MeasurementReader::read_inertial_unit(const LolaState& state, double dt) {
   Measurement& result = measurement_;
-  // Both are refreshed in turns; a repeated reading has the same bits.
+  // The two are refreshed in turn; a repeated reading has the same bits.
   result.is_accelerometer_new = is_first_ || state.accelerometer != last_accelerometer_;
   result.is_gyroscope_new = is_first_ || state.gyroscope != last_gyroscope_;
   last_accelerometer_ = state.accelerometer;

@@ -10,7 +10,7 @@
 
 namespace nao::robot {
 
-/** What a frame says, in the units, signs and order of sensor_state_t and body_state_t. */
+/** Contents of a frame, in the units, signs and order of sensor_state_t and body_state_t. */
 struct Measurement {
   /** rad (hands: opening), rad/s, fraction, degrees Celsius, A; (num_motors), motor order. */
   std::vector<double> position;
@@ -52,7 +52,7 @@ class MeasurementReader {
 
   /** The next frame is the first of a connection: velocities are 0, the heading begins at 0. */
   void reset() { is_first_ = true; }
-  /** @param dt  Since the last frame, s. */
+  /** @param dt  Time since the last frame, s. */
   const Measurement& read(const LolaState& state, double dt);
   const Measurement& measurement() const { return measurement_; }
 

@@ -19,19 +19,19 @@ RobotCore::RobotCore(const RobotModel& model, const LolaMap& map, bool starts_it
 
 const Measurement& RobotCore::take_frame(const LolaState& state, int num_periods) {
   const bool is_driven = safety_.phase() == Phase::kDriven;
-  // A new phase begins a new count of ticks: to the motion daemon the robot is a new one then,
-  // whose targets it takes over.
+  // A new phase restarts the count of ticks: the motion daemon then treats the robot as a new one
+  // and takes over its targets.
   tick_ = is_driven == was_driven_ ? tick_ + 1 : 0;
   was_driven_ = is_driven;
   reader_.read(state, num_periods * kLolaPeriod);
-  // The first targets are where the joints are: nothing moves.
+  // The first targets are the joints' angles, so that nothing moves.
   if (is_first_) targets_.position = reader_.measurement().position;
   is_first_ = false;
   return reader_.measurement();
 }
 
-// Answers the last frame. Order: button and faults, then the safety's targets, and the limiter
-// last, which no source of targets passes by.
+// Answers the last frame. The order is: button and faults, then the safety's targets, and last the
+// limiter, which no source of targets can bypass.
 const LolaCommand& RobotCore::step(const Input& input) {
   const Measurement& measured = reader_.measurement();
   const Press press = button_.step(measured.is_touched[map_.start_button], kLolaPeriod);

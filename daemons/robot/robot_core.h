@@ -26,21 +26,21 @@ class RobotCore {
     const Targets* command = nullptr;
     /** A client drives the robot, for the eyes. */
     bool has_driver = false;
-    /** The robot is to sit down and go limp, and then the program ends. */
+    /** The robot must sit down and go limp, and then the program ends. */
     bool is_ending = false;
   };
 
   /** @param model, map  Must outlive this. @param starts_itself  See Safety. */
   RobotCore(const RobotModel& model, const LolaMap& map, bool starts_itself);
 
-  /** A state frame. @param num_periods  Since the last one; 0 for the first. */
+  /** A state frame. @param num_periods  Periods since the last one; 0 for the first. */
   const Measurement& take_frame(const LolaState& state, int num_periods);
   /** The answer to it. */
   const LolaCommand& step(const Input& input);
 
-  /** Number of the frame. It begins anew at 0 when the robot begins to follow commands, and when it
-   * no longer does: a controller then takes it for another robot and continues from what the servos
-   * hold. */
+  /** Number of the frame. It restarts at 0 when the robot begins to follow commands, and when it
+   * stops following them: a controller then takes it for another robot and continues from what the
+   * servos hold. */
   int64_t tick() const { return tick_; }
   const Measurement& measurement() const { return reader_.measurement(); }
   /** As sent last. */

@@ -23,13 +23,13 @@ constexpr double kAnswerTime = 0.008;
 /** In lock-step a sensor state that is not answered is sent again after this time, s: as nao-sim
  * does. */
 constexpr double kRepeatTime = 0.1;
-/** Between attempts to connect, and after the end of a connection, s: B-Human waits 100 ms, else a
- * broken message may come first. */
+/** Time between attempts to connect, and after the end of a connection, s: B-Human waits 100 ms;
+ * otherwise a broken message may come first. */
 constexpr double kReconnectTime = 0.1;
 /** Frames between two body states: 10 Hz. */
 constexpr int64_t kBodyStateFrames = 8;
-/** A driver that the gateway has not reported for this time has gone, s; the status of a running
- * gateway comes every second. */
+/** Time without a report of the gateway after which a driver counts as gone, s; a running gateway
+ * sends its status every second. */
 constexpr double kDriverTime = 3;
 
 }  // namespace
@@ -56,7 +56,7 @@ RobotDaemon::RobotDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
   loop_.every(1.0, [this] { publish_status(); });
   if (options_.heartbeat >= 0) {
     loop_.every(kHeartbeatPeriod, [this] {
-      // A full pipe means a watchdog that does not read: nothing to be done.
+      // A full pipe means that the watchdog does not read, which this program cannot change.
       [[maybe_unused]] const ssize_t ignored = write(options_.heartbeat, "", 1);
     });
   }
@@ -106,7 +106,7 @@ void RobotDaemon::disconnect() {
 void RobotDaemon::read_frames() {
   session_->connection.receive();
   while (session_ && session_->connection.next(state_)) {
-    // Frames that have queued up are answered one by one, each with what is known.
+    // Queued frames are answered one by one, each with the latest command.
     if (session_->is_pending) finish_frame(nullptr);
     begin_frame();
   }
@@ -163,12 +163,12 @@ void RobotDaemon::take_joint_command(const naolcm::joint_command_t& message) {
   const double start = monotonic_seconds();
   if (!session_) return;
   Session& session = *session_;
-  // Commands for another count of ticks are from before it began anew.
-  // The count begins anew when a robot begins to be driven.
+  // Commands for another count of ticks are from before its restart. The count restarts when a
+  // robot begins to be driven.
   if (message.tick > session.core.tick()) return;
   merge(message, model_.motor_names(), session.command);
   if (!session.is_pending || message.tick != session.core.tick()) {
-    // Late: it is used in the next frame.
+    // The command is late: it is used in the next frame.
     session.has_late_command = true;
     return;
   }

@@ -36,8 +36,8 @@ class RobotDaemon {
   RobotDaemon(const RobotDaemon&) = delete;
   RobotDaemon& operator=(const RobotDaemon&) = delete;
 
-  /** From now on the robot sits down and goes limp; then the loop stops. Without a connection it
-   * stops at once. */
+  /** Makes the robot sit down and go limp; then the loop stops. Without a connection it stops at
+   * once. */
   void begin_end();
   /** The robot has become limp, or the connection has ended, after begin_end() or a long press. */
   bool has_ended() const;
@@ -68,7 +68,7 @@ class RobotDaemon {
   StatusReporter status_;
   LolaMap map_;
   RobotMessages messages_;
-  /** What exists while there is a connection. */
+  /** Objects that exist while there is a connection. */
   struct Session {
     Session(UnixSocket socket, const RobotModel& model, const LolaMap& map,
             const RobotOptions& options)
@@ -81,7 +81,7 @@ class RobotDaemon {
     FrameClock::Stamp stamp;
     /** Newest targets from the controller. */
     Targets command;
-    /** It came after its frame was answered. */
+    /** Whether they came after their frame was answered. */
     bool has_late_command = false;
     /** A frame is not answered yet. */
     bool is_pending = false;

@@ -6,7 +6,7 @@
 
 namespace nao::robot {
 
-// What never changes in the messages is filled in once.
+// The constant parts of the messages are filled in once.
 RobotMessages::RobotMessages(const RobotModel& model, const LolaMap& map) {
   const auto num_motors = static_cast<size_t>(model.num_motors());
   naolcm::sensor_state_t& sensors = sensor_state_;

@@ -20,7 +20,7 @@ class RobotMessages {
   /** @param model  Must outlive this. */
   RobotMessages(const RobotModel& model, const LolaMap& map);
 
-  /** Velocities are differences of the angles; torques are 0, as LoLA tells none. */
+  /** Velocities are differences of the angles; torques are 0, since LoLA sends none. */
   const naolcm::sensor_state_t& sensor_state(const RobotCore& core, int64_t utime);
   const naolcm::body_state_t& body_state(const RobotCore& core, int64_t utime);
 

@@ -15,7 +15,7 @@ struct RobotOptions {
   std::string model = "nao";
   bool lock_step = false;
   bool starts_itself = false;
-  /** Descriptor to which the watchdog wants a byte every kHeartbeatPeriod; -1: none. */
+  /** Descriptor to which the watchdog expects a byte every kHeartbeatPeriod; -1: none. */
   int heartbeat = -1;
 };
 

@@ -9,10 +9,10 @@ namespace {
 
 /** Roll and pitch within which the robot may get stiff, rad: Nao Devils. */
 constexpr double kUprightTilt = 0.2;
-/** Beyond this it cannot sit down, rad. Chosen between Bembelbots' 0.3 rad and B-Human's 45
- * degrees: sitting down itself tilts the torso by 0.25 rad. */
+/** Tilt beyond which the robot cannot sit down, rad. Chosen between Bembelbots' 0.3 rad and
+ * B-Human's 45 degrees: sitting down itself tilts the torso by 0.25 rad. */
 constexpr double kLimpTilt = 0.5;
-/** Beyond this the button is ignored, rad: a fall presses it. */
+/** Tilt beyond which the button is ignored, rad, since a fall may press it. */
 constexpr double kButtonTilt = 0.6;
 /** Time in which the stiffness rises, s: Nao Devils. */
 constexpr double kStiffeningTime = 2.4;
@@ -91,12 +91,12 @@ void Safety::begin(const Input& input, Targets& targets) {
   for (size_t i = 0; i < targets.stiffness.size(); ++i) {
     targets.stiffness[i] = std::clamp(input.measured.stiffness[i], 0.0, 1.0);
   }
-  // After a crash the servos have kept the stiffness of a robot that may be on its feet.
+  // After a crash the servos keep their stiffness, and the robot may be on its feet.
   if (are_legs_stiff(targets.stiffness)) {
     leave(Cause::kFoundStiff, input, targets);
     return;
   }
-  // An earlier program has let it sit down: its hips go on holding.
+  // An earlier program has made it sit down: its hips continue to hold.
   for (size_t i = 0; i < targets.stiffness.size(); ++i) {
     is_seated_ = is_seated_ || (map_.seated_stiffness[i] > 0 && targets.stiffness[i] > 0);
   }
@@ -104,7 +104,7 @@ void Safety::begin(const Input& input, Targets& targets) {
 
 void Safety::change_phase(const Input& input, const Targets& targets) {
   const Press press = input.measured.tilt() > kButtonTilt ? Press::kNone : input.press;
-  // A request to end stays, whatever happens meanwhile.
+  // A request to end remains in force in any case.
   ends_ = ends_ || input.is_ending || press == Press::kLong;
   switch (phase_) {
     case Phase::kLimp:
@@ -116,8 +116,8 @@ void Safety::change_phase(const Input& input, const Targets& targets) {
       return;
     case Phase::kStiffening:
     case Phase::kDriven: {
-      // Pressed twice: limp at once, for an emergency. All other causes let the robot sit down
-      // first.
+      // Two presses make the robot limp at once, for an emergency. All other causes make it sit
+      // down first.
       const Cause cause = find_cause(input, press);
       if (press == Press::kTwice) {
         starts_itself_ = false;
@@ -125,7 +125,7 @@ void Safety::change_phase(const Input& input, const Targets& targets) {
       } else if (cause != Cause::kNone) {
         leave(cause, input, targets);
       } else if (phase_ == Phase::kStiffening && time_ >= kStiffeningTime) {
-        // Stiff: from now on the controller's commands are followed.
+        // The robot is stiff: from now on it follows the controller's commands.
         enter(Phase::kDriven);
       }
       return;
@@ -158,7 +158,7 @@ Cause Safety::find_cause(const Input& input, Press press) const {
       break;
   }
   if (!has_controller()) return Cause::kLinkLost;
-  // Falls of a driven robot are the controller's matter: it protects the robot and gets up.
+  // Falls of a driven robot are handled by the controller, which protects the robot and gets up.
   if (phase_ == Phase::kStiffening && input.measured.tilt() > kLimpTilt) return Cause::kTilt;
   return Cause::kNone;
 }
@@ -170,7 +170,7 @@ bool Safety::may_start(const Input& input) const {
 
 bool Safety::are_legs_stiff(const std::vector<double>& stiffness) const {
   return std::any_of(legs_.begin(), legs_.end(), [&](int motor) {
-    // More than a seated robot keeps.
+    // The threshold is above the stiffness that a seated robot keeps.
     const auto index = static_cast<size_t>(motor);
     return stiffness[index] > std::max(kStiffLeg, map_.seated_stiffness[index] + kStiffLeg);
   });
@@ -184,7 +184,7 @@ void Safety::start(const Input& input, const Targets& targets) {
 }
 
 void Safety::leave(Cause cause, const Input& input, const Targets& targets) {
-  // One that lies, or whose legs are limp already, cannot sit down.
+  // A robot that lies, or whose legs are already limp, cannot sit down.
   if (input.measured.tilt() > kLimpTilt || !are_legs_stiff(targets.stiffness)) {
     go_limp(cause, false);
     return;
@@ -211,7 +211,8 @@ void Safety::set_targets(const Input& input, Targets& targets) {
     case Phase::kStiffening:
       targets.position = held_.position;
       for (size_t i = 0; i < targets.stiffness.size(); ++i) {
-        // At the angles where the joints were found: stiffness rises without motion.
+        // The targets are the angles at which the joints were found, so that the stiffness rises
+        // without motion.
         targets.stiffness[i] = std::max(held_.stiffness[i], smooth_step(time_ / kStiffeningTime));
       }
       return;

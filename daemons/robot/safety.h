@@ -13,7 +13,7 @@
 
 namespace nao::robot {
 
-/** What the robot's servos are doing. */
+/** State of the robot's servos. */
 enum class Phase {
   /** Without torque, targets at the measured angles. A seated robot's hips keep a little. */
   kLimp,
@@ -49,8 +49,8 @@ std::string to_string(Cause cause);
  * It starts limp (a robot that is found stiff sits down first). The chest button starts it: pressed
  * once, or twice, which also makes a stiff robot limp; pressed for 3 s it sits down and ends. It
  * gets stiff only if it is upright, a controller is there, and nothing is at fault. Then it obeys
- * the controller, until that falls silent, the program ends, or battery or motors are at fault: it
- * sits down, or goes limp at once where it is tilted too far to sit.
+ * the controller until that falls silent, the program ends, or battery or motors are at fault. Then
+ * it sits down, or goes limp at once if it is tilted too far to sit.
  *
  * Sources of the rules: B-Human, Nao Devils, rUNSWift, Bembelbots (docs/real-robot.md). */
 class Safety {
@@ -65,8 +65,8 @@ class Safety {
     bool is_ending = false;
   };
 
-  /** @param starts_itself  Gets stiff without the button whenever it may: for simulators.
-   * @param model, map  Must outlive this. @param period  Of frames, s. */
+  /** @param starts_itself  Gets stiff without the button whenever it may, for simulators.
+   * @param model, map  Must outlive this. @param period  Period of frames, s. */
   Safety(const RobotModel& model, const LolaMap& map, double period, bool starts_itself);
 
   /** One frame. @param targets  Those sent last; gets those to be sent, still without limit on
@@ -74,7 +74,7 @@ class Safety {
   void step(const Input& input, Targets& targets);
 
   Phase phase() const { return phase_; }
-  /** Of the last sitting down or going limp. */
+  /** Why the robot last sat down or went limp. */
   Cause cause() const { return cause_; }
   /** Joint commands have come in the last frames. */
   bool has_controller() const { return frames_without_command_ < kLostFrames; }
@@ -86,7 +86,7 @@ class Safety {
  private:
   void begin(const Input& input, Targets& targets);
   void change_phase(const Input& input, const Targets& targets);
-  /** What forbids to stay stiff, none if nothing does. @param press  None if it is ignored. */
+  /** Reason not to stay stiff; none if there is none. @param press  None if it is ignored. */
   Cause find_cause(const Input& input, Press press) const;
   bool may_start(const Input& input) const;
   bool are_legs_stiff(const std::vector<double>& stiffness) const;
@@ -109,14 +109,14 @@ class Safety {
   bool is_seated_ = false;
   /** Ends when the robot is limp. */
   bool ends_ = false;
-  /** In the present phase, s. */
+  /** Time in the current phase, s. */
   double time_ = 0;
   int frames_without_command_ = kLostFrames;
-  /** Of the beginning of kStiffening; in kDriven difference of the first command to what was held.
-   */
+  /** Targets at the start of kStiffening; in kDriven, the difference between the first command and
+   * the targets held before it. */
   Targets held_;
   bool has_followed_ = false;
-  /** Of the first command that is followed, s ago. */
+  /** Time since the first command that is followed, s. */
   double follow_time_ = 0;
 };
 

@@ -5,14 +5,14 @@
 namespace nao::robot {
 namespace {
 
-/** When arms and legs move, s after the beginning. */
+/** Start of the motion of arms and of legs, s after the beginning. */
 constexpr double kArmsEnd = 0.6;
 constexpr double kLegsBegin = 0.3;
 constexpr double kLegsEnd = 2.6;
 
 }  // namespace
 
-// To the rest posture of robot.yaml; a model without one cannot be used here.
+// The motion leads to the rest posture of robot.yaml; a model without one cannot be used here.
 SitDown::SitDown(const RobotModel& model)
     : from_(static_cast<size_t>(model.num_motors())),
       to_(model.find_posture(model.references().rest)->position),

@@ -16,13 +16,13 @@ namespace {
 
 /** After the end of a connection LoLA may send a broken message first, s: B-Human waits as long. */
 constexpr double kPauseTime = 0.1;
-/** Time to connect, and time for everything, s. Chosen: the robot sits down in 3 s. */
+/** Time allowed to connect, and for everything, s. Chosen: the robot sits down in 3 s. */
 constexpr double kConnectTime = 1;
 constexpr double kTotalTime = 10;
 /** Wait between attempts and for frames, ms. */
 constexpr int kPollMs = 20;
 
-// Without an event loop: this runs after nao-robot has died, with as little code as possible.
+// This has no event loop: it runs after nao-robot has died, with as little code as possible.
 void sleep_for(double seconds) {
   usleep(static_cast<useconds_t>(seconds * 1e6));
 }
@@ -41,7 +41,7 @@ std::optional<UnixSocket> connect(const std::string& path) {
 
 std::string take_over(const RobotModel& model, const std::string& lola_socket) {
   auto socket = connect(lola_socket);
-  if (!socket) return "no LoLA at " + lola_socket + ", nothing to be done";
+  if (!socket) return "no LoLA at " + lola_socket + "; nothing to do";
   LolaConnection<LolaState> connection(std::move(*socket));
   const LolaMap map = LolaMap::load(model);
   RobotCore core(model, map, false);
@@ -56,7 +56,8 @@ std::string take_over(const RobotModel& model, const std::string& lola_socket) {
       core.take_frame(state, has_state ? 1 : 0);
       has_state = true;
       std::array<uint8_t, kLolaCommandBytes> bytes;
-      // No command, no driver, ending: Safety lets the robot sit down and go limp.
+      // Without a command or driver, and with a request to end, Safety makes the robot sit down and
+      // go limp.
       const LolaCommand& command = core.step({nullptr, false, true});
       connection.send(std::span(bytes).first(encode(command, bytes)));
       if (core.safety().phase() != Phase::kEnded) continue;

@@ -6,8 +6,8 @@
 
 namespace nao::robot {
 
-/** Sits a robot down whose program has ended, and lets it go limp: connects to LoLA and does what
- * nao-robot does at its end. Blocks, for 10 s at most.
+/** Makes a robot whose program has ended sit down and go limp: connects to LoLA and does what
+ * nao-robot does at its end. Blocks for at most 10 s.
  * @return What was done, for the log. */
 std::string take_over(const RobotModel& model, const std::string& lola_socket);
 

@@ -1,5 +1,5 @@
 // Starts nao-robot, and takes over when it dies or hangs: a robot keeps its stiffness when its
-// program has ended. Ends after that; supervisor or systemd starts it anew.
+// program has ended. Ends after that; supervisor or systemd restarts it.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -27,8 +27,9 @@ namespace nao::robot {
 namespace {
 
 /** Heartbeats that may be missing before nao-robot counts as hung: 0.3 s. Chosen: two and a half
- * times the silence after which nao-robot itself lets the robot sit down. They are counted by this
- * process's own waits, so that a machine that was stopped as a whole is no hang. */
+ * times the time without commands after which nao-robot itself makes the robot sit down. They are
+ * counted by this process's own waits, so that a pause of the whole machine does not count as a
+ * hang. */
 constexpr int kMaxMissed = 15;
 /** The same before the first heartbeat, 10 s: it loads the robot's model, on a busy machine. */
 constexpr int kMaxMissedAtStart = 500;
@@ -38,7 +39,7 @@ class Child {
  public:
   explicit Child(std::vector<std::string> command) {
     std::array<int, 2> ends{};
-    // Both ends do not block: a child that hangs must not hang its watchdog.
+    // Neither end blocks: a hung child must not hang its watchdog.
     if (pipe2(ends.data(), O_NONBLOCK) != 0) throw Error("cannot make a pipe");
     heartbeat_ = ends[0];
     // The child inherits the writing end only.
@@ -50,10 +51,10 @@ class Child {
     pid_ = fork();
     if (pid_ < 0) throw Error("cannot start nao-robot");
     if (pid_ == 0) {
-      // Without a watchdog it ends in an orderly way.
+      // Without a watchdog, the child ends in an orderly way.
       prctl(PR_SET_PDEATHSIG, SIGTERM);
       execv(words[0], words.data());
-      // As a shell reports a program that it cannot start.
+      // The exit status of a shell for a program that it cannot start.
       _exit(127);
     }
     close(ends[1]);
@@ -92,9 +93,9 @@ class Child {
 std::string watch(Child& child, int signals) {
   bool has_begun = false;
   int num_missed = 0;
-  // Ends with the child, or with its silence.
+  // The loop ends when the child ends or falls silent.
   while (!child.has_ended()) {
-    // Not the heartbeat: it is readable for good when the child has ended.
+    // The heartbeat is not polled: it stays readable after the child has ended.
     pollfd polled{signals, POLLIN, 0};
     poll(&polled, 1, static_cast<int>(kHeartbeatPeriod * 1e3));
     signalfd_siginfo signal{};
@@ -139,9 +140,9 @@ int run(const RobotOptions& options, const std::vector<std::string>& arguments) 
 
 int main(int argc, char** argv) {
   nao::CommandLine app(
-      "Runs nao-robot with the same options; when that dies or hangs, it kills it, lets the robot "
-      "sit "
-      "down and go limp, and ends with status 1.",
+      "Runs nao-robot with the same options. If that dies or hangs, this program kills it, makes "
+      "the "
+      "robot sit down and go limp, and ends with status 1.",
       "nao-robot-watchdog");
   nao::CommonOptions common;
   nao::add_common_options(app, common);

@@ -11,8 +11,8 @@
 namespace nao::speaker {
 namespace {
 
-/** Sound that the device holds, microseconds. Chosen: longer than the speaker's lead, so that a
- * pause of the program is not heard. */
+/** Length of the sound in the device's buffer, microseconds. Chosen: longer than the speaker's
+ * lead, so that a pause of the program is not heard. */
 constexpr unsigned kBufferTime = 700000;
 
 void ignore_error(const char* /*file*/, int /*line*/, const char* /*function*/, int /*error*/,
@@ -21,7 +21,7 @@ void ignore_error(const char* /*file*/, int /*line*/, const char* /*function*/, 
 class AlsaOutput : public AudioOutput {
  public:
   explicit AlsaOutput(const std::string& device) : device_(device) {
-    // ALSA reports faults of its configuration on stderr; the exception has the one that matters.
+    // ALSA reports faults of its configuration on stderr; the exception states the relevant one.
     snd_lib_error_set_handler(ignore_error);
     const int error =
         snd_pcm_open(&pcm_, device.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
@@ -59,7 +59,8 @@ class AlsaOutput : public AudioOutput {
         return;
       }
       waiting_.erase(waiting_.begin(), waiting_.begin() + written);
-      // By itself the device would begin only when its buffer is full, and a short text never.
+      // By itself the device would begin only when its buffer is full, which a short text never
+      // achieves.
       if (snd_pcm_state(pcm_) == SND_PCM_STATE_PREPARED) snd_pcm_start(pcm_);
     }
   }
@@ -84,7 +85,7 @@ class AlsaOutput : public AudioOutput {
 
   std::string device_;
   snd_pcm_t* pcm_ = nullptr;
-  /** As prepared; 0: not. */
+  /** Sample rate for which the device is prepared; 0 if it is not. */
   int sample_rate_ = 0;
   std::deque<int16_t> waiting_;
 };

@@ -17,7 +17,7 @@ std::unique_ptr<AudioOutput> make_audio_output(const std::string& name) {
   if (name == "alsa") return open_alsa("default");
   if (name.starts_with(prefix)) return open_alsa(name.substr(prefix.size()));
   if (name != "auto") {
-    throw ConfigError("the output \"" + name + "\" is none of none, auto, alsa and alsa:DEVICE");
+    throw ConfigError("the output \"" + name + "\" is not none, auto, alsa or alsa:DEVICE");
   }
   try {
     return open_alsa("default");

@@ -12,9 +12,10 @@ class AudioOutput {
  public:
   virtual ~AudioOutput() = default;
 
-  /** Plays a piece after those before it; one that recalls ends what is played. */
+  /** Plays a piece after the previous ones; a piece that recalls ends the sound. */
   virtual void play(const AudioPiece& piece) = 0;
-  /** Gives the device what it has room for; to be called every 0.1 s or more often. */
+  /** Gives the device as many samples as it has room for; to be called every 0.1 s or more often.
+   */
   virtual void step() = 0;
 };
 

@@ -14,14 +14,14 @@ namespace nao::speaker {
 namespace {
 
 /** Longest sound of a text, s. Chosen: 1000 bytes at half speed take about 2.5 minutes; a text of
- * digits or symbols, whose names are long, may take more. What is beyond is cut off. */
+ * digits or symbols, whose names are long, may take more. The rest is cut off. */
 constexpr int kMaxDuration = 300;
 /** Full volume in espeak-ng's unit (speak_lib.h, espeakVOLUME). */
 constexpr double kFullVolume = 100;
 
 bool was_used = false;
 
-/** What the library passes its samples on to. */
+/** Receives the library's samples. */
 struct Target {
   std::vector<int16_t>* samples = nullptr;
   size_t max_samples = 0;
@@ -29,7 +29,7 @@ struct Target {
 };
 Target target;
 
-/** @return 0 to go on, 1 to end the synthesis. */
+/** @return 0 to continue, 1 to end the synthesis. */
 int take_samples(short* samples, int num_samples, espeak_EVENT* /*events*/) {
   if (samples == nullptr || target.samples == nullptr) return 0;
   const size_t space = target.max_samples - target.samples->size();
@@ -37,7 +37,7 @@ int take_samples(short* samples, int num_samples, espeak_EVENT* /*events*/) {
   try {
     target.samples->insert(target.samples->end(), samples, samples + num_taken);
   } catch (const std::exception&) {
-    // No exception passes through the library.
+    // No exception may pass through the library.
     target.has_failed = true;
   }
   return target.has_failed || num_taken == space ? 1 : 0;

@@ -4,12 +4,12 @@
 
 namespace nao::speaker {
 
-/** espeak-ng, by its library: synthesis in memory, without a shell, another process or a file of
- * the text. Markup (SSML), phonemes in brackets and embedded commands are not enabled, so that a
- * text is only ever spoken.
+/** Uses espeak-ng's library: synthesis in memory, without a shell, another process or a file of the
+ * text. Markup (SSML), phonemes in brackets and embedded commands are not enabled, so that a text
+ * is only ever spoken.
  *
- * The library's state is global, and espeak-ng 1.51 hangs when it is begun and ended a second time:
- * one object in a process. */
+ * The library's state is global, and espeak-ng 1.51 hangs when it is initialized and terminated a
+ * second time, so that a process may have one object only. */
 class EspeakSynthesizer : public Synthesizer {
  public:
   /** @throws Error  if espeak-ng's voices are not installed, or there was another object. */

@@ -30,7 +30,7 @@ bool write_all(int fd, const void* data, size_t num_bytes) {
   return true;
 }
 
-/** What is written until the other end closes. */
+/** Reads until the other end closes. */
 std::string read_all(int fd) {
   std::string bytes;
   std::array<char, 65536> buffer;

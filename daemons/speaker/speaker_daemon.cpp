@@ -22,10 +22,11 @@ const char* const kProgram = "nao-speaker";
 /** s. */
 constexpr double kStatusPeriod = 1;
 /** Color of the eyes while the robot speaks loudest, and the fraction of it in silence. Chosen:
- * told from the colors that show the state of a robot (daemons/robot/eyes.h). */
+ * distinct from the colors that show the state of a robot (daemons/robot/eyes.h). */
 constexpr LightColor kSpeechColor{0.5, 0.9, 1};
 constexpr double kSilentFraction = 0.15;
-/** Time for which one light command is shown, in periods of the loudness: one may be lost. */
+/** Time for which one light command is shown, in periods of the loudness, so that one may be lost.
+ */
 constexpr double kLightPeriods = 2;
 
 /** Low byte first, on every host. */
@@ -113,7 +114,7 @@ void SpeakerDaemon::light_eyes(double loudness, double time_left) {
   LightCommand command;
   command.light_names = options_.eyes;
   command.light_rgb.assign(options_.eyes.size(), color);
-  // Above 0, which would mean until replaced.
+  // The duration is above 0, which would mean "until replaced".
   command.duration =
       std::clamp(time_left, kStepPeriod, kLightPeriods * SpeechCore::kLoudnessPeriod);
   naolcm::light_command_t message = to_message(command);

@@ -20,7 +20,7 @@ namespace nao::speaker {
 struct SpeakerOptions {
   /** Prefix of the channels. */
   std::string robot = "NAO";
-  /** Of texts without a language: of kSpeechLanguages. */
+  /** Language of texts that state none; one of kSpeechLanguages. */
   std::string language = "en";
   /** Lights that are lit while the robot speaks. */
   std::vector<std::string> eyes;
@@ -60,7 +60,7 @@ class SpeakerDaemon {
   std::vector<SpeechRequest> requests_;
   std::string source_;
   int64_t last_light_id_;
-  /** Of the last motion state, microseconds. */
+  /** Robot time of the last motion state, microseconds. */
   int64_t robot_utime_ = 0;
   /** s; 0 before the first step. */
   double last_step_ = 0;

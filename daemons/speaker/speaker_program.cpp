@@ -26,7 +26,7 @@ int nao::speaker::run_speaker(int argc, char** argv) {
                  "Sound on this host: none, alsa, alsa:DEVICE, or auto: ALSA's default device if "
                  "there is one")
       ->show_default();
-  app.add_option("--language", options.language, "Of texts that have none, such as de")
+  app.add_option("--language", options.language, "Language of texts that state none, such as de")
       ->check([](const std::string& tag) {
         return nao::find_speech_language(tag).empty() ? "'" + tag + "' cannot be spoken"
                                                       : std::string();

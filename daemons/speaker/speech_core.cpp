@@ -9,8 +9,8 @@ namespace {
 
 using Operation = SpeechCommand::Operation;
 
-/** Loudness 1: root mean square of the samples. Found: the loudest 0.2 s of English, German and
- * Spanish sentences of espeak-ng at full volume have 5000 to 7000. */
+/** Root mean square of the samples at loudness 1. Measured: the loudest 0.2 s of English, German
+ * and Spanish sentences of espeak-ng at full volume have 5000 to 7000. */
 constexpr double kLoudRms = 6000;
 
 double root_mean_square(const int16_t* begin, const int16_t* end) {

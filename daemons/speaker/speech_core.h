@@ -30,37 +30,38 @@ struct AudioPiece {
   std::vector<int16_t> samples;
 };
 
-/** What one step publishes. */
+/** Messages that one step publishes. */
 struct SpeechOutput {
-  /** In order; repetitions among them. */
+  /** Results in order, including repetitions. */
   std::vector<CommandResult> results;
   std::vector<AudioPiece> audio;
   /** Loudness of the next kLoudnessPeriod, 0 to 1, once in that time while a text is spoken. */
   std::optional<double> loudness;
-  /** s that the text is still spoken. */
+  /** Time for which the text will still be spoken, s. */
   double time_left = 0;
 };
 
 /** The speaker without bus, clock, sound device and synthesizer: checks commands, queues texts,
- * divides their sound into pieces in time, and tells what became of each command. */
+ * divides their sound into timed pieces, and reports the result of each command. */
 class SpeechCore {
  public:
   /** Texts that wait while another is spoken; one more is refused. Chosen. */
   static constexpr size_t kMaxWaiting = 8;
-  /** Longest piece, and how long before it is due a piece is published, s. Chosen: a receiver over
-   * Wi-Fi has time for its jitter, and a stop is heard by none of it as `is_last` recalls the rest.
-   */
+  /** Longest piece, and the time before it is due at which a piece is published, s. Chosen: it
+   * covers the jitter of a receiver over Wi-Fi, and does not delay a stop, since `is_last` recalls
+   * the rest. */
   static constexpr double kPieceDuration = 0.25;
   static constexpr double kLead = 0.5;
-  /** Between two values of the loudness, s. Chosen: about a syllable (4 to 5 a second). */
+  /** Time between two values of the loudness, s. Chosen: about a syllable (4 to 5 a second). */
   static constexpr double kLoudnessPeriod = 0.2;
 
   /** @param synthesizer  Must outlive this.
-   * @param language  Of texts without one: of kSpeechLanguages. */
+   * @param language  Language of texts without one: of kSpeechLanguages. */
   SpeechCore(Synthesizer& synthesizer, std::string language)
       : synthesizer_(synthesizer), language_(std::move(language)) {}
 
-  /** @param requests  Received since the last step, in order. @param dt  s since the last step. */
+  /** @param requests  Received since the last step, in order. @param dt  Time since the last step,
+   * s. */
   SpeechOutput step(const std::vector<SpeechRequest>& requests, double dt);
 
   bool is_speaking() const { return current_.has_value(); }
@@ -75,7 +76,7 @@ class SpeechCore {
     /** Samples that are due by now, and that were published. */
     double position = 0;
     int64_t num_published = 0;
-    /** s until the loudness is told next. */
+    /** Time until the loudness is published next, s. */
     double loudness_due = 0;
   };
 

@@ -12,14 +12,14 @@ namespace {
 constexpr size_t kMostHints = 24;
 /** Radii that are tried without a pose, pixels of the half-size image: each 1.4 times the last. */
 constexpr std::array<float, 9> kRadii = {2.5f, 3.5f, 5, 7, 10, 14, 20, 28, 38};
-/** Smallest radius, pixels of the half-size image: a ball at 5 m has 3. */
+/** Smallest radius, pixels of the half-size image: a ball at 5 m has a radius of 3. */
 constexpr float kLeastRadius = 1.8f;
 /** Half the width of the box inside of a ball, radii. */
 constexpr float kInner = 0.65f;
-/** Weight of the side that is least like field. */
+/** Weight of the side that looks least like field. */
 constexpr float kTouching = 0.4f;
 /** Levels of FieldView::other: least mean of the box inside, least score. Chosen low, since the
- * network rejects what is no ball. */
+ * network rejects what is not a ball. */
 constexpr float kInside = 60;
 constexpr float kLeastScore = 45;
 /** Distance between columns for which the expected radius is computed, pixels of the half-size
@@ -43,7 +43,8 @@ class Search {
     const auto fy = static_cast<float>(y);
     const float inside = mean(fx - kInner * r, fy - kInner * r, fx + kInner * r, fy + kInner * r);
     if (inside < kInside) return;
-    // Left, right and below; above it there may be anything, such as a goal behind the field.
+    // The boxes are left, right and below; above, there may be anything, such as a goal behind the
+    // field.
     std::array<float, 3> sides = {
         mean(fx - 1.9f * r - 1, fy - 0.5f * r, fx - 1.3f * r - 0.5f, fy + 0.5f * r),
         mean(fx + 1.3f * r + 0.5f, fy - 0.5f * r, fx + 1.9f * r + 1, fy + 0.5f * r),
@@ -56,7 +57,7 @@ class Search {
     hints_.push_back({{{2 * fx + 0.5f, 2 * fy + 0.5f}, 2 * r}, score});
   }
 
-  /** Best ones; of overlapping ones of similar size the best. */
+  /** Keeps the best ones; among overlapping ones of similar size, only the best. */
   std::vector<Circle> best() {
     std::sort(hints_.begin(), hints_.end(),
               [](const BallHint& a, const BallHint& b) { return a.score > b.score; });
@@ -119,7 +120,8 @@ std::vector<Circle> find_ball_hints(const FieldView& view, const CameraGeometry&
     float r = 0;
     int computed = -100;
     for (int y = 0; y < height + height / 12; y += std::max(1, static_cast<int>(0.25f * r))) {
-      // Above the field's border, with room for one that is higher elsewhere in the strip.
+      // Skip rows above the field's border, with room for a border that is higher elsewhere in the
+      // strip.
       if (view.top[std::min(middle, width - 1)] > y + 3 * kColumns) continue;
       if (y - computed >= 4) {
         const cv::Point2f pixel(2 * static_cast<float>(middle), 2 * static_cast<float>(y));

@@ -6,12 +6,12 @@
 namespace nao::vision {
 namespace {
 
-/** So many candidates are judged a second time, if they are this probable. Chosen: the ball is
- * rarely behind the third. */
+/** Number of candidates that are judged a second time, and their least probability. Chosen: the
+ * ball is rarely behind the third. */
 constexpr size_t kMostSecond = 3;
 constexpr float kLeastSecond = 0.05f;
-/** The seen radius differs from the one that the camera's pose gives by less than this factor.
- * Chosen: 2 degrees of tilt change the radius at 3 m by a third. */
+/** Greatest factor between the seen radius and the one that the camera's pose gives. Chosen: 2
+ * degrees of tilt change the radius at 3 m by a third. */
 constexpr double kRadiusRange = 1.6;
 
 }  // namespace

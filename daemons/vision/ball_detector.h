@@ -19,7 +19,7 @@ struct BallCandidate {
   float probability = 0;
 };
 
-/** Tells which of the places where a ball may be is the ball.
+/** Decides which of the possible places has the ball.
  *
  * A network judges a patch around each place, and tells where in it the ball's circle lies. The
  * best ones are judged again by patches around those circles. */
@@ -32,16 +32,16 @@ class BallDetector {
   static constexpr float kPatchRadii = 2.4f;
   /** Least probability of a detection. Chosen on 5000 images of places 1000 to 1499 and 6000
    * without a ball of places 2000 to 2199, 3000 to 3199 and 6000 to 6199: from 0.9 to 0.985 the
-   * false detections become an eighth, most of them smaller than 9 pixels, at a loss of 0.5 % of
-   * the balls to 3 m and 4 % of those from 3 to 5 m. */
+   * false detections fall to an eighth, most of them smaller than 9 pixels, at a loss of 0.5 % of
+   * the balls up to 3 m and 4 % of those from 3 to 5 m. */
   static constexpr float kAccept = 0.985f;
-  /** The same of a ball that the lower border of the image cuts: it lies before the robot's feet,
-   * where little else is round, and shows less of its pattern. Chosen on a real image. */
+  /** The same for a ball that the lower border of the image cuts: it lies in front of the robot's
+   * feet, where little else is round, and shows less of its pattern. Chosen on a real image. */
   static constexpr float kAcceptCut = 0.7f;
 
   static NeuralNetwork::Shape shape();
 
-  /** @param network  Of shape(). @param radius  m. */
+  /** @param network  Network of shape(). @param radius  m. */
   explicit BallDetector(std::shared_ptr<NeuralNetwork> network, double radius = kBallRadius)
       : network_(std::move(network)), radius_(radius) {}
 

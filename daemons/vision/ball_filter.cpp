@@ -16,17 +16,18 @@ constexpr double kAccelerationDensity = 0.09;
 constexpr double kVelocitySigma = 1.0;
 /** 99.9 % of the chi-square distribution with two degrees of freedom. */
 constexpr double kGate = 13.8;
-/** 95 % of the same: two measurements in succession beyond this, to the same side, show a kick, at
- * the time of the last one before them, but not longer ago than kKickTime, s. */
+/** 95 % of the same distribution. Two measurements in succession beyond this, on the same side,
+ * show a kick at the time of the last one before them, but at most kKickTime, s, ago. */
 constexpr double kSurprise = 6.0;
 constexpr double kKickTime = 0.5;
-/** Measurements in succession that do not fit, and agree within this distance (m), restart it. */
+/** Number of measurements in succession that restart the filter if they do not fit and agree within
+ * this distance, m. */
 constexpr int kRestart = 3;
 constexpr double kAgreement = 0.4;
-/** A ball that was not seen for this long is unknown, microseconds. */
+/** Time without a sighting after which the ball is unknown, microseconds. */
 constexpr int64_t kForgetTime = 5000000;
-/** Rolling: faster than this, m/s, and by this many standard deviations. At rest again below half
- * of the speed. */
+/** A ball rolls if it is faster than this, m/s, and by this many standard deviations. It is at rest
+ * again below half of the speed. */
 constexpr double kRollingSpeed = 0.15;
 constexpr double kRollingSigmas = 2.5;
 
@@ -38,7 +39,7 @@ void BallFilter::predict(int64_t utime) {
   const int64_t elapsed = utime - utime_;
   utime_ = utime;
   if (!estimate_.is_known) return;
-  // Time that runs backwards: the simulation was restarted.
+  // Time runs backwards if the simulation was restarted.
   if (elapsed < 0 || utime - estimate_.seen_utime > kForgetTime) {
     estimate_ = {};
     num_rejected_ = 0;

@@ -22,9 +22,9 @@ struct BallEstimate {
 /** Kalman filter of the ball's position and velocity.
  *
  * A rolling ball decelerates by a constant friction; random accelerations stand for kicks and for
- * the drift of the odometry. Two measurements in succession far to the same side show a kick: the
- * velocity is then uncertain again. A measurement that does not fit is ignored, unless several in
- * succession agree with each other: the ball was moved, and the filter starts anew. */
+ * the drift of the odometry. Two measurements in succession far to the same side show a kick, after
+ * which the velocity is uncertain again. A measurement that does not fit is ignored, unless several
+ * in succession agree with each other: then the ball was moved, and the filter restarts. */
 class BallFilter {
  public:
   /** Advances the estimate to a time. A step back in time, or one longer than 5 s, resets it.

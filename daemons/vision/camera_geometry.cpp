@@ -18,7 +18,7 @@ constexpr double kHeightStep = 1e-4;
 
 }  // namespace
 
-// The limits reject damaged messages; no lens comes near.
+// The limits reject damaged messages; no lens comes near them.
 bool CameraCalibration::is_valid() const {
   for (const double coefficient : distortion) {
     if (!std::isfinite(coefficient) || std::abs(coefficient) > 10) return false;
@@ -114,7 +114,7 @@ std::optional<GroundPoint> CameraGeometry::locate(const cv::Point2f& ideal, doub
     point.covariance += slope * slope.transpose();
   };
   const auto step = static_cast<float>(kPixelStep);
-  // Downwards, where the ray meets the ground nearer to the camera.
+  // Downwards the ray meets the ground nearer to the camera.
   add(at_height(ideal + cv::Point2f(step, 0), height), kPixelStep, noise_.pixel);
   add(at_height(ideal + cv::Point2f(0, step), height), kPixelStep, noise_.pixel);
   for (int axis = 0; axis < 3; ++axis) {

@@ -21,19 +21,19 @@ struct CameraCalibration {
   bool has_distortion() const { return distortion != std::array<double, 5>{}; }
   /** All numbers are finite, and the focal lengths above 0. */
   bool is_valid() const;
-  /** Of an image for which nothing is known: a field of view of 60.9 degrees, that of the NAO V5's
-   * cameras (vendor's data sheet). */
+  /** Calibration for an image of an unknown camera: a field of view of 60.9 degrees, that of the
+   * NAO V5's cameras (vendor's data sheet). */
   static CameraCalibration guess(int width, int height);
 };
 
 /** Standard deviations of what the projection to the ground depends on. */
 struct ProjectionNoise {
-  /** Of a detection in the image, pixels. Chosen: typical edge accuracy at 640x480. */
+  /** Deviation of a detection in the image, pixels. Chosen: typical edge accuracy at 640x480. */
   double pixel = 1.0;
-  /** Of the camera's orientation about each axis, rad. Chosen: 0.6 degrees, half of what backlash
-   * in the neck and hip joints of a NAO adds up to. */
+  /** Deviation of the camera's orientation about each axis, rad. Chosen: 0.6 degrees, half of the
+   * total backlash of a NAO's neck and hip joints. */
   double angle = 0.01;
-  /** Of the camera's height, m. */
+  /** Deviation of the camera's height, m. */
   double height = 0.005;
 };
 

@@ -11,7 +11,8 @@ namespace {
 /** Pairs of points that are tried. If a fifth of the points lie on the circle, both of one pair do
  * with the probability 1 - (1 - 0.2^2)^150 = 0.998. */
 constexpr int kNumCircleSamples = 150;
-/** Points this near to the circle are on it: m, and per m of their distance. */
+/** Distance from the circle within which points are on it: m, and its increase per m of their
+ * distance. */
 constexpr double kCircleTolerance = 0.03;
 constexpr double kCircleToleranceOfDistance = 0.015;
 /** Points farther away are too uncertain to be on a circle, m. */
@@ -34,7 +35,7 @@ double tolerance(const Eigen::Vector2d& point) {
 int longest_run(const std::bitset<kNumSectors>& sectors) {
   int longest = 0;
   int run = 0;
-  // Twice around, so that a run across the angle 0 counts as one.
+  // Goes around twice, so that a run across the angle 0 counts as one.
   for (int i = 0; i < 2 * kNumSectors; ++i) {
     run = sectors[i % kNumSectors] ? run + 1 : 0;
     longest = std::max(longest, std::min(run, kNumSectors));

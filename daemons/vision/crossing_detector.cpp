@@ -11,8 +11,8 @@ namespace {
 constexpr double kLeastGroundAngle = 1.1;
 constexpr double kLeastImageAngle = 0.35;
 
-/** How far beyond its end a segment may reach the crossing, and how far inside of its end a
- * crossing still counts as its end, pixels; in line widths where that is more. */
+/** Greatest distance of a crossing beyond a segment's end, and inside of it for the crossing to
+ * count as that end, pixels; in line widths if that is more. */
 constexpr float kCrossingReach = 22;
 constexpr float kInsideSegment = 14;
 constexpr float kReachInWidths = 1.6f;
@@ -73,7 +73,7 @@ Detections CrossingDetector::detect(const std::vector<LineSegment>& segments, co
       const Meeting on_a = meeting_of(a, point, b.width);
       const Meeting on_b = meeting_of(b, point, a.width);
       if (!on_a.is_reached() || !on_b.is_reached()) continue;
-      // L: both lines end there; T: one of them; X: none.
+      // Both lines end in an L, one of them in a T, none in an X.
       const int num_ends = (on_a.is_end() ? 1 : 0) + (on_b.is_end() ? 1 : 0);
       Detection detection;
       detection.kind = num_ends == 2   ? Kind::kCrossingL

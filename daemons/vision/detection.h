@@ -8,7 +8,7 @@ namespace nao::vision {
 
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/** What a detection is; the order is that of detection_t's KIND_*. */
+/** Kind of a detection, in the order of detection_t's KIND_*. */
 enum class Kind {
   kBall,
   kLine,
@@ -37,7 +37,7 @@ struct Detection {
   Eigen::Vector2d position = Eigen::Vector2d::Constant(kUnknown);
   /** Lines: second end on the ground in H, m; NaN otherwise. */
   Eigen::Vector2d end = Eigen::Vector2d::Constant(kUnknown);
-  /** Of `position`, m^2; NaN if unknown. */
+  /** Covariance of `position`, m^2; NaN if unknown. */
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Constant(kUnknown);
   /** 0 to 1. */
   double confidence = 0;

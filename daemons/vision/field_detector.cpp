@@ -7,7 +7,7 @@
 namespace nao::vision {
 namespace {
 
-/** Range of the histogram of the green index; what is outside counts at its ends. */
+/** Range of the histogram of the green index; values outside count at its ends. */
 constexpr float kLow = -0.1f;
 constexpr float kHigh = 0.6f;
 constexpr int kNumBins = 70;
@@ -71,8 +71,8 @@ void find_color(const cv::Mat_<cv::Vec3b>& half, FieldView& view) {
     for (int x = 0; x < half.cols; x += 2) ++histogram[bin_of(green_index(half(y, x)))];
   }
   view.threshold = std::clamp(value_of(otsu(histogram)), kLeastThreshold, kGreatestThreshold);
-  // Median of what is above the threshold.
-  // The field's own green, from the pixels above the threshold; every second pixel was counted.
+  // Median green index of the pixels above the threshold: the field's own green. Every second pixel
+  // was counted.
   const int first = bin_of(view.threshold);
   int above = 0;
   for (int bin = first; bin < kNumBins; ++bin) above += histogram[bin];
@@ -80,7 +80,7 @@ void find_color(const cv::Mat_<cv::Vec3b>& half, FieldView& view) {
   int bin = first;
   while (bin < kNumBins - 1 && 2 * (count += histogram[bin]) < above) ++bin;
   view.index = std::max(value_of(bin), 1.3f * view.threshold);
-  // Where nothing but field is in view, Otsu's method divides the field itself.
+  // If only field is in view, Otsu's method divides the field itself.
   view.threshold = std::clamp(view.threshold, kLeastThreshold, kGreatestFraction * view.index);
 }
 
@@ -117,7 +117,7 @@ void find_border(const CameraGeometry& geometry, FieldView& view) {
     if (const auto horizon = geometry.horizon_row(2 * x)) {
       first = std::clamp(static_cast<int>(*horizon / 2) - 4, 0, height);
     }
-    // Upwards, since there may be green things behind the field.
+    // The search goes upwards, since there may be green things behind the field.
     int gap = 0;
     for (int y = height - 1; y >= first && gap <= kGap + y / kRowsPerGap; --y) {
       // Two rows in succession: single green pixels are noise.

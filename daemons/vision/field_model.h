@@ -21,7 +21,7 @@ struct FieldCrossing {
   Eigen::Vector2d position;
 };
 
-/** What a camera can recognize of a soccer field, made of the dimensions of a scene.
+/** The parts of a soccer field that a camera can recognize, made from the dimensions of a scene.
  *
  * Field frame: origin at the center, x towards the opponents' goal, y left. The field is symmetric:
  * turned by half a turn about its center it looks the same. */
@@ -35,15 +35,15 @@ class FieldModel {
   const std::vector<FieldCrossing>& crossings() const { return crossings_; }
   /** Where the axes of the goal posts meet the ground, m; empty without goals. */
   const std::vector<Eigen::Vector2d>& goal_posts() const { return goal_posts_; }
-  /** Of the center circle, to the middle of its line, m. */
+  /** Radius of the center circle, to the middle of its line, m. */
   double circle_radius() const { return circle_radius_; }
   /** Half of the carpet's length and width, with the border strip, m. */
   const Eigen::Vector2d& half_carpet() const { return half_carpet_; }
 
  private:
   void add_line(double x1, double y1, double x2, double y2);
-  /** An area before a goal: a rectangle that has the goal line as one side. @param sign  Of the
-   * goal's x. */
+  /** An area before a goal: a rectangle that has the goal line as one side. @param sign  Sign of
+   * the goal's x. */
   void add_area(double sign, double goal_line, double depth, double half_width);
 
   std::vector<FieldLine> lines_;

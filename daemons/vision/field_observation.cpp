@@ -8,9 +8,10 @@
 namespace nao::vision {
 namespace {
 
-/** Farther parts of lines are not used, m: one degree of tilt moves them by a meter. */
+/** Distance beyond which parts of lines are not used, m: one degree of tilt moves them by a meter.
+ */
 constexpr double kObservedReach = 5.0;
-/** Shorter lines are not used, m: many are parts of robots. */
+/** Least length of a line, m: many shorter ones are parts of robots. */
 constexpr double kLeastObservedLength = 0.25;
 /** Posts are located by their feet, whose distance is uncertain far away, m. */
 constexpr double kPostReach = 4.0;
@@ -107,7 +108,7 @@ void correct_by_tilt(const CameraPlace& camera, const Eigen::Vector2d& tilt,
     if (!detection.has_position()) continue;
     CameraPlace above = camera;
     if (detection.kind == Kind::kBall) {
-      // Seen is its center.
+      // The observed point is its center.
       above.position.z() -= kBallRadius;
     } else if (detection.kind != Kind::kRobot) {
       continue;

@@ -19,7 +19,7 @@ constexpr double kWhiteLevel = 250;
 constexpr double kWhiteFraction = 0.6;
 /** Green index of a field, below that of the palest carpet. */
 constexpr float kGreen = 0.08f;
-/** Equal images for this long are frozen, microseconds: five images at 15 images a second. */
+/** Time after which equal images are frozen, microseconds: five images at 15 images a second. */
 constexpr int64_t kFrozenTime = 300000;
 /** Movement, m and rad, of which a camera's image shows something. Chosen: six pixels of an image
  * 640 pixels wide; a robot that walks tilts by two degrees, one that stands sways by a tenth. */
@@ -106,7 +106,7 @@ ImageStatus ImageStatusMonitor::check(
     return ImageStatus::kCovered;
   }
   if (may_be_frozen && spread >= kUniformDeviation) return ImageStatus::kFrozen;
-  // Field above and none below: the camera hangs upside down.
+  // There is field above and none below: the camera hangs upside down.
   if (horizon && *horizon < bgr.rows / 3.0) return ImageStatus::kOk;
   const double upper = green_fraction(small, 0, kHeight / 3);
   const double lower = green_fraction(small, kHeight - kHeight / 3, kHeight);

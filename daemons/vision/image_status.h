@@ -11,7 +11,7 @@
 
 namespace nao::vision {
 
-/** What is wrong with an image; the order is that of vision_state_t's IMAGE_STATUS_*. */
+/** Fault of an image, in the order of vision_state_t's IMAGE_STATUS_*. */
 enum class ImageStatus { kOk, kCovered, kOverexposed, kFrozen, kInverted };
 
 /** "ok", "covered", "overexposed", "frozen", "inverted". */
@@ -23,10 +23,11 @@ const char* image_status_name(ImageStatus status);
  * - overexposed: most pixels are at the upper end of the range
  * - frozen: identical, byte by byte, to the camera's images of at least the last 0.3 s, though the
  *   camera has moved or turned since the first of them by more than such images allow. A camera
- *   that is still may send the same image for long, and one near a carpet sees a single color.
+ *   that does not move may send the same image for a long time, and one near a carpet sees a single
+ *   color.
  * - inverted: the field is above the horizon and not below it (an upside-down image). A camera that
  *   looks down so far that the horizon is not below its upper third sees the field above, and its
- *   robot's body or another robot below: nothing follows from that. */
+ *   robot's body or another robot below, from which nothing can be concluded. */
 class ImageStatusMonitor {
  public:
   /** @param camera  Name; each has its own history. @param utime  Microseconds.

@@ -20,7 +20,7 @@ constexpr int kLeastImageHeight = 48;
 // The size is checked before memory is taken: the header comes from outside.
 std::string decode_jpeg(const uint8_t* data, size_t num_bytes, cv::Mat& bgr) {
   if (num_bytes == 0) return "the image is empty";
-  // One for each file: after an error in a header it would refuse every file that follows.
+  // Each file gets its own decoder: after an error in a header, one would refuse all later files.
   const std::unique_ptr<void, decltype(&tjDestroy)> decoder(tjInitDecompress(), &tjDestroy);
   if (decoder == nullptr) throw Error(std::string("libturbojpeg: ") + tjGetErrorStr2(nullptr));
   int width = 0;

@@ -14,10 +14,10 @@ constexpr float kContinuationReach = 60;
 /** Shortest continuation, pixels: two scan lines. */
 constexpr float kLeastContinuedLength = 12;
 constexpr int kLeastContinuedPoints = 3;
-/** Segments of fewer points are no strong evidence. */
+/** Segments of fewer points are weak evidence. */
 constexpr int kStrongPoints = 8;
-/** Cosine of the greatest turn at an end: 40 degrees, so that a crossing line is not taken for the
- * continuation. */
+/** Cosine of the greatest turn at an end: 40 degrees, so that a crossing line is not mistaken for
+ * the continuation. */
 constexpr float kLeastCosine = 0.766f;
 /** Points this near to the line belong to it, pixels; wider lines have noisier points. */
 constexpr float kContinuationTolerance = 1.6f;

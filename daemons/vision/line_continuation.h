@@ -8,8 +8,8 @@
 
 namespace nao::vision {
 
-/** Continues segments beyond their ends by shorter ones, with fewer points than a segment needs
- * that stands alone: bends of the center circle, blurred or worn pieces of a line.
+/** Continues segments beyond their ends by shorter ones, which have fewer points than a separate
+ * segment needs: bends of the center circle, blurred or worn pieces of a line.
  *
  * Hysteresis as in J. Canny, "A computational approach to edge detection", PAMI 1986: weak
  * evidence counts where it continues strong evidence.

@@ -20,8 +20,8 @@ constexpr float kToleranceOfWidth = 0.06f;
 constexpr float kLargestGap = 34;
 constexpr int kLeastLinePoints = 5;
 constexpr float kLeastLength = 26;
-/** Least fraction of the scan lines across a segment that found it: of unrelated points few lie in
- * a row. Tuned on real and rendered images: 0.7 loses blurred lines, less keeps more false ones. */
+/** Least fraction of the scan lines across a segment that found it: few unrelated points lie in a
+ * row. Tuned on real and rendered images: 0.7 loses blurred lines, less keeps more false ones. */
 constexpr float kLeastDensity = 0.6f;
 constexpr int kMostSegments = 24;
 /** Limits of a line's width on the ground, m; lines are 0.05 wide. */
@@ -69,8 +69,8 @@ std::vector<int> longest_run(const Line& line, const std::vector<LinePoint>& poi
   return run;
 }
 
-// Of the scatter matrix the larger eigenvector, in closed form: angle = atan2(2 xy, xx - yy) / 2.
-/** Total least squares: the direction of the greatest variance. */
+/** Total least squares: the direction of the greatest variance, which is the scatter matrix's
+ * eigenvector of the larger eigenvalue. In closed form: angle = atan2(2 xy, xx - yy) / 2. */
 Line fit(const std::vector<int>& run, const std::vector<cv::Point2f>& ideal) {
   cv::Point2f mean(0, 0);
   for (const int i : run) mean += ideal[i] * (1.0f / static_cast<float>(run.size()));
@@ -100,10 +100,10 @@ float median_width(const std::vector<int>& run, const Line& line,
   return widths[widths.size() / 2];
 }
 
-/** The width fits a field line, where that is known. */
+/** Whether the width fits a field line, if that is known. */
 bool has_fitting_width(const LineSegment& segment, const Line& line,
                        const CameraGeometry& geometry) {
-  // Longer than wide in any case.
+  // A segment must be longer than it is wide.
   if (segment.length() < 1.3f * segment.width) return false;
   const cv::Point2f middle = 0.5f * (segment.from + segment.to);
   const cv::Point2f across(-line.direction.y, line.direction.x);
@@ -147,14 +147,14 @@ std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
       const size_t j = random.next() % ideal.size();
       const cv::Point2f step = ideal[j] - ideal[i];
       const auto base = static_cast<float>(cv::norm(step));
-      // Near points give no direction, far ones rarely belong to one line.
+      // Two near points give no direction, and two distant ones rarely belong to one line.
       if (base < kLeastBase || base > kMostBase) continue;
       std::vector<int> run = longest_run({ideal[i], step * (1 / base)}, points, ideal);
       if (run.size() > best.size()) best = std::move(run);
     }
     if (best.size() < kLeastLinePoints) break;
     const Line line = fit(best, ideal);
-    // With the fitted line; kept only if that has not lost points.
+    // The inliers of the fitted line are kept only if no points were lost.
     std::vector<int> run = longest_run(line, points, ideal);
     if (run.size() < best.size()) run = best;
     const float first = line.along(ideal[run.front()]);
@@ -165,8 +165,8 @@ std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
     const bool is_accepted = segment.length() >= kLeastLength && is_dense(segment) &&
                              has_fitting_width(segment, line, geometry);
     if (is_accepted) segments.push_back(segment);
-    // Removed also if the segment was rejected: the next round must find another. Such points may
-    // still continue another segment.
+    // They are removed even if the segment was rejected, since the next round must find another.
+    // Such points may still continue another segment.
     std::sort(run.begin(), run.end(), std::greater<>());
     for (const int i : run) {
       if (!is_accepted) {

@@ -14,7 +14,7 @@ struct LineSegment {
   cv::Point2f from;
   cv::Point2f to;
   int num_points = 0;
-  /** Across the line, pixels. */
+  /** Width across the line, pixels. */
   float width = 0;
 
   float length() const { return static_cast<float>(cv::norm(to - from)); }

@@ -12,7 +12,7 @@ constexpr double kStartHeading = 0.09;
 /** More than this between two images, m and m/s, was not walked. Chosen: twice the fastest walk. */
 constexpr double kJumpDistance = 0.3;
 constexpr double kJumpSpeed = 0.7;
-/** Standard deviations after such a jump, m and rad: the robot may have moved meanwhile. */
+/** Standard deviations after such a jump, m and rad: the robot may have moved in the meantime. */
 constexpr double kJumpPosition = 0.15;
 constexpr double kJumpHeading = 0.2;
 /** Standard deviations after a fall, m and rad. Chosen: half of the robot's height. */
@@ -28,17 +28,18 @@ constexpr size_t kKeep = 40;
 /** The newest so many decide whether the pose fits, if they have this much to see, m. */
 constexpr size_t kRecent = 8;
 constexpr double kLeastUsedLength = 3.0;
-/** Below this score the pose does not fit; so many times in succession it is lost. */
+/** Score below which the pose does not fit; and the number of times in succession after which it is
+ * lost. */
 constexpr double kMisfitScore = 0.35;
 constexpr int kMostMisfits = 4;
-/** Above this score no other pose is searched. */
+/** Score above which no other pose is searched. */
 constexpr double kGoodScore = 0.6;
 /** Least gain of the mean tilt with each observation: 10 s. Chosen: much longer than a misfit lasts
  * before the pose is given up. */
 constexpr double kTiltGain = 0.02;
 /** Another pose replaces a tracked one if its score is better by this. */
 constexpr double kBetter = 0.25;
-/** Between two searches, microseconds: each takes about as long as an image. */
+/** Time between two searches, microseconds: each takes about as long as an image. */
 constexpr int64_t kLostSearchPeriod = 600000;
 constexpr int64_t kSearchPeriod = 2000000;
 
@@ -56,7 +57,7 @@ void Localizer::restart(const Pose2& heading_in_odometry) {
   num_fits_ = 0;
   remembered_utime_ = searched_utime_ = 0;
   filter_.start(start_, kStartPosition, kStartHeading);
-  // What was walked before this program started adds its uncertainty.
+  // The walk before this program started adds its uncertainty.
   filter_.predict(heading_in_odometry, 0);
 }
 
@@ -121,7 +122,7 @@ void Localizer::give_up() {
   // Carrying the robot does not change the errors of its joints and of the torso's orientation, but
   // what was taken for lines of the wrong place spoiled the estimated tilt.
   filter_.start(filter_.pose(), kFoundPosition, kFoundHeading, usual_tilt_);
-  // What was seen before belongs to where the robot was before.
+  // Earlier observations belong to the robot's earlier place.
   if (window_.size() > kRecent) {
     window_.erase(window_.begin(), window_.end() - static_cast<std::ptrdiff_t>(kRecent));
   }

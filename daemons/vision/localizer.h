@@ -17,7 +17,7 @@ struct FieldPose {
   bool is_known = false;
   /** Heading frame (on the ground below the torso) in the field frame. */
   Pose2 pose;
-  /** Of x, y, m, and heading, rad. */
+  /** Covariance of x, y, m, and heading, rad. */
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
@@ -36,8 +36,8 @@ class Localizer {
   Localizer(const Localizer&) = delete;
   Localizer& operator=(const Localizer&) = delete;
 
-  /** Advances the estimate to a time. A step back in time restarts it: the simulation began anew.
-   * A jump of the odometry that no robot can walk is no motion: nao-motion was restarted.
+  /** Advances the estimate to a time. A step back in time restarts it: the simulation was
+   * restarted. An odometry jump that no robot can walk is not a motion: nao-motion was restarted.
    * @param utime  Robot time, microseconds.
    * @param is_upright  The robot stands or walks. Falling and getting up make the pose uncertain.
    */

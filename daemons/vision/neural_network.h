@@ -26,7 +26,7 @@ class NeuralNetwork {
    * @throws Error  if it cannot be read, or is not such a network. */
   NeuralNetwork(const std::filesystem::path& file, const Shape& shape);
 
-  /** @param images  Of the input's size, 8 bits a color, blue first.
+  /** @param images  Images of the input's size, 8 bits a color, blue first.
    * @return A row for each image: one plane of the output's size after the other. */
   cv::Mat_<float> run(const std::vector<cv::Mat>& images);
 

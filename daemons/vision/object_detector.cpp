@@ -28,9 +28,9 @@ constexpr int kNumPlanes = 4 * kNumBallValues + kNumRobotValues + kNumPostValues
 constexpr float kLeastBall = 0.02f;
 constexpr float kLeastRobot = 0.45f;
 constexpr float kLeastPost = 0.45f;
-/** Most places of balls: each costs 0.04 ms to judge. */
+/** Greatest number of places of balls: each costs 0.04 ms to judge. */
 constexpr size_t kMostBalls = 10;
-/** Two robots whose boxes overlap by more are one: intersection over union. */
+/** Overlap (intersection over union) of two robots' boxes above which they are one robot. */
 constexpr double kSameRobot = 0.5;
 /** Height of a goal post, m. */
 constexpr double kPostHeight = 0.85;
@@ -78,7 +78,7 @@ class Grid {
     return {scale_x_ * middle(cell.column), scale_y_ * middle(cell.row)};
   }
 
-  /** Length in pixels of the image. @param i  Of its logarithm. */
+  /** Length in pixels of the image. @param i  Index of its logarithm. */
   float radius(int i, const Cell& cell) const {
     return scale_x_ * size() * std::exp(std::clamp(value(i, cell), -3.0f, 3.5f));
   }

@@ -11,7 +11,7 @@
 
 namespace nao::vision {
 
-/** What ObjectDetector finds in an image. */
+/** Objects that ObjectDetector finds in an image. */
 struct FoundObjects {
   /** Where a ball may be, most probable first. */
   std::vector<Circle> balls;
@@ -21,8 +21,8 @@ struct FoundObjects {
 
 /** Finds goal posts, other robots and places of balls by a network that sees the whole image.
  *
- * The network divides the image into cells. For each cell it tells how probable it is that an
- * object's center (of posts: its foot) is there, and where exactly its parts lie. */
+ * The network divides the image into cells. For each cell it gives the probability that an object's
+ * center (of posts: the foot) is there, and the exact position of its parts. */
 class ObjectDetector {
  public:
   /** Rows and columns of the network's input, the image at half of its size. */
@@ -30,11 +30,11 @@ class ObjectDetector {
   static constexpr int kColumns = 320;
   static NeuralNetwork::Shape shape();
 
-  /** @param network  Of shape(). */
+  /** @param network  Network of shape(). */
   explicit ObjectDetector(std::shared_ptr<NeuralNetwork> network) : network_(std::move(network)) {}
 
   /** @param half  The image at half of its size, 8 bits a color, blue first.
-   * @param width, height  Of the image, pixels. */
+   * @param width, height  Size of the image, pixels. */
   FoundObjects detect(const cv::Mat& half, int width, int height,
                       const CameraGeometry& geometry) const;
 

@@ -11,7 +11,7 @@ struct Circle {
   float radius = 0;
 };
 
-/** Cuts square patches out of an image, whatever their size there, as input of a NeuralNetwork.
+/** Cuts square patches of any size out of an image, as input of a NeuralNetwork.
  *
  * The image is halved several times; a patch comes from the level whose pixels are the largest that
  * are not larger than those of the patch, so that nothing is skipped. */
@@ -26,7 +26,8 @@ class PatchSampler {
   /** The image at half of its size. */
   const cv::Mat& half() const { return levels_[1]; }
 
-  /** @param half_width  Of the patch in the image, pixels. What lies outside of the image is black.
+  /** @param half_width  Half width of the patch in the image, pixels. What lies outside of the
+   * image is black.
    * @return kSize x kSize pixels, 8 bits a color, blue first. */
   cv::Mat sample(const cv::Point2f& center, float half_width) const;
 

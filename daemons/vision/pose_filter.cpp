@@ -15,7 +15,7 @@ namespace {
 /** Random walk of the odometry's error: m and rad for each root of a meter, rad for each root of a
  * radian and of a second. The distance error of a walk is 1 to 2 % of its length, and the drift to
  * the side 60 to 200 mm in 5 m (docs/performance.md); a gyroscope's offset is 0.5 degrees/s under
- * `moderate`. Chosen larger, since errors of successive steps are alike. */
+ * `moderate`. Chosen larger, since errors of successive steps are correlated. */
 constexpr double kPositionPerWay = 0.04;
 constexpr double kPositionPerTurn = 0.01;
 constexpr double kHeadingPerWay = 0.04;
@@ -34,25 +34,26 @@ constexpr double kTiltNoise = 0.008;
 /** Standard deviation of a line's ends across it: pixels, and m on the ground. */
 constexpr double kPixelSigma = 1.2;
 constexpr double kLineSigma = 0.010;
-/** Of the circle's center, m and for each m of its distance. Measured in rendered images: a median
- * error of 0.04 m, and a tenth above 0.25 m, most of which do not pass the gate. */
+/** Deviation of the circle's center, m, and its increase for each m of distance. Measured in
+ * rendered images: a median error of 0.04 m; a tenth are above 0.25 m, most of which do not pass
+ * the gate. */
 constexpr double kCircleSigma = 0.04;
 constexpr double kCircleSigmaPerDistance = 0.02;
-/** Of a post's foot: relative error of the distance, and m across the view. */
+/** Deviation of a post's foot: as a fraction of the distance, and m across the view. */
 constexpr double kPostDistanceSigma = 0.12;
 constexpr double kPostSideSigma = 0.06;
 
 /** 99 % of the chi-square distribution with two degrees of freedom. */
 constexpr double kGate = 9.2;
-/** The next best field line must be worse by this, or the line is not used. */
+/** Least advantage over the next best field line for an observed line to be used. */
 constexpr double kUnique = 6.0;
 /** Largest angle between an observed line and its field line, rad, before the gate. */
 constexpr double kMostAngle = 0.45;
 /** An observed line may reach beyond the ends of its field line by this, m, more far away. */
 constexpr double kBeyond = 0.25;
 constexpr double kBeyondPerDistance = 0.05;
-/** Longest line that can be an arc of the center circle, as a part of its diameter: detected lines
- * are straight within pixels. */
+/** Longest line that can be an arc of the center circle, as a fraction of its diameter: detected
+ * lines are straight within pixels. */
 constexpr double kMostChord = 0.9;
 
 double square(double x) {
@@ -80,7 +81,7 @@ void PoseFilter::predict(const Pose2& step, double dt) {
   const Eigen::Vector2d way = pose().rotate(step.position);
   state_.head<2>() += way;
   state_[2] = wrapped(state_[2] + step.heading);
-  // A heading error turns the way: d(way)/d(heading) = (-way_y, way_x).
+  // A heading error rotates the path: d(way)/d(heading) = (-way_y, way_x).
   Covariance transition = Covariance::Identity();
   transition(0, 2) = -way.y();
   transition(1, 2) = way.x();
@@ -241,8 +242,8 @@ PoseFilter::Match PoseFilter::match_post(const CameraPlace& camera,
                      square(kPostSideSigma));
 }
 
-// One after the other: a line that fits the field only with a tilt that the others exclude is a
-// false one, or another line than it seemed before.
+// The lines are used one after the other: a line that fits the field only with a tilt that the
+// others exclude is a false one, or another line than it seemed before.
 void PoseFilter::update(const FieldObservation& observation) {
   const CameraPlace& camera = observation.camera;
   std::vector<std::pair<double, std::function<Match()>>> landmarks;

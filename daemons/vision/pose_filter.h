@@ -16,8 +16,8 @@ namespace nao::vision {
  * together, most those far away; as part of the state it is estimated from them. Its slow part is a
  * first-order Gauss-Markov process, its noise is independent in every image.
  *
- * The landmarks of an image are taken one after the other, those that fit best first: what they
- * say about the tilt of this image decides what the others can be. */
+ * The landmarks of an image are used one after the other, those that fit best first: the tilt that
+ * they imply for this image decides what the others can be. */
 class PoseFilter {
  public:
   using State = Eigen::Matrix<double, 7, 1>;
@@ -42,7 +42,7 @@ class PoseFilter {
   void update(const FieldObservation& observation);
 
   Pose2 pose() const { return {state_.head<2>(), state_[2]}; }
-  /** Of x, y and heading. */
+  /** Covariance of x, y and heading. */
   Eigen::Matrix3d covariance() const { return covariance_.topLeftCorner<3, 3>(); }
   /** Estimated slow errors of the camera's tilt, rad. */
   Eigen::Vector2d tilt() const { return state_.segment<2>(3); }
@@ -62,10 +62,10 @@ class PoseFilter {
 
     Eigen::Matrix<double, 2, 7> jacobian;
     Eigen::Vector2d innovation;
-    /** Of the measurement's own noise. */
+    /** Covariance of the measurement's own noise. */
     Eigen::Matrix2d covariance;
   };
-  /** Nothing if a landmark fits nothing, or several things. */
+  /** Nothing if a landmark fits nothing, or several parts of the field. */
   using Match = std::optional<Measurement>;
 
   /** An observed point, corrected by the estimated tilt, on the field. */

@@ -8,11 +8,11 @@
 namespace nao::vision {
 namespace {
 
-/** Distance from a line at which it explains nothing any more: m, and for each m from the camera
- * (one degree of tilt at 3 m is 0.3 m). */
+/** Distance from a line beyond which it explains nothing: m, and its increase for each m from the
+ * camera (one degree of tilt at 3 m is 0.3 m). */
 constexpr double kSearchTolerance = 0.10;
 constexpr double kSearchToleranceOfDistance = 0.06;
-/** Lines at a greater angle are others, rad. */
+/** Greatest angle at which two lines may be the same, rad. */
 constexpr double kMostLineAngle = 0.3;
 /** An observed line may reach beyond its field line by this, m. */
 constexpr double kBeyondEnd = 0.3;
@@ -22,23 +22,23 @@ constexpr double kMostLength = 2.0;
 /** Least angle between two lines of a hypothesis, rad, and their least length, m. */
 constexpr double kLeastCrossing = 1.2;
 constexpr double kLeastPairLength = 0.4;
-/** Hypotheses come from so many of the newest observations, and pairs of lines of each. */
+/** Number of newest observations from which hypotheses come, and of pairs of lines of each. */
 constexpr int kNumSources = 4;
 constexpr int kNumPairs = 3;
-/** So many of the best are refined, in so many steps, and are a different place beyond this
- * distance, m and rad. */
+/** Number of the best that are refined, the number of steps, and the distance beyond which they are
+ * different places, m and rad. */
 constexpr size_t kNumRefined = 12;
 constexpr int kNumIterations = 4;
 constexpr double kSamePosition = 0.5;
 constexpr double kSameHeading = 0.35;
-/** Standard deviation of the tilt's error that observations have in common, rad, beside the tilt
- * that they are corrected by. */
+/** Standard deviation of the observations' common tilt error, rad, in addition to the tilt by which
+ * they are corrected. */
 constexpr double kCommonTiltSigma = 0.02;
-/** The result explains at least this, and others less by the margin. Chosen; checked on synthetic
+/** Least score of the result, and its margin over others. Chosen; checked on synthetic
  * observations. */
 constexpr double kLeastPoseScore = 0.55;
 constexpr double kPoseMargin = 0.10;
-/** Poses that differ from the known heading by more are not considered, rad: 100 degrees. */
+/** Greatest difference from the known heading, rad: 100 degrees. */
 constexpr double kMostTurn = 1.75;
 
 Eigen::Vector2d quarter_turn(const Eigen::Vector2d& v) {
@@ -142,7 +142,7 @@ void PoseSearch::add_hypotheses(const FieldObservation& observation, double head
             [&](const FieldLine& a, const FieldLine& b) { return length(a) > length(b); });
   const auto add = [&](const Eigen::Vector2d& position, double angle) {
     const Pose2 pose{position, wrapped(angle)};
-    // Beyond the carpet by half a meter at most.
+    // Poses may be at most half a meter beyond the carpet.
     const bool is_near = (position.cwiseAbs() - field_->half_carpet()).maxCoeff() < 0.5;
     if (is_near && std::abs(wrapped(angle - heading)) < kMostTurn) hypotheses.push_back(pose);
   };
@@ -242,7 +242,7 @@ std::optional<PoseSearch::Result> PoseSearch::find(
     if (hypotheses.size() > before) ++num_sources;
   }
   const auto is_better = [](const Result& a, const Result& b) { return a.score > b.score; };
-  // Of each place the best hypothesis.
+  // Keeps the best hypothesis of each place.
   const auto thinned = [&](std::vector<Result> results, size_t limit) {
     std::sort(results.begin(), results.end(), is_better);
     std::vector<Result> kept;

@@ -11,7 +11,7 @@
 namespace nao::vision {
 namespace {
 
-/** Images with less field than this show no objects on it. */
+/** Least fraction of field in an image for objects to be detected on it. */
 constexpr double kLeastField = 0.03;
 
 bool is_in(const Eigen::Vector4d& box, const cv::Point2f& pixel) {
@@ -53,7 +53,7 @@ VisionNetworks VisionNetworks::load() {
 VisionCore::VisionCore(const VisionNetworks& networks)
     : objects_(networks.objects), ball_(networks.ball) {}
 
-// The center circle first: it takes its points out of those that become lines.
+// The center circle is found first: its points then do not become lines.
 void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometry,
                             const Detections& obstacles, VisionResult& result) {
   std::vector<LinePoint> points = find_line_points(view);
@@ -77,7 +77,7 @@ void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometr
   for (const LineSegment& segment : segments) {
     result.detections.push_back(line_detection(segment, geometry));
   }
-  // Not for crossings: the pieces of a bend would cross one another.
+  // They are not used for crossings: the pieces of a bend would cross one another.
   for (const LineSegment& segment : continue_segments(segments, points, ideal)) {
     result.detections.push_back(line_detection(segment, geometry));
   }
@@ -92,7 +92,7 @@ void VisionCore::localize(const VisionInput& input, VisionResult& result) {
   const CameraPlace place{input.pose_camera_in_heading->translation(), 1 / input.calibration.fx};
   localizer_->observe(observe_field(result.detections, place, *input.heading_in_odometry));
   result.field_pose = localizer_->estimate();
-  // The lines tell how the camera is tilted, and so how far the ball is.
+  // The lines show how the camera is tilted, and so how far the ball is.
   correct_by_tilt(place, localizer_->tilt(), result.detections);
   finish_stage("localisation");
 }
@@ -109,7 +109,7 @@ VisionResult VisionCore::process(const VisionInput& input) {
       status_.check(input.bgr, input.camera, input.utime, input.pose_camera_in_heading,
                     geometry.horizon_row(0.5 * input.bgr.cols));
   finish_stage("image status");
-  // Predicted in every image, so that the ball's estimate ages also while it is not seen.
+  // The filter predicts in every image, so that the ball's estimate ages even while it is not seen.
   ball_filter_.predict(input.utime);
   result.ball = ball_filter_.estimate();
   if (localizer_ && input.heading_in_odometry) {
@@ -120,7 +120,7 @@ VisionResult VisionCore::process(const VisionInput& input) {
 
   const FieldView view = field_.detect(input.bgr, geometry);
   finish_stage("field");
-  // The robot looks up or over the border: what looks like objects there is none.
+  // The robot looks up or over the border, so that apparent objects there are false.
   if (view.fraction < kLeastField) return result;
   const PatchSampler sampler(input.bgr);
   FoundObjects objects = objects_.detect(sampler.half(), input.bgr.cols, input.bgr.rows, geometry);

@@ -39,7 +39,7 @@ struct VisionInput {
   bool is_upright = true;
 };
 
-/** What one image shows. */
+/** Results of one image. */
 struct VisionResult {
   ImageStatus image_status = ImageStatus::kOk;
   Detections detections;
@@ -52,7 +52,7 @@ struct VisionNetworks {
   std::shared_ptr<NeuralNetwork> objects;
   std::shared_ptr<NeuralNetwork> ball;
 
-  /** Those of data_path(). @throws Error  if one cannot be read. */
+  /** Loads the networks in data_path(). @throws Error  if one cannot be read. */
   static VisionNetworks load();
 };
 
@@ -78,7 +78,7 @@ class VisionCore {
     if (on_stage_) on_stage_(name);
   }
   void localize(const VisionInput& input, VisionResult& result);
-  /** @param obstacles  Hide the lines; what is in their boxes is no line. */
+  /** @param obstacles  They hide the lines; what is in their boxes is not a line. */
   void find_lines(const FieldView& view, const CameraGeometry& geometry,
                   const Detections& obstacles, VisionResult& result);
 

@@ -19,7 +19,7 @@ const char* const kProgram = "nao-vision";
 /** s. */
 constexpr double kStatusPeriod = 1;
 constexpr double kRequestPeriod = 1;
-/** Without an image for this long the program reports that it waits, s. */
+/** Time without an image after which the program reports that it waits, s. */
 constexpr double kImageValidity = 2;
 /** Width of requested images, pixels. */
 constexpr int kWidth = 640;
@@ -44,7 +44,7 @@ VisionDaemon::VisionDaemon(Bus& bus, const RobotModel& model, const VisionOption
   if (options_.field_start) {
     core_.localize(options_.field_start->first, options_.field_start->second);
   }
-  // All states: an image is matched with the state of its own time.
+  // All states are received: an image is matched with the state of its own time.
   bus_.subscribe<naolcm::robot_state_t>(
       channels_.robot_state, Bus::Queue::kAll,
       [this](const naolcm::robot_state_t& state) { poses_.add(decode_posture(model_, state)); });
@@ -67,7 +67,7 @@ void VisionDaemon::attach(EventLoop& loop) {
   }
 }
 
-// Repeated, as requests expire.
+// The request is repeated because requests expire.
 void VisionDaemon::request_images() {
   naolcm::camera_command_t command{};
   command.source = kProgram;
@@ -78,7 +78,7 @@ void VisionDaemon::request_images() {
 }
 
 void VisionDaemon::receive_image(const naolcm::image_t& image) {
-  // Too small to be processed, and meant for other receivers.
+  // The image is too small to be processed, and meant for other receivers.
   if (image.width < kLeastWidth) return;
   const auto wide = last_wide_image_.find(image.camera);
   if (image.width >= kWidth) {
@@ -118,7 +118,7 @@ void VisionDaemon::process(const naolcm::image_t& image) {
   const std::string problem = decode_jpeg(image.data.data(), image.data.size(), bgr_);
   if (!problem.empty()) throw Error(problem);
   if (bgr_.cols != image.width || bgr_.rows != image.height) {
-    throw Error("the image has another size than its message says");
+    throw Error("the size of the image differs from its message's");
   }
   input.bgr = bgr_;
   input.utime = image.utime;
@@ -140,7 +140,7 @@ void VisionDaemon::process(const naolcm::image_t& image) {
 void VisionDaemon::publish_status(double now) {
   status_.tick(now);
   const bool has_images = now - last_image_time_ < kImageValidity;
-  // Nobody may be watching: without images the program is ready, not faulty.
+  // The program may be unused: without images it is ready, not faulty.
   status_.set_state("ready", has_images ? "" : "no images");
   const double period = now - last_status_;
   status_.publish(

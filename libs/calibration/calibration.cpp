@@ -51,7 +51,7 @@ Calibration read(const RobotModel& model, const YamlEntry& root) {
   if (root.has("joint_zero")) {
     for (const auto& [name, entry] : root.at("joint_zero").entries()) {
       const int motor = model.find_motor(name);
-      if (motor < 0) entry.fail("is no joint with a motor of " + model.name());
+      if (motor < 0) entry.fail("is not a joint with a motor of " + model.name());
       result.joint_zero[motor] = number_within(entry, -kMaxAngle, kMaxAngle);
     }
   }
@@ -67,8 +67,8 @@ Calibration read(const RobotModel& model, const YamlEntry& root) {
   if (root.has("foot_sensor_scale")) {
     for (const auto& [name, entry] : root.at("foot_sensor_scale").entries()) {
       const int sensor = find_foot_sensor(model, name);
-      if (sensor < 0) entry.fail("is no foot force sensor of " + model.name());
-      // 0 is outside of the range, and means a dead sensor.
+      if (sensor < 0) entry.fail("is not a foot force sensor of " + model.name());
+      // 0 is outside the range and means a dead sensor.
       const bool is_dead = entry.number() == 0;
       result.foot_sensor_scale[sensor] = is_dead ? 0 : number_within(entry, kMinScale, kMaxScale);
     }
@@ -101,7 +101,8 @@ Calibration Calibration::parse(const RobotModel& model, const std::string& text,
   return read(model, YamlEntry::parse<ConfigError>(text, name));
 }
 
-// In the form that read() accepts; angles with 0.00001 rad, far below an encoder's step.
+// Writes the form that read() accepts; angles are rounded to 0.00001 rad, far below an encoder's
+// step.
 std::string Calibration::to_yaml(const RobotModel& model) const {
   std::string text =
       "# How one " + model.name() +
@@ -120,7 +121,7 @@ std::string Calibration::to_yaml(const RobotModel& model) const {
   text +=
       "# Rotation vector of the inertial unit's mounting in the torso (x ahead, y left), rad.\n";
   text += "imu_mount: " + list_of(imu_mount) + "\n";
-  text += "# Of the gyroscope's axes: reading = scale * true value + offset; 1 and rad/s.\n";
+  text += "# Axes of the gyroscope: reading = scale * true value + offset; 1 and rad/s.\n";
   text += "gyroscope_scale: " + list_of(gyroscope_scale) + "\n";
   text += "gyroscope_offset: " + list_of(gyroscope_offset) + "\n";
   text += "# Reading per force of each force sensor of the feet; 0: the sensor is dead.\n";

@@ -19,13 +19,13 @@ struct Calibration {
    * have no difference.
    * @throws ConfigError  naming file, line and key of what is wrong. */
   static Calibration load(const RobotModel& model, const std::filesystem::path& file);
-  /** The same from a text. @param name  Of the text, for errors. */
+  /** The same from a text. @param name  Name of the text, for errors. */
   static Calibration parse(const RobotModel& model, const std::string& text,
                            const std::string& name);
   /** Text of a file, with units. */
   std::string to_yaml(const RobotModel& model) const;
 
-  /** When it was made, as a text; empty if it was not. */
+  /** When the calibration was made, as a text; empty if it was not. */
   std::string date;
   /** What the encoders read at the joints' angle 0, rad; (num_motors), motor order. */
   std::vector<double> joint_zero;

@@ -13,16 +13,20 @@ namespace nao {
 /** Standard deviations of what is estimated, before and between measurements. The defaults are
  * those of data/disturbances/real.yaml where it has them. */
 struct CalibrationPrior {
-  /** Of a leg joint's zero, rad: 0.5 degrees, and as much from the play of its gear, which stays on
-   * one flank under load. */
+  /** Deviation of a leg joint's zero, rad: 0.5 degrees, and as much from the play of its gear,
+   * which stays on one flank under load. */
   double joint_zero = 0.012;
-  /** Of the inertial unit's mounting, with the accelerometer's offset, rad (0.8 degrees). */
+  /** Deviation of the inertial unit's mounting and the accelerometer's offset, rad (0.8 degrees).
+   */
   double imu_mount = 0.014;
-  /** Of a foot sensor's factor. */
+  /** Deviation of a foot sensor's factor. */
   double foot_sensor = 0.2;
-  /** Of the center of mass in the torso's frame, m: 5 mm of the torso's, a quarter of the mass. */
+  /** Deviation of the center of mass in the torso frame, m: 5 mm for the torso, a quarter of the
+   * mass.
+   */
   double center_of_mass = 0.001;
-  /** Of the floor's slope, and of the floor under one foot against it, rad (0.5 degrees each). */
+  /** Deviation of the floor's slope, and of the floor under one foot against it, rad (0.5 degrees
+   * each). */
   double slope = 0.009;
   double foot_tilt = 0.009;
 
@@ -32,8 +36,8 @@ struct CalibrationPrior {
   /** Distance of the center of pressure from the center of mass's projection, m: half a degree of
    * play in ankle and hip. */
   double pressure_noise = 0.004;
-  /** Of the sum of the forces, as a fraction of the weight: noise of the sensors. A weight that is
-   * not the model's is the same in all samples, and the factors of all sensors take it up. */
+  /** Deviation of the sum of the forces, as a fraction of the weight: sensor noise. A weight that
+   * differs from the model's is the same in all samples, and the sensors' factors absorb it. */
   double weight_noise = 0.01;
 };
 
@@ -50,13 +54,13 @@ struct CalibrationPrior {
  *     sum (1 + k_i) f_i = m g                     the feet carry the robot           1 equation
  *
  * with the CoP p_cop = sum (1 + k_i) f_i p_i / sum (1 + k_i) f_i. A sensor that reads nothing while
- * the others of its foot are loaded is dead: its force is what is missing to the weight. With two
- * or more dead sensors the last three equations are left out.
+ * the others of its foot are loaded is dead: its force is the weight less the other sensors'
+ * forces. With two or more dead sensors the last three equations are left out.
  *
- * What the samples do not tell apart (slope and mounting without a turn, joints that turn the sole
- * in the same way) is divided by the prior: sets of errors that no stand tells apart have the same
- * effect on all stands. Gauss-Newton with the prior's information added.
- * The gyroscope is taken for still in all samples: its offset is their mean. */
+ * The prior divides what the samples cannot distinguish (slope and mounting without a turn, joints
+ * that turn the sole in the same way): sets of errors that no stand distinguishes have the same
+ * effect on all stands. Gauss-Newton with the prior's information added. The gyroscope is assumed
+ * to be at rest in all samples: its offset is their mean. */
 class CalibrationEstimator {
  public:
   explicit CalibrationEstimator(const RobotModel& model, const CalibrationPrior& prior = {});
@@ -99,7 +103,7 @@ class CalibrationEstimator {
   const RobotModel* model_;
   CalibrationPrior prior_;
   Kinematics kinematics_;
-  /** Of the legs. */
+  /** Motors of the legs. */
   std::vector<int> motors_;
   std::vector<bool> is_left_sensor_;
   std::vector<StandingSample> samples_;

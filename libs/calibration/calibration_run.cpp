@@ -16,14 +16,15 @@ using Eigen::Vector3d;
 
 // Speed of the joints, fraction of the maximum. Chosen: slow enough that the robot does not sway.
 constexpr double kSpeed = 0.1;
-// Until the robot stands still after a move, and for which it is measured then, s. Chosen: a sway
-// decays within 0.3 s; 40 readings attenuate their noise to a sixth.
+// Time until the robot stands still after a move, and time for which it is then measured, s.
+// Chosen: a sway decays within 0.3 s; 40 readings attenuate their noise to a sixth.
 constexpr double kSettlingTime = 0.4;
 constexpr double kMeasuringTime = 0.5;
-// Commands that may fail: a turn that ended in a fall, after which the robot has got up.
+// Number of commands that may fail, such as a turn that ended in a fall after which the robot got
+// up.
 constexpr int kMaxFaults = 3;
 
-/** Displacement of the torso from where it is in the ready posture: m, rad. */
+/** Displacement of the torso from its place in the ready posture: m, rad. */
 struct TorsoShift {
   double x;
   double y;
@@ -32,7 +33,7 @@ struct TorsoShift {
   double pitch;
 };
 
-// Chosen: as far as the weight stays 2 cm within the edges of the soles with errors of a degree.
+// Chosen: the CoM's projection stays 2 cm within the edges of the soles with errors of a degree.
 // Shifts to the sides load one foot with four fifths of the weight; heights and tilts of the torso
 // change the levers of the joints' and the inertial unit's errors.
 constexpr TorsoShift kShifts[] = {
@@ -44,7 +45,7 @@ constexpr TorsoShift kShifts[] = {
 /** Angles of all motors with the torso displaced over the soles of the ready posture. Shifts that
  * the legs do not reach are left out. */
 // A list of poses that moves the weight and changes the lever arms of all errors; without it the
-// errors of joints and inertial unit could not be told apart.
+// errors of joints and inertial unit could not be distinguished.
 std::vector<std::vector<double>> plan_poses(const RobotModel& model) {
   const LegKinematics legs(model);
   Kinematics kinematics(model);
@@ -87,7 +88,7 @@ CalibrationRun::CalibrationRun(const RobotModel& model, int num_stations)
   // not.
   for (int station = 0; station < num_stations; ++station) {
     if (station > 0) steps_.push_back({2 * M_PI / num_stations, {}});
-    // Upright: the posture in which turns begin, whatever the robot did before.
+    // The robot first stands upright, the posture in which turns begin.
     steps_.push_back({});
     for (const std::vector<double>& pose : poses) steps_.push_back({0, pose});
   }
@@ -109,7 +110,8 @@ std::optional<CalibrationCommand> CalibrationRun::next_command() {
   }
   change.speed = kSpeed;
   // The weight stays within the soles (kShifts). The tipping guard refuses these poses: joints that
-  // end at different times tilt the soles a little on the way, and it counts flat soles only.
+  // end at different times slightly tilt the soles during the move, and the guard counts only flat
+  // soles.
   change.allow_tipping = true;
   return change;
 }
@@ -117,15 +119,15 @@ std::optional<CalibrationCommand> CalibrationRun::next_command() {
 void CalibrationRun::end_command(const std::string& fault) {
   if (phase_ != Phase::kMoving) return;
   const Step& step = steps_[step_];
-  // A command that fails costs its pose only, up to kMaxFaults.
+  // A command that fails costs only its pose, up to kMaxFaults.
   if (!fault.empty() && ++num_faults_ > kMaxFaults) {
     fault_ = fault;
     phase_ = Phase::kDone;
     return;
   }
   if (step.turn != 0) {
-    // The feet have moved, whether or not the turn was completed. A heading that is wrong by the
-    // part that it missed costs little: the slope is one of three causes of a tilt.
+    // The feet have moved, whether or not the turn was completed. A heading error by the missed
+    // part of the turn matters little: the slope is one of three causes of a tilt.
     ++station_;
     heading_ += step.turn;
   }

@@ -15,9 +15,9 @@ namespace nao {
 /** A command of a calibration. */
 using CalibrationCommand = std::variant<PostureCommand, JointChangeCommand, MoveToCommand>;
 
-/** What a robot does to be calibrated, and what is measured meanwhile: it stands, moves its weight
- * over both feet in eleven poses, turns by 90 degrees on the spot, and repeats that, so that slope
- * and bumps of the floor are not taken for errors of the robot.
+/** The motions of a robot that is being calibrated, and its measurements: it stands, shifts its
+ * weight over both feet in eleven poses, turns by 90 degrees in place, and repeats that, so that
+ * slope and bumps of the floor do not appear as errors of the robot.
  *
  * No bus, clock or thread. The user sends next_command() whenever there is one, reports its end,
  * and passes all sensor readings, until is_done(). */
@@ -29,14 +29,14 @@ class CalibrationRun {
 
   /** The next command, once, when one is due. */
   std::optional<CalibrationCommand> next_command();
-  /** The command has ended. @param fault  Why it was not carried out; empty if it was. */
+  /** The command has ended. @param fault  Why it was not executed; empty if it was. */
   void end_command(const std::string& fault);
-  /** Takes in one tick. @param sample  Of the sensors; its station and heading are ignored.
-   * @param dt  s since the last one. */
+  /** Takes in one tick. @param sample  Sample of the sensors; its station and heading are ignored.
+   * @param dt  Time since the last one, s. */
   void measure(StandingSample sample, double dt);
 
   bool is_done() const { return phase_ == Phase::kDone; }
-  /** Why it ended before its time: a command failed more often than it may. Empty: it did not. */
+  /** Why it ended early: commands failed too often. Empty if it did not. */
   const std::string& fault() const { return fault_; }
   /** Fraction of the stands that were measured. */
   double progress() const;

@@ -5,8 +5,8 @@
 
 namespace nao {
 
-/** What the sensors of a robot that stands still on both feet read, without any correction: one
- * tick, or the mean of some time. */
+/** Sensor readings of a robot that stands still on both feet, without any correction: one tick, or
+ * a mean over time. */
 struct StandingSample {
   /** Encoder angles, rad, (num_motors), motor order. */
   std::vector<double> position;
@@ -17,7 +17,7 @@ struct StandingSample {
   std::vector<double> foot_force;
   /** The feet have not moved between samples of one number, from 0. */
   int station = 0;
-  /** Of the robot, counterclockwise, rad, from any direction that all samples have in common. */
+  /** Heading of the robot, counterclockwise, rad, from any direction common to all samples. */
   double heading = 0;
 };
 
@@ -42,7 +42,8 @@ class SampleMean {
 
   int num_samples() const { return num_samples_; }
 
-  /** Of at least one sample. Station and heading are those of the first. */
+  /** Mean of the samples, of which there must be at least one. Station and heading are the first's.
+   */
   StandingSample mean() const {
     StandingSample mean = sum_;
     for (double& angle : mean.position) angle /= num_samples_;

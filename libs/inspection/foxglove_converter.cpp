@@ -9,8 +9,8 @@
 namespace nao {
 namespace {
 
-// Least time between two messages of what is only drawn, microseconds. Chosen: screens draw 60
-// images a second, and every second control period of 10 ms is used.
+// Least time between two messages that are only drawn, microseconds. Chosen: screens draw 60 images
+// a second, and every second control period of 10 ms is used.
 constexpr int64_t kDisplayPeriod = 20'000;
 constexpr int64_t kSecond = 1'000'000;
 
@@ -69,8 +69,7 @@ void FoxgloveConverter::decode(std::span<const uint8_t> bytes,
   try {
     if (message.decode(bytes.data(), 0, size) != size) return;
   } catch (const std::exception&) {
-    // LCM's decoder throws where a text has the length 0, or a list more elements than memory
-    // holds.
+    // LCM's decoder throws if a text has the length 0, or a list more elements than memory holds.
     return;
   }
   (this->*take)(message);
@@ -79,7 +78,7 @@ void FoxgloveConverter::decode(std::span<const uint8_t> bytes,
 bool FoxgloveConverter::is_due(size_t output, int64_t utime) {
   if (!is_wanted(output)) return false;
   const auto last = last_utime_.find(output);
-  // Time runs backwards where the simulator was restarted.
+  // Time runs backwards if the simulator was restarted.
   if (last != last_utime_.end() && utime >= last->second && utime < last->second + kDisplayPeriod) {
     return false;
   }
@@ -115,7 +114,7 @@ std::string FoxgloveConverter::transforms_of(const naolcm::robot_state_t& state)
       {kOdometryFrame, kHeadingFrame, projected_on_ground(torso)},
       {kOdometryFrame, transforms_.root(), torso}};
   std::vector<double> position;
-  // Of another robot model the root alone is known.
+  // For another robot model only the root is known.
   if (!read_named_joints(model_.motor_names(), state.joint_names,
                          {{"position", state.joint_position, position}})) {
     transforms_.append_moving(position, "", transforms);
@@ -173,7 +172,7 @@ void FoxgloveConverter::take_image(const naolcm::image_t& image) {
     return known.name == image.camera;
   });
   if (camera == cameras.end()) return;
-  // The largest size, unless there was none for a second.
+  // The largest size is shown, unless there was none for a second.
   ShownImage& shown = shown_images_[image.camera];
   const bool is_recent = image.utime >= shown.utime && image.utime < shown.utime + kSecond;
   if (is_recent && image.width < shown.width) return;

@@ -18,7 +18,8 @@ namespace nao {
 /** Converts the bus of one robot to channels in Foxglove's schemas, which its 3D and image panels
  * draw. `nao-foxglove` and `nao log mcap` share it.
  *
- * What is only drawn (transforms, scenes) is converted at most 50 times a second of robot time. */
+ * Messages that are only drawn (transforms, scenes) are converted at most 50 times a second of
+ * robot time. */
 class FoxgloveConverter {
  public:
   /** A channel that is written. */
@@ -31,7 +32,7 @@ class FoxgloveConverter {
   using IsWanted = std::function<bool(size_t)>;
   using Emit = std::function<void(size_t, std::string)>;
 
-  /** @param model  Of the robot; must outlive this. @param robot  Its name, "NAO". */
+  /** @param model  Model of the robot; must outlive this. @param robot  Its name, "NAO". */
   FoxgloveConverter(const RobotModel& model, const std::string& robot);
   FoxgloveConverter(const FoxgloveConverter&) = delete;
   FoxgloveConverter& operator=(const FoxgloveConverter&) = delete;
@@ -88,7 +89,7 @@ class FoxgloveConverter {
   std::string robot_;
   RobotChannels channels_;
   std::vector<Output> outputs_;
-  // Of the present call of convert().
+  // Arguments of the current call of convert().
   const IsWanted* is_wanted_ = nullptr;
   const Emit* emit_ = nullptr;
   /** Robot time of the last message of each output, microseconds; with the fixed transforms. */

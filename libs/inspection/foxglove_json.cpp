@@ -14,15 +14,15 @@ constexpr int64_t kNanosecondsPerMicrosecond = 1000;
 // Constants of foxglove.LinePrimitive.
 constexpr int kLineStrip = 0;
 constexpr int kLineLoop = 1;
-// Chosen to be seen beside a robot of half a metre: m, and pixels for what keeps its size.
+// Chosen to be visible beside a robot of half a metre: m, and pixels for lines of constant width.
 constexpr double kLineThickness = 2;
 constexpr double kArrowDiameter = 0.006;
 constexpr double kArrowHeadDiameter = 0.014;
 constexpr double kArrowHeadLength = 0.02;
 constexpr double kFontSize = 12;
 
-/** Rounds to 10^-6. What is not finite, such as NaN of an unknown point, becomes 0: these schemas
- * have no null. */
+/** Rounds to 10^-6. Numbers that are not finite, such as NaN of an unknown point, become 0: these
+ * schemas have no null. */
 void add_number(JsonWriter& json, const char* key, double value) {
   const double steps = std::round(value * 1e6);
   json.add(key, std::isfinite(steps) ? steps / 1e6 : 0.0);

@@ -10,7 +10,7 @@
 namespace nao {
 
 /** Parts of messages in Foxglove's schemas. Lengths and quaternions are rounded to 10^-6, which no
- * screen resolves: the text is half as long. */
+ * screen resolves, so that the text is half as long. */
 
 /** @param utime  Robot time, microseconds. */
 void add_time(JsonWriter& json, const std::string& key, int64_t utime);
@@ -53,7 +53,7 @@ struct SceneEntity {
   };
   struct Arrow {
     Eigen::Vector3d tail;
-    /** From tail to tip, m. */
+    /** Vector from tail to tip, m. */
     Eigen::Vector3d shaft;
     SceneColor color;
   };

@@ -16,7 +16,7 @@ constexpr SceneColor kGreen{0.2, 0.8, 0.3, 1};
 constexpr SceneColor kBlue{0.2, 0.5, 1, 1};
 constexpr SceneColor kWhite{1, 1, 1, 1};
 
-// Chosen to be seen beside the robot without covering it, m.
+// Chosen to be visible beside the robot without covering it, m.
 constexpr double kPointDiameter = 0.02;
 // Length of a force's arrow, m/N: a robot of 5 kg on two feet has arrows of some centimetres.
 constexpr double kForceScale = 0.002;

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/** What is wrong with a field. It ends the encoding; message_from_json() returns its text. */
+/** Fault of a field. It ends the encoding; message_from_json() returns its text. */
 class Fault : public std::runtime_error {
  public:
   Fault(const std::string& path, const std::string& what)
@@ -53,7 +53,7 @@ std::optional<int64_t> fixed_length(const std::string& dimension) {
 /** Encodes the fields of one struct. */
 class StructEncoder {
  public:
-  /** @param object  Null if the struct is absent. @param path  Of the struct, "a." or "". */
+  /** @param object  Null if the struct is absent. @param path  Path of the struct, "a." or "". */
   StructEncoder(const MessageLayout& layout, const Json* object, std::string path,
                 WireWriter& writer)
       : layout_(layout), object_(object), path_(std::move(path)), writer_(writer) {}

@@ -21,7 +21,7 @@ struct EncodedMessage {
 /** Encodes a JSON object as a message: the reverse of message_to_json().
  *
  * Fields that are absent are 0, false, "" or empty. Lengths of arrays are those of the arrays
- * themselves; arrays that share a length must agree. null is a number that is not known (NaN); an
+ * themselves; arrays that share a length must agree. null is an unknown number (NaN); an
  * enumeration is a number or the name of its constant. Byte arrays cannot be given.
  * @param type, layout  Of the same message. */
 EncodedMessage message_from_json(const MessageType& type, const MessageLayout& layout,

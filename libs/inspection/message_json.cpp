@@ -84,7 +84,7 @@ void add_schema_of_value(JsonWriter& json, const FieldLayout& field) {
     case FieldKind::kFloat:
     case FieldKind::kDouble:
       json.add("type", "number");
-      // What is not finite.
+      // Numbers that are not finite become null.
       json.add("nullable", true);
       return;
     case FieldKind::kBoolean:

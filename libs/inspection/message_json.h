@@ -20,8 +20,8 @@ namespace nao {
  * with their units.
  *
  * It stays within what Foxglove and Lichtblick read: every property has one type, "nullable" (as in
- * OpenAPI 3.0) tells of null, and arrays of arrays are not described: these programs refuse a
- * channel whose schema has one, but show it if only the message has it. */
+ * OpenAPI 3.0) marks null, and arrays of arrays are not described: these programs refuse a channel
+ * whose schema has one, but show it if only the message has it. */
 std::string json_schema_of(const MessageLayout& layout);
 
 }  // namespace nao

@@ -23,7 +23,7 @@ class RobotTransforms {
 
   /** Appends the transforms of all joints that move.
    * @param position  rad (hands: opening), (num_motors), motor order.
-   * @param prefix  Of all frame names. */
+   * @param prefix  Prefix of all frame names. */
   void append_moving(const std::vector<double>& position, const std::string& prefix,
                      std::vector<NamedTransform>& transforms) const;
   /** Appends those of the fixed joints and of the cameras' optical frames. */

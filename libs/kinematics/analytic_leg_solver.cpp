@@ -63,8 +63,8 @@ std::optional<AnalyticLegSolver> AnalyticLegSolver::make(const LegChain& chain) 
   solver.leg_axes_ << axis[5], axis[3], axis[5].cross(axis[3]);
   solver.hip_axes_ << axis[0], axis[1], axis[0].cross(axis[1]);
   const Vector3d& knee = chain.point[3];
-  // Hip and ankle must be in one plane across the knee's axis; otherwise thigh and tibia are no
-  // planar two-link arm.
+  // Hip and ankle must be in one plane across the knee's axis; otherwise thigh and tibia do not
+  // form a planar two-link arm.
   if (std::abs((solver.hip_ - solver.ankle_).dot(axis[3])) > kLegTolerance) return std::nullopt;
   const Matrix3d in_plane = Matrix3d::Identity() - axis[3] * axis[3].transpose();
   solver.thigh_ = in_plane * (solver.hip_ - knee);
@@ -81,9 +81,9 @@ double AnalyticLegSolver::angle_in_plane(const Vector3d& vector) const {
 
 double AnalyticLegSolver::solve_knee(double distance, bool& is_reachable) const {
   const double bend = knee_bend(thigh_.norm(), tibia_.norm(), distance, is_reachable);
-  // Knee angle of a straight leg: 0 only where thigh and tibia are in line at the angles 0.
+  // Knee angle of a straight leg: 0 only if thigh and tibia are in line at the angles 0.
   const double straight = angle_in_plane(thigh_) - angle_in_plane(tibia_);
-  // Of the two solutions the one that is nearer to the middle of the knee's range.
+  // Take the solution nearer to the middle of the knee's range.
   const double middle = 0.5 * (chain_.lower[3] + chain_.upper[3]);
   const double up = wrapped(straight + bend);
   const double down = wrapped(straight - bend);
@@ -95,15 +95,15 @@ LegSolution AnalyticLegSolver::solve(const Eigen::Isometry3d& sole_in_torso) con
   LegAngles& q = solution.angles;
   // Rotation of the foot since the angle 0, and the hip seen from the ankle in the foot's axes.
   // The foot's rotation R and the ankle give all angles from the ankle upwards: knee by the
-  // distance, roll and pitch of the ankle by the hip's direction, and the hip by what is left of R.
+  // distance, roll and pitch of the ankle by the hip's direction, and the hip by the rest of R.
   const Matrix3d rotation = sole_in_torso.linear() * chain_.sole.linear().transpose();
   const Vector3d to_hip = rotation.transpose() * (hip_ - sole_in_torso * ankle_in_sole_);
   q[3] = solve_knee(to_hip.norm(), solution.is_reachable);
 
   // Roll turns the hip into the plane of the leg: the component along the pitch axis becomes 0.
   const Vector3d u = leg_axes_.transpose() * to_hip;
-  // Of the two solutions the one with |roll| below 90 degrees, also if the hip of a folded leg is
-  // below the ankle.
+  // Take the solution with |roll| below 90 degrees, even if the hip of a folded leg is below the
+  // ankle.
   const double up = std::copysign(std::hypot(u.y(), u.z()), u.z());
   q[5] = std::atan2(u.y() / up, u.z() / up);
   // Hip seen from the ankle with the knee bent, in the plane of the leg; pitch turns it onto u.

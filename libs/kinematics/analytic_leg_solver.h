@@ -19,13 +19,13 @@ namespace nao {
  *    plane of thigh and tibia, its pitch is the angle between the two in that plane.
  * 3. The remaining rotation gives the hip as Euler angles about its three axes.
  *
- * The structure is that of LegKinematics, whose source it shares. Takes no memory. */
+ * The structure is that of LegKinematics, whose source it shares. Allocates no memory. */
 class AnalyticLegSolver {
  public:
   /** @return Nothing if the leg is not built like that. */
   static std::optional<AnalyticLegSolver> make(const LegChain& chain);
 
-  /** All angles, in (-pi, pi]; the joints' limits only tell which way the knee bends. */
+  /** All angles, in (-pi, pi]; the joints' limits only decide which way the knee bends. */
   LegSolution solve(const Eigen::Isometry3d& sole_in_torso) const;
 
   /** Intersection of the hip axes at the angle 0 of all joints, m, root's frame. */
@@ -44,7 +44,7 @@ class AnalyticLegSolver {
   LegChain chain_;
   Eigen::Vector3d hip_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d ankle_ = Eigen::Vector3d::Zero();
-  /** Of the ankle in the sole's frame. */
+  /** Position of the ankle in the sole's frame. */
   Eigen::Vector3d ankle_in_sole_ = Eigen::Vector3d::Zero();
   /** Columns X, Y, Z of the leg, and the hip's first two axes and their cross product. */
   Eigen::Matrix3d leg_axes_ = Eigen::Matrix3d::Identity();

@@ -7,7 +7,8 @@
 namespace nao {
 namespace {
 
-/** The striker of the team that kicks off, m behind the ball. Chosen: its feet do not touch it. */
+/** Distance behind the ball of the striker of the team that kicks off, m. Chosen: its feet do not
+ * touch it. */
 constexpr double kBehindBall = 0.35;
 /** Places in halves of the field. Chosen: the striker outside the centre circle (0.24 of 4.5 m are
  * 1.08 m, its radius is 0.75 m), the keeper before its goal, the others side by side. */
@@ -35,7 +36,7 @@ Eigen::Vector2d restart_place(const Eigen::Vector2d& last_seen, bool is_own,
                               const Eigen::Vector2d& half_field, const Eigen::Vector2d& goal_area) {
   const double end = last_seen.x() > 0 ? 1 : -1;
   const double side = last_seen.y() > 0 ? 1 : -1;
-  // It has crossed the line that it was nearest to, or beyond.
+  // The ball has crossed the line to which it was nearest, or beyond which it was.
   const Eigen::Vector2d beyond = last_seen.cwiseAbs() - half_field;
   if (beyond.y() > beyond.x()) {
     return {std::clamp(last_seen.x(), -half_field.x(), half_field.x()), side * half_field.y()};

@@ -19,8 +19,8 @@ Pose2 team_in_field(int team);
 Pose2 kick_off_place(int number, int team_size, bool kicks_off, const Eigen::Vector2d& half_field);
 
 /** Where a ball that has left the field is put back (SPL rules, "Kick-in", "Goal Kick", "Corner
- * Kick"), in a team's frame, as far as one can tell from where it was seen last.
- * @param last_seen  Near where it left the field, m. @param is_own  Whether the team goes on.
+ * Kick"), in a team's frame, as far as can be inferred from where it was last seen.
+ * @param last_seen  Near where it left the field, m. @param is_own  Whether the team restarts.
  * @param half_field, goal_area  Half of the field's length and width; length and width of the goal
  *   area; m. */
 Eigen::Vector2d restart_place(const Eigen::Vector2d& last_seen, bool is_own,

@@ -10,7 +10,7 @@
 namespace nao {
 namespace {
 
-/** Joints of one leg that are not the other leg's, too. */
+/** Joints of one leg that are not shared with the other leg. */
 std::vector<int> own_joints(const RobotModel& model, Leg leg) {
   const std::vector<int>& joints = model.legs()[leg == Leg::kLeft ? 0 : 1].joints;
   const std::vector<int>& others = model.legs()[leg == Leg::kLeft ? 1 : 0].joints;
@@ -31,7 +31,7 @@ int direction_of(const Eigen::Vector3d& axis) {
   return size.y() >= size.x() ? 1 : 0;
 }
 
-/** @return false if the joints have other directions than a leg's. */
+/** @return false if the joints' directions are not those of a leg. */
 bool find_roles(const std::array<Eigen::Vector3d, 6>& axis, LegRoles& roles) {
   std::vector<int> rolls;
   std::vector<int> pitches;

@@ -20,7 +20,7 @@ struct LegSolution {
   bool is_reachable = true;
 };
 
-/** What the six joints of a leg do, as indices into LegAngles. */
+/** Functions of the six joints of a leg, as indices into LegAngles. */
 struct LegRoles {
   int hip_yaw = -1;
   int hip_roll = -1;

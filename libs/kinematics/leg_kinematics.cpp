@@ -61,7 +61,7 @@ void LegKinematics::choose_method(const RobotModel& model) {
 LegKinematics::CoupledLeg LegKinematics::read_coupled(const RobotModel& model, Leg leg) {
   const LegDescription& description = model.legs()[index(leg)];
   // The closed form below assumes the NAO's geometry; a model that differs is refused at start with
-  // what differs, instead of solving wrongly.
+  // the difference, instead of solving wrongly.
   const auto require = [&](bool holds, const std::string& what) {
     if (!holds) {
       throw ModelError(std::string(leg == Leg::kLeft ? "the left" : "the right") + " leg of " +
@@ -133,8 +133,8 @@ LegSolution LegKinematics::solve_coupled(const CoupledLeg& c,
 
   // The hip seen from the ankle, in the foot's axes: AnkleRoll turns it into the plane of the leg.
   const Eigen::Vector3d q = R_TF.transpose() * -p_hip_ankle;
-  // Of the two solutions the one with |roll| below 90 degrees, also if the hip of a folded leg is
-  // below the ankle.
+  // Take the solution with |roll| below 90 degrees, even if the hip of a folded leg is below the
+  // ankle.
   const double up = std::copysign(std::hypot(q.y(), q.z()), q.z());
   const double ankle_roll = std::atan2(q.y() / up, q.z() / up);
   // In the plane of the leg: direction of the hip as the bent leg has it, less the one that it must

@@ -20,7 +20,7 @@ struct LegsSolution {
   bool is_reachable = true;
 };
 
-/** Inverse kinematics of both legs, by the way that their structure allows (Method).
+/** Inverse kinematics of both legs, by the method that their structure allows (Method).
  *
  * Poses are those of the soles' frames F (RobotModel::left_sole(), right_sole()) in the root's
  * frame T.
@@ -43,7 +43,7 @@ struct LegsSolution {
  * For a given first angle five angles remain: the position of the ankle gives the hip's roll and
  * pitch and the knee in the same way from the hip's side, and the sole's normal gives the ankle.
  *
- * No solution takes memory.
+ * No solution allocates memory.
  *
  * Source: the structure is that of C. Graf, A. Haertl, T. Roefer, T. Laue, "A robust closed-loop
  * gait for the Standard Platform League humanoid", 4th Workshop on Humanoid Soccer Robots, 2009. */
@@ -52,13 +52,13 @@ class LegKinematics {
   /** Coupled hips; AnalyticLegSolver; NumericLegSolver for all other legs of six joints. */
   enum class Method { kCoupled, kAnalytic, kNumeric };
 
-  /** @throws ModelError  if a leg has not six joints of its own, or a coupled hip of another build.
-   */
+  /** @throws ModelError  if a leg does not have six joints of its own, or has a coupled hip of
+   * another design. */
   explicit LegKinematics(const RobotModel& model);
 
   Method method() const { return method_; }
 
-  /** All six angles of one leg for a sole's pose; exact wherever the leg reaches. */
+  /** All six angles of one leg for a sole's pose; exact if the leg reaches it. */
   LegSolution solve(Leg leg, const Eigen::Isometry3d& sole_in_torso) const;
 
   /** Coupled hips: the five other angles for a given first one: the ankle's position and the sole's
@@ -68,8 +68,8 @@ class LegKinematics {
 
   /** Both legs. Coupled hips: the first angle is the weighted mean of what solve() gives for the
    * two feet, the other angles are those of solve_with_hip_yaw_pitch(). Others: solve() for each.
-   * @param left_weight  Of the left foot, 0..1: 1 while it is the only support foot, 0.5 in double
-   *   support. */
+   * @param left_weight  Load ratio of the left foot, 0..1: 1 while it is the only support foot, 0.5
+   * in double support. */
   LegsSolution solve_both(const Eigen::Isometry3d& left_sole_in_torso,
                           const Eigen::Isometry3d& right_sole_in_torso,
                           double left_weight = 0.5) const;
@@ -82,7 +82,7 @@ class LegKinematics {
 
   /** Motors of a leg in the order of LegAngles; coupled hips have the first one in common. */
   const std::array<int, 6>& motors(Leg leg) const { return chain(leg).motors; }
-  /** What each of them does. */
+  /** Function of each of them. */
   const LegRoles& roles(Leg leg) const { return chain(leg).roles; }
   /** Intersection of the hip axes, or else a point on the hip's pitch axis, m, root's frame. */
   const Eigen::Vector3d& hip(Leg leg) const { return hips_[index(leg)]; }
@@ -110,7 +110,7 @@ class LegKinematics {
 
   std::array<LegChain, 2> chains_;
   Method method_ = Method::kNumeric;
-  // Of these only the ones of the method have values; left, right.
+  // Left and right; only the pair of the chosen method has values.
   std::array<CoupledLeg, 2> coupled_{};
   std::array<std::optional<AnalyticLegSolver>, 2> analytic_;
   std::array<std::optional<NumericLegSolver>, 2> numeric_;

@@ -8,10 +8,10 @@
 namespace nao {
 namespace {
 
-// Bounds the time that a pose out of reach takes.
+// Greatest number of iterations, which bounds the time for an unreachable pose.
 constexpr int kMaxIterations = 60;
-// Norm of the error, in rad and leg lengths, below which the sole is there; and below which a
-// descent that has come to rest still counts as there.
+// Norm of the error, in rad and leg lengths, below which the sole has reached its pose; and the one
+// below which a descent that has stopped still counts as having reached it.
 constexpr double kExact = 1e-10;
 constexpr double kReached = 1e-7;
 // Damping: at first, least and greatest; factors after an iteration that lowered or raised the
@@ -40,7 +40,7 @@ NumericLegSolver::NumericLegSolver(const LegChain& chain, const LegAngles& start
 }
 
 // Rotation vector and position from the present sole to the goal, both in T. Errors in position are
-// divided by the leg's length, so that 1 rad and one leg length count alike.
+// divided by the leg's length, so that 1 rad and one leg length count equally.
 NumericLegSolver::Vector6d NumericLegSolver::calc_error(const Eigen::Isometry3d& goal,
                                                         const LegAngles& angles) const {
   const Eigen::Isometry3d sole = chain_.calc_sole(angles);
@@ -112,8 +112,8 @@ double NumericLegSolver::descend(const Eigen::Isometry3d& goal, LegAngles& angle
 
 LegSolution NumericLegSolver::solve(const Eigen::Isometry3d& sole_in_torso) const {
   LegSolution solution;
-  // First from the ready posture; a leg that is stretched or at a limit there may need another
-  // bend.
+  // The first descent starts from the ready posture; a leg that is stretched or at a limit there
+  // may need another bend.
   solution.angles = start_;
   double least = descend(sole_in_torso, solution.angles);
   const LegRoles& roles = chain_.roles;
@@ -136,7 +136,7 @@ LegSolution NumericLegSolver::solve(const Eigen::Isometry3d& sole_in_torso) cons
     least = error;
     solution.angles = angles;
   }
-  // What is not reached within tolerance gets the nearest pose that was found.
+  // A pose that is not reached within tolerance gets the nearest one that was found.
   solution.is_reachable = least < kReached;
   return solution;
 }

@@ -8,7 +8,7 @@ namespace nao {
  *
  * Each iteration solves (J^T J + lambda I) dq = J^T e for the error twist e of the sole, with the
  * joints that are at a limit and would leave it held. lambda falls while the error falls
- * (Levenberg-Marquardt). Deterministic: it always starts from the same angles. Takes no memory.
+ * (Levenberg-Marquardt). Deterministic: it always starts from the same angles. Allocates no memory.
  *
  * Source: C. Wampler, "Manipulator inverse kinematic solutions based on vector formulations and
  * damped least-squares methods", IEEE Trans. Systems, Man, and Cybernetics 16(1), 1986. */
@@ -17,8 +17,8 @@ class NumericLegSolver {
   /** @param start  Angles to start from, such as those of a standing posture. */
   NumericLegSolver(const LegChain& chain, const LegAngles& start);
 
-  /** Angles within the limits that put the sole there; exact to 1e-9 m and rad where the leg
-   * reaches. */
+  /** Angles within the limits that put the sole there; exact to 1e-9 m and rad if the leg reaches
+   * the pose. */
   LegSolution solve(const Eigen::Isometry3d& sole_in_torso) const;
 
  private:

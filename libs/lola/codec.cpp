@@ -132,7 +132,7 @@ class FieldReader {
   }
 
   template <class Values>
-  // A field of a command is optional: it exists once its key was there.
+  // A field of a command is optional: it exists once its key was present.
   void read_field(const char* name, uint64_t bit, std::optional<Values>& values) {
     read_field(name, bit, values.emplace());
   }

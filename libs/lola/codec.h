@@ -11,7 +11,8 @@
 
 namespace nao {
 
-/** Writes a state frame: a map of 13 keys in fixed order, every number as float32 but the status.
+/** Writes a state frame: a map of 13 keys in fixed order, every number except the status as
+ * float32.
  * @return Bytes written, 896 if ids have 20 and versions 5 characters; 0 if the memory is too
  * small. */
 size_t encode(const LolaState& state, std::span<uint8_t> memory);
@@ -20,14 +21,14 @@ size_t encode(const LolaState& state, std::span<uint8_t> memory);
  * @return Bytes written, 786 at most; 0 if the memory is too small. */
 size_t encode(const LolaCommand& command, std::span<uint8_t> memory);
 
-/** What decode() found. */
+/** Result of decode(). */
 struct LolaDecoding {
   enum class Status { kDone, kIncomplete, kMalformed };
 
   Status status = Status::kIncomplete;
   /** Bytes of the map, if it is complete. */
   size_t size = 0;
-  /** What is wrong with it, if it is malformed. */
+  /** Its fault, if it is malformed. */
   std::string error;
 };
 
@@ -48,7 +49,7 @@ class LolaStream {
 
   /** Memory for the next bytes, never empty after next() has returned false. */
   std::span<uint8_t> free_memory() { return std::span(memory_).subspan(size_); }
-  /** So many bytes were written to free_memory(). */
+  /** Reports how many bytes were written to free_memory(). */
   void note_received(size_t num_bytes) { size_ += num_bytes; }
 
   /** @return Whether there was a whole message, which is then in `message`. After an error() there

@@ -18,7 +18,7 @@ inline constexpr size_t kLolaStateBytes = 896;
 /** Bytes of a command with every key. */
 inline constexpr size_t kLolaCommandBytes = 786;
 
-/** What the robot measures, sent every 12 ms. All of LoLA's own units and signs.
+/** Measurements of the robot, sent every 12 ms, all in LoLA's own units and signs.
  *
  * Source: clients of robot soccer teams (B-Human, HULKs, Nao Devils, rUNSWift, NaoTH, nao_lola),
  * which agree on keys, counts and the size of 896 bytes. The vendor's document names the battery's
@@ -52,8 +52,8 @@ struct LolaState {
   std::array<std::string, 4> robot_config{};
 };
 
-/** What a client sets. Every key may be left out: the robot keeps what it had. Lights are 0 to 1.
- */
+/** Settings by a client. Every key may be left out: the robot then keeps the last value. Lights are
+ * 0 to 1. */
 struct LolaCommand {
   std::optional<std::array<float, kLolaJoints>> position;
   /** 0 to 1; below 0 is limp, as 0. */

@@ -25,7 +25,7 @@ double read_sign(const YamlEntry& entry) {
 
 int read_motor(const RobotModel& model, const YamlEntry& entry, const std::string& name) {
   const int motor = model.find_motor(name);
-  if (motor < 0) entry.fail("names \"" + name + "\", which is no joint with a motor");
+  if (motor < 0) entry.fail("names \"" + name + "\", which is not a joint with a motor");
   return motor;
 }
 
@@ -70,7 +70,7 @@ void read_signs(const YamlEntry& list, std::array<double, N>& signs) {
 }
 
 template <class Values>
-// Lights are all arrays of floats but the joints'.
+// Lights are all arrays of floats except the joints'.
 constexpr bool kIsLight = false;
 template <size_t N>
 constexpr bool kIsLight<std::array<float, N>> = N != kLolaJoints;
@@ -118,7 +118,7 @@ LolaMap LolaMap::load(const RobotModel& model) {
   LolaCommand probe;
   for (const auto& [name, key] : file.at("lights").entries()) {
     if (!set_light(probe, key.text(), {0, 0, 0}))
-      key.fail("is no key of lights in LoLA's commands");
+      key.fail("is not a key of lights in LoLA's commands");
     map.lights.push_back({name, key.text()});
   }
   map.torque_per_current = file.at("torque_per_current").positive();

@@ -10,7 +10,7 @@
 
 namespace nao {
 
-/** What the values of LoLA's frames mean for a robot: its names, order and signs, from
+/** Meaning of the values of LoLA's frames for a robot: names, order and signs, from
  * data/robots/NAME/lola.yaml. */
 struct LolaMap {
   /** A joint of the frames: its motor in the robot's model, and the factor of its angle, 1 or -1.
@@ -49,7 +49,7 @@ struct LolaMap {
   /** Values in LoLA's order from values in motor order. @param is_angle  Multiplies by the joints'
    * signs. */
   std::array<float, kLolaJoints> to_lola(std::span<const double> values, bool is_angle) const;
-  /** The opposite. @param values  (num_motors), overwritten. */
+  /** The inverse. @param values  (num_motors), overwritten. */
   void from_lola(const std::array<float, kLolaJoints>& values, bool is_angle,
                  std::span<double> result) const;
 };

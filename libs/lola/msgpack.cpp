@@ -61,7 +61,7 @@ MsgpackReader::Token MsgpackReader::next() {
   if (first <= 0x9f) return head(Kind::kArray, first & 0x0f, true);
   if (first <= 0xbf) return text(Kind::kText, first & 0x1f, true);
   if (first >= 0xe0) return {Kind::kNumber, static_cast<double>(first) - 256, {}, 0};
-  // The order in which arguments are evaluated is not defined: lengths are read before.
+  // Lengths are read first, since the order in which arguments are evaluated is not defined.
   const auto length = [&](size_t num_bytes) { return read(num_bytes, is_there); };
   switch (first) {
     case 0xc0:
@@ -137,7 +137,7 @@ MsgpackReader::Kind MsgpackReader::skip() {
   return first.kind;
 }
 
-// A message that does not fit is told by is_full_, not written beyond the memory.
+// is_full_ marks a message that does not fit; nothing is written beyond the memory.
 void MsgpackWriter::byte(uint64_t value) {
   if (size_ == memory_.size()) {
     is_full_ = true;

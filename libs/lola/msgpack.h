@@ -19,9 +19,9 @@ class MsgpackReader {
   /** A value, or the head of an array or map. */
   struct Token {
     Kind kind = Kind::kIncomplete;
-    /** Of a number; of a bool 0 or 1. */
+    /** Value of a number; 0 or 1 for a bool. */
     double number = 0;
-    /** Of a text or binary; points into the input. */
+    /** Bytes of a text or binary; points into the input. */
     std::string_view text;
     /** Elements of an array, pairs of a map. */
     uint32_t size = 0;

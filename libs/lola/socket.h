@@ -51,8 +51,8 @@ class LolaConnection {
    * counts as gone. */
   void send(std::span<const uint8_t> message);
 
-  /** Why the connection is of no use any more; empty while it is. Messages that arrived before can
-   * still be read. */
+  /** Why the connection cannot be used any more; empty while it can. Messages that arrived before
+   * can still be read. */
   const std::string& end() const { return end_; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace nao {
 
-// What generate_message_layouts.py writes: constants, which cost the compiler nothing.
+// Types of the constants that generate_message_layouts.py writes, which cost the compiler nothing.
 // message_layouts() makes strings and lists of them.
 
 struct ConstantRow {

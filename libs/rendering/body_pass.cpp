@@ -44,9 +44,9 @@ void BodyPass::set_surroundings(const SceneFile& scene) {
   }
 }
 
-// Sorts the instances of this image by pass: what the camera cannot see is left out (view frustum
-// culling with bounding spheres). A body outside of the image may still cast a shadow into it, so
-// that casters are selected on their own.
+// Sorts the instances of this image by pass and leaves out those that the camera cannot see (view
+// frustum culling with bounding spheres). A body outside the image may still cast a shadow into it,
+// so that casters are selected separately.
 void BodyPass::select(const Scene& scene, const RenderView& view, ShadowPass& shadows) {
   near_.clear();
   far_.clear();
@@ -98,9 +98,9 @@ void BodyPass::draw_opaque(const RenderView& view, const ShadowPass& shadows,
 void BodyPass::draw_translucent(const RenderView& view, const ShadowPass& shadows,
                                 RenderStatistics& statistics) {
   if (translucent_.draws().empty()) return;
-  // First the depth alone, then the color of what has that depth: the nearest surface. The depth
-  // offset moves the bodies back a little, so that an opaque body in the same place hides them
-  // instead of flickering.
+  // Draws first the depth alone, then the color of the surface at that depth, which is the nearest.
+  // The depth offset moves the bodies back a little, so that an opaque body in the same place hides
+  // them instead of flickering.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2.0f, 16.0f);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);

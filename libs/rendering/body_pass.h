@@ -42,7 +42,7 @@ class BodyPass {
     BoundingSphere sphere;
   };
 
-  /** From the eye to the body's sphere, m; 0 inside. */
+  /** Distance from the eye to the body's sphere, m; 0 inside. */
   float distance(const MeshInstance& instance, const RenderView& view) const;
   /** Adds an instance that is in view, in the level of detail that suffices. */
   void add(const MeshInstance& instance, const RenderView& view, MeshDraws& draws) const;
@@ -54,7 +54,7 @@ class BodyPass {
   LitProgram ball_program_;
   MeshId ball_mesh_;
   std::vector<Goal> goals_;
-  // Of the image that is being drawn.
+  // Draws of the current image.
   /** Opaque bodies. */
   MeshDraws near_;
   MeshDraws far_;

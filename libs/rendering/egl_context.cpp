@@ -21,7 +21,8 @@ std::string failure(const char* function) {
 
 bool has_extension(const char* extensions, const char* name) {
   if (extensions == nullptr) return false;
-  // With spaces around it: one extension's name may be the beginning of another's.
+  // The name is searched with spaces around it: one extension's name may be the beginning of
+  // another's.
   const std::string padded = std::string(" ") + extensions + " ";
   return padded.find(std::string(" ") + name + " ") != std::string::npos;
 }
@@ -68,8 +69,7 @@ EGLDisplay surfaceless_display() {
 
 std::vector<EglContext::Candidate> EglContext::candidates(Platform platform) {
   std::vector<Candidate> found;
-  // In the order of preference: a graphics card, software without a screen, whatever the system
-  // has.
+  // In the order of preference: a graphics card, software without a screen, the system's default.
   const bool any = platform == Platform::kAuto;
   if (any || platform == Platform::kDevice) {
     for (const EGLDisplay display : device_displays()) found.push_back({"device", display});
@@ -87,7 +87,7 @@ std::vector<EglContext::Candidate> EglContext::candidates(Platform platform) {
 std::string EglContext::open(void* display) {
   if (display == EGL_NO_DISPLAY) return "not supported by this EGL";
   if (eglInitialize(display, nullptr, nullptr) == EGL_FALSE) return failure("eglInitialize");
-  // A display that was initialized must be terminated on every way out.
+  // A display that was initialized must be terminated on every exit path.
   const auto give_up = [display](const std::string& why) {
     eglTerminate(display);
     return why;

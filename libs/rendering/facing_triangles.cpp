@@ -13,7 +13,8 @@ FacingTriangles::FacingTriangles(const Mesh& mesh) : indices_(mesh.indices) {
   }
 }
 
-// Without branches: every triangle is written, and the next one over it unless it faces `from`.
+// This has no branches: every triangle is written, and the next one overwrites it unless it faces
+// `from`.
 void FacingTriangles::append(const Eigen::Vector4f& from, std::vector<uint32_t>& indices) const {
   size_t end = indices.size();
   indices.resize(end + indices_.size());

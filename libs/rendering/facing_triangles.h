@@ -9,8 +9,8 @@
 namespace nao {
 
 /** Finds the triangles of a mesh that face an eye or a light. The graphics driver leaves the others
- * out, too, but only after it has transformed their vertices, which takes a software renderer
- * longer than anything else of a small triangle. */
+ * out, too, but only after it has transformed their vertices, which for a small triangle is a
+ * software renderer's most expensive step. */
 class FacingTriangles {
  public:
   explicit FacingTriangles(const Mesh& mesh);

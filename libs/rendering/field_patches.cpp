@@ -14,8 +14,8 @@ namespace {
  * computed at their corners, differs by more than 1 of 255. */
 constexpr float kPieceLength = 0.25f;
 constexpr float kCarpetSize = 0.5f;
-/** The same of the ground around the carpet, where only haze changes the color; farther away
- * each is longer than the one before it by a factor. */
+/** The same for the ground around the carpet, where only haze changes the color; farther away each
+ * part is longer than the previous one by a factor. */
 constexpr float kHallSize = 2.6f;
 constexpr float kHallGrowth = 1.25f;
 /** Parts of the circle. Chosen: as long as those of lines. */
@@ -53,7 +53,7 @@ std::vector<float> divided(float half, float size) {
   return places;
 }
 
-/** With places at growing distances before the first and after the last one, up to `reach`, m. */
+/** Adds places at growing distances before the first and after the last one, up to `reach`, m. */
 std::vector<float> with_rings(std::vector<float> places, float reach) {
   for (float step = kHallSize; places.back() < reach; step *= kHallGrowth) {
     const float next = std::min(places.back() + step, reach);
@@ -86,7 +86,7 @@ FieldPatches::FieldPatches(const FieldDimensions& field, float reach) {
   const auto strip = static_cast<float>(field.border_strip_width);
   const Vector2f edge = half_of(field.length, field.width).array() + strip;
   add_frame(edge, 0, true);
-  // Parts of the same line do not touch sideways: they are no other line to each other.
+  // Parts of the same line do not touch sideways, and do not count as other lines to each other.
   for (Piece& piece : pieces_) {
     for (const Piece& other : pieces_) {
       const bool is_same_line = !piece.normal.isZero() &&

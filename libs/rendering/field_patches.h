@@ -12,8 +12,8 @@ namespace nao {
 struct GroundPatch {
   /** m, in the world. */
   Eigen::AlignedBox2f box;
-  /** Of a patch with one straight line: its unit normal on the ground, and its middle's coordinate
-   * along the normal, m. */
+  /** For a patch with one straight line: the line's unit normal on the ground, and the coordinate
+   * of its middle along the normal, m. */
   Eigen::Vector2f normal = Eigen::Vector2f::Zero();
   float middle = 0;
   /** The line is the edge of the carpet, with the normal outwards. */

@@ -30,7 +30,7 @@ unsigned compile(const std::string& name, unsigned kind, const std::string& sour
   return shader;
 }
 
-// Of the framebuffer that is bound.
+// Throws if the bound framebuffer is incomplete.
 void require_complete(const char* what) {
   const unsigned status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {

@@ -30,7 +30,7 @@ class GroundPass {
  private:
   using Vertices = std::vector<gl::StreamBuffer::Vertex>;
 
-  /** A shader for what may be in shadow, and one for all else: looking shadows up is expensive. */
+  /** A shader for what may be in shadow, and one for all else: shadow lookups are expensive. */
   struct Programs {
     gl::ShaderProgram shadowed;
     gl::ShaderProgram lit;
@@ -50,7 +50,7 @@ class GroundPass {
   std::vector<GroundPatch> ground_;
   std::optional<FieldDimensions> field_dimensions_;
   FieldPatches patches_;
-  /** What the carpet's program draws. */
+  /** Patches that the carpet's program draws. */
   bool is_hall_ = false;
   /** Pixels of the image that is being drawn in which the ground may be in shadow. */
   std::vector<PixelBox> shadowed_;

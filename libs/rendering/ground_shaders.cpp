@@ -74,7 +74,7 @@ float noise(vec2 x) {
              mix(hash(cell + vec2(0, 1)), hash(cell + vec2(1, 1)), t.x), t.y);
 }
 
-// Of the ground around the carpet.
+// Color of the ground around the carpet.
 const vec3 kHall = vec3(0.46, 0.47, 0.49);
 
 // Color of the carpet in a pixel of extent f at p.

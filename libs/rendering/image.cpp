@@ -44,7 +44,7 @@ Image downsampled(const Image& image, int factor) {
 }
 
 void write_png(const std::filesystem::path& file, const Image& image) {
-  // libpng's simplified interface: it owns what it allocates, also when it fails.
+  // libpng's simplified interface: it owns what it allocates, even if it fails.
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   png.width = image.width;

@@ -16,7 +16,7 @@ namespace {
 constexpr float kCreaseCosine = 0.77f;
 
 /** Triangles of which corners at the same place, of the same color, are one vertex. A mesh has
- * several there if their normals differ. */
+ * several vertices there if their normals differ. */
 std::vector<uint32_t> welded(const Mesh& mesh) {
   const std::array<meshopt_Stream, 2> streams{
       {{&mesh.vertices.front().position, sizeof(Eigen::Vector3f), sizeof(Vertex)},

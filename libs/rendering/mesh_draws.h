@@ -15,7 +15,7 @@ class MeshDraws {
   struct Draw {
     MeshInstance instance;
     const gl::MeshBuffer* buffer;
-    /** Of the indices in the stream. */
+    /** First of the indices in the stream. */
     int first;
     int num_indices;
   };

@@ -9,13 +9,13 @@ namespace {
 constexpr float kFinestError = 1.0f / 256;
 constexpr float kCoarsestError = 1.0f / 10;
 constexpr float kErrorRatio = 1.6f;
-/** The last one of shapes. Chosen: an error of 12 mm (shadow_pass.h) is a quarter of the radius of
- * the NAO's small links. */
+/** The last error of shapes. Chosen: an error of 12 mm (shadow_pass.h) is a quarter of the radius
+ * of the NAO's small links. */
 constexpr float kCoarsestShape = 1.0f / 3;
 /** A level is kept if it has at most this fraction of the triangles of the one before it. Chosen:
  * fewer savings do not pay for its memory. */
 constexpr double kMostTriangles = 0.9;
-/** Meshes, and shapes, with fewer triangles are left as they are. */
+/** Least number of triangles of meshes, and of shapes, that are simplified. */
 constexpr size_t kFewTriangles = 48;
 constexpr size_t kFewShapeTriangles = 12;
 

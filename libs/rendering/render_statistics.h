@@ -5,7 +5,7 @@ namespace nao {
 /** Counts of one image. */
 struct RenderStatistics {
   int num_draws = 0;
-  /** Of meshes; the ground, the sky and markings are not counted. */
+  /** Triangles of meshes; the ground, the sky and markings are not counted. */
   int num_triangles = 0;
 };
 

@@ -17,8 +17,8 @@ constexpr float kTop = 0.7f;
 /** Distance of the band from the torso, and of the number from the band, m. */
 constexpr float kThickness = 0.004f;
 constexpr float kNumberOffset = 0.001f;
-/** Of a digit: height as a fraction of the band's, width and thickness of the strokes as fractions
- * of its height. */
+/** Height of a digit as a fraction of the band's; its width and stroke thickness as fractions of
+ * its height. */
 constexpr float kDigitHeight = 0.7f;
 constexpr float kDigitWidth = 0.5f;
 constexpr float kStroke = 0.16f;
@@ -172,12 +172,12 @@ void append_number(Scene& scene, const RobotShirt& shirt,
     }
   };
   for (int i = 0; i < num_digits; ++i) {
-    // A robot that looks along x has y to its left, which is on the right of one who faces it.
+    // A robot that looks along x has y to its left, which is on the right for a person facing it.
     const float center = (static_cast<float>(i) - 0.5f * static_cast<float>(num_digits - 1)) * step;
     const float left = center - width / 2;
     const int digit = num_digits == 2 && i == 0 ? number / 10 % 10 : number % 10;
     if (digit == 1) {
-      // A seven-segment display has it at the side.
+      // A seven-segment display has this stroke at the side.
       add_bar(center - stroke / 2, center + stroke / 2, 0, height);
       continue;
     }

@@ -25,7 +25,7 @@ struct RobotShirt {
 /** @param torso  The torso's triangles, in its frame, m. */
 RobotShirt make_shirt(const Mesh& torso);
 
-/** Of a team's shirt, linear. @param team  0 (blue) or 1 (red). */
+/** Color of a team's shirt, linear. @param team  0 (blue) or 1 (red). */
 Color shirt_color(int team);
 
 /** Adds a number to a scene, in front and behind. @param number  1 to 99. */

@@ -26,7 +26,7 @@ class RobotVisual {
 
   const RobotModel& model() const { return model_; }
 
-  /** Adds the lights that are lit to a scene, unlit by others, as lights are.
+  /** Adds the lights that are on to a scene; no other light affects them.
    * @param hidden_link  As in append(). A light that the robot does not have is not drawn. */
   void append_lights(Scene& scene, const std::vector<Eigen::Isometry3d>& link_poses_in_world,
                      const std::vector<LitLight>& lights, int hidden_link = -1) const;
@@ -37,7 +37,7 @@ class RobotVisual {
                     int team, int number, int hidden_link = -1) const;
 
   /** Adds the robot to a scene.
-   * @param link_poses_in_world  Of all links, in the order of model().links().
+   * @param link_poses_in_world  Poses of all links, in the order of model().links().
    * @param tint  Factor on its colors; an opacity below 1 makes it translucent.
    * @param hidden_link  Index of a link that is not drawn, -1 for none: the head that contains the
    *   camera is not visible to it. */
@@ -66,7 +66,7 @@ class RobotVisual {
   const RobotModel& model_;
   std::vector<Part> parts_;
   RobotShirt shirt_;
-  /** Of its band; -1: none. */
+  /** Mesh of the shirt's band; -1 if there is none. */
   MeshId shirt_mesh_ = -1;
   int torso_ = -1;
   std::vector<LightSurface> lights_;

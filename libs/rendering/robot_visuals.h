@@ -31,7 +31,7 @@ class RobotVisuals {
 
  private:
   struct Entry {
-    /** Keeps it alive. */
+    /** Keeps the model alive. */
     std::shared_ptr<const RobotModel> model;
     std::unique_ptr<RobotVisual> visual;
   };

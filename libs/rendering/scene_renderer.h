@@ -20,7 +20,7 @@ struct RendererOptions {
   float ground_reach = 60;
 };
 
-/** Draws the robot's world with OpenGL 3.3, into whichever context is current.
+/** Draws the robot's world with OpenGL 3.3, into the current context.
  *
  * It creates no context and has no global state, so a window and an offscreen camera use it alike.
  * Create, use and destroy it while the same context is current. It sets every OpenGL state that it
@@ -45,8 +45,7 @@ class SceneRenderer {
   /** Draws one image.
    * @param pose_camera_in_world  Camera axes: x along the view, y left, z up.
    * @param framebuffer  OpenGL's number of the target; its lower left corner is used.
-   * @param covered  Parts that are going to be covered by something else: they are not drawn, which
-   *   saves the time. */
+   * @param covered  Parts that something else will cover: they are not drawn, which saves time. */
   RenderStatistics render(const Scene& scene, const PinholeCamera& camera,
                           const Eigen::Isometry3d& pose_camera_in_world, unsigned framebuffer,
                           const std::vector<PixelBox>& covered = {});

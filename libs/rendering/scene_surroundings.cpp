@@ -17,7 +17,7 @@ bool SceneSurroundings::set(const std::string& name) {
   file_ = {};
   problem_.clear();
   try {
-    // A scene that is not installed here is no reason to draw nothing.
+    // Without the scene's file, everything else is still drawn.
     file_ = SceneFile::find(name);
   } catch (const Error& error) {
     problem_ = std::string(error.what()) + "; a plain floor is drawn";

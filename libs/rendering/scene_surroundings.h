@@ -24,7 +24,7 @@ class SceneSurroundings {
 
   /** Nothing without a field, or before set(). */
   const std::optional<FieldDimensions>& field() const { return file_.field; }
-  /** Radius of the ball, m; of the standard one where the scene has none. */
+  /** Radius of the ball, m; of the standard one if the scene has none. */
   double ball_radius() const;
 
  private:

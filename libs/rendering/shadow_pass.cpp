@@ -102,7 +102,7 @@ void ShadowPass::draw(RenderStatistics& statistics) {
   glViewport(0, 0, map_->size(), map_->size());
   glClear(GL_DEPTH_BUFFER_BIT);
   if (casters_.empty()) {
-    // Maps every point outside of the texture, where nothing is in shadow.
+    // Maps every point outside the texture, where nothing is in shadow.
     shadow_from_world_ = Eigen::Matrix4f::Zero();
     shadow_from_world_.col(3) << 2, 2, 0, 1;
     return;

@@ -47,7 +47,7 @@ std::string make_sole_name(const RobotModel& model, int side) {
   return name;
 }
 
-// nullopt for legs without an inverse kinematics: such a robot is imported, but cannot walk.
+// nullopt for legs without inverse kinematics: such a robot is imported, but cannot walk.
 std::optional<LegKinematics> find_leg_kinematics(const RobotModel& model) {
   try {
     return LegKinematics(model);
@@ -123,7 +123,7 @@ std::string make_groups(const RobotModel& model) {
     add_limb_groups(model, name, new_motors(model, model.legs()[side].joints, known),
                     {{"hip", 3}, {"knee", 1}, {"ankle", 2}}, limbs);
   }
-  // What is in no arm, leg or waist: the head.
+  // Joints that are in no arm, leg or waist belong to the head.
   std::vector<int> head;
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     if (known.count(motor) == 0) head.push_back(motor);
@@ -165,11 +165,12 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
     legs->write(Leg::kLeft, solution.left, position);
     legs->write(Leg::kRight, solution.right, position);
     kinematics.update(position);
-    // Fixed-point iteration: soles go ahead by what the center of mass is ahead of them.
+    // Fixed-point iteration: the soles move forward by the distance of the center of mass ahead of
+    // them.
     ahead +=
         kinematics.center_of_mass().x() - (kinematics.left_sole().translation().x() + center.x());
   }
-  // A solution beyond a joint's limits is none.
+  // A solution beyond a joint's limits is not accepted.
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     if (model.clip_to_limits(motor, position[motor], position) != position[motor]) {
       return std::nullopt;
@@ -192,7 +193,7 @@ void add_posture(const RobotModel& model, const std::string& name, const std::st
 std::string make_structure_text(const RobotModel& model, const RobotStructure& structure,
                                 const std::string& urdf) {
   std::ostringstream text = make_stream();
-  // In the form that RobotModelReader reads.
+  // Writes the form that RobotModelReader reads.
   const std::string root = quoted(model.links().front().name);
   text << "urdf: " << urdf << "\n\n"
        << "# Frames of the inertial unit.\n"
@@ -255,7 +256,7 @@ std::string make_description_text(const RobotModel& model) {
     if (pair.right >= 0) text << ", right: " << quoted(model.motor_joint(pair.right).name);
     text << ", sign: " << symmetry.mirrors[pair.left].sign << "}\n";
   }
-  text << "\n# Joints as a person sees them.\n" << make_groups(model);
+  text << "\n# Joints as people name them.\n" << make_groups(model);
   const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
   const double height = -poses[model.left_sole()].translation().z();
   const double width =
@@ -268,7 +269,7 @@ std::string make_description_text(const RobotModel& model) {
        << 0.7 * width << ", " << 1.8 * width << "], greatest_lead: " << 0.25 * length
        << ", least_hip_height: " << 0.6 * length << "}\n"
        << "\n# Slow: v / sqrt(g * leg length) = " << kFroudeVelocity
-       << ". nao-walk-tuner finds what the robot holds.\nwalk_limits: {forward: " << speed
+       << ". nao-walk-tuner finds what the robot sustains.\nwalk_limits: {forward: " << speed
        << ", backward: " << 0.6 * speed << ", sideways: " << 0.5 * speed << ", turning: 0.5}\n"
        << "\nactions:\n  - {name: get-up, does: stand-up}\n  - {name: rest, does: rest}\n";
   return text.str();

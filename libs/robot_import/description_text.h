@@ -16,7 +16,7 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
 /** Links and joints of the soles, "left_sole" and "right_sole", as URDF. */
 std::string make_sole_links(const RobotModel& model, const RobotStructure& structure);
 
-/** What else robot.yaml says of an imported robot: mirror images, joint groups, heights,
+/** The other entries of robot.yaml for an imported robot: mirror images, joint groups, heights,
  * references.
  * @param model  With legs and arms. */
 std::string make_description_text(const RobotModel& model);

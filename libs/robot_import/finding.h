@@ -5,7 +5,7 @@
 
 namespace nao {
 
-/** A fault of a robot's description, or what was assumed in its place. */
+/** A fault of a robot's description, or an assumption that replaces it. */
 struct Finding {
   enum class Severity { kNote, kRepaired, kMissing };
 
@@ -16,7 +16,7 @@ struct Finding {
   /** "joint LKneePitch". */
   std::string element;
   std::string problem;
-  /** What was done, or is to be done. */
+  /** What was done, or must be done. */
   std::string remedy;
 };
 

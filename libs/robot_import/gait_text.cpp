@@ -14,7 +14,7 @@
 namespace nao {
 namespace {
 
-/** What a parameter is a multiple of. */
+/** Scale of which a parameter is a multiple. */
 enum class Scale {
   kOne,
   /** Length of the leg, hip to ankle, m. */
@@ -34,7 +34,7 @@ enum class Scale {
   kSoleWidth,
   kToe,
   kHeel,
-  /** Hips over the ground with stretched legs, m. */
+  /** Height of the hips above the ground with stretched legs, m. */
   kHipHeight,
 };
 
@@ -44,70 +44,71 @@ struct Row {
   double value;
   double lower;
   double upper;
-  /** As in data/robots/nao/gait.yaml. */
+  /** Keys, as in data/robots/nao/gait.yaml. */
   const char* comment;
 };
 
 // Multiples of the scales. Found: those of data/robots/nao/gait.yaml, rounded, with a higher swing
-// and a greater load at touchdown, which joint torques tell less exactly than force sensors, and
-// the feet as far apart as in the ready posture, to which a walk ends. Durations of the control
+// and a greater load at touchdown, which joint torques measure less accurately than force sensors,
+// and the feet as far apart as in the ready posture, in which a walk ends. Durations of the control
 // loop (lag, lead) do not scale.
 constexpr std::array kRows = {
     Row{"timing", {}, 0, 0, 0, "Durations, s."},
-    Row{"step_duration", Scale::kTime, 1.7, 1.2, 3.5, "of one step"},
+    Row{"step_duration", Scale::kTime, 1.7, 1.2, 3.5, "duration of one step"},
     Row{"min_step_duration", Scale::kTime, 1.4, 1, 2.1, "bounds when feedback changes it"},
     Row{"max_step_duration", Scale::kTime, 2.55, 2.1, 4.2, ""},
     Row{"double_support_duration", Scale::kTime, 0.08, 0, 1, "weight transfer between the feet"},
     Row{"start_duration", Scale::kTime, 0.83, 0.35, 2.8, "weight transfer to the first support"},
-    Row{"stop_duration", Scale::kTime, 0.35, 0.14, 10, "on both feet after the last step"},
-    Row{"raise_duration", Scale::kTime, 2.8, 1.4, 7, "from the walking stance up to the stand"},
+    Row{"stop_duration", Scale::kTime, 0.35, 0.14, 10, "time on both feet after the last step"},
+    Row{"raise_duration", Scale::kTime, 2.8, 1.4, 7, "rise from the walking stance to the stand"},
     Row{"late_duration", Scale::kTime, 0.08, 0, 1.4, "wait for a late touchdown"},
-    Row{"stop_horizon", Scale::kTime, 1.4, 0.7, 3.5, "in which the DCM is brought to rest"},
+    Row{"stop_horizon", Scale::kTime, 1.4, 0.7, 3.5, "time to bring the DCM to rest"},
     Row{"stance", {}, 0, 0, 0, "Pose of torso and feet: m, rad, s."},
-    Row{"hip_height", Scale::kHipHeight, 0.91, 0.8, 0.96, "hips over the ground"},
+    Row{"hip_height", Scale::kHipHeight, 0.91, 0.8, 0.96, "height of the hips"},
     Row{"torso_pitch", Scale::kOne, 0.03, -0.05, 0.2, "forward positive"},
-    Row{"foot_separation", Scale::kFootDistance, 1, 0.75, 1.2, "between the soles' origins"},
-    Row{"turn_center", Scale::kLength, 0.12, -0.1, 0.25, "body frame ahead of the soles"},
+    Row{"foot_separation", Scale::kFootDistance, 1, 0.75, 1.2, "distance of the soles' origins"},
+    Row{"turn_center", Scale::kLength, 0.12, -0.1, 0.25, "body frame's lead over the soles"},
     Row{"zmp_forward", Scale::kToe, 0.08, -0.15, 0.4, "nominal zero moment point of a sole"},
     Row{"zmp_inward", Scale::kSoleWidth, 0.1, -0.2, 0.4, ""},
     Row{"com_time_constant", Scale::kTime, 0.92, 0, 3.5, "low-pass of the swing leg's effect"},
     Row{"swing", {}, 0, 0, 0, "Trajectory of the swing foot: m, fractions, rad s/m, m/s."},
-    Row{"height", Scale::kLength, 0.08, 0.03, 0.2, "at mid-swing"},
-    Row{"arrival_fraction", Scale::kOne, 0.96, 0.6, 1, "above its foothold after this fraction"},
-    Row{"toe_pitch_gain", Scale::kPerVelocity, 0.09, 0, 0.28, "toe up per forward velocity"},
-    Row{"touchdown_load_ratio", Scale::kOne, 0.35, 0.03, 0.6, "of the weight: a touchdown"},
-    Row{"late_speed", Scale::kVelocity, 0.057, 0, 0.2, "down, after the planned touchdown"},
+    Row{"height", Scale::kLength, 0.08, 0.03, 0.2, "of the sole at mid-swing"},
+    Row{"arrival_fraction", Scale::kOne, 0.96, 0.6, 1, "until the foot is above its foothold"},
+    Row{"toe_pitch_gain", Scale::kPerVelocity, 0.09, 0, 0.28, "toe-up pitch per forward velocity"},
+    Row{"touchdown_load_ratio", Scale::kOne, 0.35, 0.03, 0.6,
+        "fraction of the weight at touchdown"},
+    Row{"late_speed", Scale::kVelocity, 0.057, 0, 0.2, "lowering after the planned touchdown"},
     Row{"late_depth", Scale::kLength, 0.05, 0, 0.25, ""},
     Row{"step_limits", {}, 0, 0, 0, "Bounds of one footstep: m, rad."},
     Row{"max_forward", Scale::kLength, 0.54, 0.15, 0.8, ""},
     Row{"max_backward", Scale::kLength, 0.44, 0.15, 0.8, ""},
-    Row{"max_outward", Scale::kLength, 0.45, 0.15, 0.6, "beyond foot_separation"},
-    Row{"min_foot_separation", Scale::kSoleWidth, 1.25, 1.1, 2, "parallel feet"},
+    Row{"max_outward", Scale::kLength, 0.45, 0.15, 0.6, "in addition to foot_separation"},
+    Row{"min_foot_separation", Scale::kSoleWidth, 1.25, 1.1, 2, "with parallel feet"},
     Row{"max_turn_outward", Scale::kOne, 0.6, 0.2, 1, ""},
     Row{"max_turn_inward", Scale::kOne, 0.2, 0, 0.5, ""},
     Row{"turn_inward_without_spread", Scale::kOne, 0.05, 0, 0.3, ""},
-    Row{"square_distance", Scale::kLength, 0.1, 0.025, 0.25, "of feet that are side by side"},
+    Row{"square_distance", Scale::kLength, 0.1, 0.025, 0.25, "limit for feet side by side"},
     Row{"velocity", {}, 0, 0, 0, "Velocity of the steps: m/s, rad/s, 1/s, m, s."},
-    Row{"max_change_vx", Scale::kVelocity, 0.09, 0.007, 0.15, "from one step to the next"},
+    Row{"max_change_vx", Scale::kVelocity, 0.09, 0.007, 0.15, "change from one step to the next"},
     Row{"max_change_vy", Scale::kVelocity, 0.06, 0.007, 0.15, ""},
     Row{"max_change_wz", Scale::kRate, 0.11, 0.007, 0.3, ""},
     Row{"envelope_exponent", Scale::kOne, 1.5, 1, 4, ""},
-    Row{"path_gain", Scale::kRate, 0.07, 0, 0.42, "from path error to velocity"},
+    Row{"path_gain", Scale::kRate, 0.07, 0, 0.42, "gain from path error to velocity"},
     Row{"max_path_offset", Scale::kLength, 0.3, 0.05, 1, ""},
     Row{"full_speed_lag", Scale::kTime, 0.28, 0.07, 0.7, "lags of the control loop"},
     Row{"slow_speed_lag", Scale::kTime, 0.33, 0.07, 1.4, ""},
     Row{"slow_speed", Scale::kOne, 0.65, 0.2, 1, "fraction of the limits at slow_speed_lag"},
-    Row{"slow_turning", Scale::kOne, 0.65, 0.2, 1, "the same of the greatest turn"},
+    Row{"slow_turning", Scale::kOne, 0.65, 0.2, 1, "the same for the greatest turn"},
     Row{"slow_envelope_exponent", Scale::kOne, 1, 1, 4, "envelope_exponent at slow_speed_lag"},
     Row{"dead_sensor_speed", Scale::kOne, 0.7, 0.2, 1,
         "fraction of the limits with a dead foot sensor"},
     Row{"zmp", {}, 0, 0, 0, "Control law of the zero moment point: 1, m."},
     Row{"gain", Scale::kOne, 1.04, 0, 1.5, ""},
-    Row{"reach_forward", Scale::kToe, 0.37, 0, 0.8, "from the nominal point"},
+    Row{"reach_forward", Scale::kToe, 0.37, 0, 0.8, "distance from the nominal point"},
     Row{"reach_backward", Scale::kHeel, 0.4, 0, 0.8, ""},
     Row{"reach_sideways", Scale::kSoleWidth, 0.22, 0, 0.4, ""},
     Row{"feedback", {}, 0, 0, 0, "Feedback of the measured center of mass: s, 1/s, 1, m."},
-    Row{"initial_lag", Scale::kOne, 0.03, 0, 0.1, "from a command to its measurement"},
+    Row{"initial_lag", Scale::kOne, 0.03, 0, 0.1, "time from a command to its measurement"},
     Row{"com_position_gain", Scale::kRate, 0.7, 0, 5.7, ""},
     Row{"com_velocity_gain", Scale::kRate, 0.57, 0, 5.7, ""},
     Row{"footstep_gain", Scale::kOne, 0.5, 0, 1.5, ""},
@@ -116,7 +117,7 @@ constexpr std::array kRows = {
     Row{"bias_gain", Scale::kOne, 0.04, 0, 0.5, ""},
     Row{"max_bias", Scale::kToe, 0.4, 0, 0.9, ""},
     Row{"max_com_offset", Scale::kToe, 0.4, 0, 0.9, ""},
-    Row{"com_offset_gain", Scale::kOne, 0.1, 0, 2, "per tick, of the bias of the measurement"},
+    Row{"com_offset_gain", Scale::kOne, 0.1, 0, 2, "per tick, for the measurement's bias"},
     Row{"orientation", {}, 0, 0, 0, "Feedback of the torso's motion: s, 1."},
     Row{"gyro_ankle_pitch", Scale::kTime, 0.34, -0.7, 1, ""},
     Row{"gyro_ankle_roll", Scale::kTime, 0.58, -0.7, 1, ""},
@@ -132,12 +133,12 @@ constexpr std::array kRows = {
         "Feedback of the torso's motion while the robot stands: s, rad/s."},
     Row{"ankle_pitch", Scale::kTime, 0, 0, 1, ""},
     Row{"hip_pitch", Scale::kTime, 0, 0, 2, ""},
-    Row{"least_rate", Scale::kRate, 0.02, 0, 0.2, "below which the servos alone hold"},
+    Row{"least_rate", Scale::kRate, 0.02, 0, 0.2, "rate below which only the servos hold"},
     Row{"servo", {}, 0, 0, 0, "Feedforward to the position servos: s, 1."},
     Row{"lead_time", Scale::kOne, 0.002, 0, 0.04, ""},
     Row{"torque_scale", Scale::kOne, 1, 0, 1.3, ""},
     Row{"velocity_scale", Scale::kOne, 0.7, 0, 1.3, ""},
-    Row{"inertia_scale", Scale::kOne, 0.8, 0, 1.3, "acceleration of the swing leg"},
+    Row{"inertia_scale", Scale::kOne, 0.8, 0, 1.3, "for the swing leg's acceleration"},
     Row{"kick", {}, 0, 0, 0, "Kick during the walk, m."},
     Row{"ball_distance", Scale::kLength, 0.84, 0.6, 1.2, ""},
     Row{"swing_reach", Scale::kLength, 0.3, 0, 0.5, ""},

@@ -6,7 +6,7 @@
 
 namespace nao {
 
-/** What the first lines of a gait.yaml say that nobody has tuned. */
+/** First lines of a gait.yaml that has not been tuned. */
 inline constexpr const char* kUntunedGait = "not tuned yet";
 
 /** gait.yaml of a robot that has not walked yet, scaled by its leg length l and foot size: lengths

@@ -16,7 +16,7 @@ namespace {
 
 // Least edge of a box, m: a flat mesh still has a volume.
 constexpr double kLeastEdge = 1e-3;
-// A part is a capsule if it is this much longer than wide, and about as wide as deep.
+// Least ratio of length to width of a capsule, and the greatest of its width to its depth.
 constexpr double kLongRatio = 1.6;
 constexpr double kRoundRatio = 1.5;
 

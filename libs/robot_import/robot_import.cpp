@@ -64,8 +64,8 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
   RobotModel::load(folder);
 }
 
-// What the robot can and cannot do with its description: each missing ability with the file and
-// what to write there.
+// Lists the abilities that the robot's description lacks, each with the file and what to write
+// there.
 class Check {
  public:
   explicit Check(const fs::path& folder) : folder_(folder), model_(RobotModel::load(folder)) {}

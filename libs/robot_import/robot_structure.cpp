@@ -20,7 +20,8 @@ constexpr double kPairTolerance = 0.1;
 // Joints mirror each other within this fraction of the robot's height, and this angle's sine.
 constexpr double kPlaceTolerance = 0.02;
 constexpr double kAxisTolerance = 0.05;
-// Points of a foot this near to its lowest one belong to its sole, fraction of the leg's height.
+// Distance of a foot's points from its lowest one within which they belong to the sole, fraction of
+// the leg's height.
 constexpr double kSoleDepth = 0.01;
 // Sole of a foot without shapes, fractions of the leg's height. Chosen: a NAO's.
 constexpr double kSoleLength = 0.45;
@@ -78,8 +79,8 @@ void add_corners(const Shape& shape, std::vector<Vector3d>& points) {
   }
 }
 
-// Frames without mass that are fixed to a foot and called force sensors; one alone, as of a
-// six-axis sensor, tells no center of pressure.
+// Frames without mass that are fixed to a foot and called force sensors; a single one, such as a
+// six-axis sensor, does not give a center of pressure.
 std::vector<int> find_force_sensors(const RobotModel& model, int foot) {
   std::vector<int> sensors;
   for (int link = 0; link < static_cast<int>(model.links().size()); ++link) {
@@ -117,7 +118,7 @@ FoundSole find_sole(const RobotModel& model, const Chain& leg, const std::vector
     if (corner.z() < lowest + kSoleDepth * height) points.push_back(corner.head<2>() - ankle);
   }
   sole.outline = convex_hull(points);
-  // No shape, or one that touches the ground in a line only.
+  // The foot has no shape, or one that touches the ground only along a line.
   if (sole.outline.size() < 3) {
     lowest = leg.point.z() - 0.1 * height;
     const double back = 0.35 * kSoleLength * height;
@@ -164,7 +165,7 @@ RobotStructure find_structure(const RobotModel& model, Findings& findings) {
     structure.soles[side] = find_sole(model, *legs[side], poses, findings);
   }
   const Chain* arms[2] = {nullptr, nullptr};
-  // Arms are the pair with the most joints besides.
+  // Arms are the other pair with the most joints.
   for (const Chain& left : chains) {
     for (const Chain& right : chains) {
       if (!is_pair(left, right) || &left == legs[0] || left.joints.size() < 2) continue;
@@ -207,7 +208,7 @@ Symmetry find_symmetry(const RobotModel& model) {
       best = other;
     }
     if (best < 0) continue;
-    // The sign tells whether the mirrored motion has the same angle or the opposite one.
+    // The sign is that of the mirrored motion's angle relative to the original's.
     symmetry.mirrors[motor] = {best, image.dot(axis(best)) > 0 ? 1.0 : -1.0};
   }
   // Pairs must be mutual.
@@ -221,7 +222,7 @@ Symmetry find_symmetry(const RobotModel& model) {
     if (other == motor) {
       symmetry.pairs.push_back({name, motor, -1});
     } else if (place(motor).y() > place(other).y()) {
-      // A star marks the names of pairs, which are no names of joints.
+      // A star marks the names of pairs, which are not joint names.
       symmetry.pairs.push_back({name + "*", motor, other});
     }
   }

@@ -14,8 +14,8 @@ namespace nao {
 struct FoundSole {
   /** Link of the foot. */
   int foot = -1;
-  /** Below the last joint's origin, on the foot's lowest points, with the root's axes at the angle
-   * 0 of all joints. */
+  /** Frame of the sole: below the last joint's origin, on the foot's lowest points, with the root's
+   * axes at the angle 0 of all joints. */
   Eigen::Isometry3d pose_in_foot = Eigen::Isometry3d::Identity();
   /** Convex, counter-clockwise, m, in the sole's frame. */
   std::vector<Eigen::Vector2d> outline;
@@ -23,18 +23,19 @@ struct FoundSole {
   std::vector<int> sensors;
 };
 
-/** What the structure of a robot says about its body. Left, right each. */
+/** Parts of a robot's body that follow from its structure; each left, right. */
 struct RobotStructure {
   std::array<FoundSole, 2> soles;
   /** Links; empty if there are no arms. */
   std::vector<int> hands;
 };
 
-/** Finds legs and arms of a humanoid in its tree: mirrored pairs of chains, the legs reach lowest.
+/** Finds the legs and arms of a humanoid in its tree: mirrored pairs of chains, of which the legs
+ * reach lowest.
  *
  * x is ahead, y to the left, z up, in the root's frame at the angle 0 of all joints.
  * @param findings  Receives what was assumed.
- * @throws ModelError  if there are no two legs. */
+ * @throws ModelError  if it does not find two legs. */
 RobotStructure find_structure(const RobotModel& model, Findings& findings);
 
 /** Mirror images of the joints: a joint's image has its axis and place reflected in the plane of x

@@ -31,7 +31,7 @@ constexpr double kDensity = 1000;
 class UrdfRepair {
  public:
   // Edits the XML itself, so that everything it does not understand stays as it is. Each repair is
-  // told with line, assumption and what to write instead.
+  // reported with its line, the assumption and what to write instead.
   UrdfRepair(const fs::path& file, const fs::path& folder) : file_(file), folder_(folder) {}
 
   RepairedUrdf run();
@@ -58,7 +58,7 @@ class UrdfRepair {
   void hold(TiXmlElement& joint, const std::string& element);
   void repair_inertial(TiXmlElement& link, const std::string& element);
   void repair_shapes(TiXmlElement& link, const char* kind, const std::string& element);
-  /** @return false if the shape must go. */
+  /** @return false if the shape must be removed. */
   bool repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool is_collision,
                    const std::string& element);
   void repair_cylinder(TiXmlElement& shape, TiXmlElement& geometry, const std::string& element);
@@ -94,7 +94,7 @@ void UrdfRepair::load() {
 }
 
 void UrdfRepair::find_root() {
-  // The root is the only link that is no joint's child.
+  // The root is the only link that is not a child of a joint.
   std::set<std::string> children;
   for (const TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {
@@ -227,7 +227,7 @@ void UrdfRepair::repair_inertial(TiXmlElement& link, const std::string& element)
 }
 
 fs::path UrdfRepair::find_mesh(const std::string& name) const {
-  // The scheme says how a path is found; what follows is searched beside the file.
+  // The scheme says how a path is found; the rest is searched beside the file.
   std::string path = name;
   for (const char* scheme : {"package://", "model://", "file://"}) {
     if (path.rfind(scheme, 0) == 0) path = path.substr(std::string(scheme).size());
@@ -347,12 +347,12 @@ RepairedUrdf UrdfRepair::run() {
   load();
   find_root();
   measure_mass();
-  // Joints first: links do not depend on them, but what is held does.
+  // Joints are repaired first: links do not depend on them, but held joints do.
   for (TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {
     repair_joint(*joint);
   }
-  // What mimics a joint that is held is held, too.
+  // A joint that mimics a held joint is held, too.
   for (TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {
     const TiXmlElement* mimic = joint->FirstChildElement("mimic");

@@ -17,14 +17,14 @@ struct RepairedUrdf {
 
 /** Makes a URDF of any origin readable by RobotModel, and lists what was wrong with it.
  *
- * Meshes named by package:// or relative paths are looked for beside the file and in the folders
+ * Meshes named by package:// or relative paths are searched beside the file and in the folders
  * above it, and written in metres as GLB; mesh collision shapes become capsules or boxes about
  * them. Continuous joints get limits; prismatic, planar and floating joints are held (fixed).
  * Missing limits and impossible inertias are replaced. Links without mass stay.
  *
  * @param file    The URDF; output of xacro, not its input. @param folder  Existing; its subfolder
  *   "meshes" receives the meshes.
- * @throws ModelError  if the file is no URDF, with file, line and what to do. */
+ * @throws ModelError  if the file is not a URDF, with file, line and what to do. */
 RepairedUrdf repair_urdf(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 }  // namespace nao

@@ -165,7 +165,7 @@ Proximity least_overlap(const RoundedBox& a, const RoundedBox& b) {
     const double reach = (a.rotation.transpose() * axis).cwiseAbs().dot(a.half) +
                          (b.rotation.transpose() * axis).cwiseAbs().dot(b.half);
     const double along = offset.dot(axis);
-    // How far the boxes must be moved along the axis until they are apart.
+    // Distance by which the boxes must be moved apart along the axis.
     const double overlap = reach - std::abs(along);
     if (least >= 0 && overlap >= least) return;
     least = std::max(overlap, 0.0);
@@ -249,7 +249,7 @@ Proximity closest_points(const RoundedBox& a, const RoundedBox& b) {
     if (!reduce(simplex)) return least_overlap(a, b);
     const Vector3d next = simplex.nearest();
     if (next.squaredNorm() < 1e-18) return least_overlap(a, b);
-    // Rounding: no more progress.
+    // Rounding prevents further progress.
     if (iteration > 0 && next.squaredNorm() >= square) break;
     nearest = next;
   }

@@ -21,7 +21,7 @@ struct RoundedBox {
 
 /** The closest points of two shapes, or the least overlap. */
 struct Proximity {
-  /** Between the surfaces, m; negative if they overlap. */
+  /** Distance between the surfaces, m; negative if they overlap. */
   double distance = 0;
   /** Unit vector from b to a: moving a along it increases the distance. */
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();

@@ -14,7 +14,7 @@ struct UrdfEdge {
   std::string child;
   /** The joint moves, or its child has a mass or a collision shape. */
   bool is_body = false;
-  /** Where the joint is: origin, m, rotation (quaternion) and axis. */
+  /** Place of the joint: origin, m, rotation (quaternion) and axis. */
   std::array<double, 10> place{};
 };
 

@@ -7,7 +7,7 @@
 
 namespace nao {
 
-/** A side of the robot, for what has one. */
+/** A side of the robot. */
 enum class Side { kNone, kLeft, kRight };
 
 /** A named posture: the angles of all motors. */
@@ -67,7 +67,7 @@ struct LegDescription {
 /** An arm: the frame of its hand, and the joints from the root to it. */
 struct ArmDescription {
   int hand = -1;
-  /** As of LegDescription. */
+  /** As in LegDescription. */
   std::vector<int> joints;
 };
 
@@ -96,13 +96,13 @@ struct Symmetry {
   const JointPair* find_pair(const std::string& name) const;
 };
 
-/** What users can make the robot do by its name. */
+/** An action that users can start by its name. */
 struct Action {
   enum class Kind { kStandUp, kRest, kKick, kBlock, kDive, kGesture };
 
   std::string name;
   Kind kind = Kind::kGesture;
-  /** Of kicks and dives. */
+  /** Side of kicks and dives. */
   Side side = Side::kNone;
   /** Blocks, dives and gestures: name of the keyframe motion that is played. */
   std::string keyframes;
@@ -124,15 +124,15 @@ struct WalkingArmJoint {
   double swing = 0;
 };
 
-/** Sizes of the body by which its state is told, m. */
+/** Heights by which the state of the body is recognized, m. */
 struct BodyHeights {
-  /** Of the root above the ground in the ready posture. */
+  /** Height of the root above the ground in the ready posture. */
   double standing = 0;
-  /** Upright with the root above this it is on its feet, below it sits. */
+  /** An upright robot is on its feet if the root is above this height; below, it sits. */
   double on_feet = 0;
 };
 
-/** Forces by which contact with the ground is told, N. */
+/** Forces by which ground contact is detected, N. */
 struct ContactForces {
   /** Least force on a foot in contact. */
   double contact = 0;
@@ -145,15 +145,16 @@ struct WalkingStance {
   /** Distance of the soles from each other. */
   double least_width = 0;
   double greatest_width = 0;
-  /** Of one sole ahead of the other. */
+  /** Greatest distance of one sole ahead of the other. */
   double greatest_lead = 0;
-  /** Of the hips above the soles. */
+  /** Least height of the hips above the soles. */
   double least_hip_height = 0;
 };
 
 /** Reference postures and poses of the robot's own motions. */
 struct MotionReferences {
-  /** Names of postures: in which walks and actions begin; upright; without load on the motors. */
+  /** Names of the postures in which walks and actions begin, in which the robot is upright, and in
+   * which the motors carry no load. */
   std::string ready;
   std::string stand;
   std::string rest;
@@ -164,7 +165,7 @@ struct MotionReferences {
   WalkingStance walking_stance;
 };
 
-/** Words of people for one of the robot's names. */
+/** People's words for one of the robot's names. */
 struct Label {
   /** "posture", "action", "group" or "camera", and the name. */
   std::string kind;

@@ -23,7 +23,7 @@ struct RobotLight {
   };
 
   std::string name;
-  /** What people call it, by language ("en"). */
+  /** Its name for people, by language ("en"). */
   std::map<std::string, std::string> labels;
   /** It is lit while the robot speaks. */
   bool is_eye = false;

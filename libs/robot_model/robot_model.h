@@ -13,7 +13,7 @@ namespace nao {
 /** The description of a robot in data/robots/NAME/: its mechanism, limbs, sensors, postures,
  * actions.
  *
- * Names, joint numbers, limits and frames come from here only. It is a read-only record of
+ * Names, joint numbers, limits and frames come only from here. It is a read-only record of
  * robot.yaml, the URDF, postures.yaml and labels.yaml. RobotModelReader fills it. */
 class RobotModel : public RobotMechanism {
  public:
@@ -37,9 +37,9 @@ class RobotModel : public RobotMechanism {
   const std::vector<JointGroup>& joint_groups() const { return joint_groups_; }
   const std::vector<CameraModel>& cameras() const { return cameras_; }
   const WalkLimits& walk_limits() const { return walk_limits_; }
-  /** What action_command_t may name. */
+  /** Actions that action_command_t may name. */
   const std::vector<Action>& actions() const { return actions_; }
-  /** @return nullptr if there is none of that name, or none that does that. */
+  /** @return nullptr if there is none of that name or kind. */
   const Action* find_action(const std::string& name) const;
   const Action* find_action(Action::Kind kind, Side side = Side::kNone) const;
   const std::vector<Label>& labels() const { return labels_; }

@@ -154,9 +154,9 @@ void RobotModelReader::read_motors(const YamlEntry& types, const YamlEntry& moto
 
 void RobotModelReader::estimate_motors(const YamlEntry& robot) {
   // Chosen: the ratios of the NAO's leg motors and of published models of humanoids of 30 kg. A
-  // motor holds half of its peak torque for long, has lost its torque at 1.2 times the URDF's
-  // velocity, rubs with 1.5 % of its peak torque, and its servo reaches the peak torque at an error
-  // of 0.1 rad.
+  // motor holds half of its peak torque without a time limit, has no torque at 1.2 times the URDF's
+  // velocity, has dry friction of 1.5 % of its peak torque, and its servo reaches the peak torque
+  // at an error of 0.1 rad.
   double armature_per_torque = 1e-3;
   double peak_error = 0.1;
   if (robot.has("motor_defaults")) {
@@ -247,8 +247,8 @@ void RobotModelReader::read_inertial_unit(const YamlEntry& entry) {
   model_.gyroscope_ = link_named(entry.at("gyroscope"));
 }
 
-// Which contacts of links are no self-collision: without an entry those of parent and child; with
-// clusters all within a cluster and between clusters that a joint connects.
+// Decides which contacts of links do not count as self-collisions: without an entry, those of
+// parent and child; with clusters, all within a cluster and between clusters that a joint connects.
 void RobotModelReader::read_contact_clusters(const YamlEntry& robot) {
   if (!robot.has("contact_clusters")) {
     for (const Joint& joint : model_.joints_) {

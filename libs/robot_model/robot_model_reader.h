@@ -30,7 +30,7 @@ class RobotModelReader {
   void read_inertial_unit(const YamlEntry& entry);
   /** Motors of a robot whose robot.yaml does not list them, from the URDF's limits. */
   void estimate_motors(const YamlEntry& robot);
-  /** Without a list only links that a joint connects may touch. */
+  /** Without a list, only links that a joint connects may touch. */
   void read_contact_clusters(const YamlEntry& robot);
 
   // Limbs and symmetry (robot_limbs_reader.cpp).
@@ -40,7 +40,7 @@ class RobotModelReader {
   void read_symmetry(const YamlEntry& robot);
   void read_joint_groups(const YamlEntry& list);
 
-  // What the robot does (robot_motions_reader.cpp).
+  // Motions of the robot (robot_motions_reader.cpp).
   void read_postures(const YamlEntry& list);
   void read_references(const YamlEntry& robot);
   void read_actions(const YamlEntry& list);

@@ -18,7 +18,7 @@
 namespace nao {
 namespace {
 
-/** Collects what urdfdom would print, for the text of an error. */
+/** Collects the messages that urdfdom would print, for the text of an error. */
 class UrdfdomMessages : public console_bridge::OutputHandler {
  public:
   UrdfdomMessages() : previous_(console_bridge::getOutputHandler()) {
@@ -60,7 +60,7 @@ class UrdfFile {
   /** @return urdfdom's model. @throws ModelError  if urdfdom reported any error. */
   urdf::ModelInterfaceSharedPtr parse() const;
   Link convert(const urdf::Link& link) const;
-  /** Everything but the indices of links and joints. */
+  /** Converts everything except the indices of links and joints. */
   Joint convert(const urdf::Joint& joint) const;
 
   [[noreturn]] void fail(const std::string& element, const std::string& what) const {
@@ -103,7 +103,7 @@ std::string UrdfFile::text() const {
   return text.str();
 }
 
-// urdfdom reports most errors as messages and goes on; any message is an error here.
+// urdfdom reports most errors as messages and continues; any message is an error here.
 urdf::ModelInterfaceSharedPtr UrdfFile::parse() const {
   const UrdfdomMessages messages;
   urdf::ModelInterfaceSharedPtr model;
@@ -182,7 +182,7 @@ UrdfTree UrdfFile::tree() const {
     }
   }
   require(!tree.root.empty(), "robot", "has no root link");
-  // Every link has one parent: what a walk from the root does not reach is on a cycle.
+  // Every link has one parent: links that cannot be reached from the root are on a cycle.
   std::map<std::string, std::vector<std::string>> children;
   for (const UrdfEdge& edge : tree.edges) children[edge.parent].push_back(edge.child);
   std::vector<std::string> reached = {tree.root};

@@ -24,7 +24,7 @@ std::shared_ptr<const RobotModel> RobotModels::find(const std::string& name) {
     // A model that cannot be read is not tried again with every message.
     try {
       if (!is_folder_name(name))
-        throw ModelError("\"" + name + "\" is no name of a robot's folder");
+        throw ModelError("\"" + name + "\" is not a valid name of a robot's folder");
       found.model =
           std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / name));
     } catch (const Error& error) {

@@ -16,7 +16,7 @@ class RobotModels {
   explicit RobotModels(const RobotModel& own);
 
   const RobotModel& own() const { return own_; }
-  /** @param name  As in robot_truth_t; empty: the own one.
+  /** @param name  As in robot_truth_t; empty for the own model.
    * @return Nothing for the own model. @throws ModelError  if its files cannot be read. */
   std::shared_ptr<const RobotModel> find(const std::string& name);
 

@@ -9,8 +9,8 @@
 namespace nao {
 namespace {
 
-// Fraction of the standing height above which an upright robot is on its feet, where robot.yaml
-// does not say it. Chosen: a NAO stands at 0.32 m, crouches at 0.229 m and sits at 0.12 m.
+// Fraction of the standing height above which an upright robot is on its feet, if robot.yaml does
+// not state it. Chosen: a NAO stands at 0.32 m, crouches at 0.229 m and sits at 0.12 m.
 constexpr double kOnFeetFraction = 0.6;
 // The same for contact: fractions of the weight on a foot in contact, and of the difference of
 // loads at which the other foot becomes the support foot. Chosen: above the noise of force sensors
@@ -56,7 +56,7 @@ std::vector<double> RobotModelReader::read_pose(const YamlEntry& joints) const {
       continue;
     }
     const JointPair* pair = model_.symmetry_.find_pair(name);
-    if (pair == nullptr) entry.fail("is no joint and no name in mirrored_joints");
+    if (pair == nullptr) entry.fail("is neither a joint nor a name in mirrored_joints");
     set(pair->left, angle, entry);
     const MirrorMotor& mirror = model_.symmetry_.mirrors[pair->left];
     set(mirror.motor, mirror.sign * angle, entry);
@@ -149,11 +149,11 @@ void RobotModelReader::read_walking_arms(const YamlEntry& entry) {
   std::vector<double> swing(angles.size(), 0.0);
   for (const auto& [name, factor] : entry.at("swing").entries()) {
     const JointPair* pair = model_.symmetry_.find_pair(name);
-    if (pair == nullptr || pair->right < 0) factor.fail("is no pair of mirrored_joints");
+    if (pair == nullptr || pair->right < 0) factor.fail("is not a pair of mirrored_joints");
     if (std::isnan(angles[pair->left])) factor.fail("has no angle");
     // The arms swing in opposite phases.
     swing[pair->left] = factor.number();
-    // Without the minus sign both arms would swing alike in the mirrored sense.
+    // Without the minus sign both arms would swing in the same phase in the mirrored sense.
     swing[pair->right] = -model_.symmetry_.mirrors[pair->left].sign * factor.number();
   }
   for (int motor = 0; motor < model_.num_motors(); ++motor) {

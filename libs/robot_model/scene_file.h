@@ -29,13 +29,13 @@ struct FieldDimensions {
 /** The two goals, one at each end of the field, m. */
 struct GoalDimensions {
   double post_diameter = 0;
-  /** Between the axes of a goal's posts, which are at y = +-post_distance / 2. */
+  /** Distance between the axes of a goal's posts, which are at y = +-post_distance / 2. */
   double post_distance = 0;
-  /** Of the posts' axis behind the center of the goal line. */
+  /** Distance of the posts' axes behind the center of the goal line. */
   double post_offset = 0;
   /** Height of the crossbar's axis. */
   double crossbar_height = 0;
-  /** From the posts' axis to the back of the net. */
+  /** Distance from the posts' axes to the back of the net. */
   double depth = 0;
 };
 

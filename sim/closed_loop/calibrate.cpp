@@ -8,12 +8,12 @@
 namespace nao {
 namespace {
 
-// Time in which the robot takes a stand before the first command, and after which a command that
-// has not ended has failed, s.
+// Time in which the robot comes to a stand before the first command, and time after which a command
+// that has not ended has failed, s.
 constexpr double kTakeOver = 1;
 constexpr double kTimeout = 30;
 
-// Raw readings: the calibration must see the robot's errors.
+// The readings are raw: the calibration must see the robot's errors.
 StandingSample to_sample(const sim::SensorReadings& readings) {
   StandingSample sample;
   sample.position.assign(readings.position.begin(), readings.position.end());

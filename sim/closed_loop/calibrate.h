@@ -7,9 +7,9 @@
 
 namespace nao {
 
-/** Calibrates a simulated robot as `nao calibrate` does a robot on the bus: the one that the
- * options and the seed draw, in a world of its own, on the same floor. A robot that cannot complete
- * its moves is calibrated by what it completed.
+/** Calibrates a simulated robot as `nao calibrate` does a robot on the bus: the robot that the
+ * options and the seed draw, in a separate world, on the same floor. A robot that cannot complete
+ * its moves is calibrated by those that it completed.
  * @param num_stations  Directions in which it stands, 1 to 8. */
 Calibration calibrate(const ClosedLoopOptions& options, uint64_t seed, int num_stations);
 

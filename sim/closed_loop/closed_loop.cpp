@@ -126,7 +126,8 @@ int64_t ClosedLoop::hold_walk(const Eigen::Vector3d& velocity) {
 }
 
 int ClosedLoop::ticks_per_walk_command() const {
-  // By time, not ticks: the command expires after a time, whatever the control period.
+  // The repetition is timed, not counted in ticks: the command expires after a time, independent of
+  // the control period.
   return static_cast<int>(std::lround(kWalkCommandPeriod / period()));
 }
 
@@ -156,7 +157,7 @@ void ClosedLoop::step_core() {
   if (probability > 0 && ticks_to_miss_ == 0 && random(0, 1) < probability) {
     ticks_to_miss_ = 1 + static_cast<int>(random(0, 4));
   }
-  // A crashed core is not stepped; the servos go on holding.
+  // A crashed core is not stepped; the servos continue to hold.
   if (ticks_to_miss_ > 0 || world_->are_readings_lost(robot_)) {
     ticks_to_miss_ = std::max(0, ticks_to_miss_ - 1);
     ++missed_ticks_;
@@ -206,7 +207,7 @@ bool ClosedLoop::run_until(const std::function<bool()>& condition, double timeou
 }
 
 std::optional<CommandResult> ClosedLoop::await_end(int64_t id, double timeout) {
-  // Results are looked at once each: `next` moves on.
+  // Each result is checked once: `next` moves on.
   size_t next = 0;
   std::optional<CommandResult> end;
   run_until(
@@ -233,7 +234,7 @@ double ClosedLoop::deviation_from(const Posture& posture, std::string* joint) co
   const Eigen::VectorXd& position = world_->robot(robot_).motor_position();
   double largest = 0;
   for (int motor = 0; motor < model().num_motors(); ++motor) {
-    // Openings of hands have no part in a posture of the body.
+    // Openings of hands are not part of a posture of the body.
     if (world_->robot(robot_).is_opening(motor)) continue;
     const double deviation = std::abs(position[motor] - posture.position[motor]);
     if (deviation <= largest) continue;

@@ -23,16 +23,16 @@ struct ClosedLoopOptions {
   SceneFile scene;
   /** Physics engine, see sim::WorldOptions::engine. */
   std::string engine = "fast";
-  /** What is drawn for each seed; nullptr: data/disturbances/default.yaml. */
+  /** Disturbances that are drawn for each seed; nullptr: data/disturbances/default.yaml. */
   std::shared_ptr<const sim::DisturbanceSet> disturbances;
   /** Without disturbances, noise and latency; `disturbances` is ignored. */
   bool is_ideal = false;
   /** Probability in each tick that the motion core misses it and up to three more, as on a busy
-   * machine: the servos hold their targets, and the core goes on with the newest sensor readings.
+   * machine: the servos hold their targets, and the core continues with the newest sensor readings.
    */
   double missed_tick_probability = 0;
-  /** Ticks between a joint command and the motors' following it, as over a slow network; 0: as the
-   * disturbances say. */
+  /** Ticks until the motors follow a joint command, as over a slow network; 0: as the disturbances
+   * say. */
   int command_latency_ticks = 0;
   /** Control period, ms: a multiple of the physics step of 2 ms. 0: as the disturbances say, or 10.
    */
@@ -54,7 +54,7 @@ class ClosedLoop {
   /** @throws ConfigError  if an option is outside its range. */
   ClosedLoop(const ClosedLoopOptions& options, uint64_t seed);
   /** One more robot of a world that several share: call the world's step_tick(), then step_core()
-   * of each. @param world  Of make_world(). */
+   * of each. @param world  World from make_world(). */
   ClosedLoop(const ClosedLoopOptions& options, uint64_t seed, std::shared_ptr<sim::World> world);
   /** A world without robots, disturbed as the options say. */
   static std::shared_ptr<sim::World> make_world(const ClosedLoopOptions& options, uint64_t seed);
@@ -101,10 +101,10 @@ class ClosedLoop {
   /** Steps until the condition holds. @return false after `timeout` s. */
   bool run_until(const std::function<bool()>& condition, double timeout);
 
-  /** The results since the start or take_results(). Of a walk that hold_walk() repeats, each status
-   * is there once for as long as it lasts: the core answers every repetition. */
+  /** The results since the start or take_results(). For a walk that hold_walk() repeats, each
+   * status is listed once while it lasts, although the core answers every repetition. */
   const std::vector<CommandResult>& results() const { return results_; }
-  /** The same, which are then forgotten. */
+  /** Returns the same results and clears them. */
   std::vector<CommandResult> take_results() { return std::exchange(results_, {}); }
   /** Last targets of the core. */
   const std::vector<double>& targets() const { return targets_; }
@@ -120,7 +120,7 @@ class ClosedLoop {
   }
 
   // The true state.
-  /** s since the start. */
+  /** Time since the start, s. */
   double time() const { return world_->time(); }
   Eigen::Isometry3d torso_in_world() const;
   double torso_height() const { return torso_in_world().translation().z(); }

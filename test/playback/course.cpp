@@ -56,7 +56,7 @@ void compare_rows(const Course& expected, const Course& course,
           [&](const CourseRow& other) { return std::hypot(other.x - row.x, other.y - row.y); });
     check("heading (rad)", kHeadingSlack + kShareOfTheWay * turned,
           [&](const CourseRow& other) { return std::abs(other.heading - row.heading); });
-    // How a falling robot lies is chance.
+    // The pose of a fallen robot is random.
     if (is_fall(row)) continue;
     check("height (m)", kHeightSlack,
           [&](const CourseRow& other) { return std::abs(other.height - row.height); });

@@ -15,15 +15,15 @@ struct CourseRow {
   double y = 0;
   double heading = 0;
   double height = 0;
-  /** Of NAO_MOTION_STATE. */
+  /** Mode in NAO_MOTION_STATE. */
   std::string mode;
 };
 
-/** What a robot did, as far as a person would notice. */
+/** The behavior of a robot at the resolution that a person would notice. */
 struct Course {
   /** Twice a second. */
   std::vector<CourseRow> rows;
-  /** What became of each command that is no walk, in their order: "posture done". */
+  /** Result of each command other than walk commands, in order: "posture done". */
   std::vector<std::string> results;
   /** Over all joint commands, bit by bit; not part of the file, for it differs with every change.
    */
@@ -33,13 +33,13 @@ struct Course {
 /** Text that read_course() reads. */
 std::string to_text(const Course& course);
 
-/** @throws Error  if the file is no course. */
+/** @throws Error  if the file is not a course. */
 Course read_course(const std::filesystem::path& file);
 
-/** Where a course differs from the expected one by more than a robot that walks a little better or
- * worse would: within a second of the expected time it must have been within 0.1 m and a fifth of
- * the way walked so far, 15 degrees and a fifth of the angle turned so far, and 15 mm of height; it
- * must fall where expected and only there; the results must be the same.
+/** Finds where a course differs from the expected one by more than a slightly better or worse walk
+ * would: within a second of the expected time it must have been within 0.1 m and a fifth of the way
+ * walked so far, 15 degrees and a fifth of the angle turned so far, and 15 mm of height; it must
+ * fall where expected and only there; the results must be the same.
  * @return A sentence each; empty if it does not. */
 std::vector<std::string> find_differences(const Course& expected, const Course& course);
 

@@ -15,7 +15,7 @@
 namespace nao::playback {
 namespace {
 
-/** @return false if the bytes are no such message. */
+/** @return false if the bytes are not such a message. */
 template <class Message>
 bool send_as(Bus& bus, const LogEvent& event) {
   Message message;

@@ -14,8 +14,8 @@ namespace nao::playback {
  * @throws Error  if there is none. */
 std::vector<LogEvent> read_frozen_log(const std::filesystem::path& file);
 
-/** Sends a logged message on a bus: a command, sensors, or what is true.
- * @throws Error  if it is of no type of this version; the sentence says how to record it again. */
+/** Sends a logged message on a bus: a command, sensors, or the truth. @throws Error  if this
+ * version does not have its type; the sentence says how to record it again. */
 void send(Bus& bus, const LogEvent& event);
 
 }  // namespace nao::playback

@@ -127,7 +127,7 @@ class ClosedLoop {
 
   GoldenTrace run() {
     EventLoop loop;
-    // Never run: the motion daemon shall do nothing by the wall clock.
+    // This loop never runs: the motion daemon must do nothing by the wall clock.
     EventLoop motion_loop;
     Bus bus("memq://");
     const RobotChannels channels;
@@ -135,7 +135,7 @@ class ClosedLoop {
     for (int motor = 0; motor < model.num_motors(); ++motor) {
       joints_.push_back(model.motor_joint(motor).name);
     }
-    // First of all subscribers, so that motion has a command before it has the sensors.
+    // This subscribes first, so that motion has a command before the sensors.
     bus.subscribe<naolcm::sensor_state_t>(
         channels.sensor_state, Bus::Queue::kAll, [&](const naolcm::sensor_state_t& message) {
           if (message.tick >= kNumTicks) loop.stop("end");

@@ -101,7 +101,7 @@ struct GoldenCommand::Fields {
 
   std::string text(const char* key) const { return node[key] ? node[key].as<std::string>() : ""; }
   bool flag(const char* key) const { return node[key] && node[key].as<bool>(); }
-  /** Null, and what is left out, is not a number. */
+  /** Null and missing numbers are NaN. */
   static double number(const YAML::Node& value) {
     return value && !value.IsNull() ? value.as<double>() : kNan;
   }

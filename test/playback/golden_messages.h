@@ -15,8 +15,8 @@
 
 namespace nao::playback {
 
-/** Between golden sessions, which know no message type, and the messages of this version. A change
- * of a message type is adapted to here and nowhere else in the golden tests. */
+/** Conversions between golden sessions, which are independent of message types, and the messages of
+ * this version. Changes of message types are handled only here in the golden tests. */
 
 /** What the robot measured at the tick of a row. */
 naolcm::sensor_state_t to_sensor_state(const GoldenTable& table, size_t row);

@@ -19,21 +19,21 @@
 namespace nao::playback {
 namespace {
 
-/** How far a joint target was from the recorded one, which has the table's resolution. */
+/** Distance of a joint target from the recorded one, which has the table's resolution. */
 struct Deviation {
   double largest = 0;  // rad
   std::string joint;
   int64_t tick = 0;
 };
 
-/** What motion made of a golden session. */
+/** Result of a golden session in motion. */
 struct MotionRun {
   GoldenTrace trace;
   Deviation deviation;
 };
 
-/** Plays a golden session to a motion daemon, open loop: the sensors are the recorded ones whatever
- * motion commands. */
+/** Plays a golden session to a motion daemon, open loop: the sensors are the recorded ones,
+ * independent of motion's commands. */
 class MotionReplay {
  public:
   explicit MotionReplay(const std::string& name)

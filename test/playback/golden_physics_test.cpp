@@ -26,8 +26,8 @@ std::ostream& operator<<(std::ostream& stream, const PhysicsSession& session) {
   return stream << session.name;
 }
 
-/** Plays a golden session to a simulator, open loop: the joint targets are the recorded ones
- * whatever the robot measures. */
+/** Plays a golden session to a simulator, open loop: the joint targets are the recorded ones,
+ * independent of the robot's measurements. */
 class PhysicsReplay {
  public:
   explicit PhysicsReplay(const PhysicsSession& session)

@@ -46,7 +46,7 @@ GoldenTable::GoldenTable(const std::filesystem::path& file) {
 
   std::istringstream header(text);
   std::string line;
-  if (!std::getline(header, line) || line != "golden table 1") fail("is no golden table");
+  if (!std::getline(header, line) || line != "golden table 1") fail("is not a golden table");
   while (std::getline(header, line) && line != "data") {
     std::istringstream words(line);
     std::string key;

@@ -25,7 +25,7 @@ struct GoldenColumn {
  * zigzag varint (base 128, least significant group first, as in protobuf). */
 class GoldenTable {
  public:
-  /** @throws Error  if the file is missing or is no whole table. */
+  /** @throws Error  if the file is missing or is not a complete table. */
   explicit GoldenTable(const std::filesystem::path& file);
 
   size_t num_rows() const { return num_rows_; }

@@ -8,13 +8,13 @@
 
 namespace nao::playback {
 
-/** What a program made of a golden session, as hashes, tick by tick. */
+/** Output of a program for a golden session, as hashes, tick by tick. */
 struct GoldenTrace {
-  /** What the hashes are over, such as "joint_command". */
+  /** Name of the hashed stream, such as "joint_command". */
   std::vector<std::string> streams;
   /** One hash for each stream, by control tick. */
   std::map<int64_t, std::vector<uint64_t>> hashes;
-  /** What became of the commands, in order: "TICK SOURCE COMMAND_ID COMMAND STATUS". */
+  /** Results of the commands, in order: "TICK SOURCE COMMAND_ID COMMAND STATUS". */
   std::vector<std::string> results;
 };
 
@@ -26,13 +26,13 @@ uint64_t hash_of_math_functions();
 /** Writes a trace and hash_of_math_functions() as text. @throws Error */
 void write_golden_trace(const std::filesystem::path& file, const GoldenTrace& trace);
 
-/** A trace that was written, and where it holds. */
+/** A trace that was written, and the machines for which it holds. */
 struct GoldenExpectation {
   uint64_t math_functions = 0;
   GoldenTrace trace;
 };
 
-/** @throws Error  if the file is missing or no golden trace. */
+/** @throws Error  if the file is missing or is not a golden trace. */
 GoldenExpectation read_golden_trace(const std::filesystem::path& file);
 
 /** Where a trace differs from the expected one: for each stream the number of ticks that differ and

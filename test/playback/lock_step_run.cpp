@@ -30,7 +30,7 @@ double heading_of(const double* q) {
   return std::atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] * q[2] + q[3] * q[3]));
 }
 
-/** Listens to a run and notes its course. */
+/** Listens to a run and records its course. */
 class CourseWriter {
  public:
   /** @param end  Robot time, microseconds, from which on nothing counts: the loop does not end at
@@ -54,7 +54,7 @@ class CourseWriter {
 
  private:
   void note(const naolcm::command_result_t& message) {
-    // Walks are replaced by one another many times a second, and a result is told again as long as
+    // Walks are replaced by one another many times a second, and a result is repeated as long as
     // its command is.
     if (message.command_kind == message.COMMAND_KIND_WALK ||
         message.status == message.STATUS_ACCEPTED) {
@@ -87,7 +87,7 @@ class CourseWriter {
   }
 
   void note(const naolcm::joint_command_t& message) {
-    // An answer is said again when the simulator has waited for it for long.
+    // An answer is repeated when the simulator has waited for it for a long time.
     if (message.tick <= last_answered_tick_ || message.utime >= end_) return;
     last_answered_tick_ = message.tick;
     std::string bytes(message.getEncodedSize(), '\0');

@@ -10,8 +10,8 @@ namespace nao::playback {
 
 /** Plays commands to simulator and motion, which run in lock-step on a bus inside this process:
  * each command is on the bus at the tick at which it was when it was recorded.
- * @param after  How long to look on after the last command, robot s.
- * @throws Error  if a message is of no type of this version. */
+ * @param after  Time for which to observe after the last command, robot s. @throws Error  if this
+ * version does not have a message's type. */
 Course run_in_lock_step(const std::vector<LogEvent>& commands, double after);
 
 }  // namespace nao::playback

@@ -21,7 +21,7 @@
 namespace nao::playback {
 namespace {
 
-// How long a course goes on after the last command, robot s.
+// Time for which a course continues after the last command, robot s.
 constexpr double kAfter = 6;
 
 std::filesystem::path session(const std::string& name) {
@@ -57,12 +57,12 @@ TEST_P(Commands, GiveTheSameBitsEveryTime) {
 INSTANTIATE_TEST_SUITE_P(Playback, Commands, testing::Values("drive", "postures"),
                          [](const auto& info) { return info.param; });
 
-/** What motion makes of sensors alone. */
+/** Output of motion for sensors alone. */
 struct Reaction {
   std::vector<std::string> modes;
   std::size_t fingerprint = 0;
   int num_commands = 0;
-  /** Least mean stiffness that it asked for. */
+  /** Least mean stiffness that it commanded. */
   double least_stiffness = 1;
 };
 
@@ -126,7 +126,7 @@ TEST(Playback, ACourseThatIsMissedIsTold) {
   EXPECT_TRUE(find_differences(expected, expected).empty());
   Course slower = expected;
   for (CourseRow& row : slower.rows) row.x *= 0.9;
-  EXPECT_TRUE(find_differences(expected, slower).empty()) << "a little worse is no fault";
+  EXPECT_TRUE(find_differences(expected, slower).empty()) << "a little worse is not a fault";
   Course mirrored = expected;
   for (CourseRow& row : mirrored.rows) row.x = -row.x;
   EXPECT_FALSE(find_differences(expected, mirrored).empty());

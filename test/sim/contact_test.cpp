@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 
 constexpr double kFriction = 0.8;
 
-/** A floor that is tilted by an angle about a horizontal axis. @param direction  Of the descent,
- * rad. */
+/** A floor that is tilted by an angle about a horizontal axis. @param direction  Direction of the
+ * descent, rad. */
 WorldOptions incline(double angle, double direction) {
   WorldOptions options;
   options.materials.floor_friction = kFriction;

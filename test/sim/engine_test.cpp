@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/** What holds in every engine of this build. */
+/** Properties of every engine of this build. */
 class EngineTest : public testing::TestWithParam<std::string> {
  protected:
   static WorldOptions options() {
@@ -111,7 +111,7 @@ TEST_P(EngineTest, RestsABallOnABump) {
   const Floor::Plane below = floor.at(center.x(), center.y());
   EXPECT_GT(below.height, 0.0005);
   EXPECT_NEAR(below.normal.z() * (center.z() - below.height), 0.05, 0.0005);
-  // Simbody's rolling resistance is blurred near rest: its ball creeps by 3 mm/s.
+  // Simbody's rolling resistance is smoothed near rest: its ball creeps by 3 mm/s.
   EXPECT_LT((center - start).head<2>().norm(), 0.008);
   EXPECT_LT(world.ball().velocity.norm(), 0.004);
 }
@@ -124,7 +124,7 @@ TEST_P(EngineTest, HoldsABallOnAGentleSlopeAndSlowsItDownInAllDirections) {
   world.place_ball(Vector3d::Zero(), Vector3d::Zero());
   for (int i = 0; i < 100; ++i) world.step_tick();
   EXPECT_LT(world.ball().position.head<2>().norm(), 0.006);
-  // A ball that rolls ahead is drawn downhill, and slowed down against the way that it rolls: the
+  // A ball that rolls forward is accelerated downhill, and slowed down against its direction: the
   // components follow v' = 5/7 g sin(1 degree) e_y - 0.3 v / |v|.
   world.place_ball(Vector3d::Zero(), {1, 0, 0});
   for (int i = 0; i < 50; ++i) world.step_tick();
@@ -170,7 +170,7 @@ TEST_P(EngineTest, StandsWithAllRealDisturbances) {
     const RobotErrors& errors = loop.world().robot(0).options().errors;
     const double offset = loop.world().sensors(0).position[i] - errors.joint_zero[i] -
                           loop.world().robot(0).motor_position()[i];
-    // Half of an encoder's step beside half of the play.
+    // Half of an encoder's step and half of the play.
     EXPECT_LE(std::abs(offset), errors.backlash[i] / 2 + M_PI / 4096 + 1e-9);
   }
 }
@@ -195,7 +195,7 @@ TEST_P(EngineTest, WalksWithoutRepeatedSlidingOfItsFeet) {
   ClosedLoopOptions trial;
   trial.model = nao_model();
   trial.engine = GetParam();
-  // Of this robot the play leaves light feet, on a stiff floor.
+  // This disturbed robot has play in its joints, so that its feet are light on a stiff floor.
   trial.disturbances = std::make_shared<DisturbanceSet>(DisturbanceSet::find("real"));
   ClosedLoop loop(trial, 501);
   loop.run(1);

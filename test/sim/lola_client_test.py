@@ -147,7 +147,7 @@ class LolaClient(unittest.TestCase):
         for _ in range(100):
             state = self.client.answer(Position=position)
         self.assertAlmostEqual(state["Position"][HEAD_YAW], 0.5, delta=0.03)
-        # What is not named stays as it is: the robot stands.
+        # Joints that are not named keep their targets: the robot stands.
         self.assertEqual(state["Stiffness"], [1.0] * 25)
 
     def test_accelerometer_and_gyroscope_change_in_turns(self):

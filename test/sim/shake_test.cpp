@@ -16,9 +16,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/** How deep parts of the robot were in the floor. */
+/** Depths of the robot's parts in the floor. */
 struct Depth {
-  /** Of the deepest point, m. */
+  /** Depth of the deepest point, m. */
   double greatest = 0;
   /** Height of the lowest center of a part, m: below 0 it has gone through. */
   double lowest_center = 1;
@@ -51,7 +51,7 @@ TEST(Shake, LeavesNoBadStateAndNothingFallsThroughTheFloor) {
     return Vector3d(random.normal(), random.normal(), random.normal());
   };
   MotorTargets targets = world.targets(0);
-  // In every step: what goes through the floor may return within a tick.
+  // This is checked in every step: a part that goes through the floor may return within a tick.
   struct Probe {
     const World& world;
     Depth depth;

@@ -48,7 +48,7 @@ TEST(StartPlaces, OfTwoTeamsAreInTheirHalvesFacingEachOther) {
     EXPECT_LT(std::abs(places[i].position.y()), 3);
     EXPECT_LT(std::cos(places[i].heading) * places[i].position.x(), 0) << "looks at the center";
   }
-  // Both teams see the field alike.
+  // Both teams see the field in the same way.
   EXPECT_EQ(start_pose_text(robots[1], places[1]), start_pose_text(robots[6], places[6]));
   EXPECT_EQ(start_pose_text(robots[1], places[1]), "-2.250,1.200,0");
 }

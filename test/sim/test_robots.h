@@ -18,7 +18,7 @@ struct TestFeet {
 /** Reads a robot from a URDF text whose root is called "torso".
  * @param motors   Lines of robot.yaml's `motors`, "  {}" for none.
  * @param motor    Fields of the motor type "motor".
- * @param outline  Of each sole.
+ * @param outline  Outline of each sole.
  * @param posture  Joints of its one posture, "Start". */
 inline std::shared_ptr<const RobotModel> make_robot(
     const std::string& urdf, const std::string& motors, const std::string& motor,
@@ -111,8 +111,9 @@ inline std::shared_ptr<const RobotModel> make_biped_with_three_sensors() {
       {"LSole", "RSole", "[LToe, LHeelOut, LHeelIn, RMiddle]"});
 }
 
-/** A block on so many spheres of 1 cm in a square grid. Each touches the floor but the first two:
- * there the soles are, whose outlines at the height of the spheres' centers are their points. */
+/** A block on so many spheres of 1 cm in a square grid. Each touches the floor except the first
+ * two, which carry the soles: their points are the outlines at the height of the spheres' centers.
+ */
 inline std::shared_ptr<const RobotModel> make_bed_of_spheres(int spheres_a_side) {
   std::string urdf = R"(<robot name="bed"><link name="torso">
     <inertial><mass value="1"/>

@@ -215,9 +215,9 @@ TEST(World, CountsContactsBeyondItsMemory) {
   World world{SceneFile{}};
   RobotOptions options;
   options.posture = "Start";
-  // Of 14 x 14 spheres all touch the floor but the first two, whose lowest points the outlines of
-  // the soles replace, 1 cm higher (CollisionModel). Memory is taken for 64 contacts, and 96 for
-  // each robot.
+  // All of the 14 x 14 spheres touch the floor except the first two: the outlines of the soles, 1
+  // cm higher, replace their lowest points (CollisionModel). Memory is reserved for 64 contacts,
+  // and 96 for each robot.
   constexpr int kNumDropped = 14 * 14 - 2 - (64 + 96);
   world.add_robot(make_bed_of_spheres(14), options);
   world.step();

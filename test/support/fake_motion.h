@@ -84,7 +84,7 @@ class FakeMotion {
     bus_.publish(channels_.motion_state, motion);
   }
 
-  /** Sends an image of `size_bytes` bytes that are no JPEG. */
+  /** Sends an image of `size_bytes` bytes that are not a JPEG file. */
   void send_image(int width, int size_bytes) {
     naolcm::image_t image{};
     image.utime = tick_ * 10000;
@@ -107,7 +107,7 @@ class FakeMotion {
     return commands_;
   }
 
-  /** True: sends and answers nothing, as after a crash. */
+  /** If true, it sends and answers nothing, as after a crash. */
   std::atomic<bool> is_silent = false;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace nao {
 
-/** Dimensions of a humanoid that a test makes up: m, kg. */
+/** Dimensions of a humanoid that a test generates: m, kg. */
 struct TestBiped {
   /** Axes of the hip from the root: "yxz" is pitch, roll, yaw. */
   std::string hip = "zxy";

@@ -49,7 +49,7 @@ class Run:
         return json.loads(shown.stdout) if shown.returncode == 0 else None
 
     def programs(self):
-        # Status 1 also where a program is not ready.
+        # The status is 1 even if only a program is not ready.
         shown = self.stack.script("status", "--json")
         return json.loads(shown.stdout) if shown.stdout else []
 
@@ -84,7 +84,8 @@ class Run:
         after, stands = self.match(), self.standing(self.truth())
         # Between the two looks at the clock; a second for its rounding.
         longest = time.monotonic() - asked + 1
-        # A goal may fall meanwhile, and a half may end; a score never falls, and the clock is never ahead.
+        # In the meantime a goal may be scored, and a half may end; a score never decreases, and the clock is never
+        # ahead.
         is_right = bool(before and after and all(b >= a for a, b in zip(before["score"], after["score"]))
                         and sum(after["score"]) <= sum(before["score"]) + 1
                         and (after["half"] > before["half"] or before["left"] - longest <= after["left"] <= before["left"]))

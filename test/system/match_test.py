@@ -45,7 +45,7 @@ class Match(unittest.TestCase):
         refused = self.stack.nao("match", "goal", "0")
         self.assertEqual(refused.returncode, 1)
         self.assertIn("not possible in the phase initial", refused.stderr)
-        # A robot that stands where it may not is put to its place after 45 s: here it may.
+        # A robot in a forbidden place is put at its own place after 45 s; this place is allowed.
         self.succeed("match", "start")
         self.assertEqual(self.match()["phase"], "ready")
         self.wait_until(lambda: self.match()["phase"] == "playing", "no kick-off", 90)
@@ -54,7 +54,7 @@ class Match(unittest.TestCase):
         self.succeed("world", "place-ball", "4.8", "0.3")
         self.wait_until(lambda: self.match()["score"] == "1:0", "the goal does not count", 5)
         self.assertEqual(self.match()["phase"], "ready")
-        # The ball lies in the goal yet: it counts once.
+        # The ball still lies in the goal: it counts once.
         time.sleep(1)
         self.assertEqual(self.match()["score"], "1:0")
 

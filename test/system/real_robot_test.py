@@ -82,13 +82,13 @@ class RealRobot(unittest.TestCase):
         result = self.stack.script("status")
         self.assertEqual(result.returncode, 0, result.stdout)
 
-        # The controller dies: the robot sits down, and goes on when it is back.
+        # The controller dies: the robot sits down, and continues when the controller is back.
         os.kill(self.stack.pids()["nao-motion"], signal.SIGSTOP)
         self.wait_until(self.is_seated)
         os.kill(self.stack.pids()["nao-motion"], signal.SIGCONT)
         self.stand()
 
-        # nao-robot dies or hangs: the watchdog lets the robot sit down, then both are started anew.
+        # nao-robot dies or hangs: the watchdog makes the robot sit down, then both are restarted.
         for number in (signal.SIGKILL, signal.SIGSTOP):
             with self.subTest(signal=number):
                 first = self.stack.pids()["nao-robot"]

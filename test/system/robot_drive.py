@@ -82,11 +82,11 @@ def drive(robot, seed, duration):
 
 @dataclass
 class Session:
-    # What failed before the drive; empty: nothing.
+    # The failure before the drive; empty if there was none.
     fault: str
     # Robot time of the drive without a fall, s.
     driven: float
-    # Part of that time in which it walked.
+    # Part of that time during which it walked.
     walking: float
     # Wall time of the drive, s.
     wall: float

@@ -24,9 +24,9 @@ from stack import BIN_DIR, DEADLINE, Stack  # noqa: E402
 SIGNALS = {"KILL": signal.SIGKILL, "STOP": signal.SIGSTOP}
 PROGRAMS = ("nao-robot", "nao-motion", "nao-phone-gateway")
 SITUATIONS = ("standing", "walking", "lying")
-# Time in which the robot has come to rest, s: the watchdog waits 0.3 s, sitting down takes 3 s.
+# Time within which the robot must come to rest, s: the watchdog waits 0.3 s, sitting down takes 3 s.
 REST_TIME = 12
-# Of a moment after the beginning of the situation, s: a few steps.
+# Range of the time of the fault after the beginning of the situation, s: a few steps.
 MOMENT_RANGE = 2.0
 # Longest wait for one step of the preparation, s.
 STEP_TIME = 40
@@ -118,7 +118,7 @@ def try_once(stack, robot, program, number, situation):
     wait(lambda: stack.pids().get(program, before) != before or number == signal.SIGSTOP,
          f"{program} is not started anew")
     if number == signal.SIGSTOP:
-        # The process watchdog replaces it, or it goes on.
+        # The process watchdog replaces it, or it continues.
         try:
             os.kill(before, signal.SIGCONT)
         except ProcessLookupError:

@@ -11,7 +11,7 @@ import unittest
 
 from stack import BIN_DIR
 
-# Of two generations; every candidate gets up twice.
+# A search of two generations; every candidate gets up twice.
 GET_UP = ["nao-transition-tuner", "--sequence", "get-up-belly", "--start", "belly", "--population", "4",
           "--generations", "2", "--trials", "1", "--disturbances", "default,real"]
 WALK = ["nao-walk-tuner", "--population", "4", "--generations", "1", "--courses", "1"]

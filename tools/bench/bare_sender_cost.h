@@ -2,7 +2,7 @@
 
 namespace nao::bench {
 
-/** What a server sends to each client. */
+/** Messages that a server sends to each client. */
 struct SentTraffic {
   /** Small messages and images each second. */
   double state_rate = 0;

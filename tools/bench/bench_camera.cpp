@@ -193,7 +193,8 @@ std::vector<Figure> run(int num_rounds) {
   JpegEncoder encoder;
   Stages stages;
   {
-    // Contexts are current one at a time, so with and without shadows take turns in blocks.
+    // Only one context is current at a time, so the measurements with and without shadows alternate
+    // in blocks.
     constexpr int kBlocks = 5;
     for (int block = 0; block < kBlocks; ++block) {
       for (const int shadow_size : {HeadCameraOptions().shadow_size, 0}) {
@@ -202,7 +203,7 @@ std::vector<Figure> run(int num_rounds) {
         HeadCamera camera(model, options);
         if (block == 0 && shadow_size > 0) nao::logger::info("drawing with {}", camera.driver());
         for (int i = 0; i < 3; ++i) take_and_encode(camera, world, encoder);
-        // The baseline compresses the same images, so that it does the same work there.
+        // The baseline compresses the same images, so that this work is the same.
         const CameraFrame frame = camera.frame();
         const nao::gl::Framebuffer floor_target(nao::camera::kFullWidth, nao::camera::kFullHeight);
         std::vector<uint8_t> cleared;

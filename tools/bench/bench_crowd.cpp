@@ -36,7 +36,7 @@
 namespace nao::bench {
 namespace {
 
-/** A hundred clients: a phone for each of eight robots, the others watch. */
+/** A hundred clients: a phone for each of eight robots, and spectators. */
 constexpr int kNumDrivers = 8;
 constexpr int kNumSpectators = 92;
 /** Rates of a driver's phone, and of a spectator's, 1/s. */
@@ -59,7 +59,7 @@ std::string robot_name(int robot) {
   return "CROWD" + std::to_string(robot + 1);
 }
 
-/** The messages of one robot, and the walk commands that reach it. */
+/** The messages of one robot, and the walk commands that it receives. */
 class FakeRobot {
  public:
   FakeRobot(Bus& bus, int robot) : bus_(bus), channels_(robot_name(robot)) {
@@ -106,9 +106,9 @@ class FakeRobot {
     bus_.publish(channels_.head_camera_image, image_);
   }
 
-  /** A walk at a velocity of its own, by which it is recognized on the bus. */
+  /** A walk at a unique velocity, by which it is recognized on the bus. */
   naoremote::Request next_walk() {
-    // 0.01 to 0.1 m/s in steps of 1e-6 m/s: what every gait can do.
+    // 0.01 to 0.1 m/s in steps of 1e-6 m/s, which every gait can do.
     const long velocity = 10000 + next_velocity_++ % 90000;
     naoremote::Request request;
     request.mutable_walk_turn()->set_vx(static_cast<double>(velocity) * 1e-6);
@@ -173,7 +173,7 @@ class Crowd {
     run_for(1);
   }
 
-  /** What the drivers and the gateway had in some seconds. */
+  /** Results of the drivers and the gateway over some seconds. */
   struct Measurement {
     std::vector<double> latency_ms;
     double cpu_percent = 0;
@@ -233,13 +233,13 @@ class Crowd {
     }
   }
 
-  /** Sends what is due and handles what has come, for about a millisecond. */
+  /** Sends due messages and handles received ones, for about a millisecond. */
   void step() {
     send_due(monotonic_seconds());
     std::vector<pollfd> polled = {{bus_.descriptor(), POLLIN, 0}};
     for (const Client& client : clients_) polled.push_back({client.wire->descriptor(), POLLIN, 0});
     poll(polled.data(), polled.size(), 1);
-    // First the commands: their time of arrival is measured.
+    // The commands come first, since their time of arrival is measured.
     if (polled[0].revents != 0) bus_.handle();
     for (size_t i = 1; i < polled.size(); ++i) {
       if (polled[i].revents == 0) continue;
@@ -295,7 +295,7 @@ class Crowd {
   double num_images_ = 0;
 };
 
-/** Connects again and again with a wrong token, in a thread of its own. */
+/** Connects repeatedly with a wrong token, in its own thread. */
 class Attempts {
  public:
   explicit Attempts(uint16_t port) : thread_([this, port] { run(port); }) {}

@@ -29,8 +29,7 @@ namespace {
 
 // Chosen: more than one developer at a time.
 constexpr int kNumClients = 3;
-// Time in which clients catch up with what has waited for them, s. Chosen: some MB take
-// milliseconds.
+// Time in which clients catch up with waiting messages, s. Chosen: some MB take milliseconds.
 constexpr double kCatchUp = 2;
 // Size from which a message counts as an image, bytes.
 constexpr size_t kImageBytes = 16384;
@@ -120,7 +119,7 @@ SentTraffic traffic_of(const Subscriber& seen, double time) {
 /** One pair of measurements. */
 void measure(std::list<Subscriber>& clients, const ChildProcess& server, double time,
              std::vector<double>& server_percent, std::vector<double>& bare_percent) {
-  // First what has waited while the clients did not read.
+  // First read the messages that waited while the clients did not read.
   read_for(clients, kCatchUp);
   for (Subscriber& client : clients) {
     client.states = client.images = {};
@@ -156,7 +155,7 @@ std::vector<Figure> run(int num_rounds, double time, bool prints_topics) {
 
   std::list<Subscriber> clients;
   for (int i = 0; i < kNumClients; ++i) clients.emplace_back(port);
-  // All channels have appeared, images come.
+  // All channels have appeared, and images arrive.
   const double deadline = monotonic_seconds() + kDeadline;
   while (clients.front().topics["/NAO/camera/top/image"] < 10) {
     if (monotonic_seconds() > deadline) throw std::runtime_error("no images come");

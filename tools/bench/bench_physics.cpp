@@ -155,8 +155,8 @@ double common_error(const PhysicsScenario& scenario, int ticks) {
 /** CPU time of a step of several interleaved tasks, us. */
 std::vector<double> times_in_turns(const std::vector<std::function<void()>>& ticks, int rounds,
                                    int ticks_per_round, int steps_per_tick) {
-  // Interleaved, so that other load on the machine meets all tasks alike; the median of the rounds
-  // ignores single disturbances.
+  // The tasks are interleaved, so that other load on the machine affects all equally; the median of
+  // the rounds ignores single disturbances.
   std::vector<std::vector<double>> times(ticks.size());
   for (int round = 0; round < rounds; ++round) {
     for (size_t i = 0; i < ticks.size(); ++i) {

@@ -27,7 +27,7 @@ def cpu_time():
 def measure(engine, num_worlds, num_ticks, mode):
     """@return ticks of all worlds for each s of CPU time, and for each s that passed."""
     worlds = [nao_remote.simulate(seed=seed, engine=engine) for seed in range(1, num_worlds + 1)]
-    # What starting takes is left out of the time that passed; of the CPU time it is measured with no ticks and subtracted.
+    # The start is left out of the elapsed time; its CPU time is measured with no ticks and subtracted.
     if mode == "walk":
         for world in worlds:
             world.walk(0.1)

@@ -2,8 +2,8 @@
 
 namespace nao::bench {
 
-/** Time for anything that a benchmark waits for, s. Chosen: no measurement, only the end of a
- * benchmark that cannot go on. */
+/** Timeout of every wait of a benchmark, s. Chosen: it measures nothing and only ends a benchmark
+ * that cannot continue. */
 inline constexpr double kDeadline = 60;
 
 }  // namespace nao::bench

@@ -9,9 +9,9 @@
 
 namespace nao::bench {
 
-/** Three clients that must not affect other clients, in a thread of their own: one subscribes to
- * every state and image and never reads, one reads 1 kB a second, one sends 10,000 requests a
- * second and reads all answers. */
+/** Three clients that must not affect other clients, in their own thread: one subscribes to every
+ * state and image and never reads, one reads 1 kB a second, one sends 10,000 requests a second and
+ * reads all answers. */
 class DisturbingClients {
  public:
   explicit DisturbingClients(uint16_t tcp_port);

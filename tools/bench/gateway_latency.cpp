@@ -17,23 +17,22 @@ namespace {
 /** Change of the head yaw, rad. Chosen: executed within half a second, far from the limits. */
 constexpr double kYawChange = 0.4;
 /** The joint has moved when its encoder (steps of 0.0015 rad, no other noise) reads the next step
- * on the way to the goal. Before, the reading has stood still for this long, s. */
+ * on the way to the goal. Before that, the reading must be constant for this time, s. */
 constexpr double kMoved = 0.001;
 constexpr double kStillTime = 0.2;
 /** The simulator's control tick, s. */
 constexpr double kTick = 0.01;
 
-/** Times from the request of a joint's change to what follows, ms. */
+/** Times from the request of a joint's change to the events that follow, ms. */
 struct Latency {
-  /** To the next measurement: no command is looked at earlier. */
+  /** Time to the next measurement: no command is processed earlier. */
   std::vector<double> to_tick_ms;
   std::vector<double> to_command_ms;
   std::vector<double> to_moved_ms;
 };
 
-/** Turns the head and times what follows.
- * @param ask  Sends the change, rad.
- * @param phase  How long after a measurement it is asked for, s, in [0, kTick]. */
+/** Turns the head and times the events that follow. @param ask  Sends the change, rad.
+ * @param phase  Time of the request after a measurement, s, in [0, kTick]. */
 void time_change(GatewayStack& stack, const std::function<void(double)>& ask, double change,
                  double phase, Latency& times) {
   const double heard_before = stack.yaw_time;
@@ -78,8 +77,8 @@ std::vector<double> tick_phases(int num, std::mt19937& random) {
   return phases;
 }
 
-/** The way of a command over raw TCP, over WebSocket, and straight on the bus without a gateway: in
- * turns, at all moments of the control tick alike. */
+/** A command goes over raw TCP, over WebSocket, and directly on the bus without a gateway: in turn,
+ * at the same moments of the control tick. */
 std::map<std::string, Latency> measure_paths(GatewayStack& stack, int num_rounds) {
   const auto tcp = connect_tcp(stack.tcp_port());
   const auto websocket = connect_websocket(stack.http_port());
@@ -116,7 +115,7 @@ std::map<std::string, Latency> measure_paths(GatewayStack& stack, int num_rounds
   std::map<std::string, std::vector<double>> phases;
   std::mt19937 random(1);
   for (const auto& [name, ask] : ways) phases[name] = tick_phases(num_rounds, random);
-  // Between two commands, s: the motion of one has ended before the next.
+  // Time between two commands, s: the motion of one has ended before the next.
   constexpr double kPause = 0.3;
   double change = kYawChange;
   for (int round = 0; round < num_rounds; ++round) {

@@ -8,7 +8,7 @@
 namespace nao::bench {
 namespace {
 
-/** Times until a phone is told that a part hangs, and that it is back, s. */
+/** Times until a phone is notified that a component hangs, and that it is available again, s. */
 struct LossTimes {
   double told_s = 0;
   double back_s = 0;
@@ -59,7 +59,7 @@ void measure_losses(GatewayStack& stack, std::vector<Figure>& figures) {
     request.mutable_subscribe()->set_image_rate(image_rate);
     phone->send(request);
     stack.watch(phone.get(), [](const auto&, double) {});
-    // A camera that is not watched any more draws for 2 s.
+    // A camera renders for 2 s after its last request.
     stack.run_for(3);
     stack.forget_clients();
     const LossTimes times = time_loss(stack, *phone, program, component);

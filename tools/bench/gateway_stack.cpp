@@ -115,7 +115,7 @@ void GatewayStack::pump(double timeout) {
   }
   poll(polled.data(), polled.size(), std::max(0, static_cast<int>(timeout * 1e3)));
   if (polled[0].revents != 0) bus_.handle();
-  // First all that has come, then what it says: no phone waits until another has decoded.
+  // All messages are read before any is decoded, so that no phone waits until another has decoded.
   std::vector<double> times(polled.size());
   for (size_t i = 1; i < polled.size(); ++i) {
     if (polled[i].revents == 0) continue;

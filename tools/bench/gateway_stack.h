@@ -17,8 +17,8 @@ namespace nao::bench {
 /** First request of a client. */
 naoremote::Request connect_request(const std::string& name);
 
-/** Simulator, motion, camera and gateway on a bus of their own, and what they say there. The
- * destructor ends them. */
+/** Simulator, motion, camera and gateway on their own bus, and their messages. The destructor ends
+ * them. */
 class GatewayStack {
  public:
   using Handler = std::function<void(const naoremote::ServerMessage&, double)>;
@@ -39,7 +39,7 @@ class GatewayStack {
   void forget_clients() { clients_.clear(); }
 
   /** Handles messages until a condition holds. @throws std::runtime_error  after a minute, with
-   * `what` was awaited. */
+   * `what` as the awaited condition. */
   void run_until(const std::function<bool()>& is_done, const std::string& what);
   /** Handles messages for a time, s. */
   void run_for(double time);

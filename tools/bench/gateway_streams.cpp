@@ -10,7 +10,7 @@ namespace {
 /** Chosen: a classroom; nao-bench-crowd measures 100. */
 constexpr int kNumClients = 32;
 
-/** What the clients saw in some seconds. */
+/** Messages that the clients received over some seconds. */
 struct Watching {
   std::vector<double> state_age_ms;
   std::vector<double> image_age_ms;
@@ -22,8 +22,8 @@ struct Watching {
   double rss_mib = 0;
 };
 
-/** Lets clients watch, half of them over WebSocket. Ages: from when the state that is shown was on
- * the bus to when it is here. */
+/** Lets clients watch, half of them over WebSocket. An age is the time from a state on the bus to
+ * its arrival here. */
 Watching watch(GatewayStack& stack, int num_clients, double state_rate, double image_rate,
                double time) {
   std::vector<std::unique_ptr<WireClient>> clients;
@@ -72,7 +72,7 @@ Watching watch(GatewayStack& stack, int num_clients, double state_rate, double i
   return seen;
 }
 
-/** What each client received, as the baseline is to send it. */
+/** Data that each client received, which the baseline must send. */
 SentTraffic traffic_of(const Watching& seen, double state_rate, double image_rate) {
   // Each message is preceded by its size.
   constexpr double kFrameBytes = 4;

@@ -15,7 +15,7 @@
 namespace nao::bench {
 namespace {
 
-/** Above every message of the gateway, which are below 100 kB. */
+/** Greatest size of a message, bytes: the gateway's are below 100 kB. */
 constexpr size_t kMaxMessageBytes = 1 << 20;
 
 /** A client over raw TCP. */
@@ -79,7 +79,7 @@ std::vector<naoremote::ServerMessage> WireClient::take_messages() {
   std::vector<naoremote::ServerMessage> decoded(messages_.size());
   for (size_t i = 0; i < messages_.size(); ++i) {
     if (!decoded[i].ParseFromString(messages_[i])) {
-      throw std::runtime_error("the gateway sent a message that is no ServerMessage");
+      throw std::runtime_error("the gateway sent a message that is not a ServerMessage");
     }
   }
   messages_.clear();

@@ -25,7 +25,8 @@ class WireClient {
    * @throws std::runtime_error  if the connection is lost. */
   virtual void read() = 0;
 
-  /** The whole messages that were read. @throws std::runtime_error  if one is no ServerMessage. */
+  /** The whole messages that were read. @throws std::runtime_error  if one is not a ServerMessage.
+   */
   std::vector<naoremote::ServerMessage> take_messages();
 
   /** Readable when read() has something to read. */

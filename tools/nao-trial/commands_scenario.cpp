@@ -60,7 +60,7 @@ class Watch {
   }
   ~Watch() { trial_.on_tick({}); }
 
-  /** A new motion core starts; results that the old one still owed are no longer expected. */
+  /** A new motion core starts; pending results of the old one are no longer expected. */
   void expect_restart() {
     forgiven_.clear();
     for (const auto& [id, is_open] : open_) {

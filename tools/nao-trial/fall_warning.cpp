@@ -5,7 +5,7 @@
 namespace nao::trial {
 namespace {
 
-// Any part of the robot but its feet.
+// Any part of the robot except its feet.
 bool touches_floor_with_body(ClosedLoop& trial) {
   const RobotModel& model = trial.model();
   for (const sim::Contact& contact : trial.world().contacts()) {

@@ -117,7 +117,7 @@ void FieldDetectionStatistics::add_circle(const Detections& detections, const Ca
   });
   if (circle == detections.end()) return;
   ++count.found;
-  // Without the error of the camera's pose.
+  // The error of the camera's pose is left out.
   const auto center = find_seen_center(visible, calibration_, true_pose, estimated_pose);
   if (center) circle_errors_.push_back((circle->position - *center).norm());
 }
@@ -132,7 +132,7 @@ void FieldDetectionStatistics::add(const Detections& detections, const Eigen::Is
     if (detection.kind == Kind::kLine) add_line(detection, truth, pieces);
     if (detection.kind != Kind::kBall || !detection.has_position()) continue;
     const double distance = (ball - true_pose.translation()).head<2>().norm();
-    // Farther or elsewhere it is another thing.
+    // A detection farther away or elsewhere is of another object.
     const auto pixel = truth.project(ball);
     if (distance > kNearRange || !pixel) continue;
     const Eigen::Vector4d& box = detection.box_px;

@@ -11,9 +11,9 @@
 
 namespace nao::trial {
 
-/** How well the field was found in images, as FieldErrorModel describes it: the same for rendered
- * images and for that model, which is fitted by it. Also the distance of the ball with the
- * estimated pose of the camera. */
+/** How well the field was found in images, in the terms of FieldErrorModel, which is fitted with
+ * it; it is computed in the same way for rendered images and for that model. Also the distance of
+ * the ball with the estimated pose of the camera. */
 class FieldDetectionStatistics {
  public:
   /** @param field  Must outlive this. */
@@ -38,15 +38,15 @@ class FieldDetectionStatistics {
   struct Piece {
     cv::Point2f from;
     cv::Point2f to;
-    /** Of its middle, m. */
+    /** Distance of the piece's middle, m. */
     double range = 0;
     /** Fractions of the piece that detections cover: the first begin, the last end. */
     double first = 1;
     double last = 0;
-    /** Length that they cover, as a fraction. */
+    /** Fraction of the length that they cover. */
     double covered = 0;
   };
-  /** Found and all things of one range. */
+  /** Things of one range of distances: those found, and all. */
   struct Count {
     int found = 0;
     int all = 0;

@@ -28,17 +28,17 @@ constexpr double kArc = 0.91;
 /** Length of such an arc, and from one to the next, in steps of 1/72 of the circle. */
 constexpr size_t kArcSteps = 6;
 constexpr size_t kArcPeriod = 16;
-/** Part of a piece that is missing at an end, at most: of most ends, and of a fraction of them. */
+/** Greatest missing fraction of a piece at an end: for most ends, and for a fraction of them. */
 constexpr double kMostMissing = 0.02;
 constexpr double kWorseMissing = 0.43;
 constexpr double kWorseMissingFraction = 0.2;
-/** Standard deviation of an end in each direction, pixels: of most, and of a fraction of them. */
+/** Standard deviation of an end in each direction, pixels: for most, and for a fraction of them. */
 constexpr double kPixelSigma = 0.13;
 constexpr double kWorsePixelSigma = 1.1;
 constexpr double kWorseFraction = 0.2;
 /** Shortest line that is found, pixels, as LineDetector. */
 constexpr float kLeastPixels = 26;
-/** Standard deviation of the circle's center, m: of most, and of a fraction of them. */
+/** Standard deviation of the circle's center, m: for most, and for a fraction of them. */
 constexpr double kCircleSigma = 0.025;
 constexpr double kWorseCircleSigma = 0.18;
 constexpr double kWorseCircleFraction = 0.25;

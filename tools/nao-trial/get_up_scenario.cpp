@@ -15,7 +15,7 @@ constexpr int kMaxTries = 3;          // of a run that succeeds
 std::vector<RunResult> GetUpScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   ClosedLoop trial(options.trial, seed);
   RunResult result;
-  // Odd seeds are pushed over, even ones are placed on the ground: both ways to lie.
+  // With odd seeds the robot is pushed over, with even ones it is placed on the ground.
   const bool falls = seed % 2 == 1;
   result.label = falls ? "pushed" : "laid down";
   trial.run(0.5);

@@ -32,7 +32,7 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   trial.world().place_robot(0, &trial.model().ready_posture(), {kStartX, 0, 0});
   trial.restart_core();
   const bool is_left = seed % 2 == 1;
-  // Where the kick has it best, a centimetre more or less.
+  // The ball is at its best place for the kick, within a centimetre.
   const Eigen::Vector2d best = motion::Kick::load(trial.model().folder() / motion::kKickFile).ball;
   const Eigen::Vector2d seen(best.x(), is_left ? best.y() : -best.y());
   const Eigen::Vector2d ball =
@@ -52,7 +52,7 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const int64_t id = trial.send({"", 0, make_kick(trial.model(), is_left, nan, nan)});
   const auto end = trial.await_end(id, 10);
-  // Until the ball lies still.
+  // Runs until the ball lies still.
   trial.run_until([&] { return trial.world().ball().velocity.norm() < 0.01; }, 20);
   const Eigen::Vector3d way = trial.world().ball().position - start;
   const bool is_upright =
@@ -85,7 +85,7 @@ std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uin
   trial.run(1);
   trial.hold_walk({vx, 0, 0});
   trial.run(2 + trial.random(0, 0.5));
-  // Somewhere ahead, and seen with a centimetre more or less.
+  // The ball is somewhere ahead, and seen with an error of a centimetre.
   const Eigen::Vector2d lies(trial.random(0.35, 0.9), trial.random(-0.1, 0.1));
   // The difference between where the ball is and where the command says it is.
   const Eigen::Vector2d seen =

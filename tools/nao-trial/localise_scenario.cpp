@@ -20,24 +20,25 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using vision::FieldPose;
 
-/** s between images. A rendered one costs about 30 ms of processor time. */
+/** Time between images, s. A rendered one costs about 30 ms of processor time. */
 constexpr double kSparseImagePeriod = 0.2;
-/** s between the values of a metric. */
+/** Time between the values of a metric, s. */
 constexpr double kSamplePeriod = 0.5;
 constexpr double kDuration = 600;
 /** The driver keeps the robot this far inside of the outer lines, m. */
 constexpr double kMargin = 0.4;
-/** Times that the robot is placed elsewhere, and how soon its pose must be known again: s, m, rad.
- */
+/** How often the robot is placed elsewhere, and the time, s, after which its pose must be known
+ * again within m and rad. */
 constexpr int kNumPlacements = 5;
 constexpr double kRecoveryTime = 20;
 constexpr double kRecoveredDistance = 0.3;
 constexpr double kRecoveredTurn = 0.17;
-/** Before a placement the robot stops walking, s. */
+/** Time before a placement at which the robot stops walking, s. */
 constexpr double kStandTime = 2;
 /** Greatest turn of a robot that is placed elsewhere, rad: the gyroscope does not measure it. */
 constexpr double kMostTurn = 1.0;
-/** Greatest tilt of a torso that stands or walks, rad; images of others do not count. */
+/** Greatest tilt of the torso while standing or walking, rad; images at a larger tilt do not count.
+ */
 constexpr double kUpright = 0.3;
 
 Pose2 true_pose(const ClosedLoop& trial) {
@@ -60,7 +61,7 @@ class Localisation {
     statistics_.add(detections_, trial_.world().robot(0).link_pose(camera.link), *pose_camera_,
                     trial_.world().ball().position);
   }
-  /** Of the images from now on. */
+  /** Whether the images from now on are counted. */
   void keep_statistics(bool keep) { keeps_statistics_ = keep; }
   const FieldDetectionStatistics& statistics() const { return statistics_; }
   /** Now: the pose at the last image, moved by the odometry since, as nao-play uses it. */
@@ -85,7 +86,8 @@ class Localisation {
   vision::FieldModel field_;
   PinholeCamera pinhole_;
   vision::CameraCalibration calibration_;
-  /** Of the last image; and the camera in the heading frame by the robot's sensors. */
+  /** Detections in the last image, and the camera's pose in the heading frame by the robot's
+   * sensors. */
   vision::Detections detections_;
   std::optional<Eigen::Isometry3d> pose_camera_;
 
@@ -197,7 +199,7 @@ class Driver {
     if (trial_.random(0, 1) < 0.3) rest_end_ = trial_.time() + trial_.random(1, 4);
   }
 
-  // The head turns to random directions, as a robot does that looks for the ball.
+  // The head turns to random directions, like that of a robot that searches for the ball.
   void look_around() {
     if (trial_.time() < next_look_) return;
     next_look_ = trial_.time() + trial_.random(1, 2.5);
@@ -250,7 +252,7 @@ std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uin
     return Vector2d(trial.random(lower_x, upper_x) * (field.length / 2 - kMargin),
                     trial.random(-1, 1) * (field.width / 2 - kMargin));
   };
-  // In the own half, looking anywhere.
+  // The place is in its own half, with any heading.
   place(trial, random_position(-1, 0), trial.random(-M_PI, M_PI));
   const Pose2 start = told_start(true_pose(trial),
                                  [&](double low, double high) { return trial.random(low, high); });
@@ -271,7 +273,7 @@ std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uin
     if (trial.time() > 1) driver.tick();
     if (trial.time() < next_sample) return;
     next_sample = trial.time() + kSamplePeriod;
-    // A fallen robot has no pose that anybody uses.
+    // The pose of a fallen robot is not used.
     if (trial.torso_tilt() > 0.6) return;
     const FieldPose estimate = localisation->estimate();
     ++num_samples;
@@ -301,7 +303,7 @@ std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uin
     place(trial, position, trial.random(-kMostTurn, kMostTurn));
     const double begin = trial.time();
     double since = 0;
-    // Known from then on, not only in passing: until the end of the time.
+    // The pose must stay known until the end of the time.
     bool is_known = false;
     trial.on_tick([&] {
       localisation->tick();

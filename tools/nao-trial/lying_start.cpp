@@ -11,7 +11,7 @@ constexpr int kNumStill = 10;           // ticks
 constexpr double kLongestWait = 3;      // s
 // Fraction of the standing height above which the robot has got up.
 constexpr double kUpright = 0.90625;
-// Up to this weight and height a push of 4 to 6 N s knocks a robot over; a larger one takes an
+// Up to this weight and height a push of 4 to 6 N s makes a robot fall; a larger one takes an
 // impulse in proportion to its mass and, for the energy to fall over, to the square root of its
 // height.
 constexpr double kLightMass = 6;     // kg
@@ -38,7 +38,7 @@ void lay_down(ClosedLoop& trial, double side) {
   const Eigen::Quaterniond orientation = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()) *
                                          Eigen::AngleAxisd(side, Eigen::Vector3d::UnitZ());
   trial.world().place_robot(0, &posture, {0, 0, 0.01}, &orientation);
-  // A robot that was placed is a new one for the controller.
+  // The controller treats a robot that was placed as a new one.
   trial.restart_core();
 }
 
@@ -51,7 +51,7 @@ LyingStill wait_until_still(ClosedLoop& trial) {
         const bool is_still = (now - up).norm() / trial.period() < kStillVelocity;
         up = now;
         num_still = is_still ? num_still + 1 : 0;
-        // In the mode it may still lie and wait for its body to come to rest.
+        // In this mode it may still lie and wait for its body to come to rest.
         const motion::MotionState& state = trial.core().motion_state();
         const bool gets_up = state.mode == Mode::kGettingUp && state.command_progress > 0;
         return gets_up || num_still >= kNumStill;

@@ -24,7 +24,7 @@ std::vector<uint64_t> parse_seeds(const std::string& text) {
   unsigned long first = 0;
   unsigned long last = 0;
   char rest = 0;
-  // %c matches only if something follows the number: "1-10x" is no range.
+  // %c matches only if something follows the number: "1-10x" is not a range.
   const int num_read = std::sscanf(text.c_str(), "%lu-%lu%c", &first, &last, &rest);
   if (num_read == 1 && text.find_first_not_of("0123456789") == std::string::npos) last = first;
   const bool is_range = num_read == 2 && last >= first && last - first < 1000000;
@@ -141,9 +141,10 @@ int main(int argc, char** argv) {
                      "Physics engine: fast, simbody, or mujoco where it was built")
         ->show_default();
     command
-        ->add_option("--disturbances", disturbances,
-                     "What is drawn for each seed: none, default, moderate, real, or entries of "
-                     "real such as backlash,floor_slope")
+        ->add_option(
+            "--disturbances", disturbances,
+            "Disturbances to draw for each seed: none, default, moderate, real, or entries of "
+            "real such as backlash,floor_slope")
         ->show_default();
     command
         ->add_option("--calibrate", options.num_calibration_directions,

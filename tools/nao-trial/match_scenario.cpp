@@ -21,15 +21,15 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** Of a match by default, s: two halves. */
+/** Default duration of a match, s: two halves. */
 constexpr double kDuration = 300;
-/** s between steps of the referee and between what teammates tell each other. */
+/** Time between steps of the referee, and between messages of teammates, s. */
 constexpr double kRefereePeriod = 0.05;
 constexpr double kTellPeriod = 0.2;
 /** A torso that leans by more than this, rad, is not on its feet. Chosen: nao-referee's value. */
 constexpr double kMaxTilt = 0.8;
-/** A match is stuck while the ball is touched by nobody and no robot moves by this within a
- * second, m. Chosen. */
+/** Displacement within a second, m, below which robots count as not moving: the match is stuck
+ * while no robot moves or touches the ball. Chosen. */
 constexpr double kMoved = 0.05;
 
 /** A robot of a match. */
@@ -72,7 +72,7 @@ class Match {
 
   void play(RunResult& result) {
     if (referee_->overrule({MatchOperation::kStart, 0, ""})) throw Error("the match did not begin");
-    // Twice the playing time and a minute for kick-offs: a match that is longer does not end.
+    // Twice the playing time plus a minute for kick-offs: a longer match counts as endless.
     const double limit =
         world_->time() + 2 * (options_.duration > 0 ? options_.duration : kDuration) + 900;
     while (referee_->state().phase != MatchPhase::kFinished && world_->time() < limit) step();
@@ -207,7 +207,7 @@ class Match {
     tally_.longest_stuck = std::max(tally_.longest_stuck, tally_.stuck);
   }
 
-  /** Referee and teammates tell the robots. */
+  /** Passes the messages of referee and teammates to the robots. */
   void tell() {
     const double time = world_->time();
     std::map<std::string, play::TeamObservation> seen;

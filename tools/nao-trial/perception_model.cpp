@@ -81,7 +81,7 @@ std::optional<Vector2d> PerceptionModel::measure(const CameraModel& camera) {
 
 void PerceptionModel::update_ball(const Vector2d& seen) {
   const Vector2d torso = trial_.estimate().torso_in_odometry.translation().head<2>();
-  // As nao-vision's: an error of the depression becomes one of distance.
+  // As in nao-vision, an error of the depression becomes an error of distance.
   const double distance = std::max(0.2, (seen - torso).norm());
   const double along =
       errors_.depression * (distance * distance + kHeight * kHeight) / kHeight + 0.01;
@@ -127,7 +127,7 @@ std::vector<Vector2d> PerceptionModel::see_robots(const CameraModel& camera) {
     const Eigen::Vector3d place = trial_.world().robot(other).link_pose(0).translation();
     const double distance = (place.head<2>() - torso.position).norm();
     const Vector2d direction = direction_in(truth, place);
-    // A robot is tall: it is in the image whenever the camera looks about its way.
+    // A robot is tall: it is in the image whenever the camera looks roughly towards it.
     if (distance > kNear || std::abs(direction.x()) > 0.5 * camera.horizontal_fov) continue;
     if (random_.uniform() >= errors_.robot_recall) continue;
     Vector2d seen = torso.inverse() * place.head<2>();

@@ -25,20 +25,19 @@ struct PerceptionErrors {
    * camera: while walking the pose comes from the estimated state. */
   double bearing = 0.008;
   double depression = 0.012;
-  /** Of the pose on the field: m in each direction, and rad; both change slowly. Chosen: half of
-   * what localisation is to reach (6 cm and 3 degrees in the median). */
+  /** Errors of the pose on the field: m in each direction, and rad; both change slowly. Chosen from
+   * the median errors that localisation must reach (6 cm and 3 degrees). */
   double position = 0.05;
   double heading = 0.035;
   /** Probability that a robot nearer than 3 m is found, and standard deviation of its distance as a
    * fraction: with the exact pose of the camera the median error is 4 %. */
   double robot_recall = 0.88;
   double robot_distance = 0.1;
-  /** s in which these errors change. Chosen. */
+  /** Time constant of these errors, s. Chosen. */
   double time_constant = 10;
 };
 
-/** What the robot would see: from the truth, with errors. The ball goes through nao-vision's own
- * filter. */
+/** Perception made from the truth, with errors. The ball passes through nao-vision's own filter. */
 class PerceptionModel : public TrialPerception {
  public:
   /** @param trial  Must outlive this. @param team  0: it plays along the world's x axis. */
@@ -68,7 +67,7 @@ class PerceptionModel : public TrialPerception {
   vision::BallFilter filter_;
   play::Vision known_;
   std::deque<Pending> pending_;
-  /** s since the last image. */
+  /** Time since the last image, s. */
   double since_image_ = 0;
   Eigen::Vector3d field_error_ = Eigen::Vector3d::Zero();
 };

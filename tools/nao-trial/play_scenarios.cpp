@@ -13,27 +13,27 @@ using Eigen::Vector2d;
 
 /** Without --duration, s. */
 constexpr double kTimeLimit = 90;
-/** m from the lines at which ball and robot are placed at least. */
+/** Distance from the lines at which ball and robot are placed at least, m. */
 constexpr double kMargin = 0.3;
-/** m between ball and robot at least. */
+/** Distance between ball and robot at least, m. */
 constexpr double kApart = 0.4;
-/** Of a shot: distance from the goal's middle, m; greatest speed at the goal line, m/s; s in which
- * the keeper takes its place before. */
+/** Shots: distance from the goal's middle, m; greatest speed at the goal line, m/s; and time before
+ * the shot in which the keeper takes its position, s. */
 constexpr double kShotDistance = 2;
 constexpr double kShotSpeed = 1.5;
 constexpr double kPreparation = 8;
 constexpr double kShotTimeout = 12;
-/** Slowest shot at the goal line, m/s: a ball that stops there is no shot. Chosen. */
+/** Slowest shot at the goal line, m/s: a ball that stops there is not a shot. Chosen. */
 constexpr double kLeastShotSpeed = 0.15;
-/** Placement has numbers of its own: it does not change with what else is drawn. */
+/** The placement has a separate seed, so that it does not change with other draws. */
 constexpr uint64_t kPlacementSeed = 0x51ed270b;
 
-/** s between the lines of a trace. */
+/** Time between the lines of a trace, s. */
 constexpr double kTracePeriod = 0.1;
 /** The whole ball has passed the line: its radius and half of the line's width, m. */
 constexpr double kBehindLine = 0.075;
 
-/** @param side  1: the opponent's goal, -1: the own one. */
+/** @param side  1: the opponent's goal; -1: the robot's own. */
 bool is_in_goal(const Vector2d& ball, const play::Field& field, double side) {
   return side * ball.x() > 0.5 * field.length + kBehindLine &&
          std::abs(ball.y()) < 0.5 * field.goal_width;

@@ -7,8 +7,8 @@
 
 namespace nao::trial {
 
-/** A scenario of nao-play's behaviors with one kind of perception. A perception that is no
- * rendering of images is named in the scenario's name and summary. */
+/** A scenario of nao-play's behaviors with one kind of perception. A perception without rendered
+ * images is named in the scenario's name and summary. */
 class PlayScenario : public Scenario {
  public:
   PlayScenario(const std::string& name, const std::string& summary, bool is_rendered,
@@ -26,7 +26,7 @@ class PlayScenario : public Scenario {
   std::string summary_;
 };
 
-/** Scores: ball and robot anywhere in the own half. */
+/** Scores, with ball and robot anywhere in the robot's own half. */
 class ScoreScenario : public PlayScenario {
  public:
   ScoreScenario(bool is_rendered, PerceptionFactory perception);

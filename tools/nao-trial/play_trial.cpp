@@ -119,7 +119,8 @@ void PlayTrial::trace() {
   const double nan = std::nan("");
   const play::Ball seen =
       robot_.vision().ball.value_or(play::Ball{{nan, nan}, {nan, nan}, nan, false});
-  // In the world by the true pose: what is off is the perception of the ball, not of the pose.
+  // Converted to the world with the true pose, so that only the error of the ball's perception
+  // counts.
   const Eigen::Vector2d place = truth * (torso.inverse() * seen.position);
   const Pose2 believed = robot_.vision().field_in_odometry
                              ? robot_.vision().field_in_odometry->inverse() * torso

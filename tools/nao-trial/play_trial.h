@@ -15,11 +15,11 @@ namespace nao::trial {
 /** Behaviors and perception of one robot of a closed loop. */
 class PlayingRobot {
  public:
-  /** @param trial  Must outlive this. @param scene  Its name. @param start  Where the robot
-   * believes to stand on the field. */
+  /** @param trial  Must outlive this. @param scene  Its name. @param start  Assumed pose of the
+   * robot on the field. */
   PlayingRobot(ClosedLoop& trial, const std::string& scene, const Pose2& start);
 
-  /** From now on the robot knows what this says. */
+  /** Sets what the robot perceives from now on. */
   void set_perception(std::unique_ptr<TrialPerception> perception);
 
   const play::PlayCore& core() const { return core_; }
@@ -27,14 +27,14 @@ class PlayingRobot {
   /** Camera whose images are requested; empty: none. */
   const std::string& camera() const { return camera_; }
 
-  /** Commands a behavior, again and again. */
+  /** Commands a behavior repeatedly. */
   void command(Behavior behavior);
-  /** What it knows of a match from now on. */
+  /** Sets what it knows of a match from now on. */
   void set_match(const std::optional<play::MatchView>& match) { match_ = match; }
   /** After one tick of the closed loop. */
   void step();
 
-  /** How the behavior ended; accepted while it goes on. */
+  /** How the behavior ended; accepted while it continues. */
   const CommandResult& result() const { return result_; }
   /** Actions that were commanded. */
   int num_actions() const { return num_actions_; }
@@ -66,8 +66,8 @@ void place_standing(ClosedLoop& trial, const Pose2& pose);
 /** Simulator, motion core, perception and behaviors in one process. */
 class PlayTrial {
  public:
-  /** @param robot_in_field  Where the robot stands at the start. @param start  Where it believes to
-   * stand. @param ball  m, on the field. */
+  /** @param robot_in_field  Where the robot stands at the start. @param start  Its assumed pose.
+   * @param ball  m, on the field. */
   PlayTrial(const ClosedLoopOptions& options, uint64_t seed, const PerceptionFactory& perception,
             const Pose2& robot_in_field, const Pose2& start, const Eigen::Vector2d& ball);
 

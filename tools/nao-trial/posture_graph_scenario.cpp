@@ -42,7 +42,8 @@ std::vector<RunResult> PostureGraphScenario::run(const ScenarioOptions& options,
                                                  uint64_t seed) const {
   std::vector<RunResult> results;
   const auto& postures = options.trial.model->postures();
-  // Every ordered pair of postures, each with a new robot: a failure does not spoil the next pair.
+  // Tries every ordered pair of postures, each with a new robot, so that a failure does not affect
+  // the next pair.
   for (const Posture& from : postures) {
     for (const Posture& to : postures) {
       if (&from == &to) continue;

@@ -30,7 +30,7 @@ struct Outcome {
 
 Outcome push(const ScenarioOptions& options, uint64_t seed, double direction, double impulse) {
   ClosedLoopOptions trial_options = options.trial;
-  // A fall must stay one: without getting up.
+  // The robot must not get up, so that a fall remains one.
   trial_options.motion.gets_up = false;
   ClosedLoop trial(trial_options, seed);
   trial.run(0.5);

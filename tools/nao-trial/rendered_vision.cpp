@@ -7,8 +7,8 @@ namespace {
 
 /** Standard deviation of the noise of images, of 255 levels. Chosen. */
 constexpr double kImageNoise = 3;
-/** s between images for a behavior: two thirds of the rate that nao-play requests, as on a host
- * that renders them, too. Chosen. */
+/** Time between images for a behavior, s: two thirds of the rate that nao-play requests, as on a
+ * host that renders them, too. Chosen. */
 constexpr double kImagePeriod = 0.1;
 
 camera::HeadCameraOptions camera_options() {

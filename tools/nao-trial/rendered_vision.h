@@ -13,9 +13,9 @@
 
 namespace nao::trial {
 
-/** nao-head-camera's renderer and nao-vision's perception in one trial: the simulator's truth goes
- * to the renderer only. Images have noise, but neither blur nor distortion, and one place's light.
- */
+/** nao-head-camera's renderer and nao-vision's perception in one trial: only the renderer receives
+ * the simulator's truth. Images have noise, but neither blur nor distortion, and the light is that
+ * of one place. */
 class RenderedVision {
  public:
   /** @param trial  Must outlive this. @throws Error  without a graphics driver. */
@@ -23,7 +23,7 @@ class RenderedVision {
 
   /** To be called after every tick: keeps the robot's states. */
   void keep_state();
-  /** What an image that the camera takes now shows. */
+  /** Detections in an image that the camera takes now. */
   vision::VisionResult look(const CameraModel& camera);
   /** Camera in the heading frame at the last image, by the robot's estimated state. */
   const std::optional<Eigen::Isometry3d>& pose_camera_in_heading() const {

@@ -62,7 +62,7 @@ class Scenario {
 
 /** All scenarios, in the order in which --help lists them. */
 const std::vector<std::unique_ptr<Scenario>>& scenarios();
-/** Adds a scenario to them, of a library that not every build has. */
+/** Adds a scenario from a library that some builds lack. */
 void add_scenario(std::unique_ptr<Scenario> scenario);
 
 }  // namespace nao::trial

@@ -7,7 +7,7 @@ namespace nao::trial {
 std::vector<RunResult> StandScenario::run(const ScenarioOptions& options, uint64_t seed) const {
   const double duration = options.duration > 0 ? options.duration : 60;
   ClosedLoop trial(options.trial, seed);
-  // The robot takes its stand first.
+  // The robot first moves to its stand.
   trial.run(2);
   const Eigen::Vector3d start = trial.torso_in_world().translation();
   double drift = 0;

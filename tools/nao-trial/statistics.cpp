@@ -11,7 +11,7 @@
 namespace nao::trial {
 namespace {
 
-/** Of a cause of failures, in a line of the table. */
+/** Most seeds listed for one cause of failure, in a line of the table. */
 constexpr size_t kMaxSeedsListed = 8;
 
 bool ends_with(const std::string& text, const std::string& end) {
@@ -41,8 +41,8 @@ int Summary::num_successes() const {
 
 MetricStatistics calc_statistics(const std::string& name, std::vector<double> values) {
   // Sorted from good to bad, so that a percentile means the same for all metrics: 95 % of the runs
-  // were at least as good. Of speeds, impulses, distances and warning times more is better; of the
-  // others, such as errors, less.
+  // were at least as good. For speeds, impulses, distances and warning times more is better; for
+  // the others, such as errors, less.
   std::sort(values.begin(), values.end());
   const bool is_error = name.find("error") != std::string::npos;
   if (!is_error && (ends_with(name, "_mps") || ends_with(name, "_Ns") || ends_with(name, "_m") ||
@@ -79,7 +79,7 @@ std::string to_table(const Summary& summary) {
   for (size_t i = 0; i < summary.runs.size(); ++i) {
     const RunResult& run = summary.runs[i];
     if (run.is_success) continue;
-    // Equal failures together, with seeds to repeat them.
+    // Groups equal failures, with seeds to repeat them.
     failures[run.label + (run.label.empty() ? "" : ": ") + run.failure].push_back(summary.seeds[i]);
   }
   for (const auto& [failure, seeds] : failures) {

@@ -37,7 +37,7 @@ double needed_duration(const RobotModel& model, const std::vector<double>& from,
   return duration;
 }
 
-/** Adds a keyframe of all joints. @param slowness  Of the least duration, 1 or more. */
+/** Adds a keyframe of all joints. @param slowness  Factor on the least duration, 1 or more. */
 void add_keyframe(const RobotModel& model, std::vector<double>& last, std::vector<double> position,
                   double slowness, double pause, ActionScript& script) {
   motion::clip_to_limits(model, position);
@@ -83,7 +83,7 @@ void apply(const RobotModel& model, const Pose& pose, std::vector<double>& posit
   }
 }
 
-/** A motion through poses: of a posture, with some joints elsewhere. */
+/** A motion through poses, each a posture with some joints changed. */
 ActionScript through(const RobotModel& model, const std::string& posture,
                      const std::vector<Pose>& poses, double slowness, int repetitions) {
   ActionScript script = begin_script("good");
@@ -137,7 +137,7 @@ ActionScript draw_taught_motion(const RobotModel& model, uint64_t seed) {
   ActionScript script = begin_script("taught");
   const bool is_wild = seed % 2 == 1;
   const std::vector<bool> is_leg = find_legs(model);
-  // Of the upright and sitting postures; a person rarely teaches a robot that lies.
+  // Only upright and sitting postures: a person rarely teaches a robot that lies.
   std::vector<const Posture*> postures;
   for (const Posture& posture : model.postures()) {
     if (!posture.is_lying()) postures.push_back(&posture);

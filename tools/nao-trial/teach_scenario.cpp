@@ -11,7 +11,7 @@ namespace nao::trial {
 namespace {
 
 // Draws of the disturbances with which a motion is played. Chosen: a motion counts as safe if it is
-// so on three robots.
+// safe on three robots.
 constexpr int kNumPlays = 3;
 // Far from the seeds of the checker.
 constexpr uint64_t kPlaySeed = 5000000;
@@ -33,7 +33,7 @@ RunResult check_and_play(const ScenarioOptions& options, const motion::ActionScr
   for (uint64_t i = 0; i < kNumPlays && !fault; ++i) {
     fault = roll_out(options.trial, kPlaySeed + kNumPlays * seed + i, report.script);
   }
-  // Stop at some time must be safe wherever the motion is.
+  // A Stop must be safe at any time of the motion.
   const double stop_time = 0.3 + 0.37 * static_cast<double>(seed % 7);
   std::optional<motion::MotionFault> stop_fault;
   if (is_accepted && !fault) {
@@ -48,14 +48,14 @@ RunResult check_and_play(const ScenarioOptions& options, const motion::ActionScr
   result.metrics.emplace_back("wrongly_refused", !is_accepted && !fault ? 1 : 0);
   result.metrics.emplace_back("repaired", report.repaired ? 1 : 0);
   result.is_success = !is_accepted || (!fault && !stop_fault);
-  // Of a motion that was refused without need: to see why.
+  // Shows why a motion was refused without need.
   if (!is_accepted && !fault) result.failure = describe_fault(*report.fault);
   if (is_accepted && fault) result.failure = "accepted, but " + describe_fault(*fault);
   if (stop_fault) {
     result.failure =
         fmt::format("stopped after {:.2f} s: {}", stop_time, describe_fault(*stop_fault));
   }
-  // What was refused, to see whether its reason is one that a person understands.
+  // Refused motions, to check whether a person understands the reason.
   if (!is_accepted && report.fault->keyframe < 0) {
     result.is_success = false;
     result.failure = "refused without a keyframe: " + to_sentence(report.fault->reason);

@@ -5,8 +5,8 @@
 namespace nao::trial {
 
 /** Checks random and hand-made taught motions as nao-motion-files does, plays those that it accepts
- * with other draws of the disturbances, and those that it refuses, too, to count what was refused
- * without need. */
+ * with other draws of the disturbances, and those that it refuses, too, to count those that were
+ * refused without need. */
 class TeachScenario : public Scenario {
  public:
   const char* name() const override { return "teach"; }

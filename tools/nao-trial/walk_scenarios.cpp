@@ -192,7 +192,7 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   if (!options.trace_file.empty()) trace.write(options.trace_file);
   const Vector3d mean = velocity.mean();
   const double odometry_error = odometry.error(trial);
-  // Before the stop, which is measured by itself.
+  // This is before the stop, which is measured separately.
   const Pose2 way_end = true_pose(trial);
 
   StandstillDetector standstill(trial);
@@ -242,7 +242,7 @@ std::vector<RunResult> SprintScenario::run(const ScenarioOptions& options, uint6
   const double start_time = trial.time();
   trial.hold_walk({trial.model().walk_limits().forward, 0, 0});
   double way = 0;
-  // Three times as long as the way should take, plus the start.
+  // Three times the expected duration of the walk, plus the start.
   const double timeout = 20 + 3 * distance / trial.model().walk_limits().forward;
   trial.run_until(
       [&] {

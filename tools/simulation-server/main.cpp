@@ -71,9 +71,10 @@ int main(int argc, char** argv) {
   app.add_option("--engine", options.engine,
                  "Physics engine: fast, simbody, or mujoco where it was built")
       ->show_default();
-  app.add_option("--disturbances", disturbances,
-                 "What is drawn for each seed: none, default, moderate, real, or entries of real "
-                 "such as backlash,floor_slope")
+  app.add_option(
+         "--disturbances", disturbances,
+         "Disturbances to draw for each seed: none, default, moderate, real, or entries of real "
+         "such as backlash,floor_slope")
       ->show_default();
   app.add_option("--tick-ms", options.tick_ms,
                  "Control period, ms: a multiple of 2 (0: as the disturbances say, or 10)")

@@ -71,7 +71,7 @@ protocol::Response SimulationCore::handle(const protocol::Request& request) {
         step(request.step(), *response.mutable_state());
         break;
       case protocol::Request::REQUEST_NOT_SET:
-        response.set_error("the request is none of describe, reset and step");
+        response.set_error("the request is not describe, reset or step");
         break;
     }
   } catch (const Error& error) {
@@ -94,7 +94,8 @@ void SimulationCore::reset(const protocol::Reset& request, protocol::State& stat
   if (!options.posture.empty() && options.model->find_posture(options.posture) == nullptr) {
     throw ConfigError("the robot has no such posture; it has those of Description.postures");
   }
-  // Only when it is complete: a reset that fails leaves the old world.
+  // The world is replaced only when the new one is complete, so that a failed reset keeps the old
+  // one.
   auto loop = std::make_unique<ClosedLoop>(options, request.seed());
   loop_ = std::move(loop);
   loop_->on_tick([this] {

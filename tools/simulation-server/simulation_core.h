@@ -24,7 +24,7 @@ inline constexpr int kMaxCommands = 64;
  * No clock, file or socket: the same requests give the same responses, bit for bit. */
 class SimulationCore {
  public:
-  /** @param options  Of every world; the posture is that of each Reset. */
+  /** @param options  Options of every world; the posture is that of each Reset. */
   explicit SimulationCore(ClosedLoopOptions options);
   SimulationCore(const SimulationCore&) = delete;
   SimulationCore& operator=(const SimulationCore&) = delete;

@@ -3,7 +3,7 @@
 #include "sim/closed_loop/closed_loop.h"
 #include "simulation.pb.h"
 
-/** Between the messages of simulation.proto and the closed loop's types. */
+/** Conversions between the messages of simulation.proto and the closed loop's types. */
 namespace nao::simulation_server {
 
 /** Writes joints, postures, actions, sensors and limits. */
@@ -16,7 +16,7 @@ int64_t send_command(const naoremote::simulation::Command& command, ClosedLoop& 
 /** Writes sensor readings and the motion core's estimate. */
 void write_state(ClosedLoop& loop, naoremote::simulation::State& state);
 void write_result(const CommandResult& result, naoremote::simulation::CommandResult& message);
-/** Writes what no robot knows. */
+/** Writes the truth, which no robot knows. */
 void write_truth(ClosedLoop& loop, naoremote::simulation::Truth& truth);
 
 }  // namespace nao::simulation_server

@@ -10,9 +10,9 @@ namespace nao {
 
 /** Result of a transition graph from one start. */
 struct GetUpResult {
-  /** It stood at the end of the first try. */
+  /** Whether it stood at the end of the first try. */
   bool is_up = false;
-  /** s from lying still to standing in StandInit, or to the failure. */
+  /** Time from lying still to standing in StandInit, or to the failure, s. */
   double time = 0;
   /** Greatest height of the upright torso, as a fraction of the standing height. */
   double height = 0;

@@ -16,12 +16,12 @@ namespace {
 // s, so that a failed try always costs as much as a success at the timeout.
 constexpr double kFailed = 20;
 constexpr double kHeightCounts = 6;
-// s for a motor at its peak torque all the time, and s for an angular acceleration of the torso of
-// 1 rad/s^2. Chosen: of 5 s, load and shaking of a usual motion (0.8 and 20) are a tenth, so that
-// they decide between motions of about the same time.
+// Costs of a motor that is always at its peak torque, s, and of an angular acceleration of the
+// torso of 1 rad/s^2, s. Chosen: load and shaking of a usual motion (0.8 and 20) are a tenth of its
+// 5 s, so that they decide between motions of about the same time.
 constexpr double kLoadCost = 0.4;
 constexpr double kShakingCost = 0.01;
-// Of the squared distance of a number outside its range, s/rad^2 and s/s^2.
+// Cost of the squared distance of a number outside its range, s/rad^2 and s/s^2.
 constexpr double kOutsideCost = 10;
 
 GetUpResult to_result(const Figures& figures) {

@@ -11,7 +11,7 @@
 
 namespace nao {
 
-/** What the transition tuner searches. */
+/** Search problem of the transition tuner. */
 struct GetUpProblemOptions {
   /** Model and scene of all trials. */
   ClosedLoopOptions trial;
@@ -22,18 +22,18 @@ struct GetUpProblemOptions {
   /** First and last keyframe whose numbers are searched. */
   int first_keyframe = 0;
   int last_keyframe = 1000;
-  /** Of the robot's other files: digest_files(). */
+  /** Digest of the robot's other files, from digest_files(). */
   uint64_t robot_digest = 0;
 };
 
 /** Cost of a trial, s: the time, if the robot stood at the end of the first try, plus a little for
- * torque and shaking; otherwise more than any time, the less the higher the torso came. */
+ * torque and shaking; otherwise more than any time, and less the higher the torso rose. */
 double cost_of(const GetUpResult& result);
 
 /** Search of the numbers of get-up motions. A candidate is a list of these numbers. */
 class GetUpProblem : public TuningProblem {
  public:
-  /** @param text  Of the transitions and the numbers in it.
+  /** @param text  Text of the transitions and the numbers in it.
    * @throws ConfigError  if there is no such start. */
   GetUpProblem(GetUpProblemOptions options, TrialConditions conditions, TransitionText text);
 

@@ -46,7 +46,7 @@ Checkpoint Checkpoint::parse(const std::string& text, const std::string& name) {
   }
   for (const YamlEntry& generation : whole.at("costs").items()) {
     checkpoint.costs.push_back(read_numbers(generation));
-    // A damaged file must not lead to another search without notice.
+    // A damaged file must not silently lead to another search.
     if (checkpoint.costs.back().size() != checkpoint.costs.front().size()) {
       generation.fail("must have as many costs as the first generation");
     }
@@ -55,7 +55,7 @@ Checkpoint Checkpoint::parse(const std::string& text, const std::string& name) {
   return checkpoint;
 }
 
-// A search that goes on with other settings would be neither the one nor the other.
+// A search that continues with other settings would be neither of the two.
 void Checkpoint::require_settings(const std::map<std::string, std::string>& present,
                                   const std::string& name) const {
   std::string differences;

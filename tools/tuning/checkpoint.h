@@ -7,13 +7,13 @@
 
 namespace nao {
 
-/** What a search needs to go on after an interruption: the costs of all candidates so far. The
- * search is a function of its settings and these, so repeating it with them takes no trial and
- * leads to the same state bit for bit.
+/** Data with which a search continues after an interruption: the costs of all candidates so far.
+ * The search is a function of its settings and these costs, so repeating it with them needs no
+ * trial and leads to the same state bit for bit.
  *
  * As a text: one JSON object with `settings`, `costs` (a list for each generation) and `mean`. */
 struct Checkpoint {
-  /** Everything else that the search depends on, by name, such as "population". */
+  /** Everything else on which the search depends, by name, such as "population". */
   std::map<std::string, std::string> settings{};
   /** Costs of each generation's candidates. */
   std::vector<std::vector<double>> costs{};
@@ -23,7 +23,8 @@ struct Checkpoint {
   bool operator==(const Checkpoint&) const = default;
 
   std::string to_text() const;
-  /** @param name  Of the file, for errors. @throws ConfigError  if the text is no checkpoint. */
+  /** @param name  Name of the file, for errors.
+   * @throws ConfigError  if the text is not a checkpoint. */
   static Checkpoint parse(const std::string& text, const std::string& name);
 
   /** @throws ConfigError  that names the settings which differ from those of the present search. */

@@ -11,8 +11,9 @@ namespace nao {
  * tens of variables without derivatives.
  *
  * Source: N. Hansen, "The CMA evolution strategy: a tutorial", arXiv:1604.00772, with its default
- * constants and positive weights. The same seed gives the same search. Implemented here because
- * Debian 12 has no package of a C++ CMA-ES. */
+ * constants and positive weights. The same seed gives the same search. Not Debian's pagmo, whose
+ * cmaes evolves a whole population in one call, algorithm.evolve(population): checkpoints and
+ * evaluation on several hosts need ask and tell. */
 class CmaEs {
  public:
   /** @param start       First mean, (dimension).

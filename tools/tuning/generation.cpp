@@ -49,7 +49,7 @@ EvaluatedGeneration evaluate_generation(const TuningProblem& problem, Evaluator&
     return cost;
   };
 
-  // Screening: all candidates run some trials; the worst third of them is given up, and the others
+  // Screening: all candidates run some trials; the worst third of them is dropped, and the others
   // run the rest.
   const int num_trials = problem.num_trials();
   const bool is_screened = screen > 0 && screen < num_trials;

@@ -12,7 +12,7 @@ namespace nao {
 /** Candidates that were evaluated in the same trials. */
 struct EvaluatedGeneration {
   std::vector<double> costs;
-  /** Of all trials that were run. */
+  /** Figures of all trials that were run. */
   std::vector<Figures> trials;
   /** Sum and maximum of the trials' processor times, s. */
   double total_time = 0;
@@ -22,8 +22,8 @@ struct EvaluatedGeneration {
 /** Runs all trials of all candidates.
  *
  * With `screen` above 0 and below the number of trials, the worst third of the candidates after
- * that many trials is given up: it costs more than every other candidate, in the order of the costs
- * of its few trials. CMA-ES learns from the better half only.
+ * that many trials is dropped: these get costs above every other candidate, in the order of the
+ * costs of their few trials. CMA-ES learns from the better half only.
  * @throws Error  if a trial fails, or a cost is not finite. */
 EvaluatedGeneration evaluate_generation(const TuningProblem& problem, Evaluator& evaluator,
                                         const std::vector<Eigen::VectorXd>& candidates,

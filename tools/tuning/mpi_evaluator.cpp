@@ -17,8 +17,8 @@
 namespace nao {
 namespace {
 
-// Interval at which a process looks for messages. Chosen: a thousandth of a second is little beside
-// a trial, which takes a tenth of a second and more, and costs 1 % of a core.
+// Interval at which a process looks for messages. Chosen: a thousandth of a second is short
+// compared with a trial, which takes a tenth of a second and more, and costs 1 % of a core.
 constexpr auto kPollInterval = std::chrono::milliseconds(1);
 
 enum Tag { kTask = 1, kOutcome = 2, kEnd = 3 };
@@ -92,7 +92,7 @@ void MpiEvaluator::end_processes() {
   MPI_Finalize();
 }
 
-// Loop of all processes but the first, until kEnd comes.
+// Loop of all processes except the first, until kEnd comes.
 void MpiEvaluator::serve() {
   for (;;) {
     while (const auto outcome = threads_.poll()) send(0, kOutcome, encode_outcome(*outcome));
@@ -116,7 +116,7 @@ int MpiEvaluator::num_workers() const {
 std::vector<Outcome> MpiEvaluator::evaluate(const std::vector<Task>& tasks) {
   TaskBatch batch(tasks.size(), slots_);
   while (!batch.is_done()) {
-    // Other processes first: while messages travel, this one's threads still run.
+    // Other processes come first: while messages travel, this one's threads still run.
     for (size_t rank = slots_.size(); rank-- > 0;) {
       while (const auto index = batch.assign(rank)) {
         const IndexedTask task = {*index, tasks[*index]};

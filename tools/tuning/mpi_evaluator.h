@@ -16,7 +16,7 @@ namespace nao {
 class MpiEvaluator : public Evaluator {
  public:
   /** Begins MPI, which a process can do once.
-   * @param num_threads  Of this process.
+   * @param num_threads  Number of threads of this process.
    * @param identity  Text about everything that the tasks' results depend on.
    * @throws Error  in the first process if another one has another identity. */
   MpiEvaluator(int num_threads, const std::string& identity, RunTask run);

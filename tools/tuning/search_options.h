@@ -27,11 +27,11 @@ struct SearchOptions {
   int screen = 0;
   /** File of the checkpoint; empty: `output` with ".checkpoint". */
   std::string checkpoint{};
-  /** Checkpoint to go on from; empty: begin. */
+  /** Checkpoint to continue from; empty: begin. */
   std::string resume{};
 
   std::string checkpoint_file() const;
-  /** What decides the result of a search, by option: all but the model's files. */
+  /** Everything that decides the result of a search, by option, except the model's files. */
   std::map<std::string, std::string> settings() const;
 };
 

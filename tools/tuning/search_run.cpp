@@ -133,8 +133,8 @@ void run_search(const SearchOptions& options, const TuningProblem& problem, Eval
                      evaluator.num_workers());
   }
   if (stop.has_come()) {
-    fmt::print("interrupted after generation {}: go on with --resume {}\n", checkpoint.costs.size(),
-               options.checkpoint_file());
+    fmt::print("interrupted after generation {}: continue with --resume {}\n",
+               checkpoint.costs.size(), options.checkpoint_file());
   }
   // A resumed search may have nothing left to do, and another output.
   replace_file(options.output, problem.text(search.mean()));

@@ -11,7 +11,8 @@ StopSignal::StopSignal() {
   signal_has_come = 0;
   struct sigaction action {};
   action.sa_handler = [](int) { signal_has_come = 1; };
-  // Once: the next signal has its usual effect. Interrupted system calls go on.
+  // The handler acts once: the next signal has its usual effect. Interrupted system calls are
+  // restarted.
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   sigaction(SIGINT, &action, &old_interrupt_);
   sigaction(SIGUSR1, &action, &old_user_);

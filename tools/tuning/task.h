@@ -27,14 +27,14 @@ using Figures = std::vector<double>;
 /** Runs a trial. Called from several threads at once; the result depends on the task only. */
 using RunTask = std::function<Figures(const Task&)>;
 
-/** What came of a task. */
+/** Result of a task. */
 struct Outcome {
   /** Position of the task in its batch. */
   size_t index = 0;
   Figures figures{};
   /** Processor time of the trial's thread, s. */
   double duration = 0;
-  /** Why there are no figures; empty: there are. */
+  /** Why there are no figures; empty if there are. */
   std::string error{};
 
   bool operator==(const Outcome&) const = default;

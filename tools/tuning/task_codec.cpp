@@ -26,7 +26,7 @@ Words encode_task(const IndexedTask& task) {
 IndexedTask decode_task(const Words& words) {
   if (words.size() < kTaskHeader ||
       words[2] > static_cast<uint64_t>(std::numeric_limits<int>::max())) {
-    throw Error(fmt::format("a message of {} words is no task", words.size()));
+    throw Error(fmt::format("a message of {} words is not a task", words.size()));
   }
   IndexedTask task;
   task.index = words[0];
@@ -47,7 +47,7 @@ Words encode_outcome(const Outcome& outcome) {
 
 Outcome decode_outcome(const Words& words) {
   if (words.size() < kOutcomeHeader || words[2] > words.size() - kOutcomeHeader) {
-    throw Error(fmt::format("a message of {} words is no outcome of a task", words.size()));
+    throw Error(fmt::format("a message of {} words is not an outcome of a task", words.size()));
   }
   Outcome outcome;
   outcome.index = words[0];

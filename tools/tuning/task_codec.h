@@ -20,11 +20,11 @@ struct IndexedTask {
 };
 
 Words encode_task(const IndexedTask& task);
-/** @throws Error  if the words are no task. */
+/** @throws Error  if the words are not a task. */
 IndexedTask decode_task(const Words& words);
 
 Words encode_outcome(const Outcome& outcome);
-/** @throws Error  if the words are no outcome. */
+/** @throws Error  if the words are not an outcome. */
 Outcome decode_outcome(const Words& words);
 
 }  // namespace nao

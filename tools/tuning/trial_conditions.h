@@ -20,7 +20,7 @@ class TrialConditions {
 
   /** Number of combinations. */
   int count() const { return static_cast<int>(engines_.size() * disturbances_.size()); }
-  /** Sets engine and disturbances. @param index  Of the combination, below count(). */
+  /** Sets engine and disturbances. @param index  Index of the combination, below count(). */
   void apply(int index, ClosedLoopOptions& options) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace nao {
 
-/** What a tuner searches, and how it evaluates a candidate. */
+/** Search problem of a tuner, and its evaluation of a candidate. */
 class TuningProblem {
  public:
   virtual ~TuningProblem() = default;
@@ -30,7 +30,7 @@ class TuningProblem {
   virtual std::string describe(const std::vector<Figures>& trials) const = 0;
   /** Content of the tuner's output for a candidate. */
   virtual std::string text(const Eigen::VectorXd& point) const = 0;
-  /** Everything that the search depends on beside the SearchOptions, by name. */
+  /** Everything on which the search depends besides the SearchOptions, by name. */
   virtual std::map<std::string, std::string> settings() const = 0;
 };
 

@@ -52,7 +52,7 @@ void DatasetRenderer::append_distractors(const RandomScene& scene, bool has_name
     instance.scale = distractor.size.cast<float>();
     instance.tint << distractor.color, 1;
     if (has_named_colors) instance.tint = Color(0, 0, 0, 1);
-    // What is far from the field would make the shadow map coarse.
+    // Objects far from the field would make the shadow map coarse.
     instance.casts_shadow = distractor.size.maxCoeff() < 1;
     scene_.instances.push_back(instance);
   }

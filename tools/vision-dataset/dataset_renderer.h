@@ -36,7 +36,7 @@ class DatasetRenderer {
   SceneRenderer renderer_;
   RobotVisual visual_;
   gl::Framebuffer framebuffer_;
-  /** Of size 1: box, cylinder, sphere. */
+  /** Box, cylinder and sphere of size 1. */
   std::array<MeshId, 3> shapes_;
   Scene scene_;
 };

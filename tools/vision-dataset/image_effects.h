@@ -7,7 +7,7 @@
 
 namespace nao::vision {
 
-/** What a real camera does to an image: motion blur, focus, exposure, white balance, noise. */
+/** Effects of a real camera on an image: motion blur, focus, exposure, white balance, noise. */
 struct ImageEffects {
   /** Length of the motion blur, pixels, and its direction, rad. */
   double blur = 0;
@@ -30,7 +30,7 @@ struct ImageEffects {
   static ImageEffects of_place(Random& random);
   /** Adds what differs between images of a place. */
   void vary(Random& random);
-  /** Applies all of them but the compression. */
+  /** Applies all of them except the compression. */
   void apply(cv::Mat& bgr) const;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 /** Distance between the points at which lines and posts are checked for visibility, m. */
 constexpr double kStep = 0.04;
-/** Lines farther away than this are not labelled: they are less than a pixel wide, m. */
+/** Greatest distance of labelled lines, m: farther ones are less than a pixel wide. */
 constexpr double kLineReach = 6;
 /** Shortest labelled piece of a line, pixels. */
 constexpr double kLeastLine = 24;
@@ -171,7 +171,7 @@ class Labeller {
     const auto pixel = white_pixel({label.object.position.x(), label.object.position.y(), 0});
     if (!pixel) return;
     label.object.box_px = {pixel->x - 8, pixel->y - 8, pixel->x + 8, pixel->y + 8};
-    // Only with a part of its arms in view can it be told from a line.
+    // It can be distinguished from a line only if a part of its arms is in view.
     const bool is_inside = pixel->x > 24 && pixel->y > 24 &&
                            pixel->x < static_cast<float>(named_.cols - 24) &&
                            pixel->y < static_cast<float>(named_.rows - 24);

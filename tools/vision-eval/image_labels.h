@@ -22,7 +22,7 @@ struct LabelledImage {
   std::filesystem::path file;
   int width = 0;
   int height = 0;
-  /** What was varied together, such as "place-3"; empty if unknown. */
+  /** Group of images that were varied together, such as "place-3"; empty if unknown. */
   std::string place;
   std::optional<CameraCalibration> calibration;
   std::optional<Eigen::Isometry3d> pose_camera_in_heading;

@@ -100,7 +100,7 @@ int evaluate(const EvalOptions& options) {
   if (!options.drawing_folder.empty()) {
     std::filesystem::create_directories(options.drawing_folder);
   }
-  // As nao-vision on a robot: one core for all stages.
+  // All stages run on one core, as in nao-vision on a robot.
   cv::setNumThreads(1);
   const auto networks = nao::vision::VisionNetworks::load();
   StageTimes times;

@@ -132,7 +132,7 @@ void Scores::add_objects(Kind kind, const LabelledImage& image, const Detections
   for (const Label& label : *image.labels) {
     if (row_kind(label.object.kind) != kind) continue;
     Row& row = rows_[{kind_name(kind), range_of(label.object)}];
-    // Objects that are hardly visible need not be found, but finding them is no fault.
+    // Objects that are hardly visible need not be found, but finding them is not an error.
     const bool is_required = label.visible >= kLeastVisible;
     row.num_labels += is_required;
     for (size_t i = 0; i < detections.size(); ++i) {
@@ -140,7 +140,7 @@ void Scores::add_objects(Kind kind, const LabelledImage& image, const Detections
           !matches(detections[i], label.object)) {
         continue;
       }
-      // Each detection counts for one label only.
+      // Each detection counts for only one label.
       is_used[i] = true;
       if (!is_required) break;
       row.num_found += 1;
@@ -155,7 +155,7 @@ void Scores::add_objects(Kind kind, const LabelledImage& image, const Detections
       break;
     }
   }
-  // What is left belongs to no label.
+  // The remaining detections belong to no label.
   for (size_t i = 0; i < detections.size(); ++i) {
     if (is_used[i] || row_kind(detections[i].kind) != kind) continue;
     Row& row = rows_[{kind_name(kind), range_of(detections[i])}];

@@ -14,8 +14,8 @@ namespace nao::vision {
 /** Comparison of detections with labels, by kind and distance.
  *
  * An object less visible than kLeastVisible is neither required nor an error. Lines are counted by
- * length: of a label the part near a detection (recall), of a detection the part near a label
- * (precision). A crossing of another type than its label is an error of the type only. */
+ * length: for a label the part near a detection (recall), for a detection the part near a label
+ * (precision). A crossing whose type differs from its label's is only an error of the type. */
 class Scores {
  public:
   /** Fraction of an object. Chosen: more than half of it. */
@@ -30,7 +30,7 @@ class Scores {
     double num_found = 0;
     double num_detections = 0;
     double num_false = 0;
-    /** Of those found: rad, and fraction of the distance. */
+    /** Errors of the objects found: rad, and as a fraction of the distance. */
     std::vector<double> bearing_errors;
     std::vector<double> distance_errors;
 

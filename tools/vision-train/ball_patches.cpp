@@ -12,8 +12,8 @@ namespace {
 /** Less visible balls are neither ball nor something else. Below what nao-vision-eval requires,
  * 0.6, since a ball that is half hidden should be found too. */
 constexpr double kLeastVisible = 0.35;
-/** A circle shows the ball within these limits: offset in radii, ratio of the radii; beyond the
- * farther ones it does not. Between them it is not used. */
+/** A circle shows the ball within the nearer limits: offset in radii, ratio of the radii. Beyond
+ * the farther ones it does not; between them it is not used. */
 constexpr float kNear = 0.8f;
 constexpr float kNearRatio = 1.7f;
 constexpr float kFar = 1.15f;
@@ -21,8 +21,8 @@ constexpr float kFarRatio = 2.2f;
 /** Moved circles around each ball, and random ones in each image. */
 constexpr int kNumMoved = 6;
 constexpr int kNumRandom = 2;
-/** Least probability of what is judged a second time. Lower than BallDetector's, 0.05: what that
- * narrowly leaves out is learnt from, too. */
+/** Least probability of what is judged a second time. It is below BallDetector's, 0.05, so that
+ * patches that it narrowly leaves out are learnt from, too. */
 constexpr float kLeastSecond = 0.02f;
 
 }  // namespace

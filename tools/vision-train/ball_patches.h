@@ -12,7 +12,7 @@
 
 namespace nao::vision {
 
-/** Patches of balls and of what the ball detector might take for one.
+/** Patches of balls and of objects that the ball detector might take for one.
  *
  * Numbers of a record: 1 for a ball, 0 for none; the network's three regression targets
  * (BallDetector::kNumOutputs); visible fraction of the ball, 0 to 1; radius of the circle, pixels;
@@ -21,8 +21,9 @@ class BallPatches {
  public:
   enum class Source { kMoved, kPlace, kRandom, kSecond };
 
-  /** @param objects  Of ObjectDetector; its places of balls are judged.
-   * @param ball  Of BallDetector; adds the patches that it would judge a second time. May be null.
+  /** @param objects  Network of ObjectDetector; its places of balls are judged.
+   * @param ball  Network of BallDetector; adds the patches that it would judge a second time. May
+   * be null.
    */
   BallPatches(PatchFile& file, std::shared_ptr<NeuralNetwork> objects,
               std::shared_ptr<NeuralNetwork> ball, uint64_t seed);

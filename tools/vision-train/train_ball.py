@@ -13,10 +13,10 @@ import common
 SIZE = 32
 NUM_NUMBERS = 8
 RECORD = np.dtype([("patch", "u1", (SIZE, SIZE, 3)), ("numbers", "<f4", NUM_NUMBERS)])
-# Outputs beside the log odds: center to the right and downwards, logarithm of the radius.
+# Outputs besides the log odds: center to the right and downwards, logarithm of the radius.
 NUM_TARGETS = 3
-# Patches of what is no ball that are learnt from in every epoch: those that the network finds this
-# probable or more. Of the others a part.
+# Patches without a ball that are learnt from in every epoch: those to which the network gives this
+# probability or more. Of the other patches, a fraction is used.
 HARD_PROBABILITY = 0.003
 EASY_FRACTION = 0.15
 

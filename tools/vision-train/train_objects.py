@@ -20,7 +20,7 @@ ROWS, COLUMNS = 240, 320
 CELL = 8
 BALL_CELL = 4
 BOX_UNIT = 32
-# Values of each kind: log odds, then what tells its place; as ObjectDetector.
+# Values of each kind: log odds, then the values of its place, as in ObjectDetector.
 NUM_BALL, NUM_ROBOT, NUM_POST = 4, 7, 4
 # Channels of the output: a ball's values for the 2x2 parts of a cell, then the other kinds'.
 BALL_CHANNELS = 4 * NUM_BALL
@@ -47,7 +47,7 @@ class ObjectNetwork(nn.Module):
             common.convolution(16, 24, 3, 2),
             common.convolution(24, 24, 3),
         )
-        # Dilated: what the whole image shows decides what a part of it is.
+        # The convolutions are dilated, since the whole image decides what a part of it is.
         self.coarse = nn.Sequential(
             common.convolution(24, 32, 3, 2),
             common.convolution(32, 32, 3, dilation=2),
@@ -61,7 +61,7 @@ class ObjectNetwork(nn.Module):
         self.detail = nn.Conv2d(16, 16, 3, 1, 1, bias=False)
         self.context = nn.Sequential(nn.Conv2d(32, 16, 1), nn.Upsample(scale_factor=2))
         self.balls = nn.Sequential(nn.ReLU(inplace=True), nn.Conv2d(16, BALL_CHANNELS, 2, 2))
-        # At the start every place is improbable.
+        # Initially every place is improbable.
         with torch.no_grad():
             self.others.bias[[0, NUM_ROBOT]] = -4.0
             self.balls[-1].bias[:4] = -4.0
@@ -230,7 +230,7 @@ def add_target(o, cell, xx, yy, cx, cy, target, weight):
         return
     target[0] = np.maximum(target[0], 0.95 * near)
     target[0, j, i] = 1
-    # Places are learnt in the cells around, too.
+    # Places are also learnt in the neighboring cells.
     cells = (np.abs(xx - i) <= 1) & (np.abs(yy - j) <= 1)
     dx, dy = foot[0] - cx, foot[1] - cy
     if kind == ROBOT:

@@ -11,7 +11,7 @@
 
 namespace nao::tool {
 
-/** What the walk tuner searches. */
+/** Search problem of the walk tuner. */
 struct GaitProblemOptions {
   /** Model, scene and late ticks of all walks. */
   ClosedLoopOptions trial;
@@ -19,7 +19,7 @@ struct GaitProblemOptions {
   double speed = 1;
   /** Courses of each candidate, for each engine and set of disturbances. */
   int courses = 1;
-  /** Of the robot's other files: digest_files(). */
+  /** Digest of the robot's other files, from digest_files(). */
   uint64_t robot_digest = 0;
 };
 
@@ -27,9 +27,10 @@ struct GaitProblemOptions {
  * is one walk of a course. */
 class GaitProblem : public TuningProblem {
  public:
-  /** @param text        Of the gait file that the search starts from.
+  /** @param text        Text of the gait file that the search starts from.
    * @param start       Its gait, with other values where the command line sets them.
-   * @param parameters  All parameters of the file. @param tuned  Those that are searched. */
+   * @param parameters  All parameters of the file. @param tuned       Parameters that are searched.
+   */
   GaitProblem(GaitProblemOptions options, TrialConditions conditions, std::string text,
               const motion::Gait& start, std::vector<motion::Gait::Parameter> parameters,
               std::vector<motion::Gait::Parameter> tuned);

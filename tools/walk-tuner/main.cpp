@@ -30,8 +30,9 @@ struct TunerOptions {
   bool is_check = false;
 };
 
-// Not tuned unless --only names them. The course does not measure what they trade off: a search
-// would set bounds as wide, durations as short and arms wherever it lowers the cost a little.
+// Parameters that are not tuned unless --only names them. The course does not measure their
+// trade-offs: a search would widen bounds, shorten durations and move arms wherever that lowers the
+// cost slightly.
 const std::vector<std::string> kNotTuned = {
     "timing.start_duration",
     "timing.stop_duration",

@@ -25,14 +25,14 @@ struct WalkResult {
  *   0.4. */
 class WalkCourse {
  public:
-  /** Of a seed: six constant velocities, two with a joystick, two with a push. */
+  /** Walks of a seed: six at constant velocities, two with a joystick, two with a push. */
   static constexpr int kNumWalks = 10;
 
   /** @param speed  Fraction of the model's walk limits that is commanded. */
   explicit WalkCourse(double speed) : speed_(speed) {}
 
   /** @param options  Model, scene, engine, disturbances and late ticks.
-   * @param seed  Of the course; equal seeds give equal walks.
+   * @param seed  Seed of the course; equal seeds give equal walks.
    * @param walk  Which of its walks, below kNumWalks. */
   WalkResult run(ClosedLoopOptions options, const motion::Gait& gait, uint64_t seed,
                  int walk) const;

@@ -26,7 +26,7 @@ struct PanelState {
   float posture_speed = 0.5f;
   /** Time in the log that the slider was dragged to, s. */
   std::optional<double> requested_log_time;
-  /** The button "align" was pressed. */
+  /** Whether the button "align" was pressed. */
   bool is_alignment_requested = false;
   /** Part of the field name that the list of fields must contain. */
   char field_filter[64] = "";

@@ -35,7 +35,7 @@ std::vector<ActionScript> ActionScript::load(const RobotModel& model,
   std::vector<ActionScript> scripts;
   for (const YamlEntry& entry : root.at("actions").items()) {
     ActionScript script;
-    // The mirrored script of one that stands above in the file; all else is the original's.
+    // Mirrors a script that is above it in the file; everything else is the original's.
     if (entry.has("mirrors")) {
       entry.allow_only({"name", "mirrors"});
       const ActionScript* original = find(scripts, entry.at("mirrors").text());

@@ -9,18 +9,19 @@
 
 namespace nao::motion {
 
-/** An action that is kept as data: the robot's own from a stand,
- * data/robots/NAME/actions/keeper.yaml, which says what each key means; or one that people taught
+/** An action that is stored as data: one of the robot's own, from a stand
+ * (data/robots/NAME/actions/keeper.yaml says what each key means); or one that people taught
  * (TaughtMotionText). */
 struct ActionScript {
-  /** kHolds: of taught motions; the robot holds its last keyframe. */
+  /** kHolds: taught motions only; the robot holds the last keyframe. */
   enum class End { kOnFeet, kGetsUp, kHolds };
 
   KeyframeSequence sequence;
-  /** Share of the capture point's error that the ankles' torque answers; 0: keyframes alone. */
+  /** Fraction of the capture point's error that the ankles' torque corrects; 0: keyframes alone. */
   double balance_gain = 0;
   End end = End::kOnFeet;
-  /** Of taught motions: posture that it starts from, and how often its keyframes are played. */
+  /** Taught motions only: the posture that the motion starts from, and how often its keyframes are
+   * played. */
   std::string start;
   int num_repetitions = 1;
 

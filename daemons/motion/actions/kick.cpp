@@ -26,8 +26,8 @@ Kick Kick::load(const std::filesystem::path& file) {
   kick.strength = root.at("strength").number();
   kick.balance_gain = root.at("balance_gain").number();
   kick.zmp_reach = pair_of(root.at("zmp_reach"));
-  // Phases in time order: CoM and foot at the end of each, m, relative to the support foot; pitch
-  // of the foot, rad.
+  // Phases in time order: positions of CoM and foot at the end of each, m, relative to the support
+  // foot; and pitch of the foot, rad.
   for (const YamlEntry& item : root.at("phases").items()) {
     item.allow_only({"name", "duration", "com", "foot", "pitch"});
     Phase phase;

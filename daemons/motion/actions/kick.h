@@ -8,7 +8,7 @@
 
 namespace nao::motion {
 
-/** Of a kick, in the robot's folder. */
+/** File of a kick, in the robot's folder. */
 constexpr const char* kKickFile = "actions/kick.yaml";
 
 /** A kick as data/robots/NAME/actions/kick.yaml describes it; the members carry the file's keys,

@@ -20,13 +20,13 @@ struct TaughtMotionBounds {
   /** s. */
   static constexpr double kMinDuration = 0.1;
   static constexpr double kMaxDuration = 60;
-  /** Of all keyframes once, s. */
+  /** Greatest duration of all keyframes, each played once, s. */
   static constexpr double kMaxTotal = 120;
 };
 
 /** A fault of a taught motion. */
 struct MotionFault {
-  /** Index of the keyframe at which it shows; -1: none in particular. */
+  /** Index of the keyframe with the fault; -1: no particular one. */
   int keyframe = -1;
   Reason reason;
 };
@@ -39,11 +39,11 @@ std::optional<MotionFault> find_form_fault(const ActionScript& script);
 std::variant<ActionScript, MotionFault> to_script(const RobotModel& model,
                                                   const NamedMotion& motion);
 
-/** The same motion with its joints by name: those that any keyframe moves. */
+/** The same motion with named joints: those that any keyframe moves. */
 NamedMotion to_named(const RobotModel& model, const ActionScript& script);
 
-/** Posture from which a motion without one starts: of the upright and sitting ones that whose legs
- * are nearest to the first keyframe. The robot's ready posture if no keyframe moves a leg. */
+/** Start posture of a motion that names none: the upright or sitting posture whose legs are nearest
+ * to the first keyframe, or the robot's ready posture if no keyframe moves a leg. */
 std::string find_start_posture(const RobotModel& model, const std::vector<Keyframe>& keyframes);
 
 /** Whether a motion starts on the feet, and so must not fall. */

@@ -37,7 +37,7 @@ Reason reason_of(Mode mode) {
     case Mode::kMoving:
     case Mode::kWalking:
     case Mode::kActing:
-      break;  // These refuse nothing.
+      break;  // These modes refuse nothing.
   }
   return {};
 }

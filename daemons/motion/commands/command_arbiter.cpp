@@ -61,7 +61,7 @@ void CommandArbiter::receive(const Command& command, const MotionContext& contex
     answer(command, ResultStatus::kRefused, *obstacle);
     return;
   }
-  // Commands that a running motion can take in need no new motion.
+  // Commands that the running motion can adopt need no new motion.
   if (adopt_walk(command) || adopt_kick(command) || overlay_walk(command, context, targets)) {
     return;
   }
@@ -95,8 +95,8 @@ void CommandArbiter::repeat_result(const Command& command, const CommandResult& 
 bool CommandArbiter::adopt_walk(const Command& command) {
   const auto* walk = std::get_if<WalkCommand>(&command.request);
   if (walk == nullptr || waiting_) return false;
-  // A walk at velocity zero asks for nothing unless the robot walks: the standing robot has done it
-  // already.
+  // A walk at velocity zero does nothing unless the robot walks: a standing robot has already
+  // fulfilled it.
   const bool runs_walk =
       running_ && running_->command && kind_of(*running_->command) == CommandKind::kWalk;
   if (!runs_walk) {
@@ -155,8 +155,8 @@ bool CommandArbiter::overlay_walk(const Command& command, const MotionContext& c
 }
 
 void CommandArbiter::assign(Assignment assignment) {
-  // At most one motion waits: the newest command counts. Joints that a change of the same tick
-  // should make limp or stiff become so nevertheless.
+  // At most one motion waits: that of the newest command. Joints that a change of the same tick
+  // makes limp or stiff still become so.
   if (waiting_ && !waiting_->has_waited) {
     assignment.generator->continue_ramps(waiting_->generator->unfinished_ramps(*model_));
   }
@@ -184,7 +184,7 @@ void CommandArbiter::start_waiting(const MotionContext& context, const JointTarg
   if (!waiting_) return;
   // Safe postures are between the steps of a walk, not within; finish() asks for the next one.
   if (running_ && !running_->generator->can_be_replaced()) {
-    // A motion that cannot be left at once (a step, a get-up) comes to its next safe posture first.
+    // A motion that cannot be left at once (a step, a get-up) first reaches its next safe posture.
     running_->generator->finish();
     waiting_->has_waited = true;
     return;
@@ -205,7 +205,7 @@ void CommandArbiter::start_waiting(const MotionContext& context, const JointTarg
 
 std::optional<Reason> CommandArbiter::find_new_danger(const MotionContext& context,
                                                       const JointTargets& targets) {
-  // What was safe when the command came may not be after the motion that it waited for.
+  // What was safe when the command came may be unsafe after the motion that it waited for.
   if (!waiting_->has_waited || !waiting_->command) return std::nullopt;
   const auto* change = std::get_if<JointChangeCommand>(&waiting_->command->request);
   return change == nullptr ? std::nullopt : guard_->find_danger(*change, context, targets);

@@ -47,7 +47,7 @@ class CommandArbiter {
   void receive(const Command& command, const MotionContext& context, const JointTargets& targets,
                Mode mode);
 
-  /** Lets a motion wait for the running one; replaces another that waits. */
+  /** Makes a motion wait for the running one; it replaces another that waits. */
   void assign(Assignment assignment);
 
   /** Ends everything that runs, waits or overlays a walk as failed. */
@@ -56,19 +56,20 @@ class CommandArbiter {
   /** Starts a motion at once in place of the running one, which must have been aborted. */
   void start(Assignment assignment, const MotionContext& context, const JointTargets& targets);
 
-  /** Starts the motion that waits if the running one can be replaced; else asks that one to end. */
+  /** Starts the waiting motion if the running one can be replaced; otherwise asks that one to end.
+   */
   void start_waiting(const MotionContext& context, const JointTargets& targets);
 
   /** A motion that ended in this step. */
   struct EndedMotion {
     MotionGenerator::Phase phase;
     Mode mode;
-    /** It turned single joints, and made none limp: where the body lies is as it was. */
+    /** It turned single joints and made none limp, so the body lies as before. */
     bool keeps_body = false;
   };
 
   /** One control step of the running motion and of the overlay.
-   * @param targets  In: as sent in the last step. Out: as the motions command them.
+   * @param targets  In: as sent in the last step. Out: as commanded by the motions.
    * @return The running motion, if it ended. */
   std::optional<EndedMotion> step(const MotionContext& context, JointTargets& targets);
 
@@ -82,7 +83,7 @@ class CommandArbiter {
 
   /** Results since the last call, in the order in which they were made. */
   std::vector<CommandResult> take_results() { return std::exchange(results_, {}); }
-  /** Of the last refused command; none if there was none. */
+  /** Why the last refused command was refused; none if no command was refused. */
   const Reason& last_refusal() const { return last_refusal_; }
 
  private:

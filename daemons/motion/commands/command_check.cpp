@@ -50,7 +50,7 @@ Fault find_fault_in(const RobotModel& model, const PostureCommand& posture) {
 Fault find_fault_in(const RobotModel& model, const JointChangeCommand& change) {
   if (change.joint_names.empty()) return Reason("joints-missing");
   for (const std::string& name : change.joint_names) {
-    // A mimic joint is no unknown joint: RHipYawPitch follows the motor of LHipYawPitch.
+    // A mimic joint is not an unknown joint: RHipYawPitch follows the motor of LHipYawPitch.
     if (model.find_motor(name) < 0 && model.find_joint(name) >= 0) {
       return Reason("joint-without-motor", {name});
     }

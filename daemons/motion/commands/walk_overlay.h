@@ -25,7 +25,7 @@ class WalkOverlay {
   /** The change in progress; nullptr if there is none. */
   const Command* command() const { return change_ ? &change_->command : nullptr; }
 
-  /** Of the change in progress. */
+  /** Stiffness ramps of the change in progress that have not ended. */
   std::vector<MotionGenerator::StiffnessRamp> unfinished_ramps(const RobotModel& model) const;
 
   /** Ends the change in progress; its joints keep their angles. */

@@ -15,14 +15,15 @@ class BodyOutline {
   explicit BodyOutline(const RobotModel& model);
 
   /** Height of the lowest point relative to the torso's origin, m (negative).
-   * @param kinematics  Of the joint angles. @param R_OT  Orientation of the torso; O has z up. */
+   * @param kinematics  Kinematics of the joint angles. @param R_OT  Orientation of the torso; O has
+   * z up. */
   double calc_lowest(const Kinematics& kinematics, const Eigen::Matrix3d& R_OT) const;
 
  private:
   struct Point {
     int link;
     Eigen::Vector3d position_in_link;
-    /** Of the sphere around the point, m. */
+    /** Radius of the sphere around the point, m. */
     double radius;
   };
 

@@ -7,8 +7,8 @@
 namespace nao::motion {
 namespace {
 
-// Fraction of the robot's weight on a foot from which its sensors are judged. Chosen: half of what
-// a foot carries when both do.
+// Least fraction of the robot's weight on a foot for its sensors to be judged. Chosen: half of a
+// foot's load when both feet carry.
 constexpr double kLeastLoad = 0.25;
 // Fractions of the foot's load: below the first a sensor reads nothing, above the second it is
 // alive, and above the third the others say that it is loaded. Chosen: noise of a sensor is below
@@ -16,7 +16,7 @@ constexpr double kLeastLoad = 0.25;
 constexpr double kNothing = 0.01;
 constexpr double kAlive = 0.05;
 constexpr double kImplied = 0.08;
-// Time of reading nothing under load, without a step between, after which a sensor is dead, s: if
+// Time without a reading under load, with no step in between, after which a sensor is dead, s: if
 // it has never been seen loaded, and if it has. Chosen: longer than a step, which in a walk may
 // leave the outer edge of a sole without load each time, and within the stand before a walk; the
 // second longer than any stand on the edge of a bump.

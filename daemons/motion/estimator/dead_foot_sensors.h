@@ -8,11 +8,11 @@
 namespace nao::motion {
 
 /** Finds force sensors that read nothing while the others of their foot say that they are loaded,
- * and gives them the implied force. Of the robot's sensing errors a dead sensor does most harm: it
- * moves the measured center of pressure by up to two centimeters.
+ * and gives them the implied force. A dead sensor is the most harmful of the robot's sensing
+ * errors: it moves the measured center of pressure by up to two centimeters.
  *
  * A sensor on the edge of a hole or a bump reads nothing, too. Therefore one that has ever been
- * seen loaded needs ten times the evidence. Takes no memory after construction. */
+ * seen loaded needs ten times the evidence. Allocates no memory after construction. */
 class DeadFootSensors {
  public:
   explicit DeadFootSensors(const RobotModel& model);
@@ -27,7 +27,7 @@ class DeadFootSensors {
   FootPressure pressure_;
   /** Least load on a foot with which its sensors are judged, N. */
   double least_load_;
-  /** Time of reading nothing under load since the foot was put down, s. */
+  /** Time without a reading under load since the foot was put down, s. */
   std::vector<double> silent_time_;
   std::vector<bool> has_been_loaded_;
   std::vector<bool> is_dead_;

@@ -7,8 +7,8 @@
 
 namespace nao::motion {
 
-/** What the force sensors of a foot tell about one of them: the pressure under a flat rigid sole on
- * an elastic floor is linear in the position. Takes no memory after construction. */
+/** Infers the force on one sensor of a foot from the others: the pressure under a flat rigid sole
+ * on an elastic floor is linear in the position. Allocates no memory after construction. */
 class FootPressure {
  public:
   explicit FootPressure(const RobotModel& model);
@@ -26,7 +26,7 @@ class FootPressure {
   size_t num_sensors() const { return terms_.size(); }
 
  private:
-  /** Of each foot, and at the end none. */
+  /** Sensors of each foot; the last entry is empty, for sensors that are on no foot. */
   std::vector<std::vector<int>> feet_;
   /** Index into feet_, of each sensor. */
   std::vector<size_t> foot_;

@@ -21,13 +21,13 @@ using Block12d = Eigen::Matrix<double, 3, 12>;
 constexpr double kTorqueError = 0.03;
 constexpr double kForceError = 0.25;
 constexpr double kMomentError = 0.05;
-// Forces and moments that are expected on a foot at all, as fractions of the weight, and of the
-// weight times the height: on a foot that may stand they only keep the equations solvable.
+// Expected forces and moments on a foot, as fractions of the weight, and of the weight
+// times the height: on a foot that may stand they only keep the equations solvable.
 constexpr double kExpectedForce = 2;
 constexpr double kExpectedMoment = 1;
-// Height of a foot above the other one at which the expected ones are e^-1 of that, fraction of the
-// robot's height, and least fraction of them. Chosen: joint zeros and backlash of half a degree in
-// each joint of a leg displace its foot by 1 % of the height.
+// Height of a foot above the other one, as a fraction of the robot's height, at which the expected
+// forces and moments are e^-1 of these; and their least fraction. Chosen: joint zeros and backlash
+// of half a degree in each joint of a leg displace its foot by 1 % of the height.
 constexpr double kLiftedHeight = 0.02;
 constexpr double kLiftedFraction = 0.005;
 // A foot with less of the weight than this has no center of pressure.

@@ -11,7 +11,7 @@ namespace nao::motion {
 
 /** Force of the ground on one foot. */
 struct FootReaction {
-  /** Along the vertical, N, never negative. */
+  /** Vertical force, N, never negative. */
   double force = 0;
   /** Center of pressure on the sole, m, torso frame; the sole's origin where there is no force. */
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -29,9 +29,9 @@ struct FootReaction {
  * The first line is the virtual work of the joints with the torso fixed (as in ServoFeedforward).
  * The second one is Newton's and Euler's equation of a body that neither accelerates much nor
  * changes its angular momentum; its weight is lower. It gives the force along a stretched leg,
- * which no joint carries. A swing leg needs torques for its own acceleration; therefore the force
- * on a foot is expected to be the smaller, the higher it is above the other one. A robot that hangs
- * with stretched legs and one that stands cannot be told apart.
+ * which no joint carries. A swing leg needs torques for its own acceleration; therefore the higher
+ * a foot is above the other one, the smaller its expected force. A robot that hangs with stretched
+ * legs cannot be distinguished from one that stands.
  *
  * Source: contact forces from joint torques as in M. Camurri et al., "Probabilistic contact
  * estimation and impact detection for state estimation of quadruped robots", IEEE RA-L 2(2), 2017.
@@ -41,7 +41,8 @@ class GroundReaction {
   /** @param model  Must outlive this. */
   explicit GroundReaction(const RobotModel& model);
 
-  /** @param kinematics  Of the measured angles. @param torque  Measured, N m, (num_motors).
+  /** @param kinematics  Kinematics of the measured angles. @param torque  Measured, N m,
+   * (num_motors).
    * @param up  Unit vector upwards, torso frame. @return Left foot, right foot. */
   std::array<FootReaction, 2> estimate(const Kinematics& kinematics,
                                        const std::vector<double>& torque,

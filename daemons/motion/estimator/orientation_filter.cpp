@@ -22,14 +22,14 @@ constexpr double kRestTimeConstant = 1.0;
 // Deviation of |a| from gravity at which the weight q of the accelerometer reaches 0, m/s^2.
 // Chosen: a third of gravity.
 constexpr double kZeroWeightDeviation = 3.0;
-// Deviation of |a| from gravity up to which it is taken for gravity alone, m/s^2. Chosen: ten
-// standard deviations of the simulated accelerometer's bias.
+// Deviation of |a| from gravity up to which it counts as gravity alone, m/s^2. Chosen: ten standard
+// deviations of the simulated accelerometer's bias.
 constexpr double kRestDeviation = 0.5;
 // Angle between estimated and measured up at rest at which the estimate is replaced, rad. Chosen:
 // far above the filter's error, below any change of the side on which a robot lies.
 constexpr double kLostTilt = 0.3;
 // Largest bias, rad/s. Chosen: 50 standard deviations of the simulated gyroscope's bias; a sensor
-// beyond it is broken.
+// with more is broken.
 constexpr double kMaxBias = 0.1;
 
 bool measures_gravity(const Eigen::Vector3d& accelerometer) {
@@ -46,7 +46,7 @@ void OrientationFilter::update(const Eigen::Vector3d& gyroscope,
   }
   if (is_at_rest) {
     recover(accelerometer);
-    // The mean of all measurements at first, then of the latest.
+    // At first the mean of all measurements, then of the latest.
     learnt_time_ = std::min(learnt_time_ + dt, kRestTimeConstant);
     bias_ += (gyroscope - bias_) * std::min(1.0, dt / learnt_time_);
   }
@@ -83,7 +83,7 @@ void OrientationFilter::start(const Eigen::Vector3d& gyroscope,
   const Eigen::Matrix3d R = orientation_.toRotationMatrix();
   const double heading = heading_of(R);
   orientation_ = Eigen::AngleAxisd(-heading, Eigen::Vector3d::UnitZ()) * orientation_;
-  // Without a measurement of gravity (a robot that falls) the given orientation stays.
+  // Without a measurement of gravity (while the robot falls) the given orientation is kept.
   angular_velocity_ = gyroscope - bias_;
   is_started_ = true;
 }
@@ -92,7 +92,7 @@ void OrientationFilter::recover(const Eigen::Vector3d& accelerometer) {
   const Eigen::Vector3d up_before = orientation_.conjugate() * Eigen::Vector3d::UnitZ();
   if (!measures_gravity(accelerometer)) return;
   if (accelerometer.dot(up_before) >= accelerometer.norm() * std::cos(kLostTilt)) return;
-  // Nothing rotated, and yet up is elsewhere: the robot was placed anew.
+  // Nothing rotated, but the direction of up has changed: the robot was placed elsewhere.
   const Eigen::Quaterniond correction =
       rotation_between(orientation_ * accelerometer, Eigen::Vector3d::UnitZ());
   orientation_ = correction * orientation_;

@@ -35,7 +35,7 @@ class OrientationFilter {
    * @param gyroscope      Angular velocity, rad/s, T.
    * @param accelerometer  Specific force, m/s^2, T: (0, 0, +g) upright at rest.
    * @param is_at_rest     True while nothing moves: the gyroscope then measures its bias.
-   * @param dt             s since the last measurement. */
+   * @param dt  Time since the last measurement, s. */
   void update(const Eigen::Vector3d& gyroscope, const Eigen::Vector3d& accelerometer,
               bool is_at_rest, double dt);
 
@@ -55,7 +55,7 @@ class OrientationFilter {
   Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();
   Eigen::Vector3d angular_velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d bias_ = Eigen::Vector3d::Zero();
-  /** For which the bias has been learnt at rest, s; not more than the time constant. */
+  /** Time for which the bias has been learnt at rest, s; at most the time constant. */
   double learnt_time_ = 0;
 };
 

@@ -46,7 +46,7 @@ StateEstimator::StateEstimator(const RobotModel& model)
       outline_(model) {
   bool has_right = false;
   bool has_left = false;
-  // Forces of both feet from one source: the sensors only if both feet have some.
+  // Forces of both feet come from one source: the sensors, if both feet have some.
   for (int link : model.foot_sensors()) {
     is_left_sensor_.push_back(is_on_foot_of(model, link, model.left_sole()));
     (is_left_sensor_.back() ? has_left : has_right) = true;
@@ -81,7 +81,7 @@ void StateEstimator::update(const Sensors& sensors, double dt) {
 }
 
 void StateEstimator::detect_rest(const Sensors& sensors, double dt) {
-  // Rest ends with the first axis, of the gyroscope or a joint, that moves.
+  // Rest ends when the first axis of the gyroscope, or joint, moves.
   bool is_at_rest =
       (sensors.gyroscope_torso - orientation_.bias()).cwiseAbs().maxCoeff() < kRestAngularVelocity;
   for (double velocity : sensors.velocity) {
@@ -114,7 +114,7 @@ void StateEstimator::measure_foot_forces(const Sensors& sensors) {
           sensors.foot_force[i];
     }
   }
-  // Hysteresis: contact is made at a larger force than it is lost.
+  // Hysteresis: the force at which contact is made is larger than that at which it is lost.
   const auto carries = [&](bool carried, double force) {
     const double least = contact_forces_.contact;
     return force > (carried ? least : least * kContactHysteresis);
@@ -173,7 +173,7 @@ void StateEstimator::estimate_velocity(double dt) {
   last_center_of_mass_ = state_.center_of_mass_in_odometry;
   const Eigen::Matrix3d& R_OT = state_.torso_in_odometry.linear();
   const double heading = heading_of(R_OT);
-  // In the heading frame: what a joystick's velocity is measured against.
+  // The heading frame is the one in which a joystick commands velocities.
   state_.velocity_torso_in_heading =
       Eigen::AngleAxisd(-heading, Eigen::Vector3d::UnitZ()) * torso_velocity_in_odometry_;
 }
@@ -196,7 +196,7 @@ void StateEstimator::find_support(const Sensors& sensors) {
     state_.center_of_pressure_in_odometry =
         (state_.torso_in_odometry * calc_center_of_pressure(sensors)).head<2>();
   } else {
-    // Without contact there is none; NaN says so to all users.
+    // Without contact there is no center of pressure, which NaN tells all users.
     state_.center_of_pressure_in_odometry.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 }

@@ -37,7 +37,7 @@ class StateEstimator {
   /** Restarts: the next update() places the odometry frame below the torso. */
   void reset();
 
-  /** Adds the measurements of one control step. @param dt  s since the last ones. */
+  /** Adds the measurements of one control step. @param dt  Time since the last ones, s. */
   void update(const Sensors& sensors, double dt);
 
   /** As of the last update(). */

@@ -12,14 +12,14 @@ namespace {
 // Least height of the center of mass, m: keeps the pendulum's frequency finite for a robot that
 // lies.
 constexpr double kMinHeight = 0.1;
-// Margin of the capture point to the edge of the support polygon, m, and for how long it must be
-// below it, s. Pushes from which the ankles recover bring it a centimeter outside for one or two
-// steps (measured: nao-trial push).
+// Margin of the capture point to the edge of the support polygon, m, and the time for which it must
+// be below this, s. Pushes from which the ankles recover bring it a centimeter outside for one or
+// two steps (measured: nao-trial push).
 constexpr double kFallMargin = -0.025;
 constexpr double kFallTime = 0.03;
-// Least tilt of the flatter sole, rad: a body that tips over the edge of its soles tilts them, one
-// that only moves its limbs fast does not. Chosen: twice the angle at which TippingGuard calls a
-// sole flat.
+// Least tilt of the flatter sole, rad: a body that tips over the edge of its soles tilts them, but
+// one that only moves its limbs fast does not. Chosen: twice the angle at which TippingGuard calls
+// a sole flat.
 constexpr double kMinSoleTilt = 0.12;
 // Torso tilt at which a walk falls, rad. Walks that recovered from a push tilted by 0.34 rad at
 // most; of those that fell, 98 of 100 tilted by this much 150 ms or more before the impact
@@ -50,7 +50,8 @@ bool FallMonitor::update(const RobotState& state, bool is_walking, double dt) {
                                               state.right_sole_in_odometry.linear()(2, 2)));
   const double margin =
       margin_in_polygon(state.support_polygon_in_odometry, calc_capture_point(state));
-  // Without a support polygon the margin is NaN: a robot in the air does not fall by this test.
+  // Without a support polygon the margin is NaN, so that a robot in the air is not considered to
+  // fall.
   const bool is_outside = margin < kFallMargin && sole_tilt > kMinSoleTilt;
   time_outside_ = is_outside ? time_outside_ + dt : 0;
   return time_outside_ >= kFallTime - kRounding;

@@ -31,7 +31,7 @@ class FallMonitor {
 
  private:
   double lying_tilt_;
-  /** s for which the capture point has been outside of the support polygon. */
+  /** Time for which the capture point has been outside of the support polygon, s. */
   double time_outside_ = 0;
 };
 

@@ -29,7 +29,7 @@ FallSupervisor::Action FallSupervisor::update(const RobotState& state, const Act
   needs_help_ = needs_help_ && lies;
   if (!has_fallen_) return Action::kNone;
   time_fallen_ += dt;
-  // Some time on the ground before it gets up: the body comes to rest.
+  // The robot waits on the ground before it gets up, so that the body comes to rest.
   if (!options_->gets_up || needs_help_ || time_fallen_ < options_->get_up_delay) {
     return Action::kNone;
   }

@@ -11,8 +11,8 @@ namespace nao::motion {
  *
  * A robot on its feet falls when FallMonitor predicts so. A robot that lies without having been
  * commanded to has fallen, too (it was knocked over while nothing ran). After a fall it gets up
- * once it has lain for MotionOptions::get_up_delay; when the get-up motion fails for good it needs
- * help, and tries no more until it is lifted or commanded. */
+ * once it has lain for MotionOptions::get_up_delay. When the get-up motion finally fails, the robot
+ * needs help and does not try again until it is lifted or commanded. */
 class FallSupervisor {
  public:
   /** @param model, options  Must outlive this. */
@@ -45,8 +45,8 @@ class FallSupervisor {
    */
   Action update(const RobotState& state, const Activity& activity, double dt);
 
-  /** What has ended: the fall motion, a change of single joints that none became limp by, or
-   * another motion. */
+  /** Which motion has ended: the fall motion, a change of single joints that made none limp, or
+   * another. */
   enum class Ended { kFall, kJointChange, kMotion };
 
   /** A motion has ended. A fallen robot whose head or arm was turned has fallen still.
@@ -67,10 +67,10 @@ class FallSupervisor {
   const MotionOptions* options_;
   FallMonitor monitor_;
   bool has_fallen_ = false;
-  /** s for which it has lain after a fall without a motion. */
+  /** Time for which it has lain still after a fall, without a motion, s. */
   double time_fallen_ = 0;
-  /** Lay when no motion ran last, or when one was done: it lies on purpose, or the fall is known.
-   */
+  /** The robot lay when no motion ran last, or when one was done: it lies on purpose, or the fall
+   * is known. */
   bool was_lying_ = false;
   bool needs_help_ = false;
 };

@@ -12,7 +12,8 @@ constexpr double kStiffness = 0.3;
 // Least and greatest duration of a fall, s: a fall from standing takes about the least one.
 constexpr double kMinDuration = 0.6;
 constexpr double kMaxDuration = 3.0;
-// Angular velocity of the torso below which it lies still, rad/s, and for how long it must be, s.
+// Angular velocity of the torso below which it lies still, rad/s, and the time for which it must
+// be, s.
 constexpr double kLandedVelocity = 0.3;
 constexpr double kLandedTime = 0.1;
 // Time over which the direction of up is extrapolated to find the direction of the fall, s. Chosen:
@@ -50,7 +51,7 @@ void FallMotion::start(const MotionContext& context, const JointTargets& targets
 
 MotionGenerator::Phase FallMotion::step(const MotionContext& context, JointTargets& targets) {
   time_ += context.dt;
-  // At the motors' greatest speed: the core limits the targets.
+  // The joints move at the motors' greatest speed, since the core limits the targets.
   targets.position = pose_;
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), kStiffness);
   const bool is_still = context.state.angular_velocity_torso.norm() < kLandedVelocity;

@@ -20,7 +20,7 @@ class FallMotion : public MotionGenerator {
   /** Targets of the protective pose, rad, (num_motors). */
   std::vector<double> pose_;
   double time_ = 0;
-  /** s for which the torso has not turned. */
+  /** Time for which the torso has not turned, s. */
   double time_still_ = 0;
 };
 

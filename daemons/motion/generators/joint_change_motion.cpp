@@ -52,7 +52,8 @@ void JointChangeMotion::start(const MotionContext& context, const JointTargets& 
       change_.allow_tipping
           ? joint_rates(context.model, change_.speed, context.options.max_acceleration)
           : standing_rates(context, change_.speed);
-  // Brisk only where no named joint moves the body; raises the rates of those joints.
+  // Starts briskly only if no named joint moves the body, and then raises the rates of those
+  // joints.
   const JointTrajectory::Start how = choose_start(context, rates);
   // The joints that are not named stop; the named ones start from their present targets.
   stop_ = JointTrajectory::stopping(targets.position, targets.velocity, stopping_rates(context));
@@ -73,7 +74,7 @@ void JointChangeMotion::start(const MotionContext& context, const JointTargets& 
     const std::string& name = context.model.motor_joint(motor).name;
     const auto& names = change_.joint_names;
     const bool is_named = std::find(names.begin(), names.end(), name) != names.end();
-    // A joint that is not named and does not move is left to whatever else writes it.
+    // A joint that is not named and does not move is left to other writers.
     if (!is_named && goal[motor] == base[motor]) continue;
     turning_.push_back(motor);
     start[motor] = targets.position[motor];

@@ -11,10 +11,10 @@
 namespace nao::motion {
 
 /** Turns single joints to their goals, changes their stiffness, and brings the others to rest.
- * Stiffness that an older change has not brought to its goal goes on to it.
+ * Stiffness ramps that an older change has not finished continue.
  *
- * The two groups have trajectories of their own: joints that had to arrive together with a slow
- * change would coast far. */
+ * The two groups have separate trajectories: joints that had to arrive together with a slow change
+ * would coast far. */
 class JointChangeMotion : public MotionGenerator {
  public:
   /** @param change  Well formed (find_fault()). */
@@ -52,7 +52,8 @@ class JointChangeMotion : public MotionGenerator {
   std::vector<StiffnessRamp> all_ramps(const RobotModel& model) const;
   double duration() const;
   void sample(double time, std::vector<double>& position) const;
-  /** Brisk if none of the named joints carries the body; then sets their rates accordingly. */
+  /** Returns a brisk start if none of the named joints carries the body, and sets their rates
+   * accordingly. */
   JointTrajectory::Start choose_start(const MotionContext& context,
                                       std::vector<JointRates>& rates) const;
   /** Notes the named joints whose goal was clipped. */
@@ -62,11 +63,11 @@ class JointChangeMotion : public MotionGenerator {
   JointChangeCommand change_;
   /** Brings the joints that do not turn to rest. */
   JointTrajectory stop_;
-  /** Of the joints that turn: the named ones, and those whose limits depend on them. */
+  /** Trajectory of the joints that turn: the named ones, and those whose limits depend on them. */
   JointTrajectory trajectory_;
   /** Motors of trajectory_. */
   std::vector<int> turning_;
-  /** Of older motions, one for each motor. */
+  /** Ramps of earlier motions, one for each motor. */
   std::vector<StiffnessRamp> continued_;
   std::vector<RunningRamp> stiffness_;
   bool is_started_ = false;

@@ -12,8 +12,9 @@ namespace {
 // two of them velocity and acceleration exceed the rates by 5 % at most (measured by the test of
 // this class).
 constexpr int kNumSamples = 24;
-// Factor by which such a path is made longer until it keeps the rates, and how often. Chosen: the
-// duration is at most 15 % above the least one; 60 times make it 4000 times as long.
+// Factor by which such a path is extended until it keeps the rates, and the greatest number of
+// times. Chosen: the duration is at most 15 % above the least one; 60 times make it 4000 times as
+// long.
 constexpr double kLengthening = 1.15;
 constexpr int kMaxLengthenings = 60;
 
@@ -74,7 +75,7 @@ JointTrajectory::JointTrajectory(const std::vector<double>& start,
                          std::sqrt(peak_acceleration(how) * distance / rates[i].max_acceleration));
     if (start_velocity_[i] != 0) {
       starts_at_rest = false;
-      // The initial velocity needs time to be braked at all.
+      // Braking the initial velocity takes a least time.
       duration_ = std::max(duration_, std::abs(start_velocity_[i]) / rates[i].max_acceleration);
     }
   }

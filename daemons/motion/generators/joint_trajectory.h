@@ -37,7 +37,7 @@ class JointTrajectory {
    * @param goal      rad; where the targets come to rest.
    * @param rates     Limits of each joint. A joint that is faster at the start slows down.
    * @param shortest  Least duration, s.
-   * @param how       Of all joints, so that they stay on one line through joint space. */
+   * @param how       Start of all joints, so that they stay on one line through joint space. */
   JointTrajectory(const std::vector<double>& start, const std::vector<double>& start_velocity,
                   const std::vector<double>& goal, const std::vector<JointRates>& rates,
                   double shortest = 0, Start how = Start::kSmooth);

@@ -83,7 +83,7 @@ MotionGenerator::Phase KickMotion::step(const MotionContext& context, JointTarge
     if (phase == Phase::kFailed) reason_ = stand_up_->reason();
     if (phase != Phase::kDone) return phase;
     is_standing_up_ = false;
-    // A motion that shall end does not begin to kick.
+    // A motion that was asked to end does not begin to kick.
     if (is_finishing_) return Phase::kDone;
     start_kick(context, targets);
     return Phase::kRunning;
@@ -105,7 +105,7 @@ void KickMotion::follow(const MotionContext& context, const KickReference& plann
   pose_.turn_torso(reference, hold_path_over_ground(trajectory_.impact(), start_in_support));
   const Isometry3d torso = pose_.torso_in_support(reference);
 
-  // The old angles first, to get velocities by difference, rad/s.
+  // Keeps the old angles, to compute velocities by differences, rad/s.
   std::vector<double> velocity = reference_position_;
   pose_.write_legs(reference, reference_position_);
   for (size_t i = 0; i < velocity.size(); ++i) {

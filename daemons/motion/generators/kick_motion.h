@@ -51,14 +51,15 @@ class KickMotion : public MotionGenerator {
   /** S in the odometry frame. */
   Pose2 support_in_odometry(const RobotState& state) const;
   void follow(const MotionContext& context, const KickReference& planned, JointTargets& targets);
-  /** From the reference of the CoM to the ZMP, m, in S, that corrects the measured DCM.
-   * @param com_velocity  Of the reference, m/s. */
+  /** Vector from the reference of the CoM to the ZMP that corrects the measured DCM, m, in S.
+   * @param com_velocity  Velocity of the reference, m/s. */
   Eigen::Vector2d calc_zmp_offset(const RobotState& state, const KickReference& reference,
                                   const Eigen::Vector2d& com_velocity) const;
   /** Forces of the ground on the left and the right foot, in the torso frame. */
   std::array<FootLoad, 2> calc_loads(const KickReference& reference, const Eigen::Isometry3d& torso,
                                      const Eigen::Vector2d& zmp_offset) const;
-  /** @param torque, velocity  Of all motors, N m and rad/s: what the servos' offsets are for. */
+  /** @param torque, velocity  Torques and velocities of all motors, N m and rad/s: what the servos'
+   * offsets are for. */
   void write_targets(const std::vector<double>& torque, const std::vector<double>& velocity,
                      JointTargets& targets) const;
 
@@ -74,13 +75,13 @@ class KickMotion : public MotionGenerator {
   ServoFeedforward feedforward_;
   Kinematics kinematics_;
 
-  /** s since the start of the kick. */
+  /** Time since the start of the kick, s. */
   double time_ = 0;
   /** Reference of the CoM in the step before, m. */
   Eigen::Vector2d last_planned_com_ = Eigen::Vector2d::Zero();
   /** S at the start. */
   Pose2 start_in_odometry_;
-  /** Of all motors, rad, without what balance and feedforward add. */
+  /** Positions of all motors, rad, without what balance and feedforward add. */
   std::vector<double> reference_position_;
   GyroscopeFilter gyroscope_;
   Reason reason_;

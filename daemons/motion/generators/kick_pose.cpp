@@ -11,7 +11,8 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// The torso makes room for the leg's mass, but does not follow every swing of it, s.
+// Time constant, s, with which the torso compensates the leg's mass without following its every
+// swing.
 constexpr double kComTimeConstant = 0.05;
 // Bound of the torso's heading in S, rad; the greatest in 20 kicks by nao-trial kick was 0.19.
 constexpr double kMaxTorsoHeading = 0.35;

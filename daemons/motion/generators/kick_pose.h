@@ -24,7 +24,7 @@ class KickPose {
  public:
   KickPose(const RobotModel& model, bool is_left);
 
-  /** Defines S. @param kinematics  Of the joint targets at the start.
+  /** Defines S. @param kinematics  Kinematics of the joint targets at the start.
    * @return The stand in S. */
   KickReference start(const Kinematics& kinematics);
 
@@ -47,7 +47,7 @@ class KickPose {
   double support_heading() const { return support_heading_; }
   /** Heading of the torso in S, rad. */
   double torso_heading() const { return heading_; }
-  /** Of the CoM over the ground at the start, m. */
+  /** Height of the CoM above the ground at the start, m. */
   double com_height() const { return com_height_; }
   const LegKinematics& legs() const { return legs_; }
 

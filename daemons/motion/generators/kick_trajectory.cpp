@@ -82,7 +82,7 @@ void KickTrajectory::find_impact() {
     if (!segments_[i].is_strike) continue;
     const KickReference& from = segments_[i - 1].end;
     const KickReference& to = segments_[i].end;
-    // Fraction of the strike at which the foot is there.
+    // Fraction of the strike at which the foot is at this point.
     const double s = (foot_x - from.foot.x()) / (to.foot.x() - from.foot.x());
     impact_ = interpolate(from, to, std::clamp(s, 0.0, 1.0));
   }

@@ -21,7 +21,8 @@ struct KickReference {
 };
 
 /** Fraction 0..1 to which the kicking foot moves independently of the ground: 0 while it stands,
- * 1 from the height on at which nothing of it can touch the ground. @param height  Of the sole, m.
+ * 1 from the height on at which nothing of it can touch the ground. @param height  Height of the
+ * sole, m.
  */
 double airborne_fraction(double height);
 
@@ -67,9 +68,9 @@ class KickTrajectory {
 
   std::vector<Segment> segments_;
   double duration_ = 0;
-  /** Ahead of the middle between the soles, m. */
+  /** Position of the ball ahead of the middle between the soles, m. */
   double ball_x_;
-  /** Of the ball's center ahead of the sole's origin when they touch, m. */
+  /** Distance of the ball's center ahead of the sole's origin when they touch, m. */
   double ball_contact_;
   KickReference stand_;
   KickReference impact_;

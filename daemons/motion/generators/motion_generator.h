@@ -25,7 +25,7 @@ struct MotionContext {
   const Sensors& sensors;
   const RobotState& state;
   const Kinematics& kinematics;
-  /** s since the last step. */
+  /** Time since the last step, s. */
   double dt;
 };
 
@@ -66,12 +66,12 @@ class MotionGenerator {
   struct StiffnessRamp {
     int motor;
     double goal;
-    /** Until the goal is reached, s. */
+    /** Time until the goal is reached, s. */
     double time_left;
   };
 
-  /** Ramps that would be left half way if the motion ended now; of one that has not begun, those
-   * that it is for. */
+  /** Ramps that would be left unfinished if the motion ended now; for a motion that has not begun,
+   * all its ramps. */
   virtual std::vector<StiffnessRamp> unfinished_ramps(const RobotModel& /*model*/) const {
     return {};
   }
@@ -90,7 +90,7 @@ class MotionGenerator {
   /** Whether the robot must stay on its feet now: falls are predicted while this is true. */
   virtual bool must_stay_upright() const { return true; }
 
-  /** Fraction done, 0..1; NaN where the end is open. */
+  /** Fraction done, 0..1; NaN if the end is open. */
   virtual double progress() const { return std::numeric_limits<double>::quiet_NaN(); }
 
   /** Why it failed after kFailed; a remark, usually none, after kDone. */

@@ -16,12 +16,12 @@ constexpr int kMaxTries = 6;
 constexpr int kMaxSegments = 16;
 // Time in which limp motors become stiff, s. Chosen: a joint off its target does not jump to it.
 constexpr double kStiffeningTime = 0.5;
-// Time for which a lying body must have been still before it moves, s, and after which it moves in
+// Time for which a lying body must be still before it moves, s, and time after which it moves in
 // any case, s.
 constexpr double kStillTime = 0.1;
 constexpr double kMaxRestTime = 0.6;
-// Angular velocity of the torso below which it lies still, and below which it may go on from one
-// transition to the next that was planned, rad/s.
+// Angular velocity of the torso below which it lies still, and below which it may continue from one
+// transition to the next planned one, rad/s.
 constexpr double kStillVelocity = 0.3;
 constexpr double kContinueVelocity = 4;
 // Transition that brings feet together that stand too far apart to turn under their load, and how
@@ -33,7 +33,7 @@ constexpr int kMaxFeetTogether = 3;
 constexpr double kOffPosture = 2.5 * kDegree;
 // Deviation from a posture below which no approach transition is needed, rad.
 constexpr double kNearPosture = 0.3;
-// Fraction of the progress that a transition stands for: what follows it is not known yet.
+// Fraction of the progress that a transition counts for: what follows it is not known yet.
 constexpr double kTransitionProgress = 0.5;
 
 bool is_lying_state(const std::string& state) {
@@ -97,8 +97,8 @@ void PosturePathMotion::stiffen(const MotionContext& context, std::vector<double
 
 MotionGenerator::Phase PosturePathMotion::step_resting(const MotionContext& context,
                                                        JointTargets& targets) {
-  // A motion that shall end begins no further segment: the body is at rest, and what waits replaces
-  // it.
+  // A motion that was asked to end begins no further segment: the body is at rest, and the waiting
+  // motion replaces it.
   if (is_finishing_) return Phase::kRunning;
   if (time_ < kMaxRestTime && must_rest(context, body_state_in(context))) return Phase::kRunning;
   return choose_segment(context, targets);
@@ -108,7 +108,8 @@ MotionGenerator::Phase PosturePathMotion::step_line(const MotionContext& context
                                                     JointTargets& targets) {
   const Phase phase = line_->step(context, targets);
   if (phase == Phase::kFailed && body_state_in(context) != state_of(*goal_)) {
-    // It fell over, and lies on joints that are blocked for that reason: the path is planned anew.
+    // The robot fell over and lies on joints, which are therefore blocked: the path is planned
+    // anew.
     is_on_path_ = false;
     rest(context);
     return Phase::kRunning;
@@ -124,7 +125,7 @@ MotionGenerator::Phase PosturePathMotion::step_line(const MotionContext& context
   if (phase == Phase::kFailed) reason_ = line_->reason();
   if (phase != Phase::kDone) return phase;
   if (body_state_in(context) == state_of(*goal_)) return Phase::kDone;
-  // The joints are there, but the body is not: it was tipped over meanwhile.
+  // The joints have arrived, but the body has not: it was tipped over in the meantime.
   rest(context);
   return Phase::kRunning;
 }
@@ -135,7 +136,7 @@ void PosturePathMotion::rest(const MotionContext& context) {
   note_getting_up(body_state_in(context));
 }
 
-// A seated robot is on its way if it lay before, and otherwise only moves.
+// A seated robot is getting up if it lay before; otherwise it only moves.
 void PosturePathMotion::note_getting_up(const std::string& state) {
   if (state == kOnFeet || state == state_of(*goal_)) {
     is_getting_up_ = false;
@@ -145,8 +146,8 @@ void PosturePathMotion::note_getting_up(const std::string& state) {
 }
 
 bool PosturePathMotion::must_rest(const MotionContext& context, const std::string& state) const {
-  // On feet there is nothing to wait for. Between planned transitions a moving body may go on; any
-  // other lying body must have come to rest, since its state is not known before.
+  // On its feet the robot need not wait. Between planned transitions a moving body may continue;
+  // any other lying body must have come to rest, since its state is not known before.
   if (state == kOnFeet) return false;
   if (is_on_path_) return context.state.angular_velocity_torso.norm() > kContinueVelocity;
   return time_still_ < kStillTime;
@@ -195,7 +196,7 @@ MotionGenerator::Phase PosturePathMotion::choose_transition(const MotionContext&
                                                             const std::string& state) {
   const std::string goal_state = state_of(*goal_);
   // First a path without transitions that have failed; if there is none, all are tried again, in
-  // the same order: a robot that could not roll by the shortest path rolls by the other one next.
+  // the same order: a robot that could not roll by the shortest path tries the other one next.
   auto path = graph_->find_path(state, goal_state, failed_);
   if (path.empty()) {
     failed_.clear();
@@ -211,7 +212,8 @@ MotionGenerator::Phase PosturePathMotion::choose_transition(const MotionContext&
     reason_ = Reason("get-up-failed", {std::to_string(kMaxTries)});
     return Phase::kFailed;
   }
-  // Alternatives of one transition take turns: a surface on which one fails may suit another.
+  // The alternatives of a transition are tried in turn: a surface on which one fails may suit
+  // another.
   const int num_failed = is_from_lying ? num_tries_ - 1 : 0;
   play(context, graph_->find_alternative(*path.front(), num_failed), targets);
   return Phase::kRunning;
@@ -252,8 +254,7 @@ MotionGenerator::Phase PosturePathMotion::step_transition(const MotionContext& c
   bool has_failed = false;
   if (stage != transition_.stage || is_over) {
     // At the end of each keyframe the direction of up must be in the keyframe's range: a roll that
-    // did not happen ends the transition at once, and not after the robot has worked against the
-    // floor.
+    // did not happen ends the transition at once, before the robot works against the floor.
     const Keyframe& ended = transition_.sequence->keyframes[transition_.stage];
     const Eigen::Vector3d up = context.state.torso_in_odometry.linear().row(2);
     for (int axis = 0; axis < 3; ++axis) has_failed |= !ended.up[axis].has(up[axis]);

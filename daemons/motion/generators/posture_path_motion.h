@@ -15,13 +15,13 @@ namespace nao::motion {
  * a straight line of the joints to the posture.
  *
  * After each transition the state of the body is measured and the path is planned anew, so that a
- * transition that ended elsewhere is a detour and no failure. Transitions are played at the speed
+ * transition that ended elsewhere is a detour, not a failure. Transitions are played at the speed
  * at which they were verified in physics; the commanded speed applies to the straight lines. */
 class PosturePathMotion : public MotionGenerator {
  public:
   /** @param graph, goal  Must outlive this. @param speed  Fraction of the maximum, (0, 1].
-   * @param is_exact  Feet that keep the joints a little off a standing goal are brought together;
-   * who only has to stand saves the time. */
+   * @param is_exact  Whether feet that keep the joints slightly off a standing goal are brought
+   * together. A robot that only has to stand saves this time. */
   PosturePathMotion(const TransitionGraph& graph, const Posture& goal, double speed,
                     bool is_exact = false)
       : graph_(&graph), goal_(&goal), speed_(speed), is_exact_(is_exact) {}
@@ -68,8 +68,8 @@ class PosturePathMotion : public MotionGenerator {
   void play(const MotionContext& context, const KeyframeSequence& sequence,
             const JointTargets& targets);
   void rest(const MotionContext& context);
-  /** Takes notice of whether the robot gets up: from lying until it is on its feet or at the goal.
-   * @param state  Of the body. */
+  /** Notes whether the robot is getting up: from lying until it is on its feet or at the goal.
+   * @param state  State of the body. */
   void note_getting_up(const std::string& state);
   /** Whether the body must come to rest before it moves on from a state. */
   bool must_rest(const MotionContext& context, const std::string& state) const;
@@ -87,9 +87,9 @@ class PosturePathMotion : public MotionGenerator {
   bool is_exact_;
 
   Segment segment_ = Segment::kStiffening;
-  /** s since the segment began. */
+  /** Time since the segment began, s. */
   double time_ = 0;
-  /** s for which the torso has not turned. */
+  /** Time for which the torso has not turned, s. */
   double time_still_ = 0;
   Transition transition_;
   std::optional<PostureMotion> line_;

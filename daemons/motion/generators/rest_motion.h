@@ -25,7 +25,7 @@ class RestMotion : public MotionGenerator {
  private:
   PosturePathMotion path_;
   bool is_there_ = false;
-  /** s since the motors began to relax. */
+  /** Time since the motors began to relax, s. */
   double time_ = 0;
 };
 

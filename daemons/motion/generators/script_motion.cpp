@@ -11,8 +11,8 @@
 namespace nao::motion {
 namespace {
 
-// Farthest that the weight may be steered on the soles, m: their half length less a margin, and as
-// far inwards as their round inner edge is flat.
+// Greatest shift of the CoP on the soles, m: half their length less a margin, and inward as far as
+// their round inner edge is flat.
 constexpr double kReachForward = 0.045;
 constexpr double kReachSideways = 0.02;
 
@@ -60,7 +60,7 @@ MotionGenerator::Phase ScriptMotion::play(const MotionContext& context, JointTar
   player_.sample(time_, targets.position, targets.stiffness);
   if (script_->balance_gain > 0) balance(context, targets);
   if (time_ < player_.duration()) return Phase::kRunning;
-  // A script that ends on the ground (a keeper's dive) goes on with getting up.
+  // A script that ends on the ground (a keeper's dive) continues with getting up.
   if (script_->end == ActionScript::End::kOnFeet) return Phase::kDone;
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
   part_ = Part::kGettingUp;
@@ -75,7 +75,8 @@ void ScriptMotion::balance(const MotionContext& context, JointTargets& targets) 
   const Pose2 left = Pose2::from(state.left_sole_in_odometry);
   const Pose2 right = Pose2::from(state.right_sole_in_odometry);
   const Eigen::Vector2d ahead(gait_->stance.zmp_forward, 0);
-  // Point between the feet over which the walk keeps the CoP: the same place on the soles here.
+  // The walk keeps the CoP over this point between the feet; here it is at the same place on the
+  // soles.
   const Eigen::Vector2d middle = 0.5 * (left * ahead + right * ahead);
   const Eigen::Vector2d error = calc_capture_point(state) - middle;
   // Each foot is taken to carry half of the weight; the ankle torque tau = m g / 2 * x moves its
@@ -99,7 +100,7 @@ void ScriptMotion::balance(const MotionContext& context, JointTargets& targets) 
       targets.position[motor] +=
           share * (feedforward_.calc_offset(motor, sign * torque, 0, 0) + sign * angle);
     };
-    // Toes pressed down move the weight ahead; a sole rolled to its left moves it to its left.
+    // Toes pressed down move the CoP forward; a sole rolled to its left moves it to its left.
     add(roles.ankle_pitch, half_weight * steer.x(),
         gait_->orientation.gyro_ankle_pitch * gyroscope_.value().y());
     add(roles.ankle_roll, -half_weight * steer.y(),

@@ -18,9 +18,9 @@ namespace nao::motion {
  * them, and the gyroscope damps. An action that ends on the ground gets up by itself. */
 class ScriptMotion : public MotionGenerator {
  public:
-  /** @param script, gait  Must outlive this; of the gait the ankles' damping is taken.
-   * @param stand_up       Way to the stand that it begins in, taken if the robot does not stand.
-   * @param get_up         Way to a stand from wherever it ends. */
+  /** @param script, gait  Must outlive this; the gait gives the ankles' damping.
+   * @param stand_up  Path to the stand in which it begins, used if the robot does not stand.
+   * @param get_up  Path to a stand from the state in which it ends. */
   ScriptMotion(const RobotModel& model, const ActionScript& script, const Gait& gait,
                std::unique_ptr<MotionGenerator> stand_up, std::unique_ptr<MotionGenerator> get_up);
 

@@ -30,7 +30,7 @@ class SequenceMotion : public MotionGenerator {
  private:
   const KeyframeSequence* sequence_;
   KeyframePlayer player_;
-  /** s since the start. */
+  /** Time since the start, s. */
   double time_ = 0;
 };
 

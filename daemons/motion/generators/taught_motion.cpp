@@ -10,8 +10,8 @@ namespace {
 // Time in which the motion slows down to rest, s. Chosen: at 0.1 s to a keyframe, the shortest, no
 // joint decelerates by more than it accelerated.
 constexpr double kSlowdownTime = 0.4;
-// Least static stability margin of a place to rest, m, and the least one after some time without
-// such a place, s. Chosen: TippingGuard's reserve; a tenth of the sole's width.
+// Least static stability margin of a posture to rest in, m; and the least one after some time, s,
+// without such a posture. Chosen: TippingGuard's reserve; a tenth of the sole's width.
 constexpr double kRestMargin = 0.012;
 constexpr double kSmallRestMargin = 0.005;
 constexpr double kRestPatience = 2;

@@ -12,8 +12,8 @@ namespace nao::motion {
 /** Plays a taught motion: a path to its start posture, then its keyframes as often as it says; then
  * the robot holds the last one.
  *
- * Asked to end, it slows down along its own path until the targets rest, at the first place where a
- * robot on its feet stands in static equilibrium; between such places it plays on. */
+ * Asked to end, it slows down along its own path until the targets rest, at the first point where a
+ * robot on its feet is in static equilibrium; between such points it continues to play. */
 class TaughtMotion : public MotionGenerator {
  public:
   /** @param approach  Path to the start posture. @param is_on_feet  Whether that is on the feet. */
@@ -50,9 +50,9 @@ class TaughtMotion : public MotionGenerator {
   /** Time along the path, s, and its rate: 1, and falling to 0 while it stops. */
   double time_ = 0;
   double rate_ = 1;
-  /** s since it was asked to end. */
+  /** Time since it was asked to end, s. */
   double time_finishing_ = 0;
-  /** Times that the keyframes have been played. */
+  /** How often the keyframes have been played. */
   int num_passes_ = 0;
   Reason reason_;
 };

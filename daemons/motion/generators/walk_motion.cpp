@@ -21,8 +21,8 @@ constexpr double kFallingTilt = 0.6;
 // s without weight on any foot after which the robot has been lifted: longer than any hop.
 constexpr double kLiftedTime = 0.2;
 
-// A stance that a walk can begin in, besides the robot's WalkingStance: soles level within rad, at
-// one height within m, turned at most by rad from each other.
+// Bounds of a stance in which a walk can begin, besides the robot's WalkingStance: tilt of the
+// soles, rad; difference of their heights, m; and turn from each other, rad.
 constexpr double kLevel = 0.06;
 constexpr double kSameHeight = 0.01;
 constexpr double kGreatestTurn = 0.7;
@@ -31,11 +31,11 @@ constexpr double kGreatestTurn = 0.7;
 constexpr double kApproach = 1.2;
 constexpr double kArrivedDistance = 0.012;
 constexpr double kArrivedTurn = 0.025;
-// Farther than this it is shorter to turn towards the goal and walk ahead, m.
+// Distance beyond which it is faster to turn towards the goal and walk ahead, m.
 constexpr double kFar = 0.4;
-// Walks ahead only when it looks this nearly at the goal, rad.
+// Greatest angle to the goal, rad, at which the robot walks ahead.
 constexpr double kAimed = 0.5;
-// Gives up after this many times the time that the way should take, s, plus some.
+// Factor on the expected duration of the path after which it gives up, and an additional time, s.
 constexpr double kPatience = 3;
 constexpr double kPatienceAtLeast = 10;
 
@@ -46,7 +46,7 @@ std::optional<Reason> find_soft_leg(const LegKinematics& legs,
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     for (int motor : legs.motors(leg)) {
       if (stiffness[motor] <= kLeastStiffness) {
-        // Percent, for people.
+        // Percentages are for people.
         return Reason("legs-too-soft", {std::to_string(std::lround(100 * stiffness[motor])),
                                         std::to_string(std::lround(100 * kLeastStiffness))});
       }
@@ -102,8 +102,7 @@ void WalkingMotion::start(const MotionContext& context, const JointTargets& targ
 
 std::optional<Reason> WalkingMotion::find_trouble(const MotionContext& context) {
   if (context.state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
-    // A foot that lost contact for a moment is usual in a step; the time without any contact
-    // decides.
+    // In a step a foot often loses contact for a moment; the time without any contact decides.
     return Reason("balance-lost");
   }
   const bool is_in_air = !context.state.left_foot_carries && !context.state.right_foot_carries;
@@ -123,7 +122,8 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
     start_steering(context);
     return Phase::kRunning;
   }
-  // Only now: the way up from a seat leads over back and belly, feet in the air.
+  // This is checked only now: the path from a seat to a stand leads over back and belly, with the
+  // feet in the air.
   if (const auto trouble = find_trouble(context)) {
     reason_ = *trouble;
     return Phase::kFailed;
@@ -139,12 +139,12 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
     steer(context);
   }
   // The walk advances by one control period at most. When motion was kept from running for some
-  // ticks the servos have held their targets: to continue from there keeps the robot on its feet
-  // three times as often as to catch up with a jump (nao-trial walk --vx 0.3 --late 0.03).
+  // ticks the servos have held their targets: continuing from there keeps the robot on its feet
+  // three times as often as catching up with a jump (nao-trial walk --vx 0.3 --late 0.03).
   const double advance = std::min(context.dt, context.sensors.period);
   if (engine_.step(context.state, context.kinematics, advance, targets)) return Phase::kRunning;
   // The walk has ended. Why decides what comes next: soft legs failed; a motion waits; the operator
-  // gave a new velocity meanwhile; or the walk is done.
+  // gave a new velocity in the meantime; or the walk is done.
   if (!reason_.empty()) return Phase::kFailed;
   if (is_finishing_) {
     // The motion that waits takes over in the next tick.
@@ -228,7 +228,7 @@ MotionGenerator::Strike WalkMotion::strike() const {
 void WalkMotion::steer(const MotionContext& context) {
   age_ += context.dt;
   const Eigen::Vector3d velocity(command_.vx, command_.vy, command_.wz);
-  // Silence of the sender ends the walk: a phone that vanishes must not leave a robot walking.
+  // The walk ends when the sender falls silent: a lost phone must not leave a robot walking.
   if (age_ > kCommandLifetime || velocity.isZero(0)) {
     engine().end();
   } else {
@@ -261,17 +261,17 @@ Pose2 MoveToMotion::standing_body(const RobotState& state) const {
 }
 
 void MoveToMotion::start_steering(const MotionContext& context) {
-  // The torso shall go there, standing as it does now; feet tell better than a swaying torso where
-  // that is.
+  // The goal is where the torso shall stand, as it stands now; the feet give this place more
+  // accurately than a swaying torso.
   const Pose2 torso = Pose2::from(context.state.torso_in_odometry);
   const Pose2 body_in_torso = torso.inverse() * standing_body(context.state);
   goal_in_odometry_ = torso * Pose2{{command_.x, command_.y}, command_.theta} * body_in_torso;
-  // Length of the way, m, with 0.15 m for each rad of turning, for the progress only.
+  // Length of the path, m, with 0.15 m for each rad of turning, for the progress only.
   way_ = std::hypot(command_.x, command_.y) + 0.15 * std::abs(command_.theta);
   const double turn = std::abs(wrapped(command_.theta)) + 2 * M_PI;
   time_limit_ = kPatienceAtLeast + kPatience * (std::hypot(command_.x, command_.y) /
-                                                    // The slowest direction, and a full turn on
-                                                    // top.
+                                                    // The time limit assumes the slowest direction
+                                                    // plus a full turn.
                                                     std::min(limits_.forward, limits_.sideways) +
                                                 turn / limits_.turning);
 }

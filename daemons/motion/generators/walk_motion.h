@@ -12,12 +12,12 @@
 namespace nao::motion {
 
 /** Why legs of this stiffness must not walk; nothing if they may.
- * @param stiffness  Of all motors, motor order. */
+ * @param stiffness  Stiffness of all motors, motor order. */
 std::optional<Reason> find_soft_leg(const LegKinematics& legs,
                                     const std::vector<double>& stiffness);
 
 /** Why the robot must not start to walk; nothing if it may.
- * @param stiffness  Of all motors, motor order. */
+ * @param stiffness  Stiffness of all motors, motor order. */
 std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
                                          const std::vector<double>& stiffness);
 
@@ -25,11 +25,11 @@ std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotS
  * side by side, below bent knees. */
 bool is_walking_stance(const RobotModel& model, const std::vector<double>& position);
 
-/** What walk and move-to have in common: a stand before, the engine, and the reasons to stop. */
+/** Common parts of walk and move-to: the stand before, the engine, and the reasons to stop. */
 class WalkingMotion : public MotionGenerator {
  public:
   /** @param gait       Must outlive this.
-   * @param stand_up   Way to the posture that a walk begins and ends in; taken if the robot does
+   * @param stand_up  Path to the posture in which a walk begins and ends; used if the robot does
    * not stand already. */
   WalkingMotion(const RobotModel& model, const Gait& gait,
                 std::unique_ptr<MotionGenerator> stand_up);
@@ -46,13 +46,13 @@ class WalkingMotion : public MotionGenerator {
   void describe(MotionState& state) const override;
 
  protected:
-  /** Once, when the engine begins, and in every tick before the engine's: commands a velocity or
-   * the end. */
+  /** start_steering() is called once, when the engine begins, and steer() in every tick before the
+   * engine's; it commands a velocity or the end. */
   virtual void start_steering(const MotionContext& /*context*/) {}
   virtual void steer(const MotionContext& context) = 0;
   /** A walk command arrived while the walk was ending: the walk starts again. */
   virtual bool wants_to_go_on() const { return false; }
-  /** What is to be said when the walk has ended by itself. @return false if it failed. */
+  /** Gives the reason to report when the walk has ended by itself. @return false if it failed. */
   virtual bool conclude(const MotionContext& /*context*/, Reason& /*reason*/) { return true; }
 
   WalkEngine& engine() { return engine_; }
@@ -70,8 +70,8 @@ class WalkingMotion : public MotionGenerator {
   Reason reason_;
 };
 
-/** Walks at the velocity of the newest walk command, until it asks for none, until it is too old,
- * or until something else waits. */
+/** Walks at the velocity of the newest walk command, until that is zero or too old, or until
+ * something else waits. */
 class WalkMotion : public WalkingMotion {
  public:
   WalkMotion(const RobotModel& model, const Gait& gait, std::unique_ptr<MotionGenerator> stand_up,
@@ -89,7 +89,7 @@ class WalkMotion : public WalkingMotion {
  private:
   const RobotModel* model_;
   WalkCommand command_;
-  /** s since the command came. */
+  /** Time since the command came, s. */
   double age_ = 0;
 };
 
@@ -113,7 +113,7 @@ class MoveToMotion : public WalkingMotion {
   Pose2 standing_body(const RobotState& state) const;
 
   MoveToCommand command_;
-  /** Of the body between the feet. */
+  /** Goal of the body frame, which is between the feet. */
   Pose2 goal_in_odometry_;
   double turn_center_;
   WalkLimits limits_;

@@ -81,7 +81,7 @@ int JointChangeGuard::find_tipping_motor(const JointChangeCommand& change,
   const Eigen::Matrix3Xd right = context.kinematics.calc_angular_jacobian(model_->right_sole());
   int tipping_motor = -1;
   double largest = -1;
-  // Of the named joints the one that turns most; legs before the upper body.
+  // Finds the named joint that turns most; legs come before the upper body.
   for (const std::string& name : change.joint_names) {
     const int motor = model_->find_motor(name);
     const bool is_leg = !left.col(motor).isZero(0) || !right.col(motor).isZero(0);

@@ -36,7 +36,7 @@ class JointChangeGuard {
  private:
   std::optional<Reason> find_tipping(const JointChangeCommand& change, const MotionContext& context,
                                      const JointTargets& targets);
-  /** Of the joints that a change names, the one that turns the body over its feet most. */
+  /** Finds the joint, among those that a change names, that tilts the body over its feet most. */
   int find_tipping_motor(const JointChangeCommand& change, const MotionContext& context,
                          const std::vector<double>& from, const std::vector<double>& to) const;
 

@@ -52,7 +52,7 @@ void SelfCollisionGuard::place(const std::vector<double>& position) {
 
 double SelfCollisionGuard::distance(const std::pair<int, int>& pair, double enough) const {
   const auto [a, b] = pair;
-  // Bounding spheres: a lower bound of the distance, which suffices where it is large.
+  // The bounding spheres give a lower bound of the distance, which suffices if it is large.
   const double bound = (placed_[a].center - placed_[b].center).norm() - parts_[a].bounding_radius -
                        parts_[b].bounding_radius;
   return bound > enough ? bound : closest_points(placed_[a], placed_[b]).distance;

@@ -28,7 +28,7 @@ class SelfCollisionGuard {
 
   /** @param model      Must outlive this.
    * @param clearance  Least distance of two links on a path, m, at least 0.
-   * @throws ModelError  for a collision shape that is no box, sphere or capsule. */
+   * @throws ModelError  for a collision shape that is not a box, sphere or capsule. */
   explicit SelfCollisionGuard(const RobotModel& model, double clearance = kClearance);
 
   /** Least distance of all pairs of links, m; negative if two overlap.

@@ -125,7 +125,7 @@ std::vector<Eigen::Vector2d> find_support(const std::array<Sole, 2>& soles,
 
 /** Whether a body at rest on a face of its hull stays there: no corner is below the face, and the
  * center of mass projects into it.
- * @param height  Of the face along up, m. */
+ * @param height  Height of the face along up, m. */
 bool rests_on(const Eigen::Vector3d& up, double height, const std::vector<Eigen::Vector3d>& corners,
               const Eigen::Vector3d& center_of_mass) {
   const LevelAxes axes(up);
@@ -201,7 +201,7 @@ double TippingGuard::find_safe_fraction(const std::vector<double>& from,
       std::clamp(static_cast<int>(std::ceil(largest / kSampleAngle)), 1, kMaxSamples);
   const Eigen::Vector3d standing_up = find_support_normal(from, up_in_torso);
   Eigen::Vector3d up = standing_up;
-  // A robot that stands badly at the start may move, as long as it does not become worse.
+  // A robot with a poor margin at the start may move as long as the margin does not decrease.
   const Equilibrium start = find_equilibrium(from, up);
   double needed_margin = std::min(kReserve, start.margin);
   const double allowed_lifting = std::max(kMaxLifting, start.lifting + kMaxLifting / 4);

@@ -15,13 +15,14 @@ inline constexpr double kMinDurationRatio = 1.15;
 
 /** One keyframe of a motion that is kept as data. */
 struct Keyframe {
-  /** s from the keyframe before to this one at full speed. */
+  /** Time from the previous keyframe to this one at full speed, s. */
   double duration = 0;
-  /** Targets at its end, rad, (num_motors); NaN: as in the keyframe before. */
+  /** Targets at its end, rad, (num_motors); NaN: as in the previous keyframe. */
   std::vector<double> position;
-  /** Fraction of the peak torque from its beginning on, (num_motors); NaN: as before. */
+  /** Fraction of the peak torque from its start on, (num_motors); NaN: as in the previous keyframe.
+   */
   std::vector<double> stiffness;
-  /** s for which the targets rest afterwards, at any speed. The pause of a transition's last
+  /** Time for which the targets rest afterwards, at any speed, s. The pause of a transition's last
    * keyframe ends early, as soon as the body is in the state to which the transition leads. */
   double pause = 0;
   /** Allowed range of a component of the direction of up. */
@@ -30,8 +31,8 @@ struct Keyframe {
     double greatest = std::numeric_limits<double>::infinity();
     bool has(double value) const { return value >= least && value <= greatest; }
   };
-  /** Of the direction of up along x, y, z of the torso frame at its end; outside, the motion has
-   * failed. */
+  /** Ranges of the x, y and z components of the up direction in the torso frame at the end; outside
+   * them the motion has failed. */
   Range up[3];
 };
 
@@ -47,7 +48,7 @@ struct KeyframeSequence {
   double duration() const;
 };
 
-/** The same motion with left and right exchanged. */
+/** The motion with left and right exchanged. */
 KeyframeSequence mirrored(const RobotModel& model, const KeyframeSequence& sequence);
 
 /** Angles of a posture with left and right exchanged, rad, (num_motors). */
@@ -67,8 +68,8 @@ class KeyframePlayer {
  public:
   KeyframePlayer() = default;
 
-  /** @param start  rad, (num_motors). @param speed  (0, 1]: durations are divided by it, and made
-   * longer where a motor would have to turn faster than it can. */
+  /** @param start  rad, (num_motors). @param speed  (0, 1]: divides the durations, which are
+   * extended where a motor could not turn fast enough. */
   KeyframePlayer(const RobotModel& model, const KeyframeSequence& sequence,
                  const std::vector<double>& start, double speed);
 

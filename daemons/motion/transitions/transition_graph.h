@@ -33,9 +33,9 @@ class TransitionGraph {
       const std::string& from, const std::string& to,
       const std::vector<const KeyframeSequence*>& excluded = {}) const;
 
-  /** Of the transitions between the same two states as this one, the one for an attempt, in the
-   * order of the file and cyclically: a transition that failed once would fail again in the same
-   * place.
+  /** Chooses a transition between the same two states as this one, for the next attempt. They are
+   * tried in the order of the file and cyclically, since a transition that failed once would fail
+   * again in the same place.
    * @param num_failed  Attempts so far. */
   const KeyframeSequence& find_alternative(const KeyframeSequence& sequence, int num_failed) const;
 

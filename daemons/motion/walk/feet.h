@@ -23,7 +23,7 @@ class Feet {
   bool support_is_left() const { return support_is_left_; }
   /** 1 if the left foot is the support foot, else -1. */
   double side() const { return support_is_left_ ? 1 : -1; }
-  /** With which the support foot was placed. */
+  /** Spread with which the support foot was placed. */
   const Spread& support_spread() const { return support_spread_; }
   const SwingFoot& swing() const { return swing_; }
   SwingFoot& swing() { return swing_; }
@@ -35,10 +35,10 @@ class Feet {
   /** Nominal zero moment points of the support foot and of the other foot, m, in S. */
   Eigen::Vector2d support_zmp() const { return nominal_zmp(support_is_left_); }
   Eigen::Vector2d other_zmp() const { return swing_.pose() * nominal_zmp(!support_is_left_); }
-  /** Between these two, m, in S. */
+  /** Midpoint between these two, m, in S. */
   Eigen::Vector2d midpoint() const { return 0.5 * (support_zmp() + other_zmp()); }
 
-  /** Soles in S. @param offset  Of a kick. */
+  /** Soles in S. @param offset  Offset of a kick. */
   Eigen::Isometry3d support_sole() const;
   Eigen::Isometry3d swing_sole(const SwingOffset& offset) const;
   double support_height() const { return support_height_; }
@@ -48,7 +48,8 @@ class Feet {
   void level_both(double dt);
 
   /** The other foot becomes the support foot.
-   * @param spread  With which it was placed. @return The old frame S seen from the new one. */
+   * @param spread  Spread with which it was placed. @return The old frame S seen from the new one.
+   */
   Pose2 exchange(const Spread& spread);
 
  private:

@@ -10,7 +10,7 @@
 
 namespace nao::motion {
 
-/** What the load on the feet is planned from. */
+/** Input from which the load on the feet is planned. */
 struct LoadPlan {
   /** Measured DCM minus the reference's, m, in S. */
   Eigen::Vector2d dcm_error = Eigen::Vector2d::Zero();
@@ -26,7 +26,7 @@ struct LoadPlan {
  * clamped to the sole; on the other foot at the nominal point. In double support the ZMP lies
  * between the feet, and each foot is loaded around its nominal point.
  *
- * @param mass  Of the robot, kg. @param torso  In the support frame S. */
+ * @param mass  Mass of the robot, kg. @param torso  In the support frame S. */
 std::array<FootLoad, 2> plan_foot_loads(const Gait& gait, double mass, const Feet& feet,
                                         const ComReference& reference, const LoadPlan& plan,
                                         const Eigen::Isometry3d& torso);

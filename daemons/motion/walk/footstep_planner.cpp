@@ -21,8 +21,8 @@ FootstepPlanner::FootstepPlanner(const RobotModel& model, const Gait& gait) : ga
   }
 }
 
-// Sideways a foot can close by closing_room only; what is more is divided between both feet, as a
-// wider stance. The same for turns.
+// A foot can close sideways by closing_room only; the rest is divided between both feet, as a wider
+// stance. The same holds for turns.
 Spread FootstepPlanner::spread_for(const Eigen::Vector3d& velocity) const {
   const double step_duration = gait_->timing.step_duration;
   const double sideways = std::abs(velocity.y()) * step_duration;
@@ -57,8 +57,8 @@ std::vector<PlannedStep> FootstepPlanner::plan(bool support_is_left, const Sprea
   std::vector<PlannedStep> steps;
   for (int i = 0; i < count; ++i) {
     // The body moves by one step in each iteration, and the swing foot is placed beside it; where
-    // the limits of a step do not allow that, the foot is behind, and the body's path goes on as
-    // commanded.
+    // the limits of a step do not allow that, the foot stays behind, and the body's path continues
+    // as commanded.
     body = body * advance;
     const Pose2 desired = body * foot_in_body(is_left, next_spread);
     const Pose2 pose = support * clip_step(support.inverse() * desired, is_left);

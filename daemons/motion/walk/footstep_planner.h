@@ -36,8 +36,8 @@ class FootstepPlanner {
 
   /** Plans the next footsteps, the first of them with the present swing foot.
    * @param support_is_left  The support foot, at the origin of the frame of the results.
-   * @param spread           With which the support foot was placed.
-   * @param velocity         m/s, m/s, rad/s. @param duration  Of a step, s. */
+   * @param spread           Spread with which the support foot was placed.
+   * @param velocity         m/s, m/s, rad/s. @param duration  Duration of a step, s. */
   std::vector<PlannedStep> plan(bool support_is_left, const Spread& spread,
                                 const Eigen::Vector3d& velocity, double duration, int count) const;
 

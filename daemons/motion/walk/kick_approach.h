@@ -12,12 +12,12 @@ struct KickApproach {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
 };
 
-/** Chooses number and velocity of the steps that end with the ball before the kicking foot. Of all
- * such approaches it takes the one with the least cost: change of the forward velocity, plus
- * sideways velocity, plus a constant for each step.
+/** Chooses number and velocity of the steps that end with the ball before the kicking foot. It
+ * takes the approach with the least cost: change of the forward velocity, plus sideways velocity,
+ * plus a constant for each step.
  *
- * @param offset      From the best place of the ball for a kick in the step that begins now to the
- *                    ball; m, in the body frame.
+ * @param offset      Vector to the ball from its best place for a kick in the step that begins now;
+ * m, in the body frame.
  * @param kicks_next  The swing foot of the step that begins now is the kicking foot.
  * @param commanded   m/s ahead and to the left. @param step_duration  s. */
 KickApproach plan_kick_approach(const Eigen::Vector2d& offset, bool kicks_next,

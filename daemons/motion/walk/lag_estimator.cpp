@@ -6,7 +6,7 @@
 namespace nao::motion {
 namespace {
 
-// Time constant of the sums, s. Chosen: two steps, so that a lag that has changed is known after a
+// Time constant of the sums, s. Chosen: two steps, so that a change of the lag is known after a
 // few.
 constexpr double kTimeConstant = 0.5;
 // Least sum of squared increments from which a lag is taken, rad^2. Chosen: an increment of 0.01
@@ -76,11 +76,12 @@ void LagEstimator::accumulate(const std::vector<double>& moved, double decay) {
 
 void LagEstimator::find_minimum(double dt) {
   const auto least = std::min_element(error_.begin(), error_.end());
-  // A robot at rest tells nothing: each lag explains it.
+  // A robot at rest gives no information: every lag explains it.
   if (motion_ < kLeastMotion || *least > (1 - kLeastExplained) * motion_) return;
   const auto index = static_cast<int>(least - error_.begin());
   double ticks = index + 1;
-  // Between ticks: vertex of the parabola through the least error and its two neighbors.
+  // Interpolate between ticks by the vertex of the parabola through the least error and its two
+  // neighbors.
   if (index > 0 && index < kMaxTicks - 1) {
     const double before = error_[index - 1];
     const double after = error_[index + 1];

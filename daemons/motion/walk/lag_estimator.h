@@ -15,10 +15,10 @@ namespace nao::motion {
  * is compared; the minimum, interpolated by a parabola, is the lag. Increments are free of constant
  * errors of the angles (zero of the encoder, load). While the joints rest, the lag is kept.
  *
- * Memory is taken once, by the first update(). */
+ * Memory is allocated once, by the first update(). */
 class LagEstimator {
  public:
-  /** Starts anew. @param lag  Assumed until the joints have moved enough, s. */
+  /** Restarts. @param lag  Value assumed until the joints have moved enough, s. */
   void start(double lag);
 
   /** One control tick, before this tick's command is computed.

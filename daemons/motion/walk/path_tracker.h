@@ -49,14 +49,14 @@ class PathTracker {
   }
 
  private:
-  // Limit of the heading's error, rad: what turns a robot with joint zeros of 0.5 degrees (up to
-  // 0.1 rad/s) is answered by gain times error. Chosen with nao-trial: of 20 sprints of 10 m under
-  // data/disturbances/real.yaml 8 succeed with a limit of 0.15, and 13 with 0.5 or more.
+  // Limit of the heading's error, rad: gain times error must compensate the turn rate that joint
+  // zeros of 0.5 degrees cause (up to 0.1 rad/s). Chosen with nao-trial: of 20 sprints of 10 m
+  // under data/disturbances/real.yaml, 8 succeed with a limit of 0.15, and 13 with 0.5 or more.
   static constexpr double kMaxTurn = 0.5;
 
   double max_offset_;
   Pose2 path_;
-  /** At the last touchdown: m, m, rad. */
+  /** Error at the last touchdown: m, m, rad. */
   Eigen::Vector3d last_error_ = Eigen::Vector3d::Zero();
 };
 

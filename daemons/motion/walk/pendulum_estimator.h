@@ -14,9 +14,9 @@ namespace nao::motion {
  *
  * The pendulum's equation predicts the acceleration from the measured center of pressure p, so that
  * the velocity has less delay than differences of positions with the same noise. The offset o is
- * what the measured position x has too much against p: a tilted mounting of the inertial unit,
- * joint zeros and a wrong center of mass move x by several millimeters. None of them can be told
- * from the others, and the walk needs none of them: only x - o - p accelerates the robot. */
+ * the excess of the measured position x over p: a tilted mounting of the inertial unit, joint zeros
+ * and a wrong center of mass move x by several millimeters. They cannot be distinguished, and the
+ * walk needs none of them: only x - o - p accelerates the robot. */
 class PendulumEstimator {
  public:
   /** @param max_offset   Bound of the offset, m.
@@ -33,7 +33,7 @@ class PendulumEstimator {
   }
 
   /** Takes in one measurement.
-   * @param position  Of the center of mass, m. @param zmp  m. @param omega  1/s.
+   * @param position  Position of the center of mass, m. @param zmp  m. @param omega  1/s.
    * @param dt        s since the last measurement. */
   void update(const Eigen::Vector2d& position, const Eigen::Vector2d& zmp, double omega,
               double dt) {
@@ -44,16 +44,16 @@ class PendulumEstimator {
     offset_ = limited(offset_ - offset_gain_ * residual);
   }
 
-  /** Changes to the frame of the other foot, which is the support foot from now on.
-   * @param position  Measured, in the new frame, m. @param heading  Of the new frame in the old
-   * one, rad. */
+  /** Changes to the frame of the other foot, which is now the support foot.
+   * @param position  Measured, in the new frame, m. @param heading  Heading of the new frame in the
+   * old one, rad. */
   void change_frame(const Eigen::Vector2d& position, double heading) {
     state_.position = position;
     state_.velocity = Eigen::Rotation2Dd(-heading) * state_.velocity;
     offset_ = Eigen::Rotation2Dd(-heading) * offset_;
   }
 
-  /** As measured, with the offset. */
+  /** Measured value, with the offset. */
   const PendulumState& state() const { return state_; }
   /** m. */
   const Eigen::Vector2d& offset() const { return offset_; }
@@ -63,8 +63,8 @@ class PendulumEstimator {
   // steps of 1.5 mrad (0.3 mm at the center of mass) and a velocity that settles in five ticks.
   static constexpr double kPositionGain = 0.6;
   static constexpr double kVelocityGain = 0.15;
-  // Fraction of the difference between position and center of pressure at rest that is taken for
-  // the offset. Chosen: both sensors have errors of the same size.
+  // Fraction of the difference between position and center of pressure at rest that is taken as the
+  // offset. Chosen: both sensors have errors of the same size.
   static constexpr double kStandingFraction = 0.5;
 
   Eigen::Vector2d limited(const Eigen::Vector2d& offset) const {

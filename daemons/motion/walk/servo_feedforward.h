@@ -32,7 +32,8 @@ class ServoFeedforward {
    *
    *     tau = m g up^T J_com - sum_i f_i^T J_i   (virtual work with the torso fixed).
    *
-   * @param kinematics  Of the commanded angles. @param up  Unit vector upwards, torso frame.
+   * @param kinematics  Kinematics of the commanded angles. @param up  Unit vector upwards, torso
+   * frame.
    * @param loads       Left foot, right foot. */
   std::vector<double> calc_torques(const Kinematics& kinematics, const Eigen::Vector3d& up,
                                    const std::array<FootLoad, 2>& loads) const;

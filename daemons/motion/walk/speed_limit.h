@@ -8,8 +8,8 @@ namespace nao::motion {
 
 /** How much slower than its limits a robot walks because of the lag of its control loop.
  *
- * Within one lag nothing can be done about an error of the DCM, which grows by e^(omega lag). What
- * a sole and a step can still take up limits the speed.
+ * Within one lag an error of the DCM cannot be corrected and grows by e^(omega lag). The error that
+ * a sole and a step can still absorb limits the speed.
  *
  * @param lag  From a command to the measurement of what it did, s.
  * @return 0 up to full_speed_lag, 1 from slow_speed_lag on, linear between: slow_speed,

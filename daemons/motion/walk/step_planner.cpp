@@ -83,7 +83,8 @@ void StepPlanner::adapt_foothold(const Feet& feet, const Vector2d& end_dcm) {
   const Pose2& planned = footsteps_.front().pose;
   // The plan after this step is relative to the foothold. Moving the foothold by the deviation of
   // the DCM therefore leaves the rest of the plan valid (Englsberger et al. 2015).
-  // The learned bias is subtracted: what deviates in every step alike is no disturbance.
+  // The learned bias is subtracted: a deviation that is the same in every step is not a
+  // disturbance.
   deviation_ = end_dcm - dcm_.end - bias(feet);
   foothold_ =
       planner_.clip_step({planned.position + deviation_, planned.heading}, !feet.support_is_left());

@@ -30,9 +30,10 @@ class StepPlanner {
 
   /** Plans footsteps and DCM from the present step on.
    *
-   * While the walk goes on: five steps ahead. At its end: the present step is the last one if the
-   * ZMP can bring the DCM to rest between the feet within it, else one more step follows.
-   * @param velocity   Of the steps: m/s, m/s, rad/s.
+   * While the walk continues, it plans five steps ahead. At its end: the present step is the last
+   * one if the ZMP can bring the DCM to rest between the feet within it, else one more step
+   * follows.
+   * @param velocity   Velocity of the steps: m/s, m/s, rad/s.
    * @param remaining  Time to the end of the present step, s. */
   void plan(const Feet& feet, const ComReference& reference, const Eigen::Vector3d& velocity,
             bool is_ending, double remaining);
@@ -83,7 +84,7 @@ class StepPlanner {
   DcmPlan dcm_;
   /** Deviation of the DCM at the end of steps on the left and on the right foot, m: mean. */
   std::array<Eigen::Vector2d, 2> bias_ = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
-  /** Of the present step, beyond the bias, m. */
+  /** Deviation of the current step beyond the bias, m. */
   Eigen::Vector2d deviation_ = Eigen::Vector2d::Zero();
 };
 

@@ -10,8 +10,8 @@ namespace nao::motion {
  * position and velocity to rest at the foothold. The height is a polynomial of the swing phase. */
 class SwingFoot {
  public:
-  /** Lifts off at rest. @param start  In the support frame. @param height  Of the sole over the
-   * ground now, m; not 0 where the ground was met early or late. */
+  /** Lifts off at rest. @param start  Pose in the support frame. @param height  Height of the sole
+   * over the ground now, m; not 0 where the ground was met early or late. */
   void start(const Pose2& start, double height);
 
   /** One tick.
@@ -25,7 +25,7 @@ class SwingFoot {
   double forward_velocity() const {
     return (Eigen::Rotation2Dd(-pose_.heading) * velocity_.head<2>()).x();
   }
-  /** Over the ground, m. */
+  /** Height over the ground, m. */
   double height() const { return height_; }
   /** Lowers the foot, m. */
   void lower(double distance) { height_ -= distance; }

@@ -8,7 +8,7 @@ VelocityPlanner::VelocityPlanner(const RobotModel& model, const Gait& gait)
     : gait_(&gait.velocity), limits_(model.walk_limits()), path_(gait.velocity.max_path_offset) {}
 
 Eigen::Vector3d VelocityPlanner::clip(const Eigen::Vector3d& velocity) const {
-  // The envelope is not symmetric ahead and back.
+  // The envelope's limits differ between forward and backward.
   const Eigen::Vector3d limit(velocity.x() > 0 ? limits_.forward : limits_.backward,
                               limits_.sideways, limits_.turning);
   const double speed = std::lerp(1.0, gait_->slow_speed, slowness_);
@@ -43,8 +43,8 @@ void VelocityPlanner::begin_step(const Eigen::Vector3d& commanded, const Pose2& 
   const Eigen::Vector3d clipped = clip(commanded);
   // The last step may stop at once: its footsteps are planned for that.
   velocity_ = is_ending ? clipped : ramp(velocity_, clipped);
-  // In place, or where something else leads (a capture step, a kick's approach), there is no path
-  // to come back to.
+  // When the robot steps in place, or something else leads it (a capture step, a kick's approach),
+  // there is no path to return to.
   if (velocity_.isZero(0) || !tracks_path) {
     path_.reset(body);
     step_velocity_ = velocity_;

@@ -22,7 +22,7 @@ class VelocityPlanner {
    * linear between. */
   void set_slowness(double slowness) { slowness_ = slowness; }
 
-  /** @param fraction  Of the robot's limits, beside what slowness leaves; 1: all. */
+  /** @param fraction  Fraction of the robot's limits, in addition to the slowdown; 1: all. */
   void set_speed_fraction(double fraction) { speed_fraction_ = fraction; }
 
   /** The greatest velocity along the direction of the given one that lies in the envelope
@@ -41,7 +41,7 @@ class VelocityPlanner {
   /** Chooses the velocity of the step that begins.
    * @param commanded    May exceed the envelope. @param body  In odometry.
    * @param is_ending    The walk ends: the change of velocity is not limited.
-   * @param tracks_path  False: the path starts anew at the body. */
+   * @param tracks_path  If false, the path restarts at the body. */
   void begin_step(const Eigen::Vector3d& commanded, const Pose2& body, bool is_ending,
                   bool tracks_path);
 
@@ -50,7 +50,7 @@ class VelocityPlanner {
 
   /** Commanded velocity after clipping and ramping. */
   const Eigen::Vector3d& velocity() const { return velocity_; }
-  /** The same with the path's correction: what the footsteps are planned for. */
+  /** The same with the path's correction; the footsteps are planned for it. */
   const Eigen::Vector3d& step_velocity() const { return step_velocity_; }
 
  private:

@@ -17,8 +17,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Load on the swing foot ends a step only after this fraction of its duration. Chosen: earlier the
-// foot is not above its foothold, and the load is from lifting off.
+// Fraction of a step's duration after which load on the swing foot ends it. Chosen: before, the
+// foot is not above its foothold, and the load comes from the liftoff.
 constexpr double kEarliestTouchdown = 0.6;
 // The weight transfer before the first step is given up after this many times its duration.
 constexpr double kMaxStarting = 4;
@@ -69,7 +69,7 @@ void WalkEngine::start(const JointTargets& targets) {
 bool WalkEngine::step(const RobotState& state, const Kinematics& measured, double dt,
                       JointTargets& targets) {
   if (stage_ == Stage::kDone) return false;
-  // Measurements first: they refer to what was commanded up to the last tick.
+  // The measurements come first, since they refer to the commands up to the last tick.
   lag_.update(body_.position(), state.joint_position, body_.pose().motors(), dt);
   observer_.update(state, measured.center_of_mass(), feet_.support_is_left(), reference_,
                    body_.pose().torso_pitch(), dt);
@@ -95,7 +95,7 @@ bool WalkEngine::step(const RobotState& state, const Kinematics& measured, doubl
     if (time_ >= gait_->timing.raise_duration) stage_ = Stage::kDone;
   }
   body_.step(body_command(), observer_, dt, targets);
-  // After the body's step, so that the last tick of stopping still is a tick of the walk.
+  // This follows the body's step, so that the last tick of stopping is still a tick of the walk.
   if (stage_ == Stage::kStopping && time_ >= gait_->timing.stop_duration) begin_raising();
   return stage_ != Stage::kDone;
 }
@@ -156,7 +156,7 @@ void WalkEngine::step_starting(double dt) {
   // The first step begins when the DCM has passed the point where the plan has it start.
   // Lateral distance that the DCM still has to go, positive while it has not reached the start.
   const double to_go = feet_.side() * (start_dcm.y() - reference_.dcm().y());
-  // A robot that is held, or whose DCM does not get there, begins to step all the same.
+  // A robot that is held, or whose DCM does not get there, begins to step nevertheless.
   if (to_go > 0 && time_ < kMaxStarting * duration_) return;
   velocity_.start_path(body_in_odometry());
   begin_step();
@@ -175,7 +175,7 @@ void WalkEngine::begin_step() {
   velocity_.set_speed_fraction(observer_.has_dead_foot_sensor() ? gait_->velocity.dead_sensor_speed
                                                                 : 1);
   velocity_.begin_step(target, body, is_ending_, !is_capturing_ && !kick_.seeks_ball());
-  // Set before plan_steps(): the plan is that of the last step.
+  // This is set before plan_steps(), so that it plans the last step.
   is_capturing_ = is_ending_;
   steps_.begin_step(is_ending_);
   plan_steps();

@@ -71,13 +71,13 @@ class WalkEngine {
 
   /** One control tick.
    * @param measured  Kinematics of the measured joint angles.
-   * @param dt        By which the walk advances, s.
+   * @param dt        Time by which the walk advances, s.
    * @param targets   Out: positions of legs and arms. @return false when the walk has ended. */
   bool step(const RobotState& state, const Kinematics& measured, double dt, JointTargets& targets);
 
   Stage stage() const { return stage_; }
   const LegKinematics& legs() const { return body_.pose().legs(); }
-  /** Of the present step, after clipping: m/s, m/s, rad/s. */
+  /** Velocity of the current step after clipping: m/s, m/s, rad/s. */
   const Eigen::Vector3d& velocity() const { return velocity_.velocity(); }
   /** The next footstep first; soles in odometry. */
   std::vector<PlannedStep> footsteps_in_odometry() const;
@@ -102,7 +102,7 @@ class WalkEngine {
   void change_support();
   void step_stopping(double dt);
   void begin_raising();
-  /** Plans from the present step on. */
+  /** Plans from the current step on. */
   void plan_steps() {
     steps_.plan(feet_, reference_, velocity_.step_velocity(), is_ending_, duration_ - time_);
   }
@@ -130,7 +130,7 @@ class WalkEngine {
   WholeBodyController body_;
   /** Fraction of the weight that is planned on the foot that is not the support foot, 0..1. */
   double other_load_ratio_ = 0;
-  /** 0: the posture before or after the walk, 1: the walk. */
+  /** Fraction of the transition from the posture before or after the walk (0) to the walk (1). */
   double walk_fraction_ = 0;
 };
 

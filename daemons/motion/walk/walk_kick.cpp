@@ -11,11 +11,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A kick whose ball was not reached in this time is given up, s. Chosen: longer than the longest
-// approach (8 s, see kick_approach.cpp).
+// Time after which a kick whose ball was not reached is given up, s. Chosen: longer than the
+// longest approach (8 s, see kick_approach.cpp).
 constexpr double kTimeLimit = 10;
-// Greatest displacement of the kicking swing towards the ball, m ahead and aside. Chosen: as far as
-// an approach may end off the ball's best place (kick_approach.cpp).
+// Greatest displacement of the kicking swing towards the ball, m ahead and sideways. Chosen: the
+// distance by which an approach may miss the ball's best place (kick_approach.cpp).
 const Vector2d kMaxKickOffset(0.03, 0.02);
 
 }  // namespace
@@ -54,7 +54,8 @@ Vector3d WalkKick::approach_ball(const Vector3d& commanded, bool kicks_next, con
   const KickApproach approach =
       plan_kick_approach(offset, kicks_next, commanded.head<2>(), gait_->timing.step_duration);
   if (approach.num_steps > 0) return {approach.velocity.x(), approach.velocity.y(), 0};
-  // Near enough: the strike begins with this step, and the swing is displaced by what is left.
+  // The ball is near enough: the strike begins with this step, and the swing is displaced by the
+  // rest.
   begin_strike(offset);
   return {commanded.x(), 0, 0};
 }

@@ -26,8 +26,8 @@ class WalkKick {
   void reset();
 
   /** Asks for a kick.
-   * @param ball  In odometry, m: the steps lead to it. None: the next complete swing of the foot
-   *              kicks wherever it passes. */
+   * @param ball  In odometry, m: the steps lead to it. If none, the next complete swing of the foot
+   * kicks wherever it passes. */
   void request(bool with_left, const std::optional<Eigen::Vector2d>& ball);
 
   void advance(double dt) { time_ += dt; }
@@ -40,13 +40,13 @@ class WalkKick {
   /** The swing foot has landed. */
   void end_step();
 
-  /** State of the last kick that was asked for. */
+  /** State of the last requested kick. */
   State state() const { return state_; }
-  /** The present step kicks. */
+  /** The current step kicks. */
   bool is_striking() const { return is_striking_; }
   /** The steps lead to a ball. */
   bool seeks_ball() const { return state_ == State::kPending && ball_; }
-  /** Of the present step. @param phase  Elapsed fraction of the step. */
+  /** Offset of the swing foot in the current step. @param phase  Elapsed fraction of the step. */
   SwingOffset swing_offset(double phase) const;
 
  private:
@@ -57,12 +57,12 @@ class WalkKick {
   const Gait* gait_;
   State state_ = State::kNone;
   bool with_left_ = false;
-  /** In odometry, m. */
+  /** Ball in odometry, m. */
   std::optional<Eigen::Vector2d> ball_;
-  /** Since the request, s. */
+  /** Time since the request, s. */
   double time_ = 0;
   bool is_striking_ = false;
-  /** From the best place of the ball to the ball, m, in the body frame. */
+  /** Vector from the best place of the ball to the ball, m, in the body frame. */
   Eigen::Vector2d ball_offset_ = Eigen::Vector2d::Zero();
 };
 

@@ -35,8 +35,8 @@ void WalkObserver::update(const RobotState& state, const Vector3d& com_in_torso,
   const Matrix3d& R_OT = state.torso_in_odometry.linear();
   torso_heading_ = heading_of(R_OT);
   const Matrix3d R_HT = AngleAxisd(-torso_heading_, Vector3d::UnitZ()).toRotationMatrix() * R_OT;
-  // R_HT = Ry(pitch) Rx(roll): the heading has been taken out. Without the commanded pitch what
-  // remains is the tilt that was not commanded.
+  // R_HT = Ry(pitch) Rx(roll): the heading has been taken out. Subtracting the commanded pitch
+  // leaves the tilt that was not commanded.
   tilt_ << std::atan2(R_HT(2, 1), R_HT(2, 2)), std::asin(std::clamp(-R_HT(2, 0), -1.0, 1.0)), 0;
   tilt_.y() -= torso_pitch;
   tilt_ = tilt_.cwiseMax(-kMaxTilt).cwiseMin(kMaxTilt);
@@ -55,8 +55,8 @@ void WalkObserver::estimate_com(const RobotState& state, const Vector3d& com_in_
   // Without weight on the feet the commanded ZMP stands in for the center of pressure.
   Vector2d zmp = to_support * state.center_of_pressure_in_odometry;
   if (!zmp.allFinite()) zmp = reference.zmp();
-  // Three cases: first tick; the support foot has changed, so that position and velocity are
-  // re-expressed in the new S; usual update of the filter.
+  // There are three cases: the first tick; a changed support foot, for which position and velocity
+  // are re-expressed in the new S; and the usual update of the filter.
   if (!has_estimate_) {
     estimator_.reset(position, zmp);
     has_estimate_ = true;

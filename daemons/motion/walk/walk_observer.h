@@ -32,12 +32,12 @@ class WalkObserver {
 
   /** Center of mass in the support frame S, without the estimated offset of the measurement.
    *
-   * What is measured now was commanded one lag ago, and is nevertheless compared with the present
+   * The present measurement results from the command one lag ago, but is compared with the present
    * reference: see docs/decisions/walk-design.md. */
   const PendulumState& com() const { return com_; }
-  /** Torso against its commanded orientation: roll, pitch, 0; rad. */
+  /** Rotation of the torso relative to its commanded orientation: roll, pitch, 0; rad. */
   const Eigen::Vector3d& tilt() const { return tilt_; }
-  /** Of the torso, low-pass filtered, rad/s, torso frame. */
+  /** Angular velocity of the torso, low-pass filtered, rad/s, torso frame. */
   const Eigen::Vector3d& angular_velocity() const { return gyroscope_.value(); }
   /** Load on the foot that was the swing foot in the last update(), N. */
   double swing_force() const { return swing_force_; }

@@ -13,7 +13,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 // Greatest velocity of the torso while it is lowered, m/s, and of the arm joints, rad/s, and least
-// duration of the transition, s. Chosen: the reference of the center of mass rests meanwhile, so
+// duration of the transition, s. Chosen: the reference of the center of mass rests during it, so
 // the body must move slowly; the arms use about a quarter of their motors' greatest velocity.
 constexpr double kLoweringSpeed = 0.08;
 constexpr double kArmSpeed = 2.0;

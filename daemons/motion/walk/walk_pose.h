@@ -47,7 +47,7 @@ class WalkPose {
   /** Follows the center of mass of a pose of the joints. */
   void update_com(const std::vector<double>& position, double dt);
 
-  /** Of the pose of the last update_com(). */
+  /** Kinematics in the pose of the last update_com(). */
   const Kinematics& kinematics() const { return kinematics_; }
   /** Pitch of the torso in the last solve(), rad. */
   double torso_pitch() const { return torso_pitch_; }

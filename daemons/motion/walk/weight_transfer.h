@@ -10,8 +10,8 @@ namespace nao::motion {
  *
  * The weight is transferred linearly during the double support around each touchdown: from 0.5 to 0
  * on the foot that lifts off, then from 0 to 0.5 on the same foot as it lands.
- * @param time      Elapsed in the step, s. @param duration  Of the step, s.
- * @param transfer  Of the double support around one touchdown, s. */
+ * @param time      Elapsed in the step, s. @param duration  Duration of the step, s.
+ * @param transfer  Duration of the double support around one touchdown, s. */
 inline double swing_load_ratio(double time, double duration, double transfer) {
   const double half = transfer / 2;
   const double landing = duration - half;

@@ -32,7 +32,7 @@ void WholeBodyController::read_start(const std::vector<double>& position) {
 
 void WholeBodyController::start(const BodyCommand& command) {
   // The targets that were sent last are not those of the commanded pose: they contain the load's
-  // offsets. The difference stays, and fades, so that no joint jumps in the first tick.
+  // offsets. The difference is kept and fades, so that no joint jumps in the first tick.
   const std::vector<double> sent = position_;
   pose_.solve(command.reference, command.feet, command.feet.swing_sole(command.swing_offset),
               lowered(command), position_);
@@ -68,8 +68,8 @@ std::vector<double> WholeBodyController::calc_torques(const BodyCommand& command
   std::vector<double> torque = feedforward_.calc_torques(
       pose_.kinematics(), up,
       plan_foot_loads(*gait_, mass_, command.feet, command.reference, plan, torso));
-  // What accelerates the swing leg; the accelerations of the support leg are those of the body, and
-  // in the ground reaction.
+  // Torques that accelerate the swing leg; the accelerations of the support leg are those of the
+  // body and are part of the ground reaction.
   const double scale = command.is_double_support ? 0 : gait_->servo.inertia_scale;
   if (scale == 0) return torque;
   const Leg swing = command.feet.support_is_left() ? Leg::kRight : Leg::kLeft;

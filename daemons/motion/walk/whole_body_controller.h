@@ -14,20 +14,20 @@
 
 namespace nao::motion {
 
-/** What the walk commands to the body in one tick. The references hold for the call only. */
+/** Commands of the walk to the body in one tick. The references hold for the call only. */
 struct BodyCommand {
   /** Transition between the walk and the postures before and after it. */
   enum class Transition { kFromStart, kNone, kToEnd };
 
   const ComReference& reference;
   const Feet& feet;
-  /** Of a kick. */
+  /** Offset of the swing foot by a kick. */
   SwingOffset swing_offset;
   /** Fraction of the weight on the foot that is not the support foot, 0..1. */
   double other_load_ratio;
   bool is_double_support;
   Transition transition;
-  /** 0: the posture before or after the walk, 1: the walk. */
+  /** Fraction of the transition from the posture before or after the walk (0) to the walk (1). */
   double walk_fraction;
 };
 
@@ -35,7 +35,7 @@ struct BodyCommand {
  * velocity, plus feedback of the torso's orientation. */
 class WholeBodyController {
  public:
-  /** @param end_posture  In which the walk ends. */
+  /** @param end_posture  Posture in which the walk ends. */
   WholeBodyController(const RobotModel& model, const Gait& gait, const Posture& end_posture);
 
   const WalkPose& pose() const { return pose_; }

@@ -39,7 +39,7 @@ namespace {
 constexpr uint32_t kWidth = 640;
 constexpr uint32_t kHeight = 480;
 constexpr size_t kBytes = size_t{2} * kWidth * kHeight;
-/** Between the start of an exposure and the delivery of the image, microseconds. */
+/** Time between the start of an exposure and the delivery of the image, microseconds. */
 constexpr int64_t kAge = 20000;
 
 struct Camera {
@@ -213,7 +213,7 @@ int control_camera(Camera& camera, int descriptor, unsigned long request, void* 
       const auto& control = *static_cast<v4l2_control*>(argument);
       note(camera.name + " S_CTRL " + std::to_string(control.id) + " " +
            std::to_string(control.value));
-      // As cameras without automatic hue answer.
+      // Cameras without automatic hue answer in this way.
       return control.id == V4L2_CID_HUE_AUTO ? fault(EINVAL) : 0;
     }
     case VIDIOC_STREAMON:

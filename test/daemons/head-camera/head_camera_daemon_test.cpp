@@ -20,7 +20,7 @@
 namespace nao::camera {
 namespace {
 
-/** A camera on a bus of its own, and the messages that it publishes. */
+/** A camera on a private bus, and the messages that it publishes. */
 class HeadCameraDaemonTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {

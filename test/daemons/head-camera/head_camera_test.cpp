@@ -53,7 +53,8 @@ class HeadCameraTest : public testing::Test {
     return box.center();
   }
 
-  /** Where the ideal camera sees a point of the world, in focal lengths: x right, y down. */
+  /** Position of a point of the world in the ideal camera's image, in focal lengths: x right, y
+   * down. */
   Eigen::Vector2d ideal_point(const Eigen::Vector3d& point_in_world) const {
     const RobotPose& robot = world_.robots[0];
     const auto poses = link_poses_in_world(model_, robot.pose_torso_in_world, robot.position);

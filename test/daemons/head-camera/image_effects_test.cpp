@@ -22,7 +22,7 @@ TEST(ImageNoise, HasTheGivenDeviationAndIsReproducible) {
   int count = 0;
   for (size_t i = 0; i < pixels.size(); ++i) {
     if (i % 4 == 3) {
-      ASSERT_EQ(pixels[i], 128) << "the byte that is no color";
+      ASSERT_EQ(pixels[i], 128) << "the byte that is not a color";
       continue;
     }
     sum += pixels[i] - 128;

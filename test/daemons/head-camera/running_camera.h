@@ -11,7 +11,7 @@
 
 namespace nao {
 
-/** The program nao-head-camera beside the test's own. */
+/** The program nao-head-camera, which runs next to the test. */
 inline std::string camera_program() {
   return std::filesystem::canonical("/proc/self/exe").parent_path() / "nao-head-camera";
 }

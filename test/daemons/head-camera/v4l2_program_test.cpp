@@ -66,7 +66,7 @@ class V4l2ProgramTest : public testing::Test {
                                  "30",       "--lcm-url", private_url()};
     all.insert(all.end(), options.begin(), options.end());
     faults.emplace_back("LD_PRELOAD", FAKE_V4L2_LIBRARY);
-    // The sanitizer's library need not come first: this one only passes calls on.
+    // The sanitizer's library need not come first: this one only forwards calls.
     faults.emplace_back("ASAN_OPTIONS", "verify_asan_link_order=0:detect_leaks=0");
     faults.emplace_back("FAKE_V4L2_LOG", folder_.path() / "log");
     faults.emplace_back("FAKE_V4L2_FRAMES", folder_.path() / "frames");
@@ -79,7 +79,7 @@ class V4l2ProgramTest : public testing::Test {
     return condition();
   }
 
-  /** Lines of the fake's log that begin with this, without it. */
+  /** Lines of the fake's log that begin with this prefix, without the prefix. */
   std::vector<std::string> log(const std::string& prefix) const {
     std::ifstream file(folder_.path() / "log");
     std::vector<std::string> lines;

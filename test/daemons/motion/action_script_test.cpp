@@ -20,7 +20,7 @@ class ActionScriptTest : public testing::Test {
     write_text(file, text);
     return ActionScript::load(nao_model(), file);
   }
-  /** Expects that the text is refused with a message that has the words in it. */
+  /** Expects that the text is refused with a message that contains the words. */
   void expect_refused(const std::string& text, const std::string& words) {
     try {
       load(text);

@@ -7,7 +7,7 @@ namespace nao::motion {
 /** A motion that does what a test sets. */
 class FakeMotion : public MotionGenerator {
  public:
-  /** What the test sets and sees. */
+  /** State that the test sets and reads. */
   struct Script {
     Phase phase = Phase::kRunning;
     bool can_be_replaced = true;

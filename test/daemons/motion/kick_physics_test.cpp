@@ -29,8 +29,9 @@ ClosedLoop make_kick_trial(uint64_t seed, const std::string& disturbances = "def
   return ClosedLoop(options, seed);
 }
 
-/** Kicks a ball that lies well, or beside that place. @param offset  From it, m; unknown to the
- * robot. @return Displacement of the ball, m, in W; the robot looks along x. */
+/** Kicks a ball at its best place, or beside it. @param offset  Offset from that place, m; unknown
+ * to the robot.
+ * @return Displacement of the ball, m, in W; the robot looks along x. */
 Eigen::Vector2d kick(ClosedLoop& trial, bool is_left, double strength,
                      const Eigen::Vector2d& offset = Eigen::Vector2d::Zero()) {
   const auto sole = [&](int link) {

@@ -201,7 +201,8 @@ TEST_F(MotionCoreTest, ClipsJointChangesToSingleAndCoupledLimits) {
 }
 
 TEST_F(MotionCoreTest, HeadAndArmsMoveInTheFirstTickAndLegsStartSmoothly) {
-  // What a servo with the head's delay of 27 ms needs to turn one encoder step in a tick, rad.
+  // Target change with which a servo with the head's delay of 27 ms turns one encoder step in a
+  // tick, rad.
   constexpr double kVisible = 0.007;
   constexpr double kSmooth = 0.001;
   int64_t id = 0;
@@ -248,10 +249,10 @@ TEST_F(MotionCoreTest, SilentSensorsMeanNoRobot) {
   EXPECT_EQ(core_.motion_state().posture, "StandInit");
 }
 
-/** What a head turn and a crouch of a standing robot end with. */
+/** Result of a head turn and a crouch of a standing robot. */
 struct Course {
   std::vector<double> targets;
-  /** Of the crouch, s. */
+  /** Duration of the crouch, s. */
   double duration = 0;
 };
 
@@ -312,7 +313,7 @@ TEST(MotionCore, GetsUpAfterTheSameTimeAtAnyControlPeriod) {
   }
 }
 
-// Whenever the command comes: before the robot gets up, or while it rests for that.
+// The command may come before the robot gets up, or while it rests before that.
 TEST(MotionCore, GetsUpAfterItsHeadWasTurnedOnTheGround) {
   const double delay = MotionOptions().get_up_delay;
   for (const double when : {0.5 * delay, delay + 0.05}) {

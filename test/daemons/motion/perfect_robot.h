@@ -30,7 +30,7 @@ class PerfectRobot {
 
   Sensors& sensors() { return sensors_; }
 
-  /** From now on it lies, at any joint angles. */
+  /** Makes it lie from now on, at any joint angles. */
   void lie_on_belly() { lies_on_belly_ = true; }
 
   /** One control step of robot and core together. */

@@ -25,7 +25,7 @@ class RobotAtRest {
     measure();
   }
 
-  /** Estimates the state from the sensors anew. */
+  /** Restarts the estimate of the state from the sensors. */
   void measure() {
     estimator_.reset();
     estimator_.update(sensors_, 0.01);

@@ -69,7 +69,8 @@ TEST(SensorCorrection, ADeadSensorGetsTheForceOfALinearPressure) {
   Calibration calibration(nao_model());
   calibration.foot_sensor_scale[1] = 0;
   const SensorCorrection correction(nao_model(), calibration);
-  // Of a rectangle the front right sensor would get 10 + 6 - 8; the left foot is nearly one.
+  // The left foot's sensors are nearly a rectangle, in which the front right one would read 10 + 6
+  // - 8.
   Sensors sensors = PerfectRobot().sensors();
   sensors.foot_force = {10, 0.3, 8, 6, 5, 5, 5, 5};
   correction.correct(sensors);

@@ -39,7 +39,7 @@ TEST(Score, PutsTheBallIntoTheGoalFromAnywhereInTheOwnHalf) {
             << x << ' ' << y << ' ' << heading << ": " << last_reason(world);
         EXPECT_GT(world.ball.x(), 4.5);
         EXPECT_LT(std::abs(world.ball.y()), 0.75);
-        // Never run over.
+        // The robot must never run over the ball.
         EXPECT_GT(world.least_distance, 0.14);
       }
     }
@@ -86,8 +86,8 @@ TEST(Score, FindsABallBehindIt) {
   EXPECT_EQ(world.phases.front(), PlayPhase::kSearch);
 }
 
-/** Heading at which a robot kicks that begins with the ball before its left foot, but turned away
- * from the goal's middle by 0.14 rad. */
+/** Heading of the kick of a robot that starts with the ball in front of its left foot, but turned
+ * away from the goal's middle by 0.14 rad. */
 double heading_of_first_kick(const Eigen::Vector2d& ball) {
   ToyWorld world;
   world.ball = ball;
@@ -338,7 +338,7 @@ TEST_F(PlayLease, CommandsNothingWhileTheRobotGetsUp) {
   EXPECT_EQ(world_.core.state().phase, PlayPhase::kRecover);
   EXPECT_EQ(world_.core.state().reason.code, "robot-getting-up");
   EXPECT_THAT(world_.commands, SizeIs(0));
-  // On its feet it goes on, while nao-motion still straightens the legs.
+  // Once on its feet, it continues while nao-motion still straightens the legs.
   world_.mode = Mode::kMoving;
   steps(20);
   EXPECT_EQ(world_.core.state().phase, PlayPhase::kApproach);

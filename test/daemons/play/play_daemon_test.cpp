@@ -80,7 +80,7 @@ class PlayDaemonTest : public testing::Test {
     bus_.publish("NAO_PLAY_COMMAND", message);
   }
 
-  /** Robot and camera go on for some steps. */
+  /** Robot and camera continue for some steps. */
   void run(int steps, bool is_commanded = true) {
     for (int i = 0; i < steps; ++i) {
       utime_ += 50000;

@@ -141,7 +141,7 @@ double ToyWorld::run(double timeout) {
   do {
     step();
   } while (core.is_active() && time - start < timeout);
-  // An ended behavior is not begun again.
+  // An ended behavior is not restarted.
   stop_commanding();
   return time - start;
 }

@@ -7,7 +7,7 @@
 
 namespace nao::play {
 
-/** A kinematic robot, a ball on a plane, and perfect eyes: carries out what PlayCore commands. The
+/** A kinematic robot, a ball on a plane, and perfect perception: executes PlayCore's commands. The
  * odometry frame is the world; the field's frame is the same until the test moves it. */
 class ToyWorld {
  public:
@@ -15,11 +15,11 @@ class ToyWorld {
 
   ToyWorld();
 
-  /** Begins to send a play command, and repeats it. */
+  /** Starts to send a play command, and repeats it. */
   void command(Behavior behavior);
   void stop_commanding() { commanded_ = Behavior::kNone; }
   void step();
-  /** Steps until no behavior is active. @return s that it took; `timeout` if it goes on. */
+  /** Steps until no behavior is active. @return Time that it took, s; `timeout` if it continues. */
   double run(double timeout);
 
   PlayCore core;
@@ -34,9 +34,9 @@ class ToyWorld {
   /** The camera works. */
   bool has_images = true;
   int image_status = 0;
-  /** The ball can be seen; nothing: wherever the camera looks. */
+  /** Whether the ball can be seen; nothing: it depends on the camera's direction. */
   bool is_ball_visible = true;
-  /** m from the feet. */
+  /** Distance from the feet, m. */
   double sight = 4;
   std::optional<CommandKind> other_command;
   std::optional<MatchView> match;

@@ -11,7 +11,7 @@ using namespace nao;
 using namespace nao::referee;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  // A field of its own: no files.
+  // The field is made here, without files.
   SceneFile scene;
   scene.field.emplace();
   scene.goals.emplace();

@@ -18,7 +18,7 @@ struct GameControllerPacket {
   int16_t seconds = 600;
   std::array<uint8_t, 2> team_numbers{5, 12};
   std::array<uint8_t, 2> scores{0, 0};
-  /** Of players 1 and 2 of both teams: penalty, seconds. */
+  /** Penalty and its seconds of players 1 and 2 of both teams. */
   std::array<std::array<std::array<uint8_t, 2>, 2>, 2> penalties{};
 
   std::vector<uint8_t> bytes() const {

@@ -173,7 +173,7 @@ TEST_F(GameControllerRefereeTest, PutsPenalisedRobotsBesideTheField) {
   EXPECT_EQ(output.events.at(0).robot, "B1");
   EXPECT_EQ(referee_.state().players[2].penalty, Penalty::kLeftField);
   EXPECT_EQ(referee_.state().players[2].penalty_left, 45);
-  // Another penalty is none that has just begun.
+  // A changed penalty does not count as one that has just begun.
   packet_.penalties[1][0] = {kPenaltyPlayerPushing, 44};
   EXPECT_TRUE(say(packet_).placements.empty());
   packet_.penalties[1][0] = {0, 0};

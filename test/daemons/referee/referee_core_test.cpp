@@ -111,7 +111,7 @@ TEST_F(RefereeCoreTest, PutsRobotsToTheirPlacesThatAreNotThereInTime) {
   EXPECT_EQ(core.state().phase, MatchPhase::kReady);
   run(1.2);
   EXPECT_EQ(core.state().phase, MatchPhase::kSet);
-  // One has not got up and was penalised before; the other one was put to its place.
+  // One robot has not got up and was penalised before; the other one was put at its place.
   ASSERT_EQ(placements.size(), 3u);
   EXPECT_EQ(placements[0].robot, "B1");
   EXPECT_EQ(placements[1].robot, "A2");
@@ -258,7 +258,7 @@ TEST_F(RefereeCoreTest, ANewSimulatorGoesOnWithAKickOff) {
   core.step(input);
   EXPECT_EQ(core.state().phase, MatchPhase::kReady);
   EXPECT_EQ(core.state().time_left, time_left);
-  // A gap in time is not played.
+  // A gap in time does not count as played.
   input.time = 30;
   core.step(input);
   EXPECT_EQ(core.state().phase, MatchPhase::kReady);

@@ -27,7 +27,7 @@ namespace {
 /** A world of two robots, whose simulator obeys. */
 class RefereeDaemonTest : public testing::Test {
  protected:
-  /** @param change  Of the options, before the daemon is made. */
+  /** @param change  Change of the options, before the daemon is made. */
   explicit RefereeDaemonTest(const std::function<void(RefereeOptions&)>& change = {})
       : bus_("memq://") {
     options_.robots = {{"NAO1", "nao", 0, 1}, {"NAO2", "nao", 1, 1}};
@@ -271,7 +271,7 @@ TEST_F(GameControllerDaemonTest, FollowsItAndAnswersForEveryRobot) {
   GameControllerPacket packet;
   packet.state = 3;
   packet.scores = {0, 1};
-  // What is none of its messages changes nothing, and is not answered.
+  // Other messages change nothing, and are not answered.
   controller.send({'R', 'G', 'm', 'e', 99}, daemon_->game_controller_port());
   controller.send(packet.bytes(), daemon_->game_controller_port());
   daemon_->receive_game_controller();

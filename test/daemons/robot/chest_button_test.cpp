@@ -7,7 +7,7 @@
 namespace nao::robot {
 namespace {
 
-/** Presses that are told in a sequence of (pressed, seconds). */
+/** Presses that are detected in a sequence of (pressed, seconds). */
 std::vector<Press> presses(const std::vector<std::pair<bool, double>>& sequence) {
   ChestButton button;
   std::vector<Press> result;

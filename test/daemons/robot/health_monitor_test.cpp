@@ -39,7 +39,8 @@ TEST_F(Health, WarnsOfALowBatteryAndStopsAtAnEmptyOne) {
   EXPECT_THAT(monitor_.warnings(), testing::ElementsAre("battery-low"));
   frame_.battery[0] = 0.09f;
   run(20);
-  EXPECT_EQ(monitor_.fault(), Fault::kNone) << "a single wrong reading is no empty battery";
+  EXPECT_EQ(monitor_.fault(), Fault::kNone)
+      << "a single wrong reading does not mean an empty battery";
   run(100);
   EXPECT_EQ(monitor_.fault(), Fault::kBatteryLow);
 }

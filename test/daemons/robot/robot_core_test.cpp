@@ -12,7 +12,7 @@
 namespace nao::robot {
 namespace {
 
-/** A number to break things with. */
+/** An extreme or invalid number. */
 double hostile(Random& random) {
   switch (static_cast<int>(random.uniform() * 8)) {
     case 0:

@@ -52,8 +52,8 @@ double drive(uint64_t seed, double duration) {
 }
 
 TEST(RobotDrive, StaysOnItsFeetUnderAJoystick) {
-  // Of seeds 1 to 12 two fall within a minute (1 and 4); the one that is driven in every test run
-  // does not.
+  // With seeds 1 to 12, the robot falls twice within a minute (1 and 4). It does not with the seed
+  // of every test run.
   const int first_seed = from_environment("NAO_DRIVE_FIRST_SEED", 2);
   const int num_seeds = from_environment("NAO_DRIVE_SEEDS", 1);
   const double duration = from_environment("NAO_DRIVE_TIME", 60);

@@ -1,4 +1,4 @@
-// Programs die or hang at random moments while the robot stands, walks or lies: what becomes of it.
+// Programs die or hang at random moments while the robot stands, walks or lies.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ constexpr int kFramesAfterStop = 34;
 
 enum class Fault { kMotion, kRobotKilled, kRobotStopped };
 
-/** A robot that is made to stand again after each fault. */
+/** A robot that stands again after each fault. */
 class RobotFaultTest : public testing::TestWithParam<Fault> {
  protected:
   /** The program dies. */
@@ -58,7 +58,7 @@ class RobotFaultTest : public testing::TestWithParam<Fault> {
 TEST_P(RobotFaultTest, FromStandingItEndsSeatedEveryTime) {
   stand(loop_);
   for (int i = 0; i < num_moments(); ++i) {
-    // Also in the middle of standing up, and while the arms move.
+    // This includes the middle of standing up, and the motion of the arms.
     loop_.run(random(0, 0.5));
     if (i % 2 == 1) {
       loop_.send(PostureCommand{i % 4 == 1 ? "Stand" : "StandInit", 0.5});

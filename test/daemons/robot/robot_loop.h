@@ -33,10 +33,10 @@ inline sim::SimOptions loop_sim_options(uint64_t seed, const std::string& distur
 }
 
 /** The simulator behind LoLA, nao-robot's core and nao-motion's core in one process, with the
- * frames' bytes between the first two: what a real robot would do, without clock and socket. */
+ * frames' bytes between the first two: the programs of a real robot, without clock and socket. */
 class RobotLoop {
  public:
-  /** @param disturbances  As of nao-sim's --disturbances. */
+  /** @param disturbances  As in nao-sim's --disturbances. */
   explicit RobotLoop(uint64_t seed = 1, const std::string& disturbances = "")
       : sim_(loop_sim_options(seed, disturbances)), motion_(nao_model(), motion::MotionOptions{}) {}
 
@@ -126,7 +126,7 @@ class RobotLoop {
     is_ending = true;
     num_frames_ = 0;
   }
-  /** After crash(): the program is started anew, and motion is there. */
+  /** After crash(): the program is restarted, and motion runs. */
   void restart() {
     last_targets_.clear();
     core_.emplace(nao_model(), nao_map(), true);
@@ -175,7 +175,7 @@ class RobotLoop {
   std::vector<Command> commands_;
   int64_t num_frames_ = 0;
   int64_t last_id_ = 0;
-  /** Of the last frame; empty before the first one. */
+  /** Targets of the last frame; empty before the first one. */
   std::vector<double> last_targets_;
   int num_too_fast_ = 0;
   ResultStatus last_status_ = ResultStatus::kAccepted;

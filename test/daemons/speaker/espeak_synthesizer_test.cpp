@@ -24,7 +24,7 @@ std::atomic<int>& num_processes() {
 }
 }  // namespace
 
-// Whatever the program and its libraries call to start a process arrives here instead of in the C
+// All calls of the program and its libraries to start a process arrive here instead of in the C
 // library. fork() works: the texts are spoken in child processes.
 extern "C" {
 int system(const char*) {

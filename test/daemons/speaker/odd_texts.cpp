@@ -22,7 +22,7 @@ std::string repeated(const std::string& part, size_t num_bytes) {
 }
 
 const char* const kTexts[] = {
-    // Nothing, or nothing to be heard.
+    // Empty texts, and texts without audible content.
     "",
     " ",
     "\n\n\n",
@@ -70,7 +70,7 @@ const char* const kTexts[] = {
     "\ufdd0",
     "\uffff",
     "\U0010ffff",
-    // Other writing, right-to-left among it.
+    // Other scripts, including right-to-left ones.
     "\u0645\u0631\u062d\u0628\u0627",
     "\u05e9\u05dc\u05d5\u05dd",
     "hello \u0645\u0631\u062d\u0628\u0627 hello",
@@ -116,7 +116,7 @@ const char* const kTexts[] = {
     "<say-as interpret-as=\"tts:key\">F1</say-as>",
     "<sub alias=\"b\">a</sub>",
     "<tts:style field=\"punctuation\"/>",
-    // What espeak-ng has commands and options for.
+    // Texts like commands and options of espeak-ng.
     "[[h@l'oU]]",
     "[[",
     "]]",
@@ -240,7 +240,7 @@ std::vector<std::string> odd_texts() {
   texts.push_back(all_bytes);
   // A character of each of many blocks.
   for (unsigned code = 0xa1; code < 0xd800; code += 0x97) texts.push_back(encoded(code) + " a");
-  // Words of letters, marks and symbols of everywhere.
+  // Words of letters, marks and symbols of all scripts.
   std::mt19937 random(1);
   for (int i = 0; i < 60; ++i) {
     std::string text;

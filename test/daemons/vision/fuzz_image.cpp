@@ -1,7 +1,7 @@
 // Fuzzer of what a camera's messages can hold: decodes a file as JPEG, and runs perception on it.
 //
-// Random bytes are no JPEG file, and a fuzzer does not find its headers by itself in hours: what
-// is none is replaced by a valid file, which is then mutated.
+// Random bytes are not a JPEG file, and a fuzzer does not find its headers by itself in hours:
+// other input is replaced by a valid file, which is then mutated.
 #include <turbojpeg.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
                                           unsigned int seed) {
   const bool is_jpeg = size > 3 && data[0] == 0xff && data[1] == 0xd8;
   std::minstd_rand random(seed);
-  // Now and then also what begins otherwise.
+  // Sometimes input with another beginning is used.
   if (!is_jpeg && random() % 16 != 0) {
     const std::vector<uint8_t> file =
         make_jpeg(20 + static_cast<int>(random() % 80), random() % 4 == 0);
@@ -68,7 +68,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   nao::vision::VisionInput input;
   input.bgr = image;
   input.calibration = nao::vision::CameraCalibration::guess(image.cols, image.rows);
-  // With a pose, so that circle, posts, robots and localisation have their turn.
+  // A pose is given, so that circle, posts, robots and localisation are also run.
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation().z() = 0.5;
   pose.linear() = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()).matrix();

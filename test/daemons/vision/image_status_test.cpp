@@ -54,7 +54,7 @@ TEST(ImageStatus, ACameraThatLooksDownOnTheRobotsBodyIsNotInverted) {
   cv::rectangle(input.bgr, {0, 300, input.bgr.cols, input.bgr.rows - 300}, {200, 200, 200}, -1);
   VisionCore core;
   EXPECT_EQ(core.process(input).image_status, ImageStatus::kOk);
-  // Nor is an upside-down camera that looks ahead taken for one that looks down.
+  // An upside-down camera that looks ahead is not mistaken for one that looks down either.
   DrawnField ahead(0.0);
   input = ahead.input();
   cv::flip(input.bgr, input.bgr, -1);

@@ -58,7 +58,7 @@ TEST(JpegDecoder, SurvivesChangedBytes) {
   }
 }
 
-// What one damaged file leaves behind must not make the decoder refuse those after it.
+// The state after a damaged file must not make the decoder refuse the next ones.
 TEST(JpegDecoder, DecodesAnImageAfterEachDamagedOne) {
   cv::Mat image;
   const auto file = encoded(64, 48);

@@ -26,7 +26,7 @@ Eigen::Vector3d error_of(const Localizer& localizer, const Pose2& truth) {
   return error;
 }
 
-/** A robot that walks in the own half, with an odometry that drifts, and sees lines. */
+/** A robot that walks in its own half, with a drifting odometry, and sees lines. */
 struct WalkingRobot {
   explicit WalkingRobot(uint64_t seed, const Eigen::Vector2d& tilt = Eigen::Vector2d::Zero(),
                         const Pose2& start = Pose2{{-1.5, -1.8}, 0})
@@ -36,7 +36,7 @@ struct WalkingRobot {
   void step(bool sees = true) {
     // A circle of 2 m radius.
     const double turn = 0.02;
-    // The gyroscope drifts by 0.5 degrees a second; the way is 2 % too long.
+    // The gyroscope drifts by 0.5 degrees a second; the measured path is 2 % too long.
     truth = truth * Pose2{{0.04, 0}, turn};
     odometry = odometry * Pose2{{0.0408, 0}, turn + drift};
     localizer.predict(++count * kImagePeriod, odometry);
@@ -124,7 +124,7 @@ TEST(Localizer, FollowsTheOdometryAndBecomesLessCertain) {
   EXPECT_NEAR(error_of(localizer, Pose2{{-3, 3}, M_PI / 2}).norm(), 0, 1e-9);
   const Eigen::Matrix3d after = localizer.estimate().covariance;
   EXPECT_GT(after(1, 1), before(1, 1));
-  // The heading's error moves the robot across its way.
+  // The heading's error moves the robot across its path.
   EXPECT_GT(after(0, 0), after(1, 1));
 }
 
@@ -138,7 +138,7 @@ TEST(Localizer, TakesAJumpOfTheOdometryForNoMotion) {
   Localizer localizer(soccer_field(), Pose2{});
   localizer.predict(0, Pose2{});
   for (int i = 1; i <= 100; ++i) localizer.predict(i * kImagePeriod, Pose2{{0.02 * i, 0}, 0});
-  // nao-motion was restarted: its odometry begins anew.
+  // nao-motion was restarted: its odometry restarts.
   localizer.predict(101 * kImagePeriod, Pose2{});
   EXPECT_NEAR(localizer.estimate().pose.position.x(), 2, 1e-9);
   localizer.predict(102 * kImagePeriod, Pose2{{0.02, 0}, 0});

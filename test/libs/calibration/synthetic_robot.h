@@ -12,8 +12,8 @@
 
 namespace nao {
 
-/** What a standing robot with known errors would read: statics, without physics. Both soles lie on
- * one floor with a slope; the forces have the center of mass's ground projection as their center
+/** Sensor readings of a standing robot with known errors: statics, without physics. Both soles lie
+ * on one floor with a slope; the forces have the center of mass's ground projection as their center
  * and differ by as little as possible otherwise. */
 class SyntheticRobot {
  public:

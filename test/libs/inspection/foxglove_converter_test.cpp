@@ -142,7 +142,7 @@ TEST_F(FoxgloveConverterTest, WhatIsDrawnComesAtMostFiftyTimesASecond) {
 
 TEST_F(FoxgloveConverterTest, OdometryHasTheVelocityInTheTorsosFrame) {
   naolcm::robot_state_t state = leaning_state(0);
-  // Leans ahead by 90 degrees: what was ahead is now up in the torso's frame.
+  // It leans forward by 90 degrees: the forward direction is now up in the torso's frame.
   const Eigen::Quaterniond q =
       Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ())) *
       Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()));
@@ -242,7 +242,7 @@ TEST_F(FoxgloveConverterTest, IgnoresDamagedMessages) {
     for (int i = 0; i < 3; ++i) {
       damaged[kFirst + random() % (damaged.size() - kFirst - 4)] = static_cast<uint8_t>(random());
     }
-    // Must neither crash nor write what is no JSON, which convert() parses.
+    // It must neither crash nor write invalid JSON, which convert() parses.
     (void)convert("NAO_ROBOT_STATE", damaged);
   }
 }

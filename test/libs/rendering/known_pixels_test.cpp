@@ -127,7 +127,7 @@ using Window = Eigen::ArrayXXd;
 constexpr int kWindowWidth = 41;
 constexpr int kWindowHeight = 21;
 
-/** Normalized correlation: 1 if two windows differ in brightness and contrast only. */
+/** Normalized correlation: 1 if two windows differ only in brightness and contrast. */
 double correlation(const Window& a, const Window& b) {
   const Window x = a - a.mean();
   const Window y = b - b.mean();

@@ -152,8 +152,9 @@ double ready_foot_distance(const RobotModel& model) {
   return (poses[model.left_sole()].inverse() * poses[model.right_sole()]).translation().norm();
 }
 
-// After a walk the robot rises to the ready posture with its feet where they are: feet that the
-// posture has elsewhere would press against each other, and the next walk would begin with a jerk.
+// After a walk the robot rises to the ready posture with its feet where they are: if the posture
+// had the feet elsewhere, they would press against each other, and the next walk would begin with a
+// jerk.
 TEST(RobotT1, HasTheFeetOfTheReadyPostureAsFarApartAsInTheWalk) {
   const std::filesystem::path folder = data_path() / "robots" / "t1";
   EXPECT_NEAR(ready_foot_distance(RobotModel::load(folder)),

@@ -24,7 +24,7 @@ TEST_P(ControlPeriod, HoldsAWalkByTime) {
   EXPECT_EQ(loop.period(), 1e-3 * GetParam());
   loop.run(1.2);
   EXPECT_NEAR(loop.time(), 1.2, loop.period());
-  // A walk command is valid for 0.5 s: the walk goes on only if it is repeated in time.
+  // A walk command is valid for 0.5 s: the walk continues only if it is repeated in time.
   const double start = loop.torso_in_world().translation().x();
   loop.hold_walk({0.1, 0, 0});
   loop.run(4.8);

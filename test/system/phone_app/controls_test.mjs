@@ -52,7 +52,7 @@ test("the space bar stops while a key is held, and losing the focus releases it"
   await phone.page.keyboard.up("KeyW");
 });
 
-/** Puts a gamepad into the person's hands; null: takes it away. */
+/** Connects a simulated gamepad; null disconnects it. */
 const holdPad = (axes, pressed = []) => phone.page.evaluate(([axes, pressed]) => {
   window.pad = axes && {mapping: "standard", axes,
                         buttons: Array.from({length: 17}, (_, i) => ({pressed: pressed.includes(i)}))};

@@ -1,6 +1,5 @@
-// The app in a phone's browser against the real programs: what a person does is seen in the simulated
-// world, and what happens there is seen on the phone. NAO_BIN_DIR and NAO_WEB_SOURCE_DIR say where the
-// programs and the app's package.json are.
+// The app in a phone's browser against the real programs: a person's actions appear in the simulated world, and its
+// events on the phone. NAO_BIN_DIR and NAO_WEB_SOURCE_DIR say where the programs and the app's package.json are.
 import assert from "node:assert/strict";
 import {test} from "node:test";
 import {setUp} from "./set_up.mjs";

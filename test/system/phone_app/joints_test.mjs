@@ -86,7 +86,7 @@ test("the end of a joint's range is shown, and vibrates", async () => {
     navigator.vibrate = (pattern) => window.felt.push(pattern);
   });
   await choose("left hand");
-  // The tap itself is felt, shortly.
+  // The tap itself causes a short vibration.
   const before = await phone.page.evaluate("window.felt.length");
   // The end of the range is shown from its last hundredth on.
   await push(0, kArmReach, "the hand is wide open, and said to be", async () =>

@@ -1,4 +1,4 @@
-// Phones that lose the link, that look away, and that share one robot.
+// Phones that lose the link, are hidden, or share one robot.
 import assert from "node:assert/strict";
 import {test} from "node:test";
 import {setUp} from "./set_up.mjs";

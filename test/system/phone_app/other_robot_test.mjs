@@ -21,7 +21,7 @@ test("all of it is on the screen, from head to feet", async () => {
     const places = await phone.look("ballPlaces()");
     const parts = ["head", "left elbow", "right elbow", "left ankle", "right ankle"].map((name) => places[name]);
     const heights = parts.map(([, y]) => y);
-    // Not a spot in the distance either.
+    // It must not be a tiny spot in the distance either.
     return parts.every(([x, y]) => x > 0 && x < width && y > 0 && y < height) &&
         Math.max(...heights) - Math.min(...heights) > 0.2 * height;
   }, 10_000);

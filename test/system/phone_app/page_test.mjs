@@ -1,4 +1,4 @@
-// The page itself: accessible, small, quiet, and nothing over anything else.
+// The page itself: it is accessible and small, logs nothing, and no control covers another.
 import assert from "node:assert/strict";
 import {test} from "node:test";
 import {violations} from "./accessibility.mjs";

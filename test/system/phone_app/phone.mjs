@@ -39,7 +39,7 @@ function setName(clientName) {
 
 export class Phone {
   #isTouched = false;
-  /** Complaints of the page: errors, and what it wrote to the console as one. */
+  /** Errors of the page, and errors that it wrote to the console. */
   errors = [];
 
   static async open(browser, url, size, options) {
@@ -73,7 +73,7 @@ export class Phone {
     await this.page.locator(`#app[data-screen="${screen}"]`).waitFor({timeout: ms});
   }
 
-  /** Something of window.naoRemote, by an expression: "numImages". */
+  /** A value of window.naoRemote, by an expression: "numImages". */
   look(expression) {
     return this.page.evaluate(`window.naoRemote.${expression}`);
   }

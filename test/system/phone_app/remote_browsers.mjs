@@ -1,4 +1,4 @@
-// Browsers that are no Chrome, as a person has them: WebKit (stands for iPhones) by WebDriver over HTTP, Firefox by
+// Browsers other than Chrome, as people have them: WebKit (stands for iPhones) by WebDriver over HTTP, Firefox by
 // WebDriver BiDi over a WebSocket. Both take the same descriptions of fingers. They draw on a screen of Xvfb: without a
 // screen Firefox has no WebGL.
 import {spawn} from "node:child_process";
@@ -45,7 +45,7 @@ async function start(program, options, words, env = process.env) {
   return {child, match};
 }
 
-/** A screen that nobody sees. @return {child, env}: what programs must know to draw on it. */
+/** A virtual screen. @return {child, env}: what programs must know to draw on it. */
 async function startScreen() {
   const {child, match} = await start("Xvfb", [
     "-displayfd", "1", "-screen", "0", "1024x1024x24", "+extension", "GLX", "-nolisten", "tcp"], /^(\d+)\n/);

@@ -4,7 +4,7 @@ import {test} from "node:test";
 import {setUp} from "./set_up.mjs";
 import {until} from "./stack.mjs";
 
-/** Every robot of this project goes to these. */
+/** Every robot of this project has these postures. */
 const kStanding = ["StandZero", "StandInit", "Stand", "Crouch"];
 const kDeadlineMs = 120_000;
 
@@ -35,7 +35,7 @@ async function press(name) {
       id > ${newest} && kind === "bad" && !${kPartIsAway}.test(text))?.text`);
 }
 
-/** Stands the robot up again by hand, after whatever it did: getting up by itself has trials of its own. */
+/** Stands the robot up again by hand after any action: getting up by itself has separate trials. */
 async function standReady() {
   await stack.nao("world", "reset");
   await until("the robot stands ready", async () => (await phone.look("state.state.posture")) === "StandInit",

@@ -8,7 +8,7 @@ import {until} from "./stack.mjs";
 
 // Simulated time passes at this rate: rendering, seeing and a browser share the machine's cores.
 const kPace = 0.25;
-/** Of one tap: a quarter of a minute of walking, looking and kicking, at this pace and on a busy machine. */
+/** Timeout of one tap: a quarter of a minute of walking, looking and kicking, at this rate and on a busy machine. */
 const kScoreMs = 240_000;
 // A person taps again, too, when the robot has given up, or has kicked past the goal.
 const kMaxTaps = 3;

@@ -20,7 +20,7 @@ const wantedSizes = words.filter((word) => word in kSizes);
 const wantedScreens = words.filter((word) => !(word in kSizes));
 mkdirSync(outputDir, {recursive: true});
 
-/** So that the app draws as on a phone, with all its finery, although the processor draws here. */
+/** Makes the app draw in full quality, as on a phone, although the processor draws here. */
 const kGraphicsChip = () => {
   const kUnmaskedRenderer = 0x9246;
   const {getParameter} = WebGL2RenderingContext.prototype;

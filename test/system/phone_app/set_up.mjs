@@ -1,4 +1,4 @@
-// What the tests of a file share from before the first to after the last: the programs, a browser, a phone.
+// Objects that the tests of a file share from before the first to after the last: the programs, a browser, a phone.
 // NAO_BIN_DIR and NAO_WEB_SOURCE_DIR say where the programs and the app's package.json are. With NAO_PHONE_URL no
 // program is started: the phones open that page, such as the one of `npm run fake`.
 import {after, before} from "node:test";

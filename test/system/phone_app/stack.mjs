@@ -120,7 +120,7 @@ export class Stack {
     return this.#programs.get(name);
   }
 
-  /** Ends one program. @param signal  SIGKILL for one that has no time to say goodbye. */
+  /** Ends one program. @param signal SIGKILL for one that must not end in an orderly way. */
   async end(name, signal = "SIGTERM") {
     const program = this.#programs.get(name);
     if (!program || program.exited) return;
@@ -133,12 +133,12 @@ export class Stack {
     if (this.#motions) await rm(this.#motions, {recursive: true, force: true});
   }
 
-  /** Runs an operation of the operator, `nao driver`. @return what it prints; throws what it complains. */
+  /** Runs an operation of the operator, `nao driver`. @return what it prints; throws its error text. */
   driver(...words) {
     return this.nao("driver", "--port", String(this.tcpPort), ...words);
   }
 
-  /** Runs the client `nao` on this bus. @return what it prints; throws what it complains. */
+  /** Runs the client `nao` on this bus. @return what it prints; throws its error text. */
   nao(...words) {
     return new Promise((resolve, reject) => {
       execFile(join(this.#binDir, "nao"), [...words, "--lcm-url", this.lcmUrl], (error, stdout, stderr) =>
@@ -179,7 +179,7 @@ export class Stack {
     }
   }
 
-  /** Last words of every program, for a failed test. */
+  /** Last lines of every program's output, for a failed test. */
   get logs() {
     return [...this.#programs].map(([name, {log}]) => `--- ${name}\n${log.slice(-2000)}`).join("\n");
   }

@@ -71,7 +71,7 @@ async function addPose(phone) {
   await until(`pose ${number} is there`, async () => (await keyframes(phone)).length === number);
 }
 
-/** As a person who sees the app for the first time: the right arm up, and to and fro. */
+/** The motion of a first-time user: the right arm up, and to and fro. */
 async function teachWave(phone) {
   await tap(phone, ".lock");
   await choose(phone, "right shoulder");

@@ -41,8 +41,8 @@ async function untilPlace(what, isSo, simulatedSeconds) {
 
 class Fall extends Error {}
 
-/** How surely the robot walks has trials of its own, in lock-step. Here, where a busy machine may hold commands up
- * until it stumbles, one that fell is put on its feet, and what the phone does is tried again. */
+/** The robustness of the walk has separate trials, in lock-step. Here a busy machine may delay commands until the robot
+ * stumbles; one that fell is put on its feet, and the phone's action is repeated. */
 function walkTest(name, body) {
   test(name, async (t) => {
     for (let attempt = 1; ; attempt++) {

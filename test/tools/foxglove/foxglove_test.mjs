@@ -45,8 +45,8 @@ class Checker {
   }
 }
 
-/** What Foxglove and Lichtblick understand of a JSON Schema: every property has one type, items of lists are no
- * lists. They refuse a channel with another. */
+/** The part of JSON Schema that Foxglove and Lichtblick understand: every property has one type, and items of lists are
+ * not lists. They refuse a channel with another. */
 function checkSupported(schema, path) {
   assert.equal(schema.type, "object", path);
   for (const [name, property] of Object.entries(schema.properties)) {

@@ -1,5 +1,5 @@
 // Input of libFuzzer: messages of two clients. For each message one byte that selects the client,
-// the kind of message and what happens besides, two bytes of length, and the message.
+// the kind of message and other events, two bytes of length, and the message.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // Input of libFuzzer: bytes on the stdin of nao-simulation-server. The first byte is the size of
-// the pieces in which the others arrive, minus one. The world goes on from one input to the next:
+// the pieces in which the others arrive, minus one. The world is kept from one input to the next:
 // making a new one takes longer than a thousand requests.
 #include <google/protobuf/stubs/logging.h>
 

@@ -24,7 +24,7 @@ class NoisyProblem : public TuningProblem {
     Random random(task.seed + static_cast<uint64_t>(task.trial));
     double cost = random.normal() * 0.01;
     for (double x : task.point) cost += x * x;
-    // Work of very different length, so that threads finish in another order than they begin.
+    // Trials of very different durations, so that threads finish in another order than they start.
     const uint64_t rounds = 1 + random.next() % 20000;
     for (uint64_t i = 0; i < rounds; ++i) random.next();
     return {cost, random.uniform()};

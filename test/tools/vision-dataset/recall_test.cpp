@@ -1,6 +1,6 @@
 // Perception must not become worse unnoticed: it is run on a few rendered images, of places and
 // seeds that are neither trained nor tuned on. docs/vision.md has the figures of many images; the
-// bars here are lower by what so few images scatter.
+// limits here are lower by the scatter of so few images.
 
 #include <gmock/gmock.h>
 

@@ -18,7 +18,7 @@ std::vector<double> without(std::vector<double> force, size_t sensor) {
   return force;
 }
 
-/** Forces after as many seconds of the same reading. */
+/** Forces after a number of seconds of the same reading. */
 std::vector<double> after(DeadFootSensors& sensors, const std::vector<double>& reading,
                           double time) {
   std::vector<double> force;
@@ -35,7 +35,7 @@ TEST(DeadFootSensors, HealthyReadingsAreUnchanged) {
   // A foot in the air reads nothing at all.
   const std::vector<double> one_foot = {14, 13, 13, 12, 0, 0, 0, 0};
   EXPECT_EQ(after(sensors, one_foot, 10), one_foot);
-  // Nor does one corner, on an edge that the others confirm.
+  // One corner on an edge reads nothing either, and the others confirm the edge.
   const std::vector<double> heel_in_the_air = {26, 26, 0, 0, 0, 0, 0, 0};
   EXPECT_EQ(after(sensors, heel_in_the_air, 10), heel_in_the_air);
 }

@@ -56,7 +56,8 @@ TEST(OrientationFilter, ConvergesToGravityWithItsTimeConstant) {
   // An initial error of tilt decays as exp(-k_P t), k_P = 0.5 / s.
   OrientationFilter filter;
   filter.reset(pitched(0.1));
-  filter.update(Vector3d::Zero(), Vector3d::Zero(), false, 0.01);  // No gravity: starts as given.
+  filter.update(Vector3d::Zero(), Vector3d::Zero(), false,
+                0.01);  // Without gravity, the filter starts from the given orientation.
   for (int i = 0; i < 200; ++i) filter.update(Vector3d::Zero(), {0, 0, kGravity}, false, 0.01);
   const double tilt = filter.orientation().angularDistance(Quaterniond::Identity());
   EXPECT_LT(tilt, 0.1 * std::exp(-0.5 * 2.0) * 1.1);

@@ -10,7 +10,7 @@ namespace {
 using Action = FallSupervisor::Action;
 using Ended = FallSupervisor::Ended;
 
-/** A robot whose torso is pitched forward, rad, and that high, m. */
+/** A robot whose torso is pitched forward, rad, and at a height, m. */
 RobotState pitched_state(double pitch, double height = 0.3) {
   RobotState state;
   state.torso_in_odometry.linear() =
@@ -85,8 +85,7 @@ TEST_F(FallSupervisorTest, NeedsHelpAfterTheLastTryUntilItIsLifted) {
   EXPECT_FALSE(falls_.needs_help());
 }
 
-// A head that is turned leaves the robot where it fell; it neither stays down nor forgets that it
-// needs help.
+// Turning the head leaves the robot where it fell; it still gets up, or still needs help.
 TEST_F(FallSupervisorTest, AChangeOfJointsEndsNoFall) {
   update(pitched_state(0.5), kWalking);
   falls_.note_end(true, Ended::kFall, kLying);

@@ -19,8 +19,7 @@ transitions:
   - {name: feet-together, from: on-feet, to: on-feet, keyframes: [{duration: 0.2}]}
 )";
 
-/** A robot whose joints follow their targets at once, and that lies or stands as the test sets it.
- */
+/** A robot whose joints follow their targets at once, and that lies or stands as the test says. */
 class PosturePathMotionTest : public ::testing::Test {
  protected:
   void start(const char* goal, bool is_exact = false) {
@@ -166,7 +165,7 @@ TEST_F(PosturePathMotionTest, BringsTheFeetTogetherOnceIfThePostureShallBeExact)
     start("StandInit", is_exact);
     double progress = 0;
     double least = 1;
-    // The floor holds the foot 3 degrees aside: nearer than 5 degrees, which counts as reached.
+    // The floor keeps the foot off by 3 degrees, which is below 5 degrees and counts as reached.
     for (Phase phase = Phase::kRunning; phase == Phase::kRunning;) {
       phase = motion_->step(robot_.context(0.01), robot_.targets());
       robot_.sensors().position = robot_.targets().position;

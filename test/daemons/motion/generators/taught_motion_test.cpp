@@ -183,7 +183,7 @@ TEST_F(LimpJointTest, ANewerChangeDoesNotEndTheRampOfOtherJoints) {
   for (const char* joint : joints) {
     EXPECT_EQ(robot_.sensors().stiffness[nao_motor(joint)], 0) << joint;
   }
-  // A joint that the newer change names goes where the newer one says.
+  // A joint that the newer change names follows the newer one.
   robot_.step(core_, {{"hand", ++id, stiffen(joints[0], 1)}});
   for (int i = 0; i < 10; ++i) robot_.step(core_);
   robot_.step(core_, {{"hand", ++id, stiffen(joints[0], 0.5)}});

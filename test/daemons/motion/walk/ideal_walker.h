@@ -11,7 +11,8 @@
 
 namespace nao::motion {
 
-/** A gait without what the servos of a real robot need: with it joint targets are joint angles. */
+/** A gait without the corrections for a real robot's servos: with it, joint targets are joint
+ * angles. */
 inline Gait ideal_gait() {
   Gait gait = nao_gait();
   gait.servo = {};

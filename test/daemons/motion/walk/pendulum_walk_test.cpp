@@ -54,7 +54,7 @@ class PendulumWalk {
                                                   steps_.dcm().end, omega, remaining));
         steps_.adapt_foothold(feet_, advance_dcm(dcm, reference_.zmp(), omega, remaining));
       }
-      // What foot_loads.cpp commands to the ankle.
+      // The command of foot_loads.cpp to the ankle.
       const Vector2d zmp = clamp_to_sole(
           gait_.zmp, reference_.zmp() + gait_.feedback.ankle_dcm_gain * error, feet_.support_zmp());
       check_zmp(zmp);
@@ -66,7 +66,7 @@ class PendulumWalk {
 
   /** Tracking error, m. */
   double dcm_error() const { return reference_.dcm_error(com_).norm(); }
-  /** How far the DCM is from the plan for the beginning of the step, m. */
+  /** Distance of the DCM from the plan for the beginning of the step, m. */
   double plan_error() const { return (com_.dcm(reference_.omega()) - steps_.dcm().start).norm(); }
   /** Least distance from the ZMP to the edge of the sole so far, m. */
   double zmp_margin() const { return zmp_margin_; }

@@ -39,7 +39,7 @@ TEST_F(WalkMotionTest, WalksAtTheSameVelocityAtAnyControlPeriod) {
 }
 
 TEST_F(WalkMotionTest, AdvancesByOneControlPeriodAfterMissedTicks) {
-  // Every second tick was missed: the servos held their targets meanwhile.
+  // Every second tick was missed, in which the servos held their targets.
   EXPECT_NEAR(walk(20, 0.01, 0.02), walk(10, 0.01, 0.01), 1e-9);
 }
 

@@ -21,7 +21,7 @@ std::shared_ptr<const RobotModel> nao_robot() {
 
 class WalkPhysicsTest : public testing::Test {
  protected:
-  /** A robot that stands; noise, latency and a physics of its own for each seed. */
+  /** A standing robot, with different noise, latency and physics for each seed. */
   ClosedLoop& begin(uint64_t seed, double late_share = 0, const char* disturbances = "default") {
     ClosedLoopOptions options;
     options.model = nao_robot();

@@ -31,7 +31,7 @@ TEST(WalkReplay, TheSameTargetsLeadAsFarInMujoco) {
   const double way = trial.torso_in_world().translation().x() - start;
   EXPECT_GT(way, 0.6);
 
-  // Open loop: whatever goes otherwise there stays as it is.
+  // The run is open loop: deviations are not corrected.
   sim::WorldOptions world_options;
   sim::World world(SceneFile{}, world_options);
   sim::RobotOptions robot;

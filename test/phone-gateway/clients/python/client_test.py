@@ -373,7 +373,7 @@ class Errors(WithGateway):
             self.assertNotIn("k7", str(lost.exception))
 
     def test_other_services_are_no_gateways(self):
-        # protobuf warns of bytes that are no message.
+        # protobuf warns about bytes that are not a message.
         self.enterContext(warnings.catch_warnings())
         warnings.simplefilter("ignore", RuntimeWarning)
         for reply in (b"HTTP/1.1 400 Bad Request\r\n\r\n", b"\xff\xff\xff\xff", b"\0\0\0\5hello", b""):
@@ -593,7 +593,7 @@ class Reconnection(WithGateway):
             self.gateway.start()
             robot.wait_until_connected(DEADLINE)
             self.assertIsInstance(next(events), nao_remote.Connected)
-            # The stream goes on; the walk does not.
+            # The stream continues; the walk does not.
             wait_until(lambda: self.gateway.received("subscribe"), "the subscription")
             self.gateway.send(state=state(vx=1))
             self.assertEqual(next(states).vx, 1)

@@ -125,7 +125,7 @@ class Driving(WithRobot):
                     call()
             self.stack.start_gateway()
             robot.wait_until_connected(DEADLINE)
-            # States go on, and the robot obeys.
+            # States continue, and the robot obeys.
             next(states)
             wait_until(lambda: self.obeys(robot), "the robot obeys again")
 
