@@ -8,8 +8,8 @@
 
 #include "phone-gateway/server/core/gateway_core.h"
 #include "phone-gateway/server/core/metric.h"
-#include "phone-gateway/server/http/access_rules.h"
 #include "phone-gateway/server/http/web_pages.h"
+#include "phone-gateway/web_stream/access_rules.h"
 
 namespace nao::gateway {
 

@@ -4,7 +4,6 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netinet/in.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -44,11 +43,6 @@ std::vector<InterfaceAddress> interface_addresses() {
 }
 
 }  // namespace
-
-std::string own_host_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
-}
 
 // `table` has the form of /proc/net/route; the default route with the smallest metric wins.
 std::string default_interface(std::istream& table) {

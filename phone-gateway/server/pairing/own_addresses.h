@@ -12,9 +12,6 @@ struct InterfaceAddress {
   std::string address;
 };
 
-/** Name of this host; empty if it has none. */
-std::string own_host_name();
-
 /** Interface of the default route; empty if there is none. Of several the one with the smallest
  * metric, as the kernel chooses.
  * @param table  /proc/net/route, see proc(5): a line of titles, then interface, destination,
