@@ -11,6 +11,7 @@
 #include <list>
 
 #include "common/error.h"
+#include "phone-gateway/web_stream/own_host.h"
 
 namespace nao::foxglove {
 namespace {
@@ -42,11 +43,17 @@ Tcp::acceptor listen(asio::io_context& io, const std::string& address, uint16_t 
   return acceptor;
 }
 
+AccessRules make_access_rules(const NetworkOptions& options) {
+  std::vector<std::string> names = own_host_names();
+  names.insert(names.end(), options.host_names.begin(), options.host_names.end());
+  return AccessRules(names, options.origins, own_search_domains);
+}
+
 }  // namespace
 
 struct Network::Impl {
   Impl(const NetworkOptions& options, ServerCore& core, AssetFolder& files)
-      : context{io, core, files, options.origins},
+      : context{io, core, files, make_access_rules(options), options.accepts_viewers},
         acceptor(listen(io, options.bind, options.port)),
         pause(io),
         signals(io, SIGINT, SIGTERM) {
