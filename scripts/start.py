@@ -150,6 +150,9 @@ def parse_options(arguments=None):
                 help=f"for clients in other languages (default: {TCP_PORT}, or the next free one)")
     line.option("--bind", metavar="ADDRESS", default="0.0.0.0",
                 help="address to listen on: 127.0.0.1 for this host only (default: 0.0.0.0)")
+    line.option("--host-name", metavar="NAME", action="append", default=[],
+                help="another name of this host that browsers may use; its own name, also in the network's domain, needs none "
+                     "(repeatable)")
     line.option("--tls", action="store_true",
                 help="also https on the same port, with a self-signed certificate: phones give their tilt sensors only to "
                      "secure pages, after the user has accepted a warning")
@@ -319,7 +322,12 @@ def escaped(text):
 def gateway_options(stack, settings):
     """Options of the gateway that decide which addresses phones open."""
     options = ["--http-port", settings["http_port"], "--bind", settings["bind"], "--token-file", stack.token_file]
+    options += host_name_options(settings)
     return [*options, "--tls"] if settings["scheme"] == "https" else options
+
+
+def host_name_options(settings):
+    return [word for name in settings.get("host_names", "").split() for word in ("--host-name", name)]
 
 
 def command_of(process, processes, stack, settings, options, robots):
@@ -367,7 +375,7 @@ def command_of(process, processes, stack, settings, options, robots):
         words += ["--game-controller"] if options.game_controller else []
         words += ["--start"] if options.autonomous_names and len(options.autonomous_names) == len(robots) else []
     elif program == FOXGLOVE:
-        words += ["--port", settings["foxglove_port"]]
+        words += ["--port", settings["foxglove_port"], *host_name_options(settings)]
     if options.lock_step and program in (SIM, ROBOT):
         words.append("--lock-step")
     words[0] = f"{settings['bin_dir']}/{words[0]}"
@@ -466,6 +474,7 @@ def choose_settings(options, bin_dir, robots, processes):
         "tcp_port": choose_port(options.tcp_port, "--tcp-port", TCP_PORT) if has_gateway else "",
         "foxglove_port": choose_port(None, "", FOXGLOVE_PORT) if options.foxglove else "",
         "bind": options.bind,
+        "host_names": " ".join(options.host_name),
         "scheme": "https" if options.tls else "http",
     }
 
