@@ -50,7 +50,8 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
       ->show_default();
   app.add_option("--tcp-port", network.tcp_port, "Port of raw TCP clients; 0: any free")
       ->show_default();
-  app.add_option("--bind", network.bind, "Address to listen on; 0.0.0.0: all")->show_default();
+  app.add_option("--bind", network.bind, "Address to listen on; 0.0.0.0: all, also of IPv6")
+      ->show_default();
   add_robot_option(app, options.robots);
   app.add_option("--model", options.model,
                  "Folder of robots/ that describes the robots whose --robot names none")

@@ -40,7 +40,7 @@ struct Options {
 };
 
 void add_options(CommandLine& app, Options& options) {
-  app.add_option("--bind", options.network.bind, "Address to listen on; 0.0.0.0: all")
+  app.add_option("--bind", options.network.bind, "Address to listen on; 0.0.0.0: all, also of IPv6")
       ->show_default();
   app.add_option("--port", options.network.port, "Port of WebSockets and HTTP; 0: any free")
       ->show_default();
