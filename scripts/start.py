@@ -289,11 +289,20 @@ def choose_port(given, option, default):
     return chosen
 
 
-def check_bus(bin_dir, lcm_url):
-    """Checks that messages arrive. The bus needs a route for its multicast group. Without a network there is none: adds
-    one by the loopback interface."""
+def own_channels(processes):
+    """Channels on which these processes publish all the time, and nobody else may."""
+    states = {SIM: "SENSOR_STATE", ROBOT: "SENSOR_STATE", "nao-motion": "MOTION_STATE", PLAY: "PLAY_STATE"}
+    channels = [f"{process.robot.name}_{states[process.program]}" for process in processes if process.program in states]
+    programs = {process.program for process in processes}
+    return [*channels, *(["WORLD_TRUTH"] if SIM in programs else []), *(["MATCH_STATE"] if REFEREE in programs else [])]
+
+
+def check_bus(bin_dir, lcm_url, processes):
+    """Checks that messages arrive, and that no other system publishes what these processes will. The bus needs a route
+    for its multicast group. Without a network there is none: adds one by the loopback interface."""
     def fault():
-        result = subprocess.run([bin_dir / "nao", "bus", "--quick", "--lcm-url", lcm_url], check=False,
+        own = [word for channel in own_channels(processes) for word in ("--own", channel)]
+        result = subprocess.run([bin_dir / "nao", "bus", "--quick", *own, "--lcm-url", lcm_url], check=False,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         return result.stdout.strip() if result.returncode != 0 else None
 
@@ -301,6 +310,8 @@ def check_bus(bin_dir, lcm_url):
     if report is None:
         return
     group = re.match(r"udpm://([0-9.]+)", lcm_url)
+    if "another system" in report:
+        raise Failure(f"two systems would share the message bus, and a robot obey both:\n{report}")
     if "no route" not in report or not group:
         raise Failure(f"the message bus does not work: {report}")
     network = group[1].rpartition(".")[0] + ".0/24"
@@ -505,7 +516,7 @@ def main():
     check_models(options, robots, bin_dir)
     processes = choose_processes(options, robots)
     settings = choose_settings(options, bin_dir, robots, processes)
-    check_bus(bin_dir, options.lcm_url)
+    check_bus(bin_dir, options.lcm_url, processes)
     (stack.run_dir / "match.json").unlink(missing_ok=True)  # a new stack plays a new match
     stack.token_file.unlink(missing_ok=True)  # the gateway creates a new one
     if options.token:

@@ -24,6 +24,14 @@ class Options(unittest.TestCase):
                 command = start.command_of(process, [process], stack, settings, options, robots)
                 self.assertIn('"--host-name" "nao.example" "--host-name" "robot.example"', command)
 
+    def test_what_a_stack_will_publish_must_be_silent(self):
+        robots = [SimpleNamespace(name=name) for name in ("NAO1", "NAO2")]
+        processes = [SimpleNamespace(program=start.SIM, robot=robots[0]), SimpleNamespace(program=start.GATEWAY, robot=robots[0]),
+                     *(SimpleNamespace(program="nao-motion", robot=robot) for robot in robots)]
+        self.assertEqual(start.own_channels(processes),
+                         ["NAO1_SENSOR_STATE", "NAO1_MOTION_STATE", "NAO2_MOTION_STATE", "WORLD_TRUTH"])
+        self.assertEqual(start.own_channels(processes[1:2]), [])
+
 
 if __name__ == "__main__":
     unittest.main()
