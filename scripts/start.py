@@ -150,6 +150,9 @@ def parse_options(arguments=None):
                 help=f"for clients in other languages (default: {TCP_PORT}, or the next free one)")
     line.option("--bind", metavar="ADDRESS", default="0.0.0.0",
                 help="address to listen on: 127.0.0.1 for this host only (default: 0.0.0.0)")
+    line.option("--host-name", metavar="NAME", action="append", default=[],
+                help="another name of this host that browsers may use; its own name, also in the network's domain, needs none "
+                     "(repeatable)")
     line.option("--tls", action="store_true",
                 help="also https on the same port, with a self-signed certificate: phones give their tilt sensors only to "
                      "secure pages, after the user has accepted a warning")
@@ -286,11 +289,20 @@ def choose_port(given, option, default):
     return chosen
 
 
-def check_bus(bin_dir, lcm_url):
-    """Checks that messages arrive. The bus needs a route for its multicast group. Without a network there is none: adds
-    one by the loopback interface."""
+def own_channels(processes):
+    """Channels on which these processes publish all the time, and nobody else may."""
+    states = {SIM: "SENSOR_STATE", ROBOT: "SENSOR_STATE", "nao-motion": "MOTION_STATE", PLAY: "PLAY_STATE"}
+    channels = [f"{process.robot.name}_{states[process.program]}" for process in processes if process.program in states]
+    programs = {process.program for process in processes}
+    return [*channels, *(["WORLD_TRUTH"] if SIM in programs else []), *(["MATCH_STATE"] if REFEREE in programs else [])]
+
+
+def check_bus(bin_dir, lcm_url, processes):
+    """Checks that messages arrive, and that no other system publishes what these processes will. The bus needs a route
+    for its multicast group. Without a network there is none: adds one by the loopback interface."""
     def fault():
-        result = subprocess.run([bin_dir / "nao", "bus", "--quick", "--lcm-url", lcm_url], check=False,
+        own = [word for channel in own_channels(processes) for word in ("--own", channel)]
+        result = subprocess.run([bin_dir / "nao", "bus", "--quick", *own, "--lcm-url", lcm_url], check=False,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         return result.stdout.strip() if result.returncode != 0 else None
 
@@ -298,6 +310,8 @@ def check_bus(bin_dir, lcm_url):
     if report is None:
         return
     group = re.match(r"udpm://([0-9.]+)", lcm_url)
+    if "another system" in report:
+        raise Failure(f"two systems would share the message bus, and a robot obey both:\n{report}")
     if "no route" not in report or not group:
         raise Failure(f"the message bus does not work: {report}")
     network = group[1].rpartition(".")[0] + ".0/24"
@@ -319,7 +333,12 @@ def escaped(text):
 def gateway_options(stack, settings):
     """Options of the gateway that decide which addresses phones open."""
     options = ["--http-port", settings["http_port"], "--bind", settings["bind"], "--token-file", stack.token_file]
+    options += host_name_options(settings)
     return [*options, "--tls"] if settings["scheme"] == "https" else options
+
+
+def host_name_options(settings):
+    return [word for name in settings.get("host_names", "").split() for word in ("--host-name", name)]
 
 
 def command_of(process, processes, stack, settings, options, robots):
@@ -367,7 +386,7 @@ def command_of(process, processes, stack, settings, options, robots):
         words += ["--game-controller"] if options.game_controller else []
         words += ["--start"] if options.autonomous_names and len(options.autonomous_names) == len(robots) else []
     elif program == FOXGLOVE:
-        words += ["--port", settings["foxglove_port"]]
+        words += ["--port", settings["foxglove_port"], *host_name_options(settings)]
     if options.lock_step and program in (SIM, ROBOT):
         words.append("--lock-step")
     words[0] = f"{settings['bin_dir']}/{words[0]}"
@@ -466,6 +485,7 @@ def choose_settings(options, bin_dir, robots, processes):
         "tcp_port": choose_port(options.tcp_port, "--tcp-port", TCP_PORT) if has_gateway else "",
         "foxglove_port": choose_port(None, "", FOXGLOVE_PORT) if options.foxglove else "",
         "bind": options.bind,
+        "host_names": " ".join(options.host_name),
         "scheme": "https" if options.tls else "http",
     }
 
@@ -496,7 +516,7 @@ def main():
     check_models(options, robots, bin_dir)
     processes = choose_processes(options, robots)
     settings = choose_settings(options, bin_dir, robots, processes)
-    check_bus(bin_dir, options.lcm_url)
+    check_bus(bin_dir, options.lcm_url, processes)
     (stack.run_dir / "match.json").unlink(missing_ok=True)  # a new stack plays a new match
     stack.token_file.unlink(missing_ok=True)  # the gateway creates a new one
     if options.token:

@@ -36,6 +36,7 @@ SimDaemon::SimDaemon(Bus& bus, EventLoop& loop, const SimOptions& options)
       loop_(loop),
       core_(options),
       status_(bus, "nao-sim"),
+      second_process_(bus, "nao-sim"),
       statistics_(core_.world().options().period(), monotonic_seconds()) {
   timer_ = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
   if (timer_ < 0) throw Error(std::string("cannot make a timer: ") + std::strerror(errno));
@@ -269,6 +270,7 @@ void SimDaemon::publish_bodies() {
 }
 
 std::string SimDaemon::status_detail(int64_t num_ticks) const {
+  if (std::string second = second_process_.describe(); !second.empty()) return second;
   const TickScheduler& scheduler = core_.scheduler();
   if (scheduler.is_paused()) return "paused";
   if (lola_ && !lola_->has_client()) {

@@ -13,6 +13,7 @@
 #include "common/channels.h"
 #include "common/event_loop.h"
 #include "common/rate_limiter.h"
+#include "common/second_process.h"
 #include "common/status_reporter.h"
 #include "sim/lola_server.h"
 #include "sim/sim_core.h"
@@ -68,6 +69,7 @@ class SimDaemon {
   /** Robots whose commands arrive: LCM's subscriptions last as long as the bus. */
   std::set<std::string> subscribed_;
   StatusReporter status_;
+  SecondProcess second_process_;
   TickStatistics statistics_;
   double real_time_factor_ = 0;
   /** Descriptor of the timer of the next tick. */

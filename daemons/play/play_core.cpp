@@ -87,6 +87,13 @@ void PlayCore::take(const PlayRequest& request, const PlayInput& input, PlayOutp
     state_ = {};
     return;
   }
+  // The robot itself goes on, whatever becomes of the sender.
+  if (request.command.behavior == Behavior::kAuto && input.waits_for_release) {
+    end(ResultStatus::kInterrupted, Reason("play-stopped"), true, input.time, output);
+    report(request, ResultStatus::kDone, {}, output);
+    output.is_released = true;
+    return;
+  }
   begin(request, input, output);
 }
 

@@ -39,6 +39,8 @@ struct PlayInput {
   /** Nothing: no fresh state of the robot. */
   std::optional<RobotView> robot{};
   Vision vision{};
+  /** The robot would play by itself, but somebody has driven it: see Autonomy. */
+  bool waits_for_release = false;
   /** Nothing: no match, or it is without this robot. */
   std::optional<MatchView> match{};
 };
@@ -60,6 +62,8 @@ struct PlayOutput {
   std::vector<CommandResult> results;
   /** Camera whose images are needed; empty: none. */
   std::string camera;
+  /** The robot may play by itself again. */
+  bool is_released = false;
 };
 
 /** Runs behaviors without clock and bus: takes play commands, ends commands that nobody repeats,

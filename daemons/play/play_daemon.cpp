@@ -77,7 +77,10 @@ PlayDaemon::PlayDaemon(Bus& bus, const RobotModel& model, const PlayOptions& opt
 void PlayDaemon::subscribe() {
   bus_.subscribe<naolcm::play_command_t>(
       channels_.play_command, Bus::Queue::kAll, [this](const naolcm::play_command_t& message) {
-        input_.requests.push_back({message.source, message.command_id, to_play_command(message)});
+        const PlayCommand command = to_play_command(message);
+        input_.requests.push_back({message.source, message.command_id, command});
+        const bool is_other = message.source != source_ && command.behavior != Behavior::kAuto;
+        if (is_other) autonomy_.note_other_command(clock_());
       });
   bus_.subscribe<naolcm::robot_state_t>(
       channels_.robot_state, Bus::Queue::kLatest, [this](const naolcm::robot_state_t& message) {
@@ -122,7 +125,7 @@ void PlayDaemon::watch_commands(const std::string& channel, CommandKind kind) {
   bus_.subscribe<Message>(channel, Bus::Queue::kAll, [this, kind](const Message& message) {
     if (message.source == source_) return;
     input_.other_command = kind;
-    autonomy_.note_other_command(kind == CommandKind::kStop, clock_());
+    autonomy_.note_other_command(clock_());
   });
 }
 
@@ -177,7 +180,12 @@ void PlayDaemon::step(double now) {
     input_.match = view_match(*match_, robot_, input_.time, teammates_);
   }
   request_auto(now);
+  input_.waits_for_release = autonomy_.waits_for_release();
   const PlayOutput output = core_.step(input_);
+  if (output.is_released) {
+    autonomy_.release();
+    logger::info("released: plays by itself again");
+  }
   input_.requests.clear();
   input_.results.clear();
   input_.other_command.reset();
@@ -205,15 +213,20 @@ void PlayDaemon::request_camera(const std::string& camera, double now) {
 }
 
 void PlayDaemon::publish_state() {
-  bus_.publish(channels_.play_state, encode_state(core_.state(), utime_));
+  PlayState state = core_.state();
+  if (!core_.is_active() && autonomy_.waits_for_release()) state.reason = Reason(kWaitsForRelease);
+  bus_.publish(channels_.play_state, encode_state(state, utime_));
 }
 
 void PlayDaemon::publish_status(double now) {
   status_.tick(now);
-  const std::string detail = core_.is_active()
-                                 ? std::string(to_string(core_.state().behavior)) + ", " +
-                                       std::string(to_string(core_.state().phase))
-                                 : "";
+  std::string detail;
+  if (core_.is_active()) {
+    detail = std::string(to_string(core_.state().behavior)) + ", " +
+             std::string(to_string(core_.state().phase));
+  } else if (autonomy_.waits_for_release()) {
+    detail = to_sentence(Reason(kWaitsForRelease));
+  }
   status_.set_state("ready", detail);
   status_.publish({{"is_active", core_.is_active() ? 1.0 : 0.0}});
 }

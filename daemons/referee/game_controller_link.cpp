@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -11,6 +12,15 @@
 #include "common/error.h"
 
 namespace nao::referee {
+namespace {
+
+std::string text_of(const sockaddr_in& address) {
+  std::array<char, INET_ADDRSTRLEN> text{};
+  inet_ntop(AF_INET, &address.sin_addr, text.data(), text.size());
+  return std::string(text.data()) + ":" + std::to_string(ntohs(address.sin_port));
+}
+
+}  // namespace
 
 GameControllerLink::GameControllerLink(uint16_t port, uint16_t return_port)
     : socket_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)),
@@ -50,6 +60,19 @@ std::optional<std::vector<uint8_t>> GameControllerLink::receive() {
   if (count < 0) return std::nullopt;
   bytes.resize(static_cast<size_t>(count));
   return bytes;
+}
+
+bool GameControllerLink::is_from_controller() const {
+  return controller_ && controller_->sin_addr.s_addr == sender_.sin_addr.s_addr &&
+         controller_->sin_port == sender_.sin_port;
+}
+
+std::string GameControllerLink::sender() const {
+  return text_of(sender_);
+}
+
+std::string GameControllerLink::controller() const {
+  return controller_ ? text_of(*controller_) : "";
 }
 
 void GameControllerLink::send(std::span<const uint8_t> message) const {

@@ -6,14 +6,15 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "daemons/referee/game_controller_message.h"
 
 namespace nao::referee {
 
-/** The UDP socket between robots and a GameController. Answers go to the host from which the last
- * message came. */
+/** The UDP socket between robots and a GameController. Answers go to the host of the sender that
+ * was accepted last. */
 class GameControllerLink {
  public:
   /** @param port  For the GameController's messages; 0: any free one. Others on this host may use
@@ -28,7 +29,14 @@ class GameControllerLink {
   uint16_t port() const;
   /** The next waiting datagram; nothing if there is none. */
   std::optional<std::vector<uint8_t>> receive();
-  /** The sender of the datagram received last is the GameController. */
+  /** Whether that datagram came from the GameController. A GameController that is started again has
+   * another port. */
+  bool is_from_controller() const;
+  /** Addresses with port, such as "10.0.0.5:4711", of that datagram's sender and of the
+   * GameController. */
+  std::string sender() const;
+  std::string controller() const;
+  /** The sender of that datagram is the GameController. */
   void accept_sender() { controller_ = sender_; }
   /** Sends to the GameController, if there is one. */
   void send(std::span<const uint8_t> message) const;

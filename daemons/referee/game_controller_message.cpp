@@ -13,40 +13,96 @@ namespace {
 
 constexpr std::string_view kHeader = "RGme";
 constexpr std::string_view kReturnHeader = "RGrt";
-/** Versions of the GameController's message that are read, and of the answer to it. */
-constexpr int kOldestVersion = 15;
-constexpr int kNewestVersion = 18;
 constexpr uint8_t kReturnVersion = 4;
 /** Offsets, bytes. */
 constexpr size_t kVersion = 4;
+/** Where versions up to 18 have the competition's type. */
+constexpr size_t kStopped = 8;
 constexpr size_t kState = 10;
 constexpr size_t kSetPlay = 11;
 constexpr size_t kFirstHalf = 12;
 constexpr size_t kKickingTeam = 13;
 constexpr size_t kTimeLeft = 14;
 constexpr size_t kTeams = 18;
-constexpr size_t kTeamSize = 50;
-constexpr size_t kMessageSize = kTeams + 2 * kTeamSize;
 /** Within a team. */
 constexpr size_t kTeamNumber = 0;
 constexpr size_t kScore = 4;
 constexpr size_t kPlayers = 10;
 
-template <class Enumeration>
-Enumeration read_enumeration(uint8_t value, Enumeration last, const char* name) {
-  if (value > static_cast<uint8_t>(last)) {
-    throw Error(std::string("the GameController's message has the unknown ") + name + " " +
-                std::to_string(value));
+using SetPlay = GameControllerData::SetPlay;
+using State = GameControllerData::State;
+
+constexpr std::array<SetPlay, 6> kStandardPlatformSetPlays = {
+    SetPlay::kNone,       SetPlay::kGoalKick, SetPlay::kFreeKick,
+    SetPlay::kCornerKick, SetPlay::kKickIn,   SetPlay::kPenaltyKick};
+constexpr std::array<SetPlay, 7> kHumanoidSetPlays = {
+    SetPlay::kNone,   SetPlay::kFreeKick, SetPlay::kFreeKick,  SetPlay::kPenaltyKick,
+    SetPlay::kKickIn, SetPlay::kGoalKick, SetPlay::kCornerKick};
+
+/** In what the versions differ. */
+struct Layout {
+  int oldest_version;
+  int newest_version;
+  /** Bytes of a player. */
+  size_t player_size;
+  bool has_stopped;
+  State last_state;
+  std::span<const SetPlay> set_plays;
+  /** Codes of penalties: pushing; inactive or incapable; leaving the field. */
+  uint8_t pushing;
+  uint8_t inactive;
+  uint8_t leaving;
+
+  size_t team_size() const {
+    return kPlayers + player_size * GameControllerData::Team{}.players.size();
   }
-  return static_cast<Enumeration>(value);
+  size_t message_size() const { return kTeams + 2 * team_size(); }
+};
+
+constexpr std::array<Layout, 3> kLayouts = {
+    Layout{15, 18, 2, false, State::kStandby, kStandardPlatformSetPlays, 2, 4, 6},
+    Layout{19, 19, 4, true, State::kFinished, kHumanoidSetPlays, 9, 4, 7},
+    Layout{20, 20, 3, true, State::kFinished, kHumanoidSetPlays, 10, 5, 8}};
+
+const Layout& layout_of(int version) {
+  for (const Layout& layout : kLayouts) {
+    if (version >= layout.oldest_version && version <= layout.newest_version) return layout;
+  }
+  throw Error("the GameController's messages have version " + std::to_string(version) +
+              "; known are " + std::to_string(kLayouts.front().oldest_version) + " to " +
+              std::to_string(kLayouts.back().newest_version));
 }
 
-GameControllerData::Team read_team(std::span<const uint8_t> bytes) {
+[[noreturn]] void throw_unknown(const char* name, uint8_t value) {
+  throw Error(std::string("the GameController's message has the unknown ") + name + " " +
+              std::to_string(value));
+}
+
+State state_of(uint8_t value, const Layout& layout) {
+  if (value > static_cast<uint8_t>(layout.last_state)) throw_unknown("state", value);
+  return static_cast<State>(value);
+}
+
+SetPlay set_play_of(uint8_t value, const Layout& layout) {
+  if (value >= layout.set_plays.size()) throw_unknown("set play", value);
+  return layout.set_plays[value];
+}
+
+Penalty penalty_of(uint8_t code, const Layout& layout) {
+  if (code == 0) return Penalty::kNone;
+  if (code == layout.pushing) return Penalty::kPushing;
+  if (code == layout.inactive) return Penalty::kNotGettingUp;
+  if (code == layout.leaving) return Penalty::kLeftField;
+  return Penalty::kOperator;
+}
+
+GameControllerData::Team read_team(std::span<const uint8_t> bytes, const Layout& layout) {
   GameControllerData::Team team;
   team.number = bytes[kTeamNumber];
   team.score = bytes[kScore];
   for (size_t i = 0; i < team.players.size(); ++i) {
-    team.players[i] = {bytes[kPlayers + 2 * i], bytes[kPlayers + 2 * i + 1]};
+    const size_t player = kPlayers + layout.player_size * i;
+    team.players[i] = {penalty_of(bytes[player], layout), bytes[player + 1]};
   }
   return team;
 }
@@ -66,23 +122,21 @@ GameControllerData decode_game_controller(std::span<const uint8_t> message) {
   }
   GameControllerData data;
   data.version = message[kVersion];
-  if (data.version < kOldestVersion || data.version > kNewestVersion) {
-    throw Error("the GameController's messages have version " + std::to_string(data.version) +
-                "; known are " + std::to_string(kOldestVersion) + " to " +
-                std::to_string(kNewestVersion));
+  const Layout& layout = layout_of(data.version);
+  if (message.size() != layout.message_size()) {
+    throw Error("the GameController's message of version " + std::to_string(data.version) +
+                " has " + std::to_string(message.size()) + " bytes instead of " +
+                std::to_string(layout.message_size()));
   }
-  if (message.size() != kMessageSize) {
-    throw Error("the GameController's message has " + std::to_string(message.size()) +
-                " bytes instead of " + std::to_string(kMessageSize));
-  }
-  data.state = read_enumeration(message[kState], GameControllerData::State::kStandby, "state");
-  data.set_play =
-      read_enumeration(message[kSetPlay], GameControllerData::SetPlay::kPenaltyKick, "set play");
+  data.state = state_of(message[kState], layout);
+  data.is_stopped = layout.has_stopped && message[kStopped] == 1;
+  data.set_play = set_play_of(message[kSetPlay], layout);
   data.is_first_half = message[kFirstHalf] == 1;
   data.kicking_team = message[kKickingTeam];
   data.time_left = static_cast<int16_t>(message[kTimeLeft] | message[kTimeLeft + 1] << 8);
   for (size_t i = 0; i < 2; ++i) {
-    data.teams[i] = read_team(message.subspan(kTeams + i * kTeamSize, kTeamSize));
+    const size_t size = layout.team_size();
+    data.teams[i] = read_team(message.subspan(kTeams + i * size, size), layout);
   }
   return data;
 }

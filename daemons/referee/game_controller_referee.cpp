@@ -29,19 +29,11 @@ MatchPhase phase_of(State state) {
   }
 }
 
-Penalty penalty_of(uint8_t code) {
-  switch (code) {
-    case 0:
-      return Penalty::kNone;
-    case kPenaltyPlayerPushing:
-      return Penalty::kPushing;
-    case kPenaltyInactivePlayer:
-      return Penalty::kNotGettingUp;
-    case kPenaltyLeavingTheField:
-      return Penalty::kLeftField;
-    default:
-      return Penalty::kOperator;
-  }
+/** Whether a message is about these two teams, in either order. */
+bool is_about(const GameControllerData& data, const std::array<int, 2>& numbers) {
+  const std::array<int, 2> said{data.teams[0].number, data.teams[1].number};
+  const std::array<int, 2> swapped{said[1], said[0]};
+  return said == numbers || swapped == numbers;
 }
 
 /** Where the ball lies at a set play, m, in the field frame (SPL rules, "Free Kicks"); nothing:
@@ -73,22 +65,23 @@ GameControllerReferee::GameControllerReferee(const std::vector<MatchPlayer>& pla
                                              const SceneFile& scene,
                                              std::optional<std::array<int, 2>> team_numbers,
                                              int64_t match_id)
-    : scene_(scene), team_numbers_(team_numbers) {
+    : scene_(scene),
+      team_numbers_(team_numbers),
+      numbers_(team_numbers.value_or(std::array{0, 0})) {
   // Throws if the scene is not for matches.
   (void)judge_ball(Eigen::Vector3d::Zero(), std::nullopt, scene);
   state_.id = match_id;
   state_.players = players;
 }
 
-bool GameControllerReferee::receive(const GameControllerData& data) {
-  if (team_numbers_) {
-    const std::array<int, 2> said{data.teams[0].number, data.teams[1].number};
-    const std::array<int, 2> swapped{said[1], said[0]};
-    if (said != *team_numbers_ && swapped != *team_numbers_) return false;
-    is_swapped_ = said != *team_numbers_;
-  }
+bool GameControllerReferee::concerns(const GameControllerData& data) const {
+  return !team_numbers_ || is_about(data, *team_numbers_);
+}
+
+void GameControllerReferee::receive(const GameControllerData& data) {
+  if (!is_about(data, numbers_)) numbers_ = {data.teams[0].number, data.teams[1].number};
+  is_swapped_ = data.teams[0].number != numbers_[0];
   data_ = data;
-  return true;
 }
 
 int GameControllerReferee::team_number(int team) const {
@@ -105,6 +98,7 @@ std::optional<int> GameControllerReferee::team_of(int number) const {
 void GameControllerReferee::restore(const MatchState& state) {
   const std::vector<MatchPlayer> players = std::move(state_.players);
   state_ = state;
+  called_phase_ = state.phase;
   state_.players = players;
 }
 
@@ -130,9 +124,11 @@ void GameControllerReferee::follow_phase(const RefereeInput& input) {
   state_.time_left = std::max(0, data_->time_left);
   if (const auto team = team_of(data_->kicking_team)) state_.kickoff_team = *team;
   const MatchPhase phase = phase_of(data_->state);
-  if (phase == state_.phase) return;
-  const MatchPhase before = state_.phase;
-  state_.phase = phase;
+  // While play is stopped robots stand still, as in "set".
+  const bool is_moving = phase == MatchPhase::kReady || phase == MatchPhase::kPlaying;
+  state_.phase = data_->is_stopped && is_moving ? MatchPhase::kSet : phase;
+  const MatchPhase before = std::exchange(called_phase_, phase);
+  if (phase == before) return;
   if (phase == MatchPhase::kSet && data_->set_play != SetPlay::kPenaltyKick) {
     for (const Placement& placement : prepare_kick_off(input, state_, scene_)) {
       output_.placements.push_back(placement);
@@ -152,7 +148,7 @@ void GameControllerReferee::follow_penalties() {
     const auto& players = data_->teams[index_of(player.team)].players;
     const size_t index = static_cast<size_t>(player.number) - 1;
     if (index >= players.size()) continue;
-    const Penalty penalty = penalty_of(players[index].code);
+    const Penalty penalty = players[index].kind;
     player.penalty_left = players[index].time_left;
     if (penalty == player.penalty) continue;
     const bool is_new = player.penalty == Penalty::kNone;
@@ -172,7 +168,7 @@ void GameControllerReferee::follow_set_play(const RefereeInput& input) {
   set_play_ = set_play;
   const auto team = team_of(data_->kicking_team);
   if (!team || set_play == SetPlay::kNone) return;
-  if (set_play != SetPlay::kPushingFreeKick && set_play != SetPlay::kPenaltyKick) {
+  if (set_play != SetPlay::kFreeKick && set_play != SetPlay::kPenaltyKick) {
     add_event(MatchEventKind::kBallOut, *team);
   }
   if (const auto place = ball_place(set_play, *team, input.ball.head<2>(), *scene_.field)) {

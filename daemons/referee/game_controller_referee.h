@@ -17,13 +17,15 @@ namespace nao::referee {
 class GameControllerReferee : public Referee {
  public:
   /** @param team_numbers  The GameController's numbers of team 0 and team 1; messages about other
-   *   teams are ignored. Nothing: of any two teams, in the message's order.
+   *   teams are ignored. Nothing: of any two teams, in the order of the first message about them.
    * @throws ConfigError  if the scene has no field with goals and a ball. */
   GameControllerReferee(const std::vector<MatchPlayer>& players, const SceneFile& scene,
                         std::optional<std::array<int, 2>> team_numbers, int64_t match_id);
 
-  /** The newest message. @return false if it is about other teams. */
-  bool receive(const GameControllerData& data);
+  /** Whether the message is about our teams. */
+  bool concerns(const GameControllerData& data) const;
+  /** The newest message that concerns us. */
+  void receive(const GameControllerData& data);
   /** The GameController's number of a team; 0 before its first message. */
   int team_number(int team) const;
 
@@ -48,9 +50,13 @@ class GameControllerReferee : public Referee {
 
   SceneFile scene_;
   std::optional<std::array<int, 2>> team_numbers_;
+  /** Numbers of team 0 and team 1, from the options or the first message about them. */
+  std::array<int, 2> numbers_{};
   MatchState state_;
   std::optional<GameControllerData> data_{};
   bool is_swapped_ = false;
+  /** The GameController's phase; state_ has "set" instead while play is stopped. */
+  MatchPhase called_phase_ = MatchPhase::kInitial;
   GameControllerData::SetPlay set_play_ = GameControllerData::SetPlay::kNone;
   RefereeOutput output_;
   double time_ = 0;

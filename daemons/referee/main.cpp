@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
       ->show_default();
   app.add_option("--team-numbers", team_numbers,
                  "The GameController's numbers of team 0 and team 1; messages about others are "
-                 "ignored (default: of any two teams, in the message's order)")
+                 "ignored (default: of any two teams, in the order of the first message)")
       ->count(2);
   app.add_option("--state-file", state_file,
                  "File to save the match, from which another referee can continue (default: none)");

@@ -36,6 +36,10 @@ constexpr double kTruthTimeout = 2;
 /** Time without a message of the GameController, which sends two a second, after which it counts as
  * gone, s. */
 constexpr double kGameControllerTimeout = 3;
+/** Time between two equal warnings, s, and number of warnings for which that is remembered. Chosen:
+ * messages come twice a second for a whole match, with a few causes. */
+constexpr double kWarningPeriod = 60;
+constexpr size_t kMaxWarnings = 20;
 /** Time between two messages of a robot to the GameController, s (SPL rules, "GameController": one
  * to four a second). */
 constexpr double kReturnPeriod = 0.5;
@@ -187,14 +191,34 @@ void RefereeDaemon::make_referee() {
 void RefereeDaemon::receive_game_controller() {
   while (const auto message = link_->receive()) {
     try {
-      if (!follower_->receive(decode_game_controller(*message))) continue;
+      const GameControllerData data = decode_game_controller(*message);
+      if (!obeys(data)) continue;
+      follower_->receive(data);
       link_->accept_sender();
       last_game_controller_ = clock_();
     } catch (const Error& error) {
-      if (const auto num_suppressed = warnings_.allow(clock_())) {
-        logger::warn("{} ({} more such warnings)", error.what(), *num_suppressed);
-      }
+      warn(std::string(error.what()) + "; it comes from " + link_->sender());
     }
+  }
+}
+
+// Two GameControllers would decide in turns: the first one does until it falls silent.
+bool RefereeDaemon::obeys(const GameControllerData& data) {
+  if (!follower_->concerns(data)) return false;
+  const bool is_alone = clock_() - last_game_controller_ > kGameControllerTimeout;
+  if (is_alone || link_->is_from_controller()) return true;
+  other_game_controller_ = link_->sender();
+  last_other_ = clock_();
+  warn("the GameController at " + link_->controller() + " decides, and a second one at " +
+       other_game_controller_ + " is ignored; stop one of them, or choose with --team-numbers");
+  return false;
+}
+
+void RefereeDaemon::warn(const std::string& text) {
+  if (warnings_.size() >= kMaxWarnings && !warnings_.contains(text)) warnings_.clear();
+  RateLimiter& limiter = warnings_.try_emplace(text, kWarningPeriod).first->second;
+  if (const auto num_suppressed = limiter.allow(clock_())) {
+    logger::warn("{} ({} more such warnings)", text, *num_suppressed);
   }
 }
 
@@ -361,12 +385,16 @@ void RefereeDaemon::publish_status(double now) {
   if (now - last_truth_ > kTruthTimeout) {
     status_.set_state("waiting", "for nao-sim");
   } else if (link_ && now - last_game_controller_ > kGameControllerTimeout) {
-    status_.set_state("waiting",
-                      "for the GameController at UDP port " + std::to_string(link_->port()));
+    // Ready: the GameController is often started, or sends, only later.
+    status_.set_state("ready",
+                      "waits for the GameController at UDP port " + std::to_string(link_->port()));
   } else {
-    status_.set_state("ready", std::string(to_string(state.phase)) + ", " +
-                                   std::to_string(state.score[0]) + ":" +
-                                   std::to_string(state.score[1]));
+    std::string detail = std::string(to_string(state.phase)) + ", " +
+                         std::to_string(state.score[0]) + ":" + std::to_string(state.score[1]);
+    if (now - last_other_ < kGameControllerTimeout) {
+      detail += "; ignores a second GameController at " + other_game_controller_;
+    }
+    status_.set_state("ready", detail);
   }
   status_.publish({{"goals_team0", static_cast<double>(state.score[0])},
                    {"goals_team1", static_cast<double>(state.score[1])},

@@ -107,6 +107,9 @@ class RefereeDaemon {
   };
 
   void make_referee();
+  bool obeys(const GameControllerData& data);
+  /** Logs a warning, at most once a minute the same one. */
+  void warn(const std::string& text);
   void subscribe();
   void handle(const naolcm::world_truth_t& truth);
   void handle(const naolcm::match_command_t& message);
@@ -123,7 +126,11 @@ class RefereeDaemon {
   GameControllerReferee* follower_ = nullptr;
   std::optional<GameControllerLink> link_;
   double last_game_controller_ = -1e9;
-  RateLimiter warnings_{1.0};
+  /** A second GameController, which is not obeyed, and when it was heard last, s. */
+  std::string other_game_controller_;
+  double last_other_ = -1e9;
+  /** By their text. */
+  std::map<std::string, RateLimiter> warnings_;
   std::map<std::string, RobotKnowledge> knowledge_;
   RefereeInput last_input_;
   std::map<std::string, Play> plays_;

@@ -125,6 +125,8 @@ inline constexpr auto kReasons = std::to_array<ReasonEntry>({
     {"match-operation-too-late", "operation, phase", "The match operation {0} is not possible in the phase {1}."},
     {"match-not-played", "", "No match is being played; nao-referee does not answer."},
     {"match-penalty", "penalty", "The robot has a penalty: {0}."},
+    {"play-waits-for-release", "",
+     "Somebody has driven the robot: it plays by itself again when they release control, or with nao play auto."},
     // Lights.
     {"lights-missing", "", "The command names no light."},
     {"light-unknown", "light, known lights", "The robot has no light {0}; it has {1}."},

@@ -26,6 +26,7 @@
 #include "phone-gateway/server/pairing/phone_urls.h"
 #include "phone-gateway/server/pairing/qr_code.h"
 #include "phone-gateway/server/pairing/token_file.h"
+#include "phone-gateway/web_stream/own_host.h"
 
 namespace nao::gateway {
 namespace {
@@ -49,7 +50,8 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
       ->show_default();
   app.add_option("--tcp-port", network.tcp_port, "Port of raw TCP clients; 0: any free")
       ->show_default();
-  app.add_option("--bind", network.bind, "Address to listen on; 0.0.0.0: all")->show_default();
+  app.add_option("--bind", network.bind, "Address to listen on; 0.0.0.0: all, also of IPv6")
+      ->show_default();
   add_robot_option(app, options.robots);
   app.add_option("--model", options.model,
                  "Folder of robots/ that describes the robots whose --robot names none")
@@ -94,17 +96,14 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
 }
 
 AccessRules make_access_rules(const GatewayOptions& options) {
-  // Browsers may use the host's name, also with mDNS's ".local".
-  std::vector<std::string> names = options.host_names;
-  const std::string own_name = own_host_name();
-  names.push_back(own_name);
-  names.push_back(own_name + ".local");
+  std::vector<std::string> names = own_host_names();
+  names.insert(names.end(), options.host_names.begin(), options.host_names.end());
   if (!options.mdns_name.empty()) {
     for (const std::string& name : ServiceDiscovery::alias_names(options.mdns_name)) {
       names.push_back(name);
     }
   }
-  return AccessRules(names, options.origins);
+  return AccessRules(names, options.origins, own_search_domains);
 }
 
 /** Ensures that there is a certificate if https is requested. */

@@ -63,6 +63,17 @@ class Start(unittest.TestCase):
             self.assertIn(address, second.stdout)
             self.assertEqual(stack.pids(), pids)
 
+    def test_a_second_system_on_the_bus_is_refused_and_the_first_is_named(self):
+        with Stack() as first, Stack() as second:
+            second.lcm_url = first.lcm_url
+            first.start_or_fail("--only", "sim,motion")
+            refused = second.start("--only", "sim,motion")
+            self.assertEqual(refused.returncode, 1, refused.stdout)
+            self.assertRegex(refused.stderr, r"another system publishes on NAO_SENSOR_STATE.*nao-sim of host \S+ \(process \d+\)")
+            self.assertEqual(second.pids(), {})
+            # A part of one system, which publishes nothing that the first one does.
+            second.start_or_fail("--only", "head-camera")
+
     def test_status_shows_every_program(self):
         with Stack() as stack:
             stack.start_or_fail("--no-camera")

@@ -18,6 +18,8 @@
 
 #include "common/logger.h"
 #include "common/program.h"
+#include "common/wall_clock.h"
+#include "messages/command.h"
 #include "phone-gateway/web_stream/web_stream.h"
 
 namespace nao::foxglove {
@@ -47,6 +49,12 @@ constexpr std::string_view kFilePrefix = "/robot/";
 constexpr const char* kHelp =
     "nao-foxglove: connect Foxglove or Lichtblick to this address with ws:// instead of http://.\n"
     "The robot's model: /robot/robot.urdf\n";
+
+/** Pages with which people look at a robot: Foxglove's and Lichtblick's published ones, and those
+ * of their desktop programs, which are files. Sources: https://app.foxglove.dev,
+ * https://lichtblick-suite.github.io/lichtblick; Chromium's origin of a file. */
+constexpr std::array<std::string_view, 3> kViewerOrigins = {
+    "https://app.foxglove.dev", "https://lichtblick-suite.github.io", "file://"};
 
 std::string_view view(beast::string_view text) {
   return {text.data(), text.size()};
@@ -176,6 +184,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
  private:
   void on_request(const Request& request) {
+    if (!context_.rules.is_known_host(view(request[http::field::host]))) {
+      return refuse(http::status::misdirected_request, "the name", view(request[http::field::host]),
+                    "--host-name");
+    }
     if (websocket::is_upgrade(request)) return on_upgrade(request);
     const std::string_view target = view(request.target());
     const bool is_get = request.method() == http::verb::get;
@@ -192,11 +204,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   void on_upgrade(const Request& request) {
     const std::string_view origin = view(request[http::field::origin]);
-    const auto& allowed = context_.origins;
-    // Clients that are no browsers send no origin.
-    if (!origin.empty() && !allowed.empty() &&
-        std::find(allowed.begin(), allowed.end(), origin) == allowed.end()) {
-      return respond(http::status::forbidden, "text/plain", "This origin is not allowed.\n");
+    if (!is_known_origin(origin, view(request[http::field::host]))) {
+      return refuse(http::status::forbidden, "pages of", origin, "--allow-origin");
     }
     const auto subprotocol = choose_subprotocol(view(request[http::field::sec_websocket_protocol]));
     if (!subprotocol) {
@@ -206,6 +215,24 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     }
     is_handed_over_ = true;
     std::make_shared<Client>(context_, std::move(stream_))->start(parser_->release(), *subprotocol);
+  }
+
+  bool is_known_origin(std::string_view origin, std::string_view host) const {
+    if (context_.rules.is_known_origin(origin, host, false)) return true;
+    return context_.accepts_viewers && (is_origin_on_this_computer(origin) ||
+                                        std::find(kViewerOrigins.begin(), kViewerOrigins.end(),
+                                                  origin) != kViewerOrigins.end());
+  }
+
+  /** Answers, and tells the log, what this is not served to and which option would change it. */
+  void refuse(http::status status, const std::string& what, std::string_view value,
+              const std::string& option) {
+    const std::string text = "nao-foxglove does not answer " + what + " " +
+                             quoted(std::string(value)) + "; " + option + " allows it";
+    if (const auto num_suppressed = context_.refusals.allow(monotonic_seconds())) {
+      logger::warn("{} ({} more such refusals)", text, *num_suppressed);
+    }
+    respond(status, "text/plain", text + "\n");
   }
 
   void respond(http::status status, const std::string& type, std::string body) {

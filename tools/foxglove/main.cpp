@@ -40,7 +40,7 @@ struct Options {
 };
 
 void add_options(CommandLine& app, Options& options) {
-  app.add_option("--bind", options.network.bind, "Address to listen on; 0.0.0.0: all")
+  app.add_option("--bind", options.network.bind, "Address to listen on; 0.0.0.0: all, also of IPv6")
       ->show_default();
   app.add_option("--port", options.network.port, "Port of WebSockets and HTTP; 0: any free")
       ->show_default();
@@ -62,7 +62,11 @@ void add_options(CommandLine& app, Options& options) {
                "Clients may publish commands: any of them can then move the robot");
   app.add_option("--allow-origin", options.network.origins,
                  "Site whose pages may connect, such as https://app.foxglove.dev (repeatable; "
-                 "default: all)");
+                 "default: with --allow-commands none, else the published Foxglove and Lichtblick, "
+                 "their desktop programs, and pages from this computer). Programs that are no "
+                 "browsers always may");
+  app.add_option("--host-name", options.network.host_names,
+                 "Another name of this host that browsers may use (repeatable)");
 }
 
 /** Requests images of the cameras that clients watch. */
@@ -120,6 +124,7 @@ void run(const CommonOptions& common, Options options) {
     if (channel == "LCM_SELF_TEST") return;
     relay.receive(channel, {data, static_cast<size_t>(size)}, wall_utime());
   });
+  options.network.accepts_viewers = !options.allow_commands && options.network.origins.empty();
   Network network(options.network, core, files);
   ImageRequests images(bus, RobotChannels(common.robot), options);
   StatusReporter status(bus, kProgram);

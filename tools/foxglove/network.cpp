@@ -10,7 +10,8 @@
 #include <csignal>
 #include <list>
 
-#include "common/error.h"
+#include "phone-gateway/web_stream/listen.h"
+#include "phone-gateway/web_stream/own_host.h"
 
 namespace nao::foxglove {
 namespace {
@@ -25,29 +26,18 @@ constexpr size_t kMaxConnections = 200;
 // Time until the next attempt after accepting has failed (no file descriptor left).
 constexpr auto kAcceptPause = std::chrono::milliseconds(100);
 
-Tcp::acceptor listen(asio::io_context& io, const std::string& address, uint16_t port) {
-  error_code error;
-  const asio::ip::address ip = asio::ip::make_address(address, error);
-  if (error) throw Error("--bind " + address + " is not an IP address");
-  const Tcp::endpoint endpoint(ip, port);
-  Tcp::acceptor acceptor(io);
-  acceptor.open(endpoint.protocol());
-  acceptor.set_option(Tcp::acceptor::reuse_address(true));
-  acceptor.bind(endpoint, error);
-  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-  if (error) {
-    throw Error("cannot listen on port " + std::to_string(port) + " of " + address + ": " +
-                error.message() + "; choose another with --port");
-  }
-  return acceptor;
+AccessRules make_access_rules(const NetworkOptions& options) {
+  std::vector<std::string> names = own_host_names();
+  names.insert(names.end(), options.host_names.begin(), options.host_names.end());
+  return AccessRules(names, options.origins, own_search_domains);
 }
 
 }  // namespace
 
 struct Network::Impl {
   Impl(const NetworkOptions& options, ServerCore& core, AssetFolder& files)
-      : context{io, core, files, options.origins},
-        acceptor(listen(io, options.bind, options.port)),
+      : context{io, core, files, make_access_rules(options), options.accepts_viewers},
+        acceptor(listen(io, options.bind, options.port, "--port")),
         pause(io),
         signals(io, SIGINT, SIGTERM) {
     accept();

@@ -16,8 +16,12 @@ struct NetworkOptions {
   std::string bind = "127.0.0.1";
   /** 0: the system chooses, see Network::port(). Default: as other servers of the protocol. */
   uint16_t port = 8765;
-  /** Sites whose pages may connect, such as "https://app.foxglove.dev"; empty: all. */
+  /** Other names of this host that browsers may use. */
+  std::vector<std::string> host_names;
+  /** Sites whose pages may connect, such as "https://app.foxglove.dev". */
   std::vector<std::string> origins;
+  /** See ConnectionContext. */
+  bool accepts_viewers = false;
 };
 
 /** Sockets and main loop: WebSockets and, on the same port, the robot's files over HTTP; timers,

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include <naolcm/daemon_status_t.hpp>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "common/bus.h"
 #include "common/channels.h"
@@ -23,6 +25,7 @@
 #include "common/error.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
+#include "tools/nao/channel_owners.h"
 #include "tools/nao/subcommand.h"
 
 namespace nao {
@@ -38,6 +41,15 @@ constexpr double kRecommendedBufferBytes = 2e6;
 /** Maximum clock difference at which wall times of two hosts are comparable, s. */
 constexpr double kClockTolerance = 0.1;
 constexpr const char* kEchoChannel = "BUS_CHECK";
+constexpr const char* kSeparateSystems =
+    "give one of them a bus of its own (another port: --lcm-url "
+    "\"udpm://239.255.76.67:7668?ttl=0\"), or its robots other names (--robot NAME)";
+
+/** What to check. */
+struct BusCheck {
+  bool is_quick = false;
+  std::vector<std::string> own_channels;
+};
 
 /** Address of a multicast bus. */
 struct BusAddress {
@@ -121,6 +133,12 @@ std::optional<double> echo_time(Bus& bus) {
   return monotonic_seconds() - start;
 }
 
+/** Whether messages of a bus may leave this host: "?ttl=1" in its URL. */
+bool reaches_other_hosts(const std::string& url) {
+  const size_t ttl = url.find("ttl=");
+  return ttl != std::string::npos && url.compare(ttl, 5, "ttl=0") != 0;
+}
+
 /** Programs and clock of one host. */
 struct HostReport {
   std::map<std::string, std::set<int>> processes;
@@ -128,8 +146,11 @@ struct HostReport {
   double clock_difference = std::nan("");
 };
 
-std::map<std::string, HostReport> listen_for_hosts(Bus& bus) {
+std::map<std::string, HostReport> listen_for_hosts(Bus& bus, ChannelOwners& owners) {
   std::map<std::string, HostReport> hosts;
+  bus.subscribe_raw(kOwnedChannels, [&](const std::string& channel, const uint8_t* data, int size) {
+    owners.note(channel, data, size);
+  });
   bus.subscribe<naolcm::daemon_status_t>(
       kDaemonStatusChannel, Bus::Queue::kAll, [&hosts](const naolcm::daemon_status_t& status) {
         HostReport& host = hosts[status.host];
@@ -154,9 +175,85 @@ void report_buffer() {
                           "net.core.rmem_max=2097152");
 }
 
+/** "nao-sim of host pc (process 12)": the processes of a program on all hosts. */
+std::string list_processes(const std::map<std::string, HostReport>& hosts,
+                           const std::string& program) {
+  std::string list;
+  for (const auto& [name, host] : hosts) {
+    const auto processes = host.processes.find(program);
+    if (processes == host.processes.end()) continue;
+    for (const int process : processes->second) {
+      list += (list.empty() ? "" : ", ") + program + " of host " + name + " (process " +
+              std::to_string(process) + ")";
+    }
+  }
+  return list;
+}
+
+/** The programs of which a bus has one, or that publish what a system publishes. */
+std::string list_owners(const std::map<std::string, HostReport>& hosts) {
+  std::string list;
+  for (const char* program : {"nao-sim", "nao-robot", "nao-motion", "nao-referee"}) {
+    const std::string processes = list_processes(hosts, program);
+    if (!processes.empty()) list += (list.empty() ? "" : ", ") + processes;
+  }
+  return list.empty() ? "programs that publish no status" : list;
+}
+
+int count_processes(const std::map<std::string, HostReport>& hosts, const std::string& program) {
+  int count = 0;
+  for (const auto& [name, host] : hosts) {
+    const auto processes = host.processes.find(program);
+    if (processes != host.processes.end()) count += static_cast<int>(processes->second.size());
+  }
+  return count;
+}
+
+/** @return false if two systems share the bus. */
+bool report_owners(const std::map<std::string, HostReport>& hosts, const ChannelOwners& owners) {
+  std::string fault;
+  for (const std::string& channel : owners.find_shared()) {
+    fault += (fault.empty() ? "" : ", ") + channel;
+  }
+  if (!fault.empty()) fault = "two programs publish on " + fault;
+  for (const char* program : {"nao-sim", "nao-referee"}) {
+    if (fault.empty() && count_processes(hosts, program) > 1) {
+      fault = std::string("there is more than one ") + program;
+    }
+  }
+  if (fault.empty()) return true;
+  std::printf("FAIL  two systems share this bus: %s: %s\n", fault.c_str(),
+              list_owners(hosts).c_str());
+  std::printf("      fix it: %s\n", kSeparateSystems);
+  return false;
+}
+
+/** What a system is about to publish must be silent. @return false if it is not. */
+bool report_silence(const std::map<std::string, HostReport>& hosts, const ChannelOwners& owners,
+                    const std::vector<std::string>& channels) {
+  std::string taken;
+  for (const std::string& channel : channels) {
+    if (owners.is_published(channel)) taken += (taken.empty() ? "" : ", ") + channel;
+  }
+  if (taken.empty()) return true;
+  std::printf("FAIL  another system publishes on %s already: %s\n", taken.c_str(),
+              list_owners(hosts).c_str());
+  std::printf("      fix it: end it, or %s\n", kSeparateSystems);
+  return false;
+}
+
+/** Other hosts are reached by one interface. */
+void report_reach(const std::string& url, const std::string& interface, bool has_other_host) {
+  if (!reaches_other_hosts(url) || has_other_host) return;
+  std::printf(
+      "note  no program of another host is heard; messages to other hosts leave by %s only. If "
+      "they "
+      "are in another network: ip route replace 239.255.76.0/24 dev INTERFACE\n",
+      interface.c_str());
+}
+
 /** @return false if something is wrong. */
 bool report_hosts(const std::map<std::string, HostReport>& hosts) {
-  bool is_alone = true;
   bool are_clocks_fine = true;
   if (hosts.empty()) std::printf("note  no program publishes its status on this bus\n");
   for (const auto& [name, host] : hosts) {
@@ -165,7 +262,6 @@ bool report_hosts(const std::map<std::string, HostReport>& hosts) {
       programs += " " + program;
       if (processes.size() > 1) {
         programs += " (" + std::to_string(processes.size()) + " of them)";
-        is_alone = false;
       }
     }
     const bool is_clock_fine = std::abs(host.clock_difference) < kClockTolerance;
@@ -174,15 +270,15 @@ bool report_hosts(const std::map<std::string, HostReport>& hosts) {
                 name.c_str(), programs.c_str(), host.clock_difference,
                 is_clock_fine ? "" : "; synchronize both with the same time server");
   }
-  if (!is_alone) {
-    std::printf(
-        "FAIL  two systems share this bus; give one of them another port: "
-        "--lcm-url \"udpm://239.255.76.67:7668?ttl=0\"\n");
-  }
-  return is_alone && are_clocks_fine;
+  return are_clocks_fine;
 }
 
-int run_bus_check(const std::string& url, bool is_quick) {
+std::string own_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+int run_bus_check(const std::string& url, const BusCheck& check) {
   const BusAddress address = parse_address(url);
   std::printf("bus   %s\n", url.c_str());
   const auto local = local_address_towards(address);
@@ -194,6 +290,14 @@ int run_bus_check(const std::string& url, bool is_quick) {
     return 1;
   }
   const std::string interface = interface_with(*local);
+  if (interface == "lo" && reaches_other_hosts(url) && !check.is_quick) {
+    std::printf(
+        "FAIL  the route to %s goes by lo, so no other host hears this one\n"
+        "      fix it: ip route replace %s/32 dev INTERFACE, the one to the other hosts; or use "
+        "?ttl=0 if there are none\n",
+        address.group.c_str(), address.group.c_str());
+    return 1;
+  }
   std::printf("ok    route to %s by interface %s\n", address.group.c_str(), interface.c_str());
   Bus bus(url);
   const auto echo = echo_time(bus);
@@ -205,22 +309,33 @@ int run_bus_check(const std::string& url, bool is_quick) {
     return 1;
   }
   std::printf("ok    a test message returned in %.2f ms\n", *echo * 1000);
-  if (is_quick) return 0;
+  if (check.is_quick && check.own_channels.empty()) return 0;
+  ChannelOwners owners;
+  const auto hosts = listen_for_hosts(bus, owners);
+  if (!report_silence(hosts, owners, check.own_channels)) return 1;
+  if (check.is_quick) return 0;
   report_buffer();
-  return report_hosts(listen_for_hosts(bus)) ? 0 : 1;
+  const bool are_clocks_fine = report_hosts(hosts);
+  report_reach(url, interface, hosts.size() > hosts.count(own_name()));
+  return report_owners(hosts, owners) && are_clocks_fine ? 0 : 1;
 }
 
 }  // namespace
 
 void add_bus_command(CommandLine& app, Invocation& invocation) {
-  auto is_quick = std::make_shared<bool>(false);
-  CommandLine* bus = app.add_subcommand(
-      "bus",
-      "Check the message bus: route, loopback, buffers, other hosts; print how to fix faults");
-  bus->add_flag("--quick", *is_quick, "Check only route and loopback");
-  bus->on_parsed([&invocation, is_quick] {
-    invocation.run = [&invocation, is_quick] {
-      return run_bus_check(invocation.common.lcm_url, *is_quick);
+  auto check = std::make_shared<BusCheck>();
+  CommandLine* bus = app.add_subcommand("bus",
+                                        "Check the message bus: route, loopback, buffers, other "
+                                        "hosts, two systems on one bus; print how "
+                                        "to fix faults");
+  bus->add_flag("--quick", check->is_quick, "Check only route and loopback");
+  bus->add_option(
+      "--own", check->own_channels,
+      "Channels that a system is about to publish, such as NAO_SENSOR_STATE: nobody may "
+      "publish on them yet (repeatable)");
+  bus->on_parsed([&invocation, check] {
+    invocation.run = [&invocation, check] {
+      return run_bus_check(invocation.common.lcm_url, *check);
     };
   });
 }

@@ -36,8 +36,10 @@ void add_play_command(CommandLine& app, Invocation& invocation) {
   CommandLine* command =
       app.add_subcommand("play", "Let the robot act by what it sees, until it is done or Ctrl-C");
   command
-      ->add_option("behavior", arguments->behavior,
-                   "go-to-ball, kick, dribble, score, keep-goal, or none, which ends what runs")
+      ->add_option(
+          "behavior", arguments->behavior,
+          "go-to-ball, kick, dribble, score, keep-goal; auto: play the match, also again after "
+          "somebody has driven the robot; none: end what runs")
       ->required()
       ->check([](const std::string& name) {
         return find_behavior(name) ? std::string() : "there is no behavior '" + name + "'";

@@ -84,7 +84,7 @@ void RobotLink::subscribe_perception(GatewayRobot& robot,
       });
   bus_.subscribe<naolcm::play_state_t>(channels_.play_state, Bus::Queue::kLatest,
                                        [&robot](const naolcm::play_state_t& message) {
-                                         robot.perception().set(read_play_state(message));
+                                         robot.set_play_state(read_play_state(message));
                                        });
 }
 

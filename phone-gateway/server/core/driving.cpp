@@ -24,6 +24,7 @@ std::optional<Refusal> Driving::take_control(const ClientSession& session, doubl
 void Driving::release_control(const ClientSession& session, double now) {
   if (control_.driver() != session.id) return;
   end_motion(now);
+  play_.release(now);
   control_.release(session.id);
   control_.audit("released", session, "");
   control_.tell_all(gateway_reason("control-released", {session.name}));
@@ -51,8 +52,9 @@ void Driving::take_control_as_operator(const ClientSession& console, double now)
   control_.tell_all(gateway_reason("driver-changed", {kOperatorName}));
 }
 
-void Driving::release_control_as_operator(const ClientSession& console) {
+void Driving::release_control_as_operator(const ClientSession& console, double now) {
   if (!control_.release(kOperatorId)) return;
+  play_.release(now);
   control_.audit("operator", console, "releases control");
   control_.tell_all(gateway_reason("control-released", {kOperatorName}));
 }

@@ -54,7 +54,7 @@ class Driving {
 
   /** The operator takes control from any client, or releases it. @param console  For the log. */
   void take_control_as_operator(const ClientSession& console, double now);
-  void release_control_as_operator(const ClientSession& console);
+  void release_control_as_operator(const ClientSession& console, double now);
   /** The operator gives control to a client, also if another one has it. */
   void assign_control(const ClientSession& session, double now);
 

@@ -71,6 +71,11 @@ void GatewayRobot::add_image(CachedImage image, double now) {
   streams_.add_image(std::move(image), now);
 }
 
+void GatewayRobot::set_play_state(naoremote::PlayState state) {
+  play_.set_waits_for_release(state.reason_code() == kWaitsForRelease);
+  perception_.set(std::move(state));
+}
+
 void GatewayRobot::handle_result(const CommandResult& result, double now) {
   if (result.kind == CommandKind::kSpeech || result.kind == CommandKind::kLight) {
     services_.handle_result(result, now);

@@ -49,7 +49,7 @@ std::optional<Refusal> OperatorConsole::take(const ClientSession& console, const
     if (takes) {
       driving.take_control_as_operator(console, now);
     } else {
-      driving.release_control_as_operator(console);
+      driving.release_control_as_operator(console, now);
     }
   }
   return std::nullopt;

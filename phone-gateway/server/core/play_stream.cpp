@@ -7,9 +7,14 @@
 namespace nao::gateway {
 namespace {
 
-/** Transmissions of "none". With 1 % of messages lost, all three are lost once in a million times;
- * then nao-play ends the behavior itself. */
-constexpr int kNumNones = 3;
+/** Transmissions of "none" and of the release. With 1 % of messages lost, all three are lost once
+ * in a million times; then nao-play ends the behavior itself. */
+constexpr int kNumTransmissions = 3;
+/** A release is sent so long after control has ended, s, if nao-play says by the end of the second
+ * time that the robot waits for it. Chosen: the last transmissions of a walk and of "none", which
+ * would count as new commands, are over after 0.3 s; nao-play speaks five times a second. */
+constexpr double kReleaseDelay = 0.5;
+constexpr double kReleaseTimeout = 1.5;
 /** An accepted command whose result is not repeated for so many periods: nao-play has ended. */
 constexpr double kSilentPeriods = 4;
 
@@ -32,7 +37,8 @@ void PlayStream::begin(uint32_t client, uint32_t request_id, const PlayCommand& 
                        double now) {
   // nao-play reports that the new command replaces the old one.
   if (active_) ended_ = std::move(active_);
-  num_nones_left_ = 0;
+  num_last_left_ = 0;
+  released_.reset();
   CommandRetry::Timing timing;
   timing.repeat_period = limits_.repeat_period;
   timing.confirm_period = limits_.play_period;
@@ -43,19 +49,21 @@ void PlayStream::begin(uint32_t client, uint32_t request_id, const PlayCommand& 
 }
 
 void PlayStream::end(double now) {
+  released_.reset();
   if (!active_) return;
-  none_ = make(active_->client, {});
+  last_ = make(active_->client, {});
   ended_ = std::move(active_);
   active_.reset();
-  num_nones_left_ = kNumNones;
-  next_none_ = now;
+  num_last_left_ = kNumTransmissions;
+  next_last_ = now;
   step(now);
 }
 
 void PlayStream::abandon() {
   if (active_) ended_ = std::move(active_);
   active_.reset();
-  num_nones_left_ = 0;
+  num_last_left_ = 0;
+  released_.reset();
 }
 
 void PlayStream::handle_result(const CommandResult& result, double now) {
@@ -80,10 +88,17 @@ void PlayStream::step(double now) {
     active_.reset();
   }
   if (active_ && active_->retry.should_send(now)) transmit(active_->sent);
-  while (num_nones_left_ > 0 && now >= next_none_) {
-    --num_nones_left_;
-    next_none_ += limits_.repeat_period;
-    transmit(none_);
+  if (released_ && now - *released_ > kReleaseTimeout) released_.reset();
+  if (released_ && now - *released_ > kReleaseDelay && waits_for_release_) {
+    released_.reset();
+    last_ = make(0, {Behavior::kAuto});
+    num_last_left_ = kNumTransmissions;
+    next_last_ = now;
+  }
+  while (num_last_left_ > 0 && now >= next_last_) {
+    --num_last_left_;
+    next_last_ += limits_.repeat_period;
+    transmit(last_);
   }
 }
 

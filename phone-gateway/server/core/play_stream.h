@@ -43,6 +43,11 @@ class PlayStream {
   void end(double now);
   /** Another command replaces the behavior: nothing more is transmitted. */
   void abandon();
+  /** The driver has released the robot on purpose: if it waits for that, it plays by itself again,
+   * unless the next command comes first. */
+  void release(double now) { released_ = now; }
+  /** Whether nao-play says that the robot waits for its release. */
+  void set_waits_for_release(bool waits) { waits_for_release_ = waits; }
 
   /** True from begin() to its end; false while "none" is transmitted. */
   bool is_active() const { return active_.has_value(); }
@@ -73,9 +78,13 @@ class PlayStream {
   std::optional<Entry> active_;
   /** Whose results are still to be reported after the end. */
   std::optional<Entry> ended_;
-  SentPlayCommand none_;
-  int num_nones_left_ = 0;
-  double next_none_ = 0;
+  /** "none", or the release. */
+  SentPlayCommand last_;
+  int num_last_left_ = 0;
+  double next_last_ = 0;
+  bool waits_for_release_ = false;
+  /** s: when the robot was released. */
+  std::optional<double> released_;
 };
 
 }  // namespace nao::gateway

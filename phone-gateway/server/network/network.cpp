@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "common/error.h"
+#include "phone-gateway/web_stream/listen.h"
 
 namespace nao::gateway {
 namespace {
@@ -25,26 +26,6 @@ constexpr auto kAcceptPause = std::chrono::milliseconds(100);
 /** Bytes that the kernel holds unsent before it stops accepting more: two images of 320 x 240
  * pixels (7 kB each), so that the next image is chosen late, but the connection always has data. */
 constexpr int kMaxUnsentBytes = 16384;
-
-Tcp::acceptor listen(asio::io_context& io, const std::string& address, uint16_t port,
-                     const std::string& option) {
-  error_code error;
-  const asio::ip::address ip = asio::ip::make_address(address, error);
-  if (error) throw Error("--bind " + address + " is not an IP address");
-  const Tcp::endpoint endpoint(ip, port);
-  Tcp::acceptor acceptor(io);
-  acceptor.open(endpoint.protocol());
-  // A gateway that starts again must not wait for the old connections' TIME_WAIT.
-  acceptor.set_option(Tcp::acceptor::reuse_address(true));
-  acceptor.bind(endpoint, error);
-  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-  const std::string where = "port " + std::to_string(port) + " of " + address;
-  if (error == asio::error::address_in_use) {
-    throw Error(where + " is in use by another program: stop it, or choose another with " + option);
-  }
-  if (error) throw Error("cannot listen on " + where + ": " + error.message());
-  return acceptor;
-}
 
 std::unique_ptr<asio::ssl::context> load_tls(const NetworkOptions& options) {
   if (options.certificate_file.empty()) return nullptr;

@@ -8,14 +8,14 @@
 
 #include "phone-gateway/server/core/gateway_core.h"
 #include "phone-gateway/server/core/metric.h"
-#include "phone-gateway/server/http/access_rules.h"
 #include "phone-gateway/server/http/web_pages.h"
+#include "phone-gateway/web_stream/access_rules.h"
 
 namespace nao::gateway {
 
 /** Addresses, ports and certificate of the gateway. */
 struct NetworkOptions {
-  /** Address to listen on; "0.0.0.0" for all. */
+  /** Address to listen on; "0.0.0.0" for all, of IPv4 and IPv6. */
   std::string bind = "0.0.0.0";
   /** 0: the system chooses, see Network::http_port(). */
   uint16_t http_port = 8080;

@@ -4,26 +4,31 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netinet/in.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <limits>
+#include <map>
 #include <sstream>
 
 namespace nao::gateway {
 namespace {
 
-bool begins_with(const std::string& text, const char* beginning) {
-  return text.rfind(beginning, 0) == 0;
-}
+/** Interfaces may stand on others: a bridge on a bond on hardware. Chosen: nobody stacks more. */
+constexpr int kMaxStack = 5;
 
-/** Interfaces of Docker ("docker0", "br-..."), of containers ("veth...") and of libvirt
- * ("virbr0"). */
-bool is_within_host(const std::string& interface) {
-  return begins_with(interface, "docker") || begins_with(interface, "br-") ||
-         begins_with(interface, "veth") || begins_with(interface, "virbr");
+bool has_hardware(const std::filesystem::path& folder, const std::string& interface, int depth) {
+  std::error_code ignored;
+  if (std::filesystem::exists(folder / interface / "device", ignored)) return true;
+  if (depth == 0) return false;
+  constexpr std::string_view kLower = "lower_";
+  for (const auto& entry : std::filesystem::directory_iterator(folder / interface, ignored)) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with(kLower) && has_hardware(folder, name.substr(kLower.size()), depth - 1)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::vector<InterfaceAddress> interface_addresses() {
@@ -37,7 +42,9 @@ std::vector<InterfaceAddress> interface_addresses() {
     std::array<char, INET_ADDRSTRLEN> text{};
     const auto* address = reinterpret_cast<const sockaddr_in*>(it->ifa_addr);
     inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size());
-    all.push_back({it->ifa_name, text.data()});
+    const bool is_point_to_point = (it->ifa_flags & IFF_POINTOPOINT) != 0;
+    all.push_back({it->ifa_name, text.data(),
+                   interface_kind("/sys/class/net", it->ifa_name, is_point_to_point)});
   }
   freeifaddrs(interfaces);
   return all;
@@ -45,15 +52,17 @@ std::vector<InterfaceAddress> interface_addresses() {
 
 }  // namespace
 
-std::string own_host_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+InterfaceKind interface_kind(const std::filesystem::path& folder, const std::string& interface,
+                             bool is_point_to_point) {
+  if (is_point_to_point) return InterfaceKind::kPointToPoint;
+  if (has_hardware(folder, interface, kMaxStack)) return InterfaceKind::kHardware;
+  std::error_code ignored;
+  const bool is_bridge = std::filesystem::exists(folder / interface / "bridge", ignored);
+  return is_bridge ? InterfaceKind::kInnerBridge : InterfaceKind::kVirtual;
 }
 
-// `table` has the form of /proc/net/route; the default route with the smallest metric wins.
-std::string default_interface(std::istream& table) {
-  std::string best;
-  unsigned long best_metric = std::numeric_limits<unsigned long>::max();
+std::vector<std::string> default_interfaces(std::istream& table) {
+  std::multimap<unsigned long, std::string> by_metric;
   std::string line;
   std::getline(table, line);  // titles
   while (std::getline(table, line)) {
@@ -63,27 +72,33 @@ std::string default_interface(std::istream& table) {
     fields >> interface >> destination >> gateway >> flags >> references >> use >> metric >> mask;
     // 0.0.0.0/0 matches every destination.
     if (!fields || destination != "00000000" || mask != "00000000") continue;
-    if (metric < best_metric) {
-      best = interface;
-      best_metric = metric;
-    }
+    by_metric.emplace(metric, interface);
   }
-  return best;
+  std::vector<std::string> interfaces;
+  for (const auto& [metric, interface] : by_metric) interfaces.push_back(interface);
+  return interfaces;
 }
 
 std::vector<std::string> reachable_addresses(const std::vector<InterfaceAddress>& all,
-                                             const std::string& first) {
+                                             const std::vector<std::string>& default_interfaces) {
   std::vector<InterfaceAddress> kept;
-  for (const InterfaceAddress& address : all) {
-    // 169.254/16 is link-local (RFC 3927): no phone on the network reaches it.
-    if (!is_within_host(address.interface) && !begins_with(address.address, "169.254.")) {
-      kept.push_back(address);
+  const auto keep = [&](InterfaceKind kind) {
+    for (const InterfaceAddress& address : all) {
+      // 169.254/16 is link-local (RFC 3927): no phone on the network reaches it.
+      if (address.kind == kind && !address.address.starts_with("169.254.")) kept.push_back(address);
     }
+  };
+  for (const InterfaceKind kind : {InterfaceKind::kHardware, InterfaceKind::kVirtual}) {
+    if (kept.empty()) keep(kind);
   }
-  // The default interface first: its address is the one in the QR code.
-  std::stable_partition(kept.begin(), kept.end(), [&](const InterfaceAddress& address) {
-    return address.interface == first;
+  std::stable_sort(kept.begin(), kept.end(), [&](const auto& a, const auto& b) {
+    const auto rank = [&](const InterfaceAddress& address) {
+      return std::find(default_interfaces.begin(), default_interfaces.end(), address.interface);
+    };
+    return rank(a) < rank(b);
   });
+  keep(InterfaceKind::kPointToPoint);
+  if (kept.empty()) keep(InterfaceKind::kInnerBridge);
   std::vector<std::string> addresses;
   for (const InterfaceAddress& address : kept) addresses.push_back(address.address);
   return addresses;
@@ -91,7 +106,7 @@ std::vector<std::string> reachable_addresses(const std::vector<InterfaceAddress>
 
 std::vector<std::string> own_addresses() {
   std::ifstream routes("/proc/net/route");
-  return reachable_addresses(interface_addresses(), default_interface(routes));
+  return reachable_addresses(interface_addresses(), default_interfaces(routes));
 }
 
 }  // namespace nao::gateway

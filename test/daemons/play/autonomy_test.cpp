@@ -28,15 +28,22 @@ TEST(Autonomy, LeavesAnothersBehaviorAlone) {
   EXPECT_EQ(autonomy.step({true, true, true, false}, 0), std::nullopt);
 }
 
-TEST(Autonomy, WaitsTenSecondsAfterAnothersCommandAndThirtyAfterAStop) {
+TEST(Autonomy, WaitsForReleaseAfterAnothersCommandInAMatch) {
   Autonomy autonomy(true, 0);
-  autonomy.note_other_command(false, 0);
+  EXPECT_EQ(autonomy.step(kReady, 0), 1);
+  autonomy.note_other_command(1);
+  EXPECT_TRUE(autonomy.waits_for_release());
+  EXPECT_EQ(autonomy.step(kReady, 3600), std::nullopt);
+  autonomy.release();
+  EXPECT_EQ(autonomy.step(kReady, 3601), 2);
+}
+
+TEST(Autonomy, WaitsTenSecondsAfterACommandBeforeTheMatch) {
+  Autonomy autonomy(true, 0);
+  autonomy.note_other_command(0);
+  EXPECT_FALSE(autonomy.waits_for_release());
   EXPECT_EQ(autonomy.step(kReady, 9.9), std::nullopt);
   EXPECT_EQ(autonomy.step(kReady, 10), 1);
-  autonomy.note_other_command(true, 20);
-  autonomy.note_other_command(false, 21);
-  EXPECT_EQ(autonomy.step(kReady, 49.9), std::nullopt) << "a later command does not shorten a stop";
-  EXPECT_EQ(autonomy.step(kReady, 50), 2);
 }
 
 TEST(Autonomy, IsOffUnlessEnabled) {

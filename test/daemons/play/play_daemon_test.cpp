@@ -230,13 +230,26 @@ class AutonomousTest : public PlayDaemonTest {
   int64_t sequence_ = 0;
 };
 
-TEST_F(AutonomousTest, PlaysAgainWhenThePersonsLeaseHasLapsed) {
+TEST_F(AutonomousTest, StandsAndSaysSoUntilThePersonWhoDroveItReleasesIt) {
   EXPECT_TRUE(plays_after(2));
   drive();
-  EXPECT_FALSE(plays_after(1));
-  // A phone's lease lasts 10 s without a command, and then passes to another client that asks.
-  EXPECT_FALSE(plays_after(8.5));
+  EXPECT_FALSE(plays_after(60)) << "a driver that has vanished may stand beside it";
+  naolcm::play_state_t state{};
+  bus_.subscribe<naolcm::play_state_t>(
+      "NAO_PLAY_STATE", Bus::Queue::kLatest,
+      [&](const naolcm::play_state_t& message) { state = message; });
+  autonomous_.publish_state();
+  deliver();
+  EXPECT_EQ(state.reason_code, kWaitsForRelease);
+  command(Behavior::kAuto);
   EXPECT_TRUE(plays_after(1));
+  EXPECT_TRUE(plays_after(5)) << "the one who released it need not repeat the command";
+}
+
+TEST_F(AutonomousTest, WaitsForReleaseAlsoAfterABehaviorAndItsEnd) {
+  EXPECT_TRUE(plays_after(2));
+  command(Behavior::kNone);
+  EXPECT_FALSE(plays_after(60));
 }
 
 TEST(RobotViewer, SeesWhereTheCamerasLook) {

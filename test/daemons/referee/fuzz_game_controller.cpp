@@ -19,15 +19,24 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   GameControllerReferee referee({{"A", 0, 1}, {"B", 1, 200}}, scene, std::nullopt, 1);
   RefereeInput input;
   input.robots = {{"A"}, {"B"}};
-  // Several messages, one after the other: every second one with the right beginning and size,
-  // which the fuzzer would seldom find by itself.
-  constexpr size_t kSize = 118;
-  constexpr uint8_t kBeginning[] = {'R', 'G', 'm', 'e', 18};
+  // Several messages, one after the other: every second one with the right beginning and size of a
+  // version, which the fuzzer would seldom find by itself.
+  constexpr size_t kSize = 198;
+  constexpr uint8_t kBeginning[] = {'R', 'G', 'm', 'e'};
+  struct Version {
+    uint8_t number;
+    size_t size;
+  };
+  constexpr Version kVersions[] = {{15, 118}, {18, 118}, {19, 198}, {20, 158}};
   for (size_t i = 0; i < size; i += kSize) {
     std::vector<uint8_t> message(data + i, data + std::min(size, i + kSize));
     if (i / kSize % 2 == 0) {
-      message.resize(kSize);
+      // The place of the version chooses one.
+      const Version& version =
+          kVersions[message.size() > 4 ? message[4] % std::size(kVersions) : 0];
+      message.resize(version.size);
       std::copy(std::begin(kBeginning), std::end(kBeginning), message.begin());
+      message[4] = version.number;
     }
     try {
       referee.receive(decode_game_controller(message));

@@ -11,6 +11,8 @@ namespace nao::referee {
  * independent of the decoder under test. */
 struct GameControllerPacket {
   uint8_t version = 18;
+  /** From version 19 on. */
+  uint8_t stopped = 0;
   uint8_t state = 0;
   uint8_t set_play = 0;
   uint8_t first_half = 1;
@@ -24,8 +26,9 @@ struct GameControllerPacket {
   std::vector<uint8_t> bytes() const {
     std::vector<uint8_t> out;
     for (const char c : std::string_view("RGme")) out.push_back(static_cast<uint8_t>(c));
-    // version, packet, players a team, competition phase and type, game phase
-    for (const int value : {int{version}, 1, 7, 0, 0, 0}) {
+    // version, packet, players a team, then up to version 18 competition phase and type, later
+    // competition type and whether play is stopped; game phase
+    for (const int value : {int{version}, 1, 7, 0, version >= 19 ? int{stopped} : 0, 0}) {
       out.push_back(static_cast<uint8_t>(value));
     }
     for (const uint8_t value : {state, set_play, first_half, kicking_team}) out.push_back(value);
@@ -44,6 +47,8 @@ struct GameControllerPacket {
       add_word(1200);
       for (size_t player = 0; player < 20; ++player) {
         for (size_t k = 0; k < 2; ++k) out.push_back(player < 2 ? penalties[team][player][k] : 0);
+        // warnings and cautions; cautions
+        out.resize(out.size() + (version == 19 ? 2 : version == 20 ? 1 : 0), 1);
       }
     }
     return out;

@@ -34,8 +34,56 @@ TEST(GameControllerMessage, IsRead) {
   EXPECT_EQ(data.teams[0].number, 5);
   EXPECT_EQ(data.teams[0].score, 2);
   EXPECT_EQ(data.teams[1].score, 9);
-  EXPECT_EQ(data.teams[1].players[1].code, kPenaltyLeavingTheField);
+  EXPECT_EQ(data.teams[1].players[1].kind, Penalty::kLeftField);
   EXPECT_EQ(data.teams[1].players[1].time_left, 44);
+}
+
+TEST(GameControllerMessage, OfTheMergedLeagueIsRead) {
+  using SetPlay = GameControllerData::SetPlay;
+  struct Version {
+    uint8_t number;
+    size_t size;
+    uint8_t pushing, incapable, leaving, last;
+  };
+  for (const auto& [number, size, pushing, incapable, leaving, last] :
+       {Version{19, 198, 9, 4, 7, 11}, Version{20, 158, 10, 5, 8, 13}}) {
+    SCOPED_TRACE(int{number});
+    GameControllerPacket packet;
+    packet.version = number;
+    packet.state = 3;
+    packet.stopped = 1;
+    packet.scores = {1, 3};
+    packet.penalties = {{{{{pushing, 45}, {incapable, 0}}}, {{{leaving, 9}, {last, 0}}}}};
+    ASSERT_EQ(packet.bytes().size(), size);
+    const GameControllerData data = decode_game_controller(packet.bytes());
+    EXPECT_EQ(data.version, number);
+    EXPECT_TRUE(data.is_stopped);
+    EXPECT_EQ(data.teams[1].number, 12);
+    EXPECT_EQ(data.teams[1].score, 3);
+    EXPECT_EQ(data.teams[0].players[0].kind, Penalty::kPushing);
+    EXPECT_EQ(data.teams[0].players[0].time_left, 45);
+    EXPECT_EQ(data.teams[0].players[1].kind, Penalty::kNotGettingUp);
+    EXPECT_EQ(data.teams[1].players[0].kind, Penalty::kLeftField);
+    EXPECT_EQ(data.teams[1].players[1].kind, Penalty::kOperator);
+    EXPECT_EQ(data.teams[1].players[2].kind, Penalty::kNone);
+    // In the order of their codes: none, direct and indirect free kick, penalty kick, throw-in,
+    // goal kick, corner kick.
+    std::vector<SetPlay> set_plays;
+    for (packet.set_play = 0; packet.set_play < 7; ++packet.set_play) {
+      set_plays.push_back(decode_game_controller(packet.bytes()).set_play);
+    }
+    EXPECT_THAT(set_plays, ElementsAre(SetPlay::kNone, SetPlay::kFreeKick, SetPlay::kFreeKick,
+                                       SetPlay::kPenaltyKick, SetPlay::kKickIn, SetPlay::kGoalKick,
+                                       SetPlay::kCornerKick));
+  }
+}
+
+TEST(GameControllerMessage, OfEveryVersionIsRead) {
+  for (uint8_t version = 15; version <= 20; ++version) {
+    GameControllerPacket packet;
+    packet.version = version;
+    EXPECT_EQ(decode_game_controller(packet.bytes()).version, version);
+  }
 }
 
 TEST(GameControllerMessage, OfWrongSizeHeaderVersionOrValueIsRefused) {
@@ -48,8 +96,17 @@ TEST(GameControllerMessage, OfWrongSizeHeaderVersionOrValueIsRefused) {
   expect_refused({'R', 'G', 'r', 't', 18}, "no message of a GameController");
   expect_refused({good.begin(), good.end() - 1}, "117 bytes instead of 118");
   GameControllerPacket packet;
-  packet.version = 19;
-  expect_refused(packet.bytes(), "version 19; known are 15 to 18");
+  packet.version = 21;
+  expect_refused(packet.bytes(), "version 21; known are 15 to 20");
+  packet.version = 20;
+  std::vector<uint8_t> cut = packet.bytes();
+  cut.resize(118);
+  expect_refused(cut, "118 bytes instead of 158");
+  packet.state = 5;
+  expect_refused(packet.bytes(), "unknown state 5");
+  packet.state = 0;
+  packet.set_play = 7;
+  expect_refused(packet.bytes(), "unknown set play 7");
   packet = {};
   packet.state = 6;
   expect_refused(packet.bytes(), "unknown state 6");
@@ -96,7 +153,7 @@ class GameControllerRefereeTest : public testing::Test {
 
   /** The GameController says this, and the referee follows. */
   RefereeOutput say(const GameControllerPacket& packet) {
-    EXPECT_TRUE(referee_.receive(decode_game_controller(packet.bytes())));
+    referee_.receive(decode_game_controller(packet.bytes()));
     input_.time += 0.05;
     return referee_.step(input_);
   }
@@ -165,7 +222,7 @@ TEST_F(GameControllerRefereeTest, PutsBallAndRobotsForTheKickOff) {
 TEST_F(GameControllerRefereeTest, PutsPenalisedRobotsBesideTheField) {
   packet_.state = 3;
   say(packet_);
-  packet_.penalties[1][0] = {kPenaltyLeavingTheField, 45};
+  packet_.penalties[1][0] = {6, 45};
   const RefereeOutput output = say(packet_);
   ASSERT_EQ(output.placements.size(), 1u);
   EXPECT_EQ(output.placements[0].robot, "B1");
@@ -174,7 +231,7 @@ TEST_F(GameControllerRefereeTest, PutsPenalisedRobotsBesideTheField) {
   EXPECT_EQ(referee_.state().players[2].penalty, Penalty::kLeftField);
   EXPECT_EQ(referee_.state().players[2].penalty_left, 45);
   // A changed penalty does not count as one that has just begun.
-  packet_.penalties[1][0] = {kPenaltyPlayerPushing, 44};
+  packet_.penalties[1][0] = {2, 44};
   EXPECT_TRUE(say(packet_).placements.empty());
   packet_.penalties[1][0] = {0, 0};
   EXPECT_THAT(kinds(say(packet_)), ElementsAre(MatchEventKind::kPenaltyEnd));
@@ -206,18 +263,47 @@ TEST_F(GameControllerRefereeTest, PutsTheBallForSetPlays) {
   EXPECT_EQ(ball_at(2, 5).x(), 99) << "a free kick is taken where the ball is";
 }
 
+TEST_F(GameControllerRefereeTest, RobotsStandWhilePlayIsStopped) {
+  packet_.version = 20;
+  for (packet_.state = 1; packet_.state < 3; ++packet_.state) say(packet_);
+  EXPECT_THAT(kinds(say(packet_)), ElementsAre(MatchEventKind::kKickOff));
+  packet_.stopped = 1;
+  RefereeOutput output = say(packet_);
+  EXPECT_EQ(referee_.state().phase, MatchPhase::kSet);
+  EXPECT_TRUE(output.placements.empty()) << "no kick-off is prepared";
+  packet_.stopped = 0;
+  output = say(packet_);
+  EXPECT_EQ(referee_.state().phase, MatchPhase::kPlaying);
+  EXPECT_TRUE(output.events.empty()) << "no kick-off has happened";
+  // A stop before the kick-off does not hide the kick-off.
+  packet_.state = 1;
+  packet_.stopped = 1;
+  say(packet_);
+  EXPECT_EQ(referee_.state().phase, MatchPhase::kSet);
+  packet_.state = 2;
+  packet_.stopped = 0;
+  EXPECT_FALSE(say(packet_).placements.empty());
+}
+
 TEST_F(GameControllerRefereeTest, TeamsAreFoundByTheirNumbers) {
   GameControllerReferee referee(players(), SceneFile::find("soccer"), {{12, 5}}, 1);
   packet_.scores = {3, 0};
-  ASSERT_TRUE(referee.receive(decode_game_controller(packet_.bytes())));
+  ASSERT_TRUE(referee.concerns(decode_game_controller(packet_.bytes())));
+  referee.receive(decode_game_controller(packet_.bytes()));
   EXPECT_EQ(referee.team_number(0), 12);
   referee.step(input_);
   EXPECT_THAT(referee.state().score, ElementsAre(0, 3));
   packet_.team_numbers = {5, 13};
-  packet_.scores = {4, 4};
-  EXPECT_FALSE(referee.receive(decode_game_controller(packet_.bytes())));
-  referee.step(input_);
-  EXPECT_THAT(referee.state().score, ElementsAre(0, 3));
+  EXPECT_FALSE(referee.concerns(decode_game_controller(packet_.bytes())));
+}
+
+TEST_F(GameControllerRefereeTest, TeamsStayTheSameWhenTheirOrderChangesAtHalfTime) {
+  packet_.scores = {2, 0};
+  say(packet_);
+  packet_.team_numbers = {12, 5};
+  packet_.scores = {1, 2};
+  EXPECT_THAT(kinds(say(packet_)), ElementsAre(MatchEventKind::kGoal));
+  EXPECT_THAT(referee_.state().score, ElementsAre(2, 1));
 }
 
 TEST_F(GameControllerRefereeTest, IsNotOverruled) {

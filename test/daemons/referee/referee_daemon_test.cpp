@@ -266,6 +266,49 @@ class GameControllerDaemonTest : private HasGameController, public RefereeDaemon
   const FakeGameController& game_controller() const { return controller; }
 };
 
+TEST_F(GameControllerDaemonTest, IsReadyWithoutItSoThatTheStackStarts) {
+  std::string state, detail;
+  bus_.subscribe<naolcm::daemon_status_t>("DAEMON_STATUS", Bus::Queue::kLatest,
+                                          [&](const naolcm::daemon_status_t& status) {
+                                            state = status.state;
+                                            detail = status.detail;
+                                          });
+  run(0.1);
+  daemon_->publish_status(now_);
+  deliver();
+  EXPECT_EQ(state, "ready");
+  EXPECT_EQ(detail, "waits for the GameController at UDP port " +
+                        std::to_string(daemon_->game_controller_port()));
+}
+
+TEST_F(GameControllerDaemonTest, ObeysTheFirstOfTwoUntilItIsSilent) {
+  const FakeGameController other;
+  GameControllerPacket packet;
+  packet.version = 20;
+  packet.state = 3;
+  const auto goals = [&](const FakeGameController& from, uint8_t score) {
+    packet.scores = {score, 0};
+    from.send(packet.bytes(), daemon_->game_controller_port());
+    daemon_->receive_game_controller();
+    run(0.1);
+    return states_.back().score[0];
+  };
+  EXPECT_EQ(goals(game_controller(), 1), 1);
+  EXPECT_EQ(goals(other, 7), 1);
+  EXPECT_EQ(goals(game_controller(), 2), 2);
+  std::string detail;
+  bus_.subscribe<naolcm::daemon_status_t>(
+      "DAEMON_STATUS", Bus::Queue::kLatest,
+      [&](const naolcm::daemon_status_t& status) { detail = status.detail; });
+  EXPECT_EQ(goals(other, 8), 2);
+  daemon_->publish_status(now_);
+  deliver();
+  EXPECT_EQ(detail, "playing, 2:0; ignores a second GameController at 127.0.0.1:" +
+                        std::to_string(other.port()));
+  now_ += 4;
+  EXPECT_EQ(goals(other, 3), 3);
+}
+
 TEST_F(GameControllerDaemonTest, FollowsItAndAnswersForEveryRobot) {
   const FakeGameController& controller = game_controller();
   GameControllerPacket packet;

@@ -205,6 +205,39 @@ describe("nao-foxglove", () => {
     client.close();
   });
 
+  /** HTTP status of the answer to a page of this origin that opens a WebSocket; 101: it is open. */
+  function statusOfPage(at, headers) {
+    return new Promise((resolve, reject) => {
+      const socket = new WebSocket(`ws://127.0.0.1:${at}`, ["foxglove.sdk.v1"], {headers});
+      socket.on("open", () => resolve(101));
+      socket.on("unexpected-response", (request, response) => resolve(response.statusCode));
+      socket.on("error", reject);
+    });
+  }
+
+  test("only pages of Foxglove, Lichtblick and this computer may look, under a name of this host", async () => {
+    for (const origin of ["https://app.foxglove.dev", "https://lichtblick-suite.github.io", "file://", "http://localhost:8080"]) {
+      assert.equal(await statusOfPage(port, {Origin: origin}), 101, origin);
+    }
+    for (const origin of ["https://evil.example", "null", "https://app.foxglove.dev.evil.example"]) {
+      assert.equal(await statusOfPage(port, {Origin: origin}), 403, origin);
+    }
+    assert.equal(await statusOfPage(port, {Host: "localhost"}), 101);
+    assert.equal(await statusOfPage(port, {Host: "evil.example"}), 421);
+  });
+
+  test("with --allow-commands only pages of named sites may connect", async () => {
+    const listening = (program) => until("it listens", () => /ws:\/\/127\.0\.0\.1:(\d+)/.exec(program.log)?.[1]);
+    const closed = await listening(stack.run("nao-foxglove", ["--port", "0", "--allow-commands"], "closed"));
+    for (const origin of ["https://evil.example", "https://app.foxglove.dev", "http://localhost:8080", "file://"]) {
+      assert.equal(await statusOfPage(closed, {Origin: origin}), 403, origin);
+    }
+    const named = await listening(stack.run("nao-foxglove",
+        ["--port", "0", "--allow-commands", "--allow-origin", "https://app.foxglove.dev"], "named"));
+    assert.equal(await statusOfPage(named, {Origin: "https://app.foxglove.dev"}), 101);
+    assert.equal(await statusOfPage(named, {Origin: "http://localhost:8080"}), 403);
+  });
+
   test("with --allow-commands the protocol's own client walks the robot", async () => {
     const program = stack.run("nao-foxglove", ["--port", "0", "--allow-commands"], "open");
     const openPort = await until("it listens", () => /ws:\/\/127\.0\.0\.1:(\d+)/.exec(program.log)?.[1]);

@@ -125,6 +125,43 @@ TEST_F(GatewayPlay, EndsWithControlAndWithAnyStop) {
   EXPECT_TRUE(was_ended());
 }
 
+TEST_F(GatewayPlay, OnlyADeliberateReleaseLetsTheRobotPlayByItselfAgain) {
+  const auto num_releases = [this] {
+    return std::count_if(plays_.begin(), plays_.end(), [](const SentPlayCommand& each) {
+      return each.command.behavior == Behavior::kAuto;
+    });
+  };
+  naoremote::PlayState waiting;
+  waiting.set_reason_code(kWaitsForRelease);
+  naoremote::Request release;
+  release.mutable_release_control();
+  {
+    Client ana = connect_driver("Ana");
+    core_->robot().set_play_state(waiting);
+    // Silence, and a lost connection.
+    pass(20);
+    core_->closed(ana.id, "gone", now_);
+    pass(2);
+    EXPECT_EQ(num_releases(), 0);
+  }
+  Client ben = connect_driver("Ben");
+  ask(ben, release);
+  // Somebody else drives before the release is sent.
+  Client cleo = connect_driver("Cleo");
+  pass(2);
+  EXPECT_EQ(num_releases(), 0);
+  ask(cleo, release);
+  pass(2);
+  EXPECT_EQ(num_releases(), 3) << "three times: the bus may lose a message";
+  // A robot that does not play by itself is left alone.
+  core_->robot().set_play_state({});
+  plays_.clear();
+  take_control(cleo);
+  ask(cleo, release);
+  pass(2);
+  EXPECT_EQ(num_releases(), 0);
+}
+
 TEST_F(GatewayPlay, IsReplacedByAWalkWithoutAnEndOfItsOwn) {
   Client ana = begin();
   plays_.clear();

@@ -1,0 +1,41 @@
+#include "common/second_process.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <naolcm/daemon_status_t.hpp>
+#include <utility>
+
+#include "common/channels.h"
+#include "common/logger.h"
+
+namespace nao {
+namespace {
+
+/** Silence after which a program has ended, s: daemon_status_t. */
+constexpr double kSilence = 3;
+
+}  // namespace
+
+SecondProcess::SecondProcess(Bus& bus, const std::string& program, std::function<double()> clock)
+    : clock_(std::move(clock)) {
+  std::array<char, 256> own_host{};
+  (void)gethostname(own_host.data(), own_host.size() - 1);
+  bus.subscribe<naolcm::daemon_status_t>(
+      kDaemonStatusChannel, Bus::Queue::kAll,
+      [this, program, host = std::string(own_host.data())](const naolcm::daemon_status_t& status) {
+        const bool is_own = status.host == host && status.process_id == getpid();
+        if (status.program != program || is_own) return;
+        const bool is_new = describe().empty();
+        text_ = "a second " + program + " is on this bus: host " + status.host + ", process " +
+                std::to_string(status.process_id);
+        last_heard_ = clock_();
+        if (is_new) logger::error("{}; end one of them, or give it a bus of its own", text_);
+      });
+}
+
+std::string SecondProcess::describe() const {
+  return clock_() - last_heard_ < kSilence ? text_ : "";
+}
+
+}  // namespace nao
