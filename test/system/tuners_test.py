@@ -29,6 +29,8 @@ def has_open_mpi():
 
 
 class Tuners(unittest.TestCase):
+    get_up_result = None
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -47,14 +49,20 @@ class Tuners(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return self.files(name)
 
+    def get_up_of_one_thread(self):
+        """What all tests of GET_UP compare with; computed once."""
+        if Tuners.get_up_result is None:
+            Tuners.get_up_result = self.run_tuner(GET_UP, "1", "--jobs", "1")
+        return Tuners.get_up_result
+
     def test_get_up_motions_do_not_depend_on_the_number_of_threads(self):
-        one = self.run_tuner(GET_UP, "1", "--jobs", "1")
+        one = self.get_up_of_one_thread()
         for jobs in ("2", "3"):
             self.assertEqual(self.run_tuner(GET_UP, jobs, "--jobs", jobs), one)
 
     @unittest.skipUnless(has_open_mpi(), "without Open MPI")
     def test_get_up_motions_do_not_depend_on_the_number_of_processes(self):
-        threads = self.run_tuner(GET_UP, "threads")
+        threads = self.get_up_of_one_thread()
         for processes in ("1", "2"):
             self.assertEqual(self.run_tuner(GET_UP, processes, mpirun=["mpirun", "-n", processes]), threads)
         self.assertEqual(self.run_tuner(GET_UP, "both", "--jobs", "2", mpirun=["mpirun", "-n", "2"]), threads)
@@ -72,7 +80,7 @@ class Tuners(unittest.TestCase):
         self.assertIn("cannot read /no/such/file", done.stderr)
 
     def test_an_interrupted_search_goes_on_to_the_same_result(self):
-        whole = self.run_tuner(GET_UP, "whole")
+        whole = self.get_up_of_one_thread()
         with subprocess.Popen(self.command(GET_UP, "part"), stdout=subprocess.PIPE, text=True) as process:
             # The search runs, its handler is there: the first generation has been printed.
             first = process.stdout.readline()
