@@ -2,8 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
+#include <memory>
+#include <naolcm/daemon_status_t.hpp>
+#include <naolcm/image_t.hpp>
+#include <naolcm/joint_change_command_t.hpp>
+#include <naolcm/sensor_state_t.hpp>
 #include <naolcm/stop_command_t.hpp>
+#include <naolcm/vision_state_t.hpp>
+#include <naolcm/world_truth_t.hpp>
 #include <set>
 #include <vector>
 
@@ -34,6 +43,31 @@ TEST(MessageTypes, EveryLcmFileHasATypeWithItsOwnFingerprint) {
   }
   EXPECT_GT(num_files, 0u);
   EXPECT_EQ(fingerprints.size(), num_files);
+}
+
+/** Of a message in used memory, none of whose fields is set. */
+template <class Message>
+std::vector<uint8_t> encode_without_setting_a_field() {
+  alignas(Message) std::array<uint8_t, sizeof(Message)> memory;
+  memory.fill(0x3f);
+  auto* message = new (memory.data()) Message;
+  std::vector<uint8_t> bytes(message->getEncodedSize());
+  message->encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  std::destroy_at(message);
+  return bytes;
+}
+
+template <class Message>
+class MessageFields : public testing::Test {};
+using Messages =
+    testing::Types<naolcm::daemon_status_t, naolcm::image_t, naolcm::joint_change_command_t,
+                   naolcm::sensor_state_t, naolcm::stop_command_t, naolcm::vision_state_t,
+                   naolcm::world_truth_t>;
+TYPED_TEST_SUITE(MessageFields, Messages);
+
+TYPED_TEST(MessageFields, SendNothingOfTheMemoryWhenTheyAreNotSet) {
+  const auto bytes = encode_without_setting_a_field<TypeParam>();
+  EXPECT_EQ(std::count(bytes.begin() + 8, bytes.end(), 0x3f), 0);
 }
 
 TEST(MessageTypes, FindsTheTypeOfAMessage) {
