@@ -10,6 +10,7 @@ import {TiltSensor} from "./controls/tilt_sensor";
 import {WalkSender} from "./controls/walk_sender";
 import {exposeAutomation} from "./automation";
 import {el} from "./dom";
+import {listenToLeaving} from "./leaving";
 import {Lobby} from "./lobby";
 import {MatchEvents} from "./match/match_events";
 import {Messages} from "./messages";
@@ -113,13 +114,21 @@ export class App {
     this.stage.onFrame = (dt) => this.frame(dt);
     this.stage.orbit.isGliding = !matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.view = new RobotView(this.store, this.stage);
-    this.held = new HeldControls(this.store, this.walk, this.jointDriver, (button) => this.pressed(button));
+    this.held = new HeldControls(this.store, this.walk, this.jointDriver, {
+      pressed: (button) => this.pressed(button),
+      unknown: (name) => this.messages.show("info", say("pad.unknown", {name})),
+      silent: () => this.messages.show("bad", say("pad.silent")),
+    });
     this.teach = new Teach(this.store, this.commander, this.messages, this.view, storage(), () => this.stop());
     attachGestures(this.stage, (x, y) => this.tapped(x, y), (x, y) => this.teach.grab(x, y));
     this.jointDriver.isInFront = () => this.stage.orbit.isInFront;
     this.walkHere = new WalkHere(this.stage, ({x, y, theta}) =>
         void this.commander.command(useCases.moveTo(x, y, theta)));
     this.commander.onRefusal = () => vibrate(kRefusalPattern);
+    // A button wins over what is held.
+    this.commander.onMotion = () => {
+      if (this.letGo()) this.messages.show("info", say("drive.released"));
+    };
     this.speech = new Speech(this.store, this.commander, this.stage, storage(), () => this.subscribe());
     this.connectionScreen = new ConnectionScreen(this.store, {
       connect: (form) => this.connect(form),
@@ -195,8 +204,11 @@ export class App {
     this.store.watch((state) => `${state.phase} ${state.isChoosingRobot} ${state.loading.done} ${state.loading.error}`,
                      () => this.chooseScreen());
     window.addEventListener("online", () => this.connection.retryNow());
-    document.addEventListener("visibilitychange", () => this.visibilityChanged());
-    window.addEventListener("pagehide", () => this.hidden());
+    listenToLeaving({
+      blurred: () => this.letGo(),
+      hidden: () => this.hidden(),
+      shown: () => this.shown(),
+    });
     this.openFromUrl();
     this.store.watch((state) => state.phase, (phase) => {
       if (phase === "idle" || phase === "waiting") void this.showNearby();
@@ -267,9 +279,8 @@ export class App {
                                                      vision: !isHidden}));
   }
 
-  private visibilityChanged(): void {
-    if (document.visibilityState === "hidden") this.hidden();
-    else this.connection.retryNow();
+  private shown(): void {
+    this.connection.retryNow();
     this.subscribe();
   }
 
@@ -388,17 +399,22 @@ export class App {
     saveSettings(storage(), this.settings);
   }
 
-  /** Nothing drives any more: the fingers may be anywhere. */
-  private letGo(): void {
+  /** Nothing drives any more: the fingers may be anywhere. @return true if something was held. */
+  private letGo(): boolean {
+    const wasHeld = this.walk.isHeld || this.jointDriver.isHeld;
+    this.held.release();
     this.controllerScreen.release();
     this.jointDriver.setStick(null);
+    this.teach.endDrag();
     this.walk.release();
+    return wasHeld;
   }
 
   /** Nobody sees the robot any more: it does nothing by itself either. */
   private hidden(): void {
     this.letGo();
     this.play.letGo();
+    this.subscribe();
   }
 
   private chooseScreen(): void {

@@ -53,6 +53,18 @@ describe("Commander", () => {
     expect(store.get().control?.isMine).toBe(true);
   });
 
+  it("lets a motion win over what is held, whichever button begins it", async () => {
+    const released: string[] = [];
+    commander.onMotion = () => released.push("held controls");
+    for (const motion of [useCases.goToPosture("Stand"), useCases.doAction("kick-left"), useCases.moveTo(1, 0, 0)]) {
+      await commander.command(motion);
+    }
+    expect(released).toHaveLength(3);
+    commander.stream(useCases.walkTurn(1, 0, 0));
+    commander.stream(useCases.changeJoints({group: "head", yaw: 0.1, pitch: 0, roll: 0}));
+    expect(released).toHaveLength(3);
+  });
+
   it("sends no command while the operator lets it watch only, and says so", async () => {
     store.set({control: create(ControlSchema, {isMuted: true})});
     expect(await commander.command(useCases.goToPosture("Stand"))).toBe(false);

@@ -21,9 +21,14 @@ const kComponentNames: Record<Notice_Component, "motion" | "robot" | "camera"> =
   [Notice_Component.CAMERA]: "camera",
 };
 
+/** Motions that end a walk; joints turn beside it. */
+const kEndsWalk: readonly UseCase["case"][] = ["goToPosture", "doAction", "moveTo", "play"];
+
 export class Commander {
   /** Called when a command is refused: the controller vibrates. */
   onRefusal: () => void = () => {};
+  /** Called when a motion is commanded that ends a walk: what is held must not begin another one. */
+  onMotion: () => void = () => {};
   private taking: Promise<boolean> | null = null;
 
   constructor(private readonly requester: Requester, private readonly store: Store,
@@ -31,6 +36,7 @@ export class Commander {
 
   /** Sends one command. @return true if the gateway passed it on. */
   async command(useCase: UseCase): Promise<boolean> {
+    if (kEndsWalk.includes(useCase.case)) this.onMotion();
     if (!(await this.haveControl())) return false;
     return this.report(await this.requester.request(useCase));
   }

@@ -54,7 +54,8 @@ test("the space bar stops while a key is held, and losing the focus releases it"
 
 /** Connects a simulated gamepad; null disconnects it. */
 const holdPad = (axes, pressed = []) => phone.page.evaluate(([axes, pressed]) => {
-  window.pad = axes && {mapping: "standard", axes,
+  // Its hardware reports, whatever the sticks do.
+  window.pad = axes && {index: 0, mapping: "standard", axes, connected: true, get timestamp() { return performance.now(); },
                         buttons: Array.from({length: 17}, (_, i) => ({pressed: pressed.includes(i)}))};
 }, [axes, pressed]);
 
@@ -87,10 +88,13 @@ test("tilting the phone walks, only while the pad is touched", async () => {
   await tilt(40);
   const pad = await phone.middleOf(".joystick-walk");
   await phone.fingers("touchStart", [{id: 1, x: pad.x, y: pad.y}]);
-  await tilt(15);
+  // A sensor reports many times a second.
+  await phone.page.evaluate(() => window.tilting = setInterval(() => window.dispatchEvent(
+      new DeviceOrientationEvent("deviceorientation", {alpha: 0, beta: 15, gamma: 0})), 50));
   await walks("a tilt walks ahead", (vx) => vx > 0.01);
-  await phone.fingers("touchEnd", []);
+  await phone.page.evaluate(() => clearInterval(window.tilting));
   await stops();
+  await phone.fingers("touchEnd", []);
   await phone.page.locator(".menu-button").tap();
   await phone.page.locator(".menu[open] [role=switch]").first().tap();
   await phone.page.locator(".menu[open] header .round").tap();

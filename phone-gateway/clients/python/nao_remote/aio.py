@@ -65,22 +65,28 @@ class Robot(RobotCore):
 
         @param vx, vy, wz  Forward, m/s; to the left, m/s; turning to the left, rad/s. All zero ends a walk.
         @param duration  s: returns when the robot stands again. None: returns at once, and the walk goes on until the next
-                         walk(), stop(), another motion or the end of the connection.
+                         walk(), stop(), another motion or the end of the connection. A walk() that is cancelled or fails
+                         ends the walk.
         """
         velocity = pb.WalkTurn(vx=vx, vy=vy, wz=wz)
         walk = self._walk if self._walk is not None and self._walk.is_running else None
         if vx == 0 and vy == 0 and wz == 0:
             return await self._end_walk(walk)
-        if walk is not None:
-            await walk.change(velocity)
-        else:
-            await self._ensure_control()
-            with self._new_command() as command:
-                walk = Walk(command, self._connection.request)
-                await walk.start(velocity)
-            self._walk = walk
-        if duration is not None:
-            await walk.end_after(duration)
+        try:
+            if walk is not None:
+                await walk.change(velocity)
+            else:
+                await self._ensure_control()
+                with self._new_command() as command:
+                    walk = Walk(command, self._connection.request)
+                    await walk.start(velocity)
+                self._walk = walk
+            if duration is not None:
+                await walk.end_after(duration)
+        except BaseException:
+            if walk is not None:
+                await walk.end_on_failure()
+            raise
         return walk.command
 
     async def move_to(self, x: float = 0.0, y: float = 0.0, theta: float = 0.0, *, wait: bool = True,
@@ -249,9 +255,9 @@ class Robot(RobotCore):
         """A stream of the newest states: `with robot.states() as states: async for state in states: ...`
 
         @param rate  A second, up to 60; streams share the highest rate.
-        @param timeout  Longest time between states, for reading, s; None: without end.
+        @param timeout  Longest time between states while there is a connection, for iterating, s; None: without end.
         """
-        stream = Stream[State]("state", 1, timeout, self._subscription.remove)
+        stream = Stream[State]("state", 1, timeout, self._subscription.remove, lambda: self._connection.is_interrupted)
         self._subscription.add_states(stream, rate)
         return stream
 
@@ -261,7 +267,7 @@ class Robot(RobotCore):
 
         @raise InvalidArgument  if a stream with another camera or size is open: a client has one at a time.
         """
-        stream = Stream[Image]("image", 1, timeout, self._subscription.remove)
+        stream = Stream[Image]("image", 1, timeout, self._subscription.remove, lambda: self._connection.is_interrupted)
         wanted = pb.ImageRequest(camera=camera, width=width, quality=quality)
         self._subscription.add_images(stream, rate, wanted)
         return stream

@@ -69,6 +69,8 @@ class LoopThread:
     def __init__(self) -> None:
         self._loop = asyncio.new_event_loop()
         self._is_closed = False
+        # A forked process has no copy of the thread.
+        self._process = os.getpid()
         # Of _is_closed: nothing is given to a loop that will not execute it. Reentrant, for __del__ may interrupt its holder.
         self._lock = threading.RLock()
         self._thread = threading.Thread(target=self._loop.run_forever, name="nao_remote", daemon=True)
@@ -76,6 +78,9 @@ class LoopThread:
 
     def call(self, coroutine: Coroutine[Any, Any, T]) -> T:
         """Executes a coroutine in the loop. @return its result. An interruption (Ctrl+C) cancels it."""
+        if self._is_forked:
+            coroutine.close()
+            raise Closed("this robot was connected before a fork, by another process; call connect() in this one")
         with self._lock:
             if self._is_closed or threading.current_thread() is self._thread:
                 coroutine.close()
@@ -101,9 +106,15 @@ class LoopThread:
 
     def post(self, function: Callable[[], None]) -> None:
         """Executes a function in the loop, without waiting; nothing if it is closed."""
+        if self._is_forked:
+            return
         with self._lock:
             if not self._is_closed:
                 self._loop.call_soon_threadsafe(function)
+
+    @property
+    def _is_forked(self) -> bool:
+        return os.getpid() != self._process
 
     def close(self) -> None:
         """Ends the loop; calls of other threads that still wait raise Closed."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import asyncio
 
-from nao_remote.errors import CommandFailed, CommandInterrupted, CommandRefused, NaoError, Timeout
+from nao_remote.errors import CommandFailed, CommandInterrupted, CommandRefused, NaoError
 from nao_remote.messages import CommandResult, CommandStatus
+from nao_remote.waiting import within
 
 _FAILURES: dict[CommandStatus, type[CommandFailed]] = {
     CommandStatus.REFUSED: CommandRefused,
@@ -36,10 +37,7 @@ class Command:
         @raise ConnectionLost  if the connection was lost meanwhile: the result is unknown then.
         @raise Timeout
         """
-        try:
-            return await asyncio.wait_for(asyncio.shield(self._end), timeout)
-        except asyncio.TimeoutError as error:
-            raise Timeout(f"the command has not ended within {timeout:g} s") from error
+        return await within(timeout, asyncio.shield(self._end), "the command has not ended within {timeout}")
 
     def handle(self, result: CommandResult) -> None:
         if self._end.done() or result.status == CommandStatus.ACCEPTED:

@@ -57,6 +57,11 @@ class Connection:
         return self._session is not None
 
     @property
+    def is_interrupted(self) -> bool:
+        """True while nothing is heard of the gateway, also before that counts as a lost connection."""
+        return self._session is None or self._session.is_silent
+
+    @property
     def end(self) -> Closed | None:
         """Why it ended for good; None before."""
         return self._error if isinstance(self._error, Closed) else None

@@ -9,17 +9,19 @@ from typing import Any, AsyncIterator, Iterator
 from nao_remote import remote_pb2 as pb
 from nao_remote.command import Command
 from nao_remote.connection import Connection
-from nao_remote.errors import ConnectionLost
+from nao_remote.errors import ConnectionLost, Timeout
 from nao_remote.messages import (CommandResult, CommandStatus, Connected, Control, ControlChanged, Disconnected, Event, Image,
                                  Pong, RobotDescription, RobotEntry, RobotsChanged, State, event_from_protocol)
 from nao_remote.streams import Stream
 from nao_remote.subscription import Subscription
-from nao_remote.walking import Walk
+from nao_remote.walking import Walk, despite_failure
 
 # Events that are kept for a reader that is late. Chosen: a minute of busy driving.
 EVENT_CAPACITY = 256
 # Use cases during which a walk goes on.
 BESIDE_A_WALK = {"change_joints", "say", "set_lights"}
+# Those that walk by themselves: they end when the one who waits for them gives up.
+WALKS = {"move_to", "play"}
 
 
 class RobotCore:
@@ -149,7 +151,8 @@ class RobotCore:
 
     def events(self, timeout: float | None = None) -> Stream[Event]:
         """A stream of what happens from now on; the last 256 are kept. @param timeout  s, for reading; None: no end."""
-        stream = Stream[Event]("event", EVENT_CAPACITY, timeout, self._events.discard)
+        stream = Stream[Event]("event", EVENT_CAPACITY, timeout, self._events.discard,
+                               lambda: self._connection.is_interrupted)
         self._events.add(stream)
         if self._connection.end is not None:
             stream.fail(self._connection.end)
@@ -180,7 +183,12 @@ class RobotCore:
         with self._new_command() as command:
             await self._connection.request(command.request_id, **use_case)
         if wait:
-            await command.wait(timeout)
+            try:
+                await command.wait(timeout)
+            except (asyncio.CancelledError, Timeout):
+                if use_case.keys() & WALKS:
+                    await despite_failure(self._connection.request(stop=pb.Stop()))
+                raise
         return command
 
     def _handle_connected(self, connected: pb.Connected) -> None:

@@ -8,8 +8,9 @@ from typing import Any, Awaitable, Callable, Iterator
 from google.protobuf.message import DecodeError
 
 from nao_remote import remote_pb2 as pb
-from nao_remote.errors import ConnectionLost, Timeout, refusal
+from nao_remote.errors import ConnectionLost, refusal
 from nao_remote.transport import Transport
+from nao_remote.waiting import within
 
 PROTOCOL_VERSION = 1
 
@@ -30,7 +31,8 @@ class Session:
         self._request_ids = request_ids
         self._handle = handle
         self._responses: dict[int, asyncio.Future[pb.Response]] = {}
-        self._now = asyncio.get_running_loop().time
+        self._loop = asyncio.get_running_loop()
+        self._now = self._loop.time
         self._last_sent = self._last_received = self._now()
         self._closing: ConnectionLost | None = None
         # Besides cancelling tasks: until Python 3.12 wait_for() may swallow a cancellation.
@@ -62,6 +64,11 @@ class Session:
         self._fail(ConnectionLost("the connection was closed"))
         await self._transport.close()
 
+    @property
+    def is_silent(self) -> bool:
+        """True if the answer to a ping is late."""
+        return self._now() - self._last_received > 2 * PING_PERIOD
+
     def next_request_id(self) -> int:
         return next(self._request_ids)
 
@@ -71,14 +78,15 @@ class Session:
         @param use_case  One field of Request's `use_case`: `stop=pb.Stop()`.
         @raise Refused  if the response is an error. @raise ConnectionLost. @raise Timeout
         """
+        if asyncio.get_running_loop() is not self._loop:
+            raise RuntimeError("this robot was connected in another event loop or, before a fork, in another process; "
+                               "call connect() in this one")
         number = self.next_request_id() if request_id is None else request_id
         message = pb.Request(request_id=number, **use_case).SerializeToString()
-        response: asyncio.Future[pb.Response] = asyncio.get_running_loop().create_future()
+        response: asyncio.Future[pb.Response] = self._loop.create_future()
         self._responses[number] = response
         try:
-            answer = await asyncio.wait_for(self._exchange(message, response), timeout)
-        except asyncio.TimeoutError as error:
-            raise Timeout(f"no answer within {timeout:g} s") from error
+            answer = await within(timeout, self._exchange(message, response), "no answer within {timeout}")
         finally:
             self._responses.pop(number, None)
             response.cancel()

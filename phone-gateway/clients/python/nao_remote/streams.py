@@ -7,6 +7,7 @@ from collections import deque
 from typing import AsyncIterator, Callable, Deque, Generic, TypeVar
 
 from nao_remote.errors import Timeout
+from nao_remote.waiting import within
 
 T = TypeVar("T")
 
@@ -18,12 +19,15 @@ class Stream(AsyncIterator[T], Generic[T]):
     sending: `with robot.states() as states:`.
     """
 
-    def __init__(self, what: str, capacity: int, timeout: float | None, on_close: Callable[[Stream[T]], None]) -> None:
-        """@param what  What it waits for, for the error message. @param timeout  s; None: without end."""
+    def __init__(self, what: str, capacity: int, timeout: float | None, on_close: Callable[[Stream[T]], None],
+                 is_interrupted: Callable[[], bool]) -> None:
+        """@param what  What it waits for, for the error message. @param timeout  s; None: without end.
+        @param is_interrupted  True during an outage of the connection, which iterating outlasts."""
         self._what = what
         self._values: Deque[T] = deque(maxlen=capacity)
         self._timeout = timeout
         self._on_close = on_close
+        self._is_interrupted = is_interrupted
         self._changed = asyncio.Event()
         self._error: Exception | None = None
         # Values that were replaced before they were read.
@@ -33,22 +37,25 @@ class Stream(AsyncIterator[T], Generic[T]):
         return self
 
     async def __anext__(self) -> T:
-        """@raise Timeout  if no value arrives in time. @raise Closed  if the client has given up connecting.
+        """@raise Timeout  if no value arrives in time although there is a connection.
+        @raise Closed  if the client has given up connecting.
         @raise StopAsyncIteration  after close()."""
         return await self.read()
 
     async def read(self) -> T:
         """As iterating."""
-        return await self.next(self._timeout)
+        while True:
+            try:
+                return await self.next(self._timeout)
+            except Timeout:
+                if not self._is_interrupted():
+                    raise
 
     async def next(self, timeout: float | None) -> T:
-        """As __anext__, with another timeout."""
+        """As __anext__, with another timeout, which holds during an outage, too."""
         if not self._values and self._error is None:
             self._changed.clear()
-            try:
-                await asyncio.wait_for(self._changed.wait(), timeout)
-            except asyncio.TimeoutError as error:
-                raise Timeout(f"no {self._what} within {timeout:g} s") from error
+            await within(timeout, self._changed.wait(), f"no {self._what} within {{timeout}}")
         if self._values:
             return self._values.popleft()
         assert self._error is not None

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Any, Awaitable, Callable
+from contextlib import suppress
+from typing import Any, Awaitable, Callable, Coroutine
 
 from nao_remote import remote_pb2 as pb
 from nao_remote.command import Command
@@ -45,6 +46,11 @@ class Walk:
         self.abandon()
         await self._request(walk_turn=pb.WalkTurn())
 
+    async def end_on_failure(self) -> None:
+        """Ends it where its caller is cancelled or has failed, whose error is the one to be raised."""
+        if not self.command.is_done:
+            await despite_failure(self.end())
+
     def abandon(self) -> None:
         """Sends no more velocities: another command has replaced the walk."""
         self._is_abandoned = True
@@ -53,12 +59,11 @@ class Walk:
 
     async def end_after(self, duration: float) -> None:
         """Ends it after a time, s, and returns when the robot stands. @raise CommandFailed  if it ends earlier."""
-        try:
+        with suppress(Timeout):
             await self.command.wait(duration)
-        except Timeout:
-            if self.is_running:
-                await self.end()
-            await self.command.wait()
+        if self.is_running:
+            await self.end()
+        await self.command.wait()
 
     async def _repeat(self) -> None:
         while True:
@@ -71,3 +76,9 @@ class Walk:
             except NaoError as error:
                 self.command.fail(error)
                 return
+
+
+async def despite_failure(ending: Coroutine[Any, Any, Any]) -> None:
+    """Executes what ends a motion for a caller that is cancelled or has failed, also if it is cancelled again."""
+    with suppress(NaoError):
+        await asyncio.shield(asyncio.ensure_future(ending))

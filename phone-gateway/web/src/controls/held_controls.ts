@@ -1,48 +1,55 @@
 /** Keyboard and gamepad: what is held walks the robot, or turns the joint that is selected. */
 import type {Store} from "../store";
 import {Gamepads, listenToKeys} from "./held_keys";
+import type {PadListener} from "./held_keys";
 import type {JointDriver} from "./joint_driver";
-import {driveFromKeys, stickFromKeys, sticksFromPad} from "./keys";
-import type {PadButton} from "./keys";
-import {driveFromSticks} from "./stick";
+import {driveFromKeys, isDeflected, stickFromKeys} from "./keys";
+import {addDrives, driveFromSticks} from "./stick";
 import type {WalkSender} from "./walk_sender";
 
 export class HeldControls {
-  private readonly gamepads = new Gamepads();
+  private readonly gamepads: Gamepads;
   private isPadHeld = false;
+  /** The sticks of all gamepads must come to rest before they count again. */
+  private mustRest = false;
+  private releaseKeys: () => void = () => {};
 
   constructor(private readonly store: Store, private readonly walk: WalkSender, private readonly joints: JointDriver,
-              private readonly pressed: (button: PadButton) => void) {}
+              private readonly listener: PadListener, now?: () => number) {
+    this.gamepads = new Gamepads(listener, now);
+  }
 
   /** @param isActive  whether keys count at the moment. */
   listen(isActive: () => boolean): void {
-    listenToKeys(isActive, {
+    this.releaseKeys = listenToKeys(isActive, {
       heldChanged: (held, isSlow) => this.keysChanged(held, isSlow),
-      pressed: this.pressed,
+      pressed: (button) => this.listener.pressed(button),
     });
   }
 
-  /** Reads the gamepad; once a frame. */
+  /** What is held counts no more: keys until they are pressed anew, gamepads until their sticks have been at rest. */
+  release(): void {
+    this.releaseKeys();
+    this.mustRest = true;
+  }
+
+  /** Reads the gamepads; once a frame. */
   poll(): void {
-    // One that was unplugged is at rest: what it held must not go on.
-    this.padMoved(this.gamepads.poll(this.pressed) ?? []);
+    const held = this.gamepads.poll().filter(isDeflected);
+    this.mustRest &&= held.length > 0;
+    const isHeld = held.length > 0 && !this.mustRest;
+    const {isJointsMode} = this.store.get();
+    if (isHeld || this.isPadHeld) {
+      this.walk.set("gamepad", isHeld && !isJointsMode
+          ? addDrives(held.map(({walk, turn}) => driveFromSticks(walk, turn))) : null);
+      if (isJointsMode) this.joints.setStick(isHeld ? held[0]!.walk : null);
+    }
+    this.isPadHeld = isHeld;
   }
 
   private keysChanged(held: ReadonlySet<string>, isSlow: boolean): void {
     const {isJointsMode} = this.store.get();
     this.joints.setStick(isJointsMode ? stickFromKeys(held, isSlow) : null);
     this.walk.set("keys", isJointsMode ? null : driveFromKeys(held, isSlow));
-  }
-
-  private padMoved(axes: readonly number[]): void {
-    const {walk, turn} = sticksFromPad(axes);
-    const drive = driveFromSticks(walk, turn);
-    const isHeld = drive.x !== 0 || drive.y !== 0 || drive.theta !== 0;
-    const {isJointsMode} = this.store.get();
-    if (isHeld || this.isPadHeld) {
-      this.walk.set("gamepad", isHeld && !isJointsMode ? drive : null);
-      if (isJointsMode) this.joints.setStick(isHeld ? walk : null);
-    }
-    this.isPadHeld = isHeld;
   }
 }

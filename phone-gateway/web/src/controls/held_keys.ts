@@ -1,6 +1,7 @@
 /** Keyboard and gamepad of this page; what they mean is in keys.ts. */
-import {isDriveKey, pressedButtons} from "./keys";
-import type {PadButton} from "./keys";
+import {isDeflected, isDriveKey, pressedButtons, sticksFromPad} from "./keys";
+import type {PadButton, PadSticks} from "./keys";
+import {kSilenceMs} from "./walk_sender";
 
 export interface KeyActions {
   /** Drive keys went down or up. */
@@ -8,8 +9,9 @@ export interface KeyActions {
   pressed(button: PadButton): void;
 }
 
-/** Listens on the page; keys meant for a form or a dialog are left to it. */
-export function listenToKeys(isActive: () => boolean, actions: KeyActions): void {
+/** Listens on the page; keys meant for a form or a dialog are left to it.
+ * @return a function that releases all keys: each must be pressed anew. */
+export function listenToKeys(isActive: () => boolean, actions: KeyActions): () => void {
   const held = new Set<string>();
   const notify = (event: KeyboardEvent) => actions.heldChanged(held, event.shiftKey);
   document.addEventListener("keydown", (event) => {
@@ -29,10 +31,7 @@ export function listenToKeys(isActive: () => boolean, actions: KeyActions): void
   document.addEventListener("keyup", (event) => {
     if (held.delete(event.code) || event.key === "Shift") notify(event);
   });
-  window.addEventListener("blur", () => {
-    held.clear();
-    actions.heldChanged(held, false);
-  });
+  return () => held.clear();
 }
 
 function isForAnother({target, code}: KeyboardEvent): boolean {
@@ -41,20 +40,60 @@ function isForAnother({target, code}: KeyboardEvent): boolean {
   return code === "Space" && target.closest("button") !== null;
 }
 
-/** Looks at the first gamepad; call it once a frame. */
-export class Gamepads {
-  private readonly before: boolean[] = [];
-  private readonly axes: number[] = [];
-  private readonly buttons: boolean[] = [];
+/** What the app remembers of a gamepad. */
+interface SeenPad {
+  timestamp: number;
+  /** When its timestamp was another one last, ms. */
+  aliveMs: number;
+  readonly before: boolean[];
+}
 
-  /** @param pressed  called for each button that went down.
-   * @return the sticks' axes, or null where there is no gamepad; valid until the next call. */
-  poll(pressed: (button: PadButton) => void): readonly number[] | null {
-    const pad = navigator.getGamepads?.().find((one) => one?.mapping === "standard");
-    if (!pad) return null;
-    for (let i = 0; i < pad.buttons.length; i++) this.buttons[i] = pad.buttons[i]!.pressed;
-    for (const button of pressedButtons(this.buttons, this.before)) pressed(button);
-    for (let i = 0; i < pad.axes.length; i++) this.axes[i] = pad.axes[i]!;
-    return this.axes;
+export interface PadListener {
+  pressed(button: PadButton): void;
+  /** A gamepad is there whose layout the browser does not know. */
+  unknown(name: string): void;
+  /** A gamepad tells nothing new although its sticks are held. */
+  silent(): void;
+}
+
+/** Looks at the gamepads; call it once a frame. */
+export class Gamepads {
+  private readonly seen = new Map<number, SeenPad>();
+
+  /** @param now  ms. */
+  constructor(private readonly listener: PadListener, private readonly now: () => number = () => performance.now()) {}
+
+  /** @return the position of the sticks of each gamepad that is there and shows life: a browser goes on to report the last
+   * axes of one that is out of range. */
+  poll(): PadSticks[] {
+    const held: PadSticks[] = [];
+    const pads = (navigator.getGamepads?.() ?? []).filter((pad) => pad !== null);
+    for (const index of this.seen.keys()) {
+      if (!pads.some((pad) => pad.index === index && pad.connected)) this.seen.delete(index);
+    }
+    for (const pad of pads) {
+      if (!pad.connected) continue;
+      const seen = this.look(pad);
+      if (pad.mapping !== "standard") continue;
+      for (const button of pressedButtons(pad.buttons.map(({pressed}) => pressed), seen.before)) this.listener.pressed(button);
+      const sticks = sticksFromPad(pad.axes);
+      if (this.now() - seen.aliveMs <= kSilenceMs) held.push(sticks);
+      else if (isDeflected(sticks)) this.listener.silent();
+    }
+    return held;
+  }
+
+  private look(pad: Gamepad): SeenPad {
+    let seen = this.seen.get(pad.index);
+    if (!seen) {
+      seen = {timestamp: pad.timestamp, aliveMs: this.now(), before: []};
+      this.seen.set(pad.index, seen);
+      if (pad.mapping !== "standard") this.listener.unknown(pad.id);
+    }
+    if (pad.timestamp !== seen.timestamp) {
+      seen.timestamp = pad.timestamp;
+      seen.aliveMs = this.now();
+    }
+    return seen;
   }
 }

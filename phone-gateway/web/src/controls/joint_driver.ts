@@ -2,6 +2,7 @@
 import type {JointGroup} from "../protocol/generated/remote_pb";
 import type {JointChange} from "../protocol/use_cases";
 import {changeFromStick, isNoChange} from "./joint_change";
+import {Repeater} from "./repeater";
 import type {StickValue} from "./stick";
 
 export const kJointPeriodMs = 50;
@@ -12,21 +13,20 @@ export class JointDriver {
   isMirrored = false;
   isInFront: () => boolean = () => false;
   private stick: StickValue | null = null;
-  private timer: ReturnType<typeof setInterval> | undefined;
+  private readonly repeater = new Repeater(() => this.step(), kJointPeriodMs);
 
   /** @param send  takes a change to the robot. */
   constructor(private readonly send: (change: JointChange) => void) {}
 
   /** Joystick position; null: released. The first deflection is sent at once. */
   setStick(stick: StickValue | null): void {
-    const wasPushed = isPushed(this.stick);
     this.stick = stick;
-    if (isPushed(stick) && !wasPushed) {
-      this.step();
-      this.timer = setInterval(() => this.step(), kJointPeriodMs);
-    } else if (!isPushed(stick) && wasPushed) {
-      clearInterval(this.timer);
-    }
+    if (isPushed(stick)) this.repeater.start();
+    else this.repeater.stop();
+  }
+
+  get isHeld(): boolean {
+    return isPushed(this.stick);
   }
 
   /** Turns about one axis by `change` rad at once. */

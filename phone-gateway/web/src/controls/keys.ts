@@ -45,10 +45,23 @@ const kPadButtons: Record<number, PadButton> = {
   0: "ready", 1: "stop", 2: "crouch", 3: "stand", 4: "kick-left", 5: "kick-right", 9: "lock",
 };
 
+/** Dead zone of a gamepad's sticks, whose middle drifts with their age. Source: XINPUT_GAMEPAD_RIGHT_THUMB_DEADZONE,
+ * 8689 of 32767. */
+const kPadDeadZone = 0.265;
+
+export interface PadSticks {
+  walk: StickValue;
+  turn: StickValue;
+}
+
+export function isDeflected({walk, turn}: PadSticks): boolean {
+  return walk.right !== 0 || walk.up !== 0 || turn.right !== 0;
+}
+
 /** Left and right stick of a gamepad with the standard layout (axes: right and down, -1 to 1). */
-export function sticksFromPad(axes: readonly number[]): {walk: StickValue; turn: StickValue} {
+export function sticksFromPad(axes: readonly number[]): PadSticks {
   const [x = 0, y = 0, turn = 0] = axes;
-  return {walk: stickValue(x, y, 1), turn: stickValue(turn, 0, 1)};
+  return {walk: stickValue(x, y, 1, kPadDeadZone), turn: stickValue(turn, 0, 1, kPadDeadZone)};
 }
 
 /** Buttons that went down since the last look. @param before  is brought up to date. */

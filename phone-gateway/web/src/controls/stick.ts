@@ -9,13 +9,13 @@ export interface StickValue {
   up: number;
 }
 
-/** @param dx,dy  px from the pad's centre, y down as on screens. @param radius  px.
+/** @param dx,dy  px from the pad's centre, y down as on screens. @param radius  px. @param deadZone  fraction of it.
  * @return fractions with the dead zone removed, so that they begin at 0 at its edge; finer near the
  * middle than at the rim (square law), for slow steps. */
-export function stickValue(dx: number, dy: number, radius: number): StickValue {
+export function stickValue(dx: number, dy: number, radius: number, deadZone = kDeadZone): StickValue {
   const reach = Math.hypot(dx, dy) / radius;
-  if (!(reach > kDeadZone)) return {right: 0, up: 0};
-  const fraction = (Math.min(reach, 1) - kDeadZone) / (1 - kDeadZone);
+  if (!(reach > deadZone)) return {right: 0, up: 0};
+  const fraction = (Math.min(reach, 1) - deadZone) / (1 - deadZone);
   const strength = 0.35 * fraction + 0.65 * fraction * fraction;
   const length = Math.hypot(dx, dy);
   return {right: strength * dx / length, up: strength * -dy / length};

@@ -33,7 +33,13 @@ export class TiltSensor {
 
   private readonly changed = ({beta, gamma}: DeviceOrientationEvent): void => {
     if (beta === null || gamma === null) return;
-    this.tilt = tiltFromAngles(beta, gamma, screen.orientation?.angle ?? 0);
+    this.tilt = tiltFromAngles(beta, gamma, pageAngle());
     this.onChange(this.tilt);
   };
+}
+
+/** Angle by which the page is turned against the phone's natural position, degrees. iOS before 16.4 has no
+ * screen.orientation. */
+export function pageAngle(): number {
+  return screen.orientation?.angle ?? window.orientation ?? 0;
 }

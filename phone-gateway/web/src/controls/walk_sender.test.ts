@@ -1,6 +1,7 @@
+import {readFileSync} from "node:fs";
 import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
 import type {Drive} from "./stick";
-import {kWalkPeriodMs, WalkSender} from "./walk_sender";
+import {kWalkPeriodMs, kWalkTimeoutMs, WalkSender} from "./walk_sender";
 
 const ahead = {x: 1, y: 0, theta: 0};
 const zero = {x: 0, y: 0, theta: 0};
@@ -24,6 +25,11 @@ describe("WalkSender", () => {
     vi.advanceTimersByTime(1000);
     expect(kWalkPeriodMs).toBeLessThanOrEqual(200);
     expect(sent.length).toBe(1 + 1000 / kWalkPeriodMs);
+  });
+
+  it("knows the time-out of the gateway", () => {
+    const limits = readFileSync(new URL("../../../server/core/gateway_limits.h", import.meta.url), "utf8");
+    expect(limits).toContain(`double walk_timeout = ${kWalkTimeoutMs / 1000};`);
   });
 
   it("ends the walk at once, and once, when released", () => {

@@ -1,58 +1,73 @@
 /** Repeats the walk command while a control is held, and ends it once when the last one is released. */
+import {Repeater} from "./repeater";
 import type {Drive} from "./stick";
 import {addDrives} from "./stick";
 
-/** Twice as often as the gateway needs it, so that one lost frame is not a stumble; ms. */
-export const kWalkPeriodMs = 100;
+/** Of the gateway, which ends a walk so long after its last command; ms. */
+export const kWalkTimeoutMs = 500;
+/** Of five commands four may be lost; ms. */
+export const kWalkPeriodMs = kWalkTimeoutMs / 5;
 
 /** A changed command is sent at once, but not more often than this; ms. */
 const kMinPeriodMs = 30;
 
+/** A gamepad or a sensor that tells nothing new for so long is not held any more; ms. Chosen: a hand trembles, and moves
+ * every axis within a fraction of it. */
+export const kSilenceMs = 1000;
+
 export type DriveSource = "sticks" | "keys" | "gamepad" | "tilt";
 
+/** Sources of which the browser tells no end, when they go out of range or stop. */
+const kMustShowLife: readonly DriveSource[] = ["gamepad", "tilt"];
+
 export class WalkSender {
-  private readonly drives = new Map<DriveSource, Drive>();
-  private timer: ReturnType<typeof setInterval> | undefined;
+  private readonly drives = new Map<DriveSource, {drive: Drive; setMs: number}>();
+  private readonly repeater = new Repeater(() => this.send(), kWalkPeriodMs);
   private lastSentMs = 0;
 
   /** @param publish  takes the walk command to the robot. @param now  ms. */
   constructor(private readonly publish: (drive: Drive) => void,
               private readonly now: () => number = () => performance.now()) {}
 
-  /** Sets the command of a source; null when it is released. A held source at zero keeps the walk alive. */
+  /** Sets the command of a source; null when it is released. A held source at zero keeps the walk alive. A gamepad and a
+   * sensor are set again while they are held, however little changes. */
   set(source: DriveSource, drive: Drive | null): void {
-    const wasDriving = this.drives.size > 0;
-    if (drive) this.drives.set(source, drive);
-    else this.drives.delete(source);
-    if (this.drives.size > 0 && !wasDriving) this.begin();
-    else if (this.drives.size > 0 && this.now() - this.lastSentMs >= kMinPeriodMs) this.send();
-    if (this.drives.size === 0 && wasDriving) this.end();
+    const wasHeld = this.isHeld;
+    if (drive) this.drives.set(source, {drive, setMs: this.now()});
+    else if (!this.drives.delete(source)) return;
+    if (!this.isHeld) this.end();
+    else if (!wasHeld) this.repeater.start();
+    else if (this.now() - this.lastSentMs >= kMinPeriodMs) this.send();
   }
 
-  /** Releases all sources at once: page hidden, link lost, stop pressed. */
+  /** Releases all sources at once: page hidden or left, link lost, stop pressed, another motion begins. */
   release(): void {
-    if (this.drives.size === 0) return;
+    if (!this.isHeld) return;
     this.drives.clear();
     this.end();
   }
 
-  /** Sum of all held sources. */
-  get drive(): Drive {
-    return addDrives([...this.drives.values()]);
+  get isHeld(): boolean {
+    return this.drives.size > 0;
   }
 
-  private begin(): void {
-    this.send();
-    this.timer = setInterval(() => this.send(), kWalkPeriodMs);
+  /** Sum of all held sources. */
+  get drive(): Drive {
+    return addDrives([...this.drives.values()].map(({drive}) => drive));
   }
 
   private end(): void {
-    clearInterval(this.timer);
+    this.repeater.stop();
     this.send();
   }
 
   private send(): void {
-    this.lastSentMs = this.now();
+    const now = this.now();
+    for (const source of kMustShowLife) {
+      if (now - (this.drives.get(source)?.setMs ?? now) > kSilenceMs) this.drives.delete(source);
+    }
+    if (!this.isHeld) this.repeater.stop();
+    this.lastSentMs = now;
     this.publish(this.drive);
   }
 }

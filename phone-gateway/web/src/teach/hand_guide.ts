@@ -1,5 +1,6 @@
 /** Moves limbs by hand: makes them limp or stiff, and pulls them in a simulation. */
 import type {Commander} from "../commander";
+import {Repeater} from "../controls/repeater";
 import * as useCases from "../protocol/use_cases";
 import type {Point} from "../protocol/use_cases";
 import type {Store} from "../store";
@@ -10,7 +11,7 @@ export const kDragPeriodMs = 50;
 export const kStiffnessMs = 600;
 
 export class HandGuide {
-  private timer: ReturnType<typeof setInterval> | undefined;
+  private readonly repeater = new Repeater(() => this.send(), kDragPeriodMs);
   private pull: {link: string; point: Point; target: Point} | null = null;
 
   constructor(private readonly store: Store, private readonly commander: Commander) {}
@@ -29,15 +30,12 @@ export class HandGuide {
   /** Pulls a link until endDrag(). @param point  fixed to the link, in its frame, m.
    * @param target  where it goes, in the torso's frame, m. */
   drag(link: string, point: Point, target: Point): void {
-    const isFirst = this.pull === null;
     this.pull = {link, point, target};
-    if (!isFirst) return;
-    this.send();
-    this.timer = setInterval(() => this.send(), kDragPeriodMs);
+    this.repeater.start();
   }
 
   endDrag(): void {
-    clearInterval(this.timer);
+    this.repeater.stop();
     this.pull = null;
   }
 

@@ -78,8 +78,13 @@ export class Teach {
 
   /** Stop was pressed: what is being checked is not played. */
   cancel(): void {
-    this.guide.endDrag();
+    this.endDrag();
     this.host.cancel();
+  }
+
+  /** Pulls no limb any more. */
+  endDrag(): void {
+    this.guide.endDrag();
   }
 
   /** A finger on a ball of a relaxed limb of a simulated robot pulls it; null for any other.

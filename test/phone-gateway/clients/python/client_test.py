@@ -4,6 +4,11 @@
 import asyncio
 import gc
 import inspect
+import os
+import select
+import signal
+import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -16,7 +21,7 @@ from unittest import mock
 import built_package  # noqa: F401
 import nao_remote
 from fake_gateway import FakeGateway, description, refuse, result, state
-from nao_remote import aio, connection, session
+from nao_remote import aio, connection, session, walking
 from nao_remote import remote_pb2 as pb
 from programs import DEADLINE, wait_until
 
@@ -487,6 +492,129 @@ class Walking(WithGateway):
             walk.wait(DEADLINE)
 
 
+class WaysOutOfAMotion(WithGateway):
+    """Whoever waits for a motion that walks may be cancelled, interrupted or run out of time: the robot then stands."""
+
+    WAYS_OUT = ("wait_for", "cancel", "cancel twice")
+
+    def assert_ends_with_zero(self):
+        wait_until(lambda: self.gateway.received("walk_turn")[-1] == pb.WalkTurn(), "velocity zero")
+        # Answered requests later there is still no other one.
+        count = len(self.gateway.received("walk_turn"))
+        with nao_remote.connect(self.gateway.address) as other:
+            for _ in range(5):
+                time.sleep(walking.PERIOD)
+                other.ping()
+        self.assertEqual(len(self.gateway.received("walk_turn")), count)
+
+    async def leave(self, way_out, motion, is_begun):
+        if way_out == "wait_for":
+            with self.assertRaises(asyncio.TimeoutError):
+                await asyncio.wait_for(motion, 0.3)
+            return
+        task = asyncio.ensure_future(motion)
+        while not is_begun():
+            await asyncio.sleep(0.01)
+        task.cancel()
+        if way_out == "cancel twice":
+            await asyncio.sleep(0)
+            task.cancel()
+        with self.assertRaises(asyncio.CancelledError):
+            await task
+
+    def test_every_way_out_of_a_walk_ends_in_zero_velocity(self):
+        walks = {"of a duration": lambda robot: robot.walk(0.2, duration=100),
+                 "that goes on": lambda robot: self.change(robot)}
+        for way_out in self.WAYS_OUT:
+            for name, walk in walks.items():
+                with self.subTest(way_out=way_out, walk=name):
+                    async def drive():
+                        async with await aio.connect(self.gateway.address) as robot:
+                            self.gateway.requests.clear()
+                            await self.leave(way_out, walk(robot), lambda: self.gateway.received("walk_turn"))
+                            await robot.ping()
+                            await asyncio.to_thread(self.assert_ends_with_zero)
+                    asyncio.run(drive())
+
+    @staticmethod
+    async def change(robot):
+        while True:
+            await robot.walk(0.2)
+            await robot.walk(0.3)
+
+    def test_every_way_out_of_a_motion_that_walks_by_itself_stops_it(self):
+        begun = lambda request: [pb.ServerMessage(response=pb.Response(request_id=request.request_id)),
+                                 result(request.request_id, pb.Notice.ACCEPTED)]
+        self.gateway.answers.update(move_to=begun, play=begun, go_to_posture=begun)
+        for way_out in (*self.WAYS_OUT, "timeout"):
+            for use_case, start in (("move_to", lambda robot: robot.move_to(1, timeout=0.2)),
+                                    ("play", lambda robot: robot.play("keep-goal", timeout=0.2))):
+                with self.subTest(way_out=way_out, use_case=use_case):
+                    self.gateway.requests.clear()
+
+                    async def drive():
+                        async with await aio.connect(self.gateway.address) as robot:
+                            if way_out == "timeout":
+                                with self.assertRaises(nao_remote.Timeout):
+                                    await start(robot)
+                            elif way_out == "wait_for":
+                                with self.assertRaises(asyncio.TimeoutError):
+                                    await asyncio.wait_for(start(robot), 0.1)
+                            else:
+                                await self.leave(way_out, start(robot), lambda: self.gateway.received(use_case))
+                            await robot.ping()
+                    asyncio.run(drive())
+                    self.assertTrue(self.gateway.received("stop"))
+
+    def test_ctrl_c_during_a_walk_ends_it(self):
+        script = f"""
+import nao_remote
+robot = nao_remote.connect({self.gateway.address!r})
+try:
+    robot.walk(0.2, duration=100)
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+input()
+"""
+        with subprocess.Popen([sys.executable, "-c", script], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as program:
+            try:
+                wait_until(lambda: len(self.gateway.received("walk_turn")) >= 2, "the walk")
+                program.send_signal(signal.SIGINT)
+                self.assertEqual(program.stdout.readline(), b"interrupted\n")
+                self.assert_ends_with_zero()
+            finally:
+                program.kill()
+
+
+class OtherProcesses(WithGateway):
+    def test_a_robot_used_after_a_fork_says_so(self):
+        robot = self.connect()
+        reader, writer = os.pipe()
+        child = os.fork()
+        if child == 0:
+            try:
+                robot.posture("Sit")
+            except nao_remote.Closed as error:
+                os.write(writer, str(error).encode())
+            finally:
+                robot.close()
+                os._exit(0)
+        os.close(writer)
+        self.addCleanup(os.close, reader)
+        is_readable, _, _ = select.select([reader], [], [], DEADLINE)
+        if not is_readable:
+            os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        self.assertTrue(is_readable, "the child waits without end")
+        self.assertIn(b"fork", os.read(reader, 1000))
+        robot.posture("Sit")
+
+    def test_a_robot_used_in_another_event_loop_says_so(self):
+        robot = asyncio.run(aio.connect(self.gateway.address))
+        with self.assertRaisesRegex(RuntimeError, "event loop"):
+            asyncio.run(robot.stop())
+
+
 class Streams(WithGateway):
     def test_a_slow_reader_gets_the_newest_state(self):
         robot = self.connect()
@@ -600,6 +728,26 @@ class Reconnection(WithGateway):
             self.assertFalse(self.gateway.received("walk_turn"))
             robot.posture("Sit")
             self.assertEqual(len(self.gateway.received("take_control")), 1)
+
+    def test_iterators_outlast_an_outage_that_is_longer_than_their_timeout(self):
+        with mock.patch.object(session, "PING_PERIOD", 0.05):
+            robot = self.connect()
+            with robot.states(7, timeout=0.2) as states:
+                wait_until(lambda: self.gateway.received("subscribe"), "the subscription")
+                self.gateway.stop()
+                self.gateway.requests.clear()
+                seen = []
+                reading = threading.Thread(target=lambda: seen.append(next(states)))
+                reading.start()
+                reading.join(0.5)
+                self.assertTrue(reading.is_alive(), "the iterator ended during the outage")
+                self.gateway.start()
+                wait_until(lambda: self.gateway.received("subscribe"), "the subscription")
+                self.gateway.send(state=state(vx=1))
+                reading.join(DEADLINE)
+                self.assertEqual(seen[0].vx, 1)
+                with self.assertRaises(nao_remote.Timeout):
+                    next(states)
 
     def test_a_request_without_an_answer_ends_with_the_connection(self):
         robot = self.connect()
