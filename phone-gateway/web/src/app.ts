@@ -10,6 +10,7 @@ import {TiltSensor} from "./controls/tilt_sensor";
 import {WalkSender} from "./controls/walk_sender";
 import {exposeAutomation} from "./automation";
 import {el} from "./dom";
+import {reloadButton} from "./screens/reload_button";
 import {listenToLeaving} from "./leaving";
 import {Lobby} from "./lobby";
 import {MatchEvents} from "./match/match_events";
@@ -20,6 +21,7 @@ import * as useCases from "./protocol/use_cases";
 import {Perception} from "./play/perception";
 import {PlayStrip} from "./play/play_strip";
 import {loadFieldLines} from "./robot/load_field";
+import {watchContext} from "./robot/lost_context";
 import {RobotView} from "./robot/robot_view";
 import {kDriveView, kJointsView, Stage} from "./robot/stage";
 import {attachGestures} from "./robot/stage_gestures";
@@ -34,6 +36,7 @@ import {Tour} from "./screens/tour";
 import {WalkHere} from "./screens/walk_here";
 import {pageUrl, remember, saveSettings, tokenFromUrl} from "./settings";
 import type {Settings} from "./settings";
+import {Sound} from "./sound";
 import {Speech} from "./speech/speech";
 import {storage} from "./storage";
 import {Store} from "./store";
@@ -43,6 +46,7 @@ import {findGateways} from "./nearby";
 import {say} from "./text/texts";
 import type {Language} from "./text/texts";
 import {WebSocketTransport} from "./transport";
+import {WakeLock} from "./wake_lock";
 
 const kSoftware = "nao-phone-app 0.1.0";
 /** The screen's rate: a joint is seen to move 8 ms sooner than at half the rate, for 20 kB/s. */
@@ -70,6 +74,8 @@ export class App {
     this.commander.stream(useCases.changeJoints(change));
   });
   private readonly tilt = new TiltSensor();
+  private readonly sound = new Sound();
+  private readonly wakeLock = new WakeLock();
   private readonly held: HeldControls;
   private readonly view: RobotView;
   private readonly teach: Teach;
@@ -109,11 +115,18 @@ export class App {
     this.commander = new Commander(this.connection, this.store, this.messages);
     this.walk = new WalkSender((drive) => this.sendWalk(drive));
     const canvas = el("canvas", {class: "stage", role: "img", "aria-label": say("drive.stage")});
-    root.append(canvas);
+    const lost = el("div", {class: "lost-context", role: "alert", hidden: true}, el("p", {}, say("drive.lostContext")),
+                    reloadButton());
+    root.append(canvas, lost);
+    watchContext(canvas, (isLost) => {
+      lost.hidden = !isLost;
+      this.stage.outdate();
+    });
     this.stage = new Stage(canvas);
     this.stage.onFrame = (dt) => this.frame(dt);
     this.stage.orbit.isGliding = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-    this.view = new RobotView(this.store, this.stage);
+    this.view = new RobotView(this.store, this.stage, (meshes) =>
+        this.messages.show("bad", say("loading.damaged", {files: meshes.join(", ")})));
     this.held = new HeldControls(this.store, this.walk, this.jointDriver, {
       pressed: (button) => this.pressed(button),
       unknown: (name) => this.messages.show("info", say("pad.unknown", {name})),
@@ -129,7 +142,7 @@ export class App {
     this.commander.onMotion = () => {
       if (this.letGo()) this.messages.show("info", say("drive.released"));
     };
-    this.speech = new Speech(this.store, this.commander, this.stage, storage(), () => this.subscribe());
+    this.speech = new Speech(this.store, this.commander, this.stage, storage(), this.sound, () => this.subscribe());
     this.connectionScreen = new ConnectionScreen(this.store, {
       connect: (form) => this.connect(form),
       cancel: () => this.connection.disconnect(),
@@ -186,7 +199,7 @@ export class App {
 
   start(): void {
     exposeAutomation(this.store, this.stage, this.image, this.view, this.perception.objects);
-    new MatchEvents(this.store, this.messages);
+    new MatchEvents(this.store, this.messages, this.sound);
     this.held.listen(() => this.root.dataset["screen"] === "controller");
     // Another motion replaces the walk to the marked spot.
     this.store.watch((state) => state.state?.activity?.name ?? "", (activity) => {
@@ -211,6 +224,8 @@ export class App {
     });
     this.openFromUrl();
     this.store.watch((state) => state.phase, (phase) => {
+      if (phase === "connected") this.wakeLock.hold();
+      else this.wakeLock.release();
       if (phase === "idle" || phase === "waiting") void this.showNearby();
     });
   }
@@ -280,6 +295,7 @@ export class App {
   }
 
   private shown(): void {
+    void this.wakeLock.renew();
     this.connection.retryNow();
     this.subscribe();
   }

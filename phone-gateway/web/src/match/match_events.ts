@@ -2,16 +2,18 @@
 import type {Messages} from "../messages";
 import {Match_Event} from "../protocol/generated/remote_pb";
 import type {Match} from "../protocol/generated/remote_pb";
+import type {Sound} from "../sound";
 import type {Store} from "../store";
 import {eventInWords} from "./match_words";
 import {MatchSound} from "./match_sound";
 
 export class MatchEvents {
-  private readonly sound = new MatchSound();
+  private readonly sound: MatchSound;
   /** Number of the last event that was told; negative before the first match. */
   private lastEvent = -1n;
 
-  constructor(store: Store, private readonly messages: Messages) {
+  constructor(store: Store, private readonly messages: Messages, sound: Pick<Sound, "running">) {
+    this.sound = new MatchSound(sound);
     store.watch((state) => state.match, (match) => this.changed(match));
   }
 

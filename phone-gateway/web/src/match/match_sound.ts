@@ -1,5 +1,6 @@
 /** The referee's whistle and a goal's fanfare, made by the browser's Web Audio. */
 import {Match_Event} from "../protocol/generated/remote_pb";
+import type {Sound} from "../sound";
 
 /** Frequency, Hz, start and duration, s, of each tone. */
 type Tone = readonly [frequency: number, start: number, duration: number];
@@ -23,18 +24,11 @@ export function tonesOf(event: Match_Event): readonly Tone[] {
 }
 
 export class MatchSound {
-  private context: AudioContext | null = null;
-
-  constructor() {
-    // Browsers allow sound only after a touch of the page.
-    document.addEventListener("pointerdown", () => {
-      if (typeof AudioContext !== "undefined") this.context ??= new AudioContext();
-    }, {once: true});
-  }
+  constructor(private readonly sound: Pick<Sound, "running">) {}
 
   play(event: Match_Event): void {
-    const {context} = this;
-    if (context?.state !== "running") return;
+    const context = this.sound.running;
+    if (!context) return;
     for (const [frequency, start, duration] of tonesOf(event)) {
       const gain = context.createGain();
       const tone = new OscillatorNode(context, {type: "triangle", frequency});

@@ -42,8 +42,7 @@ describe("a match in words", () => {
 describe("events of a match", () => {
   const store = new Store();
   const told = (): string[] => store.get().messages.map(({text}) => text);
-  Object.assign(globalThis, {document: {addEventListener: () => undefined}});
-  new MatchEvents(store, new Messages(store));
+  new MatchEvents(store, new Messages(store), {running: null});
   const set = (eventId: bigint, score0: number) =>
       store.set({match: create(MatchSchema, {half: 1, eventId, event: Match_Event.GOAL, eventTeam: 0, score0})});
 

@@ -1,5 +1,5 @@
 /** Fetches the robot's description and meshes, and reports how far it is. */
-import type {Object3D} from "three";
+import type {Mesh, Object3D} from "three";
 import {GLTFLoader} from "three/examples/jsm/loaders/GLTFLoader.js";
 import type {RobotSurface} from "./robot_surface";
 import {quaternionFromRpy, RobotTree} from "./robot_tree";
@@ -9,9 +9,10 @@ import type {UrdfVisual} from "./urdf";
 /** @param urdfUrl   where the URDF lies; its meshes lie beside it.
  * @param surface   what the links look like.
  * @param progress  called with files done and files in all.
+ * @param warn      called with the name of each mesh that is missing or damaged: its link is not drawn.
  * @throws Error that names the file which could not be had. */
-export async function loadRobot(urdfUrl: URL, surface: RobotSurface,
-                                progress: (done: number, total: number) => void): Promise<RobotTree> {
+export async function loadRobot(urdfUrl: URL, surface: RobotSurface, progress: (done: number, total: number) => void,
+                                warn: (mesh: string) => void): Promise<RobotTree> {
   const text = await (await fetchFile(urdfUrl)).text();
   const tree = new RobotTree(parseUrdf(new DOMParser().parseFromString(text, "application/xml")));
   const loader = new GLTFLoader();
@@ -19,19 +20,27 @@ export async function loadRobot(urdfUrl: URL, surface: RobotSurface,
   const visuals = tree.urdf.links.flatMap((link) => link.visuals.map((visual) => ({link, visual})));
   progress(done, visuals.length + 1);
   await Promise.all(visuals.map(async ({link, visual}) => {
-    const mesh = surface.meshOf(await loadScene(loader, meshUrl(urdfUrl, visual.mesh)));
+    const mesh = await loadMesh(loader, meshUrl(urdfUrl, visual.mesh), surface);
     if (mesh) {
       place(mesh, visual);
       tree.link(link.name).add(mesh);
+    } else {
+      warn(visual.mesh);
     }
     progress(++done, visuals.length + 1);
   }));
   return tree;
 }
 
-async function loadScene(loader: GLTFLoader, url: URL): Promise<Object3D> {
-  const bytes = await (await fetchFile(url)).arrayBuffer();
-  return (await loader.parseAsync(bytes, "")).scene;
+/** @return null if there is nothing to draw in it. @throws NoAnswer if the host is away. */
+async function loadMesh(loader: GLTFLoader, url: URL, surface: RobotSurface): Promise<Mesh | null> {
+  try {
+    const bytes = await (await fetchFile(url)).arrayBuffer();
+    return surface.meshOf((await loader.parseAsync(bytes, "")).scene);
+  } catch (error) {
+    if (error instanceof NoAnswer) throw error;
+    return null;
+  }
 }
 
 function place(mesh: Object3D, visual: UrdfVisual): void {
@@ -46,9 +55,9 @@ function meshUrl(urdfUrl: URL, name: string): URL {
 
 async function fetchFile(url: URL): Promise<Response> {
   const response = await fetch(url).catch(() => null);
-  if (!response?.ok) {
-    const why = response ? `status ${response.status}` : "no answer";
-    throw new Error(`${url.pathname}: ${why}`);
-  }
+  if (!response) throw new NoAnswer(`${url.pathname}: no answer`);
+  if (!response.ok) throw new Error(`${url.pathname}: status ${response.status}`);
   return response;
 }
+
+class NoAnswer extends Error {}

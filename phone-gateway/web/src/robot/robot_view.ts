@@ -14,7 +14,9 @@ export class RobotView {
   private path = "";
   private mirror: PoseMirror | null = null;
 
-  constructor(private readonly store: Store, private readonly stage: Stage) {
+  /** @param warn  called with the names of the meshes that cannot be drawn. */
+  constructor(private readonly store: Store, private readonly stage: Stage,
+              private readonly warn: (meshes: readonly string[]) => void) {
     store.watch((state) => state.isJointsMode, (isOn) => {
       this.balls?.show(isOn);
       stage.outdate();
@@ -41,11 +43,13 @@ export class RobotView {
   async load(): Promise<void> {
     const path = this.store.get().robot?.urdfPath ?? "";
     this.store.set({loading: {done: 0, total: 0, error: ""}});
+    let hasFailed = false;
+    const missing: string[] = [];
+    const isWanted = (): boolean => path === this.store.get().robot?.urdfPath && !hasFailed;
     try {
-      const isWanted = (): boolean => path === this.store.get().robot?.urdfPath;
       const tree = await loadRobot(new URL(path, location.href), this.stage.surface, (done, total) => {
         if (isWanted()) this.store.set({loading: {done, total, error: ""}});
-      });
+      }, (mesh) => missing.push(mesh));
       // Another robot was chosen meanwhile: its own loading shows it.
       if (!isWanted()) return;
       this.tree = tree;
@@ -54,7 +58,10 @@ export class RobotView {
       this.balls = new JointBalls(this.tree, this.stage.surface, this.store.get().robot?.jointGroups ?? []);
       this.balls.show(this.store.get().isJointsMode);
       this.makeMirror();
+      if (missing.length > 0) this.warn(missing);
     } catch (error) {
+      // What is still on its way must not hide the error.
+      hasFailed = true;
       const why = error instanceof Error ? error.message : String(error);
       this.store.set({loading: {done: 0, total: 0, error: why}});
     }

@@ -4,6 +4,7 @@ import type {Gateway} from "../nearby";
 import type {Settings} from "../settings";
 import type {AppState, Problem, Store} from "../store";
 import {say} from "../text/texts";
+import {reloadButton} from "./reload_button";
 
 export interface ConnectionForm {
   address: string;
@@ -101,9 +102,10 @@ export class ConnectionScreen {
   private showProblem(state: Readonly<AppState>): void {
     this.problem.hidden = state.problem === null;
     if (state.problem === null) return;
-    const lines = [el("strong", {}, say(`problem.${state.problem}`)),
-                   el("span", {}, say(`advice.${state.problem}`))];
+    const lines: HTMLElement[] = [el("strong", {}, say(`problem.${state.problem}`)),
+                                  el("span", {}, say(`advice.${state.problem}`))];
     if (kDetailed.includes(state.problem) && state.problemDetail) lines.push(el("span", {class: "quiet"}, state.problemDetail));
+    if (state.problem === "wrong-version") lines.push(reloadButton());
     if (state.phase === "waiting") {
       const seconds = Math.max(0, Math.ceil((state.nextAttemptMs - performance.now()) / 1000));
       // Not read aloud each second.

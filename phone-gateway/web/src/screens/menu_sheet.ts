@@ -73,10 +73,15 @@ export class MenuSheet {
 
   private tiltSwitch(): HTMLElement {
     const isAvailable = TiltSensor.isAvailable();
-    return switchRow(say("menu.tilt"), say(isAvailable ? "menu.tiltHelp" : "menu.tiltMissing"), false,
-                     !isAvailable, (input) => {
-      void this.actions.setTilt(input.checked).then((isOn) => input.checked = isOn);
+    const row = switchRow(say("menu.tilt"), say(isAvailable ? "menu.tiltHelp" : "menu.tiltMissing"), false,
+                          !isAvailable, (input) => {
+      const wasAsked = input.checked;
+      void this.actions.setTilt(wasAsked).then((isOn) => {
+        input.checked = isOn;
+        row.querySelector("small")!.textContent = say(wasAsked && !isOn ? "menu.tiltRefused" : "menu.tiltHelp");
+      });
     });
+    return row;
   }
 }
 

@@ -5,6 +5,7 @@ import * as useCases from "../protocol/use_cases";
 import {RobotLights} from "../robot/robot_lights";
 import type {Stage} from "../robot/stage";
 import {SpeechSheet} from "../screens/speech_sheet";
+import type {Sound} from "../sound";
 import type {Store} from "../store";
 import {say} from "../text/texts";
 import {AudioPlayer} from "./audio_player";
@@ -13,13 +14,14 @@ import type {SpeechSettings} from "./speech_settings";
 
 export class Speech {
   readonly sheet: SpeechSheet;
-  private readonly player = new AudioPlayer();
+  private readonly player: AudioPlayer;
   private settings: SpeechSettings;
   private lights: RobotLights | null = null;
 
   /** @param subscribe  called when this phone begins or ends to play. */
   constructor(private readonly store: Store, commander: Commander, private readonly stage: Stage,
-              private readonly storage: Storage | null, subscribe: () => void) {
+              private readonly storage: Storage | null, sound: Sound, subscribe: () => void) {
+    this.player = new AudioPlayer(sound);
     this.settings = loadSpeechSettings(storage);
     this.sheet = new SpeechSheet(this.settings.isPlaying, {
       say: (text, language) => void commander.command(useCases.sayText(text, language)),
@@ -30,16 +32,11 @@ export class Speech {
       setLanguage: (language) => this.keep({language}),
       setPlaying: (isPlaying) => {
         this.keep({isPlaying});
-        if (isPlaying) this.player.enable();
-        else this.player.disable();
+        if (!isPlaying) this.player.stop();
         subscribe();
       },
     });
     this.sheet.setPhrases(this.phrases);
-    // The first touch of the page: browsers allow no sound before.
-    document.addEventListener("pointerdown", () => {
-      if (this.settings.isPlaying) this.player.enable();
-    }, {once: true});
     store.watch((state) => state.robot, (robot) => {
       this.sheet.setLanguages(robot?.languages ?? [], this.settings.language);
       this.sheet.setLights((robot?.lights ?? []).map(({name}) => name));

@@ -1,14 +1,16 @@
+import {readFileSync} from "node:fs";
 import {create} from "@bufbuild/protobuf";
 import {beforeEach, describe, expect, it} from "vitest";
 import {Commander} from "../commander";
 import {Messages} from "../messages";
+import {encodeRequest} from "../protocol/codec";
 import type {UseCase} from "../protocol/codec";
 import * as pb from "../protocol/generated/remote_pb";
 import {Store} from "../store";
 import {setLanguage} from "../text/texts";
 import {HandGuide} from "./hand_guide";
 import {addPose, kEmptyDraft} from "./motion_draft";
-import {MotionHost} from "./motion_host";
+import {kMaxFileBytes, MotionHost} from "./motion_host";
 
 type Answer = Partial<pb.Response>;
 const draft = addPose(kEmptyDraft, {A: 1}, []);
@@ -17,6 +19,22 @@ const fault: Answer = {
   error: pb.ErrorCode.INVALID_ARGUMENT, message: "A is too fast.", reasonCode: "unknown",
   result: {case: "motionReport", value: create(pb.MotionReportSchema, {keyframe: 0, repair: "slowed-down", repaired: motion})},
 };
+
+describe("the largest motion file", () => {
+  it("is the largest that the gateway and the robot's host take", () => {
+    const constant = (path: string, name: string) => {
+      const text = readFileSync(new URL(`../../../../${path}`, import.meta.url), "utf8");
+      return Number(new RegExp(`${name} = (\\d+);`).exec(text)?.[1]);
+    };
+    const taken = Math.min(constant("phone-gateway/server/core/motion_messages.cpp", "kMaxTextBytes"),
+                           constant("daemons/motion-files/motion_text.h", "kMaxMotionTextBytes"));
+    const file = create(pb.MotionFileSchema, {yaml: "x".repeat(kMaxFileBytes)});
+    const request = encodeRequest(0xffffffff, {case: "saveMotion", value: create(pb.SaveMotionSchema, {motion: file, replace: true})});
+    expect(kMaxFileBytes).toBeLessThanOrEqual(taken);
+    expect(kMaxFileBytes).toBeGreaterThan(0.99 * taken);
+    expect(request.length).toBeLessThanOrEqual(constant("phone-gateway/protocol/framing.h", "kMaxRequestBytes"));
+  });
+});
 
 describe("MotionHost", () => {
   let store: Store;

@@ -11,8 +11,8 @@ import {toMotion} from "./motion_draft";
 import type {MotionDraft} from "./motion_draft";
 import {kTemporaryName} from "./motion_name";
 
-/** Largest file that fits a request of 65536 bytes with some air, bytes. */
-export const kMaxFileBytes = 60_000;
+/** Largest file that the gateway takes, in a request that it takes; bytes. */
+export const kMaxFileBytes = 262_000;
 
 /** What came of saving: "fault" is in the store; "refused" was shown as a message. */
 export type SaveResult = "saved" | "name-in-use" | "fault" | "refused";

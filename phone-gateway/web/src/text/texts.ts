@@ -22,6 +22,13 @@ const kTexts = {
   "loading.failed": ["The robot could not be loaded", "Não foi possível carregar o robô",
                      "Der Roboter konnte nicht geladen werden"],
   "loading.again": ["Try again", "Tentar de novo", "Nochmal versuchen"],
+  "loading.damaged": ["Not drawn, for these files are missing or damaged: {files}",
+                      "Não desenhado, pois estes ficheiros faltam ou estão danificados: {files}",
+                      "Nicht gezeichnet, denn diese Dateien fehlen oder sind beschädigt: {files}"],
+  "drive.lostContext": ["The browser has stopped drawing the robot. The controls go on.",
+                        "O navegador deixou de desenhar o robô. Os comandos continuam.",
+                        "Der Browser zeichnet den Roboter nicht mehr. Die Steuerung geht weiter."],
+  "connection.reload": ["Reload", "Recarregar", "Neu laden"],
   "loading.noDrawing": ["This browser cannot draw in 3D. A newer Chrome, Firefox or Safari can.",
                         "Este navegador não desenha em 3D. Um Chrome, Firefox ou Safari mais recente consegue.",
                         "Dieser Browser kann nicht in 3D zeichnen. Ein neuerer Chrome, Firefox oder Safari kann es."],
@@ -181,6 +188,12 @@ const kTexts = {
   "menu.tiltMissing": ["Needs https; phones give their sensors to secure pages only.",
                        "Precisa de https; só páginas seguras recebem os sensores.",
                        "Braucht https; nur sichere Seiten bekommen die Sensoren."],
+  "menu.tiltRefused": ["The phone refuses its motion sensors to this page. Close all its tabs, allow motion in the browser's " +
+                       "settings of this page, and open it again.",
+                       "O telefone recusa os sensores de movimento a esta página. Feche os separadores dela, permita o " +
+                       "movimento nas definições do navegador para esta página e abra-a de novo.",
+                       "Das Telefon verweigert dieser Seite die Bewegungssensoren. Schließe ihre Tabs, erlaube Bewegung in den " +
+                       "Einstellungen des Browsers für diese Seite, und öffne sie neu."],
   "menu.swap": ["Swap the two pads", "Trocar os dois comandos", "Beide Felder tauschen"],
   "menu.language": ["Language", "Idioma", "Sprache"],
   "menu.help": ["How it works", "Como funciona", "So geht es"],
