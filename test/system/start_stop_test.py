@@ -42,27 +42,6 @@ class Start(unittest.TestCase):
                 self.assertIn(b"<robot", file.read())
             self.assertIn(address[0], stack.start("--foxglove").stdout, "told again")
 
-    def test_the_token_is_only_in_a_file_of_its_owner(self):
-        with Stack() as stack:
-            stack.start_or_fail("--only", "sim,motion,phone-gateway")
-            file = stack.run_dir / "token"
-            self.assertEqual(file.read_text(), f"{stack.token}\n")
-            self.assertEqual(file.stat().st_mode & 0o777, 0o600)
-            # Every user of this machine may read command lines.
-            for pid in stack.pids().values():
-                self.assertNotIn(stack.token.encode(), Path(f"/proc/{pid}/cmdline").read_bytes())
-
-    def test_twice_says_so_and_gives_the_same_address(self):
-        with Stack() as stack:
-            first = stack.start_or_fail("--only", "sim,motion,phone-gateway")
-            pids = stack.pids()
-            second = stack.start()
-            self.assertEqual(second.returncode, 0, second.stderr)
-            self.assertIn("running already", second.stdout)
-            address = re.search(r"http://\S+#token=\S+", first.stdout)[0]
-            self.assertIn(address, second.stdout)
-            self.assertEqual(stack.pids(), pids)
-
     def test_a_second_system_on_the_bus_is_refused_and_the_first_is_named(self):
         with Stack() as first, Stack() as second:
             second.lcm_url = first.lcm_url
@@ -73,19 +52,6 @@ class Start(unittest.TestCase):
             self.assertEqual(second.pids(), {})
             # A part of one system, which publishes nothing that the first one does.
             second.start_or_fail("--only", "head-camera")
-
-    def test_status_shows_every_program(self):
-        with Stack() as stack:
-            stack.start_or_fail("--no-camera")
-            rows = {row["program"]: row for row in json.loads(stack.script("status", "--json").stdout)}
-            self.assertEqual(set(rows), PROGRAMS - {"nao-head-camera"} | {"nao-watchdog"})
-            for row in rows.values():
-                self.assertEqual(row["state"], "ready", row)
-                self.assertGreater(row["memory_mb"], 1)
-                self.assertEqual(row["restarts"], 0)
-            table = stack.script("status")
-            self.assertEqual(table.returncode, 0)
-            self.assertEqual(len(table.stdout.splitlines()), 1 + len(rows))
 
     def test_status_says_when_nothing_runs(self):
         with Stack() as stack:
@@ -152,6 +118,44 @@ class Start(unittest.TestCase):
             self.assertRegex(status.stdout, r"nao-motion .*given up.*crashed ten times.*nao-motion\.log|"
                                             r"nao-motion .*given up.*nao-motion\.log.*crashed ten times")
             self.assertRegex(status.stdout, r"nao-sim .*ready")
+
+
+class Running(unittest.TestCase):
+    """What a running stack shows; the tests share one start."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.stack = Stack()
+        cls.addClassCleanup(cls.stack.__exit__)
+        cls.started = cls.stack.start_or_fail("--no-camera")
+
+    def test_the_token_is_only_in_a_file_of_its_owner(self):
+        file = self.stack.run_dir / "token"
+        self.assertEqual(file.read_text(), f"{self.stack.token}\n")
+        self.assertEqual(file.stat().st_mode & 0o777, 0o600)
+        # Every user of this machine may read command lines.
+        for pid in self.stack.pids().values():
+            self.assertNotIn(self.stack.token.encode(), Path(f"/proc/{pid}/cmdline").read_bytes())
+
+    def test_twice_says_so_and_gives_the_same_address(self):
+        pids = self.stack.pids()
+        second = self.stack.start()
+        self.assertEqual(second.returncode, 0, second.stderr)
+        self.assertIn("running already", second.stdout)
+        address = re.search(r"http://\S+#token=\S+", self.started.stdout)[0]
+        self.assertIn(address, second.stdout)
+        self.assertEqual(self.stack.pids(), pids)
+
+    def test_status_shows_every_program(self):
+        rows = {row["program"]: row for row in json.loads(self.stack.script("status", "--json").stdout)}
+        self.assertEqual(set(rows), PROGRAMS - {"nao-head-camera"} | {"nao-watchdog"})
+        for row in rows.values():
+            self.assertEqual(row["state"], "ready", row)
+            self.assertGreater(row["memory_mb"], 1)
+            self.assertEqual(row["restarts"], 0)
+        table = self.stack.script("status")
+        self.assertEqual(table.returncode, 0)
+        self.assertEqual(len(table.stdout.splitlines()), 1 + len(rows))
 
 
 class CommandLine(unittest.TestCase):
