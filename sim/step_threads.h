@@ -20,8 +20,8 @@ class StepThreads {
    * returns after all of them. @param work  Does not throw. Allocates nothing. */
   template <class Work>
   void for_each(int count, Work work) {
-    run(
-        count, [](void* context, int i) { (*static_cast<Work*>(context))(i); }, &work);
+    const Call call = [](void* context, int i) { (*static_cast<Work*>(context))(i); };
+    run(count, call, &work);
   }
 
  private:

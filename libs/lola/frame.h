@@ -73,8 +73,8 @@ struct LolaCommand {
 
 /** Calls `visit(key, values)` for every key of a state, in the order of the frame. */
 template <class State, class Visit>
-void for_each_field(State& state,
-                    Visit&& visit) requires std::is_same_v<std::remove_const_t<State>, LolaState> {
+  requires std::is_same_v<std::remove_const_t<State>, LolaState>
+void for_each_field(State& state, Visit&& visit) {
   visit("Position", state.position);
   visit("Stiffness", state.stiffness);
   visit("Temperature", state.temperature);
@@ -92,8 +92,8 @@ void for_each_field(State& state,
 
 /** Calls `visit(key, optional values)` for every key of a command. */
 template <class Command, class Visit>
-void for_each_field(Command& command, Visit&& visit) requires
-    std::is_same_v<std::remove_const_t<Command>, LolaCommand> {
+  requires std::is_same_v<std::remove_const_t<Command>, LolaCommand>
+void for_each_field(Command& command, Visit&& visit) {
   visit("Position", command.position);
   visit("Stiffness", command.stiffness);
   visit("REar", command.right_ear);
