@@ -66,7 +66,13 @@ def warn(text):
 def run_script(main):
     """Calls main() and ends the script: with the status that it returns, or 1 after a Failure."""
     try:
-        sys.exit(main())
+        status = main()
+        sys.stdout.flush()
+        sys.exit(status)
+    except BrokenPipeError:
+        # The reader, such as head, has ended. Python's own flush at the exit must not fail again.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(128 + signal.SIGPIPE)
     except Failure as failure:
         warn(failure)
         sys.exit(1)
