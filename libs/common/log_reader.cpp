@@ -1,5 +1,6 @@
 #include "common/log_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -47,16 +48,35 @@ std::optional<LogEvent> LogReader::next() {
 }
 
 std::optional<LogEntry> LogReader::next_entry() {
-  // After damage the next event is found by its sync word, byte by byte; the bytes in between are
-  // counted.
+  // After damage the next event is found by its sync word; the bytes in between are counted.
   while (offset_ + kHeaderSize <= size_) {
     if (auto entry = read_entry()) return entry;
-    ++offset_;
-    ++num_bytes_skipped_;
+    const int64_t begin = offset_;
+    skip_to_sync(begin + 1);
+    num_bytes_skipped_ += offset_ - begin;
   }
   num_bytes_skipped_ += size_ - offset_;
   offset_ = size_;
   return std::nullopt;
+}
+
+// Blocks overlap by the length of the sync word less one, so that none is missed between them.
+void LogReader::skip_to_sync(int64_t begin) {
+  constexpr std::array<uint8_t, 4> kSyncBytes{0xED, 0xA1, 0xDA, 0x01};
+  std::vector<uint8_t> block(1 << 16);
+  for (offset_ = begin; offset_ + kHeaderSize <= size_;) {
+    seek(offset_);
+    const size_t num_bytes = std::fread(block.data(), 1, block.size(), file_.get());
+    if (num_bytes < kSyncBytes.size()) break;
+    const auto end = block.begin() + static_cast<std::ptrdiff_t>(num_bytes);
+    const auto found = std::search(block.begin(), end, kSyncBytes.begin(), kSyncBytes.end());
+    if (found != end) {
+      offset_ += found - block.begin();
+      return;
+    }
+    offset_ += static_cast<int64_t>(num_bytes - kSyncBytes.size() + 1);
+  }
+  offset_ = size_;
 }
 
 std::optional<LogEntry> LogReader::read_entry() {
@@ -76,6 +96,10 @@ std::optional<LogEntry> LogReader::read_entry() {
                  static_cast<int64_t>(big_endian(&header[12], 8)), std::string(channel_size, ' '),
                  data_offset, data_size};
   if (std::fread(entry.channel.data(), 1, channel_size, file_.get()) != channel_size) return {};
+  // A name with control bytes is damage, and must not reach a terminal.
+  if (std::ranges::any_of(entry.channel, [](unsigned char c) { return c < ' ' || c == 0x7F; })) {
+    return {};
+  }
   offset_ = data_offset + data_size;
   return entry;
 }

@@ -54,6 +54,8 @@ class LogReader {
 
  private:
   std::optional<LogEntry> read_entry();
+  /** Moves to the next sync word at `begin` or later, or to the end. */
+  void skip_to_sync(int64_t begin);
   void seek(int64_t offset);
 
   struct Closer {

@@ -86,6 +86,27 @@ TEST_F(LogReaderTest, SurvivesGarbage) {
   }
 }
 
+TEST_F(LogReaderTest, FindsTheNextEventWhereverABlockOfZerosEnds) {
+  for (size_t num_zeros = 65'500; num_zeros < 65'600; ++num_zeros) {
+    Bytes bytes(num_zeros, 0);
+    const Bytes tail = log_of(2);
+    bytes.insert(bytes.end(), tail.begin(), tail.end());
+    ASSERT_EQ(read(bytes).size(), 2u) << num_zeros;
+    ASSERT_EQ(num_bytes_skipped_, static_cast<int64_t>(num_zeros));
+  }
+}
+
+TEST_F(LogReaderTest, TakesAChannelNameWithControlBytesForDamage) {
+  LogEvent odd = event(0);
+  odd.channel = "A\x1b[2J";
+  Bytes bytes = encode_log_event(odd);
+  const Bytes tail = log_of(2);
+  const size_t num_damaged = bytes.size();
+  bytes.insert(bytes.end(), tail.begin(), tail.end());
+  EXPECT_EQ(read(bytes).size(), 2u);
+  EXPECT_EQ(num_bytes_skipped_, static_cast<int64_t>(num_damaged));
+}
+
 TEST_F(LogReaderTest, NamesTheMissingFile) {
   try {
     const LogReader reader("/no/such.lcmlog");
