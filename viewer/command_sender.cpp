@@ -80,6 +80,8 @@ void CommandSender::walk(double vx, double vy, double wz) {
 }
 
 void CommandSender::end_walk() {
+  if (walk_id_ == 0) return;
+  walk(0, 0, 0);
   walk_id_ = 0;
 }
 

@@ -34,7 +34,7 @@ class CommandSender {
   /** Sends one message of a walk; to be repeated while the robot should walk.
    * @param vx, vy, wz  Commanded velocity: m/s forward, m/s to the left, rad/s. */
   void walk(double vx, double vy, double wz);
-  /** Ends the walk: the next walk() is a new command. */
+  /** Ends the walk, if there is one, with the velocity zero: the next walk() is a new command. */
   void end_walk();
 
   /** Sends a command of the simulator without arguments: "pause", "resume", "step" or "reset".

@@ -117,7 +117,7 @@ void Viewer::update_image() {
   image_.load_jpeg(store_.image()->message.data);
 }
 
-// A walk's velocities are sent while its button is held; without them the walk ends.
+// A walk's velocities are sent while its button is held.
 void Viewer::send_commands(double now) {
   if (!commands_) return;
   commands_->repeat(now);

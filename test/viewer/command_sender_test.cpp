@@ -109,9 +109,22 @@ TEST_F(CommandSenderTest, SendsAWalkAsOneCommand) {
   sender_.end_walk();
   sender_.walk(0.1, 0, 0);
   deliver();
-  ASSERT_EQ(walks_.size(), 3u);
+  ASSERT_EQ(walks_.size(), 4u);
   EXPECT_EQ(walks_[0].command_id, walks_[1].command_id);
-  EXPECT_NE(walks_[1].command_id, walks_[2].command_id);
+  EXPECT_NE(walks_[1].command_id, walks_[3].command_id);
+}
+
+TEST_F(CommandSenderTest, EndsAWalkWithOneVelocityOfZero) {
+  sender_.end_walk();
+  sender_.walk(0.1, 0.2, 0.3);
+  sender_.end_walk();
+  sender_.end_walk();
+  deliver();
+  ASSERT_EQ(walks_.size(), 2u);
+  EXPECT_EQ(walks_[1].command_id, walks_[0].command_id);
+  EXPECT_EQ(walks_[1].vx, 0);
+  EXPECT_EQ(walks_[1].vy, 0);
+  EXPECT_EQ(walks_[1].wz, 0);
 }
 
 }  // namespace
