@@ -1,5 +1,7 @@
 #include "daemons/motion/motion_daemon.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -118,9 +120,12 @@ void MotionDaemon::step(std::optional<Sensors> sensors, double dt) {
   // Results are sent again, since the bus may lose messages.
   for (const CommandResult& result : reminder_.due(dt)) publish(result);
   for (const CommandResult& result : output.results) {
-    logger::info("{} {} of {}: {}{}{}", to_string(result.kind), result.id, quoted(result.source),
-                 to_string(result.status), result.reason.empty() ? "" : ": ",
-                 to_sentence(result.reason));
+    // Every repetition of a walk has a result: only the first one of equal results is logged.
+    std::string line = fmt::format("{} {} of {}: {}{}{}", to_string(result.kind), result.id,
+                                   quoted(result.source), to_string(result.status),
+                                   result.reason.empty() ? "" : ": ", to_sentence(result.reason));
+    if (line != last_result_line_) logger::info("{}", line);
+    last_result_line_ = std::move(line);
     publish(result);
     reminder_.note(result);
   }

@@ -55,6 +55,8 @@ class MotionDaemon {
   int64_t last_tick_ = -1;
   /** Answer to the last sensor state. */
   std::optional<naolcm::joint_command_t> last_answer_;
+  /** The last result of a command, as it was logged. */
+  std::string last_result_line_;
   /** Wall time of the last step with sensor data, and of the last one without, s. */
   double last_step_time_ = 0;
   double last_silent_step_time_ = 0;

@@ -35,11 +35,6 @@ int nao::motion::run_motion(int argc, char** argv) {
     const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
     if (nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
       nao::logger::info("real-time scheduling granted");
-    // Without contact the robot neither walks nor gets up: a warning, since joints can be moved.
-    if (model.foot_sensors().empty()) {
-      nao::logger::warn("{} has no foot force sensors: it cannot detect contact with the ground",
-                        model.name());
-    }
     if (!calibration_file.empty()) {
       options.calibration = nao::Calibration::load(model, calibration_file);
       nao::logger::info("calibration {} of {}", calibration_file, options.calibration->date);

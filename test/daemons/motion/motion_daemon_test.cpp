@@ -7,6 +7,7 @@
 #include <naolcm/posture_command_t.hpp>
 #include <naolcm/robot_state_t.hpp>
 #include <naolcm/stop_command_t.hpp>
+#include <naolcm/walk_command_t.hpp>
 #include <utility>
 
 #include "test/daemons/motion/sensor_message.h"
@@ -127,6 +128,26 @@ TEST_F(MotionDaemonTest, StepsWithTheControlPeriodOfTheSensorStates) {
   ASSERT_EQ(done_utimes.size(), 3u);
   EXPECT_NEAR(static_cast<double>(done_utimes[1] - done_utimes[0]) * 1e-6, 0.1, 0.012);
   EXPECT_NEAR(static_cast<double>(done_utimes[2] - done_utimes[0]) * 1e-6, 0.5, 0.012);
+}
+
+TEST_F(MotionDaemonTest, LogsARepeatedWalkOnce) {
+  for (int i = 0; i < 20; ++i) tick();
+  naolcm::walk_command_t command{};
+  command.source = "test";
+  command.command_id = 1;
+  command.vx = 0.1;
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  for (int i = 0; i < 10; ++i) {
+    bus_.publish("NAO_WALK_COMMAND", command);
+    tick();
+  }
+  const std::string log =
+      testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr();
+  EXPECT_GT(results_.size(), 1u);
+  const size_t first = log.find("walk 1 of \"test\"");
+  ASSERT_NE(first, std::string::npos) << log;
+  EXPECT_EQ(log.find("walk 1 of \"test\"", first + 1), std::string::npos) << log;
 }
 
 TEST_F(MotionDaemonTest, DropsABrokenSensorState) {
