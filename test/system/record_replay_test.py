@@ -84,6 +84,16 @@ class RecordReplay(unittest.TestCase):
             self.assertGreater(len(messages(part, "OLD_SENSOR_STATE")), 20)
             self.assertEqual(messages(part, "NAO_SENSOR_STATE"), [])
 
+            # The log itself is no output, also by a link.
+            link = stack.run_dir / "link.lcmlog"
+            link.symlink_to(part)
+            before = part.read_bytes()
+            for output in (part, link):
+                refused = stack.nao("log", "cut", part, output)
+                self.assertEqual(refused.returncode, 1)
+                self.assertIn("itself", refused.stderr)
+                self.assertEqual(part.read_bytes(), before)
+
             table = stack.nao("log", "csv", part, "OLD_SENSOR_STATE")
             self.assertIn("joint_position[HeadYaw]", table.stdout.splitlines()[0])
             missing = stack.nao("log", "csv", part, "NAO_SENSOR_STATE")

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iostream>
@@ -127,6 +128,16 @@ class Output {
   std::ofstream stream_;
 };
 
+/** @throws ConfigError  if the output is the log itself, also by a link: opening it would empty it.
+ */
+void refuse_own_input(const LogOptions& options) {
+  std::error_code absent;
+  if (std::filesystem::equivalent(options.file, options.output, absent)) {
+    throw ConfigError(options.output + " is the log " + options.file +
+                      " itself, which would be lost; give another output file");
+  }
+}
+
 int show_info(const LogOptions& options) {
   Log log(options.file);
   LogStatistics statistics;
@@ -162,6 +173,7 @@ int end_reading(const Log& log, const Undecodable& undecodable) {
 }
 
 int write_csv(const LogOptions& options) {
+  refuse_own_input(options);
   MessageTable table(find_layout_of_channel(options));
   LogEvent event;
   {
@@ -207,6 +219,7 @@ Undecodable read_as_json(Log& log, const ChannelPattern& selected, Take take) {
 }
 
 int write_json(const LogOptions& options) {
+  refuse_own_input(options);
   const ChannelPattern selected("--channels", options.channels);
   Log log(options.file);
   Output output(options.output);
@@ -252,6 +265,7 @@ class McapChannels {
 };
 
 int write_mcap(const LogOptions& options) {
+  refuse_own_input(options);
   const ChannelPattern selected("--channels", options.channels);
   const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
   FoxgloveConverter converter(model, options.robot);
@@ -290,6 +304,7 @@ std::map<std::string, std::string> parse_renames(const std::vector<std::string>&
 }
 
 int write_cut(const LogOptions& options) {
+  refuse_own_input(options);
   const ChannelPattern selected("--channels", options.channels);
   const auto names = parse_renames(options.renames);
   Log log(options.file);
