@@ -103,9 +103,14 @@ class LolaClient(unittest.TestCase):
         self.simulator = Program("nao-sim", self.lcm_url, "--lola", self.path, *self.options)
         self.addCleanup(self.simulator.kill)
         deadline = time.monotonic() + DEADLINE
-        while not self.path.exists() and time.monotonic() < deadline:
-            time.sleep(0.01)
-        self.client = self.connect()
+        # The socket is there before anybody listens.
+        while True:
+            try:
+                self.client = self.connect()
+                break
+            except (FileNotFoundError, ConnectionRefusedError):
+                self.assertLess(time.monotonic(), deadline, "nobody listens")
+                time.sleep(0.01)
 
     def connect(self):
         client = Client(self.path)

@@ -92,8 +92,8 @@ TEST(GameControllerMessage, OfWrongSizeHeaderVersionOrValueIsRefused) {
                 Throws<Error>(Property(&Error::what, HasSubstr(words))));
   };
   const std::vector<uint8_t> good = GameControllerPacket().bytes();
-  expect_refused({}, "no message of a GameController");
-  expect_refused({'R', 'G', 'r', 't', 18}, "no message of a GameController");
+  expect_refused({}, "not a GameController message");
+  expect_refused({'R', 'G', 'r', 't', 18}, "not a GameController message");
   expect_refused({good.begin(), good.end() - 1}, "117 bytes instead of 118");
   GameControllerPacket packet;
   packet.version = 21;

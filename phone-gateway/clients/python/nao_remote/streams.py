@@ -45,10 +45,12 @@ class Stream(AsyncIterator[T], Generic[T]):
     async def read(self) -> T:
         """As iterating."""
         while True:
+            # The time counts from the reconnection on.
+            was_interrupted = self._is_interrupted()
             try:
                 return await self.next(self._timeout)
             except Timeout:
-                if not self._is_interrupted():
+                if not was_interrupted and not self._is_interrupted():
                     raise
 
     async def next(self, timeout: float | None) -> T:

@@ -732,14 +732,14 @@ class Reconnection(WithGateway):
     def test_iterators_outlast_an_outage_that_is_longer_than_their_timeout(self):
         with mock.patch.object(session, "PING_PERIOD", 0.05):
             robot = self.connect()
-            with robot.states(7, timeout=0.2) as states:
+            with robot.states(7, timeout=1) as states:
                 wait_until(lambda: self.gateway.received("subscribe"), "the subscription")
                 self.gateway.stop()
                 self.gateway.requests.clear()
                 seen = []
                 reading = threading.Thread(target=lambda: seen.append(next(states)))
                 reading.start()
-                reading.join(0.5)
+                reading.join(1.5)
                 self.assertTrue(reading.is_alive(), "the iterator ended during the outage")
                 self.gateway.start()
                 wait_until(lambda: self.gateway.received("subscribe"), "the subscription")
