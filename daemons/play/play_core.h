@@ -39,7 +39,7 @@ struct PlayInput {
   /** Nothing: no fresh state of the robot. */
   std::optional<RobotView> robot{};
   Vision vision{};
-  /** The robot would play by itself, but somebody has driven it: see Autonomy. */
+  /** The robot would play by itself, but a client has driven it: see Autonomy. */
   bool waits_for_release = false;
   /** Nothing: no match, or it is without this robot. */
   std::optional<MatchView> match{};

@@ -493,7 +493,7 @@ class Walking(WithGateway):
 
 
 class WaysOutOfAMotion(WithGateway):
-    """Whoever waits for a motion that walks may be cancelled, interrupted or run out of time: the robot then stands."""
+    """A caller that waits for a motion that walks may be cancelled, interrupted or run out of time: the robot then stands."""
 
     WAYS_OUT = ("wait_for", "cancel", "cancel twice")
 

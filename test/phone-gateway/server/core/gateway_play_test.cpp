@@ -146,7 +146,7 @@ TEST_F(GatewayPlay, OnlyADeliberateReleaseLetsTheRobotPlayByItselfAgain) {
   }
   Client ben = connect_driver("Ben");
   ask(ben, release);
-  // Somebody else drives before the release is sent.
+  // Another client drives before the release is sent.
   Client cleo = connect_driver("Cleo");
   pass(2);
   EXPECT_EQ(num_releases(), 0);
