@@ -10,11 +10,11 @@
 
 namespace nao {
 
-/** What the robot does by itself; the values are those of play_command_t::BEHAVIOR_*. */
 /** Reason code of a play_state_t: a robot that plays by itself in a match has been driven by
- * somebody and waits until it is released, by a play command with Behavior::kAuto. */
+ * a client and waits until it is released, by a play command with Behavior::kAuto. */
 inline constexpr const char* kWaitsForRelease = "play-waits-for-release";
 
+/** What the robot does by itself; the values are those of play_command_t::BEHAVIOR_*. */
 enum class Behavior { kNone, kGoToBall, kKick, kDribble, kScore, kKeepGoal, kAuto };
 
 /** The values are those of play_command_t::ROLE_*. */
