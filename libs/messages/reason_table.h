@@ -9,14 +9,14 @@ namespace nao {
 struct ReasonEntry {
   /** Lower-case words with hyphens. Stable: clients translate by it. */
   std::string_view code;
-  /** Names of the arguments, separated by commas; for the documentation. */
+  /** Names of the arguments, separated by commas. */
   std::string_view arguments;
   /** English; "{0}", "{1}", ... stand for the arguments. */
   std::string_view sentence;
 };
 
 // clang-format off
-/** All reasons. lcmtypes/README.md has the same table; a test compares the two. */
+/** All reasons of the robot's programs. */
 inline constexpr auto kReasons = std::to_array<ReasonEntry>({
     // Sender of the command.
     {"source-missing", "", "The command has no source; set it to the sender's name."},

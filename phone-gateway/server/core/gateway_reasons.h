@@ -13,8 +13,7 @@
 namespace nao::gateway {
 
 // clang-format off
-/** Reasons of the gateway itself, in addition to those of messages/reason_table.h. PROTOCOL.md has
- * the same table; a test compares the two. */
+/** Reasons of the gateway itself, in addition to those of messages/reason_table.h. */
 inline constexpr auto kGatewayReasons = std::to_array<ReasonEntry>({
     // Requests.
     {"not-a-request", "", "The bytes are no Request message."},

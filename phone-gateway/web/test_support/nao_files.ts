@@ -45,7 +45,7 @@ export function readJointGroups(folder: string): FakeGatewayOptions["jointGroups
   }));
 }
 
-/** Torso heights over the ground of the standing postures, m; see docs/joints.md. */
+/** Torso heights over the ground of the standing postures, m. */
 const kHeights: Record<string, number> = {
   StandZero: 0.333, StandInit: 0.320, Stand: 0.3315, Crouch: 0.229, Sit: 0.11, SitRelax: 0.11,
   LyingBack: 0.06, LyingBelly: 0.06,

@@ -3,14 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <sstream>
 
 namespace nao {
 namespace {
-
-using ::testing::ContainerEq;
 
 TEST(Reason, MakesASentenceOfCodeAndArguments) {
   EXPECT_EQ(to_sentence({"joint-unknown", {"\"Tail\""}}), "The robot has no joint \"Tail\".");
@@ -62,23 +59,6 @@ TEST(ReasonTable, UsesEveryArgumentAndNoOther) {
           << entry.code << " " << placeholder;
     }
   }
-}
-
-TEST(ReasonTable, IsTheTableOfTheMessagesReadme) {
-  std::vector<std::string> expected;
-  for (const ReasonEntry& entry : kReasons) {
-    expected.push_back("| `" + std::string(entry.code) + "` | " + std::string(entry.arguments) +
-                       (entry.arguments.empty() ? "" : " ") + "| " + std::string(entry.sentence) +
-                       " |");
-  }
-  std::ifstream readme(NAO_MESSAGES_README);
-  std::vector<std::string> rows;
-  bool is_in_section = false;
-  for (std::string line; std::getline(readme, line);) {
-    if (line.starts_with("## ")) is_in_section = line == "## Reason codes";
-    if (is_in_section && line.starts_with("| `")) rows.push_back(line);
-  }
-  EXPECT_THAT(rows, ContainerEq(expected));
 }
 
 }  // namespace

@@ -6,15 +6,14 @@ import {setLanguage} from "./texts";
 
 const kRoot = new URL("../../../../", import.meta.url).pathname;
 
-/** Codes and number of arguments in the tables "| `code` | arguments | sentence |" of a document. */
-function documentedReasons(file: string): Map<string, number> {
-  const rows = readFileSync(kRoot + file, "utf8").matchAll(/^\| `([a-z]+(?:-[a-z]+)+)` \| ([^|]*)\| ([^|]*)\|$/gm);
-  return new Map([...rows].map(([, code, names]) =>
-      [code ?? "", names?.trim() ? names.split(",").length : 0]));
+/** Codes and number of arguments in a C++ table of {"code", "arguments", "sentence"}. */
+function reasonsOf(file: string): Map<string, number> {
+  const rows = readFileSync(kRoot + file, "utf8").matchAll(/^ *\{"([a-z]+(?:-[a-z]+)+)", "([^"]*)", "/gm);
+  return new Map([...rows].map(([, code, names]) => [code ?? "", names ? names.split(",").length : 0]));
 }
 
-const documented = new Map([...documentedReasons("lcmtypes/README.md"),
-                            ...documentedReasons("phone-gateway/PROTOCOL.md")]);
+const documented = new Map([...reasonsOf("libs/messages/reason_table.h"),
+                            ...reasonsOf("phone-gateway/server/core/gateway_reasons.h")]);
 const reason = {message: "Joint Tail is unknown.", reasonCode: "joint-unknown", reasonArguments: ["Tail"]};
 
 afterEach(() => setLanguage("en"));
@@ -34,7 +33,7 @@ describe("reasonInWords", () => {
 });
 
 describe("reason texts", () => {
-  it("exist for every documented code", () => {
+  it("exist for every code of both tables", () => {
     expect(documented.size).toBeGreaterThan(80);
     expect([...documented.keys()].filter((code) => !(code in kReasonTexts))).toEqual([]);
   });

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <set>
 
 namespace nao::gateway {
@@ -42,23 +41,6 @@ TEST(GatewayReasons, UseEveryArgumentAndNoOther) {
           << entry.code << " " << placeholder;
     }
   }
-}
-
-TEST(GatewayReasons, AreTheTableOfTheDocument) {
-  std::vector<std::string> expected;
-  for (const ReasonEntry& entry : kGatewayReasons) {
-    expected.push_back("| `" + std::string(entry.code) + "` | " + std::string(entry.arguments) +
-                       (entry.arguments.empty() ? "" : " ") + "| " + std::string(entry.sentence) +
-                       " |");
-  }
-  std::ifstream document(PROTOCOL_MD);
-  std::vector<std::string> rows;
-  bool is_in_section = false;
-  for (std::string line; std::getline(document, line);) {
-    if (line.starts_with("## ")) is_in_section = line.ends_with("Reason codes");
-    if (is_in_section && line.starts_with("| `")) rows.push_back(line);
-  }
-  EXPECT_THAT(rows, testing::ContainerEq(expected));
 }
 
 }  // namespace
