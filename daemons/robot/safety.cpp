@@ -21,6 +21,12 @@ constexpr double kStiffeningTime = 2.4;
 constexpr double kFollowTime = 0.5;
 /** Least stiffness of a stiff leg. */
 constexpr double kStiffLeg = 0.05;
+/** Difference of stiffness that counts as none. Chosen: far above the rounding of a frame's float,
+ * and far below what holds a joint. */
+constexpr double kStiffnessStep = 0.01;
+/** Time for which a robot that does not become limp is told so before the program ends, s: 25
+ * frames. Chosen. */
+constexpr double kLastFramesTime = 0.3;
 /** Stiffness while it sits down: B-Human's of legs. */
 constexpr double kSittingStiffness = 0.75;
 
@@ -108,9 +114,9 @@ void Safety::change_phase(const Input& input, const Targets& targets) {
   ends_ = ends_ || input.is_ending || press == Press::kLong;
   switch (phase_) {
     case Phase::kLimp:
-      if (ends_) {
+      if (ends_ && (is_limp(input.measured) || time_ >= kLastFramesTime)) {
         enter(Phase::kEnded);
-      } else if ((starts_itself_ || press != Press::kNone) && may_start(input)) {
+      } else if (!ends_ && (starts_itself_ || press != Press::kNone) && may_start(input)) {
         start(input, targets);
       }
       return;
@@ -176,6 +182,17 @@ bool Safety::are_legs_stiff(const std::vector<double>& stiffness) const {
   });
 }
 
+bool Safety::is_limp(const Measurement& measured) const {
+  for (size_t i = 0; i < measured.stiffness.size(); ++i) {
+    if (measured.stiffness[i] > limp_stiffness(i) + kStiffnessStep) return false;
+  }
+  return true;
+}
+
+double Safety::limp_stiffness(size_t motor) const {
+  return is_seated_ ? map_.seated_stiffness[motor] : 0;
+}
+
 void Safety::start(const Input& input, const Targets& targets) {
   held_.position = input.measured.position;
   held_.stiffness = targets.stiffness;
@@ -197,7 +214,7 @@ void Safety::leave(Cause cause, const Input& input, const Targets& targets) {
 void Safety::go_limp(Cause cause, bool is_seated) {
   cause_ = cause;
   is_seated_ = is_seated;
-  enter(ends_ ? Phase::kEnded : Phase::kLimp);
+  enter(Phase::kLimp);
 }
 
 void Safety::enter(Phase phase) {
@@ -228,7 +245,7 @@ void Safety::set_targets(const Input& input, Targets& targets) {
       // Limp: targets follow the joints, so that nothing jumps when they become stiff again. A
       // seated robot keeps some stiffness in its hips.
       for (size_t i = 0; i < targets.position.size(); ++i) {
-        targets.stiffness[i] = is_seated_ ? map_.seated_stiffness[i] : 0;
+        targets.stiffness[i] = limp_stiffness(i);
         if (targets.stiffness[i] == 0) targets.position[i] = input.measured.position[i];
       }
   }

@@ -89,6 +89,10 @@ class Safety {
   /** Reason not to stay stiff; none if there is none. @param press  None if it is ignored. */
   Cause find_cause(const Input& input, Press press) const;
   bool may_start(const Input& input) const;
+  /** The servos have the stiffness of a limp robot. */
+  bool is_limp(const Measurement& measured) const;
+  /** Stiffness of a motor of a limp robot. */
+  double limp_stiffness(size_t motor) const;
   bool are_legs_stiff(const std::vector<double>& stiffness) const;
   void start(const Input& input, const Targets& targets);
   /** Sits down, or goes limp if it cannot. */
@@ -107,7 +111,7 @@ class Safety {
   Cause cause_ = Cause::kNone;
   bool is_first_ = true;
   bool is_seated_ = false;
-  /** Ends when the robot is limp. */
+  /** Ends when the servos have become limp, or have been told so for 0.3 s. */
   bool ends_ = false;
   /** Time in the current phase, s. */
   double time_ = 0;

@@ -43,6 +43,8 @@ TEST(RobotLoop, EndsSeatedWheneverItsControllerOrItsProgramDiesWhileItStands) {
   }
   loop.crash(20);
   EXPECT_TRUE(loop.run_until([&] { return loop.is_seated(); }, 4));
+  // The program ends after the frame that shows it.
+  loop.frame();
   EXPECT_EQ(loop.core().safety().phase(), Phase::kEnded);
 }
 

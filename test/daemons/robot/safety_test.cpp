@@ -186,8 +186,40 @@ TEST_F(SafeRobot, BeyondTheTiltLimitItIsLimpInTheSameFrame) {
   EXPECT_EQ(core_->safety().phase(), Phase::kDriven) << "falls are the controller's matter";
   is_ending_ = true;
   frame();
-  EXPECT_EQ(core_->safety().phase(), Phase::kEnded);
   EXPECT_EQ(leg_stiffness(), 0);
+  frame();
+  EXPECT_EQ(core_->safety().phase(), Phase::kEnded);
+}
+
+TEST_F(SafeRobot, EndsWhenTheServosAreLimpAndNotWhenTheyWereTold) {
+  drive();
+  frame_.angles = {0.6f, 0};
+  is_ending_ = true;
+  const LolaState stiff = frame_;
+  // The robot loses four frames: it is told again in each.
+  for (int i = 0; i < 4; ++i) {
+    frame();
+    EXPECT_EQ(core_->safety().phase(), Phase::kLimp);
+    EXPECT_EQ(leg_stiffness(), 0);
+    frame_.stiffness = stiff.stiffness;
+  }
+  frame();
+  frame();
+  EXPECT_EQ(core_->safety().phase(), Phase::kEnded);
+}
+
+TEST_F(SafeRobot, EndsAfterAWhileWithServosThatDoNotBecomeLimp) {
+  drive();
+  frame_.angles = {0.6f, 0};
+  is_ending_ = true;
+  const LolaState stiff = frame_;
+  int num_frames = 0;
+  while (core_->safety().phase() != Phase::kEnded && num_frames < 100) {
+    frame();
+    frame_.stiffness = stiff.stiffness;
+    ++num_frames;
+  }
+  EXPECT_NEAR(num_frames * 0.012, 0.3, 0.03);
 }
 
 TEST_F(SafeRobot, GoesLimpWhenItTipsOverWhileItSitsDown) {
@@ -206,6 +238,7 @@ TEST_F(SafeRobot, ARelaxedRobotStaysLimpWhenItEnds) {
   command_.stiffness.assign(command_.stiffness.size(), 0);
   run(0.1);
   is_ending_ = true;
+  frame();
   frame();
   EXPECT_EQ(core_->safety().phase(), Phase::kEnded);
 }
