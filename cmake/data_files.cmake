@@ -11,7 +11,7 @@ function(nao_data_files folder)
       OUTPUT ${copy}
       COMMAND ${CMAKE_COMMAND} -E copy ${source} ${copy}
       DEPENDS ${source}
-      COMMENT "Copying ${folder}/${name}")
+      COMMENT "Copying ${folder}/${name}" VERBATIM)
     list(APPEND copies ${copy})
   endforeach()
   add_custom_target(${folder} ALL DEPENDS ${copies})

@@ -25,9 +25,9 @@ def copy_sources(root, folder):
 
 def processor_time(folder, command):
     """User and system time of a command of scripts/lib.sh and of all its children, s."""
-    script = f". '{folder}/scripts/lib.sh'; {command}"
+    script = f'. "$1"; {command}'
     before = os.times()
-    subprocess.run(["bash", "-c", script], check=True, stdout=subprocess.DEVNULL,
+    subprocess.run(["bash", "-c", script, "bench", folder / "scripts/lib.sh"], check=True, stdout=subprocess.DEVNULL,
                    env={**os.environ, "CCACHE_DISABLE": "1"})
     after = os.times()
     return after.children_user + after.children_system - before.children_user - before.children_system

@@ -212,10 +212,10 @@ def install_and_build(options):
         if not (folder / "nao-sim").exists():
             say("Building; the first time this takes some minutes.")
         # Only the programs started here; all others (nao-viewer, nao-trial): cmake --build --preset dev --target programs
-        build = f". '{ROOT}/scripts/lib.sh'; reconfigure_with_new_packages; build_preset dev \"$@\""
+        build = '. "$1"; shift; reconfigure_with_new_packages; build_preset dev "$@"'
         watchdog = [ROBOT_WATCHDOG] if ROBOT in options.programs else []
         needed = {*options.programs, *watchdog, *COMPANIONS, *needed_programs(options)}
-        succeed(["bash", "-c", build, "start", *sorted(needed)], umask=0o022)
+        succeed(["bash", "-c", build, "start", ROOT / "scripts/lib.sh", *sorted(needed)], umask=0o022)
     if options.bin and not options.only:
         # A folder of an earlier build may lack programs that a robot can do without.
         options.programs = [program for program in options.programs
@@ -390,17 +390,21 @@ def command_of(process, processes, stack, settings, options, robots):
     if options.lock_step and program in (SIM, ROBOT):
         words.append("--lock-step")
     words[0] = f"{settings['bin_dir']}/{words[0]}"
-    return " ".join('"' + escaped(word).replace('"', '\\"') + '"' for word in words)
+    return " ".join('"' + re.sub(r'(["\\])', r"\\\1", escaped(word)) + '"' for word in words)
 
 
 def write_configuration(stack, settings, options, processes, robots):
-    paths = {"socket": escaped(stack.socket), "logs": escaped(stack.logs), "pid_file": escaped(stack.pid_file)}
-    text = SUPERVISOR_SECTION.format(**paths, user="user=root" if os.geteuid() == 0 else "")
+    for path in (stack.run_dir, settings["bin_dir"]):
+        if re.search(r"\s[;#]", str(path)):
+            raise Failure(f"supervisor takes what follows ' ;' or ' #' in the path {path} for a comment; choose another path")
+    text = SUPERVISOR_SECTION.format(socket=escaped(stack.socket), logs=escaped(stack.logs), pid_file=escaped(stack.pid_file),
+                                     user="user=root" if os.geteuid() == 0 else "")
     # First, so that it receives the first status of all others.
     for process in [Process(WATCHDOG, WATCHDOG, robots[0]), *processes]:
         is_robot = process.program == ROBOT
         # The bridge ends with status 0 when it was ended by the robot's button.
-        text += PROGRAM_SECTION.format(**paths, name=process.name,
+        # Supervisor expands the names of programs' logs twice.
+        text += PROGRAM_SECTION.format(logs=escaped(escaped(stack.logs)), name=process.name,
                                        command=command_of(process, processes, stack, settings, options, robots),
                                        priority=1 if process.program == WATCHDOG else 2,
                                        restart="unexpected" if is_robot else "true",

@@ -112,9 +112,7 @@ void prepare_tls(GatewayOptions& options) {
   NetworkOptions& network = options.network;
   if (network.certificate_file.empty()) {
     CertificateNames names;
-    names.host_names = {own_host_name(), own_host_name() + ".local", "localhost"};
-    names.host_names.insert(names.host_names.end(), options.host_names.begin(),
-                            options.host_names.end());
+    names.host_names = make_access_rules(options).all_host_names();
     names.addresses = own_addresses();
     names.addresses.push_back("127.0.0.1");
     const CertificateFiles files = own_certificate(

@@ -89,6 +89,27 @@ bool AccessRules::is_own_name(std::string_view host) const {
   });
 }
 
+std::vector<std::string> AccessRules::all_host_names() const {
+  std::vector<std::string> domains(kPrivateDomains.begin(), kPrivateDomains.end());
+  if (domains_) {
+    for (const std::string& domain : domains_()) domains.push_back(domain);
+  }
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const std::string& name : host_names_) {
+    if (name.empty()) continue;
+    add(name);
+    if (name.find('.') != std::string::npos) continue;
+    for (const std::string& domain : domains) {
+      if (!domain.empty()) add(name + "." + lower_case(without_last_dot(domain)));
+    }
+  }
+  add("localhost");
+  return names;
+}
+
 bool AccessRules::is_known_host(std::string_view host_header) const {
   const std::string host = host_without_port(host_header);
   if (host.empty()) return false;

@@ -30,6 +30,10 @@ class AccessRules {
    * can be made. A dot at the end changes nothing (RFC 1034, 3.1). */
   bool is_known_host(std::string_view host_header) const;
 
+  /** Names that is_known_host() accepts, for a certificate: the host's names, those without a
+   * domain also in every domain, and localhost. */
+  std::vector<std::string> all_host_names() const;
+
   /** Whether a WebSocket with this Origin may be opened: that of the server's own pages, or an
    * allowed one. Clients that are no browsers send none and are accepted. */
   bool is_known_origin(std::string_view origin, std::string_view host_header, bool is_secure) const;

@@ -107,7 +107,9 @@ struct Network::Impl {
              serve_http},
         tcp{listen(io, options.bind, options.tcp_port, "--tcp-port"), asio::steady_timer(io),
             serve_tcp},
-        signals(io, SIGINT, SIGTERM) {
+        signals(io, SIGINT, SIGTERM),
+        http_port(http.acceptor.local_endpoint().port()),
+        tcp_port(tcp.acceptor.local_endpoint().port()) {
     accept(http);
     accept(tcp);
     signals.async_wait([this](const error_code& error, int signal) {
@@ -179,6 +181,9 @@ struct Network::Impl {
   Listener http;
   Listener tcp;
   asio::signal_set signals;
+  // Also after drain() has closed the acceptors.
+  const uint16_t http_port;
+  const uint16_t tcp_port;
   std::list<Watched> watched;
   std::list<Timer> timers;
   std::string reason;
@@ -195,11 +200,11 @@ Network::~Network() {
 }
 
 uint16_t Network::http_port() const {
-  return impl_->http.acceptor.local_endpoint().port();
+  return impl_->http_port;
 }
 
 uint16_t Network::tcp_port() const {
-  return impl_->tcp.acceptor.local_endpoint().port();
+  return impl_->tcp_port;
 }
 
 const NetworkCounters& Network::counters() const {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace nao {
 namespace {
 
@@ -22,6 +24,16 @@ TEST(AccessRules, AcceptTheNamesThatRoutersAndTheNetworkGiveThisHost) {
     EXPECT_TRUE(kRules.is_known_host(host)) << host;
   }
   EXPECT_FALSE(AccessRules({"robot"}, {}).is_known_host("robot.uni-x.de"));
+}
+
+TEST(AccessRules, NameEveryHostForACertificateOnce) {
+  std::vector<std::string> names = kRules.all_host_names();
+  for (const char* name : {"robot", "robot.local", "robot.fritz.box", "robot.uni-x.de",
+                           "robot.example", "localhost"}) {
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  }
+  for (const std::string& name : names) EXPECT_TRUE(kRules.is_known_host(name)) << name;
+  EXPECT_EQ(std::count(names.begin(), names.end(), "robot.example.local"), 0);
 }
 
 TEST(AccessRules, AcceptADotAtTheEndSubdomainsOfLocalhostAndZones) {

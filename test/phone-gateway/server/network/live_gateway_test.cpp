@@ -306,5 +306,23 @@ TEST(LiveGateway, NamesThePortThatIsInUse) {
   }
 }
 
+// The announcement is renewed during the drain, too, and names the port.
+TEST(NetworkTest, KnowsItsPortsUntilItsEnd) {
+  Bus bus("memq://");
+  GatewayDaemon daemon(bus, {make_test_robot()}, GatewayLimits(), "secret");
+  const TemporaryFolder data;
+  WebPages pages(data.path());
+  NetworkOptions options;
+  options.bind = "127.0.0.1";
+  options.http_port = 0;
+  options.tcp_port = 0;
+  Network network(options, AccessRules({}, {}), daemon.core(), pages);
+  const uint16_t http_port = network.http_port();
+  const uint16_t tcp_port = network.tcp_port();
+  network.drain(0);
+  EXPECT_EQ(network.http_port(), http_port);
+  EXPECT_EQ(network.tcp_port(), tcp_port);
+}
+
 }  // namespace
 }  // namespace nao::gateway
