@@ -138,9 +138,10 @@ export class App {
     this.walkHere = new WalkHere(this.stage, ({x, y, theta}) =>
         void this.commander.command(useCases.moveTo(x, y, theta)));
     this.commander.onRefusal = () => vibrate(kRefusalPattern);
-    // A button wins over what is held.
-    this.commander.onMotion = () => {
-      if (this.letGo()) this.messages.show("info", say("drive.released"));
+    this.held.yieldTo(this.commander, this.messages);
+    this.held.releaseScreen = () => {
+      this.controllerScreen.release();
+      this.teach.endDrag();
     };
     this.speech = new Speech(this.store, this.commander, this.stage, storage(), this.sound, () => this.subscribe());
     this.connectionScreen = new ConnectionScreen(this.store, {
@@ -218,7 +219,7 @@ export class App {
                      () => this.chooseScreen());
     window.addEventListener("online", () => this.connection.retryNow());
     listenToLeaving({
-      blurred: () => this.letGo(),
+      blurred: () => void this.held.release(),
       hidden: () => this.hidden(),
       shown: () => this.shown(),
     });
@@ -260,7 +261,7 @@ export class App {
   }
 
   private leave(): void {
-    this.letGo();
+    this.held.release();
     this.connection.disconnect();
   }
 
@@ -279,7 +280,7 @@ export class App {
   /** Drive mode, with nothing held. */
   private leaveControls(): void {
     if (this.store.get().isJointsMode) this.setJointsMode(false);
-    this.letGo();
+    this.held.release();
     this.walkHere.clear();
   }
 
@@ -328,7 +329,7 @@ export class App {
   }
 
   private setJointsMode(isJointsMode: boolean): void {
-    this.letGo();
+    this.held.release();
     this.walkHere.clear();
     this.store.set({isJointsMode, selectedGroup: ""});
     this.stage.orbit.setView(isJointsMode ? kJointsView : kDriveView);
@@ -345,7 +346,7 @@ export class App {
   }
 
   private stop(): void {
-    this.letGo();
+    this.held.release();
     this.teach.cancel();
     vibrate(kTapPattern);
     void this.commander.stop();
@@ -380,13 +381,13 @@ export class App {
   }
 
   private openMenu(): void {
-    this.letGo();
+    this.held.release();
     const {state, robot, robots} = this.store.get();
     this.menu.open(bodyInWords(state?.body, robot), robots.length > 1);
   }
 
   private openSpeech(): void {
-    this.letGo();
+    this.held.release();
     this.speech.sheet.open();
   }
 
@@ -400,7 +401,7 @@ export class App {
   /** Words are put in place once; another language starts the page again, which connects by itself. */
   private setLanguage(language: Language): void {
     this.keep({language});
-    this.letGo();
+    this.held.release();
     location.reload();
   }
 
@@ -415,20 +416,9 @@ export class App {
     saveSettings(storage(), this.settings);
   }
 
-  /** Nothing drives any more: the fingers may be anywhere. @return true if something was held. */
-  private letGo(): boolean {
-    const wasHeld = this.walk.isHeld || this.jointDriver.isHeld;
-    this.held.release();
-    this.controllerScreen.release();
-    this.jointDriver.setStick(null);
-    this.teach.endDrag();
-    this.walk.release();
-    return wasHeld;
-  }
-
   /** Nobody sees the robot any more: it does nothing by itself either. */
   private hidden(): void {
-    this.letGo();
+    this.held.release();
     this.play.letGo();
     this.subscribe();
   }
@@ -444,7 +434,7 @@ export class App {
       this.stage.start();
       if (!this.settings.isTourSeen) this.tour.start();
     } else {
-      this.letGo();
+      this.held.release();
       this.stage.stop();
       this.teach.sheet.element.close();
       this.tour.leave();
