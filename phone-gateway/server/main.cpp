@@ -205,19 +205,25 @@ class DiscoveryLog {
   std::string alias_;
 };
 
-/** Prints the addresses, one a line; if requested, then an empty line and the first as a QR code.
+/** Prints the addresses, one a line; if requested, then an empty line and the first as a QR code
+ * with the pairing code below.
  */
 void print_addresses(const GatewayOptions& options) {
   const std::vector<std::string> urls = addresses_for_phones(options, options.network.http_port);
   for (const std::string& url : urls) std::cout << url << "\n";
-  if (options.prints_qr) std::cout << "\n" << draw_on_terminal(make_qr_code(urls.front()));
+  if (options.prints_qr) {
+    std::cout << "\n"
+              << draw_on_terminal(make_qr_code(urls.front())) << "Pairing code: " << options.token
+              << "\n";
+  }
   std::cout.flush();
 }
 
 /** Prints and writes the QR code of an address, as the options request. */
 void show_qr_code(const GatewayOptions& options, const std::string& url) {
   if (options.prints_qr) {
-    std::cout << draw_on_terminal(make_qr_code(url)) << url << std::endl;
+    std::cout << draw_on_terminal(make_qr_code(url)) << url << "\nPairing code: " << options.token
+              << std::endl;
   }
   if (options.qr_file.empty()) return;
   std::ofstream file(options.qr_file, std::ios::binary);

@@ -39,7 +39,7 @@ import type {Settings} from "./settings";
 import {Sound} from "./sound";
 import {Speech} from "./speech/speech";
 import {storage} from "./storage";
-import {Store} from "./store";
+import {isStale, Store} from "./store";
 import {Teach} from "./teach/teach";
 import {bodyInWords} from "./text/body";
 import {findGateways} from "./nearby";
@@ -57,6 +57,10 @@ const kImageRateHz = 15;
 const kTapPattern = 12;
 const kLimitPattern = 30;
 const kRefusalPattern = [25, 60, 25];
+
+/** After a lost link the controller stays for so many attempts, which take 3.5 s where a gateway is down, and up to 20 s where
+ * nothing answers. Chosen. */
+const kPatientAttempts = 3;
 
 type ScreenName = "loading" | "connection" | "lobby" | "controller";
 
@@ -201,6 +205,11 @@ export class App {
   start(): void {
     exposeAutomation(this.store, this.stage, this.image, this.view, this.perception.objects);
     new MatchEvents(this.store, this.messages, this.sound);
+    this.store.watch(isStale, (isOn) => this.root.classList.toggle("stale", isOn));
+    this.held.lockWhileStale(() => {
+      vibrate(kRefusalPattern);
+      this.messages.show("bad", say("drive.linkLost"));
+    });
     this.held.listen(() => this.root.dataset["screen"] === "controller");
     // Another motion replaces the walk to the marked spot.
     this.store.watch((state) => state.state?.activity?.name ?? "", (activity) => {
@@ -215,7 +224,7 @@ export class App {
       this.perception.setField(lines);
       this.stage.outdate();
     });
-    this.store.watch((state) => `${state.phase} ${state.isChoosingRobot} ${state.loading.done} ${state.loading.error}`,
+    this.store.watch((state) => `${state.phase} ${state.attempts} ${state.isChoosingRobot} ${state.loading.done} ${state.loading.error}`,
                      () => this.chooseScreen());
     window.addEventListener("online", () => this.connection.retryNow());
     listenToLeaving({
@@ -424,9 +433,10 @@ export class App {
   }
 
   private chooseScreen(): void {
-    const {phase, loading, isChoosingRobot} = this.store.get();
+    const {phase, attempts, robot, loading, isChoosingRobot} = this.store.get();
     const isLoaded = loading.total > 0 && loading.done === loading.total;
-    const screen: ScreenName = phase !== "connected" ? "connection" : isChoosingRobot ? "lobby" :
+    const isBack = phase !== "idle" && robot !== null && attempts <= kPatientAttempts;
+    const screen: ScreenName = phase !== "connected" && !isBack ? "connection" : isChoosingRobot ? "lobby" :
         isLoaded ? "controller" : "loading";
     if (this.root.dataset["screen"] === screen) return;
     this.root.dataset["screen"] = screen;

@@ -2,6 +2,7 @@
  * too, is released from here. */
 import type {Commander} from "../commander";
 import type {Messages} from "../messages";
+import {isStale} from "../store";
 import type {Store} from "../store";
 import {say} from "../text/texts";
 import {Gamepads, listenToKeys} from "./held_keys";
@@ -43,6 +44,16 @@ export class HeldControls {
     this.joints.setStick(null);
     this.walk.release();
     return wasHeld;
+  }
+
+  /** Nothing can be held while what is seen of the robot is old. @param released  called when something was held then. */
+  lockWhileStale(released: () => void): void {
+    this.store.watch(isStale, (isLocked) => {
+      const wasHeld = isLocked && this.release();
+      this.walk.isLocked = isLocked;
+      this.joints.isLocked = isLocked;
+      if (wasHeld) released();
+    });
   }
 
   /** A motion that ends a walk wins over what is held, which is told. */

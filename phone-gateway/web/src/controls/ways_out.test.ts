@@ -51,7 +51,7 @@ describe("ways out of a walk", () => {
     vi.stubGlobal("Element", class {});
     asked = [];
     store = new Store();
-    store.set({control: create(ControlSchema, {isMine: true})});
+    store.set({phase: "connected", control: create(ControlSchema, {isMine: true})});
     const messages = new Messages(store);
     commander = new Commander({
       request: (useCase) => {
@@ -68,6 +68,7 @@ describe("ways out of a walk", () => {
     }, Date.now);
     held.listen(() => true);
     held.yieldTo(commander, messages);
+    held.lockWhileStale(() => told.push("stale"));
     held.releaseScreen = () => walk.set("sticks", null);
     const release = () => void held.release();
     listenToLeaving({blurred: release, hidden: release, shown: () => {}});
@@ -105,6 +106,14 @@ describe("ways out of a walk", () => {
     },
     "the page is left": () => window.dispatchEvent(new Event("pagehide")),
     "stop is pressed": () => held.release(),
+    "nothing new comes from the robot, and does again": () => {
+      store.set({stateAgeMs: 501});
+      store.set({stateAgeMs: 20});
+    },
+    "the link is lost, and is back": () => {
+      store.set({phase: "waiting"});
+      store.set({phase: "connected"});
+    },
     "a posture is tapped": () => void commander.command(useCases.goToPosture("Stand")),
     "a kick is tapped": () => void commander.command(useCases.doAction("kick-left")),
   };
@@ -134,6 +143,16 @@ describe("ways out of a walk", () => {
       // A tilt counts only while the pad is touched, which is released.
       frames(3 * kSilenceMs, name === "tilt" ? () => {} : hold);
       expect(sent.slice(count).filter(({x}) => x !== 0)).toEqual([]);
+    });
+
+    it("cannot be held while nothing new comes from the robot, and says why it ended", () => {
+      store.set({stateAgeMs: 501});
+      expect(sent.at(-1)).toEqual(zero);
+      expect(told).toEqual(["stale"]);
+      const count = sent.length;
+      begin();
+      frames(kSilenceMs, hold);
+      expect(sent.length).toBe(count);
     });
 
     it("gives way to a button, which is sent after the end of the walk, and says so", () => {
