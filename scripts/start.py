@@ -102,7 +102,8 @@ def start_pose(text):
 def parse_options(arguments=None):
     """@param arguments  Instead of the command line."""
     line = CommandLine("[OPTION]...", __doc__)
-    line.option("--scene", metavar="NAME", default="soccer", help="empty or soccer (default: soccer)")
+    line.option("--scene", metavar="NAME", default="soccer", help="empty, soccer, or a field of the league of 2026: hsl_small, hsl_middle, hsl_large "
+                     "(default: soccer)")
     line.option("--robot", metavar="NAME[:MODEL]", action="append",
                 help="name of the robot, which is the prefix of its channels, and its model (default: NAO, and that of "
                      "--model); repeat it for several robots in one world")
@@ -371,7 +372,7 @@ def command_of(process, processes, stack, settings, options, robots):
     elif program == "nao-motion-files":
         words += ["--folder", stack.motions if len(robots) == 1 else stack.motions / robot.name]
     elif program == GATEWAY:
-        words += [*gateway_options(stack, settings), "--tcp-port", settings["tcp_port"],
+        words += [*gateway_options(stack, settings), "--tcp-port", settings["tcp_port"], "--scene", settings["scene"],
                   "--audit-log", stack.logs / "phones.jsonl"]
         # A camera program may run on another host.
         words += ["--overview"] if options.backend != "robot" and (CAMERA in options.programs or options.only) else []
