@@ -21,6 +21,8 @@ OPTIONAL = ("nao-speaker",)
 # With --backend lola one more: the bridge of a real robot, which its watchdog starts.
 ROBOT = "nao-robot"
 ROBOT_WATCHDOG = "nao-robot-watchdog"
+# Without these a phone cannot drive.
+TO_DRIVE = (SIM, ROBOT, "nao-motion", "nao-phone-gateway")
 # Replaces programs that hang: "nao watchdog".
 WATCHDOG = "nao-watchdog"
 # On a real robot, and where LoLA listens there.

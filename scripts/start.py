@@ -15,7 +15,7 @@ from robots import (MAX_ROBOTS, Process, choose_autonomous, choose_processes, ch
                     number_of_robots, place_robots, team_sizes)
 from seat import check_seated
 from stack import (CALL, CAMERA, COMPANIONS, FOXGLOVE, LOLA_SOCKET, OPTIONAL, PLAY, PROGRAMS, ROBOT, ROBOT_PROGRAMS,
-                   REFEREE, ROBOT_WATCHDOG, ROOT, SIM, VISION, WATCHDOG, CommandLine, Failure, Stack, run_as_root,
+                   REFEREE, ROBOT_WATCHDOG, ROOT, SIM, TO_DRIVE, VISION, WATCHDOG, CommandLine, Failure, Stack, run_as_root,
                    run_script, warn)
 
 # Ports that are tried first. 8080: registered for HTTP alternatives (IANA); 7668: next to LCM's 7667; 8765: what
@@ -27,7 +27,9 @@ GATEWAY = "nao-phone-gateway"
 
 # Time for all programs to become ready, s. Chosen: ten times the usual 2 to 4 s, and more for a loaded machine.
 READY_TIMEOUT = 60
-# The same with --only, s: a program may wait for programs on other hosts.
+# The same for programs that driving does not need, once it is possible, s. Chosen: they need less than a second more.
+OTHERS_READY_TIMEOUT = 10
+# The same as READY_TIMEOUT with --only, s: a program may wait for programs on other hosts.
 ONLY_READY_TIMEOUT = 5
 # Period, s, of looking for crashed programs meanwhile. Chosen: not noticed by a user.
 POLL_PERIOD = 0.05
@@ -100,7 +102,8 @@ def start_pose(text):
 def parse_options(arguments=None):
     """@param arguments  Instead of the command line."""
     line = CommandLine("[OPTION]...", __doc__)
-    line.option("--scene", metavar="NAME", default="soccer", help="empty or soccer (default: soccer)")
+    line.option("--scene", metavar="NAME", default="soccer", help="empty, soccer, or a field of the league of 2026: hsl_small, hsl_middle, hsl_large "
+                     "(default: soccer)")
     line.option("--robot", metavar="NAME[:MODEL]", action="append",
                 help="name of the robot, which is the prefix of its channels, and its model (default: NAO, and that of "
                      "--model); repeat it for several robots in one world")
@@ -369,7 +372,7 @@ def command_of(process, processes, stack, settings, options, robots):
     elif program == "nao-motion-files":
         words += ["--folder", stack.motions if len(robots) == 1 else stack.motions / robot.name]
     elif program == GATEWAY:
-        words += [*gateway_options(stack, settings), "--tcp-port", settings["tcp_port"],
+        words += [*gateway_options(stack, settings), "--tcp-port", settings["tcp_port"], "--scene", settings["scene"],
                   "--audit-log", stack.logs / "phones.jsonl"]
         # A camera program may run on another host.
         words += ["--overview"] if options.backend != "robot" and (CAMERA in options.programs or options.only) else []
@@ -413,40 +416,68 @@ def write_configuration(stack, settings, options, processes, robots):
 
 
 def failed_process(stack, processes):
-    """Name of a process that ended several times; None if there is none."""
+    """The process that ended several times; None if there is none."""
     log = (stack.logs / "supervisord.log").read_text(errors="replace")
-    return next((process.name for process in processes
+    return next((process for process in processes
                  if log.count(f"exited: {process.name} ") >= MAX_START_FAILURES), None)
 
 
-def wait_until_ready(stack, settings, options, processes):
-    """Waits until every program is ready, and the watchdog monitors them all. With --only, a program may wait for
-    programs on other hosts: then a shorter timeout applies and is not an error."""
-    timeout = ONLY_READY_TIMEOUT if options.only else READY_TIMEOUT
+def wait_for(stack, settings, processes, timeout):
+    """Waits until programs are ready, at most `timeout` s.
+    @return whether they are, the process that crashed instead (None: none), and what the others wait for."""
     report = stack.logs / "start.log"
     with open(report, "w", encoding="utf-8") as output:
         waiter = subprocess.Popen([f"{settings['bin_dir']}/nao", "status", "--wait",
-                                   ",".join([*(process.program for process in processes), WATCHDOG]), "--this-host",
+                                   ",".join(process.program for process in processes), "--this-host",
                                    "--timeout", str(timeout), "--lcm-url", settings["lcm_url"]], stderr=output)
     ended = os.pidfd_open(waiter.pid)  # readable when the process has ended
-    while not select.select([ended], [], [], POLL_PERIOD)[0]:
+    failed = None
+    while not failed and not select.select([ended], [], [], POLL_PERIOD)[0]:
         failed = failed_process(stack, processes)
-        if failed:
-            waiter.kill()
-            waiter.wait()
-            log = stack.logs / f"{failed}.log"
-            warn(f"{failed} does not start. Its last words ({log}):")
-            print("\n".join(log.read_text(errors="replace").splitlines()[-5:]), file=sys.stderr)
-            stack.stop()
-            raise Failure(f"everything is stopped again. More: {CALL}start --help, docs/troubleshooting.md")
-    if waiter.wait() == 0:
-        return
-    sys.stderr.write(re.sub("^nao: ", "", report.read_text(), flags=re.MULTILINE))
-    if options.only:
-        warn(f"the programs run and wait for the others; {CALL}status shows when they are there")
-        return
-    stack.stop()
-    raise Failure(f"not everything became ready within {timeout} s, so everything is stopped again; logs: {stack.logs}")
+    os.close(ended)
+    if failed:
+        waiter.kill()
+    is_ready = waiter.wait() == 0
+    return is_ready, failed, re.sub("^nao: ", "", report.read_text(), flags=re.MULTILINE)
+
+
+def warn_of_crash(stack, failed, consequence):
+    log = stack.logs / f"{failed.name}.log"
+    warn(f"{failed.name} does not start{consequence}. Its last words ({log}):")
+    print("\n".join(log.read_text(errors="replace").splitlines()[-5:]), file=sys.stderr)
+
+
+def wait_until_ready(stack, settings, options, processes):
+    """Waits until the robot can be driven, and a while for the programs that this does not need: what crashes among these, or
+    is not ready then, is left out with a warning. With --only, a program may wait for programs on other hosts: then a
+    shorter timeout applies and is not an error."""
+    timeout = ONLY_READY_TIMEOUT if options.only else READY_TIMEOUT
+    needed = [process for process in processes if process.program in TO_DRIVE] or processes
+    is_ready, failed, report = wait_for(stack, settings, needed, timeout)
+    if failed:
+        warn_of_crash(stack, failed, "")
+        stack.stop()
+        raise Failure(f"everything is stopped again. More: {CALL}start --help, docs/troubleshooting.md")
+    if not is_ready:
+        sys.stderr.write(report)
+        if options.only:
+            warn(f"the programs run and wait for the others; {CALL}status shows when they are there")
+            return
+        stack.stop()
+        raise Failure(f"not everything became ready within {timeout} s, so everything is stopped again; logs: {stack.logs}")
+    others = [process for process in processes if process not in needed]
+    watchdog = [Process(WATCHDOG, WATCHDOG, processes[0].robot)]  # ready when all others have begun
+    while others or watchdog:
+        is_ready, failed, report = wait_for(stack, settings, [*others, *watchdog],
+                                            ONLY_READY_TIMEOUT if options.only else OTHERS_READY_TIMEOUT)
+        if not failed:
+            break
+        warn_of_crash(stack, failed, " and is left out; the robot can be driven without it")
+        others = [process for process in others if process is not failed]
+        watchdog = []
+    if (others or watchdog) and not is_ready:
+        sys.stderr.write(report)
+        warn(f"the robot can be driven; {CALL}status shows when the rest is ready")
 
 
 def print_addresses(stack):

@@ -82,24 +82,43 @@ void RefereeCore::begin_half(int half) {
 void RefereeCore::end_half() {
   state_.time_left = 0;
   add_event(MatchEventKind::kHalfEnd, -1);
+  for (size_t i = 0; i < state_.players.size(); ++i) {
+    if (state_.players[i].penalty != Penalty::kNone) release(i);
+  }
   if (state_.half == 1) {
     begin_half(2);
-    return;
+  } else {
+    finish();
   }
+}
+
+void RefereeCore::finish() {
   add_event(MatchEventKind::kMatchEnd, -1);
   enter(MatchPhase::kFinished);
+}
+
+void RefereeCore::run_clock(double dt) {
+  // Before the first whistle of a half it stands.
+  const bool runs = state_.phase == MatchPhase::kPlaying || state_.time_left < rules_.half_duration;
+  if (runs) state_.time_left = std::max(0.0, state_.time_left - dt);
 }
 
 void RefereeCore::award_goal(int team) {
   ++state_.score[static_cast<size_t>(team)];
   add_event(MatchEventKind::kGoal, team);
-  begin_kick_off(1 - team);
+  if (std::abs(state_.score[0] - state_.score[1]) >= rules_.mercy_goals) {
+    finish();
+  } else {
+    begin_kick_off(1 - team);
+  }
 }
 
 void RefereeCore::penalize(size_t player, Penalty penalty) {
   MatchPlayer& who = state_.players[player];
   who.penalty = penalty;
-  who.penalty_left = rules_.penalty_duration;
+  int& num_before = num_penalties_[static_cast<size_t>(who.team)];
+  who.penalty_left = rules_.penalty_duration + rules_.penalty_increment * num_before;
+  if (penalty != Penalty::kNotGettingUp) ++num_before;
   watches_[player] = {};
   add_event(MatchEventKind::kPenalty, who.team, who.robot);
   output_.placements.push_back(penalty_place(who, scene_));
@@ -169,7 +188,6 @@ void RefereeCore::wait_for_robots(const RefereeInput& input) {
 }
 
 void RefereeCore::watch_play(double dt, const RefereeInput& input) {
-  state_.time_left = std::max(0.0, state_.time_left - dt);
   untouched_time_ += dt;
   for (const RobotSighting& robot : input.robots) {
     const MatchPlayer* player = find_player(state_, robot.name);
@@ -193,9 +211,7 @@ void RefereeCore::watch_play(double dt, const RefereeInput& input) {
     exit_ = exit;
     return_in_ = rules_.ball_return_delay;
   }
-  if (state_.time_left <= 0) {
-    end_half();
-  } else if (untouched_time_ > rules_.max_untouched_duration) {
+  if (untouched_time_ > rules_.max_untouched_duration) {
     begin_kick_off(1 - state_.kickoff_team);
   }
 }
@@ -209,7 +225,8 @@ RefereeOutput RefereeCore::step(const RefereeInput& input) {
   // A new simulator has reset everything: the half continues with a kick-off.
   if (is_restarted && is_on) begin_kick_off(state_.kickoff_team);
   phase_time_ += dt;
-  count_penalties(is_on ? dt : 0, input);
+  count_penalties(is_on && state_.phase != MatchPhase::kSet ? dt : 0, input);
+  if (is_on) run_clock(dt);
   switch (state_.phase) {
     case MatchPhase::kReady:
       watch_robots(dt, input);
@@ -226,6 +243,8 @@ RefereeOutput RefereeCore::step(const RefereeInput& input) {
     default:
       break;
   }
+  const bool is_still_on = is_on && state_.phase != MatchPhase::kFinished;
+  if (is_still_on && state_.time_left <= 0) end_half();
   return std::exchange(output_, {});
 }
 
@@ -273,8 +292,7 @@ std::optional<Reason> RefereeCore::overrule(const MatchCommand& command) {
       end_half();
       break;
     case MatchOperation::kFinish:
-      add_event(MatchEventKind::kMatchEnd, -1);
-      enter(MatchPhase::kFinished);
+      finish();
       break;
     case MatchOperation::kNewMatch: {
       MatchState fresh;
@@ -284,6 +302,7 @@ std::optional<Reason> RefereeCore::overrule(const MatchCommand& command) {
       fresh.time_left = rules_.half_duration;
       state_ = fresh;
       watches_.assign(state_.players.size(), {});
+      num_penalties_ = {};
       enter(MatchPhase::kInitial);
       break;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,20 +12,25 @@
 
 namespace nao::referee {
 
-/** Durations, s, of simulated time. */
+/** Durations, s, of simulated time, and numbers. "HSL": the leagues merged in 2026, division of
+ * small robots; repository RoboCup-HumanoidSoccerLeague, HSL-Rules (rules/game.tex) and
+ * GameController (config/small_foundation/params.yaml). */
 struct Rules {
   /** Duration of a half, s. Chosen: half of the league's, for visitors. */
   double half_duration = 300;
-  /** Greatest time in which the robots walk to their places for a kick-off (SPL rules: 45 s), and
-   * the least. */
+  /** Greatest time in which the robots walk to their places for a kick-off (HSL: 45 s), and the
+   * least. */
   double max_ready_duration = 45;
   double min_ready_duration = 10;
   /** Time for which they stand there before the whistle. Chosen: long enough to see it. */
   double set_duration = 3;
-  /** Time for which a penalised robot stands beside the field. Chosen: shorter than the league's 45
-   * s. */
+  /** Time for which a penalised robot stands beside the field (HSL: 30 s), and by how much it is
+   * longer for each earlier penalty of its team, those for not getting up excepted (HSL: 15 s). */
   double penalty_duration = 30;
-  /** Time not upright (SPL rules: 20 s), and time outside the carpet, after which a robot is
+  double penalty_increment = 15;
+  /** Goals ahead with which the match ends (HSL: 10). */
+  int mercy_goals = 10;
+  /** Time not upright (HSL: 20 s), and time outside the carpet, after which a robot is
    * penalised. */
   double max_down_duration = 20;
   double max_outside_duration = 5;
@@ -35,8 +41,9 @@ struct Rules {
   double max_untouched_duration = 60;
 };
 
-/** Our own rules: kick-offs, goals, ball out, time, penalties. The clock of a half runs only in the
- * phase playing. Teams do not change sides. */
+/** Our own rules: kick-offs, goals, ball out, time, penalties. The clock of a half runs from its
+ * first whistle on, penalties run except in the phase set and end with the half (HSL). Teams do not
+ * change sides. */
 class RefereeCore : public Referee {
  public:
   /** @param players  Robots, teams and numbers. @param scene  With field, goals and ball.
@@ -61,7 +68,9 @@ class RefereeCore : public Referee {
   void begin_kick_off(int team);
   void begin_half(int half);
   void end_half();
+  void finish();
   void award_goal(int team);
+  void run_clock(double dt);
   void penalize(size_t player, Penalty penalty);
   void release(size_t player);
   void count_penalties(double dt, const RefereeInput& input);
@@ -75,6 +84,8 @@ class RefereeCore : public Referee {
   Rules rules_;
   MatchState state_;
   std::vector<Watch> watches_;
+  /** Penalties of each team that make its next one longer. */
+  std::array<int, 2> num_penalties_{};
   RefereeOutput output_;
   double time_ = 0;
   bool has_time_ = false;

@@ -126,7 +126,7 @@ inline constexpr auto kReasons = std::to_array<ReasonEntry>({
     {"match-not-played", "", "No match is being played; nao-referee does not answer."},
     {"match-penalty", "penalty", "The robot has a penalty: {0}."},
     {"play-waits-for-release", "",
-     "Somebody has driven the robot: it plays by itself again when they release control, or with nao play auto."},
+     "A person has driven the robot: it plays by itself again when they release control, or with nao play auto."},
     // Lights.
     {"lights-missing", "", "The command names no light."},
     {"light-unknown", "light, known lights", "The robot has no light {0}; it has {1}."},

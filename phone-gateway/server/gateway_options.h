@@ -15,6 +15,8 @@ struct GatewayOptions {
   std::vector<std::string> robots = {"NAO"};
   /** Folder of robots/ that describes the robots without a model of their own. */
   std::string model = "nao";
+  /** Scene in which they are, of scenes/ in the data folder. */
+  std::string scene = "soccer";
   /** Offer the overview of a simulated world as a camera of every robot. */
   bool has_overview = false;
   /** Pairing token; empty: a new one at each start. */

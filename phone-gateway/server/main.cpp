@@ -56,6 +56,7 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
   app.add_option("--model", options.model,
                  "Folder of robots/ that describes the robots whose --robot names none")
       ->show_default();
+  app.add_option("--scene", options.scene, "Scene whose field the app shows")->show_default();
   app.add_flag("--overview", options.has_overview,
                "Offer clients the camera beside the field, which nao-head-camera has in a "
                "simulated world");
@@ -123,6 +124,18 @@ void prepare_tls(GatewayOptions& options) {
   }
   logger::info("https with {}, SHA-256 {}", network.certificate_file,
                certificate_fingerprint(network.certificate_file));
+}
+
+/** Serves the scene in which the robots are: the app draws its lines, and drives without them. */
+void add_scene_page(WebPages& pages, const std::string& scene) {
+  const std::filesystem::path path = data_path() / "scenes" / (scene + ".yaml");
+  std::ifstream file(path);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (text.empty()) {
+    logger::warn("cannot read {}: the app shows no field", path.string());
+    return;
+  }
+  pages.add_page("/scene.yaml", {"text/yaml; charset=utf-8", false, [text] { return text; }});
 }
 
 /** The addresses to open in a phone's browser. */
@@ -203,19 +216,25 @@ class DiscoveryLog {
   std::string alias_;
 };
 
-/** Prints the addresses, one a line; if requested, then an empty line and the first as a QR code.
+/** Prints the addresses, one a line; if requested, then an empty line and the first as a QR code
+ * with the pairing code below.
  */
 void print_addresses(const GatewayOptions& options) {
   const std::vector<std::string> urls = addresses_for_phones(options, options.network.http_port);
   for (const std::string& url : urls) std::cout << url << "\n";
-  if (options.prints_qr) std::cout << "\n" << draw_on_terminal(make_qr_code(urls.front()));
+  if (options.prints_qr) {
+    std::cout << "\n"
+              << draw_on_terminal(make_qr_code(urls.front())) << "Pairing code: " << options.token
+              << "\n";
+  }
   std::cout.flush();
 }
 
 /** Prints and writes the QR code of an address, as the options request. */
 void show_qr_code(const GatewayOptions& options, const std::string& url) {
   if (options.prints_qr) {
-    std::cout << draw_on_terminal(make_qr_code(url)) << url << std::endl;
+    std::cout << draw_on_terminal(make_qr_code(url)) << url << "\nPairing code: " << options.token
+              << std::endl;
   }
   if (options.qr_file.empty()) return;
   std::ofstream file(options.qr_file, std::ios::binary);
@@ -244,6 +263,7 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
                        options.token, options.audit_file);
   daemon.core().set_players(label_players(robots));
   WebPages pages(data_path());
+  add_scene_page(pages, options.scene);
   Network network(options.network, make_access_rules(options), daemon.core(), pages);
 
   network.on_readable(bus.descriptor(), [&bus] { bus.handle(); });

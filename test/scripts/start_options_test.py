@@ -17,7 +17,7 @@ class Options(unittest.TestCase):
         stack = SimpleNamespace(token_file="token", logs=Path("logs"), motions=Path("motions"))
         robots = [SimpleNamespace(name="NAO", model="nao", team=None)]
         settings = {"bin_dir": "bin", "lcm_url": "memq://", "http_port": "1", "tcp_port": "2", "foxglove_port": "3",
-                    "bind": "0.0.0.0", "scheme": "http", "host_names": " ".join(options.host_name)}
+                    "bind": "0.0.0.0", "scheme": "http", "scene": "soccer", "host_names": " ".join(options.host_name)}
         for program in (start.GATEWAY, start.FOXGLOVE):
             with self.subTest(program):
                 process = SimpleNamespace(program=program, name=program, robot=robots[0])

@@ -10,6 +10,7 @@ import time
 import unittest
 import urllib.request
 from pathlib import Path
+from unittest import mock
 
 from stack import DEADLINE, ROOT, Stack, run
 
@@ -97,6 +98,15 @@ class Start(unittest.TestCase):
             self.assertIn("nao-sim does not start", result.stderr)
             self.assertIn("no-such-scene", result.stderr)
             self.assertEqual(stack.pids(), {})
+
+    def test_leaves_out_what_driving_does_not_need(self):
+        # Without a vendor library EGL finds no driver: the camera crashes.
+        with mock.patch.dict(os.environ, {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent"}), Stack() as stack:
+            result = stack.start_or_fail()
+            self.assertIn("nao-head-camera does not start and is left out", result.stderr)
+            self.assertIn("no OpenGL without a screen", result.stderr)
+            self.assertIn(f"#token={stack.token}", result.stdout)
+            self.assertEqual(stack.nao("walk", "0.1", "0", "0", "--for", "1").returncode, 0)
 
     def test_a_program_that_crashes_again_and_again_stays_down_and_status_says_so(self):
         with Stack() as stack:

@@ -39,7 +39,7 @@ void add_play_command(CommandLine& app, Invocation& invocation) {
       ->add_option(
           "behavior", arguments->behavior,
           "go-to-ball, kick, dribble, score, keep-goal; auto: play the match, also again after "
-          "somebody has driven the robot; none: end what runs")
+          "a person has driven the robot; none: end what runs")
       ->required()
       ->check([](const std::string& name) {
         return find_behavior(name) ? std::string() : "there is no behavior '" + name + "'";

@@ -1,7 +1,6 @@
 #include "phone-gateway/server/core/admission.h"
 
 #include "phone-gateway/protocol/framing.h"
-#include "phone-gateway/server/core/secret.h"
 
 namespace nao::gateway {
 namespace {
@@ -20,7 +19,7 @@ Refusal refuse(naoremote::ErrorCode error, GatewayReasonCode code,
 bool Admission::is_right_token(const Endpoint& endpoint, const std::string& token) const {
   // Programs on the gateway's own host need no token.
   if (endpoint.is_local && token.empty()) return true;
-  return !token_.empty() && equals_secret(token, token_);
+  return !token_.empty() && equals_secret(plain_token(token), token_);
 }
 
 // Order: version, pause after wrong tokens, token, and the limits of clients; the first fault is
@@ -40,7 +39,7 @@ std::optional<Refusal> Admission::check(const Endpoint& endpoint, const naoremot
   }
   if (!is_right_token(endpoint, request.token())) {
     // All counts are dropped rather than memory grows: an attacker with many addresses gains a few
-    // more guesses, against tokens of 80 bits.
+    // more guesses (make_token).
     if (wrong_tokens_.size() >= kMaxCountedAddresses) wrong_tokens_.clear();
     WrongTokens& wrong = wrong_tokens_[endpoint.address];
     // After the pause the count begins again.

@@ -6,6 +6,7 @@
 
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/gateway_reasons.h"
+#include "phone-gateway/server/core/secret.h"
 #include "phone-gateway/server/core/sessions.h"
 
 namespace nao::gateway {
@@ -14,10 +15,11 @@ namespace nao::gateway {
  * that send wrong tokens are refused for a while, so that a token cannot be guessed. */
 class Admission {
  public:
-  /** @param token  Pairing token that clients of other hosts must send; clients of this host may
-   *   leave it out. If it is empty, clients of other hosts are refused. */
-  Admission(const GatewayLimits& limits, std::string token)
-      : limits_(limits), token_(std::move(token)) {}
+  /** @param token  Pairing token that clients of other hosts must send, in whatever case, with or
+   *   without hyphens and spaces; clients of this host may leave it out. If it is empty, clients of
+   *   other hosts are refused. */
+  Admission(const GatewayLimits& limits, const std::string& token)
+      : limits_(limits), token_(plain_token(token)) {}
 
   /** @return Nothing if the client may connect. */
   [[nodiscard]] std::optional<Refusal> check(const Endpoint& endpoint,

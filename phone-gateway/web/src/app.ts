@@ -39,7 +39,7 @@ import type {Settings} from "./settings";
 import {Sound} from "./sound";
 import {Speech} from "./speech/speech";
 import {storage} from "./storage";
-import {Store} from "./store";
+import {isStale, Store} from "./store";
 import {Teach} from "./teach/teach";
 import {bodyInWords} from "./text/body";
 import {findGateways} from "./nearby";
@@ -57,6 +57,10 @@ const kImageRateHz = 15;
 const kTapPattern = 12;
 const kLimitPattern = 30;
 const kRefusalPattern = [25, 60, 25];
+
+/** After a lost link the controller stays for so many attempts, which take 3.5 s where a gateway is down, and up to 20 s where
+ * nothing answers. Chosen. */
+const kPatientAttempts = 3;
 
 type ScreenName = "loading" | "connection" | "lobby" | "controller";
 
@@ -138,9 +142,10 @@ export class App {
     this.walkHere = new WalkHere(this.stage, ({x, y, theta}) =>
         void this.commander.command(useCases.moveTo(x, y, theta)));
     this.commander.onRefusal = () => vibrate(kRefusalPattern);
-    // A button wins over what is held.
-    this.commander.onMotion = () => {
-      if (this.letGo()) this.messages.show("info", say("drive.released"));
+    this.held.yieldTo(this.commander, this.messages);
+    this.held.releaseScreen = () => {
+      this.controllerScreen.release();
+      this.teach.endDrag();
     };
     this.speech = new Speech(this.store, this.commander, this.stage, storage(), this.sound, () => this.subscribe());
     this.connectionScreen = new ConnectionScreen(this.store, {
@@ -200,6 +205,11 @@ export class App {
   start(): void {
     exposeAutomation(this.store, this.stage, this.image, this.view, this.perception.objects);
     new MatchEvents(this.store, this.messages, this.sound);
+    this.store.watch(isStale, (isOn) => this.root.classList.toggle("stale", isOn));
+    this.held.lockWhileStale(() => {
+      vibrate(kRefusalPattern);
+      this.messages.show("bad", say("drive.linkLost"));
+    });
     this.held.listen(() => this.root.dataset["screen"] === "controller");
     // Another motion replaces the walk to the marked spot.
     this.store.watch((state) => state.state?.activity?.name ?? "", (activity) => {
@@ -214,11 +224,11 @@ export class App {
       this.perception.setField(lines);
       this.stage.outdate();
     });
-    this.store.watch((state) => `${state.phase} ${state.isChoosingRobot} ${state.loading.done} ${state.loading.error}`,
+    this.store.watch((state) => `${state.phase} ${state.attempts} ${state.isChoosingRobot} ${state.loading.done} ${state.loading.error}`,
                      () => this.chooseScreen());
     window.addEventListener("online", () => this.connection.retryNow());
     listenToLeaving({
-      blurred: () => this.letGo(),
+      blurred: () => void this.held.release(),
       hidden: () => this.hidden(),
       shown: () => this.shown(),
     });
@@ -260,7 +270,7 @@ export class App {
   }
 
   private leave(): void {
-    this.letGo();
+    this.held.release();
     this.connection.disconnect();
   }
 
@@ -279,7 +289,7 @@ export class App {
   /** Drive mode, with nothing held. */
   private leaveControls(): void {
     if (this.store.get().isJointsMode) this.setJointsMode(false);
-    this.letGo();
+    this.held.release();
     this.walkHere.clear();
   }
 
@@ -328,7 +338,7 @@ export class App {
   }
 
   private setJointsMode(isJointsMode: boolean): void {
-    this.letGo();
+    this.held.release();
     this.walkHere.clear();
     this.store.set({isJointsMode, selectedGroup: ""});
     this.stage.orbit.setView(isJointsMode ? kJointsView : kDriveView);
@@ -345,7 +355,7 @@ export class App {
   }
 
   private stop(): void {
-    this.letGo();
+    this.held.release();
     this.teach.cancel();
     vibrate(kTapPattern);
     void this.commander.stop();
@@ -380,13 +390,13 @@ export class App {
   }
 
   private openMenu(): void {
-    this.letGo();
+    this.held.release();
     const {state, robot, robots} = this.store.get();
     this.menu.open(bodyInWords(state?.body, robot), robots.length > 1);
   }
 
   private openSpeech(): void {
-    this.letGo();
+    this.held.release();
     this.speech.sheet.open();
   }
 
@@ -400,7 +410,7 @@ export class App {
   /** Words are put in place once; another language starts the page again, which connects by itself. */
   private setLanguage(language: Language): void {
     this.keep({language});
-    this.letGo();
+    this.held.release();
     location.reload();
   }
 
@@ -415,28 +425,18 @@ export class App {
     saveSettings(storage(), this.settings);
   }
 
-  /** Nothing drives any more: the fingers may be anywhere. @return true if something was held. */
-  private letGo(): boolean {
-    const wasHeld = this.walk.isHeld || this.jointDriver.isHeld;
-    this.held.release();
-    this.controllerScreen.release();
-    this.jointDriver.setStick(null);
-    this.teach.endDrag();
-    this.walk.release();
-    return wasHeld;
-  }
-
   /** Nobody sees the robot any more: it does nothing by itself either. */
   private hidden(): void {
-    this.letGo();
+    this.held.release();
     this.play.letGo();
     this.subscribe();
   }
 
   private chooseScreen(): void {
-    const {phase, loading, isChoosingRobot} = this.store.get();
+    const {phase, attempts, robot, loading, isChoosingRobot} = this.store.get();
     const isLoaded = loading.total > 0 && loading.done === loading.total;
-    const screen: ScreenName = phase !== "connected" ? "connection" : isChoosingRobot ? "lobby" :
+    const isBack = phase !== "idle" && robot !== null && attempts <= kPatientAttempts;
+    const screen: ScreenName = phase !== "connected" && !isBack ? "connection" : isChoosingRobot ? "lobby" :
         isLoaded ? "controller" : "loading";
     if (this.root.dataset["screen"] === screen) return;
     this.root.dataset["screen"] = screen;
@@ -444,7 +444,7 @@ export class App {
       this.stage.start();
       if (!this.settings.isTourSeen) this.tour.start();
     } else {
-      this.letGo();
+      this.held.release();
       this.stage.stop();
       this.teach.sheet.element.close();
       this.tour.leave();

@@ -5,7 +5,7 @@ import {Connection, kOpenTimeoutMs, kSilenceMs} from "./connection";
 import {ConnectedSchema, ErrorCode, Mode, PongSchema, StateSchema} from "./protocol/generated/remote_pb";
 import type {State} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
-import {Store} from "./store";
+import {isStale, Store} from "./store";
 
 const kIdentity = {token: "secret", clientName: "Ana", clientSoftware: "test"};
 
@@ -107,6 +107,16 @@ describe("Connection", () => {
     expect(transport.numOpens).toBe(1);
   });
 
+  it("says so when the gateway makes it wait after wrong tokens", async () => {
+    for (const [code, detail] of [["too-many-wrong-tokens", "Wait."], ["token-wrong", ""]] as const) {
+      transport.opened();
+      transport.answer("connect", ErrorCode.WRONG_TOKEN, "Wait.", undefined, code);
+      await pass(0);
+      expect(store.get()).toMatchObject({problem: "wrong-token", problemDetail: detail});
+      connection.connect(kIdentity);
+    }
+  });
+
   it("tries again when all places are taken", async () => {
     transport.opened();
     transport.answer("connect", ErrorCode.TOO_MANY_CLIENTS);
@@ -166,6 +176,35 @@ describe("Connection", () => {
     }
     expect(store.get().phase).toBe("connected");
     expect(states).toHaveLength(10);
+  });
+
+  it("knows the age of what it shows, also while nothing comes", async () => {
+    await welcome();
+    expect(isStale(store.get())).toBe(false);
+    await pass(40);
+    transport.answer("ping", ErrorCode.OK, "", {case: "pong", value: create(PongSchema, {})});
+    await pass(0);
+    transport.receive({case: "state", value: create(StateSchema, {mode: Mode.WALKING, ageMs: 5})});
+    expect(store.get().stateAgeMs).toBeCloseTo(25, 6);
+    await pass(400);
+    expect(isStale(store.get())).toBe(false);
+    await pass(200);
+    expect(store.get().stateAgeMs).toBeGreaterThan(500);
+    expect(isStale(store.get())).toBe(true);
+    // Long before the connection counts as lost.
+    expect(store.get().phase).toBe("connected");
+    transport.receive({case: "state", value: create(StateSchema, {mode: Mode.WALKING})});
+    expect(isStale(store.get())).toBe(false);
+    transport.broken(true);
+    expect(isStale(store.get())).toBe(true);
+  });
+
+  it("forgets the robot when a person connects anew, not when it reconnects by itself", async () => {
+    await welcome();
+    transport.broken(true);
+    expect(store.get().robot?.name).toBe("NAO");
+    connection.connect(kIdentity);
+    expect(store.get().robot).toBeNull();
   });
 
   it("pings each second and shows the round trip", async () => {

@@ -8,6 +8,7 @@ import type {
 } from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import type {Problem, Store} from "./store";
+import {reasonInWords} from "./text/reasons";
 import {setLabels} from "./text/texts";
 import type {Transport} from "./transport";
 
@@ -17,7 +18,7 @@ export const kSilenceMs = 5000;
 export const kOpenTimeoutMs = 5000;
 /** Keeps the connection open and samples the latency. */
 export const kPingPeriodMs = 1000;
-const kCheckPeriodMs = 250;
+const kCheckPeriodMs = 100;
 const kNumLatencySamples = 5;
 /** A state that waits behind this many bytes would come too late to be of use. */
 const kMaxBacklogBytes = 16384;
@@ -52,6 +53,8 @@ export class Connection {
   private readonly pending = new Map<number, (response: Response | null) => void>();
   private readonly latencySamples: number[] = [];
   private lastReceivedMs = 0;
+  /** When the newest state was taken, by the clock of `now`, ms; null: there is none. */
+  private stateMs: number | null = null;
   private lastPingMs = 0;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private openTimer: ReturnType<typeof setTimeout> | undefined;
@@ -69,7 +72,7 @@ export class Connection {
   connect(identity: Identity): void {
     this.identity = identity;
     this.robotName = "";
-    this.store.set({attempts: 0});
+    this.store.set({attempts: 0, robot: null, state: null});
     this.open();
   }
 
@@ -129,7 +132,8 @@ export class Connection {
       this.robotName = "";
       void this.greet(attempt);
     } else {
-      this.failed(problemOf(response.error), response.message);
+      // A wrong token says the problem's own sentence; that it must wait, only the gateway knows.
+      this.failed(problemOf(response.error), response.reasonCode === "token-wrong" ? "" : reasonInWords(response));
     }
   }
 
@@ -153,21 +157,27 @@ export class Connection {
   /** What the store knows of a robot is that of this one from now on. */
   private adopt(robot: RobotDescription | undefined, control: Control | undefined): void {
     this.robotName = robot?.name ?? "";
+    this.stateMs = null;
     setLabels(robot?.labels ?? []);
     this.store.set({
       robot: robot ?? null, control: control ?? null,
-      state: null, playState: null, vision: null, unavailableComponents: [],
+      state: null, stateAgeMs: -1, playState: null, vision: null, unavailableComponents: [],
       savedMotions: robot?.savedMotions ?? [], isCheckingMotion: false,
     });
   }
 
   private check(): void {
     const now = this.now();
+    this.measureAge();
     if (now - this.lastReceivedMs > kSilenceMs) {
       this.failed("silent");
     } else if (now - this.lastPingMs >= kPingPeriodMs) {
       this.ping();
     }
+  }
+
+  private measureAge(): void {
+    if (this.stateMs !== null) this.store.set({stateAgeMs: this.now() - this.stateMs});
   }
 
   private ping(): void {
@@ -193,7 +203,11 @@ export class Connection {
         resolve?.(message.value);
         break;
       }
-      case "state": this.listener.state(message.value); break;
+      case "state":
+        this.stateMs = this.now() - message.value.ageMs - Math.max(0, this.store.get().latencyMs) / 2;
+        this.measureAge();
+        this.listener.state(message.value);
+        break;
       case "image": this.listener.image(message.value); break;
       case "notice": this.noticed(message.value); break;
       case "audio": this.listener.audio?.(message.value); break;

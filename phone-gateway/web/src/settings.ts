@@ -62,15 +62,35 @@ export function tokenFromUrl(url: URL): string {
 /** The page of the gateway at an address as a person types it: "192.168.1.20", "nao.local:8080",
  * "https://...". Null if it is none. Without a port: the gateway's usual one. */
 export function pageUrl(address: string, token: string): URL | null {
+  const url = parseAddress(address);
+  if (!url) return null;
+  url.pathname = "/";
+  url.search = "";
+  url.hash = token ? `token=${encodeURIComponent(token)}` : "";
+  return url;
+}
+
+/** What stands in the fields of the connection form. An address that was pasted with its token counts in whichever field it
+ * stands. */
+export function readForm<Form extends Record<"address" | "token" | "clientName", string>>(fields: Form): Form {
+  const form = {...fields, address: fields.address.trim(), token: fields.token.trim(), clientName: fields.clientName.trim()};
+  for (const name of ["clientName", "token", "address"] as const) {
+    const url = /[#?&]token=|^https?:\/\//i.test(form[name]) ? parseAddress(form[name]) : null;
+    if (!url) continue;
+    form[name] = "";
+    form.address = url.protocol === "http:" && url.port ? url.host : url.origin;
+    form.token = tokenFromUrl(url) || form.token;
+  }
+  return form;
+}
+
+function parseAddress(address: string): URL | null {
   const text = address.trim();
   if (!text) return null;
   const hasScheme = /^https?:\/\//i.test(text);
   try {
     const url = new URL(hasScheme ? text : `http://${text}`);
     if (!hasScheme && !url.port) url.port = "8080";
-    url.pathname = "/";
-    url.search = "";
-    url.hash = token ? `token=${encodeURIComponent(token)}` : "";
     return url;
   } catch {
     return null;

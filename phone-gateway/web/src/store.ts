@@ -69,6 +69,8 @@ export interface AppState {
   /** True while the person chooses one of them. */
   isChoosingRobot: boolean;
   state: State | null;
+  /** Age of that state as the phone sees it, also while nothing comes, ms; negative: there is none. */
+  stateAgeMs: number;
   image: Image | null;
   loading: Loading;
   /** Newest last. */
@@ -114,6 +116,7 @@ const kInitialState: AppState = {
   match: null,
   isChoosingRobot: false,
   state: null,
+  stateAgeMs: -1,
   image: null,
   loading: {done: 0, total: 0, error: ""},
   messages: [],
@@ -167,6 +170,14 @@ export class Store {
     act(last);
     return () => this.watchers.delete(watcher);
   }
+}
+
+/** A state of that age does not show what the robot does: nothing is driven by it; ms. That of the gateway's end of a walk. */
+const kStaleMs = 500;
+
+/** True if what is seen of the robot is old, or the link is lost. */
+export function isStale({phase, stateAgeMs}: Readonly<AppState>): boolean {
+  return phase !== "connected" || stateAgeMs > kStaleMs;
 }
 
 /** Angle of one motor joint in a state, rad; NaN if the state does not have it. */

@@ -53,12 +53,12 @@ export class FakeTransport implements Transport {
 
   /** Answers the newest request of a kind. */
   answer(useCase: pb.Request["useCase"]["case"], error = pb.ErrorCode.OK, message = "",
-         result?: pb.Response["result"]): void {
+         result?: pb.Response["result"], reasonCode = ""): void {
     const request = this.sent.filter((one) => one.useCase.case === useCase).at(-1);
     if (!request) throw new Error(`no request ${useCase} was sent`);
     const {requestId} = request;
     this.receive({case: "response",
-                  value: create(pb.ResponseSchema, {requestId, error, message, result})});
+                  value: create(pb.ResponseSchema, {requestId, error, message, result, reasonCode})});
   }
 
   /** Lets the app in as client 7. @param others  robots beside the one that it watches. */

@@ -133,8 +133,55 @@ TEST_F(RefereeCoreTest, CountsAGoalOnceAndLetsTheOthersKickOff) {
   EXPECT_EQ(core.state().phase, MatchPhase::kPlaying);
   EXPECT_THAT(core.state().score, ElementsAre(1, 0));
   EXPECT_TRUE(input.ball.head<2>().isZero());
-  // The clock ran only since the whistle, of the 14 s.
-  EXPECT_NEAR(core.state().time_left, time_left, 1.5);
+  // The clock of a half that has begun runs during a kick-off, too.
+  EXPECT_NEAR(core.state().time_left, time_left - 14, 1e-6);
+}
+
+TEST_F(RefereeCoreTest, EndsTheHalfDuringAKickOffToo) {
+  start();
+  find("A1").touches_ball = true;
+  run(290);
+  ASSERT_FALSE(core.overrule({MatchOperation::kGoal, 0}));
+  run(12);
+  EXPECT_EQ(core.state().half, 2);
+  EXPECT_EQ(core.state().time_left, 300) << "the second half begins with its whistle";
+}
+
+TEST_F(RefereeCoreTest, EndsTheMatchWhenATeamIsTenGoalsAhead) {
+  start();
+  for (int goal = 0; goal < 9; ++goal) ASSERT_FALSE(core.overrule({MatchOperation::kGoal, 1}));
+  EXPECT_EQ(core.state().phase, MatchPhase::kReady);
+  ASSERT_FALSE(core.overrule({MatchOperation::kGoal, 1}));
+  EXPECT_EQ(core.state().phase, MatchPhase::kFinished);
+  EXPECT_EQ(core.state().event.kind, MatchEventKind::kMatchEnd);
+}
+
+TEST_F(RefereeCoreTest, PenalisesATeamLongerEachTimeButNotForGettingUp) {
+  start();
+  const auto penalize = [&](const std::string& robot) {
+    EXPECT_FALSE(core.overrule({MatchOperation::kPenalize, 0, robot}));
+    return find_player(core.state(), robot)->penalty_left;
+  };
+  find("A2").is_upright = false;
+  run(20.2);
+  ASSERT_EQ(find_player(core.state(), "A2")->penalty, Penalty::kNotGettingUp);
+  EXPECT_EQ(penalize("A1"), 30);
+  EXPECT_EQ(penalize("A1"), 45);
+  EXPECT_EQ(penalize("B1"), 30) << "the other team";
+  EXPECT_EQ(penalize("A2"), 60);
+}
+
+TEST_F(RefereeCoreTest, CountsNoPenaltyDownInSetAndNoneOverTheHalf) {
+  run(0.1);
+  ASSERT_FALSE(core.overrule({MatchOperation::kStart}));
+  run(10.1);
+  ASSERT_EQ(core.state().phase, MatchPhase::kSet);
+  ASSERT_FALSE(core.overrule({MatchOperation::kPenalize, 0, "A1"}));
+  run(2);
+  ASSERT_EQ(core.state().phase, MatchPhase::kSet);
+  EXPECT_EQ(find_player(core.state(), "A1")->penalty_left, 30);
+  ASSERT_FALSE(core.overrule({MatchOperation::kEndHalf}));
+  EXPECT_EQ(find_player(core.state(), "A1")->penalty, Penalty::kNone);
 }
 
 TEST_F(RefereeCoreTest, PutsABallBackThatLeftTheField) {

@@ -1,5 +1,10 @@
-/** Keyboard and gamepad: what is held walks the robot, or turns the joint that is selected. */
+/** Keyboard and gamepad: what is held walks the robot, or turns the joint that is selected. All that is held, on the screen
+ * too, is released from here. */
+import type {Commander} from "../commander";
+import type {Messages} from "../messages";
+import {isStale} from "../store";
 import type {Store} from "../store";
+import {say} from "../text/texts";
 import {Gamepads, listenToKeys} from "./held_keys";
 import type {PadListener} from "./held_keys";
 import type {JointDriver} from "./joint_driver";
@@ -13,6 +18,8 @@ export class HeldControls {
   /** The sticks of all gamepads must come to rest before they count again. */
   private mustRest = false;
   private releaseKeys: () => void = () => {};
+  /** Releases what is held on the screen. */
+  releaseScreen: () => void = () => {};
 
   constructor(private readonly store: Store, private readonly walk: WalkSender, private readonly joints: JointDriver,
               private readonly listener: PadListener, now?: () => number) {
@@ -27,10 +34,33 @@ export class HeldControls {
     });
   }
 
-  /** What is held counts no more: keys until they are pressed anew, gamepads until their sticks have been at rest. */
-  release(): void {
+  /** What is held counts no more: keys and the screen until they are pressed anew, gamepads until their sticks have been at
+   * rest. @return true if something was held. */
+  release(): boolean {
+    const wasHeld = this.walk.isHeld || this.joints.isHeld;
     this.releaseKeys();
     this.mustRest = true;
+    this.releaseScreen();
+    this.joints.setStick(null);
+    this.walk.release();
+    return wasHeld;
+  }
+
+  /** Nothing can be held while what is seen of the robot is old. @param released  called when something was held then. */
+  lockWhileStale(released: () => void): void {
+    this.store.watch(isStale, (isLocked) => {
+      const wasHeld = isLocked && this.release();
+      this.walk.isLocked = isLocked;
+      this.joints.isLocked = isLocked;
+      if (wasHeld) released();
+    });
+  }
+
+  /** A motion that ends a walk wins over what is held, which is told. */
+  yieldTo(commander: Commander, messages: Messages): void {
+    commander.onMotion = () => {
+      if (this.release()) messages.show("info", say("drive.released"));
+    };
   }
 
   /** Reads the gamepads; once a frame. */

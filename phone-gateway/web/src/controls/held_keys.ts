@@ -42,8 +42,9 @@ function isForAnother({target, code}: KeyboardEvent): boolean {
 
 /** What the app remembers of a gamepad. */
 interface SeenPad {
-  timestamp: number;
-  /** When its timestamp was another one last, ms. */
+  /** Its timestamp and the values of its sticks and buttons. */
+  told: string;
+  /** When any of them was another one last, ms. */
   aliveMs: number;
   readonly before: boolean[];
 }
@@ -64,7 +65,10 @@ export class Gamepads {
   constructor(private readonly listener: PadListener, private readonly now: () => number = () => performance.now()) {}
 
   /** @return the position of the sticks of each gamepad that is there and shows life: a browser goes on to report the last
-   * axes of one that is out of range. */
+   * axes of one that is out of range, until the system drops it.
+   *
+   * Chromium on Windows stamps each reading; on Linux, as Firefox and WebKit everywhere, each change. There a stick that is held
+   * quite still, at its end for example, looks as one out of range: both end, which is safe. */
   poll(): PadSticks[] {
     const held: PadSticks[] = [];
     const pads = (navigator.getGamepads?.() ?? []).filter((pad) => pad !== null);
@@ -84,14 +88,15 @@ export class Gamepads {
   }
 
   private look(pad: Gamepad): SeenPad {
+    const told = [pad.timestamp, ...pad.axes, ...pad.buttons.map(({value}) => value)].join();
     let seen = this.seen.get(pad.index);
     if (!seen) {
-      seen = {timestamp: pad.timestamp, aliveMs: this.now(), before: []};
+      seen = {told, aliveMs: this.now(), before: []};
       this.seen.set(pad.index, seen);
       if (pad.mapping !== "standard") this.listener.unknown(pad.id);
     }
-    if (pad.timestamp !== seen.timestamp) {
-      seen.timestamp = pad.timestamp;
+    if (told !== seen.told) {
+      seen.told = told;
       seen.aliveMs = this.now();
     }
     return seen;

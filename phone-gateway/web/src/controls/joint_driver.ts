@@ -12,6 +12,8 @@ export class JointDriver {
   /** True: the other side does the same as in a mirror. */
   isMirrored = false;
   isInFront: () => boolean = () => false;
+  /** Nothing is held while it is locked. */
+  isLocked = false;
   private stick: StickValue | null = null;
   private readonly repeater = new Repeater(() => this.step(), kJointPeriodMs);
 
@@ -20,8 +22,8 @@ export class JointDriver {
 
   /** Joystick position; null: released. The first deflection is sent at once. */
   setStick(stick: StickValue | null): void {
-    this.stick = stick;
-    if (isPushed(stick)) this.repeater.start();
+    this.stick = this.isLocked ? null : stick;
+    if (isPushed(this.stick)) this.repeater.start();
     else this.repeater.stop();
   }
 

@@ -32,6 +32,25 @@ describe("tilt", () => {
     const lying = tiltFromAngles(-170, 0, 0);
     expect(driveFromTilt(tiltFromAngles(170, 0, 0), lying).x).toBeGreaterThan(0.5);
   });
+  it.each([["ahead", 1], ["back", -1]])("keeps its sign and is not released from 80 to 110 degrees %s", (_, sign) => {
+    // Held flat, then turned about the page's right by the angle: gravity in the page's axes.
+    const pitched = (degrees: number) => ({right: 0, up: sign * Math.sin(degrees * Math.PI / 180),
+                                           out: -Math.cos(degrees * Math.PI / 180)});
+    for (let angle = 80; angle <= 110; ++angle) expect(driveFromTilt(pitched(angle), pitched(0)).x).toBe(sign);
+    expect(Math.sign(driveFromTilt(pitched(110), pitched(80)).x)).toBe(sign);
+  });
+  it.each([["right", 1], ["left", -1]])("turns on to the %s beyond the vertical", (_, sign) => {
+    const rolled = (degrees: number) => ({right: sign * Math.sin(degrees * Math.PI / 180), up: 0,
+                                          out: -Math.cos(degrees * Math.PI / 180)});
+    for (let angle = 80; angle <= 110; ++angle) expect(driveFromTilt(rolled(angle), rolled(0)).theta).toBe(-sign);
+    // The page's right edge is 20 degrees from pointing down: 30 more go on into the same direction.
+    expect(Math.sign(driveFromTilt(rolled(100), rolled(70)).theta)).toBe(-sign);
+  });
+  it("stops when the phone is turned over", () => {
+    for (const beta of [-140, -130, -110, 180]) {
+      expect(driveFromTilt(tiltFromAngles(beta, 0, 0), neutral)).toEqual({x: 0, y: 0, theta: 0});
+    }
+  });
   it("neither walks ahead nor back when a side edge points down", () => {
     for (const beta of [0, 10, 170, 180]) expect(driveFromTilt(tiltFromAngles(beta, 89, 0), neutral).x).toBe(0);
   });

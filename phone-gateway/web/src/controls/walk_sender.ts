@@ -24,6 +24,8 @@ export class WalkSender {
   private readonly drives = new Map<DriveSource, {drive: Drive; setMs: number}>();
   private readonly repeater = new Repeater(() => this.send(), kWalkPeriodMs);
   private lastSentMs = 0;
+  /** Nothing is held while it is locked. */
+  isLocked = false;
 
   /** @param publish  takes the walk command to the robot. @param now  ms. */
   constructor(private readonly publish: (drive: Drive) => void,
@@ -33,6 +35,7 @@ export class WalkSender {
    * sensor are set again while they are held, however little changes. */
   set(source: DriveSource, drive: Drive | null): void {
     const wasHeld = this.isHeld;
+    if (drive && this.isLocked) return;
     if (drive) this.drives.set(source, {drive, setMs: this.now()});
     else if (!this.drives.delete(source)) return;
     if (!this.isHeld) this.end();

@@ -1,7 +1,14 @@
 /** Every source of a walk, and every way out of it: each ends in zero velocity, and nothing begins again by itself. */
+import {create} from "@bufbuild/protobuf";
 import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
+import {Commander} from "../commander";
 import {listenToLeaving} from "../leaving";
+import {Messages} from "../messages";
+import type {UseCase} from "../protocol/codec";
+import {ControlSchema, ResponseSchema} from "../protocol/generated/remote_pb";
+import * as useCases from "../protocol/use_cases";
 import {Store} from "../store";
+import {say} from "../text/texts";
 import {HeldControls} from "./held_controls";
 import {JointDriver} from "./joint_driver";
 import type {Drive} from "./stick";
@@ -28,12 +35,9 @@ describe("ways out of a walk", () => {
   let pads: (ReturnType<typeof makePad> | null)[];
   let page: EventTarget & {visibilityState: string};
   let told: string[];
-
-  /** The wiring of app.ts. */
-  const letGo = () => {
-    held.release();
-    walk.release();
-  };
+  let store: Store;
+  let commander: Commander;
+  let asked: UseCase["case"][];
 
   beforeEach(() => {
     vi.useFakeTimers();
@@ -45,14 +49,29 @@ describe("ways out of a walk", () => {
     vi.stubGlobal("window", new EventTarget());
     vi.stubGlobal("navigator", {getGamepads: () => pads});
     vi.stubGlobal("Element", class {});
+    asked = [];
+    store = new Store();
+    store.set({phase: "connected", control: create(ControlSchema, {isMine: true})});
+    const messages = new Messages(store);
+    commander = new Commander({
+      request: (useCase) => {
+        asked.push(useCase.case);
+        return Promise.resolve(create(ResponseSchema, {}));
+      },
+      isCongested: () => false,
+    }, store, messages);
     walk = new WalkSender((drive) => sent.push(drive), Date.now);
-    held = new HeldControls(new Store(), walk, new JointDriver(() => {}), {
+    held = new HeldControls(store, walk, new JointDriver(() => {}), {
       pressed: () => {},
       unknown: (name) => told.push(name),
       silent: () => told.push("silent"),
     }, Date.now);
     held.listen(() => true);
-    listenToLeaving({blurred: letGo, hidden: letGo, shown: () => {}});
+    held.yieldTo(commander, messages);
+    held.lockWhileStale(() => told.push("stale"));
+    held.releaseScreen = () => walk.set("sticks", null);
+    const release = () => void held.release();
+    listenToLeaving({blurred: release, hidden: release, shown: () => {}});
   });
   afterEach(() => {
     vi.useRealTimers();
@@ -86,7 +105,17 @@ describe("ways out of a walk", () => {
       page.dispatchEvent(new Event("visibilitychange"));
     },
     "the page is left": () => window.dispatchEvent(new Event("pagehide")),
-    "stop, or another motion": () => letGo(),
+    "stop is pressed": () => held.release(),
+    "nothing new comes from the robot, and does again": () => {
+      store.set({stateAgeMs: 501});
+      store.set({stateAgeMs: 20});
+    },
+    "the link is lost, and is back": () => {
+      store.set({phase: "waiting"});
+      store.set({phase: "connected"});
+    },
+    "a posture is tapped": () => void commander.command(useCases.goToPosture("Stand")),
+    "a kick is tapped": () => void commander.command(useCases.doAction("kick-left")),
   };
 
   describe.each(Object.entries(sources))("from %s", (name, {begin, hold, release}) => {
@@ -115,6 +144,30 @@ describe("ways out of a walk", () => {
       frames(3 * kSilenceMs, name === "tilt" ? () => {} : hold);
       expect(sent.slice(count).filter(({x}) => x !== 0)).toEqual([]);
     });
+
+    it("cannot be held while nothing new comes from the robot, and says why it ended", () => {
+      store.set({stateAgeMs: 501});
+      expect(sent.at(-1)).toEqual(zero);
+      expect(told).toEqual(["stale"]);
+      const count = sent.length;
+      begin();
+      frames(kSilenceMs, hold);
+      expect(sent.length).toBe(count);
+    });
+
+    it("gives way to a button, which is sent after the end of the walk, and says so", () => {
+      const numSent = sent.length;
+      void commander.command(useCases.doAction("kick-left"));
+      expect(sent.length).toBeGreaterThan(numSent);
+      expect(sent.at(-1)).toEqual(zero);
+      expect(store.get().messages.map(({text}) => text)).toEqual([say("drive.released")]);
+      return vi.waitFor(() => expect(asked).toEqual(["doAction"]));
+    });
+  });
+
+  it("says nothing of a stick when a button is tapped alone", () => {
+    void commander.command(useCases.goToPosture("Stand"));
+    expect(store.get().messages).toEqual([]);
   });
 
   it.each(["gamepad", "tilt"] as const)("ends when a %s shows no life, and nothing is repeated then", (name) => {
@@ -141,6 +194,15 @@ describe("ways out of a walk", () => {
     frames(300, sources.gamepad.hold);
     way();
     frames(2 * kFrameMs, () => {});
+    expect(sent.at(-1)).toEqual(zero);
+  });
+
+  it("goes on from a gamepad without timestamps while its stick moves", () => {
+    pads = [Object.assign(makePad(0, [0, -1, 0]), {timestamp: 0})];
+    let x = 0;
+    frames(3 * kSilenceMs, () => pads[0]!.axes = [x = 0.01 - x, -1, 0]);
+    expect(sent.at(-1)!.x).toBeGreaterThan(0.9);
+    frames(kSilenceMs + 200, () => {});
     expect(sent.at(-1)).toEqual(zero);
   });
 

@@ -27,6 +27,6 @@ export function parseFieldLines(text: string): FieldLines | null {
 
 /** Null where the gateway has no such scene: the ground is shown without lines then. */
 export async function loadFieldLines(pageUrl: string): Promise<FieldLines | null> {
-  const response = await fetch(new URL("/scenes/soccer.yaml", pageUrl)).catch(() => null);
+  const response = await fetch(new URL("/scene.yaml", pageUrl)).catch(() => null);
   return response?.ok ? parseFieldLines(await response.text()) : null;
 }

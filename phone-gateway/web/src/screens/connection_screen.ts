@@ -1,6 +1,7 @@
 /** Where to connect to, and why it does not work just now. */
 import {el} from "../dom";
 import type {Gateway} from "../nearby";
+import {readForm} from "../settings";
 import type {Settings} from "../settings";
 import type {AppState, Problem, Store} from "../store";
 import {say} from "../text/texts";
@@ -19,7 +20,7 @@ export interface ConnectionActions {
 }
 
 /** Problems of which the gateway knows more than this page. */
-const kDetailed: readonly Problem[] = ["closed", "not-a-robot", "too-many", "wrong-version"];
+const kDetailed: readonly Problem[] = ["closed", "not-a-robot", "too-many", "wrong-token", "wrong-version"];
 
 export class ConnectionScreen {
   readonly element: HTMLElement;
@@ -36,7 +37,8 @@ export class ConnectionScreen {
   constructor(private readonly store: Store, private readonly actions: ConnectionActions) {
     this.cancel = el("button", {class: "button", type: "button", onclick: () => actions.cancel()},
                      say("connection.cancel"));
-    const form = el("form", {class: "card", onsubmit: (event: Event) => this.submitted(event)},
+    const form = el("form", {class: "card", onsubmit: (event: Event) => this.submitted(event),
+                             onpaste: () => setTimeout(() => this.read())},
       el("header", {}, el("img", {class: "logo", src: "icon.svg", alt: ""}),
          el("div", {}, el("h1", {}, say("connection.title")),
             el("p", {class: "quiet"}, say("connection.subtitle")))),
@@ -80,8 +82,16 @@ export class ConnectionScreen {
   private submitted(event: Event): void {
     event.preventDefault();
     if (this.store.get().phase === "waiting") return this.actions.retryNow();
-    this.actions.connect({address: this.address.value, token: this.token.value.trim(),
-                          clientName: this.clientName.value.trim()});
+    this.actions.connect(this.read());
+  }
+
+  /** Puts what was typed or pasted where it belongs. */
+  private read(): ConnectionForm {
+    const form = readForm({address: this.address.value, token: this.token.value, clientName: this.clientName.value});
+    this.address.value = form.address;
+    this.token.value = form.token;
+    this.clientName.value = form.clientName;
+    return form;
   }
 
   private update(): void {

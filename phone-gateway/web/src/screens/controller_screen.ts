@@ -10,12 +10,14 @@ import {driveFromTilt} from "../controls/tilt";
 import type {Tilt} from "../controls/tilt";
 import type {WalkSender} from "../controls/walk_sender";
 import {el, icon} from "../dom";
+import {Mode} from "../protocol/generated/remote_pb";
 import type {Control, State} from "../protocol/generated/remote_pb";
 import * as useCases from "../protocol/use_cases";
 import {scoreboard} from "../match/scoreboard";
 import type {PlayStrip} from "../play/play_strip";
 import {isByItself, playInWords} from "../play/play_words";
 import type {FreeArea} from "../robot/stage";
+import {isStale} from "../store";
 import type {AppState, Store} from "../store";
 import {activityInWords, kModeNames, modeInWords} from "../text/activity";
 import {batteryInWords, warningsInWords} from "../text/body";
@@ -28,6 +30,8 @@ import {kSpeechIcon} from "./speech_sheet";
 const kLockIcon = "M7 11V8a5 5 0 0 1 10 0v3M5 11h14v9H5zM12 14.5v2";
 const kUnlockIcon = "M7 11V8a5 5 0 0 1 9.6-2M5 11h14v9H5zM12 14.5v2";
 const kMenuIcon = "M4 7h16M4 12h16M4 17h16";
+/** Above this the age of the state is shown, ms. Chosen: twice what a person perceives as a delay. */
+const kShownAgeMs = 300;
 const kNoStick = {right: 0, up: 0};
 
 export interface ControllerActions {
@@ -166,6 +170,12 @@ export class ControllerScreen {
     store.watch((state) => state.robots, () => this.showRobot());
     store.watch((state) => state.robot, () => this.showRobot());
     store.watch((state) => state.latencyMs, () => this.showLink());
+    // While nothing new comes: each tenth of a second.
+    store.watch((state) => state.phase !== "connected" || state.stateAgeMs > kShownAgeMs ? `${state.phase} ${state.stateAgeMs}` : "",
+                () => {
+                  this.showState(store.get().state);
+                  this.showLink();
+                });
     store.watch((state) => state.isJointsMode, (isOn) => this.showMode(isOn));
   }
 
@@ -214,9 +224,12 @@ export class ControllerScreen {
   }
 
   private showState(state: State | null): void {
-    const {playState} = this.store.get();
-    setText(this.mode, state ? modeInWords(state.mode, isByItself(playState)) : say("mode.waiting"));
-    setText(this.activity, playInWords(playState) || activityInWords(state?.activity));
+    const {playState, phase, problem, stateAgeMs} = this.store.get();
+    const isOld = isStale(this.store.get()) && state?.mode !== Mode.NO_ROBOT;
+    setText(this.mode, phase !== "connected" && problem ? say(`problem.${problem}`) :
+            isOld && state ? say("mode.stale", {seconds: (stateAgeMs / 1000).toFixed(1)}) :
+            state ? modeInWords(state.mode, isByItself(playState)) : say("mode.waiting"));
+    setText(this.activity, isOld ? "" : playInWords(playState) || activityInWords(state?.activity));
     const progress = state?.activity ? state.progress : -1;
     this.progress.hidden = !(progress >= 0);
     if (progress >= 0) this.progress.value = progress;
@@ -251,20 +264,26 @@ export class ControllerScreen {
   private showLink(): void {
     const state = this.store.get();
     this.link.hidden = state.latencyMs < 0;
-    setText(this.linkText, `${Math.round(state.latencyMs)} ms`);
+    setText(this.linkText, state.phase === "connected" ? `${Math.round(linkDelay(state))} ms` : "–");
     this.link.dataset["quality"] = linkQuality(state);
     this.link.setAttribute("aria-label", linkInWords(state));
   }
 }
 
+/** What the link sign shows, ms: the round trip, and while nothing new comes the age of what is shown. */
+export function linkDelay({latencyMs, stateAgeMs}: Readonly<AppState>): number {
+  return stateAgeMs > kShownAgeMs ? Math.max(latencyMs, stateAgeMs) : latencyMs;
+}
+
 /** Good: the delay is not noticeable; fair: noticeable; poor: drive slowly. */
-export function linkQuality({latencyMs, image}: Readonly<AppState>): "good" | "fair" | "poor" {
-  const worst = Math.max(latencyMs, (image?.ageMs ?? 0) / 2);
+export function linkQuality(state: Readonly<AppState>): "good" | "fair" | "poor" {
+  if (isStale(state)) return "poor";
+  const worst = Math.max(linkDelay(state), (state.image?.ageMs ?? 0) / 2);
   return worst < 60 ? "good" : worst < 200 ? "fair" : "poor";
 }
 
-export function linkInWords({latencyMs, image}: Readonly<AppState>): string {
-  return say("drive.link", {latency: Math.round(latencyMs), image: Math.round(image?.ageMs ?? 0)});
+export function linkInWords(state: Readonly<AppState>): string {
+  return say("drive.link", {latency: Math.round(linkDelay(state)), image: Math.round(state.image?.ageMs ?? 0)});
 }
 
 /** Leaves the page alone where nothing changes: states come 30 times a second. */

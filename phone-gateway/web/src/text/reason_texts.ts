@@ -153,8 +153,8 @@ export const kReasonTexts: Readonly<Record<string, readonly [pt: string, de: str
                        "Es läuft kein Spiel; der Schiedsrichter antwortet nicht."],
   "match-penalty": ["O robô tem uma penalização: {0}.", "Der Roboter hat eine Strafe: {0}."],
   "play-waits-for-release": [
-    "Alguém conduziu o robô: volta a jogar sozinho quando o controlo for libertado, ou com nao play auto.",
-    "Jemand hat den Roboter gesteuert: Er spielt wieder von allein, wenn die Steuerung abgegeben wird, oder mit nao play auto."],
+    "Uma pessoa conduziu o robô: volta a jogar sozinho quando o controlo for libertado, ou com nao play auto.",
+    "Eine Person hat den Roboter gesteuert: Er spielt wieder von allein, wenn die Steuerung abgegeben wird, oder mit nao play auto."],
   // Lights.
   "lights-missing": ["O comando não indica nenhuma luz.", "Der Befehl nennt kein Licht."],
   "light-unknown": ["O robô não tem a luz {0}; tem {1}.", "Der Roboter hat kein Licht {0}; er hat {1}."],

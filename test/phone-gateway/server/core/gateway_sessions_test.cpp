@@ -43,7 +43,9 @@ TEST_F(GatewayConnecting, NeedsTheTokenFromOtherHosts) {
   Client with = open(false, "192.168.1.7");
   EXPECT_EQ(ask(with, make_connect("secret")).error(), naoremote::OK);
   Client wrong_here = open(true);
-  EXPECT_EQ(ask(wrong_here, make_connect("Secret")).error(), naoremote::WRONG_TOKEN);
+  EXPECT_EQ(ask(wrong_here, make_connect("secrets")).error(), naoremote::WRONG_TOKEN);
+  Client typed = open(false, "192.168.1.7");
+  EXPECT_EQ(ask(typed, make_connect("Sec-RET ")).error(), naoremote::OK);
 }
 
 TEST_F(GatewayConnecting, PausesAnAddressAfterFiveWrongTokens) {

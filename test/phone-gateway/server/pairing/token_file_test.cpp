@@ -12,7 +12,7 @@ namespace {
 TEST(TokenFile, IsCreatedOnceAndReused) {
   const TemporaryFolder folder;
   const std::string first = token_from_file(folder.path() / "token");
-  EXPECT_EQ(first.size(), 16u);
+  EXPECT_EQ(first.size(), 9u);
   EXPECT_EQ(token_from_file(folder.path() / "token"), first);
 }
 
