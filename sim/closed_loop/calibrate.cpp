@@ -32,11 +32,8 @@ Calibration calibrate(const ClosedLoopOptions& options, uint64_t seed, int num_s
   loop.run(kTakeOver);
   while (!run.is_done()) {
     if (auto command = run.next_command()) {
-      const int64_t id = std::visit(
-          [&](auto& request) {
-            return loop.send({"", 0, std::move(request)});
-          },
-          *command);
+      const auto send = [&](auto& request) { return loop.send({"", 0, std::move(request)}); };
+      const int64_t id = std::visit(send, *command);
       const auto end = loop.await_end(id, kTimeout);
       const bool is_done = end && end->status == ResultStatus::kDone;
       run.end_command(is_done ? "" : end ? to_sentence(end->reason) : "did not end");

@@ -54,33 +54,32 @@ void add_robot_files_command(CommandLine& app, Invocation& invocation) {
     std::string folder = (data_path() / "robots").string();
   };
   const auto options = std::make_shared<Options>();
-  CommandLine* import = robot->add_subcommand(
+  CommandLine* importer = robot->add_subcommand(
       "import", "Make robots/NAME from a URDF; lists what it repaired, assumed and misses");
-  import->add_option("urdf", options->urdf, "The URDF; of xacro its output")->required();
-  import->add_option("--name", options->name, "Name of the robot's folder")->required();
-  import->add_option("--folder", options->folder, "Folder of the robots")->show_default();
-  import->on_parsed([&invocation, options] {
+  importer->add_option("urdf", options->urdf, "The URDF; of xacro its output")->required();
+  importer->add_option("--name", options->name, "Name of the robot's folder")->required();
+  importer->add_option("--folder", options->folder, "Folder of the robots")->show_default();
+  importer->on_parsed([&invocation, options] {
     invocation.run = [options] {
       const auto folder = folder_of(options->folder, options->name);
-  print(import_robot(options->urdf, folder));
-  std::printf("wrote %s\n", folder.c_str());
-  return 0;
-};
-}  // namespace nao
-);
+      print(import_robot(options->urdf, folder));
+      std::printf("wrote %s\n", folder.c_str());
+      return 0;
+    };
+  });
 
-CommandLine* check = robot->add_subcommand(
-    "check", "List what a robot misses for standing, walking, postures and kicks");
-check->add_option("name", options->name, "Name of the robot's folder")->required();
-check->add_option("--folder", options->folder, "Folder of the robots")->show_default();
-check->on_parsed([&invocation, options] {
-  invocation.run = [options] {
-    const Findings findings = check_robot(folder_of(options->folder, options->name));
-    print(findings);
-    if (findings.empty()) std::printf("%s has everything\n", options->name.c_str());
-    return 0;
-  };
-});
+  CommandLine* check = robot->add_subcommand(
+      "check", "List what a robot misses for standing, walking, postures and kicks");
+  check->add_option("name", options->name, "Name of the robot's folder")->required();
+  check->add_option("--folder", options->folder, "Folder of the robots")->show_default();
+  check->on_parsed([&invocation, options] {
+    invocation.run = [options] {
+      const Findings findings = check_robot(folder_of(options->folder, options->name));
+      print(findings);
+      if (findings.empty()) std::printf("%s has everything\n", options->name.c_str());
+      return 0;
+    };
+  });
 }
 
 }  // namespace nao

@@ -9,7 +9,7 @@ volatile std::sig_atomic_t signal_has_come = 0;
 
 StopSignal::StopSignal() {
   signal_has_come = 0;
-  struct sigaction action {};
+  struct sigaction action = {};
   action.sa_handler = [](int) { signal_has_come = 1; };
   // The handler acts once: the next signal has its usual effect. Interrupted system calls are
   // restarted.

@@ -16,8 +16,8 @@ class StopSignal {
   bool has_come() const;
 
  private:
-  struct sigaction old_interrupt_ {};
-  struct sigaction old_user_ {};
+  struct sigaction old_interrupt_ = {};
+  struct sigaction old_user_ = {};
 };
 
 }  // namespace nao

@@ -7,11 +7,13 @@
 namespace nao::motion {
 namespace {
 
+Gait::Parameter parameter(const char* name, double& (*in)(Gait&)) {
+  return {name, in};
+}
+
 // A parameter's name in the file is the name of its member: "timing.step_duration".
-#define NAO_GAIT_PARAMETER(group, key)                                     \
-  Gait::Parameter {                                                        \
-#group "." #key, [](Gait & gait) -> double& { return gait.group.key; } \
-  }
+#define NAO_GAIT_PARAMETER(group, key) \
+  parameter(#group "." #key, [](Gait& gait) -> double& { return gait.group.key; })
 
 const std::vector<Gait::Parameter>& all_parameters() {
   static const std::vector<Gait::Parameter> parameters = {

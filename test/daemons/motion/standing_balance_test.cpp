@@ -28,7 +28,7 @@ class StandingBalanceTest : public ::testing::Test {
   }
 
   /** Angle of a joint about the torso's y axis. */
-  double pitch(const std::vector<double>& position, Leg leg, int LegRoles::*role) const {
+  double pitch(const std::vector<double>& position, Leg leg, auto role) const {
     const LegRoles& roles = legs_.roles(leg);
     return roles.sign[roles.*role] * position[legs_.motors(leg)[roles.*role]];
   }

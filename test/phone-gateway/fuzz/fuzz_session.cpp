@@ -80,8 +80,8 @@ class FuzzedGateway {
   }
   void open(int client) {
     const Endpoint endpoint{client == 0 ? "127.0.0.1" : "10.0.0.1", "tcp", client == 0};
-    ids_[client] = core_.open(
-        endpoint, [] {}, now_);
+    const auto wake = [] {};
+    ids_[client] = core_.open(endpoint, wake, now_);
   }
   void pass() {
     now_ += 0.2;

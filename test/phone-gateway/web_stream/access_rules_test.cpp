@@ -7,9 +7,10 @@
 namespace nao {
 namespace {
 
-const AccessRules kRules({"Robot", "robot.example"}, {"http://localhost:5173"}, [] {
-  return std::vector<std::string>{"Uni-X.de.", ""};
-});
+std::vector<std::string> own_names() {
+  return {"Uni-X.de.", ""};
+}
+const AccessRules kRules({"Robot", "robot.example"}, {"http://localhost:5173"}, own_names);
 
 TEST(AccessRules, AcceptAddressesLocalhostAndOwnNames) {
   for (const char* host : {"192.168.1.5", "192.168.1.5:8080", "localhost", "LocalHost:8080",

@@ -24,11 +24,8 @@ TEST(Calibrate, TheRobotTakesEveryPose) {
   const double tilt = loop.torso_tilt();
   while (!run.is_done()) {
     if (auto command = run.next_command()) {
-      const int64_t id = std::visit(
-          [&](auto& request) {
-            return loop.send({"", 0, std::move(request)});
-          },
-          *command);
+      const auto send = [&](auto& request) { return loop.send({"", 0, std::move(request)}); };
+      const int64_t id = std::visit(send, *command);
       const auto end = loop.await_end(id, 30);
       ASSERT_TRUE(end);
       EXPECT_EQ(end->status, ResultStatus::kDone) << to_sentence(end->reason);

@@ -36,8 +36,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       std::abort();
     }
   };
-  nao::foxglove::ClientPublisher publisher(
-      "fuzz", "NAO", [] { return int64_t{1}; }, check);
+  const auto now = [] { return int64_t{1}; };
+  nao::foxglove::ClientPublisher publisher("fuzz", "NAO", now, check);
   core.allow_publishing(publisher);
   for (const char* topic : {"A", "B", "C"}) core.add_channel(topic, "a", "{}");
   uint32_t clients[]{core.open([] {}), core.open([] {})};

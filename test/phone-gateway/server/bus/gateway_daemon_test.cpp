@@ -26,8 +26,8 @@ class GatewayDaemonTest : public testing::Test {
         second_(bus_, kJoints, "NAO2"),
         daemon_(bus_, {named("NAO1"), named("NAO2")}, GatewayLimits{}, "secret") {
     run();
-    client_ = daemon_.core().open(
-        {"127.0.0.1", "tcp", true}, [] {}, monotonic_seconds());
+    const auto wake = [] {};
+    client_ = daemon_.core().open({"127.0.0.1", "tcp", true}, wake, monotonic_seconds());
     naoremote::Request request;
     request.mutable_connect()->set_protocol_version(1);
     request.mutable_connect()->set_robot("NAO2");

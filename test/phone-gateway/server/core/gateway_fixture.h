@@ -87,8 +87,8 @@ class GatewayFixture : public testing::Test {
 
   Client open(bool is_local = true, const std::string& address = "127.0.0.1") {
     Client client;
-    client.id = core_->open(
-        {address, "tcp", is_local}, [] {}, now_);
+    const auto wake = [] {};
+    client.id = core_->open({address, "tcp", is_local}, wake, now_);
     return client;
   }
 

@@ -29,7 +29,7 @@ TEST(Certificate, IsReplacedForANewAddress) {
 TEST(Certificate, HasAKeyThatOnlyItsOwnerCanRead) {
   const TemporaryFolder folder;
   const CertificateFiles files = own_certificate(folder.path(), {{"robot"}, {}});
-  struct stat status {};
+  struct stat status = {};
   ASSERT_EQ(stat(files.key.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);
   EXPECT_NE(read_text(files.key).find("PRIVATE KEY"), std::string::npos);

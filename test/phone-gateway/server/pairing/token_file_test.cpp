@@ -19,7 +19,7 @@ TEST(TokenFile, IsCreatedOnceAndReused) {
 TEST(TokenFile, CanOnlyBeReadByItsOwner) {
   const TemporaryFolder folder;
   token_from_file(folder.path() / "token");
-  struct stat status {};
+  struct stat status = {};
   ASSERT_EQ(stat((folder.path() / "token").c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);
 }
