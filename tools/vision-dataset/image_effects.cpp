@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 namespace nao::vision {
 
@@ -41,7 +42,19 @@ void ImageEffects::apply(cv::Mat& bgr) const {
   Random random(noise_seed);
   std::array<float, 4096> samples;
   for (float& sample : samples) sample = static_cast<float>(noise * random.normal());
+  // Of each column and row; a normal curve of two dimensions is their product.
+  const auto curve = [](int count, double middle, double size) {
+    std::vector<float> values(count);
+    for (int i = 0; i < count; ++i) {
+      const double way = (i - middle) / size;
+      values[i] = static_cast<float>(std::exp(-0.5 * way * way));
+    }
+    return values;
+  };
+  const std::vector<float> across = curve(bgr.cols, glare_center.x, glare_size.x);
+  const std::vector<float> down = curve(bgr.rows, glare_center.y, glare_size.y);
   for (int y = 0; y < bgr.rows; ++y) {
+    const float glare_of_row = static_cast<float>(glare) * down[y];
     for (int x = 0; x < bgr.cols; ++x) {
       cv::Vec3b& pixel = bgr.at<cv::Vec3b>(y, x);
       const auto grey = static_cast<float>(pixel[0] + pixel[1] + pixel[2]) / 3;
@@ -49,7 +62,7 @@ void ImageEffects::apply(cv::Mat& bgr) const {
       for (int i = 0; i < 3; ++i) {
         const float color = grey + static_cast<float>(saturation) * (pixel[i] - grey);
         const float value = static_cast<float>(gain[i]) * (color + static_cast<float>(veil)) +
-                            samples[(bits >> (12 * i)) % samples.size()];
+                            glare_of_row * across[x] + samples[(bits >> (12 * i)) % samples.size()];
         pixel[i] = static_cast<uint8_t>(std::clamp(value, 0.0f, 255.0f));
       }
     }

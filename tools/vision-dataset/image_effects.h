@@ -18,6 +18,11 @@ struct ImageEffects {
   std::array<double, 3> gain{1, 1, 1};
   /** Added before the gain: stray light, levels of 255. */
   double veil = 0;
+  /** Light of a lamp or window that lens or carpet reflects: middle and standard deviations,
+   * pixels, and levels of 255 in the middle, added before noise. */
+  cv::Point2d glare_center;
+  cv::Point2d glare_size{1, 1};
+  double glare = 0;
   /** Factor on the saturation. */
   double saturation = 1;
   /** Standard deviation of the noise, levels of 255. */

@@ -1,7 +1,9 @@
 // Writes rendered images of a soccer field with exact labels.
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
@@ -23,17 +25,37 @@ struct DatasetOptions {
   int num_places = 20;
   uint64_t first_place = 0;
   nao::vision::SceneOptions scene;
+  std::vector<std::string> kinds = {"mixed"};
 };
+
+std::vector<nao::vision::SceneKind> read_kinds(const std::vector<std::string>& names) {
+  const std::vector<std::string>& all = nao::vision::scene_kind_names();
+  std::vector<nao::vision::SceneKind> kinds;
+  for (const std::string& name : names) {
+    const auto found = std::find(all.begin(), all.end(), name);
+    if (found == all.end()) {
+      throw nao::ConfigError(
+          fmt::format("no kind of scene '{}'; there are: {}", name, fmt::join(all, ", ")));
+    }
+    kinds.push_back(static_cast<nao::vision::SceneKind>(found - all.begin()));
+  }
+  return kinds;
+}
 
 void write_dataset(const DatasetOptions& options) {
   const auto model = nao::RobotModel::load(nao::data_path() / "robots" / options.model);
   const nao::SceneFile field = nao::SceneFile::find("soccer");
   std::filesystem::create_directories(options.folder);
   nao::vision::DatasetRenderer renderer(model, field);
+  const std::vector<nao::vision::SceneKind> kinds = read_kinds(options.kinds);
   std::vector<nao::vision::LabelledImage> images;
   for (int i = 0; i < options.num_images; ++i) {
     const uint64_t place = options.first_place + static_cast<uint64_t>(i % options.num_places);
-    const auto scene = nao::vision::make_scene(model, field, options.scene, place,
+    // The kinds alternate, in another order at each visit of a place.
+    nao::vision::SceneOptions scene_options = options.scene;
+    const size_t number = static_cast<size_t>(i) + static_cast<size_t>(i / options.num_places);
+    scene_options.kind = kinds[number % kinds.size()];
+    const auto scene = nao::vision::make_scene(model, field, scene_options, place,
                                                1000000 * options.seed + static_cast<uint64_t>(i));
     nao::vision::LabelledImage& image = images.emplace_back();
     image.file = std::filesystem::path(options.folder) / fmt::format("{:06}.jpg", i);
@@ -72,6 +94,11 @@ int main(int argc, char** argv) {
   app.add_option("--robots", options.scene.most_robots, "Most other robots in an image")
       ->show_default()
       ->range(0, 3);
+  app.add_option("--kinds", options.kinds,
+                 "Kinds of scenes, which alternate: " +
+                     fmt::format("{}", fmt::join(nao::vision::scene_kind_names(), ", ")))
+      ->separated_by(',')
+      ->show_default();
   app.add_option("--model", options.model, "Folder of robots/ that describes the robots")
       ->show_default();
   return nao::run_program(app, common, argc, argv, [&] { write_dataset(options); });

@@ -6,15 +6,11 @@
 #include "common/constants.h"
 #include "daemons/vision/field_model.h"
 #include "kinematics/pose2.h"
+#include "tools/vision-dataset/hard_scene.h"
+#include "tools/vision-dataset/scene_objects.h"
 
 namespace nao::vision {
 namespace {
-
-Eigen::Vector3f random_color(Random& random, double lower, double upper) {
-  return {static_cast<float>(random.uniform(lower, upper)),
-          static_cast<float>(random.uniform(lower, upper)),
-          static_cast<float>(random.uniform(lower, upper))};
-}
 
 /** Light and carpet of a place. */
 SceneAppearance make_appearance(Random& random) {
@@ -44,37 +40,6 @@ SceneAppearance make_appearance(Random& random) {
     look.shade_depth = static_cast<float>(random.uniform(0.4, 1));
   }
   return look;
-}
-
-void add_box(RandomScene& scene, const Eigen::Vector3d& center, double yaw,
-             const Eigen::Vector3d& size, const Eigen::Vector3f& color) {
-  Distractor box;
-  box.pose_in_world.translation() = center;
-  box.pose_in_world.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).matrix();
-  box.size = size;
-  box.color = color;
-  scene.distractors.push_back(box);
-}
-
-/** Two legs, shoes and a body. */
-void add_person(RandomScene& scene, const Eigen::Vector2d& place, Random& random) {
-  const double yaw = random.uniform(0, 2 * M_PI);
-  const Eigen::Vector3f trousers = random_color(random, 0.01, 0.4);
-  const Eigen::Vector3f shoes = random_color(random, 0.01, 0.8);
-  const Eigen::Vector2d side(-std::sin(yaw), std::cos(yaw));
-  for (const double sign : {-1.0, 1.0}) {
-    const Eigen::Vector2d foot = place + sign * 0.12 * side;
-    Distractor leg;
-    leg.kind = Distractor::Kind::kCylinder;
-    leg.pose_in_world.translation() << foot.x(), foot.y(), 0.45;
-    leg.size = {0.13, 0.13, 0.9};
-    leg.color = trousers;
-    scene.distractors.push_back(leg);
-    add_box(scene, {foot.x() + 0.06 * std::cos(yaw), foot.y() + 0.06 * std::sin(yaw), 0.04}, yaw,
-            {0.28, 0.1, 0.08}, shoes);
-  }
-  add_box(scene, {place.x(), place.y(), 1.2}, yaw, {0.25, 0.45, 0.6},
-          random_color(random, 0.02, 0.8));
 }
 
 /** Banners, walls and people around the carpet. */
@@ -168,29 +133,6 @@ Eigen::Vector2d place_in_view(const RandomScene& scene, double nearest, double f
          distance * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
 }
 
-PlacedRobot place_robot(const RobotModel& model, const Eigen::Vector2d& place, Random& random) {
-  PlacedRobot robot;
-  const auto& postures = model.postures();
-  std::vector<const Posture*> standing;
-  for (const Posture& posture : postures) {
-    if (posture.family == "standing" || posture.family == "crouching") standing.push_back(&posture);
-  }
-  const Posture& posture = *standing[random.next() % standing.size()];
-  robot.position = posture.position;
-  for (double& angle : robot.position) angle += 0.06 * random.normal();
-  robot.place = place;
-  // Shirts, dirt and other makes.
-  const double shade = random.uniform(0.5, 1);
-  for (float& value : robot.tint) value = static_cast<float>(shade * random.uniform(0.85, 1));
-  const auto links = model.link_poses(robot.position);
-  const double sole = std::min(links[model.left_sole()].translation().z(),
-                               links[model.right_sole()].translation().z());
-  robot.pose_torso_in_world.linear() =
-      Eigen::AngleAxisd(random.uniform(-M_PI, M_PI), Eigen::Vector3d::UnitZ()).matrix();
-  robot.pose_torso_in_world.translation() << place.x(), place.y(), -sole;
-  return robot;
-}
-
 /** A point of the field's lines in the view, m in the world; nothing if none was found. */
 std::optional<Eigen::Vector2d> place_at_line(const RandomScene& scene, const FieldModel& field,
                                              double nearest, double farthest, Random& random) {
@@ -211,11 +153,6 @@ std::optional<Eigen::Vector2d> place_at_line(const RandomScene& scene, const Fie
   return std::nullopt;
 }
 
-bool is_on_carpet(const Eigen::Vector2d& place, const FieldDimensions& field) {
-  return std::abs(place.x()) < field.length / 2 + field.border_strip_width - 0.1 &&
-         std::abs(place.y()) < field.width / 2 + field.border_strip_width - 0.1;
-}
-
 void add_objects(RandomScene& scene, const RobotModel& model, const SceneFile& file,
                  const SceneOptions& options, Random& random) {
   const double radius = file.ball ? file.ball->radius : 0.05;
@@ -229,13 +166,7 @@ void add_objects(RandomScene& scene, const RobotModel& model, const SceneFile& f
       const Eigen::Vector2d place =
           at_line && i == 0 ? *at_line : place_in_view(scene, 0.15, 5.2, random);
       if (!is_on_carpet(place, *file.field)) continue;
-      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-      pose.translation() << place.x(), place.y(), radius;
-      pose.linear() =
-          Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal())
-              .normalized()
-              .toRotationMatrix();
-      scene.pose_ball_in_world = pose;
+      place_ball(scene, place, radius, random);
       break;
     }
   }
@@ -268,16 +199,22 @@ void add_objects(RandomScene& scene, const RobotModel& model, const SceneFile& f
 RandomScene make_scene(const RobotModel& model, const SceneFile& field, const SceneOptions& options,
                        uint64_t place, uint64_t image) {
   Random of_place(0x9f1ace00u + place);
-  Random of_image(0x1a6e0000u + 1000003u * place + image);
+  Random of_image(0x1a6e0000u + 1000003u * place + image +
+                  (static_cast<uint64_t>(options.kind) << 40));
   RandomScene scene;
   scene.appearance = make_appearance(of_place);
   add_surroundings(scene, *field.field, of_place);
   scene.effects = ImageEffects::of_place(of_place);
   scene.distortion.k1 = of_place.uniform(-0.12, 0.06);
   add_clutter(scene, *field.field, of_place);
-  place_camera(scene, *field.field, of_image);
-  add_objects(scene, model, field, options, of_image);
+  if (options.kind == SceneKind::kMixed) {
+    place_camera(scene, *field.field, of_image);
+    add_objects(scene, model, field, options, of_image);
+  } else {
+    add_hard_objects(scene, model, field, options.kind, of_image);
+  }
   scene.effects.vary(of_image);
+  if (options.kind != SceneKind::kMixed) vary_exposure(scene, options.kind, of_image);
   return scene;
 }
 

@@ -51,12 +51,36 @@ struct RandomScene {
   ImageEffects effects;
 };
 
-/** Ranges of the random scenes. */
+/** What a scene shows. All but the first have one thing that is hard to tell: a ball that is hard
+ * to see, or an object that looks like one and no ball. */
+enum class SceneKind {
+  kMixed,
+  kBallOnLine,
+  kBallOnMark,
+  kBallAtShoe,
+  kBallAtPost,
+  kBallAtRobot,
+  kBallInGlare,
+  kBallOverexposed,
+  kBallUnderexposed,
+  kCheckerboard,
+  kStripes,
+  kGoalFoot,
+  kCrossing,
+  kRobotFeet
+};
+/** Names of the kinds, in their order: ball-on-line. */
+const std::vector<std::string>& scene_kind_names();
+/** The scenes of this kind have a ball; kMixed has one in some of them. */
+bool has_ball(SceneKind kind);
+
+/** Ranges of the random scenes. The fractions hold for kMixed. */
 struct SceneOptions {
   /** Images that have a ball, 0 to 1. */
   double ball_fraction = 0.8;
   /** Other robots within 5 m, at most 3. */
   int most_robots = 3;
+  SceneKind kind = SceneKind::kMixed;
 };
 
 /** Draws a scene: light, carpet, wear and surroundings from the place's number, the rest from the
