@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <set>
 
+#include "common/error.h"
+#include "common/logger.h"
 #include "common/yaml_entry.h"
 
 namespace nao {
@@ -52,12 +54,8 @@ RobotLight read_light(const RobotModel& model, const YamlEntry& entry) {
   return light;
 }
 
-}  // namespace
-
-std::vector<RobotLight> load_robot_lights(const RobotModel& model) {
+std::vector<RobotLight> read_lights(const RobotModel& model, const std::filesystem::path& path) {
   std::vector<RobotLight> lights;
-  const std::filesystem::path path = model.folder() / "lights.yaml";
-  if (!std::filesystem::exists(path)) return lights;
   const YamlEntry file = YamlEntry::load(path);
   file.allow_only({"lights"});
   std::set<std::string> names;
@@ -66,6 +64,19 @@ std::vector<RobotLight> load_robot_lights(const RobotModel& model) {
     if (!names.insert(lights.back().name).second) entry.at("name").fail("appears twice");
   }
   return lights;
+}
+
+}  // namespace
+
+std::vector<RobotLight> load_robot_lights(const RobotModel& model) {
+  const std::filesystem::path path = model.folder() / "lights.yaml";
+  if (!std::filesystem::exists(path)) return {};
+  try {
+    return read_lights(model, path);
+  } catch (const Error& error) {
+    logger::warn("{}; the robot has no lights", error.what());
+    return {};
+  }
 }
 
 std::vector<std::string> names_of(const std::vector<RobotLight>& lights) {

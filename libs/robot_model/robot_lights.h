@@ -32,8 +32,8 @@ struct RobotLight {
   std::vector<Disc> discs;
 };
 
-/** Reads lights.yaml of a robot's folder. @return No lights if there is no such file.
- * @throws ModelError  with the file, the element and what is wrong with it. */
+/** Reads lights.yaml of a robot's folder. @return No lights if there is no such file, or with
+ * a warning if something in it is wrong: a robot is driven without. */
 std::vector<RobotLight> load_robot_lights(const RobotModel& model);
 
 std::vector<std::string> names_of(const std::vector<RobotLight>& lights);

@@ -14,6 +14,7 @@
 #include "rendering/image.h"
 #include "robot_model/robot_model.h"
 #include "test/daemons/head-camera/truth.h"
+#include "test/support/decimal_comma.h"
 #include "test/support/temporary_folder.h"
 
 namespace nao::viewer {
@@ -26,13 +27,15 @@ class ViewerProgram : public testing::Test {
     std::string text;
   };
 
-  static Outcome run(const std::string& arguments) {
+  /** @param environment  Further variables: "NAME=VALUE". */
+  static Outcome run(const std::string& arguments, const std::string& environment = "") {
     const std::filesystem::path program =
         std::filesystem::canonical("/proc/self/exe").parent_path() / "nao-viewer";
     const std::string url =
         "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 10000) + "?ttl=0";
-    const std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY LCM_DEFAULT_URL='" + url +
-                                "' timeout 100 " + program.string() + " " + arguments + " 2>&1";
+    const std::string command = "env -u DISPLAY -u WAYLAND_DISPLAY LCM_DEFAULT_URL='" + url + "' " +
+                                environment + " timeout 100 " + program.string() + " " + arguments +
+                                " 2>&1";
     Outcome outcome{-1, ""};
     FILE* pipe = popen(command.c_str(), "r");
     std::array<char, 512> line{};
@@ -87,11 +90,12 @@ TEST_F(ViewerProgram, StartsBeforeAnythingElseAndDrawsWithoutAScreen) {
 
 TEST_F(ViewerProgram, ShowsAnyTimeOfALog) {
   const std::string log = make_log();
-  const auto shot = [&](const std::string& name, double time) {
+  const auto shot = [&](const std::string& name, double time, const std::string& environment = "") {
     const std::string file = folder_.path() / name;
     const Outcome outcome =
         run("--log " + log + " --paused --log-start " + std::to_string(time) +
-            " --offscreen --no-panels --width 320 --height 240 --frames 2 --screenshot " + file);
+                " --offscreen --no-panels --width 320 --height 240 --frames 2 --screenshot " + file,
+            environment);
     EXPECT_EQ(outcome.status, 0) << outcome.text;
     return read_png(file);
   };
@@ -99,6 +103,10 @@ TEST_F(ViewerProgram, ShowsAnyTimeOfALog) {
   const Image lying = shot("lying.png", 8);
   EXPECT_EQ(count_different(standing, shot("again.png", 4)), 0);
   EXPECT_GT(count_different(standing, lying), 1000);
+  if (!make_decimal_comma(folder_.path())) GTEST_SKIP() << "no localedef: install locales";
+  const std::string comma =
+      "LOCPATH=" + folder_.path().string() + " LC_ALL=" + std::string(kDecimalComma);
+  EXPECT_EQ(count_different(lying, shot("comma.png", 7.5, comma)), 0);
 }
 
 TEST_F(ViewerProgram, ReportsMissingScreensAndWrongFiles) {

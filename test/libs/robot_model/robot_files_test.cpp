@@ -3,11 +3,15 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <clocale>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "robot_model/robot_model.h"
+#include "robot_model/scene_file.h"
 #include "test/libs/robot_model/copied_robot.h"
+#include "test/support/decimal_comma.h"
 
 namespace nao {
 namespace {
@@ -36,6 +40,29 @@ TEST(RobotFiles, LoadWithoutTheirMeshesWhichDrivingDoesNotNeed) {
   const CopiedRobot robot;
   fs::remove_all(robot.path() / "meshes");
   EXPECT_EQ(error_of(robot.path()), "");
+}
+
+/** Libraries of a program with windows may set the user's locale. */
+TEST(RobotFiles, LoadAlikeWithADecimalComma) {
+  const fs::path nao = data_path() / "robots" / "nao";
+  const RobotModel with_point = RobotModel::load(nao);
+  const TemporaryFolder folder;
+  if (!make_decimal_comma(folder.path())) GTEST_SKIP() << "no localedef: install locales";
+  setenv("LOCPATH", folder.path().c_str(), 1);
+  ASSERT_NE(std::setlocale(LC_ALL, kDecimalComma), nullptr);
+  EXPECT_EQ(std::strtod("1,5", nullptr), 1.5) << "the locale is not in effect";
+  const RobotModel with_comma = RobotModel::load(nao);
+  const SceneFile scene = SceneFile::find("soccer");
+  std::setlocale(LC_ALL, "C");
+  unsetenv("LOCPATH");
+  EXPECT_EQ(scene.field->line_width, 0.05);
+  ASSERT_EQ(with_comma.links().size(), with_point.links().size());
+  for (size_t i = 0; i < with_point.links().size(); ++i) {
+    EXPECT_EQ(with_comma.links()[i].mass, with_point.links()[i].mass) << with_point.links()[i].name;
+  }
+  for (size_t i = 0; i < with_point.joints().size(); ++i) {
+    EXPECT_EQ(with_comma.joints()[i].upper, with_point.joints()[i].upper);
+  }
 }
 
 TEST(RobotFiles, MayHaveAUrdfOfAnyName) {

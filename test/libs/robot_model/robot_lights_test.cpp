@@ -6,6 +6,7 @@
 
 #include "common/data_path.h"
 #include "common/yaml_entry.h"
+#include "test/libs/robot_model/copied_robot.h"
 
 namespace nao {
 namespace {
@@ -28,6 +29,14 @@ TEST(RobotLights, OfTheNaoAreThoseOfItsInterfaceInTheSameOrder) {
     }
   }
   EXPECT_EQ(num_eyes, 2);
+}
+
+TEST(RobotLights, AreLeftOutWhereTheirFileIsDamaged) {
+  const CopiedRobot robot;
+  for (const char* damaged : {"lights: [", "lights: 3", "light: []", "lights: [{name: chest}]"}) {
+    robot.write("lights.yaml", damaged);
+    EXPECT_TRUE(load_robot_lights(RobotModel::load(robot.path())).empty()) << damaged;
+  }
 }
 
 TEST(RobotLights, LeftOnesAreTheMirrorImagesOfRightOnes) {

@@ -226,7 +226,7 @@ export class ControllerScreen {
   private showState(state: State | null): void {
     const {playState, phase, problem, stateAgeMs} = this.store.get();
     const isOld = isStale(this.store.get()) && state?.mode !== Mode.NO_ROBOT;
-    setText(this.mode, phase !== "connected" && problem ? say(`problem.${problem}`) :
+    setText(this.mode, phase !== "connected" && state && problem ? say(`problem.${problem}`) :
             isOld && state ? say("mode.stale", {seconds: (stateAgeMs / 1000).toFixed(1)}) :
             state ? modeInWords(state.mode, isByItself(playState)) : say("mode.waiting"));
     setText(this.activity, isOld ? "" : playInWords(playState) || activityInWords(state?.activity));

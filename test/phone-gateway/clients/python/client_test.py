@@ -39,6 +39,32 @@ class WithGateway(unittest.TestCase):
         return self.enterContext(nao_remote.connect(address or self.gateway.address, **{"timeout": DEADLINE, **options}))
 
 
+# Walks under the locale of the environment, whose numbers must have a decimal comma.
+COMMA = """
+import locale, sys
+locale.setlocale(locale.LC_ALL, "")
+assert locale.str(1.5) == "1,5", locale.str(1.5)
+import built_package, nao_remote
+with nao_remote.connect(sys.argv[1], timeout=30) as robot:
+    robot.walk(0.25, 0.5, -0.125, duration=0.2)
+    print(f"{robot.state().age_ms:.1f}")
+"""
+
+
+class Locales(WithGateway):
+    def test_a_decimal_comma_changes_nothing(self):
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+        try:
+            subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", f"{folder}/de_DE.UTF-8"], check=True, capture_output=True)
+        except (OSError, subprocess.CalledProcessError) as error:
+            self.skipTest(f"no localedef ({error}): install locales")
+        told = subprocess.run([sys.executable, "-c", COMMA, self.gateway.address], capture_output=True, text=True, check=False,
+                              cwd=Path(__file__).parent, env={**os.environ, "LOCPATH": folder, "LC_ALL": "de_DE.UTF-8"})
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertEqual(self.gateway.received("walk_turn")[0], pb.WalkTurn(vx=0.25, vy=0.5, wz=-0.125))
+        self.assertRegex(told.stdout, r"^[0-9]+\.[0-9]\n$")
+
+
 class SeveralRobots(WithGateway):
     """A gateway with the robots NAO and NAO2."""
 
