@@ -46,6 +46,7 @@ PhoneClient::PhoneClient(const Options& options, Handlers handlers)
 
 uint32_t PhoneClient::send(Request request) {
   request.set_request_id(++last_request_id_);
+  request.set_sent_at(monotonic_seconds());
   socket_.send(request.SerializeAsString());
   last_sent_ = monotonic_seconds();
   return last_request_id_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "phone-gateway/server/core/outbox.h"
+#include "phone-gateway/server/core/request_age.h"
 #include "phone-gateway/server/core/request_budget.h"
 #include "phone-gateway/server/core/request_check.h"
 #include "phone-gateway/server/core/stream_throttle.h"
@@ -109,6 +110,7 @@ struct ClientSession {
   double opened_at;
   double last_request;
   RequestBudget budget;
+  RequestAge age;
   int num_malformed = 0;
   Outbox outbox;
   ClientStreams streams;

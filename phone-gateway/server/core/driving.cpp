@@ -1,10 +1,21 @@
 #include "phone-gateway/server/core/driving.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "phone-gateway/server/core/client_name.h"
 
 namespace nao::gateway {
+namespace {
+
+/** Fraction of the commanded velocity for a round-trip time, s, which a driver sees the robot
+ * late by. */
+double allowed_speed(const GatewayLimits& limits, double round_trip_time) {
+  const double range = limits.max_round_trip - limits.full_speed_round_trip;
+  return std::clamp((limits.max_round_trip - round_trip_time) / range, 0.0, 1.0);
+}
+
+}  // namespace
 
 // ---- Control ------------------------------------------------------------------------------------
 
@@ -117,13 +128,21 @@ std::optional<Refusal> Driving::walk(const ClientSession& session, uint32_t requ
   // zero velocity, or after as long a pause as ends a walk.
   if (was_released) is_walk_blocked_ = false;
   if (is_walk_blocked_) return Refusal{naoremote::STOPPED, gateway_reason("walk-stopped")};
+  const double fraction = allowed_speed(limits_, session.round_trip_time);
+  if (fraction <= 0) {
+    end_walk(now);
+    return Refusal{naoremote::TOO_LATE,
+                   gateway_reason("link-too-slow", {to_argument(session.round_trip_time)})};
+  }
+  const WalkCommand allowed{fraction * velocity.vx, fraction * velocity.vy,
+                            fraction * velocity.wz};
   if (!walk_.is_walking()) {
     play_.abandon();
-    const Command begun = commands_.make(session.id, velocity);
+    const Command begun = commands_.make(session.id, allowed);
     walk_.begin(begun.source, begun.id);
     commands_.track(session.id, request_id, begun, now);
   }
-  commands_.transmit(walk_.update(velocity, now));
+  commands_.transmit(walk_.update(allowed, now));
   return std::nullopt;
 }
 

@@ -29,6 +29,13 @@ struct GatewayLimits {
   double silence_timeout = 5;
   /** From the last WalkTurn to the end of the walk. nao-motion uses the same value. */
   double walk_timeout = 0.5;
+  /** Age of a motion command above which it is not obeyed (RequestAge). Chosen: below walk_timeout,
+   * so that nobody walks after the controls were released. */
+  double max_command_age = 0.4;
+  /** Round-trip times up to which a client may walk at full speed, and at which not at all; between
+   * them the velocity falls in proportion. Chosen. */
+  double full_speed_round_trip = 0.15;
+  double max_round_trip = 1.0;
   /** From a driver's last request of any kind to the end of a behavior that it has begun: two of
    * its pings may be late. */
   double play_timeout = 2.5;

@@ -55,6 +55,8 @@ inline constexpr auto kGatewayReasons = std::to_array<ReasonEntry>({
     {"robot-unknown", "robot, known robots", "The gateway has no robot {0}; it has {1}."},
     // Control.
     {"no-driver", "", "No client has control; take control first."},
+    {"command-too-late", "seconds, limit", "The command came {0} s late; up to {1} s are allowed."},
+    {"link-too-slow", "seconds", "The connection is too slow to walk: an answer takes {0} s."},
     {"control-taken", "driver", "{0} has control."},
     {"walk-stopped", "", "Stopped; release the joystick before walking again."},
     {"driver-changed", "driver", "{0} has control now."},

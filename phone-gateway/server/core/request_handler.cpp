@@ -20,6 +20,26 @@ std::optional<Refusal> execute_checked(std::variant<Checked, Refusal> checked, E
   return execute(std::get<Checked>(std::move(checked)));
 }
 
+/** Whether the request sets the robot in motion. Ending a walk or a behavior is always in time. */
+bool starts_motion(const Request& request) {
+  switch (request.use_case_case()) {
+    case Request::kWalkTurn: {
+      const naoremote::WalkTurn& walk = request.walk_turn();
+      return walk.vx() != 0 || walk.vy() != 0 || walk.wz() != 0;
+    }
+    case Request::kPlay:
+      return request.play().behavior() != naoremote::Play::NONE;
+    case Request::kMoveTo:
+    case Request::kGoToPosture:
+    case Request::kChangeJoints:
+    case Request::kDoAction:
+    case Request::kDrag:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 bool RequestHandler::handle(ClientSession& session, const Request& request, Response& response,
@@ -43,6 +63,12 @@ std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Req
   if (!session.is_connected && !request.has_connect() && !is_console &&
       request.use_case_case() != Request::USE_CASE_NOT_SET) {
     return Refusal{naoremote::NOT_CONNECTED, gateway_reason("not-connected")};
+  }
+  const double age = session.age.take(request.sent_at(), now);
+  if (age > limits_.max_command_age && starts_motion(request)) {
+    return Refusal{naoremote::TOO_LATE,
+                   gateway_reason("command-too-late",
+                                  {to_argument(age), to_argument(limits_.max_command_age)})};
   }
   GatewayRobot& robot = robots_.of(session);
   Driving& driving = robot.driving();

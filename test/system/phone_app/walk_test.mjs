@@ -5,6 +5,8 @@ import {setUp} from "./set_up.mjs";
 import {until} from "./stack.mjs";
 
 const kMaxAttempts = 3;
+/** As stage.ts says for a processor that draws. */
+const kFramePeriodMs = 50;
 
 const {stack, phone} = setUp();
 
@@ -15,6 +17,9 @@ async function place() {
   const {time, torso, orientation} = await stack.truth();
   return {time, x: torso[0], y: torso[1], height: torso[2], heading: headingOf(orientation)};
 }
+
+/** Frames drawn so far, and the page's time, ms. */
+const drawing = () => phone.page.evaluate(() => ({count: window.naoRemote.numFrames, ms: performance.now()}));
 
 /** Touches both joysticks, each deflected by fractions of its radius: right and up. */
 async function touchJoysticks(walk, turn) {
@@ -74,11 +79,16 @@ async function stands() {
 
 walkTest("the left joystick up and the right one to the left walk forward in a left turn", async () => {
   const start = await place();
+  const before = await drawing();
   await touchJoysticks([0, 0.75], [-0.6, 0]);
   const end = await untilPlace("the robot has walked and turned", (now) =>
       Math.hypot(now.x - start.x, now.y - start.y) > 0.12 && turned(start.heading, now.heading) > 0.15, 20);
+  const after = await drawing();
   await lift();
   assert.ok(end.x > start.x, "it walked backwards");
+  const numFrames = after.count - before.count;
+  assert.ok(numFrames > 0 && numFrames <= (after.ms - before.ms) / kFramePeriodMs + 1,
+            `${numFrames} frames drawn in ${after.ms - before.ms} ms`);
   await stands();
 });
 

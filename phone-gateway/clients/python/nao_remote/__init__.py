@@ -16,7 +16,7 @@ from nao_remote.blocking import Command, Joint, Light, Robot, Stream, connect
 from nao_remote.discovery import discover
 from nao_remote.errors import (Closed, CommandFailed, CommandInterrupted, CommandRefused, ConnectionLost, ControlTaken,
                                InvalidArgument, InvalidRequest, MotionNotSafe, NameInUse, NaoError, NoControl, NotAllowed,
-                               NotConnected, Refused, RobotUnavailable, SimulationError, Stopped, Timeout, TooManyClients, TooManyRequests,
+                               NotConnected, Refused, RobotUnavailable, SimulationError, Stopped, Timeout, TooLate, TooManyClients, TooManyRequests,
                                WrongToken, WrongVersion)
 from nao_remote.messages import (Action, Activity, Body, Client, CommandKind, CommandResult, CommandStatus, Component,
                                  ComponentChanged, Connected, Control, ControlChanged, Disconnected, Event, Image,
@@ -33,6 +33,6 @@ __all__ = [
     "Joint", "JointDescription", "JointGroup", "Light", "Mode", "MotionNotSafe", "NameInUse", "NaoError", "NoControl",
     "NotAllowed", "NotConnected", "Pong",
     "Refused", "Robot", "RobotChanged", "RobotDescription", "RobotEntry", "RobotsChanged", "RobotUnavailable", "Simulation", "SimulationError", "SimulationState", "State", "Stopped",
-    "Stream", "Timeout", "TooManyClients", "TooManyRequests", "WrongToken", "WrongVersion", "aio", "connect", "discover",
+    "Stream", "Timeout", "TooLate", "TooManyClients", "TooManyRequests", "WrongToken", "WrongVersion", "aio", "connect", "discover",
     "simulate", "step_together",
 ]

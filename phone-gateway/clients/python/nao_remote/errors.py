@@ -97,6 +97,10 @@ class NameInUse(Refused):
     error_code = pb.NAME_IN_USE
 
 
+class TooLate(Refused):
+    """The command was under way for too long, or the connection is too slow to drive. Nothing moves."""
+
+
 class MotionNotSafe(InvalidArgument):
     """A taught motion would make the robot fall, touch itself or exceed a limit. Nothing is saved.
 

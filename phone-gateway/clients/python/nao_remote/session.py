@@ -82,7 +82,7 @@ class Session:
             raise RuntimeError("this robot was connected in another event loop or, before a fork, in another process; "
                                "call connect() in this one")
         number = self.next_request_id() if request_id is None else request_id
-        message = pb.Request(request_id=number, **use_case).SerializeToString()
+        message = pb.Request(request_id=number, sent_at=self._now(), **use_case).SerializeToString()
         response: asyncio.Future[pb.Response] = self._loop.create_future()
         self._responses[number] = response
         try:

@@ -8,7 +8,7 @@ from typing import Any, Awaitable, Callable, Coroutine
 
 from nao_remote import remote_pb2 as pb
 from nao_remote.command import Command
-from nao_remote.errors import NaoError, Timeout
+from nao_remote.errors import NaoError, Timeout, TooLate
 
 # Interval of WalkTurn, s. PROTOCOL.md wants 0.2 s or less; half of it leaves one request that may be late.
 PERIOD = 0.1
@@ -73,6 +73,9 @@ class Walk:
                 return
             try:
                 await self._request(walk_turn=self._velocity)
+            except TooLate:
+                # The next one may be in time; else the gateway ends the walk.
+                continue
             except NaoError as error:
                 self.command.fail(error)
                 return

@@ -11,7 +11,8 @@ export type UseCase = Exclude<Request["useCase"], {case: undefined}>;
 
 /** Bytes of one Request, for one binary WebSocket frame. */
 export function encodeRequest(requestId: number, useCase: UseCase): Uint8Array {
-  return toBinary(RequestSchema, create(RequestSchema, {requestId, useCase}));
+  // The clock of the day goes on while the phone sleeps, unlike that of the page.
+  return toBinary(RequestSchema, create(RequestSchema, {requestId, sentAt: Date.now() / 1000, useCase}));
 }
 
 /** The message in one binary WebSocket frame, or null if the bytes are none. */

@@ -24,6 +24,9 @@ const kFieldOfViewDeg = 32;
  * has rather squares than a robot that comes late. */
 const kMinPixelRatio = 0.75;
 const kSoftwarePixelRatio = 0.5;
+/** Time between two frames at the least where a processor draws, ms. At 60 frames a second a page took 1.5 cores, perhaps of
+ * those that simulate the robot. */
+const kSoftwareFramePeriodMs = 50;
 /** The eye has moved if it did so by more than this, m. */
 const kSeenMove = 0.0002;
 /** A movement's first frame goes as far as any other, s. */
@@ -69,13 +72,15 @@ export class Stage {
   readonly robotAxes = new Group();
   private readonly sun = new DirectionalLight(0xfff2e0, 2.6);
   private readonly budget: PixelBudget;
+  private readonly framePeriodMs: number;
   private robot: RobotTree | null = null;
   /** m. */
   private robotHeight = kUnknownHeight;
   private lastFrameMs = 0;
   private isRunning = false;
+  private drawnMs = -Infinity;
   private isOutdated = true;
-  private wasDrawn = false;
+  private isChanging = false;
   private isAhead = false;
   private width = 1;
   private height = 1;
@@ -88,6 +93,7 @@ export class Stage {
     const {gl, isSoftware} = openDrawingContext(canvas);
     this.renderer = new WebGLRenderer({canvas, context: gl, alpha: true});
     this.surface = new RobotSurface(isSoftware);
+    this.framePeriodMs = isSoftware ? kSoftwareFramePeriodMs : 0;
     this.budget = isSoftware ? new PixelBudget(kSoftwarePixelRatio, false, kSoftwarePixelRatio)
         : new PixelBudget(Math.min(window.devicePixelRatio, 2), true, kMinPixelRatio);
     this.renderer.toneMapping = ACESFilmicToneMapping;
@@ -133,9 +139,9 @@ export class Stage {
   /** What is shown may have begun to move: draws at once if all stood still, for the browser shows with its
    * next frame what is drawn by then. */
   wake(): void {
-    if (!this.isRunning || this.wasDrawn) return;
+    if (!this.isRunning || this.isChanging) return;
     this.advance(performance.now(), kWakeTime);
-    this.isAhead = this.wasDrawn;
+    this.isAhead = this.isChanging;
   }
 
   private readonly frame = (nowMs: number): void => {
@@ -153,13 +159,15 @@ export class Stage {
     const hasMoved = this.onFrame(dt);
     this.followRobot(dt);
     // The pause before a movement says nothing about how long a frame takes.
-    if (this.wasDrawn && this.budget.frame(dt)) this.resize();
-    this.wasDrawn = hasMoved || this.isOutdated || this.hasEyeMoved();
-    if (this.wasDrawn) this.draw();
+    if (this.isChanging && this.budget.frame(dt)) this.resize();
+    this.isOutdated ||= hasMoved || this.hasEyeMoved();
+    this.isChanging = this.isOutdated;
+    if (this.isOutdated && nowMs - this.drawnMs >= this.framePeriodMs) this.draw(nowMs);
   }
 
-  private draw(): void {
+  private draw(nowMs: number): void {
     this.isOutdated = false;
+    this.drawnMs = nowMs;
     this.drawnEye.copy(this.camera.position);
     this.drawnFocus.copy(this.eye);
     this.renderer.render(this.scene, this.camera);
@@ -216,6 +224,8 @@ export class Stage {
     this.renderer.shadowMap.enabled = this.sun.castShadow = this.budget.hasShadow;
     this.floor.setShadow(this.budget.hasShadow);
     this.camera.aspect = this.width / this.height;
+    // The canvas is empty now.
+    this.drawnMs = -Infinity;
     this.frameRobot();
   }
 

@@ -224,6 +224,10 @@ export const kReasonTexts: Readonly<Record<string, readonly [pt: string, de: str
   // Control.
   "no-driver": ["Ninguém conduz; peça primeiro para conduzir.", "Niemand steuert; übernimm zuerst die Steuerung."],
   "control-taken": ["{0} conduz.", "{0} steuert."],
+  "command-too-late": ["O comando chegou {0} s atrasado; até {1} s são permitidos.",
+                       "Der Befehl kam {0} s zu spät; bis {1} s sind erlaubt."],
+  "link-too-slow": ["A ligação é lenta demais para andar: uma resposta leva {0} s.",
+                    "Die Verbindung ist zum Laufen zu langsam: Eine Antwort dauert {0} s."],
   "walk-stopped": ["Parado: solte o comando e depois continue.", "Gestoppt: erst loslassen, dann weitergehen."],
   "driver-changed": ["Agora conduz {0}.", "Jetzt steuert {0}."],
   "control-released": ["{0} deixou de conduzir; ninguém conduz.", "{0} hat abgegeben; niemand steuert."],

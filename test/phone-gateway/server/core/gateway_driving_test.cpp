@@ -312,5 +312,78 @@ TEST_F(GatewayCommands, HaveIdsThatAreNeverReused) {
   EXPECT_EQ(sent_.back().id, 1001);
 }
 
+// ---- Late commands ------------------------------------------------------------------------------
+
+class LateCommands : public GatewayFixture {
+ protected:
+  /** A request that was under way for `delay` s, of a client whose clock shows other times. */
+  naoremote::Response ask_late(Client& client, naoremote::Request request, double delay) {
+    request.set_sent_at(now_ - delay + 12345.6);
+    return ask(client, std::move(request));
+  }
+  naoremote::Response walk_late(Client& client, double vx, double delay) {
+    naoremote::Request request;
+    request.mutable_walk_turn()->set_vx(vx);
+    return ask_late(client, request, delay);
+  }
+};
+
+TEST_F(LateCommands, AreRefusedWhenTheyCameMuchLaterThanOthers) {
+  Client ana = connect_driver("Ana");
+  EXPECT_EQ(walk_late(ana, 0.1, 0.05).error(), naoremote::OK);
+  pass(0.4);
+  EXPECT_EQ(walk_late(ana, 0.1, 0.4).error(), naoremote::OK) << "0.35 s later";
+  pass(0.4);
+  const auto refused = walk_late(ana, 0.1, 0.5);
+  EXPECT_EQ(refused.error(), naoremote::TOO_LATE);
+  EXPECT_EQ(refused.reason_code(), "command-too-late");
+  naoremote::Request posture;
+  posture.mutable_go_to_posture()->set_posture("Crouch");
+  EXPECT_EQ(ask_late(ana, posture, 2).error(), naoremote::TOO_LATE);
+  pass(0.2);
+  EXPECT_EQ(last_walk().vx, 0) << "late commands do not keep a walk alive";
+}
+
+TEST_F(LateCommands, AreNeverTheEndOfAMotion) {
+  Client ana = connect_driver("Ana");
+  EXPECT_EQ(walk_late(ana, 0.1, 0).error(), naoremote::OK);
+  EXPECT_EQ(walk_late(ana, 0, 3).error(), naoremote::OK);
+  EXPECT_EQ(last_walk().vx, 0);
+  naoremote::Request stop;
+  stop.mutable_stop();
+  EXPECT_EQ(ask_late(ana, stop, 3).error(), naoremote::OK);
+}
+
+TEST_F(LateCommands, AreMeasuredByThirtySecondsAgainAfterAClockWasSetBack) {
+  Client ana = connect_driver("Ana");
+  EXPECT_EQ(walk_late(ana, 0.1, 0).error(), naoremote::OK);
+  for (int i = 0; i < 33; ++i) {
+    pass(1);
+    (void)walk_late(ana, 0.1, 5);
+  }
+  EXPECT_EQ(walk_late(ana, 0.1, 5).error(), naoremote::OK);
+}
+
+TEST_F(LateCommands, AreNotLookedForWithoutTheClientsTime) {
+  Client ana = connect_driver("Ana");
+  EXPECT_EQ(walk_late(ana, 0.1, 0).error(), naoremote::OK);
+  EXPECT_EQ(walk(ana, 0.1).error(), naoremote::OK);
+}
+
+TEST_F(LateCommands, OverASlowLinkOneWalksSlowly) {
+  Client ana = connect_driver("Ana");
+  core_->set_round_trip_time(ana.id, 0.15);
+  EXPECT_EQ(walk(ana, 0.2).error(), naoremote::OK);
+  EXPECT_NEAR(last_walk().vx, 0.2, 1e-9);
+  core_->set_round_trip_time(ana.id, 0.575);
+  EXPECT_EQ(walk(ana, 0.2).error(), naoremote::OK);
+  EXPECT_NEAR(last_walk().vx, 0.1, 1e-9);
+  core_->set_round_trip_time(ana.id, 1.2);
+  const auto refused = walk(ana, 0.2);
+  EXPECT_EQ(refused.error(), naoremote::TOO_LATE);
+  EXPECT_EQ(refused.reason_code(), "link-too-slow");
+  EXPECT_EQ(last_walk().vx, 0);
+}
+
 }  // namespace
 }  // namespace nao::gateway
