@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "phone-gateway/server/core/image_pacer.h"
 #include "phone-gateway/server/core/outbox.h"
 #include "phone-gateway/server/core/request_age.h"
 #include "phone-gateway/server/core/request_budget.h"
@@ -28,6 +29,9 @@ struct ClientStreams {
   Subscription subscription;
   StreamThrottle state_throttle;
   StreamThrottle image_throttle;
+  ImagePacer image_pacer;
+  /** The images that it receives: what it wants, as far as its link can take them. */
+  ImageSelection image() const { return image_pacer.reduce(subscription.image); }
   /** Images of the last GetState with image, and its time, s. */
   ImageSelection polled_image;
   double last_poll = -1e9;

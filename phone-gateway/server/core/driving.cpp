@@ -134,8 +134,7 @@ std::optional<Refusal> Driving::walk(const ClientSession& session, uint32_t requ
     return Refusal{naoremote::TOO_LATE,
                    gateway_reason("link-too-slow", {to_argument(session.round_trip_time)})};
   }
-  const WalkCommand allowed{fraction * velocity.vx, fraction * velocity.vy,
-                            fraction * velocity.wz};
+  const WalkCommand allowed{fraction * velocity.vx, fraction * velocity.vy, fraction * velocity.wz};
   if (!walk_.is_walking()) {
     play_.abandon();
     const Command begun = commands_.make(session.id, allowed);

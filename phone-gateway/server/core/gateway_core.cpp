@@ -76,6 +76,12 @@ void GatewayCore::set_round_trip_time(uint32_t client, double round_trip_time) {
   if (ClientSession* session = sessions_.find(client)) session->round_trip_time = round_trip_time;
 }
 
+void GatewayCore::set_unacknowledged(uint32_t client, size_t bytes, double now) {
+  if (ClientSession* session = sessions_.find(client)) {
+    session->streams.image_pacer.update(bytes, session->round_trip_time, now);
+  }
+}
+
 void GatewayCore::note_refusal(const std::string& address, const std::string& why) {
   if (audit_) audit_({"refused", 0, "", address, why});
 }
@@ -92,7 +98,7 @@ MessageBytes GatewayCore::next_message(uint32_t client, double now) {
   GatewayRobot& robot = robots_.of(*session);
   while (true) {
     MessageBytes message;
-    switch (session->outbox.next()) {
+    switch (session->outbox.next(session->streams.image_pacer.may_send())) {
       case Outbox::Next::kNothing:
         return nullptr;
       case Outbox::Next::kMessage:
@@ -129,7 +135,7 @@ MessageBytes GatewayCore::next_message(uint32_t client, double now) {
 bool GatewayCore::is_long_next(uint32_t client) const {
   const ClientSession* session = sessions_.find(client);
   if (session == nullptr) return false;
-  const Outbox::Next next = session->outbox.next();
+  const Outbox::Next next = session->outbox.next(session->streams.image_pacer.may_send());
   return next == Outbox::Next::kImage || next == Outbox::Next::kAudio;
 }
 
@@ -149,6 +155,10 @@ void GatewayCore::step(double now) {
   robots_.step(now);
   match_.step(now);
   sessions_.step(now);
+  // Images that wait until the last one has arrived.
+  for (const auto& [id, session] : sessions_.all()) {
+    if (session->outbox.is_image_due()) session->wake();
+  }
 }
 
 void GatewayCore::shut_down(double now) {

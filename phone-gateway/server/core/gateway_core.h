@@ -50,6 +50,9 @@ class GatewayCore {
 
   /** Sets the round-trip time that the transport has measured, s. */
   void set_round_trip_time(uint32_t client, double round_trip_time);
+  /** Bytes that the client has not acknowledged: next_message() gives no image while there are
+   * many. */
+  void set_unacknowledged(uint32_t client, size_t bytes, double now);
 
   /** The network layer has refused a connection. @param why  For the audit log; a fixed text, so
    *   that repetitions can be recognized. */

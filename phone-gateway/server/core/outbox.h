@@ -42,16 +42,20 @@ class Outbox {
 
   /** What the connection must send next. A state goes before audio and images, which are about ten
    * times as long, but only one state, and one piece of audio before an image: a slow client
-   * receives all streams. */
-  Next next() const {
+   * receives all streams.
+   * @param takes_image  Whether the connection can take an image now. */
+  Next next(bool takes_image) const {
+    const bool has_image = is_image_due_ && takes_image;
     if (!messages_.empty()) return Next::kMessage;
     // Short, and at most 5 and 30 a second: they cannot keep a state waiting.
     if (is_play_state_due_) return Next::kPlayState;
     if (is_vision_due_) return Next::kVision;
-    if (is_state_due_ && !has_other_waited_) return Next::kState;
-    if (!audio_.empty() && !(was_audio_last_ && is_image_due_)) return Next::kAudio;
-    return is_image_due_ ? Next::kImage : Next::kNothing;
+    const bool has_other = has_image || !audio_.empty();
+    if (is_state_due_ && !(has_other_waited_ && has_other)) return Next::kState;
+    if (!audio_.empty() && !(was_audio_last_ && has_image)) return Next::kAudio;
+    return has_image ? Next::kImage : Next::kNothing;
   }
+  bool is_image_due() const { return is_image_due_; }
 
   /** Removes what next() returned: the message or piece itself, or the mark that a state or image
    * is due. */

@@ -35,6 +35,12 @@ namespace nao::gateway {
 
 [[nodiscard]] std::variant<PlayCommand, Refusal> check(const naoremote::Play& request);
 
+/** JPEG quality of a request, 0 being the camera's default. */
+inline uint32_t effective_quality(uint32_t quality) {
+  // nao-head-camera's default.
+  return quality == 0 ? 80 : quality;
+}
+
 /** The images that a client requests: checked, with the defaults filled in. */
 struct ImageSelection {
   std::string camera;

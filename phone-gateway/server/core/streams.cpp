@@ -29,7 +29,9 @@ void merge(const CameraRequest& request, std::vector<CameraRequest>& requests) {
   for (CameraRequest& known : requests) {
     if (!known.image.is_same_stream(request.image)) continue;
     known.rate = std::max(known.rate, request.rate);
-    known.image.quality = std::max(known.image.quality, request.image.quality);
+    if (effective_quality(request.image.quality) > effective_quality(known.image.quality)) {
+      known.image.quality = request.image.quality;
+    }
     return;
   }
   requests.push_back(request);
@@ -86,7 +88,7 @@ void Streams::add_image(CachedImage image, double now) {
   sessions_.for_each([&](ClientSession& session) {
     ClientStreams& streams = session.streams;
     // Clients of other cameras or sizes wait for theirs.
-    if (!streams.subscription.image.is_same_stream(received)) return;
+    if (!streams.image().is_same_stream(received)) return;
     if (streams.image_throttle.allow(now)) session.request_image();
   });
 }
@@ -144,8 +146,9 @@ MessageBytes Streams::make_state_message(double now) {
 
 MessageBytes Streams::make_image_message(ClientSession& session, double now) {
   ClientStreams& streams = session.streams;
-  CachedImage* image = images_.find(streams.subscription.image, streams.last_image);
+  CachedImage* image = images_.find(streams.image(), streams.last_image);
   if (image == nullptr) return nullptr;
+  streams.image_pacer.note_sent(image->jpeg.size(), now);
   streams.last_image = image->number;
   return image->encoding.get(now, [&] {
     naoremote::ServerMessage message;
@@ -177,7 +180,7 @@ std::vector<CameraRequest> Streams::camera_requests(double now) const {
   sessions_.for_each([&](const ClientSession& session) {
     const ClientStreams& streams = session.streams;
     if (streams.subscription.image_rate > 0) {
-      merge({streams.subscription.image, streams.subscription.image_rate}, requests);
+      merge({streams.image(), streams.subscription.image_rate}, requests);
     }
     if (now - streams.last_poll < limits_.poll_timeout) {
       merge({streams.polled_image, kPolledImageRate}, requests);

@@ -87,7 +87,9 @@ void ClientConnection::flush_in_turn() {
 void ClientConnection::flush() {
   // One message is sent at a time; the next is made when this one has left.
   if (is_writing_ || is_finished_) return;
-  const auto message = context_.core.next_message(id_, monotonic_seconds());
+  const double now = monotonic_seconds();
+  context_.core.set_unacknowledged(id_, count_unacknowledged(socket()), now);
+  const auto message = context_.core.next_message(id_, now);
   if (message) {
     is_writing_ = true;
     set_deadline(is_closing() ? kClosingTimeout : kWriteTimeout);

@@ -6,6 +6,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/context.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -48,6 +49,9 @@ void prepare_socket(Tcp::socket& socket);
 
 /** Round-trip time as the kernel estimates it, s; 0 if it has no estimate. */
 double measure_round_trip_time(Tcp::socket& socket);
+
+/** Bytes that were written and that the other end has not acknowledged. */
+size_t count_unacknowledged(Tcp::socket& socket);
 
 /** Serves a connection of the raw TCP port until it ends. */
 void serve_tcp(ConnectionContext& context, Tcp::socket socket);

@@ -1,8 +1,11 @@
 #include "phone-gateway/server/network/connection_context.h"
 //
+#include <linux/sockios.h>
 #include <netinet/tcp.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -90,6 +93,12 @@ double measure_round_trip_time(Tcp::socket& socket) {
   if (getsockopt(socket.native_handle(), IPPROTO_TCP, TCP_INFO, &info, &size) != 0) return 0;
   // Microseconds, the kernel's smoothed estimate.
   return info.tcpi_rtt * 1e-6;
+}
+
+size_t count_unacknowledged(Tcp::socket& socket) {
+  int bytes = 0;
+  if (ioctl(socket.native_handle(), SIOCOUTQ, &bytes) != 0) return 0;
+  return static_cast<size_t>(std::max(bytes, 0));
 }
 
 struct Network::Impl {

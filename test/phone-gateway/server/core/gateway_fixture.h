@@ -107,8 +107,9 @@ class GatewayFixture : public testing::Test {
     return client;
   }
 
-  /** Takes all messages that are queued for a client. */
+  /** Takes all messages that are queued for a client; what was sent before has arrived. */
   void collect(Client& client) {
+    core_->set_unacknowledged(client.id, 0, now_);
     while (const auto bytes = core_->next_message(client.id, now_)) {
       naoremote::ServerMessage message;
       ASSERT_TRUE(message.ParseFromString(*bytes));

@@ -8,19 +8,19 @@ namespace {
 TEST(Outbox, SendsOneStateBeforeAnImage) {
   Outbox outbox;
   outbox.request_state();
-  EXPECT_EQ(outbox.next(), Outbox::Next::kState);
+  EXPECT_EQ(outbox.next(true), Outbox::Next::kState);
   outbox.take_state();
   outbox.request_image();
   outbox.request_state();
-  EXPECT_EQ(outbox.next(), Outbox::Next::kState);
+  EXPECT_EQ(outbox.next(true), Outbox::Next::kState);
   outbox.take_state();
   // A client so slow that a new state is due whenever it can take a message still gets its image.
   outbox.request_state();
-  EXPECT_EQ(outbox.next(), Outbox::Next::kImage);
+  EXPECT_EQ(outbox.next(true), Outbox::Next::kImage);
   outbox.take_image();
-  EXPECT_EQ(outbox.next(), Outbox::Next::kState);
+  EXPECT_EQ(outbox.next(true), Outbox::Next::kState);
   outbox.take_state();
-  EXPECT_EQ(outbox.next(), Outbox::Next::kNothing);
+  EXPECT_EQ(outbox.next(true), Outbox::Next::kNothing);
 }
 
 TEST(Outbox, InsertsAMessageBeforeLaterOnes) {
@@ -41,7 +41,7 @@ TEST(Outbox, ServesStatesAudioAndImagesOfASlowClientInTurn) {
   for (int i = 0; i < 9; ++i) {
     outbox.request_state();
     outbox.request_image();
-    switch (outbox.next()) {
+    switch (outbox.next(true)) {
       case Outbox::Next::kState:
         outbox.take_state();
         order += 's';
@@ -66,7 +66,7 @@ TEST(Outbox, DropsTheOldestAudioOfASlowClient) {
   EXPECT_EQ(outbox.num_skipped(), 4u);
   EXPECT_EQ(*outbox.take_audio(), "4");
   outbox.clear_audio();
-  EXPECT_EQ(outbox.next(), Outbox::Next::kNothing);
+  EXPECT_EQ(outbox.next(true), Outbox::Next::kNothing);
 }
 
 TEST(Outbox, CountsStatesAndImagesThatWereNotSentInTime) {
@@ -74,6 +74,18 @@ TEST(Outbox, CountsStatesAndImagesThatWereNotSentInTime) {
   for (int i = 0; i < 3; ++i) outbox.request_state();
   outbox.request_image();
   EXPECT_EQ(outbox.num_skipped(), 2u);
+}
+
+TEST(Outbox, SendsStatesWhileAnImageMayNotBeSent) {
+  Outbox outbox;
+  for (int i = 0; i < 3; ++i) {
+    outbox.request_state();
+    outbox.request_image();
+    ASSERT_EQ(outbox.next(false), Outbox::Next::kState);
+    outbox.take_state();
+    EXPECT_EQ(outbox.next(false), Outbox::Next::kNothing);
+  }
+  EXPECT_EQ(outbox.next(true), Outbox::Next::kImage);
 }
 
 }  // namespace
