@@ -452,6 +452,7 @@ def wait_until_ready(stack, settings, options, processes):
     is not ready then, is left out with a warning. With --only, a program may wait for programs on other hosts: then a
     shorter timeout applies and is not an error."""
     timeout = ONLY_READY_TIMEOUT if options.only else READY_TIMEOUT
+    waiting = f"the programs run and wait for the others; {CALL}status shows when they are there"
     needed = [process for process in processes if process.program in TO_DRIVE] or processes
     is_ready, failed, report = wait_for(stack, settings, needed, timeout)
     if failed:
@@ -461,7 +462,7 @@ def wait_until_ready(stack, settings, options, processes):
     if not is_ready:
         sys.stderr.write(report)
         if options.only:
-            warn(f"the programs run and wait for the others; {CALL}status shows when they are there")
+            warn(waiting)
             return
         stack.stop()
         raise Failure(f"not everything became ready within {timeout} s, so everything is stopped again; logs: {stack.logs}")
@@ -477,7 +478,7 @@ def wait_until_ready(stack, settings, options, processes):
         watchdog = []
     if (others or watchdog) and not is_ready:
         sys.stderr.write(report)
-        warn(f"the robot can be driven; {CALL}status shows when the rest is ready")
+        warn(waiting if options.only else f"the robot can be driven; {CALL}status shows when the rest is ready")
 
 
 def print_addresses(stack):

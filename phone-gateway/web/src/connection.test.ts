@@ -199,6 +199,22 @@ describe("Connection", () => {
     expect(isStale(store.get())).toBe(true);
   });
 
+  it("reads what came while the page hung before it calls it old", async () => {
+    await welcome();
+    const walking = () => transport.receive({case: "state", value: create(StateSchema, {mode: Mode.WALKING})});
+    const ages: boolean[] = [];
+    store.watch(isStale, (isOld) => ages.push(isOld));
+    walking();
+    vi.setSystemTime(Date.now() + 2000);
+    await pass(100);
+    walking();
+    await pass(300);
+    expect(ages).toEqual([false]);
+    vi.setSystemTime(Date.now() + 2000);
+    await pass(200);
+    expect(ages).toEqual([false, true]);
+  });
+
   it("forgets the robot when a person connects anew, not when it reconnects by itself", async () => {
     await welcome();
     transport.broken(true);

@@ -56,6 +56,7 @@ export class Connection {
   /** When the newest state was taken, by the clock of `now`, ms; null: there is none. */
   private stateMs: number | null = null;
   private lastPingMs = 0;
+  private lastCheckMs = 0;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private openTimer: ReturnType<typeof setTimeout> | undefined;
   private checkTimer: ReturnType<typeof setInterval> | undefined;
@@ -150,6 +151,7 @@ export class Connection {
       match: connected.match ?? null, isChoosingRobot, latencyMs: -1,
     });
     this.ping();
+    this.lastCheckMs = this.now();
     this.checkTimer = setInterval(() => this.check(), kCheckPeriodMs);
     this.listener.connected(connected);
   }
@@ -168,6 +170,10 @@ export class Connection {
 
   private check(): void {
     const now = this.now();
+    // A page that hung has not read yet what came meanwhile.
+    const wasLate = now - this.lastCheckMs > 3 * kCheckPeriodMs;
+    this.lastCheckMs = now;
+    if (wasLate) return;
     this.measureAge();
     if (now - this.lastReceivedMs > kSilenceMs) {
       this.failed("silent");

@@ -1,6 +1,6 @@
 import {describe, expect, it, vi} from "vitest";
 import {driveFromTilt, tiltFromAngles} from "./tilt";
-import {pageAngle} from "./tilt_sensor";
+import {pageAngle, TiltSensor} from "./tilt_sensor";
 
 describe("tilt", () => {
   // Held at 40 degrees, as one holds a phone to look at it.
@@ -60,6 +60,24 @@ describe("tilt", () => {
     expect(pageAngle()).toBe(-90);
     vi.stubGlobal("screen", {orientation: {angle: 270}});
     expect(pageAngle()).toBe(270);
+    vi.unstubAllGlobals();
+  });
+  it("tells when the page turns, before the first tilt in other axes", async () => {
+    const page = new EventTarget();
+    vi.stubGlobal("window", Object.assign(page, {isSecureContext: true, DeviceOrientationEvent: class {}}));
+    vi.stubGlobal("DeviceOrientationEvent", class {});
+    vi.stubGlobal("screen", {orientation: {angle: 0}});
+    const sensor = new TiltSensor();
+    await sensor.switchOn();
+    const tilt = () => page.dispatchEvent(Object.assign(new Event("deviceorientation"), {beta: 40, gamma: 0}));
+    tilt();
+    const told: string[] = [];
+    sensor.onTurn = () => told.push("turned");
+    sensor.onChange = () => told.push("tilt");
+    tilt();
+    vi.stubGlobal("screen", {orientation: {angle: 90}});
+    tilt();
+    expect(told).toEqual(["tilt", "turned", "tilt"]);
     vi.unstubAllGlobals();
   });
   it("never asks for more than full speed", () => {

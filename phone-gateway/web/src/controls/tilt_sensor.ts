@@ -9,6 +9,9 @@ export class TiltSensor {
   tilt: Tilt | null = null;
   /** Called at each change. */
   onChange: (tilt: Tilt) => void = () => {};
+  /** Called when the page turns against the phone: what was held lies in other axes then. */
+  onTurn: () => void = () => {};
+  private angle = NaN;
   private isOn = false;
 
   static isAvailable(): boolean {
@@ -33,7 +36,10 @@ export class TiltSensor {
 
   private readonly changed = ({beta, gamma}: DeviceOrientationEvent): void => {
     if (beta === null || gamma === null) return;
-    this.tilt = tiltFromAngles(beta, gamma, pageAngle());
+    const angle = pageAngle();
+    if (angle !== this.angle) this.onTurn();
+    this.angle = angle;
+    this.tilt = tiltFromAngles(beta, gamma, angle);
     this.onChange(this.tilt);
   };
 }

@@ -75,6 +75,7 @@ export class ControllerScreen {
     this.walkStick = new Joystick(say("drive.walk"), "walk", false, () => this.sticksChanged());
     this.turnStick = new Joystick(say("drive.turn"), "turn", true, () => this.sticksChanged());
     this.tilt.onChange = () => this.sticksChanged();
+    this.tilt.onTurn = () => this.walkStick.release();
     this.postures = new ChoiceStrip(say("drive.postures"), (name) =>
         void commander.command(useCases.goToPosture(name)));
     this.actions = new ChoiceStrip(say("drive.actions"), (name) =>

@@ -189,9 +189,9 @@ const kTexts = {
   "menu.tiltHelp": ["Hold the walk pad and tilt: away from you to walk, sideways to turn.",
                     "Segure o comando e incline: para a frente anda, para o lado vira.",
                     "Das Geh-Feld halten und neigen: nach vorn gehen, zur Seite drehen."],
-  "menu.tiltMissing": ["Needs https; phones give their sensors to secure pages only.",
-                       "Precisa de https; só páginas seguras recebem os sensores.",
-                       "Braucht https; nur sichere Seiten bekommen die Sensoren."],
+  "menu.tiltMissing": ["Needs https: only secure pages get the sensors, and keep the screen on.",
+                       "Precisa de https: só páginas seguras recebem os sensores e mantêm o ecrã ligado.",
+                       "Braucht https: Nur sichere Seiten bekommen die Sensoren und halten den Bildschirm an."],
   "menu.tiltRefused": ["The phone refuses its motion sensors to this page. Close all its tabs, allow motion in the browser's " +
                        "settings of this page, and open it again.",
                        "O telefone recusa os sensores de movimento a esta página. Feche os separadores dela, permita o " +
