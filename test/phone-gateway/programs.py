@@ -16,15 +16,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BIN_DIR = Path(os.environ.get("NAO_BIN_DIR", ROOT / "build/dev/bin"))
 # The package nao_remote, with the protocol's classes.
-sys.path.insert(0, str(BIN_DIR.parent / "python"))
+sys.path[:0] = [str(BIN_DIR.parent / "python"), str(ROOT / "test/support")]
+
+from stack import private_lcm_url  # noqa: E402
 
 # s. Long, since the machine may be busy; nothing here measures time.
 DEADLINE = 60
-
-
-def private_lcm_url():
-    """A bus that no other test uses."""
-    return f"udpm://239.255.76.67:{20000 + os.getpid() % 10000}?ttl=0"
 
 
 def wait_until(condition, what, timeout=DEADLINE):

@@ -3,8 +3,10 @@
 NAO_BIN_DIR (set by CTest) is the folder of the programs to start.
 """
 
+import contextlib
 import json
 import os
+import secrets
 import shutil
 import signal
 import socket
@@ -20,16 +22,29 @@ BIN_DIR = Path(os.environ.get("NAO_BIN_DIR", ROOT / "build/dev/bin"))
 DEADLINE = 120
 
 
-def private_lcm_url(offset=0):
-    """URL of a bus that no other test or stack uses."""
-    return f"udpm://239.255.76.67:{20000 + (os.getpid() + offset * 3331) % 10000}?ttl=0"
+# Sockets that keep other tests from taking the same ports, until this test ends.
+_holders = []
+
+
+def private_lcm_url():
+    """URL of a bus that no other test uses. A TCP socket on the bus's port holds it, for any number of programs may share a UDP
+    port."""
+    while True:
+        port = 20000 + secrets.randbelow(10000)
+        holder = socket.socket()
+        with contextlib.suppress(OSError):
+            holder.bind(("127.0.0.1", port))
+            _holders.append(holder)
+            return f"udpm://239.255.76.67:{port}?ttl=0"
 
 
 def free_port():
-    """A TCP port that was free a moment ago."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    """A TCP port that no other test gets. With SO_REUSEADDR, as all servers set it, a program can listen on it."""
+    holder = socket.socket()
+    holder.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    holder.bind(("127.0.0.1", 0))
+    _holders.append(holder)
+    return holder.getsockname()[1]
 
 
 def run(command, **options):
@@ -42,9 +57,9 @@ def run(command, **options):
 class Stack:
     """One stack. Use it in a with statement: its end stops all programs and removes all files."""
 
-    def __init__(self, offset=0):
+    def __init__(self):
         self.run_dir = Path(tempfile.mkdtemp(prefix="nao-"))
-        self.lcm_url = private_lcm_url(offset)
+        self.lcm_url = private_lcm_url()
         self.http_port = free_port()
         self.tcp_port = free_port()
         self.token = "test-token"

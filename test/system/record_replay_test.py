@@ -18,7 +18,7 @@ def messages(path, channel):
 
 class RecordReplay(unittest.TestCase):
     def test_a_replay_repeats_every_robot_state(self):
-        with Stack(0) as stack, Stack(1) as silent:
+        with Stack() as stack, Stack() as silent:
             stack.start_or_fail("--only", "sim,motion")
             log = stack.run_dir / "run.lcmlog"
             recorder = subprocess.Popen([ROOT / "scripts/record", "--run-dir", stack.run_dir, log],

@@ -62,6 +62,7 @@ class Start(unittest.TestCase):
 
     def test_names_who_holds_the_port(self):
         with Stack() as stack, socket.socket() as holder:
+            holder.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             holder.bind(("127.0.0.1", stack.http_port))
             holder.listen()
             result = stack.start()
@@ -83,7 +84,7 @@ class Start(unittest.TestCase):
             self.assertNotIn(":8080/", started.stdout)
 
     def test_two_stacks_do_not_hear_each_other(self):
-        with Stack(0) as one, Stack(1) as other:
+        with Stack() as one, Stack() as other:
             one.start_or_fail("--only", "sim,motion")
             other.start_or_fail("--only", "sim,motion")
             for stack in (one, other):

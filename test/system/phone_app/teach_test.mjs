@@ -1,6 +1,6 @@
 // Teaching motions by touch: add poses, play, repair, save, share, delete with undo, files, and by hand.
 import assert from "node:assert/strict";
-import {readFile, writeFile} from "node:fs/promises";
+import {mkdtemp, readFile, writeFile} from "node:fs/promises";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 import {test} from "node:test";
@@ -200,7 +200,7 @@ test("a motion is downloaded, deleted, brought back by undo, uploaded, and repla
   await until("it is gone", async () => (await saved(phone)).length === 0);
   await phone.page.locator(".saved .note").getByRole("button", {name: "Undo"}).tap();
   await until("it is back", async () => (await saved(phone)).includes("wave-2"), kCheckMs);
-  const file = join(tmpdir(), `nao-motion-${process.pid}.yaml`);
+  const file = join(await mkdtemp(join(tmpdir(), "nao-motion-")), "motion.yaml");
   await writeFile(file, text);
   const upload = () => phone.page.locator('.saved input[type="file"]').setInputFiles(file);
   await upload();
