@@ -5,6 +5,7 @@ start: scripts/deploy nao@ROBOT start -- --tls"""
 
 import hashlib
 import os
+import platform
 import re
 import shlex
 import shutil
@@ -21,8 +22,8 @@ ROBOT_FOLDER = "/home/nao/nao-remote"
 MODEL = "nao_v6"
 CONTROL = ROOT / "packaging/robot-control"
 
-# Debian that the package is built for.
-SUITE = "bookworm"
+# Debian that the package is built for: this machine's.
+SUITE = platform.freedesktop_os_release().get("VERSION_CODENAME", "")
 # Free space needed beyond the copy, for logs and settings, bytes. Chosen: ten times what the logs' rotation allows.
 SPARE_SPACE = 500e6
 # Exit status of ssh if it could not connect (ssh(1)), and here of a robot without an installation.

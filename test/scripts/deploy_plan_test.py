@@ -2,6 +2,7 @@
 """scripts/deploy without a robot: its steps, what it copies, which robots it refuses; and whether a robot is seated."""
 
 import os
+import platform
 import socket
 import subprocess
 import sys
@@ -15,6 +16,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import deploy  # noqa: E402
 import seat  # noqa: E402
 
+RELEASE = platform.freedesktop_os_release()["VERSION_CODENAME"]
 MODEL = ROOT / "data/robots/nao"
 
 
@@ -27,7 +29,7 @@ class Planning(unittest.TestCase):
     def test_a_dry_run_prints_every_step_and_contacts_nobody(self):
         with tempfile.NamedTemporaryFile(suffix=".deb") as package:
             for command, steps in (
-                    ("install", ["debootstrap --variant=minbase bookworm", "apt-get install", "sse4_2", "control stop",
+                    ("install", [f"debootstrap --variant=minbase {RELEASE} ", "apt-get install", "sse4_2", "control stop",
                                  "rsync --archive", "nao@robot:/home/nao/nao-remote/root/", "touch /home/nao/nao-remote/complete"]),
                     ("start", ["sudo -n /home/nao/nao-remote/control start --model nao_v6"]),
                     ("stop", ["control stop"]), ("status", ["control status"]), ("logs", ["control logs"]),

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """scripts/deploy puts the software on a robot, runs it there and removes it. The robot is a bare Debian system with an
 ssh server; the software is a stand-in that shows that it runs. NAO_TEST_ROBOT names a folder with such a system
-(debootstrap --variant=minbase --include=openssh-server,rsync bookworm DIR); without it, one is made in the build folder."""
+(debootstrap --variant=minbase --include=openssh-server,rsync RELEASE DIR); without it, one is made in the build folder."""
 
 import os
+import platform
 import shutil
 import signal
 import socket
@@ -145,7 +146,8 @@ def robot_root():
             raise unittest.SkipTest(f"no ssh server in {root}" if given else "no debootstrap: scripts/setup --with test")
         shutil.rmtree(root, ignore_errors=True)
         root.parent.mkdir(parents=True, exist_ok=True)
-        result = subprocess.run(["debootstrap", "--variant=minbase", "--include=openssh-server,rsync", "bookworm", root],
+        result = subprocess.run(["debootstrap", "--variant=minbase", "--include=openssh-server,rsync",
+                                 platform.freedesktop_os_release()["VERSION_CODENAME"], root],
                                 stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
         if result.returncode != 0:
             shutil.rmtree(root, ignore_errors=True)

@@ -274,7 +274,7 @@ class Environments(unittest.TestCase):
         try:
             from gymnasium.utils.env_checker import check_env
         except ImportError:
-            self.skipTest("Gymnasium is missing; Debian 12 has no package")
+            self.skipTest("Gymnasium is missing; Debian has no package")
         check_env(self.make("walk"), skip_render_check=True)
 
 
