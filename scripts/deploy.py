@@ -14,6 +14,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from output_file import replace_file
 from stack import ROOT, CommandLine, Failure, run_script
 
 COMMANDS = ("install", "start", "stop", "status", "logs", "remove")
@@ -304,7 +305,7 @@ def make_root(steps, package, root):
     owner = f"{os.getuid()}:{os.getgid()}"
     steps.do("", [*as_root, "sh", "-c", f"chown -R {owner} \"$1\" && chmod -R u+rX \"$1\"", "own", root], fault)
     if not steps.dry_run:
-        stamp.write_text(wanted)
+        replace_file(stamp, wanted)
 
 
 def install(steps, robot, options):

@@ -8,6 +8,8 @@ import sys
 import time
 from pathlib import Path
 
+from output_file import replace_file
+
 ROOT = Path(__file__).resolve().parent.parent
 
 # Prefix of the scripts' names for users: an installed copy has one command for all, "nao-remote start".
@@ -121,15 +123,6 @@ class CommandLine(argparse.ArgumentParser):
         sys.exit(2)
 
 
-def run_as_root(*command):
-    """Runs a command as root: directly, or with sudo. @return whether it succeeded."""
-    prefix = () if os.geteuid() == 0 else ("sudo",)
-    try:
-        return subprocess.run([*prefix, *command], check=False).returncode == 0
-    except FileNotFoundError:
-        return False
-
-
 class Stack:
     """One stack of programs. Its run directory has supervisor's configuration, socket and process id, the settings of
     scripts/start, the pairing token, and the logs."""
@@ -145,7 +138,7 @@ class Stack:
         self.lola_socket = run_dir / "lola.sock"
 
     def write_settings(self, settings):
-        (self.run_dir / "settings").write_text("".join(f"{key}={value}\n" for key, value in settings.items()))
+        replace_file(self.run_dir / "settings", "".join(f"{key}={value}\n" for key, value in settings.items()))
 
     def read_settings(self):
         """Settings of the running stack, or of the last one: a dictionary, empty if none was started here."""

@@ -11,12 +11,13 @@ import sys
 from argparse import ArgumentTypeError
 from pathlib import Path
 
+from output_file import replace_file
 from robots import (MAX_ROBOTS, Process, choose_autonomous, choose_processes, choose_robots, choose_served_robots,
                     number_of_robots, place_robots, team_sizes)
 from seat import check_seated
 from stack import (CALL, CAMERA, COMPANIONS, FOXGLOVE, LOLA_SOCKET, OPTIONAL, PLAY, PROGRAMS, ROBOT, ROBOT_PROGRAMS,
-                   REFEREE, ROBOT_WATCHDOG, ROOT, SIM, TO_DRIVE, VISION, WATCHDOG, CommandLine, Failure, Stack, run_as_root,
-                   run_script, warn)
+                   REFEREE, ROBOT_WATCHDOG, ROOT, SIM, TO_DRIVE, VISION, WATCHDOG, CommandLine, Failure, Stack, run_script,
+                   warn)
 
 # Ports that are tried first. 8080: registered for HTTP alternatives (IANA); 7668: next to LCM's 7667; 8765: what
 # Foxglove proposes.
@@ -29,8 +30,10 @@ GATEWAY = "nao-phone-gateway"
 READY_TIMEOUT = 60
 # The same for programs that driving does not need, once it is possible, s. Chosen: they need less than a second more.
 OTHERS_READY_TIMEOUT = 10
-# The same as READY_TIMEOUT with --only, s: a program may wait for programs on other hosts.
+# The same as READY_TIMEOUT with --only, s: a program may wait for programs on other hosts; and the time in which
+# nao-robot makes a simulated robot sit down and get up, twice the usual 5 s.
 ONLY_READY_TIMEOUT = 5
+ROBOT_READY_TIME = 10
 # Period, s, of looking for crashed programs meanwhile. Chosen: not noticed by a user.
 POLL_PERIOD = 0.05
 # A program that ended so often before all programs were ready has failed.
@@ -300,31 +303,18 @@ def own_channels(processes):
     return [*channels, *(["WORLD_TRUTH"] if SIM in programs else []), *(["MATCH_STATE"] if REFEREE in programs else [])]
 
 
-def check_bus(bin_dir, lcm_url, processes):
-    """Checks that messages arrive, and that no other system publishes what these processes will. The bus needs a route
-    for its multicast group. Without a network there is none: adds one by the loopback interface."""
-    def fault():
-        own = [word for channel in own_channels(processes) for word in ("--own", channel)]
-        result = subprocess.run([bin_dir / "nao", "bus", "--quick", *own, "--lcm-url", lcm_url], check=False,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        return result.stdout.strip() if result.returncode != 0 else None
+def begin_bus_check(bin_dir, lcm_url, channels):
+    """Begins to check that messages arrive on the bus, and that no other system publishes on these channels."""
+    own = [word for channel in channels for word in ("--own", channel)]
+    return subprocess.Popen([bin_dir / "nao", "bus", "--quick", *own, "--lcm-url", lcm_url], stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, text=True)
 
-    report = fault()
-    if report is None:
-        return
-    group = re.match(r"udpm://([0-9.]+)", lcm_url)
+
+def end_bus_check(check):
+    report = check.communicate()[0].strip()
     if "another system" in report:
         raise Failure(f"two systems would share the message bus, and a robot obey both:\n{report}")
-    if "no route" not in report or not group:
-        raise Failure(f"the message bus does not work: {report}")
-    network = group[1].rpartition(".")[0] + ".0/24"
-    say(f"The message bus has no route on this machine; adding one: {network} by the loopback interface.")
-    if not (run_as_root("ip", "link", "set", "lo", "up", "multicast", "on") and
-            run_as_root("ip", "route", "replace", network, "dev", "lo")):
-        raise Failure("that needs root. As root, run: ip link set lo up multicast on; "
-                      f"ip route add {network} dev lo")
-    report = fault()
-    if report is not None:
+    if check.returncode != 0:
         raise Failure(f"the message bus does not work: {report}")
 
 
@@ -412,7 +402,7 @@ def write_configuration(stack, settings, options, processes, robots):
                                        priority=1 if process.program == WATCHDOG else 2,
                                        restart="unexpected" if is_robot else "true",
                                        stop_time=ROBOT_STOP_WAIT_TIME if is_robot else STOP_WAIT_TIME)
-    stack.configuration.write_text(text)
+    replace_file(stack.configuration, text)
 
 
 def failed_process(stack, processes):
@@ -452,6 +442,8 @@ def wait_until_ready(stack, settings, options, processes):
     is not ready then, is left out with a warning. With --only, a program may wait for programs on other hosts: then a
     shorter timeout applies and is not an error."""
     timeout = ONLY_READY_TIMEOUT if options.only else READY_TIMEOUT
+    if ROBOT in options.programs:
+        timeout += ROBOT_READY_TIME
     waiting = f"the programs run and wait for the others; {CALL}status shows when they are there"
     needed = [process for process in processes if process.program in TO_DRIVE] or processes
     is_ready, failed, report = wait_for(stack, settings, needed, timeout)
@@ -549,15 +541,17 @@ def main():
 
     bin_dir = install_and_build(options)
     robots = place_robots(options, bin_dir)
+    # Before any program of this system runs, and while the rest is prepared.
+    bus_check = begin_bus_check(bin_dir, options.lcm_url, own_channels(choose_processes(options, robots)))
     check_models(options, robots, bin_dir)
     processes = choose_processes(options, robots)
     settings = choose_settings(options, bin_dir, robots, processes)
-    check_bus(bin_dir, options.lcm_url, processes)
     (stack.run_dir / "match.json").unlink(missing_ok=True)  # a new stack plays a new match
     stack.token_file.unlink(missing_ok=True)  # the gateway creates a new one
     if options.token:
-        stack.token_file.write_text(options.token + "\n")
+        replace_file(stack.token_file, options.token + "\n")
     write_configuration(stack, settings, options, processes, robots)
+    end_bus_check(bus_check)
     stack.write_settings(settings)
     (stack.logs / "supervisord.log").write_text("")
     succeed([sys.executable, "-m", "supervisor.supervisord", "--configuration", stack.configuration],

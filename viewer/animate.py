@@ -9,6 +9,9 @@ import struct
 import sys
 import zlib
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scripts"))
+from output_file import replace_file  # noqa: E402
+
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
@@ -63,7 +66,7 @@ def main():
     if len(sys.argv) < 4 or not sys.argv[2].isdigit():
         sys.exit(__doc__.strip())
     images = [pathlib.Path(name) for name in sys.argv[3:]]
-    pathlib.Path(sys.argv[1]).write_bytes(animate(images, int(sys.argv[2])))
+    replace_file(sys.argv[1], animate(images, int(sys.argv[2])))
 
 
 if __name__ == "__main__":

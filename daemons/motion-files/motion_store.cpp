@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/output_file.h"
 #include "common/text_file.h"
 #include "daemons/motion-files/motion_text.h"
 #include "daemons/motion/actions/taught_script.h"

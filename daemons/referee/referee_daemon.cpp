@@ -15,6 +15,7 @@
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
+#include "common/output_file.h"
 #include "common/text_file.h"
 #include "daemons/referee/match_file.h"
 #include "daemons/referee/places.h"
@@ -79,6 +80,11 @@ int64_t random_id() {
   // 53 bits, which even JSON readers that know only double preserve.
   std::random_device device;
   return std::uniform_int_distribution<int64_t>(1, int64_t{1} << 53)(device);
+}
+
+/** Source of this process's world commands. */
+std::string own_source() {
+  return "referee." + std::to_string(getpid());
 }
 
 /** Angle between the torso's z axis and the vertical, rad. */
@@ -157,8 +163,8 @@ RefereeDaemon::RefereeDaemon(Bus& bus, const RefereeOptions& options, std::funct
       options_(options),
       clock_(std::move(clock)),
       status_(bus, kProgram),
+      second_process_(bus, kProgram, clock_),
       ready_postures_(ready_postures_of(options.robots)),
-      source_("referee." + std::to_string(getpid())),
       // Numbers that no earlier referee with the same process id has used.
       last_id_(wall_utime()) {
   make_referee();
@@ -270,7 +276,7 @@ void RefereeDaemon::handle(const naolcm::world_truth_t& truth) {
   const double now = clock_();
   last_truth_ = now;
   utime_ = truth.utime;
-  if (!placements_.empty() && truth.last_command_source == source_ &&
+  if (!placements_.empty() && truth.last_command_source == own_source() &&
       truth.last_command_id == placements_.front().command_id) {
     if (!truth.last_command_error.empty()) {
       logger::warn("the simulator did not {}: {}", placements_.front().command,
@@ -305,7 +311,7 @@ void RefereeDaemon::handle(const naolcm::world_truth_t& truth) {
 
 void RefereeDaemon::put(const Placement& placement) {
   naolcm::world_command_t command{};
-  command.source = source_;
+  command.source = own_source();
   command.command_id = ++last_id_;
   command.command = placement.robot.empty() ? "place-ball" : "place-robot";
   command.robot = placement.robot;
@@ -382,7 +388,9 @@ void RefereeDaemon::publish_state() {
 void RefereeDaemon::publish_status(double now) {
   status_.tick(now);
   const MatchState& state = referee_->state();
-  if (now - last_truth_ > kTruthTimeout) {
+  if (const std::string second = second_process_.describe(); !second.empty()) {
+    status_.set_state("ready", second);
+  } else if (now - last_truth_ > kTruthTimeout) {
     status_.set_state("waiting", "for nao-sim");
   } else if (link_ && now - last_game_controller_ > kGameControllerTimeout) {
     // Ready: the GameController is often started, or sends, only later.

@@ -17,6 +17,7 @@
 
 #include "common/rate_limiter.h"
 #include "common/robot_option.h"
+#include "common/second_process.h"
 #include "common/status_reporter.h"
 #include "common/wall_clock.h"
 #include "daemons/referee/game_controller_link.h"
@@ -120,6 +121,7 @@ class RefereeDaemon {
   RefereeOptions options_;
   std::function<double()> clock_;
   StatusReporter status_;
+  SecondProcess second_process_;
   std::map<std::string, std::string> ready_postures_;
   std::unique_ptr<Referee> referee_;
   /** Only with a GameController: the same referee, and the socket. */
@@ -135,7 +137,6 @@ class RefereeDaemon {
   RefereeInput last_input_;
   std::map<std::string, Play> plays_;
   std::deque<naolcm::world_command_t> placements_;
-  std::string source_;
   int64_t last_id_;
   CommandLedger ledger_;
   int64_t utime_ = 0;

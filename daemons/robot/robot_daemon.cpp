@@ -251,6 +251,7 @@ void RobotDaemon::log_phase() {
   const bool is_leaving = safety.phase() == Phase::kSitting || safety.phase() == Phase::kLimp;
   const std::string cause = is_leaving ? to_string(safety.cause()) : "";
   logger::info("the robot is {}{}{}", to_string(safety.phase()), cause.empty() ? "" : ": ", cause);
+  publish_status();
 }
 
 void RobotDaemon::publish_status() {
@@ -263,7 +264,9 @@ void RobotDaemon::publish_status() {
       if (safety.phase() == Phase::kLimp && safety.cause() != Cause::kNone) {
         detail += ": " + to_string(safety.cause());
       }
-      status_.set_state("ready", detail);
+      // A robot that starts itself takes commands soon; another one waits for its button.
+      const bool is_starting = options_.starts_itself && safety.phase() != Phase::kDriven;
+      status_.set_state(is_starting ? "waiting" : "ready", detail);
     }
   }
   status_.publish({{"frames", static_cast<double>(num_frames_)},

@@ -14,6 +14,9 @@ import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+from output_file import replace_file  # noqa: E402
+
 # Files of a robot that programs read; the same as data/robots/CMakeLists.txt copies.
 PATTERNS = ("*.urdf", "*.yaml", "actions/*.yaml")
 
@@ -98,7 +101,7 @@ def derive(base, own, output):
                 text = merge((base / name).read_text(), (own / name).read_text())
             except (DeriveError, ET.ParseError) as error:
                 raise DeriveError(f"{own / name}: {error}") from error
-            target.write_text(text)
+            replace_file(target, text)
 
 
 def main():

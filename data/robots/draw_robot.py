@@ -14,7 +14,7 @@ import re
 import sys
 import xml.etree.ElementTree as ET
 
-from mesh import Mesh
+from mesh import Mesh, replace_file
 from solids import Tube, ball, puck, revolve
 
 # Chosen for the look: density of a bar, kg/m^3, from which its thickness follows, and bounds of its radius relative to
@@ -195,7 +195,7 @@ def main():
     description = arguments.urdf.parent / "robot.yaml"
     robot = Robot(ET.fromstring(text), find_cameras(description.read_text()) if description.exists() else set())
     if arguments.add_visuals:
-        arguments.urdf.write_text(add_visuals(text, robot))
+        replace_file(arguments.urdf, add_visuals(text, robot))
         return
     for name, link in robot.links.items():
         for mesh in link.findall("visual/geometry/mesh"):

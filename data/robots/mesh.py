@@ -3,6 +3,11 @@
 import json
 import math
 import struct
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+from output_file import replace_file  # noqa: E402
 
 # Linear RGB, chosen. A viewer may give each robot its own "accent" color, by the name of the material.
 MATERIALS = {
@@ -95,7 +100,7 @@ class Mesh:
             if indices:
                 positions, normals = zip(*numbers)
                 file.add_primitive(material, positions, normals, indices)
-        path.write_bytes(file.bytes())
+        replace_file(path, file.bytes())
 
 
 class _GlbFile:

@@ -1,11 +1,14 @@
 #include "common/log_reader.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <utility>
 
+#include "common/channels.h"
 #include "common/error.h"
 
 namespace nao {
@@ -49,8 +52,19 @@ std::optional<LogEvent> LogReader::next() {
 
 std::optional<LogEntry> LogReader::next_entry() {
   // After damage the next event is found by its sync word; the bytes in between are counted.
+  const int64_t num_bytes_before = num_bytes_skipped_;
   while (offset_ + kHeaderSize <= size_) {
-    if (auto entry = read_entry()) return entry;
+    if (auto entry = read_entry()) {
+      const int64_t num_missing = entry->number - last_number_ - 1;
+      const int64_t num_bytes = num_bytes_skipped_ - num_bytes_before;
+      // More events than fit are a damaged number.
+      if (num_missing > 0 && num_missing <= num_bytes / kHeaderSize) {
+        num_events_skipped_ += num_missing;
+      }
+      last_number_ = entry->number;
+      entry->wall_utime = clock_.take(entry->wall_utime, entry->channel, robot_utime(*entry));
+      return entry;
+    }
     const int64_t begin = offset_;
     skip_to_sync(begin + 1);
     num_bytes_skipped_ += offset_ - begin;
@@ -58,6 +72,26 @@ std::optional<LogEntry> LogReader::next_entry() {
   num_bytes_skipped_ += size_ - offset_;
   offset_ = size_;
   return std::nullopt;
+}
+
+bool LogReader::is_event(int64_t offset) const {
+  std::array<uint8_t, kHeaderSize> header{};
+  if (pread(fileno(file_.get()), header.data(), header.size(), offset) != kHeaderSize) return false;
+  const uint64_t channel_size = big_endian(&header[20], 4);
+  return big_endian(header.data(), 4) == kSync && channel_size > 0 &&
+         channel_size <= kMaxChannelSize;
+}
+
+// Messages about a robot begin with their type's fingerprint and the robot's time.
+int64_t LogReader::robot_utime(const LogEntry& entry) const {
+  std::array<uint8_t, 16> begin{};
+  const bool is_about_robot =
+      entry.channel.ends_with("_STATE") || entry.channel == kWorldTruthChannel;
+  if (!is_about_robot || entry.size < begin.size() ||
+      pread(fileno(file_.get()), begin.data(), begin.size(), entry.offset) != begin.size()) {
+    return 0;
+  }
+  return static_cast<int64_t>(big_endian(&begin[8], 8));
 }
 
 // Blocks overlap by the length of the sync word less one, so that none is missed between them.
@@ -100,7 +134,18 @@ std::optional<LogEntry> LogReader::read_entry() {
   if (std::ranges::any_of(entry.channel, [](unsigned char c) { return c < ' ' || c == 0x7F; })) {
     return {};
   }
-  offset_ = data_offset + data_size;
+  const int64_t end = data_offset + data_size;
+  if (end != size_ && !is_event(end)) {
+    // This length is wild, or what follows is damaged. The former swallows events.
+    const int64_t begin = offset_;
+    do {
+      skip_to_sync(offset_ + 1);
+    } while (offset_ < end && !is_event(offset_));
+    const bool swallows_events = offset_ < end;
+    offset_ = begin;
+    if (swallows_events) return {};
+  }
+  offset_ = end;
   return entry;
 }
 

@@ -8,12 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "common/log_clock.h"
+
 namespace nao {
 
 /** One recorded message. */
 struct LogEvent {
   int64_t number = 0;
-  /** When it was received, microseconds since 1970. */
+  /** When it was received, microseconds since 1970, without steps of the clock (LogClock). */
   int64_t wall_utime = 0;
   std::string channel;
   std::vector<uint8_t> data;
@@ -22,7 +24,7 @@ struct LogEvent {
 /** Position of a recorded message in its log. */
 struct LogEntry {
   int64_t number = 0;
-  /** When it was received, microseconds since 1970. */
+  /** As in LogEvent. */
   int64_t wall_utime = 0;
   std::string channel;
   /** Offset of the message from the file's beginning and its length, bytes. */
@@ -49,11 +51,17 @@ class LogReader {
   /** The message of an entry, by its offset and size; empty if the file has shrunk since. */
   std::vector<uint8_t> data(int64_t offset, uint32_t size);
 
-  /** Number of bytes so far that belong to no complete event. */
+  /** Number of bytes so far that belong to no complete event, and of the events that they replace:
+   * those whose numbers are missing after damage. */
   int64_t num_bytes_skipped() const { return num_bytes_skipped_; }
+  int64_t num_events_skipped() const { return num_events_skipped_; }
+  const LogClock& clock() const { return clock_; }
 
  private:
   std::optional<LogEntry> read_entry();
+  /** Whether an event begins here: its header is whole, and its channel's name. */
+  bool is_event(int64_t offset) const;
+  int64_t robot_utime(const LogEntry& entry) const;
   /** Moves to the next sync word at `begin` or later, or to the end. */
   void skip_to_sync(int64_t begin);
   void seek(int64_t offset);
@@ -66,6 +74,9 @@ class LogReader {
   /** Offset at which the next event is expected. */
   int64_t offset_ = 0;
   int64_t num_bytes_skipped_ = 0;
+  int64_t num_events_skipped_ = 0;
+  int64_t last_number_ = -1;
+  LogClock clock_;
 };
 
 /** Encodes an event in the format of a log. */

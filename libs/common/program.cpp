@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/command_line.h"
+#include "common/local_multicast.h"
 #include "common/logger.h"
 #include "common/robot_option.h"
 
@@ -51,6 +52,7 @@ int run_program_with_status(CommandLine& app, const CommonOptions& common, int a
                             const std::function<int()>& body) {
   if (const auto status = app.parse(argc, argv)) return *status;
   logger::set_up(app.name(), common.log_level);
+  if (is_local_bus(common.lcm_url)) keep_multicast_local();
   try {
     return body();
   } catch (const std::exception& error) {

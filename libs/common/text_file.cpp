@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
-#include <system_error>
 #include <vector>
 
 #include "common/error.h"
@@ -16,16 +15,6 @@ std::string read_file(const std::filesystem::path& file) {
   text << stream.rdbuf();
   if (!stream) throw Error("cannot read " + file.string());
   return text.str();
-}
-
-void replace_file(const std::filesystem::path& file, const std::string& text) {
-  std::filesystem::path part = file;
-  part += ".part";
-  std::ofstream stream(part);
-  stream << text << std::flush;
-  std::error_code error;
-  if (stream) std::filesystem::rename(part, file, error);
-  if (!stream || error) throw Error("cannot write " + file.string());
 }
 
 uint64_t digest(const std::string& text) {

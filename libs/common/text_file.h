@@ -9,11 +9,6 @@ namespace nao {
 /** @throws Error  if the file cannot be read. */
 std::string read_file(const std::filesystem::path& file);
 
-/** Replaces the file at once: a reader, also after an interruption, has the old text
- * or the new one, but no part of one.
- * @throws Error  if the file cannot be written. */
-void replace_file(const std::filesystem::path& file, const std::string& text);
-
 /** Digest of a text that differs for texts which differ by accident, for comparison.
  *
  * Source: FNV-1a with 64 bits, G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV

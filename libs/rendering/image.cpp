@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/error.h"
+#include "common/output_file.h"
 
 namespace nao {
 
@@ -50,9 +51,13 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   png.width = image.width;
   png.height = image.height;
   png.format = PNG_FORMAT_RGB;
-  if (png_image_write_to_file(&png, file.c_str(), 0, image.rgb.data(), 0, nullptr) == 0) {
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(png), '\0');
+  png_alloc_size_t size = bytes.size();
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0) {
     throw Error("cannot write " + file.string() + ": " + png.message);
   }
+  bytes.resize(size);
+  replace_file(file, bytes);
 }
 
 Image read_png(const std::filesystem::path& file) {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/output_file.h"
 #include "kinematics/kinematics.h"
 #include "kinematics/leg_kinematics.h"
 #include "kinematics/support_polygon.h"
@@ -24,42 +25,35 @@ namespace fs = std::filesystem;
 // unsafe, fraction of the leg's length.
 constexpr double kStanceMargin = 0.03;
 
-void write_file(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw ModelError(file.string() + ": cannot be written");
-}
-
 // The steps need one another's results: the model is loaded three times, each time with more of its
 // description.
 void import_into(const fs::path& urdf, const fs::path& folder, Findings& findings) {
   const std::string name = folder.filename().string() + ".urdf";
   RepairedUrdf repaired = repair_urdf(urdf, folder);
   findings = repaired.findings;
-  write_file(folder / name, repaired.text);
+  replace_file(folder / name, repaired.text);
   // First as a robot whose soles are its root: that is enough to see its structure.
   const std::string root = "\"" + repaired.root + "\"";
   const std::string sole = "{link: " + root + ", outline: [[0, 0], [1, 0], [0, 1]]}";
-  write_file(folder / "robot.yaml", "urdf: " + name + "\ninertial_unit: {accelerometer: " + root +
-                                        ", gyroscope: " + root + "}\nsoles: {left: " + sole +
-                                        ", right: " + sole + "}\n");
-  write_file(folder / "postures.yaml", "postures: []\n");
+  replace_file(folder / "robot.yaml", "urdf: " + name + "\ninertial_unit: {accelerometer: " + root +
+                                          ", gyroscope: " + root + "}\nsoles: {left: " + sole +
+                                          ", right: " + sole + "}\n");
+  replace_file(folder / "postures.yaml", "postures: []\n");
   const RobotModel tree = RobotModel::load(folder);
   const RobotStructure structure = find_structure(tree, findings);
 
   const size_t end = repaired.text.rfind("</robot>");
   if (end == std::string::npos) throw ModelError(urdf.string() + ": has no </robot>");
   // Soles become links of the URDF, so that all programs know their frames.
-  write_file(folder / name, repaired.text.insert(end, make_sole_links(tree, structure)));
+  replace_file(folder / name, repaired.text.insert(end, make_sole_links(tree, structure)));
   const std::string text = make_structure_text(tree, structure, name);
-  write_file(folder / "robot.yaml", text);
+  replace_file(folder / "robot.yaml", text);
   const RobotModel limbs = RobotModel::load(folder);
-  write_file(folder / "postures.yaml", make_postures_text(limbs, findings));
-  write_file(folder / "robot.yaml", text + make_description_text(limbs));
-  write_file(folder / "transitions.yaml", "transitions: []\n");
+  replace_file(folder / "postures.yaml", make_postures_text(limbs, findings));
+  replace_file(folder / "robot.yaml", text + make_description_text(limbs));
+  replace_file(folder / "transitions.yaml", "transitions: []\n");
   const std::string gait = make_gait_text(limbs);
-  if (!gait.empty()) write_file(folder / "gait.yaml", gait);
+  if (!gait.empty()) replace_file(folder / "gait.yaml", gait);
   // The result must load; otherwise the import fails as a whole.
   RobotModel::load(folder);
 }

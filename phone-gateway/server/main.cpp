@@ -1,6 +1,5 @@
 // nao-phone-gateway: lets phones drive the robot. See README.md.
 #include <google/protobuf/stubs/logging.h>
-#include <fstream>
 #include <iostream>
 #include <optional>
 
@@ -9,6 +8,7 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/logger.h"
+#include "common/output_file.h"
 #include "common/program.h"
 #include "common/robot_option.h"
 #include "common/scheduling.h"
@@ -237,9 +237,7 @@ void show_qr_code(const GatewayOptions& options, const std::string& url) {
               << std::endl;
   }
   if (options.qr_file.empty()) return;
-  std::ofstream file(options.qr_file, std::ios::binary);
-  file << draw_as_png(make_qr_code(url), kQrScale);
-  if (!file.flush()) throw Error("cannot write " + options.qr_file);
+  replace_file(options.qr_file, draw_as_png(make_qr_code(url), kQrScale));
 }
 
 void run_gateway(const CommonOptions& common, GatewayOptions options) {

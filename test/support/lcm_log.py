@@ -27,3 +27,11 @@ def read_events(path):
             if len(data) < data_size:
                 return
             yield Event(number, time, channel.decode(), data)
+
+
+def write_log(path, events):
+    """Writes events as a log."""
+    with open(path, "wb") as file:
+        for event in events:
+            channel = event.channel.encode()
+            file.write(HEADER.pack(SYNC, event.number, event.time, len(channel), len(event.data)) + channel + event.data)

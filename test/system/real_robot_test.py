@@ -22,9 +22,11 @@ class RealRobot(unittest.TestCase):
         self.stand()
 
     def stand(self):
-        self.wait_for("driven")
-        # nao-motion takes the robot over in the next frame.
-        self.wait_until(lambda: self.stack.nao("posture", "StandInit").returncode == 0)
+        """The first command after the programs are ready is carried out."""
+        ready = self.stack.wait_ready("nao-robot", "nao-motion")
+        self.assertEqual(ready.returncode, 0, ready.stderr)
+        result = self.stack.nao("posture", "StandInit")
+        self.assertEqual(result.returncode, 0, result.stderr + self.stack.logs())
         self.assertGreater(self.stack.torso_height(), 0.3)
 
     def wait_until(self, condition):
@@ -37,9 +39,6 @@ class RealRobot(unittest.TestCase):
         """Status of nao-robot; an empty dictionary if it does not run."""
         programs = json.loads(self.stack.nao("status", "--json").stdout)
         return next((program for program in programs if program["program"] == "nao-robot"), {})
-
-    def wait_for(self, phase):
-        self.wait_until(lambda: self.robot().get("detail", "").startswith(phase))
 
     def is_seated(self):
         robot = self.stack.truth()["robots"][0]

@@ -8,8 +8,8 @@ import time
 import unittest
 from pathlib import Path
 
-from lcm_log import read_log
-from stack import DEADLINE, ROOT, Stack
+from lcm_log import HEADER, Event, read_log, write_log
+from stack import BIN_DIR, DEADLINE, ROOT, Stack, run
 
 
 def messages(path, channel):
@@ -37,7 +37,8 @@ class RecordReplay(unittest.TestCase):
 
             # Replay on another bus without other traffic.
             copy = stack.run_dir / "copy.lcmlog"
-            second_recorder = subprocess.Popen(["lcm-logger", "--quiet", f"--lcm-url={silent.lcm_url}", copy])
+            second_recorder = subprocess.Popen([BIN_DIR / "nao", "record", copy, "--lcm-url", silent.lcm_url],
+                                               stderr=subprocess.DEVNULL)
             self.addCleanup(second_recorder.kill)
             self.wait_for_listener(silent.lcm_url)
             replayed = stack.script("replay", "--lcm-url", silent.lcm_url, log)
@@ -99,6 +100,63 @@ class RecordReplay(unittest.TestCase):
             missing = stack.nao("log", "csv", part, "NAO_SENSOR_STATE")
             self.assertEqual(missing.returncode, 1)
             self.assertIn("contains no message on NAO_SENSOR_STATE", missing.stderr)
+
+    def test_a_damaged_log_is_read_to_its_end_and_every_tool_says_what_was_skipped(self):
+        with Stack() as stack:
+            stack.start_or_fail("--only", "sim,motion")
+            log = stack.run_dir / "run.lcmlog"
+            self.assertEqual(stack.nao("record", log, "--for", "3").returncode, 0)
+            events = read_log(log)
+            damaged = stack.run_dir / "damaged.lcmlog"
+
+            # One message of 1970, one whose content is damaged, and one with a length of 2 GB.
+            middle = len(events) // 2
+            index = next(i for i, event in enumerate(events) if event.channel == "NAO_SENSOR_STATE" and i > 20)
+            events[middle] = events[middle]._replace(time=12)
+            events[index] = events[index]._replace(data=events[index].data[:-8])
+            write_log(damaged, events)
+            content = bytearray(damaged.read_bytes())
+            place = sum(HEADER.size + len(event.channel) + len(event.data) for event in events[:10])
+            for length in (b"\x7f\xff\xff\xff", (len(content) // 2).to_bytes(4, "big")):
+                with self.subTest(length=length):
+                    content[place + 24:place + 28] = length
+                    damaged.write_bytes(content)
+                    self.check_damaged(stack, damaged, len(events) - 1)
+
+    def check_damaged(self, stack, log, num_messages):
+        info = stack.nao("log", "info", "--json", log)
+        said = json.loads(info.stdout)
+        self.assertEqual(sum(row["messages"] for row in said["channels"]), num_messages)
+        self.assertLess(said["duration_s"], 10)
+        self.assertRegex(info.stderr, r"skipped \d+ damaged bytes, by their numbers 1 messages")
+        self.assertRegex(info.stderr, "the times of the messages step 2 times")
+        part = stack.run_dir / "part.lcmlog"
+        cut = stack.nao("log", "cut", log, part, "--from", "1", "--to", "2")
+        self.assertEqual(cut.returncode, 0, cut.stderr)
+        self.assertGreater(len(messages(part, "NAO_SENSOR_STATE")), 50)
+        table = stack.nao("log", "csv", log, "NAO_SENSOR_STATE")
+        self.assertIn("NAO_SENSOR_STATE: skipped 1 damaged messages", table.stderr)
+        self.assertNotIn("another version", table.stderr)
+        mcap = stack.nao("log", "mcap", log, stack.run_dir / "run.mcap")
+        self.assertEqual(mcap.returncode, 0, mcap.stderr)
+        begin = time.monotonic()
+        replayed = stack.script("replay", "--force", "--speed", "3", "--all", log)
+        self.assertLess(time.monotonic() - begin, 30)
+        self.assertEqual(replayed.returncode, 0, replayed.stderr)
+        self.assertIn("damaged bytes", replayed.stderr)
+
+    def test_an_export_that_fails_leaves_no_file(self):
+        with Stack() as stack:
+            log = stack.run_dir / "run.lcmlog"
+            write_log(log, [Event(0, 1, "A", b"12345678" * 1000)] * 100)
+            for words in (["mcap", log, stack.run_dir / "full/run.mcap"], ["cut", log, stack.run_dir / "full/part.lcmlog"]):
+                with self.subTest(words):
+                    (stack.run_dir / "full").mkdir(exist_ok=True)
+                    failed = run(["prlimit", "--fsize=100", "sh", "-c", "trap '' XFSZ; exec \"$@\"", "sh", BIN_DIR / "nao", "log",
+                                  *words])
+                    self.assertEqual(failed.returncode, 1)
+                    self.assertIn("File too large", failed.stderr)
+                    self.assertEqual(list((stack.run_dir / "full").iterdir()), [], failed.stderr)
 
     def wait_for_file(self, path):
         deadline = time.monotonic() + DEADLINE

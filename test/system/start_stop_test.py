@@ -169,6 +169,18 @@ class Running(unittest.TestCase):
         self.assertEqual(len(table.stdout.splitlines()), 1 + len(rows))
 
 
+    def test_status_and_start_agree_when_supervisors_socket_was_removed(self):
+        socket_file = self.stack.run_dir / "supervisor.sock"
+        kept = socket_file.with_suffix(".kept")
+        socket_file.rename(kept)
+        self.addCleanup(kept.rename, socket_file)
+        status = self.stack.script("status", "--json")
+        self.assertEqual(status.returncode, 0, status.stderr)
+        self.assertIn("supervisor.sock has been removed", status.stderr)
+        self.assertEqual({row["program"] for row in json.loads(status.stdout)}, PROGRAMS - {"nao-head-camera"} | {"nao-watchdog"})
+        self.assertIn("running already", self.stack.start().stdout)
+
+
 class CommandLine(unittest.TestCase):
     def test_every_script_explains_itself(self):
         for script in sorted((ROOT / "scripts").iterdir()):

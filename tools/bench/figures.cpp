@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <stdexcept>
 
 #include "common/json_writer.h"
+#include "common/output_file.h"
 
 namespace nao {
 
@@ -65,11 +65,7 @@ std::string to_json(const std::vector<Figure>& figures) {
 
 void report(const std::vector<Figure>& figures, const std::string& json_file) {
   std::cout << to_table(figures) << std::flush;
-  if (json_file.empty()) return;
-  std::ofstream file(json_file);
-  file << to_json(figures);
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + json_file);
+  if (!json_file.empty()) replace_file(json_file, to_json(figures));
 }
 
 }  // namespace nao

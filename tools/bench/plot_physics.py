@@ -8,6 +8,10 @@ Draws what a physics step costs over the number of contacts and of robots, from 
 import json
 import re
 import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+from output_file import replace_file  # noqa: E402
 
 WIDTH, HEIGHT, MARGIN = 360, 260, 48
 
@@ -52,8 +56,7 @@ def main():
              'font-family="sans-serif" font-size="11">', '<rect width="100%" height="100%" fill="#fff"/>']
     lines += panel(0, "One robot standing", "contacts with the floor", points_of(figures, "contacts"))
     lines += panel(WIDTH, "Robots in one world", "robots standing", points_of(figures, "robots"))
-    with open(sys.argv[2], "w", encoding="utf-8") as file:
-        file.write("\n".join(lines + ["</svg>"]) + "\n")
+    replace_file(sys.argv[2], "\n".join(lines + ["</svg>"]) + "\n")
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <naolcm/command_result_t.hpp>
@@ -24,6 +23,7 @@
 #include "common/data_path.h"
 #include "common/error.h"
 #include "common/event_loop.h"
+#include "common/output_file.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
 #include "messages/named_joints.h"
@@ -200,10 +200,7 @@ int calibrate(const CommonOptions& common, const CalibrateOptions& options) {
   CalibrationEstimator& estimator = session.estimator();
   Calibration calibration = estimator.solve();
   calibration.date = now_as_text();
-  std::ofstream file(options.file);
-  file << calibration.to_yaml(model);
-  file.close();
-  if (!file) throw Error("cannot write " + options.file);
+  replace_file(options.file, calibration.to_yaml(model));
   for (const int sensor : estimator.dead_sensors()) {
     std::printf("foot sensor %s reads nothing: it is dead\n",
                 model.links()[model.foot_sensors()[sensor]].name.c_str());

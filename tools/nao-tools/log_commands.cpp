@@ -1,9 +1,7 @@
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iostream>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -13,6 +11,7 @@
 #include "common/error.h"
 #include "common/json_writer.h"
 #include "common/log_reader.h"
+#include "common/output_file.h"
 #include "common/program.h"
 #include "inspection/foxglove_converter.h"
 #include "inspection/foxglove_schemas.h"
@@ -20,6 +19,7 @@
 #include "message_reflection/message_types.h"
 #include "robot_model/robot_model.h"
 #include "tools/nao-tools/channel_pattern.h"
+#include "tools/nao-tools/log_input.h"
 #include "tools/nao-tools/log_statistics.h"
 #include "tools/nao-tools/mcap_writer.h"
 #include "tools/nao-tools/message_table.h"
@@ -35,97 +35,26 @@ struct LogOptions {
   std::string channel;
   std::string channels = ".*";
   bool as_json = false;
-  double from = 0;
-  double to = std::numeric_limits<double>::infinity();
-  std::vector<std::string> renames;
+  LogPart part;
   std::string model = "nao";
   /** Of the options of all subcommands. */
   std::string robot;
 };
 
-/** Opens a log and reads its first event, so that a file of another format is rejected at once. */
-class Log {
- public:
-  explicit Log(const std::string& file) : file_(file), reader_(file), next_(next_message()) {
-    if (!next_)
-      throw Error(file + " contains no message: it is empty, or not a log of scripts/record");
-    start_ = next_->wall_utime;
-  }
-
-  /** @param event  Receives the next event. @return false at the end. */
-  bool read(LogEvent& event) {
-    if (!next_) return false;
-    event = std::move(*next_);
-    next_ = next_message();
-    return true;
-  }
-
-  /** Time since the log's first event, s. */
-  double time_of(const LogEvent& event) const {
-    return static_cast<double>(event.wall_utime - start_) * 1e-6;
-  }
-
-  void warn_about_damage() const {
-    if (reader_.num_bytes_skipped() == 0) return;
-    std::fprintf(
-        stderr,
-        "nao: log: %s: skipped %ld damaged bytes (a killed recorder truncates its last message)\n",
-        file_.c_str(), static_cast<long>(reader_.num_bytes_skipped()));
-  }
-
- private:
-  std::optional<LogEvent> next_message() {
-    auto event = reader_.next();
-    // LCM's own self-test message, sent whenever a program opens the bus.
-    while (event && event->channel == "LCM_SELF_TEST") event = reader_.next();
-    return event;
-  }
-
-  std::string file_;
-  LogReader reader_;
-  std::optional<LogEvent> next_;
-  int64_t start_ = 0;
-};
-
-const MessageLayout* layout_of(const LogEvent& event) {
-  const MessageType* type =
-      find_message_type(event.data.data(), static_cast<int>(event.data.size()));
-  return type != nullptr ? find_message_layout(type->name) : nullptr;
-}
-
-/** Number of undecodable messages by channel, reported at the end. */
-class Undecodable {
- public:
-  void add(const std::string& channel) { ++counts_[channel]; }
-  void warn() const {
-    for (const auto& [channel, count] : counts_) {
-      std::fprintf(
-          stderr,
-          "nao: log: %s: skipped %ld messages of unknown types; they were recorded by another "
-          "version, whose nao can read them\n",
-          channel.c_str(), count);
-    }
-  }
-
- private:
-  std::map<std::string, long> counts_;
-};
-
 /** Standard output, or a file if one is named. */
 class Output {
  public:
-  explicit Output(const std::string& file) : file_(file) {
-    if (!file.empty()) stream_.open(file, std::ios::binary);
-    if (!file.empty() && !stream_) throw Error("cannot write " + file);
+  explicit Output(const std::string& file) {
+    if (!file.empty()) file_.emplace(file);
   }
-  std::ostream& stream() { return file_.empty() ? std::cout : stream_; }
+  std::ostream& stream() { return file_ ? file_->stream() : std::cout; }
   void finish() {
-    if (!stream().flush()) throw Error("cannot write all of " + (file_.empty() ? "stdout" : file_));
+    if (file_) return file_->finish();
+    if (!std::cout.flush()) throw Error("cannot write all of stdout");
   }
 
  private:
-  std::string file_;
-  std::ofstream stream_;
+  std::optional<OutputFile> file_;
 };
 
 /** @throws ConfigError  if the output is the log itself, also by a link: opening it would empty it.
@@ -139,7 +68,7 @@ void refuse_own_input(const LogOptions& options) {
 }
 
 int show_info(const LogOptions& options) {
-  Log log(options.file);
+  LogInput log(options.file);
   LogStatistics statistics;
   LogEvent event;
   while (log.read(event)) statistics.add(event);
@@ -148,14 +77,17 @@ int show_info(const LogOptions& options) {
   return 0;
 }
 
-/** Layout of the type of a channel's first message. */
+/** Layout of the type of a channel's first message of a known type. */
 const MessageLayout& find_layout_of_channel(const LogOptions& options) {
-  Log log(options.file);
+  LogInput log(options.file);
+  bool has_messages = false;
   LogEvent event;
   while (log.read(event)) {
     if (event.channel != options.channel) continue;
-    const MessageLayout* layout = layout_of(event);
-    if (layout != nullptr) return *layout;
+    has_messages = true;
+    if (const MessageLayout* layout = layout_of(event)) return *layout;
+  }
+  if (has_messages) {
     throw Error(
         options.channel + " in " + options.file +
         " has a type unknown to this version: the messages have changed since the recording. "
@@ -166,7 +98,7 @@ const MessageLayout& find_layout_of_channel(const LogOptions& options) {
 }
 
 /** Reports skipped messages and bytes after the log's end. @return Exit status. */
-int end_reading(const Log& log, const Undecodable& undecodable) {
+int end_reading(const LogInput& log, const Undecodable& undecodable) {
   undecodable.warn();
   log.warn_about_damage();
   return 0;
@@ -177,22 +109,20 @@ int write_csv(const LogOptions& options) {
   MessageTable table(find_layout_of_channel(options));
   LogEvent event;
   {
-    Log log(options.file);
+    LogInput log(options.file);
     while (log.read(event)) {
       if (event.channel == options.channel) table.see(event.data);
     }
   }
   Output output(options.output);
   output.stream() << "log_time_s," << table.heading() << "\n";
-  Log log(options.file);
+  LogInput log(options.file);
   Undecodable undecodable;
   while (log.read(event)) {
     if (event.channel != options.channel) continue;
     const std::string row = table.row(event.data);
-    if (row.empty()) {
-      undecodable.add(event.channel);
-      continue;
-    }
+    undecodable.note(event, !row.empty());
+    if (row.empty()) continue;
     output.stream() << std::to_string(log.time_of(event)) << "," << row << "\n";
   }
   output.finish();
@@ -202,18 +132,15 @@ int write_csv(const LogOptions& options) {
 /** Reads a log to its end and passes the messages of selected channels on: event, layout, JSON
  * text. @return Statistics of undecodable messages. */
 template <class Take>
-Undecodable read_as_json(Log& log, const ChannelPattern& selected, Take take) {
+Undecodable read_as_json(LogInput& log, const ChannelPattern& selected, Take take) {
   Undecodable undecodable;
   LogEvent event;
   while (log.read(event)) {
     if (!selected.matches(event.channel)) continue;
     const MessageLayout* layout = layout_of(event);
     const auto message = layout != nullptr ? message_to_json(*layout, event.data) : std::nullopt;
-    if (message) {
-      take(event, *layout, *message);
-    } else {
-      undecodable.add(event.channel);
-    }
+    undecodable.note(event, message.has_value());
+    if (message) take(event, *layout, *message);
   }
   return undecodable;
 }
@@ -221,7 +148,7 @@ Undecodable read_as_json(Log& log, const ChannelPattern& selected, Take take) {
 int write_json(const LogOptions& options) {
   refuse_own_input(options);
   const ChannelPattern selected("--channels", options.channels);
-  Log log(options.file);
+  LogInput log(options.file);
   Output output(options.output);
   const auto write = [&](const LogEvent& event, const MessageLayout& layout,
                          const std::string& message) {
@@ -269,7 +196,7 @@ int write_mcap(const LogOptions& options) {
   const ChannelPattern selected("--channels", options.channels);
   const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
   FoxgloveConverter converter(model, options.robot);
-  Log log(options.file);
+  LogInput log(options.file);
   McapWriter mcap(options.output);
   McapChannels channels(mcap);
   const auto write = [&](const LogEvent& event, const MessageLayout& layout,
@@ -291,40 +218,21 @@ int write_mcap(const LogOptions& options) {
   return end_reading(log, undecodable);
 }
 
-std::map<std::string, std::string> parse_renames(const std::vector<std::string>& renames) {
-  std::map<std::string, std::string> names;
-  for (const std::string& rename : renames) {
-    const size_t middle = rename.find('=');
-    if (middle == std::string::npos || middle == 0 || middle + 1 == rename.size()) {
-      throw ConfigError("--rename " + rename + ": give OLD=NEW");
-    }
-    names[rename.substr(0, middle)] = rename.substr(middle + 1);
-  }
-  return names;
-}
-
 int write_cut(const LogOptions& options) {
   refuse_own_input(options);
-  const ChannelPattern selected("--channels", options.channels);
-  const auto names = parse_renames(options.renames);
-  Log log(options.file);
+  LogInput log(options.file);
   Output output(options.output);
-  LogEvent event;
   int64_t number = 0;
-  while (log.read(event)) {
-    const double time = log.time_of(event);
-    if (time < options.from || time > options.to) continue;
-    if (!selected.matches(event.channel)) continue;
-    const auto name = names.find(event.channel);
-    if (name != names.end()) event.channel = name->second;
+  const auto write = [&](LogEvent& event, double /*time*/) {
     event.number = number++;
     const auto bytes = encode_log_event(event);
     output.stream().write(reinterpret_cast<const char*>(bytes.data()),
                           static_cast<std::streamsize>(bytes.size()));
-  }
+  };
+  read_part(log, options.part, write);
+  if (number == 0) throw Error(options.file + " contains no message between these times");
   output.finish();
   log.warn_about_damage();
-  if (number == 0) throw Error(options.file + " contains no message between these times");
   return 0;
 }
 
@@ -386,10 +294,8 @@ void add_log_command(CommandLine& app, Invocation& invocation) {
   CommandLine* cut = add_log_subcommand(*log, invocation, options, "cut",
                                         "A part of a log, as a log of its own", write_cut);
   cut->add_option("output", options->output, "File to write")->required();
-  cut->add_option("--from", options->from, "Since the log's first message, s");
-  cut->add_option("--to", options->to, "Since the log's first message, s");
-  cut->add_option("--rename", options->renames, "OLD=NEW: give a channel another name");
-  add_channels(cut);
+  add_part_options(*cut, options->part);
+  add_log_player(*log, invocation);
 }
 
 }  // namespace nao

@@ -1,5 +1,8 @@
 #include "tools/nao-tools/log_writer.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -8,6 +11,9 @@
 
 namespace nao {
 namespace {
+
+// Chosen: a minute of all messages of a robot, images included.
+constexpr size_t kMaxWaiting = 64'000'000;
 
 std::filesystem::path numbered(const std::filesystem::path& file, int number, int num_digits) {
   std::string digits = std::to_string(number);
@@ -36,29 +42,53 @@ void LogWriter::open_next() {
       file = numbered(path_, num_files_++, 2);
     } while (std::filesystem::exists(file));
   }
-  // "x" fails if the file exists: recordings are never overwritten.
-  file_.reset(std::fopen(file.c_str(), "wbx"));
-  if (file_ == nullptr) throw Error("cannot write " + file.string() + ": " + std::strerror(errno));
+  // Fails if the file exists: recordings are never overwritten.
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) throw Error("cannot write " + file.string() + ": " + std::strerror(errno));
+  if (descriptor_ >= 0) close(descriptor_);
+  descriptor_ = descriptor;
   num_bytes_ = 0;
 }
 
+LogWriter::~LogWriter() {
+  try {
+    flush();
+  } catch (const Error&) {
+    // Who wants to know calls flush().
+  }
+  close(descriptor_);
+}
+
 void LogWriter::write(LogEvent event) {
-  if (split_.max_bytes > 0 && num_bytes_ >= split_.max_bytes) {
+  const auto num_bytes = num_bytes_ + static_cast<int64_t>(waiting_.size());
+  if (split_.max_bytes > 0 && num_bytes >= split_.max_bytes) {
     flush();
     open_next();
   }
+  if (waiting_.size() > kMaxWaiting) {
+    ++num_lost_;
+    return;
+  }
   event.number = num_events_++;
   const auto bytes = encode_log_event(event);
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-    throw Error("cannot append to " + path_.string() + ": " + std::strerror(errno));
-  }
-  num_bytes_ += static_cast<int64_t>(bytes.size());
+  waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
 }
 
 void LogWriter::flush() {
-  if (std::fflush(file_.get()) != 0) {
-    throw Error("cannot append to " + path_.string() + ": " + std::strerror(errno));
+  size_t num_written = 0;
+  while (num_written < waiting_.size()) {
+    const ssize_t size =
+        pwrite(descriptor_, waiting_.data() + num_written, waiting_.size() - num_written,
+               num_bytes_ + static_cast<int64_t>(num_written));
+    if (size < 0 && errno != EINTR) {
+      const std::string why = std::strerror(errno);
+      (void)ftruncate(descriptor_, num_bytes_);
+      throw Error("cannot append to " + path_.string() + ": " + why);
+    }
+    if (size > 0) num_written += static_cast<size_t>(size);
   }
+  num_bytes_ += static_cast<int64_t>(num_written);
+  waiting_.clear();
 }
 
 }  // namespace nao

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
+#include <vector>
 
 #include "common/log_reader.h"
 
@@ -23,28 +22,36 @@ class LogWriter {
   /** @throws Error  if a file of this name exists or cannot be written. */
   LogWriter(const std::filesystem::path& file, const LogSplit& split);
 
-  /** Appends an event; its number becomes its index in the recording.
-   * @throws Error  if it cannot be written: a full disk. */
+  ~LogWriter();
+  LogWriter(const LogWriter&) = delete;
+  LogWriter& operator=(const LogWriter&) = delete;
+
+  /** Takes an event for the next flush(); its number becomes its index in the recording. While the
+   * events that wait need more than 64 MB, it is lost.
+   * @throws Error  The next file of a split recording cannot be opened. */
   void write(LogEvent event);
 
-  /** Flushes the buffer to the operating system: a reader sees the events, and a killed process
-   * does not lose them.
-   * @throws Error  as write(). */
+  /** Hands the events to the operating system: a reader sees them, and a killed process does not
+   * lose them.
+   * @throws Error  The disk is full: the file ends with a whole event, and the events wait for the
+   *   next flush(). */
   void flush();
 
   int64_t num_events() const { return num_events_; }
+  int64_t num_lost() const { return num_lost_; }
 
  private:
   void open_next();
 
-  struct Closer {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   std::filesystem::path path_;
   LogSplit split_;
-  std::unique_ptr<std::FILE, Closer> file_;
+  int descriptor_ = -1;
+  /** Whole events that are not written yet. */
+  std::vector<uint8_t> waiting_;
+  /** Written to the file. */
   int64_t num_bytes_ = 0;
   int64_t num_events_ = 0;
+  int64_t num_lost_ = 0;
   int num_files_ = 0;
 };
 

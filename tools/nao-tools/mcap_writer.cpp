@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-
-#include "common/error.h"
 
 namespace nao {
 namespace {
@@ -67,11 +63,7 @@ void append(std::vector<uint8_t>& bytes, const std::vector<uint8_t>& more) {
 
 }  // namespace
 
-McapWriter::McapWriter(const std::filesystem::path& file)
-    : file_(std::fopen(file.c_str(), "wb")), path_(file) {
-  if (file_ == nullptr) {
-    throw Error("cannot write " + file.string() + ": " + std::strerror(errno));
-  }
+McapWriter::McapWriter(const std::filesystem::path& file) : file_(file) {
   write(kMagic);
   write_record(kHeader, Content().add(std::string()).add(std::string("nao-remote")).bytes());
 }
@@ -152,8 +144,7 @@ void McapWriter::finish() {
   write_record(kDataEnd, Content().add(kNoChecksum).bytes());
   write_summary();
   write(kMagic);
-  if (std::fclose(file_.release()) != 0) has_failed_ = true;
-  if (has_failed_) throw Error("cannot write all of " + path_.string() + "; is the disk full?");
+  file_.finish();
 }
 
 void McapWriter::write_summary() {
@@ -206,7 +197,8 @@ void McapWriter::write_record(uint8_t opcode, const Bytes& content) {
 }
 
 void McapWriter::write(std::span<const uint8_t> bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) has_failed_ = true;
+  file_.stream().write(reinterpret_cast<const char*>(bytes.data()),
+                       static_cast<std::streamsize>(bytes.size()));
   offset_ += bytes.size();
 }
 

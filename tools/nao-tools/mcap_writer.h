@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "common/output_file.h"
 
 namespace nao {
 
@@ -49,13 +49,8 @@ class McapWriter {
   void finish_chunk();
   void write_summary();
 
-  struct Closer {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  std::unique_ptr<std::FILE, Closer> file_;
-  std::filesystem::path path_;
+  OutputFile file_;
   uint64_t offset_ = 0;
-  bool has_failed_ = false;
 
   Bytes schemas_;
   uint16_t num_schemas_ = 0;

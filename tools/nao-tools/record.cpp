@@ -4,10 +4,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "common/bus.h"
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/event_loop.h"
+#include "common/logger.h"
+#include "common/status_reporter.h"
 #include "common/wall_clock.h"
 #include "tools/nao-tools/channel_pattern.h"
 #include "tools/nao-tools/log_writer.h"
@@ -19,6 +23,8 @@ namespace {
 
 // Maximum duration of the recording that a killed recorder loses, s.
 constexpr double kFlushPeriod = 0.1;
+// As of every program, see daemon_status_t, s.
+constexpr double kStatusPeriod = 1.0;
 // LCM's default queue holds 30 messages, about 60 ms of this bus; later ones are dropped. This
 // queue holds minutes.
 constexpr int kQueueCapacity = 100'000;
@@ -43,18 +49,29 @@ std::string with_receive_buffer(const std::string& url) {
 struct Recorder {
   LogWriter writer;
   std::optional<ChannelPattern> without;
-  /** Error of the last write; an exception must not propagate through LCM's C code. */
+  /** Why messages are not written; empty if they are. */
   std::string fault;
+
+  void flush() {
+    const std::string before = std::exchange(fault, "");
+    try {
+      writer.flush();
+    } catch (const Error& error) {
+      fault = error.what();
+    }
+    if (before.empty() && !fault.empty()) logger::error("{}; trying again", fault);
+    if (!before.empty() && fault.empty()) logger::info("the recording goes on");
+  }
 
   void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
     // LCM's own self-test message, sent whenever a program opens the bus.
     if (channel == "LCM_SELF_TEST") return;
     if (without && without->matches(channel)) return;
     const auto* data = static_cast<const uint8_t*>(buffer->data);
+    // No exception may propagate through LCM's C code; flush() meets the same error and tells it.
     try {
       writer.write({0, buffer->recv_utime, channel, {data, data + buffer->data_size}});
-    } catch (const Error& error) {
-      fault = error.what();
+    } catch (const Error&) {
     }
   }
 };
@@ -72,6 +89,8 @@ int run_record(const CommonOptions& common, const RecordOptions& options) {
       LogWriter(options.file, {static_cast<int64_t>(options.split_mb * 1e6), options.num_kept}),
       std::move(without),
       {}};
+  Bus bus(common.lcm_url);
+  StatusReporter status(bus, "nao-record");
   lcm::Subscription* subscription = lcm.subscribe(options.channels, &Recorder::receive, &recorder);
   subscription->setQueueCapacity(kQueueCapacity);
   loop.on_readable(lcm.getFileno(), [&lcm] {
@@ -80,14 +99,24 @@ int run_record(const CommonOptions& common, const RecordOptions& options) {
   });
   const double end = monotonic_seconds() + options.duration;
   loop.every(kFlushPeriod, [&] {
-    recorder.writer.flush();
-    if (!recorder.fault.empty()) throw Error(recorder.fault);
+    recorder.flush();
     if (monotonic_seconds() >= end) loop.stop("end");
+  });
+  loop.every(kStatusPeriod, [&] {
+    const LogWriter& writer = recorder.writer;
+    status.set_state(recorder.fault.empty() ? "ready" : "waiting",
+                     recorder.fault.empty() ? "recording " + options.file : recorder.fault);
+    status.publish({{"messages", static_cast<double>(writer.num_events())},
+                    {"messages_lost", static_cast<double>(writer.num_lost())}});
   });
   loop.run();
   lcm.unsubscribe(subscription);
   recorder.writer.flush();
   std::fprintf(stderr, "%ld messages recorded\n", static_cast<long>(recorder.writer.num_events()));
+  if (recorder.writer.num_lost() > 0) {
+    std::fprintf(stderr, "%ld messages lost while they could not be written\n",
+                 static_cast<long>(recorder.writer.num_lost()));
+  }
   return 0;
 }
 

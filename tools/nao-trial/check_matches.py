@@ -18,6 +18,9 @@ from pathlib import Path
 
 import yaml
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+from output_file import replace_file  # noqa: E402
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 # A ball that moves farther than this between two places was put somewhere, m: 50 m/s.
 PUT = 0.5
@@ -145,7 +148,7 @@ def main():
                                 range(int(first), int(last or first) + 1)))
     is_good = summarize(matches)
     if arguments.json:
-        Path(arguments.json).write_text(json.dumps(matches, indent=1) + "\n")
+        replace_file(arguments.json, json.dumps(matches, indent=1) + "\n")
     return 0 if is_good else 1
 
 

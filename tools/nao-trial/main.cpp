@@ -1,13 +1,13 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <string>
 
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/error.h"
+#include "common/output_file.h"
 #include "common/program.h"
 #include "sim/closed_loop/calibrate.h"
 #include "tools/nao-trial/scenario.h"
@@ -73,12 +73,6 @@ std::array<int, 2> parse_teams(const std::string& text) {
     throw Error("--teams: '" + text + "' is not two teams of 1 to 5 robots, such as 2v2");
   }
   return {text[0] - '0', text[2] - '0'};
-}
-
-void write_file(const std::string& name, const std::string& text) {
-  std::ofstream file(name);
-  file << text;
-  if (!file) throw Error("cannot write " + name);
 }
 
 }  // namespace
@@ -173,11 +167,11 @@ int main(int argc, char** argv) {
       summary.disturbances = disturbances;
       summary.model = model_name;
       std::fputs(to_table(summary).c_str(), stdout);
-      if (!json_file.empty()) write_file(json_file, to_json(summary));
+      if (!json_file.empty()) nao::replace_file(json_file, to_json(summary));
       if (!plot_file.empty()) {
         const std::string plot = scenario->plot(summary);
         if (plot.empty()) throw nao::Error(chosen + " has no plot; omit --plot");
-        write_file(plot_file, plot);
+        nao::replace_file(plot_file, plot);
       }
     }
   });

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/output_file.h"
 #include "daemons/play/match_view.h"
 #include "daemons/referee/referee_core.h"
 #include "kinematics/formation.h"
@@ -96,11 +96,7 @@ class Match {
     } else if (tally_.num_goals == 0) {
       result.failure = "no goal";
     }
-    if (is_traced()) {
-      std::ofstream stream(options_.trace_file);
-      stream << trace_;
-      if (!stream) throw Error("cannot write " + options_.trace_file);
-    }
+    if (is_traced()) replace_file(options_.trace_file, trace_);
   }
 
  private:

@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "common/error.h"
+#include "common/output_file.h"
 
 namespace nao::trial {
 namespace {
@@ -137,9 +137,7 @@ void PlayTrial::trace() {
 }
 
 void PlayTrial::write_trace(const std::string& file) const {
-  std::ofstream stream(file);
-  stream << trace_;
-  if (!stream) throw Error("cannot write " + file);
+  replace_file(file, trace_);
 }
 
 }  // namespace nao::trial

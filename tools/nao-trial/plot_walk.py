@@ -13,6 +13,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+from output_file import replace_file  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIZE = 460  # pixels
 MARGIN = 46
@@ -76,10 +79,10 @@ class Plot:
             self.text(MARGIN + 6, MARGIN + 14 + 16 * i, text, color=color, size=12)
 
     def write(self, file):
-        file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" width="{SIZE}" height="{SIZE}" '
-                        f'viewBox="0 0 {SIZE} {SIZE}" font-family="sans-serif">'
-                        f'<rect width="100%" height="100%" fill="white"/>\n'
-                        + "\n".join(self.parts) + "\n</svg>\n", encoding="utf-8")
+        replace_file(file, f'<svg xmlns="http://www.w3.org/2000/svg" width="{SIZE}" height="{SIZE}" '
+                     f'viewBox="0 0 {SIZE} {SIZE}" font-family="sans-serif">'
+                     f'<rect width="100%" height="100%" fill="white"/>\n'
+                     + "\n".join(self.parts) + "\n</svg>\n")
         print(file)
 
 

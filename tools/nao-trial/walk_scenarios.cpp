@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
 #include "common/constants.h"
 #include "common/error.h"
+#include "common/output_file.h"
 #include "kinematics/pose2.h"
 #include "tools/nao-trial/fall_warning.h"
 
@@ -111,9 +111,7 @@ class Trace {
   }
   /** @throws Error */
   void write(const std::string& path) const {
-    std::ofstream file(path);
-    file << "time,true_x,true_y,odometry_x,odometry_y\n" << text_.str();
-    if (!file) throw Error("cannot write " + path);
+    replace_file(path, "time,true_x,true_y,odometry_x,odometry_y\n" + text_.str());
   }
 
  private:

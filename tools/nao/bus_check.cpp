@@ -2,12 +2,13 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -15,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <naolcm/daemon_status_t.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,9 +25,10 @@
 #include "common/channels.h"
 #include "common/command_line.h"
 #include "common/error.h"
+#include "common/local_multicast.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
-#include "tools/nao/channel_owners.h"
+#include "tools/nao/bus_listener.h"
 #include "tools/nao/subcommand.h"
 
 namespace nao {
@@ -35,6 +38,11 @@ namespace {
 constexpr double kEchoDeadline = 1.0;
 /** Listening time, s: longer than the period of daemon_status_t, 1 s. */
 constexpr double kListenTime = 1.3;
+/** Listening time for a channel that must be silent, s: longer than the longest period of a state,
+ * 0.2 s of match_state_t. */
+constexpr double kSilenceTime = 0.3;
+/** Longest time between two looks at the bus, s. Chosen: its buffer holds much more. */
+constexpr double kListenPeriod = 0.02;
 /** Receive buffer that holds a burst of images for several phones, bytes. A smaller one may
  * overflow. */
 constexpr double kRecommendedBufferBytes = 2e6;
@@ -50,34 +58,6 @@ struct BusCheck {
   bool is_quick = false;
   std::vector<std::string> own_channels;
 };
-
-/** Address of a multicast bus. */
-struct BusAddress {
-  std::string group = "239.255.76.67";
-  int port = 7667;
-};
-
-/** Reads udpm://GROUP:PORT?options; omitted parts have LCM's defaults.
- * @throws ConfigError  if the bus is of another kind or the port is invalid. */
-BusAddress parse_address(const std::string& url) {
-  const std::string scheme = "udpm://";
-  if (!url.starts_with(scheme)) {
-    throw ConfigError("only " + scheme + " buses can be checked, not " + url);
-  }
-  const std::string place = url.substr(scheme.size(), url.find('?') - scheme.size());
-  const size_t colon = place.find(':');
-  BusAddress address;
-  if (colon != 0 && !place.empty()) address.group = place.substr(0, colon);
-  if (colon != std::string::npos) {
-    const std::string port = place.substr(colon + 1);
-    const char* end = port.data() + port.size();
-    if (const auto [rest, error] = std::from_chars(port.data(), end, address.port);
-        rest != end || error != std::errc() || address.port < 1 || address.port > 65535) {
-      throw ConfigError("'" + port + "' in " + url + " is not a port from 1 to 65535");
-    }
-  }
-  return address;
-}
 
 /** Local address from which the system sends to a multicast group.
  * @return nullopt if there is no route; errno then holds the reason. */
@@ -133,12 +113,6 @@ std::optional<double> echo_time(Bus& bus) {
   return monotonic_seconds() - start;
 }
 
-/** Whether messages of a bus may leave this host: "?ttl=1" in its URL. */
-bool reaches_other_hosts(const std::string& url) {
-  const size_t ttl = url.find("ttl=");
-  return ttl != std::string::npos && url.compare(ttl, 5, "ttl=0") != 0;
-}
-
 /** Programs and clock of one host. */
 struct HostReport {
   std::map<std::string, std::set<int>> processes;
@@ -146,11 +120,9 @@ struct HostReport {
   double clock_difference = std::nan("");
 };
 
-std::map<std::string, HostReport> listen_for_hosts(Bus& bus, ChannelOwners& owners) {
+std::map<std::string, HostReport> listen_for_hosts(Bus& bus, BusListener& listener,
+                                                   ChannelOwners& owners) {
   std::map<std::string, HostReport> hosts;
-  bus.subscribe_raw(kOwnedChannels, [&](const std::string& channel, const uint8_t* data, int size) {
-    owners.note(channel, data, size);
-  });
   bus.subscribe<naolcm::daemon_status_t>(
       kDaemonStatusChannel, Bus::Queue::kAll, [&hosts](const naolcm::daemon_status_t& status) {
         HostReport& host = hosts[status.host];
@@ -161,7 +133,10 @@ std::map<std::string, HostReport> listen_for_hosts(Bus& bus, ChannelOwners& owne
         }
       });
   const double end = monotonic_seconds() + kListenTime;
-  while (monotonic_seconds() < end) bus.handle_for(end - monotonic_seconds());
+  while (monotonic_seconds() < end) {
+    bus.handle_for(kListenPeriod);
+    listener.read(owners);
+  }
   return hosts;
 }
 
@@ -175,81 +150,63 @@ void report_buffer() {
                           "net.core.rmem_max=2097152");
 }
 
-/** "nao-sim of host pc (process 12)": the processes of a program on all hosts. */
-std::string list_processes(const std::map<std::string, HostReport>& hosts,
-                           const std::string& program) {
+std::string join(const std::vector<std::string>& words) {
   std::string list;
-  for (const auto& [name, host] : hosts) {
-    const auto processes = host.processes.find(program);
-    if (processes == host.processes.end()) continue;
-    for (const int process : processes->second) {
-      list += (list.empty() ? "" : ", ") + program + " of host " + name + " (process " +
-              std::to_string(process) + ")";
-    }
-  }
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
   return list;
 }
 
-/** The programs of which a bus has one, or that publish what a system publishes. */
-std::string list_owners(const std::map<std::string, HostReport>& hosts) {
-  std::string list;
-  for (const char* program : {"nao-sim", "nao-robot", "nao-motion", "nao-referee"}) {
-    const std::string processes = list_processes(hosts, program);
-    if (!processes.empty()) list += (list.empty() ? "" : ", ") + processes;
-  }
-  return list.empty() ? "programs that publish no status" : list;
-}
-
-int count_processes(const std::map<std::string, HostReport>& hosts, const std::string& program) {
-  int count = 0;
-  for (const auto& [name, host] : hosts) {
-    const auto processes = host.processes.find(program);
-    if (processes != host.processes.end()) count += static_cast<int>(processes->second.size());
-  }
-  return count;
-}
-
 /** @return false if two systems share the bus. */
-bool report_owners(const std::map<std::string, HostReport>& hosts, const ChannelOwners& owners) {
-  std::string fault;
-  for (const std::string& channel : owners.find_shared()) {
-    fault += (fault.empty() ? "" : ", ") + channel;
+bool report_owners(const ChannelOwners& owners) {
+  const std::vector<std::string> shared = owners.find_shared();
+  for (const std::string& channel : shared) {
+    std::printf("FAIL  two systems share this bus: two programs publish on %s: %s\n",
+                channel.c_str(), join(owners.owners_of(channel)).c_str());
   }
-  if (!fault.empty()) fault = "two programs publish on " + fault;
-  for (const char* program : {"nao-sim", "nao-referee"}) {
-    if (fault.empty() && count_processes(hosts, program) > 1) {
-      fault = std::string("there is more than one ") + program;
-    }
-  }
-  if (fault.empty()) return true;
-  std::printf("FAIL  two systems share this bus: %s: %s\n", fault.c_str(),
-              list_owners(hosts).c_str());
-  std::printf("      fix it: %s\n", kSeparateSystems);
-  return false;
+  if (!shared.empty()) std::printf("      fix it: %s\n", kSeparateSystems);
+  return shared.empty();
 }
 
-/** What a system is about to publish must be silent. @return false if it is not. */
-bool report_silence(const std::map<std::string, HostReport>& hosts, const ChannelOwners& owners,
-                    const std::vector<std::string>& channels) {
-  std::string taken;
+/** What a system is about to publish must be silent. Its owner is named if it publishes its status.
+ * @return false if it is not. */
+bool check_silence(BusListener& listener, const std::vector<std::string>& channels) {
+  ChannelOwners owners;
+  const auto listen_until = [&](double end) {
+    while (monotonic_seconds() < end) {
+      pollfd waiting{listener.descriptor(), POLLIN, 0};
+      (void)poll(&waiting, 1, static_cast<int>(kListenPeriod * 1e3));
+      listener.read(owners);
+    }
+  };
+  const auto is_taken = [&](const std::string& channel) {
+    return !owners.owners_of(channel).empty();
+  };
+  const double start = monotonic_seconds();
+  listen_until(start + kSilenceTime);
+  if (std::none_of(channels.begin(), channels.end(), is_taken)) return true;
+  listen_until(start + kListenTime);
   for (const std::string& channel : channels) {
-    if (owners.is_published(channel)) taken += (taken.empty() ? "" : ", ") + channel;
+    if (!is_taken(channel)) continue;
+    std::printf("FAIL  another system publishes on %s already: %s\n", channel.c_str(),
+                join(owners.owners_of(channel)).c_str());
   }
-  if (taken.empty()) return true;
-  std::printf("FAIL  another system publishes on %s already: %s\n", taken.c_str(),
-              list_owners(hosts).c_str());
   std::printf("      fix it: end it, or %s\n", kSeparateSystems);
   return false;
 }
 
 /** Other hosts are reached by one interface. */
 void report_reach(const std::string& url, const std::string& interface, bool has_other_host) {
-  if (!reaches_other_hosts(url) || has_other_host) return;
+  if (is_local_bus(url) || has_other_host) return;
+  // An address of no host (RFC 5737): the interface of the default route.
+  const auto usual = local_address_towards({"192.0.2.1", 7667});
+  const std::string usual_interface = usual ? interface_with(*usual) : interface;
   std::printf(
-      "note  no program of another host is heard; messages to other hosts leave by %s only. If "
-      "they "
-      "are in another network: ip route replace 239.255.76.0/24 dev INTERFACE\n",
-      interface.c_str());
+      "%s  no program of another host is heard; messages to other hosts leave by %s only%s. If "
+      "they are in another network: ip route replace 239.255.76.0/24 dev INTERFACE\n",
+      usual_interface == interface ? "note" : "FAIL", interface.c_str(),
+      usual_interface == interface ? ""
+                                   : (", and the default route goes by " + usual_interface)
+                                         .c_str());
 }
 
 /** @return false if something is wrong. */
@@ -279,7 +236,7 @@ std::string own_name() {
 }
 
 int run_bus_check(const std::string& url, const BusCheck& check) {
-  const BusAddress address = parse_address(url);
+  const BusAddress address = parse_bus_address(url);
   std::printf("bus   %s\n", url.c_str());
   const auto local = local_address_towards(address);
   if (!local) {
@@ -290,7 +247,7 @@ int run_bus_check(const std::string& url, const BusCheck& check) {
     return 1;
   }
   const std::string interface = interface_with(*local);
-  if (interface == "lo" && reaches_other_hosts(url) && !check.is_quick) {
+  if (interface == "lo" && !is_local_bus(url) && !check.is_quick) {
     std::printf(
         "FAIL  the route to %s goes by lo, so no other host hears this one\n"
         "      fix it: ip route replace %s/32 dev INTERFACE, the one to the other hosts; or use "
@@ -310,14 +267,15 @@ int run_bus_check(const std::string& url, const BusCheck& check) {
   }
   std::printf("ok    a test message returned in %.2f ms\n", *echo * 1000);
   if (check.is_quick && check.own_channels.empty()) return 0;
-  ChannelOwners owners;
-  const auto hosts = listen_for_hosts(bus, owners);
-  if (!report_silence(hosts, owners, check.own_channels)) return 1;
+  BusListener listener(address);
+  if (!check.own_channels.empty() && !check_silence(listener, check.own_channels)) return 1;
   if (check.is_quick) return 0;
+  ChannelOwners owners;
+  const auto hosts = listen_for_hosts(bus, listener, owners);
   report_buffer();
   const bool are_clocks_fine = report_hosts(hosts);
   report_reach(url, interface, hosts.size() > hosts.count(own_name()));
-  return report_owners(hosts, owners) && are_clocks_fine ? 0 : 1;
+  return report_owners(owners) && are_clocks_fine ? 0 : 1;
 }
 
 }  // namespace

@@ -2,36 +2,38 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace nao {
 
-/** Finds channels on which two programs publish, of channels that have one publisher and whose
- * messages begin with the robot's time: LCM does not tell who has sent a message. */
+/** Finds who publishes on channels of which each has one publisher, and on which two do: by the
+ * sender of each datagram, of which a process has one for each bus.
+ *
+ * Layout of the datagrams: LCM's "UDP Multicast Protocol Description". Messages in fragments, such
+ * as images, are left out. */
 class ChannelOwners {
  public:
-  /** @param message  Encoded, of a channel that matches kOwnedChannels. */
-  void note(const std::string& channel, const uint8_t* message, int num_bytes);
-  void note(const std::string& channel, int64_t utime);
+  /** @param sender  Address and port. */
+  void note(const std::string& sender, std::span<const uint8_t> datagram);
 
-  bool is_published(const std::string& channel) const { return seen_.contains(channel); }
-  /** Channels with two publishers: the robot's time goes back again and again, as that of two
-   * robots, or most times come twice, as of two programs that answer one robot. */
+  /** "nao-sim of host pc (process 12)" of each that publishes on the channel, or its address if it
+   * publishes no status. */
+  std::vector<std::string> owners_of(const std::string& channel) const;
+
+  /** Channels on which several processes publish in turns, unlike one that was restarted. */
   std::vector<std::string> find_shared() const;
 
  private:
-  struct Seen {
-    int64_t last = 0;
-    int num_messages = 0;
-    int num_back = 0;
-    int num_equal = 0;
+  struct Channel {
+    std::vector<std::string> senders;
+    std::string last_sender;
+    int num_changes = 0;
   };
-  std::map<std::string, Seen> seen_;
+  std::map<std::string, Channel> channels_;
+  /** Names of processes, by their senders. */
+  std::map<std::string, std::string> names_;
 };
-
-/** Regular expression of those channels. */
-inline constexpr const char* kOwnedChannels =
-    ".*_(SENSOR|ROBOT|MOTION|PLAY|VISION)_STATE|.*_JOINT_COMMAND|WORLD_TRUTH|MATCH_STATE";
 
 }  // namespace nao

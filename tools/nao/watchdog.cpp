@@ -10,6 +10,7 @@
 #include <iterator>
 #include <memory>
 #include <naolcm/daemon_status_t.hpp>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "common/logger.h"
 #include "common/status_reporter.h"
 #include "common/wall_clock.h"
+#include "tools/nao/bus_listener.h"
 #include "tools/nao/hang_detector.h"
 #include "tools/nao/subcommand.h"
 
@@ -65,6 +67,53 @@ void for_each_process(const std::vector<std::string>& programs, const Function& 
   }
 }
 
+/** Looks from time to time whether two systems share the bus, as when two networks are joined. */
+class SharedBusWatch {
+ public:
+  explicit SharedBusWatch(const std::string& url) : address_(parse_bus_address(url)) {}
+
+  /** Call it every kStepPeriod. @return What is wrong; empty if nothing is. */
+  const std::string& step(double now) {
+    if (!listener_ && now >= next_start_) {
+      listener_.emplace(address_);
+      owners_ = {};
+      end_ = now + kListenTime;
+    }
+    if (!listener_) return fault_;
+    listener_->read(owners_);
+    if (now < end_) return fault_;
+    listener_.reset();
+    next_start_ = now + kListenPause;
+    const std::string fault = describe();
+    if (!fault.empty() && fault != fault_)
+      logger::error("{}; end one of them, or give it a bus of its own", fault);
+    return fault_ = fault;
+  }
+
+ private:
+  /** s: longer than the period of daemon_status_t, whose sender is named. */
+  static constexpr double kListenTime = 1.2;
+  /** s. Chosen: the watchdog costs less than 1 % of a core. */
+  static constexpr double kListenPause = 8;
+
+  std::string describe() const {
+    std::string text;
+    for (const std::string& channel : owners_.find_shared()) {
+      text += (text.empty() ? "two programs publish on " : "; on ") + channel + ":";
+      for (const std::string& owner : owners_.owners_of(channel)) text += " " + owner + ",";
+      text.pop_back();
+    }
+    return text;
+  }
+
+  BusAddress address_;
+  ChannelOwners owners_;
+  std::optional<BusListener> listener_;
+  double next_start_ = 0;
+  double end_ = 0;
+  std::string fault_;
+};
+
 int run_watchdog(const CommonOptions& common, const std::vector<std::string>& programs) {
   EventLoop loop;
   Bus bus(common.lcm_url);
@@ -72,6 +121,7 @@ int run_watchdog(const CommonOptions& common, const std::vector<std::string>& pr
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   HangDetector detector({});
+  SharedBusWatch shared_bus(common.lcm_url);
   bool is_ready = false;
   bus.subscribe<naolcm::daemon_status_t>(
       kDaemonStatusChannel, Bus::Queue::kAll, [&](const naolcm::daemon_status_t& status) {
@@ -86,6 +136,7 @@ int run_watchdog(const CommonOptions& common, const std::vector<std::string>& pr
   loop.every(kStepPeriod, [&] {
     const double now = monotonic_seconds();
     reporter.tick(now);
+    reporter.set_state(is_ready ? "ready" : "starting", shared_bus.step(now));
     if (!is_ready && detector.num_published() >= static_cast<int>(programs.size())) {
       is_ready = true;
       reporter.set_state("ready");

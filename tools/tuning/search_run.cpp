@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/output_file.h"
 #include "common/text_file.h"
 #include "tools/tuning/checkpoint.h"
 #include "tools/tuning/cma_es.h"

@@ -10,6 +10,7 @@
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/error.h"
+#include "common/output_file.h"
 #include "common/program.h"
 #include "robot_model/robot_model.h"
 #include "robot_model/scene_file.h"
@@ -61,9 +62,9 @@ void write_dataset(const DatasetOptions& options) {
     image.file = std::filesystem::path(options.folder) / fmt::format("{:06}.jpg", i);
     image.place = fmt::format("place-{}", place);
     const cv::Mat bgr = renderer.render(scene, image);
-    if (!cv::imwrite(image.file.string(), bgr, {cv::IMWRITE_JPEG_QUALITY, scene.effects.quality})) {
-      throw nao::Error("cannot write " + image.file.string());
-    }
+    std::vector<uint8_t> jpeg;
+    cv::imencode(".jpg", bgr, jpeg, {cv::IMWRITE_JPEG_QUALITY, scene.effects.quality});
+    nao::replace_file(image.file, {jpeg.begin(), jpeg.end()});
   }
   nao::vision::write_labels(options.folder, images);
   fmt::print("{} images and {} in {}\n", images.size(), nao::vision::kLabelFile, options.folder);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "common/error.h"
+#include "common/output_file.h"
 
 namespace nao::vision {
 namespace {
@@ -166,9 +167,7 @@ void write_labels(const std::filesystem::path& folder, const std::vector<Labelle
       json["annotations"].push_back(std::move(entry));
     }
   }
-  std::ofstream stream(folder / kLabelFile);
-  stream << json.dump(1) << "\n";
-  if (!stream.flush()) throw Error("cannot write " + (folder / kLabelFile).string());
+  replace_file(folder / kLabelFile, json.dump(1) + "\n");
 }
 
 }  // namespace nao::vision

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/json_writer.h"
+#include "common/output_file.h"
 #include "common/program.h"
 #include "daemons/vision/drawing.h"
 #include "daemons/vision/vision_core.h"
@@ -131,15 +131,13 @@ int evaluate(const EvalOptions& options) {
     if (!options.drawing_folder.empty()) {
       nao::vision::draw_result(result, input.bgr);
       const auto file = std::filesystem::path(options.drawing_folder) / image.file.stem();
-      cv::imwrite(file.string() + ".png", input.bgr);
+      std::vector<uint8_t> png;
+      cv::imencode(".png", input.bgr, png);
+      nao::replace_file(file.string() + ".png", {png.begin(), png.end()});
     }
   }
   json.end();
-  if (!options.json_file.empty()) {
-    std::ofstream stream(options.json_file);
-    stream << json.text() << "\n";
-    if (!stream.flush()) throw nao::Error("cannot write " + options.json_file);
-  }
+  if (!options.json_file.empty()) nao::replace_file(options.json_file, json.text() + "\n");
   fmt::print("{} images of {}\n\n", images.size() - num_unreadable, options.folder);
   if (has_labels) fmt::print("{}\n", scores.table());
   times.print();

@@ -1,11 +1,16 @@
 """What the trainings of both networks share."""
 
 import argparse
+import io
+import sys
 import time
 from pathlib import Path
 
 import torch
 from torch import nn
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+from output_file import replace_file  # noqa: E402
 
 # As in daemons/vision/neural_network.cpp.
 LEAST_DEVIATION = 4.0
@@ -80,16 +85,19 @@ class Schedule:
 def export(network, file, rows, columns):
     """Writes the weights (.pt) and the network as ONNX, for any number of images."""
     network.eval()
-    torch.save(network.state_dict(), Path(file).with_suffix(".pt"))
+    weights, model = io.BytesIO(), io.BytesIO()
+    torch.save(network.state_dict(), weights)
     torch.onnx.export(
         network,
         torch.zeros(1, 3, rows, columns),
-        file,
+        model,
         input_names=["images"],
         output_names=["outputs"],
         dynamic_axes={"images": {0: "count"}, "outputs": {0: "count"}},
         opset_version=11,
     )
+    replace_file(Path(file).with_suffix(".pt"), weights.getvalue())
+    replace_file(file, model.getvalue())
     print(f"{file}: {Path(file).stat().st_size} bytes")
 
 

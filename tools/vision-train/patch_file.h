@@ -2,8 +2,9 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/core.hpp>
+
+#include "common/output_file.h"
 
 namespace nao::vision {
 
@@ -15,16 +16,15 @@ class PatchFile {
   using Numbers = std::array<float, 8>;
 
   /** @throws Error  if it cannot be written. */
-  explicit PatchFile(const std::filesystem::path& file);
+  explicit PatchFile(const std::filesystem::path& file) : file_(file) {}
 
   void add(const cv::Mat& patch, const Numbers& numbers);
   /** @throws Error  if it could not be written. */
-  void close();
+  void close() { file_.finish(); }
   int num_records() const { return num_records_; }
 
  private:
-  std::filesystem::path file_;
-  std::ofstream stream_;
+  OutputFile file_;
   int num_records_ = 0;
 };
 

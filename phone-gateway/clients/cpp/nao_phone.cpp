@@ -2,7 +2,6 @@
 #include <cctype>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "common/command_line.h"
+#include "common/output_file.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
 #include "messages/body_condition.h"
@@ -171,7 +171,7 @@ int save_image(PhoneClient& client, const std::string& file, const std::string& 
     return 1;
   }
   const naoremote::Image& image = response.state_and_image().image();
-  std::ofstream(file, std::ios::binary) << image.jpeg();
+  replace_file(file, image.jpeg());
   std::cout << file << ": " << image.width() << "x" << image.height() << ", age " << image.age_ms()
             << " ms\n";
   return 0;

@@ -11,13 +11,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 
 #include "common/error.h"
+#include "common/output_file.h"
 
 namespace nao::gateway {
 namespace {
@@ -103,10 +102,20 @@ Certificate make_certificate(EVP_PKEY* key, const CertificateNames& names) {
   return certificate;
 }
 
-File open_for_writing(const std::filesystem::path& path) {
-  File file(std::fopen(path.c_str(), "wb"));
-  if (!file) throw Error("cannot write " + path.string() + ": " + std::strerror(errno));
-  return file;
+/** A PEM text that a function of OpenSSL writes. */
+template <class Write>
+std::string to_pem(Write write, const std::string& what) {
+  const std::unique_ptr<BIO, Freer<BIO, BIO_free_all>> memory(BIO_new(BIO_s_mem()));
+  check(memory && write(memory.get()) == 1, what);
+  char* text = nullptr;
+  const long size = BIO_get_mem_data(memory.get(), &text);
+  return {text, static_cast<size_t>(size)};
+}
+
+bool have_same_key(X509* certificate, const std::filesystem::path& key_file) {
+  const File file(std::fopen(key_file.c_str(), "rb"));
+  const Key key(file ? PEM_read_PrivateKey(file.get(), nullptr, nullptr, nullptr) : nullptr);
+  return key && X509_check_private_key(certificate, key.get()) == 1;
 }
 
 }  // namespace
@@ -115,7 +124,8 @@ CertificateFiles own_certificate(const std::filesystem::path& folder,
                                  const CertificateNames& names) {
   CertificateFiles files{folder / "gateway-certificate.pem", folder / "gateway-key.pem"};
   const Certificate old = read_certificate(files.certificate);
-  if (old && std::filesystem::exists(files.key) && is_good_for(old.get(), names)) return files;
+  // A start that was interrupted may have left the key of another certificate.
+  if (old && have_same_key(old.get(), files.key) && is_good_for(old.get(), names)) return files;
 
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -123,17 +133,14 @@ CertificateFiles own_certificate(const std::filesystem::path& folder,
   const Key key(EVP_EC_gen("P-256"));
   check(key != nullptr, "key");
   const Certificate certificate = make_certificate(key.get(), names);
-  {
-    const mode_t old_mask = umask(0077);
-    const File file = open_for_writing(files.key);
-    umask(old_mask);
-    std::filesystem::permissions(
-        files.key, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
-    check(PEM_write_PrivateKey(file.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) == 1,
-          "key file");
-  }
-  const File file = open_for_writing(files.certificate);
-  check(PEM_write_X509(file.get(), certificate.get()) == 1, "certificate file");
+  const auto write_key = [&](BIO* memory) {
+    return PEM_write_bio_PrivateKey(memory, key.get(), nullptr, nullptr, 0, nullptr, nullptr);
+  };
+  const auto write_certificate = [&](BIO* memory) {
+    return PEM_write_bio_X509(memory, certificate.get());
+  };
+  replace_file(files.key, to_pem(write_key, "key file"), S_IRUSR | S_IWUSR);
+  replace_file(files.certificate, to_pem(write_certificate, "certificate file"));
   return files;
 }
 

@@ -17,6 +17,7 @@
 
 #include "common/bus.h"
 #include "common/error.h"
+#include "common/output_file.h"
 #include "common/text_file.h"
 #include "test/daemons/referee/game_controller_packet.h"
 #include "test/support/temporary_folder.h"
@@ -251,6 +252,24 @@ class FakeGameController {
 };
 
 /** Exists before the daemon. */
+TEST_F(RefereeDaemonTest, NamesASecondReferee) {
+  std::string detail;
+  bus_.subscribe<naolcm::daemon_status_t>("DAEMON_STATUS", Bus::Queue::kLatest,
+                                          [&](const naolcm::daemon_status_t& status) {
+                                            if (status.process_id == getpid())
+                                              detail = status.detail;
+                                          });
+  naolcm::daemon_status_t other{};
+  other.program = "nao-referee";
+  other.host = "pc";
+  other.process_id = 12;
+  bus_.publish("DAEMON_STATUS", other);
+  deliver();
+  daemon_->publish_status(now_);
+  deliver();
+  EXPECT_EQ(detail, "a second nao-referee is on this bus: host pc, process 12");
+}
+
 struct HasGameController {
   FakeGameController controller;
 };

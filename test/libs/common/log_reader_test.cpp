@@ -24,6 +24,8 @@ class LogReaderTest : public testing::Test {
     std::vector<LogEvent> events;
     while (auto event = reader.next()) events.push_back(*event);
     num_bytes_skipped_ = reader.num_bytes_skipped();
+    num_events_skipped_ = reader.num_events_skipped();
+    num_clock_steps_ = reader.clock().num_steps();
     return events;
   }
 
@@ -43,6 +45,8 @@ class LogReaderTest : public testing::Test {
   const TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_.path() / "test.log";
   int64_t num_bytes_skipped_ = 0;
+  int64_t num_events_skipped_ = 0;
+  int64_t num_clock_steps_ = 0;
 };
 
 TEST_F(LogReaderTest, ReadsTheDocumentedFormat) {
@@ -94,6 +98,48 @@ TEST_F(LogReaderTest, FindsTheNextEventWhereverABlockOfZerosEnds) {
     ASSERT_EQ(read(bytes).size(), 2u) << num_zeros;
     ASSERT_EQ(num_bytes_skipped_, static_cast<int64_t>(num_zeros));
   }
+}
+
+TEST_F(LogReaderTest, SkipsOnlyTheEventThatHasAWildLength) {
+  for (const uint8_t high_byte : {0x00, 0x7F}) {
+    Bytes bytes = log_of(1000);
+    const size_t event_size = bytes.size() / 1000;
+    bytes[2 * event_size + 24] = high_byte;
+    bytes[2 * event_size + 26] = 0x80;
+    const auto events = read(bytes);
+    ASSERT_EQ(events.size(), 999u);
+    EXPECT_EQ(events[2].number, 3);
+    EXPECT_EQ(num_bytes_skipped_, static_cast<int64_t>(event_size));
+    EXPECT_EQ(num_events_skipped_, 1);
+  }
+}
+
+TEST_F(LogReaderTest, CountsTheEventsOfADamagedPart) {
+  Bytes bytes = log_of(100);
+  const size_t event_size = bytes.size() / 100;
+  std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(10 * event_size), 20 * event_size, 0x5A);
+  EXPECT_EQ(read(bytes).size(), 80u);
+  EXPECT_EQ(num_events_skipped_, 20);
+}
+
+TEST_F(LogReaderTest, BridgesOneMessageOf1970ByTheRobotsTime) {
+  Bytes bytes;
+  for (int i = 0; i < 10; ++i) {
+    LogEvent one = event(i);
+    one.channel = "NAO_SENSOR_STATE";
+    one.wall_utime = i == 5 ? 12 : 1'700'000'000'000'000 + i * 10'000;
+    one.data = Bytes(16, 0);
+    const int64_t robot_utime = 1'000'000 + i * 10'000;
+    for (int k = 0; k < 8; ++k) one.data[15 - k] = static_cast<uint8_t>(robot_utime >> 8 * k);
+    const Bytes more = encode_log_event(one);
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  }
+  const auto events = read(bytes);
+  ASSERT_EQ(events.size(), 10u);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(events[i].wall_utime, 1'700'000'000'000'000 + i * 10'000) << i;
+  }
+  EXPECT_EQ(num_clock_steps_, 2);
 }
 
 TEST_F(LogReaderTest, TakesAChannelNameWithControlBytesForDamage) {

@@ -1,6 +1,9 @@
 #include "tools/nao-tools/log_writer.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
 
 #include "common/error.h"
 #include "test/support/temporary_folder.h"
@@ -58,6 +61,26 @@ TEST_F(LogWriterTest, DoesNotOverwriteARecording) {
 
 TEST_F(LogWriterTest, NamesTheFileThatCannotBeWritten) {
   EXPECT_THROW(LogWriter("/no/such/folder/run", {}), Error);
+}
+
+// A limit of the size of files shows as a full disk does, if its signal is ignored.
+TEST_F(LogWriterTest, GoesOnWhenAFullDiskHasSpaceAgain) {
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  LogWriter writer(folder_.path() / "run", {});
+  writer.write({0, 0, "CHANNEL", std::vector<uint8_t>(100)});
+  writer.flush();
+  const rlimit small{200, limit.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  for (int i = 1; i < 10; ++i) writer.write({0, i, "CHANNEL", std::vector<uint8_t>(100)});
+  EXPECT_THROW(writer.flush(), Error);
+  EXPECT_EQ(times("run"), Times{0});
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, handler);
+  writer.flush();
+  EXPECT_EQ(times("run"), (Times{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(writer.num_lost(), 0);
 }
 
 }  // namespace

@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "common/bus.h"
-#include "naolcm/sensor_state_t.hpp"
+#include <naolcm/daemon_status_t.hpp>
 
 namespace nao {
 namespace {
@@ -11,45 +10,57 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(ChannelOwners, FindTwoRobotsOfOneName) {
+std::vector<uint8_t> datagram(const std::string& channel,
+                              const std::vector<uint8_t>& message = {}) {
+  std::vector<uint8_t> bytes{'L', 'C', '0', '2', 0, 0, 0, 1};
+  bytes.insert(bytes.end(), channel.c_str(), channel.c_str() + channel.size() + 1);
+  bytes.insert(bytes.end(), message.begin(), message.end());
+  return bytes;
+}
+
+void name(ChannelOwners& owners, const std::string& sender, const std::string& program) {
+  naolcm::daemon_status_t status;
+  status.program = program;
+  status.host = "pc";
+  status.process_id = 12;
+  std::vector<uint8_t> message(static_cast<size_t>(status.getEncodedSize()));
+  status.encode(message.data(), 0, static_cast<int>(message.size()));
+  owners.note(sender, datagram("DAEMON_STATUS", message));
+}
+
+TEST(ChannelOwners, NameTwoThatPublishInTurns) {
   ChannelOwners owners;
-  for (int i = 0; i < 10; ++i) {
-    owners.note("NAO_SENSOR_STATE", 90'000'000 + 10'000 * i);
-    owners.note("NAO_SENSOR_STATE", 10'000 * i);
-    owners.note("NAO2_SENSOR_STATE", 10'000 * i);
+  for (int i = 0; i < 3; ++i) {
+    owners.note("10.0.0.1:4000", datagram("NAO_SENSOR_STATE"));
+    owners.note("10.0.0.2:4000", datagram("NAO_SENSOR_STATE"));
+    owners.note("10.0.0.1:4000", datagram("NAO2_SENSOR_STATE"));
   }
+  name(owners, "10.0.0.1:4000", "nao-sim");
   EXPECT_THAT(owners.find_shared(), ElementsAre("NAO_SENSOR_STATE"));
+  EXPECT_THAT(owners.owners_of("NAO_SENSOR_STATE"),
+              ElementsAre("nao-sim of host pc (process 12)", "10.0.0.2:4000"));
+  EXPECT_THAT(owners.owners_of("NAO2_SENSOR_STATE"),
+              ElementsAre("nao-sim of host pc (process 12)"));
+  EXPECT_THAT(owners.owners_of("NAO3_SENSOR_STATE"), IsEmpty());
 }
 
-TEST(ChannelOwners, FindTwoProgramsThatAnswerOneRobot) {
+TEST(ChannelOwners, LeaveARestartAndChannelsOfManyAlone) {
   ChannelOwners owners;
-  for (int i = 0; i < 20; ++i) owners.note("NAO_JOINT_COMMAND", 10'000 * (i / 2));
-  EXPECT_THAT(owners.find_shared(), ElementsAre("NAO_JOINT_COMMAND"));
-}
-
-TEST(ChannelOwners, LeaveAResetWorldAndOneThatStandsStillAlone) {
-  ChannelOwners owners;
-  for (int i = 0; i < 20; ++i) owners.note("NAO_SENSOR_STATE", 10'000 * (i % 15));
-  for (int i = 0; i < 20; ++i) owners.note("WORLD_TRUTH", 10'000);
+  for (int i = 0; i < 20; ++i) {
+    owners.note(i < 10 ? "127.0.0.1:4000" : "127.0.0.1:4001", datagram("NAO_SENSOR_STATE"));
+    owners.note("127.0.0.1:" + std::to_string(5000 + i % 2), datagram("NAO_WALK_COMMAND"));
+  }
   EXPECT_THAT(owners.find_shared(), IsEmpty());
 }
 
-TEST(ChannelOwners, ReadTheTimeOfEncodedMessages) {
+TEST(ChannelOwners, SkipWhatIsNoMessage) {
   ChannelOwners owners;
-  Bus bus("memq://");
-  bus.subscribe_raw(kOwnedChannels, [&](const std::string& channel, const uint8_t* data, int size) {
-    owners.note(channel, data, size);
-  });
-  naolcm::sensor_state_t state{};
-  for (int i = 0; i < 6; ++i) {
-    state.utime = i % 2 == 0 ? i : 1'000'000'000'000 + i;
-    bus.publish("NAO_SENSOR_STATE", state);
-    bus.publish("NAO_WALK_COMMAND", state);
+  const std::vector<uint8_t> whole = datagram("NAO_SENSOR_STATE");
+  for (size_t size = 0; size < whole.size(); ++size) {
+    owners.note("10.0.0.1:4000", std::span(whole).first(size));
   }
-  while (bus.handle_for(0)) {
-  }
-  EXPECT_THAT(owners.find_shared(), ElementsAre("NAO_SENSOR_STATE"));
-  EXPECT_FALSE(owners.is_published("NAO_WALK_COMMAND"));
+  owners.note("10.0.0.1:4000", datagram("DAEMON_STATUS", {1, 2, 3}));
+  EXPECT_THAT(owners.owners_of("NAO_SENSOR_STATE"), IsEmpty());
 }
 
 }  // namespace

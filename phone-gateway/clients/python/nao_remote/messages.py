@@ -246,8 +246,13 @@ class Image:
         return Image(message.utime, message.age_ms, message.camera, message.width, message.height, message.jpeg)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the JPEG file."""
-        Path(path).write_bytes(self.jpeg)
+        """Writes the JPEG file, which appears whole or not at all."""
+        part = Path(f"{os.fspath(path)}.part")
+        try:
+            part.write_bytes(self.jpeg)
+            part.replace(path)
+        finally:
+            part.unlink(missing_ok=True)
 
     def to_array(self) -> Any:
         """@return the pixels as OpenCV has them: a NumPy array of uint8, (height, width, 3), blue, green, red.

@@ -35,5 +35,16 @@ TEST(Certificate, HasAKeyThatOnlyItsOwnerCanRead) {
   EXPECT_NE(read_text(files.key).find("PRIVATE KEY"), std::string::npos);
 }
 
+TEST(Certificate, IsReplacedWhereItsKeyIsThatOfAnother) {
+  const TemporaryFolder folder;
+  const CertificateNames names{{"robot"}, {}};
+  const CertificateFiles files = own_certificate(folder.path(), names);
+  const std::string first = certificate_fingerprint(files.certificate);
+  const CertificateFiles others = own_certificate(folder.path() / "other", names);
+  std::filesystem::rename(others.key, files.key);
+  own_certificate(folder.path(), names);
+  EXPECT_NE(certificate_fingerprint(files.certificate), first);
+}
+
 }  // namespace
 }  // namespace nao::gateway
