@@ -11,6 +11,7 @@
 #include "common/error.h"
 #include "kinematics/kinematics.h"
 #include "kinematics/leg_kinematics.h"
+#include "robot_import/quoted.h"
 
 namespace nao {
 namespace {
@@ -34,16 +35,6 @@ std::ostringstream make_stream() {
   text.imbue(std::locale::classic());
   text.precision(9);
   return text;
-}
-
-/** A name in YAML: quoted, for names may contain anything. */
-std::string quoted(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : name) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text + "\"";
 }
 
 /** Name of a sole's link that is new in the robot. */

@@ -12,6 +12,7 @@
 #include "robot_import/description_text.h"
 #include "robot_import/gait_text.h"
 #include "robot_import/robot_structure.h"
+#include "robot_import/touching_bodies.h"
 #include "robot_import/urdf_repair.h"
 #include "robot_model/robot_model.h"
 
@@ -31,8 +32,8 @@ void write_file(const fs::path& file, const std::string& text) {
   if (!stream) throw ModelError(file.string() + ": cannot be written");
 }
 
-// The steps need one another's results: the model is loaded three times, each time with more of its
-// description.
+// The steps need one another's results: the model is loaded several times, each time with more of
+// its description.
 void import_into(const fs::path& urdf, const fs::path& folder, Findings& findings) {
   const std::string name = folder.filename().string() + ".urdf";
   RepairedUrdf repaired = repair_urdf(urdf, folder);
@@ -56,8 +57,11 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
   write_file(folder / "robot.yaml", text);
   const RobotModel limbs = RobotModel::load(folder);
   write_file(folder / "postures.yaml", make_postures_text(limbs, findings));
-  write_file(folder / "robot.yaml", text + make_description_text(limbs));
   write_file(folder / "transitions.yaml", "transitions: []\n");
+  const std::string description = text + make_description_text(limbs);
+  write_file(folder / "robot.yaml", description);
+  const RobotModel whole = RobotModel::load(folder);
+  write_file(folder / "robot.yaml", description + make_allowed_contacts_text(whole));
   const std::string gait = make_gait_text(limbs);
   if (!gait.empty()) write_file(folder / "gait.yaml", gait);
   // The result must load; otherwise the import fails as a whole.

@@ -58,6 +58,7 @@ RobotModel RobotModelReader::read(const std::filesystem::path& folder) {
                     "mirrored_joints",
                     "motor_defaults",
                     "contact_clusters",
+                    "allowed_contacts",
                     "walk_limits",
                     "reference_postures",
                     "heights",
@@ -264,14 +265,37 @@ void RobotModelReader::read_inertial_unit(const YamlEntry& entry) {
   model_.gyroscope_ = link_named(entry.at("gyroscope"));
 }
 
-// Decides which contacts of links do not count as self-collisions: without an entry, those of
-// parent and child; with clusters, all within a cluster and between clusters that a joint connects.
+// Decides which contacts of links do not count as self-collisions: without clusters, those of
+// bodies that a joint connects and of the listed pairs; with clusters, all within a cluster and
+// between clusters that a joint connects.
 void RobotModelReader::read_contact_clusters(const YamlEntry& robot) {
   if (!robot.has("contact_clusters")) {
+    // Links behind fixed joints belong to one body.
+    std::set<std::pair<int, int>> bodies;
     for (const Joint& joint : model_.joints_) {
-      model_.allowed_contacts_.emplace_back(std::minmax(joint.parent_link, joint.child_link));
+      bodies.insert(
+          std::minmax(model_.find_body(joint.parent_link), model_.find_body(joint.child_link)));
+    }
+    if (robot.has("allowed_contacts")) {
+      for (const YamlEntry& pair : robot.at("allowed_contacts").items()) {
+        const std::vector<YamlEntry> links = pair.items();
+        if (links.size() != 2) pair.fail("must be two links");
+        bodies.insert(std::minmax(model_.find_body(link_named(links[0])),
+                                  model_.find_body(link_named(links[1]))));
+      }
+    }
+    const int count = static_cast<int>(model_.links_.size());
+    for (int a = 0; a < count; ++a) {
+      for (int b = a + 1; b < count; ++b) {
+        if (bodies.count(std::minmax(model_.find_body(a), model_.find_body(b))) > 0) {
+          model_.allowed_contacts_.emplace_back(a, b);
+        }
+      }
     }
     return;
+  }
+  if (robot.has("allowed_contacts")) {
+    robot.at("allowed_contacts").fail("must not be there besides `contact_clusters`");
   }
   const YamlEntry list = robot.at("contact_clusters");
   constexpr int kNone = -1;

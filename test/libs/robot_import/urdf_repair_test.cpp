@@ -6,52 +6,14 @@
 
 #include <random>
 
-#include "common/error.h"
 #include "robot_import/mesh_import.h"
-#include "robot_import/robot_import.h"
-#include "robot_model/robot_model.h"
-#include "test/support/test_biped.h"
+#include "test/libs/robot_import/imported_urdf.h"
 
 namespace nao {
 namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
-
-/** A biped's URDF that a test may change, and its import. */
-class ImportedUrdf : public testing::Test {
- protected:
-  /** Replaces the first occurrence after a text. */
-  void replace(const std::string& after, const std::string& from, const std::string& to) {
-    const size_t at = urdf_.find(from, urdf_.find(after));
-    ASSERT_NE(at, std::string::npos) << from;
-    urdf_.replace(at, from.size(), to);
-  }
-  RobotModel import() {
-    write_text(folder_.path() / "source" / "biped.urdf", urdf_);
-    std::filesystem::remove_all(robot());
-    findings_ = import_robot(folder_.path() / "source" / "biped.urdf", robot());
-    lines_.clear();
-    for (const Finding& finding : findings_) lines_.push_back(to_line(finding));
-    return RobotModel::load(robot());
-  }
-  std::string error_of_import() {
-    try {
-      import();
-      return "";
-    } catch (const ModelError& error) {
-      return error.what();
-    }
-  }
-  std::filesystem::path robot() const { return folder_.path() / "biped"; }
-  std::filesystem::path source() const { return folder_.path() / "source"; }
-  void SetUp() override { std::filesystem::create_directories(source()); }
-
-  TemporaryFolder folder_;
-  std::string urdf_ = make_biped_urdf(TestBiped{});
-  Findings findings_;
-  std::vector<std::string> lines_;
-};
 
 TEST_F(ImportedUrdf, WithoutMeshesIsReadAsItIs) {
   const RobotModel model = import();
