@@ -270,7 +270,7 @@ std::string make_description_text(const RobotModel& model) {
   const double length = legs ? legs->reach() : height;
   const double speed = kFroudeVelocity * std::sqrt(kGravity * length);
   Kinematics kinematics(model);
-  kinematics.update(model.find_posture("ready")->position);
+  kinematics.update(std::vector<double>(model.num_motors(), 0.0));
   const double center_height =
       kinematics.center_of_mass().z() - kinematics.left_sole().translation().z();
   text << "\n# Servos of the legs, N m/rad: two legs hold " << kPendulumStiffness
