@@ -1,5 +1,6 @@
 #include "robot_import/mesh_import.h"
 
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -23,6 +24,8 @@ constexpr double kRoundRatio = 1.5;
 // Meshes with all transforms of the file's node tree and the URDF's scale applied.
 const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::path& file,
                           const Eigen::Vector3d& scale) {
+  // The axes of a Collada file are the link's, whatever it says of the upward one: as in RViz.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(
       file.string(), aiProcess_Triangulate | aiProcess_GenNormals | aiProcess_PreTransformVertices |
                          aiProcess_JoinIdenticalVertices);

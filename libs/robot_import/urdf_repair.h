@@ -20,7 +20,7 @@ struct RepairedUrdf {
  * Meshes named by package:// or relative paths are searched beside the file and in the folders
  * above it, and written in metres as GLB; mesh collision shapes become capsules or boxes about
  * them. Continuous joints get limits; prismatic, planar and floating joints are held (fixed).
- * Missing limits and impossible inertias are replaced. Links without mass stay.
+ * Missing limits and impossible inertias are replaced. More in urdf_dialect.h, urdf_mechanism.h.
  *
  * @param file    The URDF; output of xacro, not its input. @param folder  Existing; its subfolder
  *   "meshes" receives the meshes.
