@@ -11,6 +11,7 @@
 #include "kinematics/support_polygon.h"
 #include "robot_import/description_text.h"
 #include "robot_import/gait_text.h"
+#include "robot_import/plausible_numbers.h"
 #include "robot_import/robot_structure.h"
 #include "robot_import/touching_bodies.h"
 #include "robot_import/urdf_repair.h"
@@ -32,6 +33,14 @@ void write_file(const fs::path& file, const std::string& text) {
   if (!stream) throw ModelError(file.string() + ": cannot be written");
 }
 
+/** From the first joint of the left leg to its sole, at the angle 0, m. */
+double calc_leg_height(const RobotModel& model, const RobotStructure& structure) {
+  const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
+  const FoundSole& sole = structure.soles[0];
+  const int hip = model.joints()[model.find_chain(sole.foot).front()].child_link;
+  return (poses[hip].translation() - poses[sole.foot] * sole.pose_in_foot.translation()).norm();
+}
+
 // The steps need one another's results: the model is loaded several times, each time with more of
 // its description.
 void import_into(const fs::path& urdf, const fs::path& folder, Findings& findings) {
@@ -49,6 +58,8 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
   const RobotModel tree = RobotModel::load(folder);
   const RobotStructure structure = find_structure(tree, findings);
 
+  repaired.text = with_plausible_numbers(repaired.text, tree, calc_leg_height(tree, structure),
+                                         urdf.filename().string(), findings);
   const size_t end = repaired.text.rfind("</robot>");
   if (end == std::string::npos) throw ModelError(urdf.string() + ": has no </robot>");
   // Soles become links of the URDF, so that all programs know their frames.
