@@ -231,9 +231,16 @@ Sizes measure(const RobotModel& model, const LegKinematics& legs) {
   return sizes;
 }
 
+double factor_of(const GaitFactors& factors, const std::string& group, const std::string& name) {
+  if (group == "swing" && name == "height") return factors.swing_height;
+  if (name == "hip_height") return factors.hip_height;
+  const bool is_step = group == "timing" && name.find("step_duration") != std::string::npos;
+  return is_step ? factors.step_duration : 1;
+}
+
 }  // namespace
 
-std::string make_gait_text(const RobotModel& model) {
+std::string make_gait_text(const RobotModel& model, const GaitFactors& factors) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::setprecision(4)
@@ -245,12 +252,14 @@ std::string make_gait_text(const RobotModel& model) {
   try {
     const LegKinematics legs(model);
     const Sizes sizes = measure(model, legs);
+    std::string group;
     for (const Row& row : kRows) {
       if (row.upper == 0) {
+        group = row.name;
         text << "\n# " << row.comment << "\n" << row.name << ":\n";
         continue;
       }
-      const double unit = sizes.unit(row.scale);
+      const double unit = sizes.unit(row.scale) * factor_of(factors, group, row.name);
       text << "  " << row.name << ": {value: " << unit * row.value << ", range: ["
            << unit * row.lower << ", " << unit * row.upper << "]}";
       if (*row.comment != 0) text << "  # " << row.comment;

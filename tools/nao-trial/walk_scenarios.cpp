@@ -165,7 +165,9 @@ RunResult failed(std::string failure) {
 }
 
 RunResult fallen(double time) {
-  return failed("fell after " + std::to_string(std::lround(time)) + " s");
+  RunResult result = failed("fell after " + std::to_string(std::lround(time)) + " s");
+  result.metrics = {{"upright_s", time}};
+  return result;
 }
 
 /** Why a walk has ended before it was told to; nothing while it goes on. */
@@ -182,7 +184,7 @@ std::optional<std::string> find_early_end(const ClosedLoop& trial, int64_t walk)
 std::map<std::string, std::string> WalkScenario::units() const {
   return {{"speed_mps", "m/s"},    {"turning_radps", "rad/s"}, {"tracking_error", "1"},
           {"odometry_error", "1"}, {"stopping_s", "s"},        {"stopping_mm", "mm"},
-          {"drift_5m_mm", "mm"}};
+          {"drift_5m_mm", "mm"},   {"upright_s", "s"}};
 }
 
 std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_t seed) const {
