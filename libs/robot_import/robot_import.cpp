@@ -47,7 +47,7 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
                                         ", right: " + sole + "}\n");
   write_file(folder / "postures.yaml", "postures: []\n");
   const RobotModel tree = RobotModel::load(folder);
-  const RobotStructure structure = find_structure(tree, findings);
+  const RobotStructure structure = find_structure(tree, repaired.mesh_points, findings);
 
   const size_t end = repaired.text.rfind("</robot>");
   if (end == std::string::npos) throw ModelError(urdf.string() + ": has no </robot>");
