@@ -20,6 +20,12 @@ namespace {
 // How far the hips are below those of stretched legs, fraction of the leg's length.
 constexpr double kReadyBend = 0.05;
 constexpr double kCrouchBend = 0.2;
+// Fraction of the ankles' greatest torque that holds the center of mass while the robot stands:
+// half of what a motor holds without a time limit.
+constexpr double kAnkleLoad = 0.25;
+// Stiffness of both ankles, in units of m g h: an inverted pendulum of the mass m and the height h
+// falls below 1. Chosen: below 3 published robots sag and sway, from 4 on they stand.
+constexpr double kPendulumStiffness = 5;
 // Froude number v^2 / (g l) of the walk limits' forward velocity. Chosen: v / sqrt(g l) = 0.17, a
 // slow walk that every biped of these proportions should reach.
 constexpr double kFroudeVelocity = 0.17;
@@ -142,11 +148,20 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
   kinematics.update(std::vector<double>(model.num_motors(), 0.0));
   const std::array<Eigen::Isometry3d, 2> straight = {kinematics.left_sole(),
                                                      kinematics.right_sole()};
-  // Center of the outline, in the sole's frame; the center of mass is brought over it.
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  // The center of mass is brought over the center of the outline, in the sole's frame, or as near
+  // to it as the ankles hold it there.
+  double center = 0;
   for (const Eigen::Vector2d& corner : model.left_sole_outline()) {
-    center += corner / static_cast<double>(model.left_sole_outline().size());
+    center += corner.x() / static_cast<double>(model.left_sole_outline().size());
   }
+  const int ankle = legs->motors(Leg::kLeft)[legs->roles(Leg::kLeft).ankle_pitch];
+  const double ankle_x =
+      (straight[0].inverse() * kinematics.link_pose(model.motor_joint(ankle).child_link))
+          .translation()
+          .x();
+  const double lever =
+      kAnkleLoad * 2 * model.motor_joint(ankle).max_torque / (model.total_mass() * kGravity);
+  center = std::clamp(center, ankle_x - lever, ankle_x + lever);
   // The legs' own mass moves with them: a few rounds bring the center of mass over the soles.
   double ahead = 0;
   for (int round = 0; round < 6; ++round) {
@@ -162,8 +177,7 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
     kinematics.update(position);
     // Fixed-point iteration: the soles move forward by the distance of the center of mass ahead of
     // them.
-    ahead +=
-        kinematics.center_of_mass().x() - (kinematics.left_sole().translation().x() + center.x());
+    ahead += kinematics.center_of_mass().x() - (kinematics.left_sole().translation().x() + center);
   }
   // A solution beyond a joint's limits is not accepted.
   for (int motor = 0; motor < model.num_motors(); ++motor) {
@@ -281,6 +295,13 @@ std::string make_description_text(const RobotModel& model) {
   const auto legs = find_leg_kinematics(model);
   const double length = legs ? legs->reach() : height;
   const double speed = kFroudeVelocity * std::sqrt(kGravity * length);
+  Kinematics kinematics(model);
+  kinematics.update(std::vector<double>(model.num_motors(), 0.0));
+  const double center_height =
+      kinematics.center_of_mass().z() - kinematics.left_sole().translation().z();
+  text << "\n# Servos of the legs, N m/rad: two legs hold " << kPendulumStiffness
+       << " m g h.\nmotor_defaults: {least_leg_stiffness: "
+       << 0.5 * kPendulumStiffness * model.total_mass() * kGravity * center_height << "}\n";
   text << "\nreference_postures: {ready: ready, stand: zero, rest: crouch}\n"
        << "\n# Bounds of a stance in which a walk can begin, m.\nwalking_stance: {width: ["
        << 0.7 * width << ", " << 1.8 * width << "], greatest_lead: " << 0.25 * length
