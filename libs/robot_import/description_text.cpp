@@ -11,6 +11,7 @@
 #include "common/error.h"
 #include "kinematics/kinematics.h"
 #include "kinematics/leg_kinematics.h"
+#include "robot_import/level_stance.h"
 #include "robot_import/quoted.h"
 
 namespace nao {
@@ -37,11 +38,14 @@ std::ostringstream make_stream() {
   return text;
 }
 
-/** Name of a sole's link that is new in the robot. */
-std::string make_sole_name(const RobotModel& model, int side) {
-  std::string name = side == 0 ? "left_sole" : "right_sole";
+/** The name of a link that is new in the robot. */
+std::string make_free_name(const RobotModel& model, std::string name) {
   while (model.find_link(name) >= 0 || model.find_joint(name + "_mount") >= 0) name += "_";
   return name;
+}
+
+std::string make_sole_name(const RobotModel& model, int side) {
+  return make_free_name(model, side == 0 ? "left_sole" : "right_sole");
 }
 
 // nullopt for legs without inverse kinematics: such a robot is imported, but cannot walk.
@@ -199,7 +203,9 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
                                 const std::string& urdf) {
   std::ostringstream text = make_stream();
   // Writes the form that RobotModelReader reads.
-  const std::string root = quoted(model.links().front().name);
+  const bool has_frame = !structure.frame.matrix().isIdentity(0);
+  const std::string root =
+      quoted(has_frame ? make_free_name(model, "robot_frame") : model.links().front().name);
   text << "urdf: " << urdf << "\n\n"
        << "# Frames of the inertial unit.\n"
        << "inertial_unit: {accelerometer: " << root << ", gyroscope: " << root << "}\n\n"
@@ -233,18 +239,38 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
 std::string make_sole_links(const RobotModel& model, const RobotStructure& structure) {
   std::ostringstream text = make_stream();
   text.precision(12);
-  for (int side = 0; side < 2; ++side) {
-    const FoundSole& sole = structure.soles[side];
-    const std::string name = make_sole_name(model, side);
-    const Eigen::Vector3d xyz = sole.pose_in_foot.translation();
-    // Written below as roll, pitch and yaw of R = Rz(yaw) Ry(pitch) Rx(roll), URDF's order.
-    const Eigen::Matrix3d& r = sole.pose_in_foot.linear();
-    text << "<link name=\"" << name << "\"/>\n<joint name=\"" << name
-         << "_mount\" type=\"fixed\">\n  <parent link=\"" << model.links()[sole.foot].name
-         << "\"/>\n  <child link=\"" << name << "\"/>\n  <origin xyz=\"" << xyz.x() << " "
+  const auto add_joint = [&](const std::string& name, const std::string& parent,
+                             const std::string& child, const Eigen::Isometry3d& pose) {
+    const Eigen::Vector3d xyz = pose.translation();
+    // Roll, pitch and yaw of R = Rz(yaw) Ry(pitch) Rx(roll), URDF's order.
+    const Eigen::Matrix3d& r = pose.linear();
+    text << "<joint name=\"" << name << "\" type=\"fixed\">\n  <parent link=\"" << parent
+         << "\"/>\n  <child link=\"" << child << "\"/>\n  <origin xyz=\"" << xyz.x() << " "
          << xyz.y() << " " << xyz.z() << "\" rpy=\"" << std::atan2(r(2, 1), r(2, 2)) << " "
          << std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))) << " "
          << std::atan2(r(1, 0), r(0, 0)) << "\"/>\n</joint>\n";
+  };
+  if (!structure.frame.matrix().isIdentity(0)) {
+    const std::string root = make_free_name(model, "robot_frame");
+    text << "<link name=\"" << root << "\"/>\n";
+    add_joint(root + "_mount", root, model.links().front().name, structure.frame.inverse());
+  }
+  for (int side = 0; side < 2; ++side) {
+    const FoundSole& sole = structure.soles[side];
+    const std::string name = make_sole_name(model, side);
+    text << "<link name=\"" << name << "\">";
+    if (!sole.has_shape) {
+      // A thin plate on the sole, for otherwise nothing carries the robot.
+      Eigen::AlignedBox2d box;
+      for (const Eigen::Vector2d& corner : sole.outline) box.extend(corner);
+      const double thickness = 0.05 * box.sizes().maxCoeff();
+      text << "<collision name=\"plate\"><origin xyz=\"" << box.center().x() << " "
+           << box.center().y() << " " << 0.5 * thickness << "\"/><geometry><box size=\""
+           << box.sizes().x() << " " << box.sizes().y() << " " << thickness
+           << "\"/></geometry></collision>";
+    }
+    text << "</link>\n";
+    add_joint(name + "_mount", model.links()[sole.foot].name, name, sole.pose_in_foot);
   }
   return text.str();
 }
@@ -296,7 +322,8 @@ std::string make_postures_text(const RobotModel& model, Findings& findings) {
   }
   text << "# Angles of the motors, rad.\npostures:\n";
   const auto add = [&](const std::string& name, const std::string& family, double bend) {
-    const auto stance = find_stance(model, bend);
+    auto stance = find_stance(model, bend);
+    if (!stance) stance = find_level_stance(model, bend);
     if (!stance) {
       findings.push_back({Finding::Severity::kMissing, "postures.yaml", 0, "posture " + name,
                           "the legs do not reach it",

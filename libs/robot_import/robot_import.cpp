@@ -56,7 +56,7 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
                                         ", right: " + sole + "}\n");
   write_file(folder / "postures.yaml", "postures: []\n");
   const RobotModel tree = RobotModel::load(folder);
-  const RobotStructure structure = find_structure(tree, findings);
+  const RobotStructure structure = find_structure(tree, repaired.mesh_points, findings);
 
   repaired.text = with_plausible_numbers(repaired.text, tree, calc_leg_height(tree, structure),
                                          urdf.filename().string(), findings);

@@ -274,6 +274,7 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
                              const std::string& element) {
   TiXmlElement& mesh = *geometry.FirstChildElement("mesh");
   const std::string name = mesh.Attribute("filename") == nullptr ? "" : mesh.Attribute("filename");
+  const std::string link_name = shape.Parent()->ToElement()->Attribute("name");
   const fs::path source = find_mesh(name);
   if (source.empty()) {
     // A missing visual only looks bad; a missing collision shape changes the physics.
@@ -283,6 +284,11 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
                       : "it is left out: put the file there and import again");
     return false;
   }
+  const auto add_points = [&](int number, const std::vector<Eigen::Vector3d>& corners) {
+    std::vector<Eigen::Vector3d>& points = result_.mesh_points[{link_name, number}];
+    const Eigen::Isometry3d pose = read_origin(shape);
+    for (const Eigen::Vector3d& corner : corners) points.push_back(pose * corner);
+  };
   const auto factors = read_numbers(mesh, "scale", 3);
   const Eigen::Vector3d scale =
       factors ? Eigen::Vector3d(factors->data()) : Eigen::Vector3d::Ones();
@@ -292,11 +298,20 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
           "meshes/" + std::to_string(num_meshes_++) + "_" + source.stem().string() + ".glb";
       fs::create_directories(folder_ / "meshes");
       convert_mesh(source, scale, folder_ / target);
+      if (shape.Parent()->FirstChildElement("collision") == nullptr) {
+        add_points(-1, read_mesh_points(source, scale));
+      }
       mesh.SetAttribute("filename", target.c_str());
       mesh.RemoveAttribute("scale");
       return true;
     }
-    const FittedShape fitted = fit_shape(read_mesh_points(source, scale));
+    const std::vector<Eigen::Vector3d> corners = read_mesh_points(source, scale);
+    const FittedShape fitted = fit_shape(corners);
+    int number = 0;
+    for (const TiXmlNode* before = &shape; (before = before->PreviousSibling("collision"));) {
+      ++number;
+    }
+    add_points(number, corners);
     geometry.RemoveChild(&mesh);
     TiXmlElement primitive(fitted.is_capsule ? "cylinder" : "box");
     if (fitted.is_capsule) {
