@@ -132,12 +132,12 @@ CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int nu
                              tree.body_of_link(sole_links[side]) == part.body;
         if (is_sole) sole = side;
       }
-      double sole_height = 0;
+      Eigen::Isometry3d body_in_sole = Eigen::Isometry3d::Identity();
       if (sole >= 0) {
         // The outline's corners replace the shape's own lower corners on the floor.
         has_sole[sole] = true;
         const Eigen::Isometry3d& pose = tree.pose_in_body(sole_links[sole]);
-        sole_height = pose.translation().z();
+        body_in_sole = pose.inverse();
         std::vector<Eigen::Vector2d> contacts = outlines[sole];
         if (spacing > 0) {
           const std::vector<Eigen::Vector2d> inner = inner_points(outlines[sole], spacing);
@@ -153,7 +153,7 @@ CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int nu
       // Corners of the shape itself, for a robot that lies on the floor.
       for (const Vector3d& corner : corners_of(part)) {
         // Corners within 1 mm of the sole's plane, or below it, are the lower ones.
-        if (sole >= 0 && corner.z() - part.radius < sole_height + 1e-3) continue;
+        if (sole >= 0 && (body_in_sole * corner).z() - part.radius < 1e-3) continue;
         points.push_back({corner, part.radius, -1});
       }
       part.end_point = static_cast<int>(points.size());

@@ -70,7 +70,17 @@ LegKinematics::CoupledLeg LegKinematics::read_coupled(const RobotModel& model, L
   };
   require(description.joints.size() == 6, "other joints lead to it");
   std::array<const Joint*, 6> joints{};
-  int parent = 0;
+  // The hip's parent is the root, or fixed to it.
+  int parent = model.joints()[description.joints[0]].parent_link;
+  require(model.find_body(parent) == 0, "its first joint is not at the root");
+  Eigen::Vector3d base = Eigen::Vector3d::Zero();
+  for (int link = parent; link != 0;) {
+    const Joint& mount = model.joints()[model.links()[link].parent_joint];
+    require(mount.pose_in_parent.linear().isIdentity(kLegTolerance),
+            mount.name + " has a turned frame");
+    base += mount.pose_in_parent.translation();
+    link = mount.parent_link;
+  }
   for (size_t i = 0; i < joints.size(); ++i) {
     joints[i] = &model.joints()[description.joints[i]];
     require(joints[i]->parent_link == parent, joints[i]->name + " is not where it belongs");
@@ -99,7 +109,7 @@ LegKinematics::CoupledLeg LegKinematics::read_coupled(const RobotModel& model, L
           "its sole is not fixed to the foot");
 
   CoupledLeg result{};
-  result.hip = origin(0);
+  result.hip = base + origin(0);
   result.thigh = -origin(3).z();
   result.tibia = -origin(4).z();
   result.sole_offset = sole_joint.pose_in_parent.translation();

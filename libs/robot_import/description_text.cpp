@@ -11,6 +11,8 @@
 #include "common/error.h"
 #include "kinematics/kinematics.h"
 #include "kinematics/leg_kinematics.h"
+#include "robot_import/level_stance.h"
+#include "robot_import/quoted.h"
 
 namespace nao {
 namespace {
@@ -18,6 +20,12 @@ namespace {
 // How far the hips are below those of stretched legs, fraction of the leg's length.
 constexpr double kReadyBend = 0.05;
 constexpr double kCrouchBend = 0.2;
+// Fraction of the ankles' greatest torque that holds the center of mass while the robot stands:
+// half of what a motor holds without a time limit.
+constexpr double kAnkleLoad = 0.25;
+// Stiffness of both ankles, in units of m g h: an inverted pendulum of the mass m and the height h
+// falls below 1. Chosen: below 3 published robots sag and sway, from 4 on they stand.
+constexpr double kPendulumStiffness = 5;
 // Froude number v^2 / (g l) of the walk limits' forward velocity. Chosen: v / sqrt(g l) = 0.17, a
 // slow walk that every biped of these proportions should reach.
 constexpr double kFroudeVelocity = 0.17;
@@ -30,21 +38,14 @@ std::ostringstream make_stream() {
   return text;
 }
 
-/** A name in YAML: quoted, for names may contain anything. */
-std::string quoted(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : name) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text + "\"";
-}
-
-/** Name of a sole's link that is new in the robot. */
-std::string make_sole_name(const RobotModel& model, int side) {
-  std::string name = side == 0 ? "left_sole" : "right_sole";
+/** The name of a link that is new in the robot. */
+std::string make_free_name(const RobotModel& model, std::string name) {
   while (model.find_link(name) >= 0 || model.find_joint(name + "_mount") >= 0) name += "_";
   return name;
+}
+
+std::string make_sole_name(const RobotModel& model, int side) {
+  return make_free_name(model, side == 0 ? "left_sole" : "right_sole");
 }
 
 // nullopt for legs without inverse kinematics: such a robot is imported, but cannot walk.
@@ -147,11 +148,20 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
   kinematics.update(std::vector<double>(model.num_motors(), 0.0));
   const std::array<Eigen::Isometry3d, 2> straight = {kinematics.left_sole(),
                                                      kinematics.right_sole()};
-  // Center of the outline, in the sole's frame; the center of mass is brought over it.
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  // The center of mass is brought over the center of the outline, in the sole's frame, or as near
+  // to it as the ankles hold it there.
+  double center = 0;
   for (const Eigen::Vector2d& corner : model.left_sole_outline()) {
-    center += corner / static_cast<double>(model.left_sole_outline().size());
+    center += corner.x() / static_cast<double>(model.left_sole_outline().size());
   }
+  const int ankle = legs->motors(Leg::kLeft)[legs->roles(Leg::kLeft).ankle_pitch];
+  const double ankle_x =
+      (straight[0].inverse() * kinematics.link_pose(model.motor_joint(ankle).child_link))
+          .translation()
+          .x();
+  const double lever =
+      kAnkleLoad * 2 * model.motor_joint(ankle).max_torque / (model.total_mass() * kGravity);
+  center = std::clamp(center, ankle_x - lever, ankle_x + lever);
   // The legs' own mass moves with them: a few rounds bring the center of mass over the soles.
   double ahead = 0;
   for (int round = 0; round < 6; ++round) {
@@ -167,8 +177,7 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
     kinematics.update(position);
     // Fixed-point iteration: the soles move forward by the distance of the center of mass ahead of
     // them.
-    ahead +=
-        kinematics.center_of_mass().x() - (kinematics.left_sole().translation().x() + center.x());
+    ahead += kinematics.center_of_mass().x() - (kinematics.left_sole().translation().x() + center);
   }
   // A solution beyond a joint's limits is not accepted.
   for (int motor = 0; motor < model.num_motors(); ++motor) {
@@ -194,7 +203,9 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
                                 const std::string& urdf) {
   std::ostringstream text = make_stream();
   // Writes the form that RobotModelReader reads.
-  const std::string root = quoted(model.links().front().name);
+  const bool has_frame = !structure.frame.matrix().isIdentity(0);
+  const std::string root =
+      quoted(has_frame ? make_free_name(model, "robot_frame") : model.links().front().name);
   text << "urdf: " << urdf << "\n\n"
        << "# Frames of the inertial unit.\n"
        << "inertial_unit: {accelerometer: " << root << ", gyroscope: " << root << "}\n\n"
@@ -228,18 +239,38 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
 std::string make_sole_links(const RobotModel& model, const RobotStructure& structure) {
   std::ostringstream text = make_stream();
   text.precision(12);
-  for (int side = 0; side < 2; ++side) {
-    const FoundSole& sole = structure.soles[side];
-    const std::string name = make_sole_name(model, side);
-    const Eigen::Vector3d xyz = sole.pose_in_foot.translation();
-    // Written below as roll, pitch and yaw of R = Rz(yaw) Ry(pitch) Rx(roll), URDF's order.
-    const Eigen::Matrix3d& r = sole.pose_in_foot.linear();
-    text << "<link name=\"" << name << "\"/>\n<joint name=\"" << name
-         << "_mount\" type=\"fixed\">\n  <parent link=\"" << model.links()[sole.foot].name
-         << "\"/>\n  <child link=\"" << name << "\"/>\n  <origin xyz=\"" << xyz.x() << " "
+  const auto add_joint = [&](const std::string& name, const std::string& parent,
+                             const std::string& child, const Eigen::Isometry3d& pose) {
+    const Eigen::Vector3d xyz = pose.translation();
+    // Roll, pitch and yaw of R = Rz(yaw) Ry(pitch) Rx(roll), URDF's order.
+    const Eigen::Matrix3d& r = pose.linear();
+    text << "<joint name=\"" << name << "\" type=\"fixed\">\n  <parent link=\"" << parent
+         << "\"/>\n  <child link=\"" << child << "\"/>\n  <origin xyz=\"" << xyz.x() << " "
          << xyz.y() << " " << xyz.z() << "\" rpy=\"" << std::atan2(r(2, 1), r(2, 2)) << " "
          << std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))) << " "
          << std::atan2(r(1, 0), r(0, 0)) << "\"/>\n</joint>\n";
+  };
+  if (!structure.frame.matrix().isIdentity(0)) {
+    const std::string root = make_free_name(model, "robot_frame");
+    text << "<link name=\"" << root << "\"/>\n";
+    add_joint(root + "_mount", root, model.links().front().name, structure.frame.inverse());
+  }
+  for (int side = 0; side < 2; ++side) {
+    const FoundSole& sole = structure.soles[side];
+    const std::string name = make_sole_name(model, side);
+    text << "<link name=\"" << name << "\">";
+    if (!sole.has_shape) {
+      // A thin plate on the sole, for otherwise nothing carries the robot.
+      Eigen::AlignedBox2d box;
+      for (const Eigen::Vector2d& corner : sole.outline) box.extend(corner);
+      const double thickness = 0.05 * box.sizes().maxCoeff();
+      text << "<collision name=\"plate\"><origin xyz=\"" << box.center().x() << " "
+           << box.center().y() << " " << 0.5 * thickness << "\"/><geometry><box size=\""
+           << box.sizes().x() << " " << box.sizes().y() << " " << thickness
+           << "\"/></geometry></collision>";
+    }
+    text << "</link>\n";
+    add_joint(name + "_mount", model.links()[sole.foot].name, name, sole.pose_in_foot);
   }
   return text.str();
 }
@@ -264,6 +295,13 @@ std::string make_description_text(const RobotModel& model) {
   const auto legs = find_leg_kinematics(model);
   const double length = legs ? legs->reach() : height;
   const double speed = kFroudeVelocity * std::sqrt(kGravity * length);
+  Kinematics kinematics(model);
+  kinematics.update(std::vector<double>(model.num_motors(), 0.0));
+  const double center_height =
+      kinematics.center_of_mass().z() - kinematics.left_sole().translation().z();
+  text << "\n# Servos of the legs, N m/rad: two legs hold " << kPendulumStiffness
+       << " m g h.\nmotor_defaults: {least_leg_stiffness: "
+       << 0.5 * kPendulumStiffness * model.total_mass() * kGravity * center_height << "}\n";
   text << "\nreference_postures: {ready: ready, stand: zero, rest: crouch}\n"
        << "\n# Bounds of a stance in which a walk can begin, m.\nwalking_stance: {width: ["
        << 0.7 * width << ", " << 1.8 * width << "], greatest_lead: " << 0.25 * length
@@ -284,7 +322,8 @@ std::string make_postures_text(const RobotModel& model, Findings& findings) {
   }
   text << "# Angles of the motors, rad.\npostures:\n";
   const auto add = [&](const std::string& name, const std::string& family, double bend) {
-    const auto stance = find_stance(model, bend);
+    auto stance = find_stance(model, bend);
+    if (!stance) stance = find_level_stance(model, bend);
     if (!stance) {
       findings.push_back({Finding::Severity::kMissing, "postures.yaml", 0, "posture " + name,
                           "the legs do not reach it",

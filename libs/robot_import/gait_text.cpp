@@ -1,5 +1,6 @@
 #include "robot_import/gait_text.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iomanip>
@@ -34,8 +35,10 @@ enum class Scale {
   kSoleWidth,
   kToe,
   kHeel,
-  /** Height of the hips above the ground with stretched legs, m. */
+  /** Height of the hips above the ground in the walk, m. */
   kHipHeight,
+  /** Least distance of the soles, m. */
+  kLeastDistance,
 };
 
 struct Row {
@@ -64,7 +67,7 @@ constexpr std::array kRows = {
     Row{"late_duration", Scale::kTime, 0.08, 0, 1.4, "wait for a late touchdown"},
     Row{"stop_horizon", Scale::kTime, 1.4, 0.7, 3.5, "time to bring the DCM to rest"},
     Row{"stance", {}, 0, 0, 0, "Pose of torso and feet: m, rad, s."},
-    Row{"hip_height", Scale::kHipHeight, 0.91, 0.8, 0.96, "height of the hips"},
+    Row{"hip_height", Scale::kHipHeight, 1, 0.9, 1.04, "height of the hips"},
     Row{"torso_pitch", Scale::kOne, 0.03, -0.05, 0.2, "forward positive"},
     Row{"foot_separation", Scale::kFootDistance, 1, 0.75, 1.2, "distance of the soles' origins"},
     Row{"turn_center", Scale::kLength, 0.12, -0.1, 0.25, "body frame's lead over the soles"},
@@ -83,7 +86,7 @@ constexpr std::array kRows = {
     Row{"max_forward", Scale::kLength, 0.54, 0.15, 0.8, ""},
     Row{"max_backward", Scale::kLength, 0.44, 0.15, 0.8, ""},
     Row{"max_outward", Scale::kLength, 0.45, 0.15, 0.6, "in addition to foot_separation"},
-    Row{"min_foot_separation", Scale::kSoleWidth, 1.25, 1.1, 2, "with parallel feet"},
+    Row{"min_foot_separation", Scale::kLeastDistance, 1, 0.9, 1.1, "with parallel feet"},
     Row{"max_turn_outward", Scale::kOne, 0.6, 0.2, 1, ""},
     Row{"max_turn_inward", Scale::kOne, 0.2, 0, 0.5, ""},
     Row{"turn_inward_without_spread", Scale::kOne, 0.05, 0, 0.3, ""},
@@ -147,11 +150,25 @@ constexpr std::array kRows = {
     Row{"swing_gain", Scale::kPerLength, 0.37, 0, 1.6, ""},
 };
 
+// Height of the hips in the walk, fraction of that with stretched legs: bent as the NAO's; and the
+// greatest at which the foot still swings. Between them the knee decides.
+constexpr double kBentHeight = 0.91;
+constexpr double kStretchedHeight = 0.95;
+// Fraction of its greatest torque that the knee of the support leg may need. Chosen: leaves the
+// rest to the steps.
+constexpr double kKneeLoad = 0.6;
+// Soles side by side: their widths apart, or the gap between them, m, but not farther apart than in
+// the stance.
+constexpr double kWidthsApart = 1.25;
+constexpr double kSoleGap = 0.01;
+constexpr double kOfStance = 0.9;
+
 /** Sizes of a robot, m. */
 struct Sizes {
   double leg;
   double foot_distance;
   double hip_height;
+  double least_distance;
   Eigen::AlignedBox2d sole;
 
   double unit(Scale scale) const {
@@ -181,6 +198,8 @@ struct Sizes {
         return -sole.min().x();
       case Scale::kHipHeight:
         return hip_height;
+      case Scale::kLeastDistance:
+        return least_distance;
     }
     return std::numeric_limits<double>::quiet_NaN();
   }
@@ -191,14 +210,37 @@ Sizes measure(const RobotModel& model, const LegKinematics& legs) {
   const Eigen::Vector3d left = poses[model.left_sole()].translation();
   const Eigen::Vector3d right = poses[model.right_sole()].translation();
   const Eigen::Vector3d hips = 0.5 * (legs.hip(Leg::kLeft) + legs.hip(Leg::kRight));
-  Sizes sizes{legs.reach(), left.y() - right.y(), hips.z() - left.z(), {}};
+  const double stretched = hips.z() - left.z();
+  // One leg carries the robot on a knee that is l / 2 sin(acos(height / l)) ahead of the line from
+  // hip to ankle (thigh and shank of l / 2).
+  const int knee = legs.motors(Leg::kLeft)[legs.roles(Leg::kLeft).knee];
+  const double lever = kKneeLoad * model.motor_joint(knee).max_torque /
+                       (model.total_mass() * kGravity * 0.5 * legs.reach());
+  const double height = std::sqrt(1 - std::min(1.0, lever * lever));
+  Sizes sizes{legs.reach(),
+              left.y() - right.y(),
+              stretched * std::clamp(height, kBentHeight, kStretchedHeight),
+              0,
+              {}};
   for (const Eigen::Vector2d& corner : model.left_sole_outline()) sizes.sole.extend(corner);
+  Eigen::AlignedBox2d right_sole;
+  for (const Eigen::Vector2d& corner : model.right_sole_outline()) right_sole.extend(corner);
+  const double inner_sides = right_sole.max().y() - sizes.sole.min().y();
+  sizes.least_distance = std::min({kWidthsApart * sizes.sole.sizes().y(), inner_sides + kSoleGap,
+                                   kOfStance * sizes.foot_distance});
   return sizes;
+}
+
+double factor_of(const GaitFactors& factors, const std::string& group, const std::string& name) {
+  if (group == "swing" && name == "height") return factors.swing_height;
+  if (name == "hip_height") return factors.hip_height;
+  const bool is_step = group == "timing" && name.find("step_duration") != std::string::npos;
+  return is_step ? factors.step_duration : 1;
 }
 
 }  // namespace
 
-std::string make_gait_text(const RobotModel& model) {
+std::string make_gait_text(const RobotModel& model, const GaitFactors& factors) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::setprecision(4)
@@ -210,12 +252,14 @@ std::string make_gait_text(const RobotModel& model) {
   try {
     const LegKinematics legs(model);
     const Sizes sizes = measure(model, legs);
+    std::string group;
     for (const Row& row : kRows) {
       if (row.upper == 0) {
+        group = row.name;
         text << "\n# " << row.comment << "\n" << row.name << ":\n";
         continue;
       }
-      const double unit = sizes.unit(row.scale);
+      const double unit = sizes.unit(row.scale) * factor_of(factors, group, row.name);
       text << "  " << row.name << ": {value: " << unit * row.value << ", range: ["
            << unit * row.lower << ", " << unit * row.upper << "]}";
       if (*row.comment != 0) text << "  # " << row.comment;

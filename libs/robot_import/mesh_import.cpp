@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 
 #include "common/error.h"
@@ -29,8 +30,18 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
   if (scene == nullptr || scene->mNumMeshes == 0) {
     throw ModelError(file.string() + ": is not a mesh: " + importer.GetErrorString());
   }
+  // Collada files name their upward axis. assimp turns it to y; a link's is z.
+  std::string ending = file.extension().string();
+  for (char& letter : ending) letter = static_cast<char>(std::tolower(letter & 0xff));
+  const bool is_turned = ending == ".dae";
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     aiMesh& mesh = *scene->mMeshes[i];
+    for (unsigned k = 0; is_turned && k < mesh.mNumVertices; ++k) {
+      for (aiVector3D* vectors : {mesh.mVertices, mesh.mNormals}) {
+        if (vectors == nullptr) continue;
+        vectors[k] = aiVector3D(vectors[k].x, -vectors[k].z, vectors[k].y);
+      }
+    }
     for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
       aiVector3D& point = mesh.mVertices[k];
       point = aiVector3D(static_cast<ai_real>(point.x * scale.x()),

@@ -12,7 +12,9 @@
 #include "kinematics/support_polygon.h"
 #include "robot_import/description_text.h"
 #include "robot_import/gait_text.h"
+#include "robot_import/plausible_numbers.h"
 #include "robot_import/robot_structure.h"
+#include "robot_import/touching_bodies.h"
 #include "robot_import/urdf_repair.h"
 #include "robot_model/robot_model.h"
 
@@ -25,8 +27,16 @@ namespace fs = std::filesystem;
 // unsafe, fraction of the leg's length.
 constexpr double kStanceMargin = 0.03;
 
-// The steps need one another's results: the model is loaded three times, each time with more of its
-// description.
+/** From the first joint of the left leg to its sole, at the angle 0, m. */
+double calc_leg_height(const RobotModel& model, const RobotStructure& structure) {
+  const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
+  const FoundSole& sole = structure.soles[0];
+  const int hip = model.joints()[model.find_chain(sole.foot).front()].child_link;
+  return (poses[hip].translation() - poses[sole.foot] * sole.pose_in_foot.translation()).norm();
+}
+
+// The steps need one another's results: the model is loaded several times, each time with more of
+// its description.
 void import_into(const fs::path& urdf, const fs::path& folder, Findings& findings) {
   const std::string name = folder.filename().string() + ".urdf";
   RepairedUrdf repaired = repair_urdf(urdf, folder);
@@ -40,8 +50,10 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
                                           ", right: " + sole + "}\n");
   replace_file(folder / "postures.yaml", "postures: []\n");
   const RobotModel tree = RobotModel::load(folder);
-  const RobotStructure structure = find_structure(tree, findings);
+  const RobotStructure structure = find_structure(tree, repaired.mesh_points, findings);
 
+  repaired.text = with_plausible_numbers(repaired.text, tree, calc_leg_height(tree, structure),
+                                         urdf.filename().string(), findings);
   const size_t end = repaired.text.rfind("</robot>");
   if (end == std::string::npos) throw ModelError(urdf.string() + ": has no </robot>");
   // Soles become links of the URDF, so that all programs know their frames.
@@ -50,8 +62,11 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
   replace_file(folder / "robot.yaml", text);
   const RobotModel limbs = RobotModel::load(folder);
   replace_file(folder / "postures.yaml", make_postures_text(limbs, findings));
-  replace_file(folder / "robot.yaml", text + make_description_text(limbs));
   replace_file(folder / "transitions.yaml", "transitions: []\n");
+  const std::string description = text + make_description_text(limbs);
+  replace_file(folder / "robot.yaml", description);
+  const RobotModel whole = RobotModel::load(folder);
+  replace_file(folder / "robot.yaml", description + make_allowed_contacts_text(whole));
   const std::string gait = make_gait_text(limbs);
   if (!gait.empty()) replace_file(folder / "gait.yaml", gait);
   // The result must load; otherwise the import fails as a whole.

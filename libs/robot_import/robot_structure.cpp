@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "common/error.h"
 #include "kinematics/support_polygon.h"
@@ -12,6 +13,7 @@ namespace nao {
 namespace {
 
 using Eigen::Isometry3d;
+using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -21,11 +23,19 @@ constexpr double kPairTolerance = 0.1;
 constexpr double kPlaceTolerance = 0.02;
 constexpr double kAxisTolerance = 0.05;
 // Distance of a foot's points from its lowest one within which they belong to the sole, fraction of
-// the leg's height.
-constexpr double kSoleDepth = 0.01;
+// the leg's height. Chosen: the height of cleats.
+constexpr double kSoleDepth = 0.03;
+// Angles, rad, by which a foot may be off the level at the angles 0.
+constexpr double kGreatestTilt = 0.6;
+constexpr double kTiltStep = 0.02;
 // Sole of a foot without shapes, fractions of the leg's height. Chosen: a NAO's.
 constexpr double kSoleLength = 0.45;
 constexpr double kSoleWidth = 0.25;
+// A corner of an outline nearer to the line of its neighbors is left out, fraction of the outline's
+// width.
+constexpr double kLeastBend = 0.03;
+// The origin of the root's frame may be off the plane of symmetry by as much, m.
+constexpr double kPlaneTolerance = 1e-3;
 
 struct Chain {
   int end = -1;
@@ -33,8 +43,23 @@ struct Chain {
   Vector3d point;
 };
 
+/** A robot at the angle 0 of all joints, in a frame that may become its own. */
+struct Body {
+  const RobotModel& model;
+  std::vector<Isometry3d> poses;
+  /** Corners of each link's surface, in that frame, m. */
+  std::vector<std::vector<Vector3d>> points;
+
+  double lowest(int link) const {
+    double z = poses[link].translation().z();
+    for (const Vector3d& point : points[link]) z = std::min(z, point.z());
+    return z;
+  }
+};
+
 // Chains of joints from the root to each link that carries no further joint.
-std::vector<Chain> find_chains(const RobotModel& model, const std::vector<Isometry3d>& poses) {
+std::vector<Chain> find_chains(const Body& body) {
+  const RobotModel& model = body.model;
   std::vector<bool> carries_joint(model.links().size(), false);
   for (const Joint& joint : model.joints()) {
     if (joint.kind != Joint::Kind::kRevolute) continue;
@@ -47,8 +72,14 @@ std::vector<Chain> find_chains(const RobotModel& model, const std::vector<Isomet
   std::vector<Chain> chains;
   for (const Joint& joint : model.joints()) {
     if (joint.kind != Joint::Kind::kRevolute || carries_joint[joint.child_link]) continue;
-    chains.push_back({joint.child_link, model.find_chain(joint.child_link),
-                      poses[joint.child_link].translation()});
+    // Of the points on the axis the one beside the link's center of mass, but not along a roll
+    // axis: that is the direction in which the foot's place is measured.
+    const Isometry3d& pose = body.poses[joint.child_link];
+    const Vector3d axis = pose.linear() * joint.axis;
+    const Vector3d com = pose * model.links()[joint.child_link].center_of_mass;
+    Vector3d point = pose.translation();
+    if (std::abs(axis.x()) < 0.5) point += axis.dot(com - point) * axis;
+    chains.push_back({joint.child_link, model.find_chain(joint.child_link), point});
   }
   return chains;
 }
@@ -96,79 +127,400 @@ std::vector<int> find_force_sensors(const RobotModel& model, int foot) {
   return sensors;
 }
 
-FoundSole find_sole(const RobotModel& model, const Chain& leg, const std::vector<Isometry3d>& poses,
-                    Findings& findings) {
+Body make_body(const RobotModel& model, const MeshPoints& mesh_points, const Isometry3d& frame) {
+  Body body{model, model.link_poses(std::vector<double>(model.num_motors(), 0.0)), {}};
+  for (size_t link = 0; link < model.links().size(); ++link) {
+    Isometry3d& pose = body.poses[link];
+    pose = frame.inverse() * pose;
+    const Link& part = model.links()[link];
+    std::vector<Vector3d> points;
+    for (int shape = -1; shape < static_cast<int>(part.collisions.size()); ++shape) {
+      // A mesh itself instead of the shape about it.
+      const auto mesh = mesh_points.find({part.name, shape});
+      if (mesh != mesh_points.end()) {
+        points.insert(points.end(), mesh->second.begin(), mesh->second.end());
+      } else if (shape >= 0) {
+        add_corners(part.collisions[shape], points);
+      }
+    }
+    for (Vector3d& point : points) point = pose * point;
+    body.points.push_back(std::move(points));
+  }
+  return body;
+}
+
+double area_of(const std::vector<Vector2d>& outline) {
+  double twice = 0;
+  for (size_t i = 0; i < outline.size(); ++i) {
+    const Vector2d& next = outline[(i + 1) % outline.size()];
+    twice += outline[i].x() * next.y() - outline[i].y() * next.x();
+  }
+  return 0.5 * twice;
+}
+
+/** Convex outline of the points near the lowest one. @param lowest  Receives its height. */
+std::vector<Vector2d> find_outline(const std::vector<Vector3d>& points, const Matrix3d& level,
+                                   double depth, double& lowest) {
+  lowest = std::numeric_limits<double>::infinity();
+  const Vector3d up = level.row(2);
+  for (const Vector3d& point : points) lowest = std::min(lowest, up.dot(point));
+  std::vector<Vector2d> near;
+  for (const Vector3d& point : points) {
+    if (up.dot(point) < lowest + depth) near.push_back((level * point).head<2>());
+  }
+  return convex_hull(near);
+}
+
+/** Leaves out corners that change the outline little, such as those in one line. */
+void simplify(std::vector<Vector2d>& outline) {
+  Eigen::AlignedBox2d box;
+  for (const Vector2d& corner : outline) box.extend(corner);
+  for (size_t i = 0; i < outline.size() && outline.size() > 3;) {
+    const Vector2d& a = outline[(i + outline.size() - 1) % outline.size()];
+    const Vector2d along = outline[(i + 1) % outline.size()] - a;
+    const Vector2d to = outline[i] - a;
+    const double bend = std::abs(along.x() * to.y() - along.y() * to.x()) / along.norm();
+    if (bend < kLeastBend * box.sizes().minCoeff()) {
+      outline.erase(outline.begin() + static_cast<long>(i));
+      i = 0;
+    } else {
+      ++i;
+    }
+  }
+}
+
+FoundSole find_sole(const Body& body, const Chain& leg) {
+  const RobotModel& model = body.model;
   FoundSole sole;
   sole.foot = leg.end;
-  const Isometry3d& foot = poses[leg.end];
   // Height of the leg: from its first joint to its last, m.
   const double height =
-      poses[model.joints()[leg.joints.front()].child_link].translation().z() - leg.point.z();
-  std::vector<Vector3d> corners;
-  for (const Shape& shape : model.links()[leg.end].collisions) add_corners(shape, corners);
-  double lowest = std::numeric_limits<double>::infinity();
-  // Into the root's frame, with all joints at 0.
-  for (Vector3d& corner : corners) {
-    corner = foot * corner;
-    lowest = std::min(lowest, corner.z());
+      body.poses[model.joints()[leg.joints.front()].child_link].translation().z() - leg.point.z();
+  std::vector<Vector3d> points;
+  for (size_t link = 0; link < model.links().size(); ++link) {
+    if (model.find_body(static_cast<int>(link)) != model.find_body(leg.end)) continue;
+    for (const Vector3d& point : body.points[link]) points.push_back(point - leg.point);
   }
-  const Vector2d ankle = leg.point.head<2>();
-  std::vector<Vector2d> points;
-  for (const Vector3d& corner : corners) {
-    if (corner.z() < lowest + kSoleDepth * height) points.push_back(corner.head<2>() - ankle);
+  // The foot stands on the surface that is level at the angles 0, or on a larger one near it.
+  Matrix3d level = Matrix3d::Identity();
+  double lowest = 0;
+  sole.outline = find_outline(points, level, kSoleDepth * height, lowest);
+  double largest = 2 * area_of(sole.outline);
+  for (double tilt = -kGreatestTilt; tilt <= kGreatestTilt && !points.empty(); tilt += kTiltStep) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const Matrix3d turn = Eigen::AngleAxisd(tilt, Vector3d::Unit(axis)).toRotationMatrix();
+      double at = 0;
+      const auto outline = find_outline(points, turn, 0.3 * kSoleDepth * height, at);
+      if (area_of(outline) <= largest) continue;
+      largest = area_of(outline);
+      level = turn;
+      lowest = at;
+      sole.outline = outline;
+    }
   }
-  sole.outline = convex_hull(points);
+  simplify(sole.outline);
+  sole.has_shape = !points.empty();
   // The foot has no shape, or one that touches the ground only along a line.
-  if (sole.outline.size() < 3) {
-    lowest = leg.point.z() - 0.1 * height;
-    const double back = 0.35 * kSoleLength * height;
-    const double front = 0.65 * kSoleLength * height;
-    const double side = 0.5 * kSoleWidth * height;
-    sole.outline = {{-back, -side}, {front, -side}, {front, side}, {-back, side}};
-    findings.push_back({Finding::Severity::kMissing, "robot.yaml", 0,
-                        "link " + model.links()[leg.end].name,
-                        "the foot has no collision shape with a flat lower side",
-                        "a rectangle is assumed as its sole: write the outline into `soles`"});
+  if (sole.outline.size() < 3 ||
+      area_of(sole.outline) < 1e-3 * kSoleLength * kSoleWidth * height * height) {
+    sole.outline.clear();
+    lowest = points.empty() ? -0.1 * height : lowest;
   }
-  // The sole's frame: level, under the ankle, with the root's heading.
+  // The sole's frame: level, under the ankle, with the robot's heading.
   Isometry3d pose = Isometry3d::Identity();
-  pose.translation() << ankle, lowest;
-  sole.pose_in_foot = foot.inverse() * pose;
+  pose.linear() = level.transpose();
+  pose.translation() = leg.point + level.transpose() * Vector3d(0, 0, lowest);
+  sole.pose_in_foot = body.poses[leg.end].inverse() * pose;
   sole.sensors = find_force_sensors(model, leg.end);
   return sole;
 }
 
-}  // namespace
+/** One outline for both feet, of which the larger one is taken: a foot may lack shapes that the
+ * other has. */
+void make_alike(std::array<FoundSole, 2>& soles, const Body& body, double height,
+                Findings& findings) {
+  const std::array<double, 2> area = {area_of(soles[0].outline), area_of(soles[1].outline)};
+  if (area[0] <= 0 && area[1] <= 0) {
+    const double back = 0.35 * kSoleLength * height;
+    const double front = 0.65 * kSoleLength * height;
+    const double side = 0.5 * kSoleWidth * height;
+    for (FoundSole& sole : soles) {
+      sole.outline = {{-back, -side}, {front, -side}, {front, side}, {-back, side}};
+      findings.push_back({Finding::Severity::kMissing, "robot.yaml", 0,
+                          "link " + body.model.links()[sole.foot].name,
+                          "the foot has no collision shape with a flat lower side",
+                          "a rectangle is assumed as its sole: write the outline into `soles`"});
+    }
+    return;
+  }
+  const int better = area[1] > 1.02 * area[0] ? 1 : 0;
+  const FoundSole& from = soles[better];
+  FoundSole& to = soles[1 - better];
+  if (std::abs(area[0] - area[1]) > 0.1 * area[better]) {
+    findings.push_back(
+        {Finding::Severity::kRepaired, "robot.yaml", 0, "link " + body.model.links()[to.foot].name,
+         "its sole is unlike that of the other foot",
+         "the other one's mirror image is assumed: compare the outlines in `soles`"});
+  }
+  to.outline.assign(from.outline.rbegin(), from.outline.rend());
+  for (Vector2d& corner : to.outline) corner.y() = -corner.y();
+}
 
-RobotStructure find_structure(const RobotModel& model, Findings& findings) {
-  const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
-  const std::vector<Chain> chains = find_chains(model, poses);
-  const Chain* legs[2] = {nullptr, nullptr};
-  // Legs are the lowest pair with at least three joints.
+using Legs = std::array<const Chain*, 2>;
+
+/** Mass and center of mass of the links that none of two chains moves. */
+double find_rest(const Body& body, const Legs& legs, Vector3d& com) {
+  double mass = 0;
+  com.setZero();
+  for (size_t link = 0; link < body.model.links().size(); ++link) {
+    const Link& part = body.model.links()[link];
+    const std::vector<int> chain = body.model.find_chain(static_cast<int>(link));
+    const bool is_leg = std::any_of(legs.begin(), legs.end(), [&](const Chain* leg) {
+      return std::find(chain.begin(), chain.end(), leg->joints.front()) != chain.end();
+    });
+    if (is_leg) continue;
+    mass += part.mass;
+    com += part.mass * (body.poses[link] * part.center_of_mass);
+  }
+  if (mass > 0) com /= mass;
+  return mass;
+}
+
+/** Whether two chains can carry the robot. */
+bool are_legs(const Body& body, const Legs& legs) {
+  const int hip = body.model.joints()[legs[0]->joints.front()].child_link;
+  const double top = body.poses[hip].translation().z();
+  const double drop = top - legs[0]->point.z();
+  // They hang, and the rest stands above them.
+  if (drop < 0.5 * (body.poses[hip].translation() - legs[0]->point).norm()) return false;
+  Vector3d com;
+  if (find_rest(body, legs, com) > 0 && com.z() < top - 0.1 * drop) return false;
+  // They reach lower than everything else.
+  const double sole = body.lowest(legs[0]->end);
+  for (size_t link = 0; link < body.model.links().size(); ++link) {
+    const std::vector<int> chain = body.model.find_chain(static_cast<int>(link));
+    const bool is_leg = std::any_of(legs.begin(), legs.end(), [&](const Chain* leg) {
+      return std::find(chain.begin(), chain.end(), leg->joints.front()) != chain.end();
+    });
+    if (!is_leg && body.lowest(static_cast<int>(link)) < sole - 0.02 * drop) return false;
+  }
+  return true;
+}
+
+/** Without the joints that both chains share. */
+std::array<Chain, 2> own_parts(const Chain& left, const Chain& right) {
+  std::array<Chain, 2> own = {left, right};
+  size_t shared = 0;
+  while (shared < std::min(left.joints.size(), right.joints.size()) &&
+         left.joints[shared] == right.joints[shared]) {
+    ++shared;
+  }
+  for (Chain& chain : own) {
+    chain.joints.erase(chain.joints.begin(), chain.joints.begin() + static_cast<long>(shared));
+  }
+  return own;
+}
+
+/** Legs are the lowest pair with at least three joints each; nothing if none can carry the robot.
+ */
+std::vector<Chain> find_legs(const Body& body, const std::vector<Chain>& chains) {
+  std::vector<Chain> legs;
+  double lowest = std::numeric_limits<double>::infinity();
   for (const Chain& left : chains) {
     for (const Chain& right : chains) {
-      if (!is_pair(left, right) || left.joints.size() < 3) continue;
-      if (legs[0] != nullptr && left.point.z() >= legs[0]->point.z()) continue;
-      legs[0] = &left;
-      legs[1] = &right;
+      if (!is_pair(left, right)) continue;
+      const std::array<Chain, 2> own = own_parts(left, right);
+      if (own[0].joints.size() < 3 || !are_legs(body, {&own[0], &own[1]})) continue;
+      const double z = body.lowest(left.end);
+      if (z >= lowest) continue;
+      lowest = z;
+      legs = {own[0], own[1]};
     }
   }
-  // Both chains must end below the root's origin.
-  if (legs[0] == nullptr || legs[0]->point.z() >= 0) {
-    throw ModelError(
-        model.name() +
-        ": no two legs: two chains of at least three joints must end below the root, one "
-        "at the left (y above 0), the other its mirror image, with x ahead and z up");
+  return legs;
+}
+
+/** The vertical plane, of normal x or y of the frame, that mirrors most joints onto others.
+ * @param offset  Receives its place along the normal, m. @return 0 or 1: x or y; -1: none. */
+int find_plane(const Body& body, double& offset) {
+  struct Screw {
+    Vector3d point;
+    Vector3d axis;
+  };
+  std::vector<Screw> screws;
+  double size = 0;
+  for (const Joint& joint : body.model.joints()) {
+    if (joint.kind != Joint::Kind::kRevolute) continue;
+    const Isometry3d& pose = body.poses[joint.child_link];
+    screws.push_back({pose.translation(), pose.linear() * joint.axis});
+    for (const Screw& screw : screws)
+      size = std::max(size, (screw.point - pose.translation()).norm());
+  }
+  const double tolerance = kPlaceTolerance * size;
+  const auto is_image = [&](const Screw& a, const Screw& b, int normal, double at) {
+    Vector3d point = a.point;
+    point[normal] = 2 * at - point[normal];
+    Vector3d axis = -a.axis;
+    axis[normal] = a.axis[normal];
+    // Any point of an axis may be the joint's origin.
+    return (point - b.point).cross(b.axis).norm() < tolerance &&
+           axis.cross(b.axis).norm() < kAxisTolerance;
+  };
+  int best = -1;
+  size_t most = 0;
+  for (int normal = 1; normal >= 0; --normal) {
+    for (size_t i = 0; i < screws.size(); ++i) {
+      for (size_t k = i + 1; k < screws.size(); ++k) {
+        // Joints on the plane are their own images.
+        if (std::abs(screws[i].point[normal] - screws[k].point[normal]) < 2 * tolerance) continue;
+        const double at = 0.5 * (screws[i].point[normal] + screws[k].point[normal]);
+        if (!is_image(screws[i], screws[k], normal, at)) continue;
+        size_t count = 0;
+        double sum = 0;
+        for (size_t a = 0; a < screws.size(); ++a) {
+          for (size_t b = a + 1; b < screws.size(); ++b) {
+            if (std::abs(screws[a].point[normal] - screws[b].point[normal]) < 2 * tolerance ||
+                !is_image(screws[a], screws[b], normal, at)) {
+              continue;
+            }
+            ++count;
+            sum += 0.5 * (screws[a].point[normal] + screws[b].point[normal]);
+          }
+        }
+        if (count <= most) continue;
+        most = count;
+        best = normal;
+        offset = sum / static_cast<double>(count);
+      }
+    }
+  }
+  return best;
+}
+
+/** Above 0 where the legs point along x of the frame, by their feet and knees; about -1.5 to 1.5.
+ */
+double find_heading(const Body& body, const std::vector<Chain>& legs) {
+  double heading = 0;
+  for (const Chain& leg : legs) {
+    // The foot's surface is longer ahead of the ankle than behind it.
+    double front = 0;
+    double back = 0;
+    for (size_t link = 0; link < body.model.links().size(); ++link) {
+      if (body.model.find_body(static_cast<int>(link)) != body.model.find_body(leg.end)) continue;
+      for (const Vector3d& point : body.points[link]) {
+        front = std::max(front, point.x() - leg.point.x());
+        back = std::max(back, leg.point.x() - point.x());
+      }
+    }
+    if (front + back > 0) heading += 0.5 * (front - back) / (front + back);
+    // The joint with the largest one-sided range about y is the knee: it takes the foot back.
+    double knee = 0;
+    for (const int index : leg.joints) {
+      const Joint& joint = body.model.joints()[index];
+      const double pitch = (body.poses[joint.child_link].linear() * joint.axis).y();
+      const double sided = (joint.upper + joint.lower) * pitch;
+      const double drop = body.poses[joint.child_link].translation().z() - leg.point.z();
+      if (drop > 0.05 && std::abs(pitch) > 0.7 && std::abs(sided) > std::abs(knee)) knee = sided;
+    }
+    heading += 0.25 * std::clamp(knee, -1.0, 1.0);
+  }
+  return heading;
+}
+
+/** The frame in which two legs were found, and the legs. */
+struct FoundFrame {
+  Isometry3d frame = Isometry3d::Identity();
+  std::vector<Chain> legs;
+};
+
+/** Whether there is a pair of limbs besides the legs. */
+bool has_arms(const std::vector<Chain>& chains, const std::vector<Chain>& legs) {
+  for (const Chain& left : chains) {
+    const auto& joints = left.joints;
+    if (std::find(joints.begin(), joints.end(), legs[0].joints.front()) != joints.end()) continue;
+    for (const Chain& right : chains) {
+      if (is_pair(left, right) && own_parts(left, right)[0].joints.size() >= 2) return true;
+    }
+  }
+  return false;
+}
+
+// The root's z axis is up in most files; otherwise another axis, along which legs hang: of a robot
+// that has arms, too, for these hang or point somewhere as well.
+FoundFrame find_frame(const RobotModel& model, const MeshPoints& mesh_points) {
+  const Vector3d x = Vector3d::UnitX();
+  const Vector3d y = Vector3d::UnitY();
+  const Vector3d z = Vector3d::UnitZ();
+  for (const Vector3d& up : {z, y, x, Vector3d(-y), Vector3d(-x), Vector3d(-z)}) {
+    Isometry3d frame = Isometry3d::Identity();
+    if (up != z) {
+      frame.linear().col(2) = up;
+      frame.linear().col(0) = std::abs(up.x()) > 0.5 ? y : x;
+      frame.linear().col(1) = up.cross(Vector3d(frame.linear().col(0)));
+    }
+    double offset = 0;
+    const int normal = find_plane(make_body(model, {}, frame), offset);
+    if (normal < 0) continue;
+    // Turned so that the plane's normal is y.
+    if (std::abs(offset) > kPlaneTolerance) {
+      frame.translation() = offset * frame.linear().col(normal);
+    }
+    if (normal == 0) frame.rotate(Eigen::AngleAxisd(M_PI / 2, z));
+    const Body body = make_body(model, mesh_points, frame);
+    const std::vector<Chain> chains = find_chains(body);
+    FoundFrame found{frame, find_legs(body, chains)};
+    if (found.legs.empty() || (up != z && !has_arms(chains, found.legs))) continue;
+    // Against x of the root only on clear evidence.
+    if (find_heading(body, found.legs) >= (up == z && normal == 1 ? -0.3 : 0)) return found;
+    found.frame.rotate(Eigen::AngleAxisd(M_PI, z));
+    const Body turned = make_body(model, mesh_points, found.frame);
+    found.legs = find_legs(turned, find_chains(turned));
+    return found;
+  }
+  return {};
+}
+
+}  // namespace
+
+RobotStructure find_structure(const RobotModel& model, const MeshPoints& mesh_points,
+                              Findings& findings) {
+  const FoundFrame found = find_frame(model, mesh_points);
+  const std::vector<Chain>& legs = found.legs;
+  if (legs.empty()) {
+    throw ModelError(model.name() +
+                     ": no two legs: two chains of at least three joints, one the mirror image of "
+                     "the other, must "
+                     "reach lower than all other parts");
   }
   RobotStructure structure;
-  for (int side = 0; side < 2; ++side) {
-    structure.soles[side] = find_sole(model, *legs[side], poses, findings);
+  // Without rounding, which a rotation by quarters of a turn leaves.
+  structure.frame = found.frame;
+  structure.frame.linear() = found.frame.linear().array().round();
+  const Body body = make_body(model, mesh_points, structure.frame);
+  if (!structure.frame.matrix().isIdentity(0)) {
+    std::ostringstream text;
+    text << "the root's frame is not that of the robot: ahead is ("
+         << structure.frame.linear().col(0).transpose() << "), up is ("
+         << structure.frame.linear().col(2).transpose() << "), its plane of symmetry is "
+         << structure.frame.translation().norm() << " m from the origin";
+    findings.push_back({Finding::Severity::kRepaired, "robot.yaml", 0,
+                        "link " + model.links().front().name, text.str(),
+                        "a new root with the robot's frame is added"});
   }
+  for (int side = 0; side < 2; ++side) structure.soles[side] = find_sole(body, legs[side]);
+  const double height =
+      body.poses[model.joints()[legs[0].joints.front()].child_link].translation().z() -
+      legs[0].point.z();
+  make_alike(structure.soles, body, height, findings);
+  const std::vector<Chain> chains = find_chains(body);
   const Chain* arms[2] = {nullptr, nullptr};
   // Arms are the other pair with the most joints.
   for (const Chain& left : chains) {
     for (const Chain& right : chains) {
-      if (!is_pair(left, right) || &left == legs[0] || left.joints.size() < 2) continue;
+      if (!is_pair(left, right) || left.joints.size() < 2) continue;
+      // Toes belong to a leg.
+      const auto& joints = left.joints;
+      if (std::find(joints.begin(), joints.end(), legs[0].joints.front()) != joints.end()) continue;
       if (arms[0] != nullptr && left.joints.size() <= arms[0]->joints.size()) continue;
       arms[0] = &left;
       arms[1] = &right;

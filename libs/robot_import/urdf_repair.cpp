@@ -1,17 +1,17 @@
 #include "robot_import/urdf_repair.h"
 
-#include <tinyxml.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <set>
 #include <sstream>
 
-#include "common/error.h"
 #include "robot_import/mesh_import.h"
+#include "robot_import/urdf_dialect.h"
+#include "robot_import/urdf_mechanism.h"
 #include "robot_import/urdf_values.h"
 
 namespace nao {
@@ -24,15 +24,13 @@ namespace fs = std::filesystem;
 constexpr double kRange = 3.14;
 constexpr double kVelocity = 6;
 constexpr double kTorquePerMass = 1.5;
-// Density of a sphere that stands for a link whose inertia is impossible, kg/m^3. Chosen: about
-// that of water, as motors in plastic shells.
-constexpr double kDensity = 1000;
 
 class UrdfRepair {
  public:
   // Edits the XML itself, so that everything it does not understand stays as it is. Each repair is
   // reported with its line, the assumption and what to write instead.
-  UrdfRepair(const fs::path& file, const fs::path& folder) : file_(file), folder_(folder) {}
+  UrdfRepair(const fs::path& file, const fs::path& folder)
+      : file_(file), folder_(folder), log_{file.filename().string(), {}} {}
 
   RepairedUrdf run();
 
@@ -41,13 +39,11 @@ class UrdfRepair {
 
   [[noreturn]] void fail(const TiXmlNode* node, const std::string& problem,
                          const std::string& remedy) const {
-    throw ModelError(to_line({Severity::kMissing, file_.filename().string(),
-                              node == nullptr ? 0 : node->Row(), "", problem, remedy}));
+    log_.fail(node, problem, remedy);
   }
   void note(Severity severity, const TiXmlNode& node, const std::string& element,
             const std::string& problem, const std::string& remedy) {
-    result_.findings.push_back(
-        {severity, file_.filename().string(), node.Row(), element, problem, remedy});
+    log_.note(severity, node, element, problem, remedy);
   }
 
   void load();
@@ -55,7 +51,6 @@ class UrdfRepair {
   void measure_mass();
   void repair_joint(TiXmlElement& joint);
   void repair_limit(TiXmlElement& joint, const std::string& element, bool is_continuous);
-  void hold(TiXmlElement& joint, const std::string& element);
   void repair_inertial(TiXmlElement& link, const std::string& element);
   void repair_shapes(TiXmlElement& link, const char* kind, const std::string& element);
   /** @return false if the shape must be removed. */
@@ -66,11 +61,11 @@ class UrdfRepair {
 
   fs::path file_;
   fs::path folder_;
+  RepairLog log_;
   TiXmlDocument document_;
   TiXmlElement* robot_ = nullptr;
   double mass_ = 0;
   int num_meshes_ = 0;
-  std::set<std::string> held_joints_;
   RepairedUrdf result_;
 };
 
@@ -79,6 +74,7 @@ void UrdfRepair::load() {
   if (!stream) fail(nullptr, "the file cannot be read", "check its path");
   std::stringstream text;
   text << stream.rdbuf();
+  check_xml_size(text.str(), log_);
   document_.Parse(text.str().c_str());
   robot_ = document_.FirstChildElement("robot");
   if (document_.Error() || robot_ == nullptr) {
@@ -86,11 +82,7 @@ void UrdfRepair::load() {
         file_.filename().string() + ":" + std::to_string(document_.ErrorRow()) +
         ": is not a URDF: " + (document_.Error() ? document_.ErrorDesc() : "no <robot> element"));
   }
-  // xacro's output is a URDF; its input cannot be understood without it.
-  if (text.str().find("<xacro:") != std::string::npos ||
-      text.str().find("${") != std::string::npos) {
-    fail(robot_, "is the input of xacro", "run `xacro FILE.xacro > FILE.urdf` and import that");
-  }
+  repair_dialect(*robot_, log_);
 }
 
 void UrdfRepair::find_root() {
@@ -132,17 +124,6 @@ void UrdfRepair::measure_mass() {
   }
 }
 
-// Joints that the programs cannot move become fixed at 0.
-void UrdfRepair::hold(TiXmlElement& joint, const std::string& element) {
-  note(Severity::kRepaired, joint, element, std::string("is ") + joint.Attribute("type"),
-       "it is held at 0 (fixed)");
-  joint.SetAttribute("type", "fixed");
-  held_joints_.insert(joint.Attribute("name"));
-  for (const char* part : {"limit", "mimic", "axis", "dynamics"}) {
-    if (TiXmlElement* found = joint.FirstChildElement(part)) joint.RemoveChild(found);
-  }
-}
-
 void UrdfRepair::repair_limit(TiXmlElement& joint, const std::string& element, bool is_continuous) {
   TiXmlElement* limit = joint.FirstChildElement("limit");
   if (limit == nullptr) {
@@ -150,8 +131,15 @@ void UrdfRepair::repair_limit(TiXmlElement& joint, const std::string& element, b
     limit = joint.FirstChildElement("limit");
   }
   const double none = std::numeric_limits<double>::quiet_NaN();
-  const double lower = read_number(*limit, "lower", none);
-  const double upper = read_number(*limit, "upper", none);
+  double lower = read_number(*limit, "lower", none);
+  double upper = read_number(*limit, "upper", none);
+  if (!is_continuous && lower > upper) {
+    std::swap(lower, upper);
+    limit->SetAttribute("lower", to_text(lower).c_str());
+    limit->SetAttribute("upper", to_text(upper).c_str());
+    note(Severity::kRepaired, joint, element, "has its lower limit above the upper one",
+         "they are exchanged: " + to_text(lower) + " to " + to_text(upper) + " rad");
+  }
   // Written so that missing numbers (NaN) get the assumed range as well.
   if (is_continuous || !(lower < upper)) {
     limit->SetAttribute("lower", to_text(-kRange).c_str());
@@ -182,10 +170,17 @@ void UrdfRepair::repair_joint(TiXmlElement& joint) {
   const std::string element = std::string("joint ") + name;
   const std::string kind = type;
   if (kind == "fixed") return;
-  if (kind == "prismatic" || kind == "floating" || kind == "planar") return hold(joint, element);
+  if (kind == "prismatic" || kind == "floating" || kind == "planar") {
+    return hold_joint(joint, 0, "is " + kind, log_);
+  }
   if (kind != "revolute" && kind != "continuous") {
     fail(&joint, element + " has the unknown type \"" + kind + "\"",
          "use revolute, continuous, prismatic or fixed");
+  }
+  const TiXmlElement* axis = joint.FirstChildElement("axis");
+  const auto xyz = axis == nullptr ? std::nullopt : read_numbers(*axis, "xyz", 3);
+  if (axis != nullptr && !(xyz && Eigen::Vector3d(xyz->data()).norm() > 1e-6)) {
+    return hold_joint(joint, 0, "has no axis", log_);
   }
   joint.SetAttribute("type", "revolute");
   repair_limit(joint, element, kind == "continuous");
@@ -207,6 +202,9 @@ void UrdfRepair::repair_inertial(TiXmlElement& link, const std::string& element)
     inertial->LinkEndChild(new TiXmlElement("inertia"));
     inertia = inertial->FirstChildElement("inertia");
   }
+  for (const char* name : {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}) {
+    if (!read_numbers(*inertia, name, 1)) inertia->SetAttribute(name, "0");
+  }
   const auto of = [&](const char* name) { return read_number(*inertia, name, 0); };
   Eigen::Matrix3d matrix;
   matrix << of("ixx"), of("ixy"), of("ixz"), of("ixy"), of("iyy"), of("iyz"), of("ixz"), of("iyz"),
@@ -216,9 +214,7 @@ void UrdfRepair::repair_inertial(TiXmlElement& link, const std::string& element)
   const Eigen::Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
   if (moments(0) > 0 && moments(2) <= (moments(0) + moments(1)) * (1 + 1e-9)) return;
-  // A solid sphere: 2/5 m r^2, with the radius of its mass at kDensity.
-  const double radius = std::cbrt(3 * kg / (4 * M_PI * kDensity));
-  const std::string moment = to_text(0.4 * kg * radius * radius);
+  const std::string moment = to_text(ball_moment(kg));
   for (const char* name : {"ixx", "iyy", "izz"}) inertia->SetAttribute(name, moment.c_str());
   for (const char* name : {"ixy", "ixz", "iyz"}) inertia->SetAttribute(name, "0");
   note(Severity::kRepaired, *inertia, element,
@@ -226,9 +222,34 @@ void UrdfRepair::repair_inertial(TiXmlElement& link, const std::string& element)
        "that of a sphere of its mass is assumed, " + moment + " kg m^2: export it anew");
 }
 
+std::string to_lower(std::string text) {
+  for (char& letter : text) letter = static_cast<char>(std::tolower(letter & 0xff));
+  return text;
+}
+
+// A file below a folder; names that differ in the case of letters only are the same, as on the
+// systems where many URDFs are made.
+fs::path find_file(const fs::path& folder, const fs::path& ending) {
+  std::error_code error;
+  if (fs::is_regular_file(folder / ending, error)) return folder / ending;
+  fs::path found = folder;
+  for (const fs::path& part : ending) {
+    fs::path next = found / part;
+    for (fs::directory_iterator entry(found, error), end; !fs::exists(next, error) && entry != end;
+         entry.increment(error)) {
+      if (to_lower(entry->path().filename().string()) == to_lower(part.string())) {
+        next = entry->path();
+      }
+    }
+    found = next;
+  }
+  return fs::is_regular_file(found, error) ? found : fs::path();
+}
+
 fs::path UrdfRepair::find_mesh(const std::string& name) const {
   // The scheme says how a path is found; the rest is searched beside the file.
   std::string path = name;
+  std::replace(path.begin(), path.end(), '\\', '/');
   for (const char* scheme : {"package://", "model://", "file://"}) {
     if (path.rfind(scheme, 0) == 0) path = path.substr(std::string(scheme).size());
   }
@@ -240,8 +261,8 @@ fs::path UrdfRepair::find_mesh(const std::string& name) const {
   fs::path base = start;
   for (int level = 0; level < 4; ++level) {
     for (const fs::path& ending : endings) {
-      std::error_code ignored;
-      if (fs::is_regular_file(base / ending, ignored)) return base / ending;
+      const fs::path found = find_file(base, ending);
+      if (!found.empty()) return found;
     }
     if (base == base.parent_path()) break;
     base = base.parent_path();
@@ -253,6 +274,7 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
                              const std::string& element) {
   TiXmlElement& mesh = *geometry.FirstChildElement("mesh");
   const std::string name = mesh.Attribute("filename") == nullptr ? "" : mesh.Attribute("filename");
+  const std::string link_name = shape.Parent()->ToElement()->Attribute("name");
   const fs::path source = find_mesh(name);
   if (source.empty()) {
     // A missing visual only looks bad; a missing collision shape changes the physics.
@@ -262,6 +284,11 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
                       : "it is left out: put the file there and import again");
     return false;
   }
+  const auto add_points = [&](int number, const std::vector<Eigen::Vector3d>& corners) {
+    std::vector<Eigen::Vector3d>& points = result_.mesh_points[{link_name, number}];
+    const Eigen::Isometry3d pose = read_origin(shape);
+    for (const Eigen::Vector3d& corner : corners) points.push_back(pose * corner);
+  };
   const auto factors = read_numbers(mesh, "scale", 3);
   const Eigen::Vector3d scale =
       factors ? Eigen::Vector3d(factors->data()) : Eigen::Vector3d::Ones();
@@ -271,11 +298,20 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
           "meshes/" + std::to_string(num_meshes_++) + "_" + source.stem().string() + ".glb";
       fs::create_directories(folder_ / "meshes");
       convert_mesh(source, scale, folder_ / target);
+      if (shape.Parent()->FirstChildElement("collision") == nullptr) {
+        add_points(-1, read_mesh_points(source, scale));
+      }
       mesh.SetAttribute("filename", target.c_str());
       mesh.RemoveAttribute("scale");
       return true;
     }
-    const FittedShape fitted = fit_shape(read_mesh_points(source, scale));
+    const std::vector<Eigen::Vector3d> corners = read_mesh_points(source, scale);
+    const FittedShape fitted = fit_shape(corners);
+    int number = 0;
+    for (const TiXmlNode* before = &shape; (before = before->PreviousSibling("collision"));) {
+      ++number;
+    }
+    add_points(number, corners);
     geometry.RemoveChild(&mesh);
     TiXmlElement primitive(fitted.is_capsule ? "cylinder" : "box");
     if (fitted.is_capsule) {
@@ -347,35 +383,25 @@ RepairedUrdf UrdfRepair::run() {
   load();
   find_root();
   measure_mass();
-  // Joints are repaired first: links do not depend on them, but held joints do.
   for (TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {
     repair_joint(*joint);
   }
-  // A joint that mimics a held joint is held, too.
-  for (TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
-    const TiXmlElement* mimic = joint->FirstChildElement("mimic");
-    const char* driver = mimic == nullptr ? nullptr : mimic->Attribute("joint");
-    if (driver != nullptr && held_joints_.count(driver) > 0) {
-      hold(*joint, std::string("joint ") + joint->Attribute("name"));
-    }
+  for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    repair_inertial(*link, std::string("link ") + link->Attribute("name"));
   }
+  repair_mechanism(*robot_, log_);
   for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
     const std::string element = std::string("link ") + link->Attribute("name");
-    repair_inertial(*link, element);
     repair_shapes(*link, "visual", element);
     repair_shapes(*link, "collision", element);
-  }
-  // Extensions of other programs, which may name files that are not here.
-  for (const char* kind : {"transmission", "gazebo", "ros2_control", "sensor"}) {
-    while (TiXmlElement* extension = robot_->FirstChildElement(kind))
-      robot_->RemoveChild(extension);
   }
   TiXmlPrinter printer;
   document_.Accept(&printer);
   result_.text = printer.CStr();
+  result_.findings = std::move(log_.findings);
   return result_;
 }
 

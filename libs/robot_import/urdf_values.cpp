@@ -29,6 +29,13 @@ double read_number(const TiXmlElement& element, const char* name, double otherwi
   return numbers ? numbers->front() : otherwise;
 }
 
+double ball_moment(double mass) {
+  constexpr double kDensity = 1000;  // kg/m^3, about that of motors in plastic shells
+  const double radius = std::cbrt(3 * mass / (4 * M_PI * kDensity));
+  // A solid ball: 2/5 m r^2.
+  return 0.4 * mass * radius * radius;
+}
+
 std::string to_text(double number) {
   std::ostringstream text;
   text.imbue(std::locale::classic());

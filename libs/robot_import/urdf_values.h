@@ -19,6 +19,11 @@ double read_number(const TiXmlElement& element, const char* name, double otherwi
 Eigen::Isometry3d read_origin(const TiXmlElement& parent);
 void write_origin(TiXmlElement& parent, const Eigen::Isometry3d& pose);
 
+/** Moment of inertia of a ball of water, which stands for a link whose inertia is not known, kg
+ * m^2.
+ * @param mass  kg. */
+double ball_moment(double mass);
+
 /** Twelve digits. */
 std::string to_text(double number);
 std::string to_text(const Eigen::Vector3d& vector);

@@ -30,7 +30,8 @@ class RobotModelReader {
   void read_inertial_unit(const YamlEntry& entry);
   /** Motors of a robot whose robot.yaml does not list them, from the URDF's limits. */
   void estimate_motors(const YamlEntry& robot);
-  /** Without a list, only links that a joint connects may touch. */
+  /** Without clusters, only bodies that a joint connects, and the pairs of `allowed_contacts`, may
+   * touch. */
   void read_contact_clusters(const YamlEntry& robot);
 
   // Limbs and symmetry (robot_limbs_reader.cpp).

@@ -18,6 +18,9 @@ constexpr double kOnFeetFraction = 0.6;
 constexpr double kContactFraction = 0.06;
 constexpr double kSupportSwitchFraction = 0.1;
 
+// How far an angle may be outside of a limit that is written with more digits, rad.
+constexpr double kLimitTolerance = 1e-9;
+
 Action::Kind read_action_kind(const YamlEntry& entry) {
   const std::string kind = entry.text();
   if (kind == "stand-up") return Action::Kind::kStandUp;
@@ -43,10 +46,10 @@ std::vector<double> RobotModelReader::read_pose(const YamlEntry& joints) const {
   std::vector<double> pose(model_.num_motors(), std::numeric_limits<double>::quiet_NaN());
   const auto set = [&](int motor, double angle, const YamlEntry& entry) {
     const Joint& joint = model_.motor_joint(motor);
-    if (angle < joint.lower || angle > joint.upper) {
+    if (angle < joint.lower - kLimitTolerance || angle > joint.upper + kLimitTolerance) {
       entry.fail("is outside the limits of " + joint.name);
     }
-    pose[motor] = angle;
+    pose[motor] = std::clamp(angle, joint.lower, joint.upper);
   };
   for (const auto& [name, entry] : joints.entries()) {
     const double angle = entry.number();
@@ -234,10 +237,12 @@ void RobotModelReader::read_postures(const YamlEntry& list) {
     }
     // Coupled limits need all angles; therefore after the whole posture is read.
     for (int motor = 0; motor < model_.num_motors(); ++motor) {
-      const double angle = posture.position[motor];
-      if (model_.clip_to_limits(motor, angle, posture.position) != angle) {
+      double& angle = posture.position[motor];
+      const double clipped = model_.clip_to_limits(motor, angle, posture.position);
+      if (std::abs(clipped - angle) > kLimitTolerance) {
         joints.at(model_.motor_joint(motor).name).fail("is outside the joint's limits");
       }
+      angle = clipped;
     }
     model_.postures_.push_back(posture);
   }

@@ -11,9 +11,13 @@
 #include "robot_import/robot_import.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/tools_subcommands.h"
+#include "tools/robot-trial/robot_trial.h"
 
 namespace nao {
 namespace {
+
+// Of the search after an import, on two cores.
+constexpr double kSearchMinutes = 2;
 
 const char* name_of(Finding::Severity severity) {
   switch (severity) {
@@ -52,18 +56,33 @@ void add_robot_files_command(CommandLine& app, Invocation& invocation) {
     std::string urdf;
     std::string name;
     std::string folder = (data_path() / "robots").string();
+    bool is_simulated = true;
+    double tune_minutes = 0;
   };
   const auto options = std::make_shared<Options>();
   CommandLine* importer = robot->add_subcommand(
-      "import", "Make robots/NAME from a URDF; lists what it repaired, assumed and misses");
+      "import",
+      "Make robots/NAME from a URDF; lists what it repaired, assumed and misses, and simulates it "
+      "for up to two minutes to find settings with which it stands and walks");
   importer->add_option("urdf", options->urdf, "The URDF; of xacro its output")->required();
   importer->add_option("--name", options->name, "Name of the robot's folder")->required();
   importer->add_option("--folder", options->folder, "Folder of the robots")->show_default();
+  importer->add_option("--tune", options->tune_minutes, "Then search a better gait, minutes")
+      ->not_negative()
+      ->show_default();
+  importer->add_flag("!--no-simulation", options->is_simulated, "Do not simulate it");
   importer->on_parsed([&invocation, options] {
     invocation.run = [options] {
       const auto folder = folder_of(options->folder, options->name);
       print(import_robot(options->urdf, folder));
       std::printf("wrote %s\n", folder.c_str());
+      if (!options->is_simulated) return 0;
+      const RobotCard card =
+          try_robot(folder, kSearchMinutes, options->tune_minutes, [](const std::string& line) {
+            std::printf("%s\n", line.c_str());
+            std::fflush(stdout);
+          });
+      std::printf("%s", to_text(card).c_str());
       return 0;
     };
   });

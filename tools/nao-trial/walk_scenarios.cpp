@@ -24,6 +24,8 @@ constexpr double kStand = 1;
 constexpr double kSpeedUp = 2.5;
 constexpr double kFallenHeight = 0.625;  // of the standing height, of the torso
 constexpr double kFallenTilt = 1.0;      // rad
+// Fraction of the commanded velocity below which a robot has not walked.
+constexpr double kLeastFraction = 0.5;
 
 bool has_fallen(const ClosedLoop& trial) {
   return trial.torso_height() < kFallenHeight * trial.model().references().heights.standing ||
@@ -154,10 +156,25 @@ class StandstillDetector {
   Pose2 place_;
 };
 
-RunResult fallen(double time) {
+RunResult failed(std::string failure) {
   RunResult result;
-  result.failure = "fell after " + std::to_string(std::lround(time * 10) / 10) + " s";
+  result.failure = std::move(failure);
   return result;
+}
+
+RunResult fallen(double time) {
+  RunResult result = failed("fell after " + std::to_string(std::lround(time)) + " s");
+  result.metrics = {{"upright_s", time}};
+  return result;
+}
+
+/** Why a walk has ended before it was told to; nothing while it goes on. */
+std::optional<std::string> find_early_end(const ClosedLoop& trial, int64_t walk) {
+  for (const CommandResult& result : trial.results()) {
+    if (result.id != walk || result.status == ResultStatus::kAccepted) continue;
+    return "did not walk: " + to_sentence(result.reason);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -165,7 +182,7 @@ RunResult fallen(double time) {
 std::map<std::string, std::string> WalkScenario::units() const {
   return {{"speed_mps", "m/s"},    {"turning_radps", "rad/s"}, {"tracking_error", "1"},
           {"odometry_error", "1"}, {"stopping_s", "s"},        {"stopping_mm", "mm"},
-          {"drift_5m_mm", "mm"}};
+          {"drift_5m_mm", "mm"},   {"upright_s", "s"}};
 }
 
 std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_t seed) const {
@@ -187,6 +204,7 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   });
   if (!run_upright(trial, duration)) return {fallen(trial.time() - start)};
   trial.on_tick({});
+  if (const auto early_end = find_early_end(trial, walk)) return {failed(*early_end)};
   if (!options.trace_file.empty()) trace.write(options.trace_file);
   const Vector3d mean = velocity.mean();
   const double odometry_error = odometry.error(trial);
@@ -198,17 +216,25 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   trial.release_walk();
   const auto end = trial.await_end(walk, 10);
   trial.run(0.5);
-  RunResult result;
-  result.is_success = end && end->status == ResultStatus::kDone && !has_fallen(trial);
-  if (!result.is_success) {
-    result.failure = has_fallen(trial) ? "fell while stopping" : "did not stop";
-    return {result};
+  if (has_fallen(trial)) return {failed("fell while stopping")};
+  if (!end) return {failed("did not stop: its feet never stood side by side")};
+  if (end->status != ResultStatus::kDone) {
+    return {failed("did not stop: " + to_sentence(end->reason))};
   }
   // Error of the executed velocity; the weight of 1 rad equals 0.15 m.
   const Vector3d scale(1, 1, 0.15);
   const Vector3d missed = (mean - options.velocity).cwiseProduct(scale);
   const double commanded = options.velocity.cwiseProduct(scale).norm();
   const double distance = mean.head<2>().norm() * duration;
+  // Velocity along the commanded one, as a fraction of it.
+  const double fraction = mean.cwiseProduct(scale).dot(options.velocity.cwiseProduct(scale)) /
+                          std::max(1e-12, commanded * commanded);
+  RunResult result;
+  result.is_success = commanded == 0 || fraction >= kLeastFraction;
+  if (!result.is_success) {
+    result.failure =
+        "too slow: " + std::to_string(std::lround(100 * fraction)) + " % of the commanded velocity";
+  }
   result.metrics = {{"speed_mps", mean.head<2>().norm()},
                     {"turning_radps", mean.z()},
                     {"tracking_error", commanded > 0 ? missed.norm() / commanded : missed.norm()},

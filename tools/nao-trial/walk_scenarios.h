@@ -4,7 +4,7 @@
 
 namespace nao::trial {
 
-/** Walks at one velocity, then stands. */
+/** Walks at one velocity, then stands. Fails below half of the velocity. */
 class WalkScenario : public Scenario {
  public:
   const char* name() const override { return "walk"; }

@@ -30,6 +30,10 @@ void add_search_options(CommandLine& app, SearchOptions& options, const std::str
   app.add_option("--generations", options.generations, "Generations of the search")
       ->not_negative()
       ->show_default();
+  app.add_option("--minutes", options.minutes,
+                 "Time after which no further generation begins (0: no limit)")
+      ->not_negative()
+      ->show_default();
   app.add_option("--population", options.population, "Candidates in a generation")
       ->range(4, 1000)
       ->show_default();

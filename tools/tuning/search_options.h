@@ -14,6 +14,8 @@ struct SearchOptions {
   std::string model = "nao";
   std::string output;
   int generations = 30;
+  /** Time after which no further generation begins, minutes; 0: no limit. */
+  double minutes = 0;
   int population = 14;
   /** Threads of this process; 0: all cores, or one where mpirun started it. */
   int jobs = 0;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 #include <numeric>
+#include <ratio>
 #include <string>
 #include <vector>
 
@@ -114,8 +115,13 @@ void run_search(const SearchOptions& options, const TuningProblem& problem, Eval
   }
   const StopSignal stop;
   const auto first = static_cast<int>(checkpoint.costs.size()) + 1;
-  for (int generation = first; generation <= options.generations && !stop.has_come();
-       ++generation) {
+  const Clock::time_point search_begin = Clock::now();
+  const auto is_time_over = [&] {
+    const std::chrono::duration<double, std::ratio<60>> time = Clock::now() - search_begin;
+    return options.minutes > 0 && time.count() >= options.minutes;
+  };
+  for (int generation = first;
+       generation <= options.generations && !stop.has_come() && !is_time_over(); ++generation) {
     const Clock::time_point begin = Clock::now();
     const std::vector<Eigen::VectorXd> candidates = search.ask();
     // New seeds in each generation, so that the search does not adapt to a few of them.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/error.h"
 #include "common/text_file.h"
 #include "tools/walk-tuner/gait_file.h"
 
@@ -45,6 +46,12 @@ Gait GaitProblem::gait_at(const Eigen::VectorXd& point) const {
     const Gait::Parameter& p = tuned_[i];
     p.in(gait) = p.lower + std::clamp(point[static_cast<long>(i)], 0.0, 1.0) * (p.upper - p.lower);
   }
+  // The ranges of bounds and bounded values overlap.
+  Gait::Timing& timing = gait.timing;
+  timing.min_step_duration = std::min(timing.min_step_duration, timing.step_duration);
+  timing.max_step_duration = std::max(timing.max_step_duration, timing.step_duration);
+  double& least_separation = gait.step_limits.min_foot_separation;
+  least_separation = std::min(least_separation, gait.stance.foot_separation);
   return gait;
 }
 
@@ -77,7 +84,12 @@ std::string GaitProblem::describe(const std::vector<Figures>& trials) const {
 }
 
 std::string GaitProblem::text(const Eigen::VectorXd& point) const {
-  return with_gait_values(text_, gait_at(point), parameters_);
+  const Gait gait = gait_at(point);
+  if (const auto found = gait.find_contradiction()) {
+    throw Error(
+        fmt::format("the gait is not written: {} {}", found->parameter, found->requirement));
+  }
+  return with_gait_values(text_, gait, parameters_);
 }
 
 std::map<std::string, std::string> GaitProblem::settings() const {

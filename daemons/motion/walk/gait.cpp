@@ -113,6 +113,23 @@ Gait::Parameter read_parameter(const std::string& name, const YamlEntry& entry, 
 
 }  // namespace
 
+std::optional<Gait::Contradiction> Gait::find_contradiction() const {
+  if (timing.min_step_duration > timing.step_duration ||
+      timing.step_duration > timing.max_step_duration) {
+    return Contradiction{"timing.step_duration",
+                         "must lie between min_step_duration and max_step_duration"};
+  }
+  if (step_limits.min_foot_separation > stance.foot_separation) {
+    // The feet would never stand side by side, and the walk would not end.
+    return Contradiction{"step_limits.min_foot_separation",
+                         "must not be above stance.foot_separation"};
+  }
+  if (velocity.full_speed_lag >= velocity.slow_speed_lag) {
+    return Contradiction{"velocity.slow_speed_lag", "must be above full_speed_lag"};
+  }
+  return std::nullopt;
+}
+
 // The file must hold all parameters and no others; each with its value inside its range.
 Gait Gait::load(const std::filesystem::path& file, std::vector<Parameter>* parameters) {
   const YamlEntry root = YamlEntry::load(file);
@@ -128,15 +145,11 @@ Gait Gait::load(const std::filesystem::path& file, std::vector<Parameter>* param
     const size_t dot = parameter.name.find('.');
     (void)root.at(parameter.name.substr(0, dot)).at(parameter.name.substr(dot + 1));
   }
-  const Timing& timing = gait.timing;
-  if (timing.min_step_duration > timing.step_duration ||
-      timing.step_duration > timing.max_step_duration) {
-    root.at("timing")
-        .at("step_duration")
-        .fail("must lie between min_step_duration and max_step_duration");
-  }
-  if (gait.velocity.full_speed_lag >= gait.velocity.slow_speed_lag) {
-    root.at("velocity").at("slow_speed_lag").fail("must be above full_speed_lag");
+  if (const auto found = gait.find_contradiction()) {
+    const size_t dot = found->parameter.find('.');
+    root.at(found->parameter.substr(0, dot))
+        .at(found->parameter.substr(dot + 1))
+        .fail(found->requirement);
   }
   if (parameters != nullptr) *parameters = std::move(read);
   return gait;

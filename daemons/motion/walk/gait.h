@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -146,6 +147,15 @@ struct Gait {
 
     double value(Gait gait) const { return in(gait); }
   };
+
+  /** A value that others of the same gait exclude. */
+  struct Contradiction {
+    /** "GROUP.KEY". */
+    std::string parameter;
+    std::string requirement;
+  };
+  /** The first contradiction between values: with it a walk cannot begin or end. */
+  std::optional<Contradiction> find_contradiction() const;
 
   /** Reads data/robots/NAME/gait.yaml, which must hold every parameter.
    * @param parameters  If given, set to all entries with their ranges, in the file's order.

@@ -6,52 +6,15 @@
 
 #include <random>
 
-#include "common/error.h"
 #include "robot_import/mesh_import.h"
-#include "robot_import/robot_import.h"
-#include "robot_model/robot_model.h"
-#include "test/support/test_biped.h"
+#include "sim/tree.h"
+#include "test/libs/robot_import/imported_urdf.h"
 
 namespace nao {
 namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
-
-/** A biped's URDF that a test may change, and its import. */
-class ImportedUrdf : public testing::Test {
- protected:
-  /** Replaces the first occurrence after a text. */
-  void replace(const std::string& after, const std::string& from, const std::string& to) {
-    const size_t at = urdf_.find(from, urdf_.find(after));
-    ASSERT_NE(at, std::string::npos) << from;
-    urdf_.replace(at, from.size(), to);
-  }
-  RobotModel import() {
-    write_text(folder_.path() / "source" / "biped.urdf", urdf_);
-    std::filesystem::remove_all(robot());
-    findings_ = import_robot(folder_.path() / "source" / "biped.urdf", robot());
-    lines_.clear();
-    for (const Finding& finding : findings_) lines_.push_back(to_line(finding));
-    return RobotModel::load(robot());
-  }
-  std::string error_of_import() {
-    try {
-      import();
-      return "";
-    } catch (const ModelError& error) {
-      return error.what();
-    }
-  }
-  std::filesystem::path robot() const { return folder_.path() / "biped"; }
-  std::filesystem::path source() const { return folder_.path() / "source"; }
-  void SetUp() override { std::filesystem::create_directories(source()); }
-
-  TemporaryFolder folder_;
-  std::string urdf_ = make_biped_urdf(TestBiped{});
-  Findings findings_;
-  std::vector<std::string> lines_;
-};
 
 TEST_F(ImportedUrdf, WithoutMeshesIsReadAsItIs) {
   const RobotModel model = import();
@@ -87,10 +50,11 @@ TEST_F(ImportedUrdf, GetsAnInertiaInThePlaceOfAnImpossibleOne) {
   EXPECT_GT(model.links()[model.find_link("left_shank")].inertia.trace(), 0);
 }
 
-TEST_F(ImportedUrdf, MayHaveALinkOfNegativeMassAsAFrame) {
+TEST_F(ImportedUrdf, MayHaveALinkOfNegativeMass) {
   replace("name=\"left_ankle\"", "<mass value=\"", "<mass value=\"-");
   const RobotModel model = import();
-  EXPECT_EQ(model.links()[model.find_link("left_ankle")].mass, 0);
+  EXPECT_THAT(lines_, Contains(HasSubstr("link left_ankle: has no mass above 0")));
+  EXPECT_GT(model.links()[model.find_link("left_ankle")].mass, 0);
 }
 
 TEST_F(ImportedUrdf, MayHaveARootWithoutMass) {
@@ -137,6 +101,151 @@ TEST_F(ImportedUrdf, CollidesByCapsulesInThePlaceOfCylinders) {
   EXPECT_NEAR(shapes[0].length, 0.06, 1e-9);
   EXPECT_EQ(shapes[1].kind, Shape::Kind::kBox);
   EXPECT_NEAR(shapes[1].size.z(), 0.05, 1e-9);
+}
+
+// What other programs write into URDFs, and Drake, Pinocchio, MuJoCo, RViz or PyBullet read.
+TEST_F(ImportedUrdf, MayHaveElementsOfOtherPrograms) {
+  replace("<link name=\"trunk\">", "<link name=\"trunk\">",
+          "<!-- made by <xacro:macro> from ${file} -->\n<drake:frame name=\"f\"/><drake:frame "
+          "name=\"g\"/>\n<gazebo><plugin file=\"${x}\"/></gazebo><xacro:camera name=\"c\"/>"
+          "<link name=\"trunk\"><self_collision_checking/>"
+          "<visual><geometry><box size=\"1 1 1\"/><drake:declare_convex/></geometry>"
+          "<material/></visual>"
+          "<visual><geometry><box size=\"1 1 1\"/></geometry>"
+          "<material name=\"grey\"><color rgba=\"x\"/></material></visual>");
+  EXPECT_EQ(import().links().front().visuals.size(), 2u);
+  EXPECT_THAT(lines_, Contains(HasSubstr("<drake:frame> is not part of a URDF (2 times)")));
+  EXPECT_THAT(lines_, Contains(HasSubstr("<xacro:camera> is not expanded")));
+}
+
+TEST_F(ImportedUrdf, IsRefusedWithANumberThatXacroDidNotExpand) {
+  replace("name=\"left_elbow\"", "<limit lower=\"", "<limit lower=\"${-pi}\" old=\"");
+  EXPECT_THAT(error_of_import(), HasSubstr("run `xacro"));
+}
+
+TEST_F(ImportedUrdf, ReadsCapsulesAndLeavesOutShapesWithoutSize) {
+  const auto shape = [](const std::string& form) {
+    return "<collision><geometry>" + form + "</geometry></collision>";
+  };
+  add_to_link("trunk", shape("<capsule radius=\"0.02\" length=\"0.1\"/>") +
+                           shape("<sphere radius=\"0\"/>") + shape("<box size=\"1 1\"/>") +
+                           shape("<cylinder radius=\"-1\" length=\"1\"/>"));
+  const RobotModel model = import();
+  const auto& shapes = model.links().front().collisions;
+  ASSERT_EQ(shapes.size(), 1u);
+  EXPECT_EQ(shapes[0].kind, Shape::Kind::kCapsule);
+  EXPECT_NEAR(shapes[0].length, 0.1, 1e-12);
+  EXPECT_THAT(lines_, Contains(HasSubstr("link trunk: a sphere has no size above 0")));
+}
+
+TEST_F(ImportedUrdf, ReplacesNumbersThatCannotBeRead) {
+  replace("name=\"left_elbow\"", "<origin xyz=\"", "<origin rpy=\"0 0\" xyz=\"");
+  replace("name=\"right_elbow\"", "lower=\"-2\"", "lower=\"2\"");
+  const RobotModel model = import();
+  EXPECT_NEAR(model.motor_joint(model.find_motor("right_elbow")).lower, 0.1, 1e-12);
+  EXPECT_THAT(lines_, Contains(HasSubstr("joint left_elbow: rpy=\"0 0\" is not")));
+  EXPECT_THAT(lines_, Contains(HasSubstr("lower limit above the upper one")));
+}
+
+class ImportedMimics : public ImportedUrdf {
+ protected:
+  /** Makes a joint follow another one. */
+  void couple(const std::string& joint, const std::string& leader, const std::string& numbers) {
+    replace("name=\"" + joint + "\"", "</joint>",
+            "<mimic joint=\"" + leader + "\" " + numbers + "/></joint>");
+  }
+};
+
+TEST_F(ImportedMimics, FollowTheMotorThatAMimicFollows) {
+  // Both hips' first joints and the left shoulder are carried by the trunk.
+  couple("right_hip_yaw", "left_hip_yaw", "multiplier=\"-0.5\" offset=\"0.1\"");
+  couple("left_shoulder_pitch", "right_hip_yaw", "multiplier=\"2\" offset=\"0.3\"");
+  const RobotModel model = import();
+  const Joint& shoulder = model.joints()[model.find_joint("left_shoulder_pitch")];
+  EXPECT_EQ(shoulder.mimic_joint, model.find_joint("left_hip_yaw"));
+  EXPECT_NEAR(shoulder.mimic_multiplier, -1, 1e-12);
+  EXPECT_NEAR(shoulder.mimic_offset, 0.5, 1e-12);
+}
+
+TEST_F(ImportedMimics, AreHeldWhereNoMotorOfTheirBodyLeads) {
+  couple("left_elbow", "left_shoulder_roll", "multiplier=\"1\" offset=\"-0.4\"");
+  couple("right_elbow", "nothing", "");
+  const RobotModel model = import();
+  EXPECT_LT(model.find_motor("left_elbow"), 0);
+  EXPECT_THAT(lines_, Contains(HasSubstr("left_elbow: mimics left_shoulder_roll, which another "
+                                         "body carries; it is held at -0.4")));
+  EXPECT_THAT(lines_, Contains(HasSubstr("mimics \"nothing\"")));
+  const Eigen::Isometry3d held = model.joints()[model.find_joint("left_elbow")].pose_in_parent;
+  EXPECT_NEAR(Eigen::AngleAxisd(held.linear()).angle(), 0.4, 1e-9);
+  // The physics takes it.
+  EXPECT_NO_THROW(sim::Tree{model});
+}
+
+TEST_F(ImportedMimics, OfEachOtherAreHeld) {
+  couple("left_elbow", "right_elbow", "");
+  couple("right_elbow", "left_elbow", "");
+  EXPECT_LT(import().find_motor("left_elbow"), 0);
+}
+
+TEST_F(ImportedUrdf, GetsALittleMassBetweenMovingLinks) {
+  const size_t at = urdf_.find("<inertial>", urdf_.find("<link name=\"left_ankle\""));
+  urdf_.erase(at, urdf_.find("</inertial>", at) + 11 - at);
+  const RobotModel model = import();
+  EXPECT_GT(model.links()[model.find_link("left_ankle")].mass, 0);
+  EXPECT_THAT(lines_, Contains(HasSubstr("link left_ankle: is moved by a joint, but has no mass")));
+  EXPECT_NO_THROW(sim::Tree{model});
+}
+
+TEST_F(ImportedUrdf, HoldsWhatHasNoMassAndJointsAboveTheRobot) {
+  replace("<link name=\"trunk\">", "<link name=\"trunk\">",
+          "<link name=\"world\"/><joint name=\"free\" type=\"continuous\"><parent link=\"world\"/>"
+          "<child link=\"trunk\"/></joint><link name=\"horn\"/><joint name=\"horn_yaw\" "
+          "type=\"continuous\"><parent link=\"trunk\"/><child link=\"horn\"/></joint>"
+          "<link name=\"trunk\">");
+  const RobotModel model = import();
+  EXPECT_LT(model.find_motor("free"), 0);
+  EXPECT_LT(model.find_motor("horn_yaw"), 0);
+  EXPECT_EQ(model.num_motors(), 12 + 6);
+}
+
+TEST_F(ImportedUrdf, FindsMeshesWhateverTheCaseOfTheirLetters) {
+  std::filesystem::create_directories(source() / "meshes");
+  // Collada: with z up it has the axes of the link.
+  write_text(
+      source() / "meshes" / "Part.dae",
+      "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\"><asset>"
+      "<up_axis>Z_UP</up_axis></asset><library_geometries><geometry id=\"g\"><mesh><source "
+      "id=\"p\">"
+      "<float_array id=\"a\" count=\"12\">0 0 0 1 0 0 0 2 0 0 0 3</float_array><technique_common>"
+      "<accessor source=\"#a\" count=\"4\" stride=\"3\"><param name=\"X\" type=\"float\"/><param "
+      "name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common>"
+      "</source><vertices id=\"v\"><input semantic=\"POSITION\" "
+      "source=\"#p\"/></vertices><triangles "
+      "count=\"4\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 2 1 0 1 3 0 3 2 1 2 "
+      "3</p></triangles></mesh></geometry></"
+      "library_geometries><library_visual_scenes><visual_scene "
+      "id=\"s\"><node><instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes>"
+      "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+  add_to_link("trunk",
+              "<collision><geometry><mesh filename=\"package://x/Meshes\\part.DAE\"/></geometry>"
+              "</collision>");
+  const RobotModel model = import();
+  ASSERT_EQ(model.links().front().collisions.size(), 1u);
+  const Eigen::Vector3d size = model.links().front().collisions[0].size;
+  EXPECT_TRUE(size.isApprox(Eigen::Vector3d(1, 2, 3), 1e-6)) << size.transpose();
+}
+
+TEST_F(ImportedUrdf, IsRefusedIfItIsNestedTooDeep) {
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  add_to_link("trunk", deep);
+  EXPECT_THAT(error_of_import(), HasSubstr("nested"));
+}
+
+TEST_F(ImportedUrdf, HasPosturesWithinLimitsOfManyDigits) {
+  replace("name=\"left_shoulder_roll\"", "lower=\"-0.29999999999999999\"",
+          "lower=\"0.095993108859688167\"");
+  EXPECT_GT(import().motor_joint(0).upper, 0);
 }
 
 TEST_F(ImportedUrdf, SaysWhichMeshIsMissing) {

@@ -68,6 +68,11 @@ TEST_F(GaitTest, RejectsAFileWithUnknownMissingOrContradictoryParameters) {
   EXPECT_NE(load(with_line("step_duration", "  step_duration: {value: 2, range: [0, 2]}\n"))
                 .find("min_step_duration"),
             std::string::npos);
+  // Its feet would never stand side by side.
+  EXPECT_NE(
+      load(with_line("min_foot_separation", "  min_foot_separation: {value: 0.2, range: [0, 2]}\n"))
+          .find("must not be above stance.foot_separation"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,214 @@
+#include "robot_import/urdf_dialect.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "robot_import/urdf_values.h"
+
+namespace nao {
+namespace {
+
+using Severity = Finding::Severity;
+
+constexpr size_t kMaxBytes = 16 << 20;
+constexpr int kMaxDepth = 64;
+// More links than any robot has; the time of an import grows with the square of their number.
+constexpr int kMaxLinks = 500;
+
+/** Elements that are read, by the element that they stand in. */
+const std::map<std::string, std::set<std::string>>& known_elements() {
+  static const std::map<std::string, std::set<std::string>> known = {
+      {"robot", {"link", "joint"}},
+      {"link", {"inertial", "visual", "collision"}},
+      {"inertial", {"origin", "mass", "inertia"}},
+      {"visual", {"origin", "geometry"}},
+      {"collision", {"origin", "geometry"}},
+      {"geometry", {"box", "sphere", "cylinder", "capsule", "mesh"}},
+      {"joint", {"parent", "child", "origin", "axis", "limit", "mimic"}}};
+  return known;
+}
+
+/** Elements that are common in URDFs, and say nothing that is used here. */
+bool is_common(const std::string& name) {
+  static const std::set<std::string> common = {
+      "material", "transmission",      "gazebo",           "ros2_control", "sensor", "dynamics",
+      "mujoco",   "safety_controller", "joint_properties", "calibration"};
+  return common.count(name) > 0;
+}
+
+bool is_xacro(const std::string& name) {
+  return name.rfind("xacro:", 0) == 0;
+}
+
+class DialectRepair {
+ public:
+  explicit DialectRepair(RepairLog& log) : log_(log) {}
+
+  void run(TiXmlElement& robot) {
+    check_xacro(robot, false);
+    clean(robot, "");
+    for (const auto& [place, found] : foreign_) {
+      const std::string times =
+          found.count > 1 ? " (" + std::to_string(found.count) + " times)" : "";
+      log_.findings.push_back({Severity::kRepaired, log_.file, found.line, place.first,
+                               "<" + place.second + "> is not part of a URDF" + times,
+                               "it is left out"});
+    }
+  }
+
+ private:
+  struct Foreign {
+    int line = 0;
+    int count = 0;
+  };
+
+  // xacro's output is a URDF; its input cannot be understood without it.
+  void check_xacro(const TiXmlElement& element, bool is_in_tree) const {
+    static const std::set<std::string> definitions = {"xacro:macro", "xacro:include", "xacro:if",
+                                                      "xacro:unless", "xacro:insert_block"};
+    const std::string name = element.Value();
+    bool is_input = definitions.count(name) > 0;
+    is_in_tree = is_in_tree || name == "link" || name == "joint";
+    for (const TiXmlAttribute* attribute = element.FirstAttribute(); attribute != nullptr;
+         attribute = attribute->Next()) {
+      is_input |= is_in_tree && std::string(attribute->Value()).find("${") != std::string::npos;
+    }
+    if (is_input) {
+      log_.fail(&element, "is the input of xacro",
+                "run `xacro FILE.xacro > FILE.urdf` and import that");
+    }
+    for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      check_xacro(*child, is_in_tree);
+    }
+  }
+
+  /** Removes what is not read. @param owner  "link foot". */
+  void clean(TiXmlElement& element, const std::string& owner) {
+    const std::string kind = element.Value();
+    const auto known = known_elements().find(kind);
+    for (TiXmlElement* child = element.FirstChildElement(); child != nullptr;) {
+      TiXmlElement* next = child->NextSiblingElement();
+      const std::string name = child->Value();
+      if (known != known_elements().end() && known->second.count(name) == 0) {
+        if (is_xacro(name)) {
+          log_.note(Severity::kMissing, *child, owner, "<" + name + "> is not expanded",
+                    "it is left out: run xacro if it stands for a part of the robot");
+        } else if (!is_common(name)) {
+          Foreign& foreign = foreign_[{kind == "robot" ? "" : kind, name}];
+          if (foreign.count++ == 0) foreign.line = child->Row();
+        }
+        element.RemoveChild(child);
+      } else {
+        const char* of = child->Attribute("name");
+        const bool is_owner = kind == "robot";
+        if (is_owner && ++num_owners_ > 2 * kMaxLinks) {
+          log_.fail(child, "has more than " + std::to_string(kMaxLinks) + " links",
+                    "leave out those that do not matter");
+        }
+        clean(*child, is_owner ? name + " " + (of == nullptr ? "" : of) : owner);
+      }
+      child = next;
+    }
+    if (kind == "origin") repair_numbers(element, owner, {"xyz", "rpy"}, 3);
+    if (kind == "mimic") repair_numbers(element, owner, {"multiplier", "offset"}, 1);
+    if (kind == "mesh") repair_numbers(element, owner, {"scale"}, 3);
+    if (kind == "visual" || kind == "collision") repair_geometry(element, owner);
+  }
+
+  void repair_numbers(TiXmlElement& element, const std::string& owner,
+                      std::initializer_list<const char*> names, size_t count) {
+    for (const char* name : names) {
+      if (element.Attribute(name) == nullptr || read_numbers(element, name, count)) continue;
+      log_.note(Severity::kRepaired, element, owner,
+                std::string(name) + "=\"" + element.Attribute(name) + "\" is not a number of " +
+                    element.Value(),
+                "it is left out, as if the file did not state it");
+      element.RemoveAttribute(name);
+    }
+  }
+
+  // Leaves one known geometry with a size above 0, or none.
+  void repair_geometry(TiXmlElement& shape, const std::string& owner) {
+    TiXmlElement* geometry = shape.FirstChildElement("geometry");
+    TiXmlElement* form = geometry == nullptr ? nullptr : geometry->FirstChildElement();
+    if (form == nullptr) return;
+    const std::string kind = form->Value();
+    bool has_size = true;
+    if (kind == "box") {
+      const auto size = read_numbers(*form, "size", 3);
+      has_size = size && *std::min_element(size->begin(), size->end()) > 0;
+    } else if (kind != "mesh") {
+      has_size = read_number(*form, "radius", 0) > 0 &&
+                 (kind != "cylinder" || read_number(*form, "length", 0) > 0);
+    }
+    if (!has_size) {
+      log_.note(Severity::kRepaired, *form, owner, "a " + kind + " has no size above 0",
+                "it is left out");
+      geometry->RemoveChild(form);
+      return;
+    }
+    if (kind != "capsule") return;
+    // The length of a capsule is that between the centers of its ends.
+    const double length = read_number(*form, "length", 0);
+    TiXmlElement round(length > 0 ? "cylinder" : "sphere");
+    round.SetAttribute("radius", form->Attribute("radius"));
+    if (length > 0) {
+      round.SetAttribute("length", form->Attribute("length"));
+      const char* name = shape.Attribute("name");
+      shape.SetAttribute("name", ((name == nullptr ? "" : name) + std::string("_capsule")).c_str());
+    }
+    geometry->RemoveChild(form);
+    geometry->InsertEndChild(round);
+  }
+
+  RepairLog& log_;
+  int num_owners_ = 0;
+  std::map<std::pair<std::string, std::string>, Foreign> foreign_;
+};
+
+}  // namespace
+
+void check_xml_size(const std::string& text, const RepairLog& log) {
+  if (text.size() > kMaxBytes) {
+    log.fail(nullptr, "is larger than " + std::to_string(kMaxBytes >> 20) + " MiB",
+             "move meshes into files of their own");
+  }
+  const auto starts = [&](size_t at, const char* with) {
+    return text.compare(at, std::char_traits<char>::length(with), with) == 0;
+  };
+  int depth = 0;
+  for (size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    if (starts(at, "<!--")) {
+      const size_t end = text.find("-->", at);
+      at = end == std::string::npos ? text.size() : end;
+      continue;
+    }
+    // The end of the tag, outside of quoted values.
+    const bool is_end = starts(at, "</");
+    const bool is_other = starts(at, "<?") || starts(at, "<!");
+    char quote = 0;
+    size_t end = at;
+    for (; end < text.size() && (quote != 0 || text[end] != '>'); ++end) {
+      if (quote != 0) {
+        if (text[end] == quote) quote = 0;
+      } else if (text[end] == '"' || text[end] == '\'') {
+        quote = text[end];
+      }
+    }
+    const bool is_empty = end > at && text[end - 1] == '/';
+    depth += is_other || (is_empty && !is_end) ? 0 : is_end ? -1 : 1;
+    if (depth > kMaxDepth) {
+      log.fail(nullptr, "has elements nested more than " + std::to_string(kMaxDepth) + " deep",
+               "it is not a URDF");
+    }
+    at = end;
+  }
+}
+
+void repair_dialect(TiXmlElement& robot, RepairLog& log) {
+  DialectRepair(log).run(robot);
+}
+
+}  // namespace nao

@@ -1,0 +1,48 @@
+// An imported robot is simulated; what holds is in its folder.
+
+#include "tools/robot-trial/robot_trial.h"
+
+#include <gmock/gmock.h>
+
+#include "daemons/motion/walk/gait.h"
+#include "robot_import/robot_import.h"
+#include "test/support/temporary_folder.h"
+#include "test/support/test_biped.h"
+
+namespace nao {
+namespace {
+
+TEST(RobotTrial, WritesSettingsThatHoldAndACard) {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "biped.urdf", make_biped_urdf(TestBiped{}));
+  const std::filesystem::path robot = folder.path() / "biped";
+  import_robot(folder.path() / "biped.urdf", robot);
+  std::vector<std::string> lines;
+  const RobotCard card =
+      try_robot(robot, 10, 0, [&](const std::string& line) { lines.push_back(line); });
+  EXPECT_EQ(card.stands, card.runs);
+  EXPECT_GE(card.walks, card.runs - 1) << card.failure;
+  EXPECT_GT(card.speed, 0.5 * card.commanded_speed);
+  EXPECT_GT(card.push, 0);
+  EXPECT_THAT(lines, testing::Contains(testing::HasSubstr("walks 100 %")));
+  // The files are those of the card.
+  EXPECT_DOUBLE_EQ(RobotModel::load(robot).walk_limits().forward, card.commanded_speed);
+  (void)motion::Gait::load(robot / "gait.yaml");
+  EXPECT_EQ(read_text(robot / "card.json"), to_json(card));
+  EXPECT_THAT(to_text(card), testing::HasSubstr("walks " + std::to_string(card.walks) + " of 5"));
+}
+
+TEST(RobotTrial, TellsThatARobotWithoutAGaitOnlyStands) {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "biped.urdf", make_biped_urdf(TestBiped{}));
+  const std::filesystem::path robot = folder.path() / "biped";
+  import_robot(folder.path() / "biped.urdf", robot);
+  std::filesystem::remove(robot / "gait.yaml");
+  const RobotCard card = try_robot(robot, 10, 0, [](const std::string&) {});
+  EXPECT_EQ(card.stands, card.runs);
+  EXPECT_EQ(card.walks, 0);
+  EXPECT_THAT(card.failure, testing::HasSubstr("no gait"));
+}
+
+}  // namespace
+}  // namespace nao
