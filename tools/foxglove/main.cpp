@@ -14,6 +14,7 @@
 #include "common/program.h"
 #include "common/status_reporter.h"
 #include "common/wall_clock.h"
+#include "phone-gateway/web_stream/asio_loop.h"
 #include "robot_model/robot_model.h"
 #include "tools/foxglove/bus_relay.h"
 #include "tools/foxglove/client_publisher.h"
@@ -138,9 +139,9 @@ void run(const CommonOptions& common, Options options) {
                     {"undecodable", static_cast<double>(relay.num_undecodable())}});
   };
 
-  network.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
-  network.every(kCameraPeriod, [&] { images.update(relay.wanted_cameras()); });
-  network.every(kStatusPeriod, [&] {
+  network.loop().on_readable(bus.descriptor(), [&bus] { bus.handle(); });
+  network.loop().every(kCameraPeriod, [&] { images.update(relay.wanted_cameras()); });
+  network.loop().every(kStatusPeriod, [&] {
     images.repeat();
     status.tick(monotonic_seconds());
     report();
@@ -150,7 +151,7 @@ void run(const CommonOptions& common, Options options) {
   logger::info("listening: ws://{}:{}", options.network.bind, network.port());
   report();
 
-  const std::string reason = network.run();
+  const std::string reason = network.loop().run();
   const ServerCounters& counters = core.counters();
   logger::info("stopped: {}; {} clients, {} messages sent, {} dropped, {} requests refused", reason,
                counters.num_clients, counters.num_sent, counters.num_dropped, counters.num_refused);
