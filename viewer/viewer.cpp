@@ -59,8 +59,9 @@ Viewer::Viewer(const RobotModel& model, Bus* bus, const ViewerOptions& options)
   }
   if (bus_ != nullptr) {
     commands_.emplace(*bus_, store_.channels());
-    bus_->subscribe_raw(".*", [this](const std::string& channel, const uint8_t* data, int size) {
-      receive(channel, data, size, monotonic_seconds());
+    bus_->subscribe_raw(".*", [this](const RawMessage& message) {
+      receive(message.channel, message.bytes.data(), static_cast<int>(message.bytes.size()),
+              monotonic_seconds());
     });
   } else {
     player_.emplace(LogFile(options.log_file));
@@ -76,7 +77,7 @@ Viewer::~Viewer() {
 
 void Viewer::receive(const std::string& channel, const uint8_t* data, int num_bytes, double time) {
   if (!store_.receive(channel, data, num_bytes, time)) {
-    throw std::runtime_error(
+    throw MessageError(
         "the message is not of its channel's type, or from another version of the project");
   }
   plots_.receive(channel, data, num_bytes, time);

@@ -67,7 +67,7 @@ void RenderedSource::receive_truth(const naolcm::world_truth_t& truth) {
   // UDP may deliver messages out of order. The exception makes the bus count the message as
   // dropped.
   if (world_ && truth.utime < world_->utime && world_->utime - truth.utime < kRestartThreshold) {
-    throw Error("the message is older than the previous one");
+    throw MessageError("the message is older than the previous one");
   }
   WorldState world = decode_truth(models_, truth);
   if (world_ && world.utime < world_->utime) {

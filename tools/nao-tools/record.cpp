@@ -1,12 +1,11 @@
 #include <cstdio>
-#include <lcm/lcm-cpp.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "common/bus.h"
 #include "common/command_line.h"
-#include "common/error.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
 #include "tools/nao-tools/channel_pattern.h"
@@ -39,55 +38,29 @@ std::string with_receive_buffer(const std::string& url) {
   return url + (url.find('?') == std::string::npos ? "?" : "&") + kReceiveBuffer;
 }
 
-/** Writes every selected message to the log. */
-struct Recorder {
-  LogWriter writer;
-  std::optional<ChannelPattern> without;
-  /** Error of the last write; an exception must not propagate through LCM's C code. */
-  std::string fault;
-
-  void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    // LCM's own self-test message, sent whenever a program opens the bus.
-    if (channel == "LCM_SELF_TEST") return;
-    if (without && without->matches(channel)) return;
-    const auto* data = static_cast<const uint8_t*>(buffer->data);
-    try {
-      writer.write({0, buffer->recv_utime, channel, {data, data + buffer->data_size}});
-    } catch (const Error& error) {
-      fault = error.what();
-    }
-  }
-};
-
 int run_record(const CommonOptions& common, const RecordOptions& options) {
   EventLoop loop;
-  // nao::Bus decodes one known type per channel; a recorder takes raw messages, as spy.cpp does.
-  lcm::LCM lcm(with_receive_buffer(common.lcm_url));
-  if (!lcm.good()) {
-    throw BusError("cannot open the message bus " + common.lcm_url + "; try: nao bus");
-  }
+  Bus bus(with_receive_buffer(common.lcm_url));
   std::optional<ChannelPattern> without;
   if (!options.without.empty()) without.emplace("--without", options.without);
-  Recorder recorder{
-      LogWriter(options.file, {static_cast<int64_t>(options.split_mb * 1e6), options.num_kept}),
-      std::move(without),
-      {}};
-  lcm::Subscription* subscription = lcm.subscribe(options.channels, &Recorder::receive, &recorder);
-  subscription->setQueueCapacity(kQueueCapacity);
-  loop.on_readable(lcm.getFileno(), [&lcm] {
-    while (lcm.handleTimeout(0) > 0) {
-    }
-  });
+  LogWriter writer(options.file, {static_cast<int64_t>(options.split_mb * 1e6), options.num_kept});
+  bus.subscribe_raw(
+      options.channels,
+      [&](const RawMessage& message) {
+        if (without && without->matches(message.channel)) return;
+        writer.write(
+            {0, message.wall_utime, message.channel, {message.bytes.begin(), message.bytes.end()}});
+      },
+      kQueueCapacity);
+  loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
   const double end = monotonic_seconds() + options.duration;
   loop.every(kFlushPeriod, [&] {
-    recorder.writer.flush();
-    if (!recorder.fault.empty()) throw Error(recorder.fault);
+    writer.flush();
     if (monotonic_seconds() >= end) loop.stop("end");
   });
   loop.run();
-  lcm.unsubscribe(subscription);
-  recorder.writer.flush();
-  std::fprintf(stderr, "%ld messages recorded\n", static_cast<long>(recorder.writer.num_events()));
+  writer.flush();
+  std::fprintf(stderr, "%ld messages recorded\n", static_cast<long>(writer.num_events()));
   return 0;
 }
 

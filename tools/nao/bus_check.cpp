@@ -148,8 +148,8 @@ struct HostReport {
 
 std::map<std::string, HostReport> listen_for_hosts(Bus& bus, ChannelOwners& owners) {
   std::map<std::string, HostReport> hosts;
-  bus.subscribe_raw(kOwnedChannels, [&](const std::string& channel, const uint8_t* data, int size) {
-    owners.note(channel, data, size);
+  bus.subscribe_raw(kOwnedChannels, [&](const RawMessage& message) {
+    owners.note(message.channel, message.bytes.data(), static_cast<int>(message.bytes.size()));
   });
   bus.subscribe<naolcm::daemon_status_t>(
       kDaemonStatusChannel, Bus::Queue::kAll, [&hosts](const naolcm::daemon_status_t& status) {

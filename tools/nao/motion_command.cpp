@@ -14,6 +14,7 @@
 #include "common/event_loop.h"
 #include "common/text_file.h"
 #include "common/wall_clock.h"
+#include "messages/command_publisher.h"
 #include "messages/command_retry.h"
 #include "messages/motion_file.h"
 #include "tools/nao/subcommand.h"
@@ -37,6 +38,7 @@ std::optional<MotionFileResult> ask_motion_files(const CommonOptions& common,
   EventLoop loop;
   Bus bus(common.lcm_url);
   const RobotChannels channels(common.robot);
+  const CommandPublisher commands(bus, channels);
   command.source = "nao." + std::to_string(getpid());
   command.id = wall_utime();
   std::optional<MotionFileResult> answer;
@@ -58,7 +60,8 @@ std::optional<MotionFileResult> ask_motion_files(const CommonOptions& common,
   loop.every(0.02, [&] {
     const double now = monotonic_seconds();
     if (retry.should_send(now)) {
-      bus.publish(channels.motion_file_command, to_message(command, wall_utime()));
+      commands.publish(channels.motion_file_command, to_message(command), command.source,
+                       command.id);
     }
     // While it checks a motion it still lists all of them once a second.
     if (retry.has_timed_out(now) || now - last_heard > kAnswerTimeout) loop.stop("timeout");

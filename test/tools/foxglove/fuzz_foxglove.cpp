@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     }
   };
   nao::foxglove::ClientPublisher publisher(
-      "fuzz", "NAO", [] { return int64_t{1}; }, check);
+      "fuzz", "NAO", [] { return int64_t{1}; }, [] { return int64_t{0}; }, check);
   core.allow_publishing(publisher);
   for (const char* topic : {"A", "B", "C"}) core.add_channel(topic, "a", "{}");
   uint32_t clients[]{core.open([] {}), core.open([] {})};

@@ -37,8 +37,8 @@ TEST(ChannelOwners, LeaveAResetWorldAndOneThatStandsStillAlone) {
 TEST(ChannelOwners, ReadTheTimeOfEncodedMessages) {
   ChannelOwners owners;
   Bus bus("memq://");
-  bus.subscribe_raw(kOwnedChannels, [&](const std::string& channel, const uint8_t* data, int size) {
-    owners.note(channel, data, size);
+  bus.subscribe_raw(kOwnedChannels, [&](const RawMessage& message) {
+    owners.note(message.channel, message.bytes.data(), static_cast<int>(message.bytes.size()));
   });
   naolcm::sensor_state_t state{};
   for (int i = 0; i < 6; ++i) {
