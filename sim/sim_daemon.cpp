@@ -114,7 +114,7 @@ void SimDaemon::take_joint_command(const std::string& name,
   if (robot < 0) return;
   if (auto reason = core_.take_joint_command(robot, to_core(message), monotonic_seconds())) {
     // The bus counts and reports the message.
-    throw Error("rejected: " + *reason);
+    throw MessageError("rejected: " + *reason);
   }
 }
 
@@ -123,19 +123,13 @@ void SimDaemon::take_light_command(const std::string& name,
   const int robot = core_.find_robot(name);
   if (robot < 0) return;
   CommandResult result{message.source, message.command_id, CommandKind::kLight,
-                       ResultStatus::kAccepted};
-  const auto publish = [&] {
-    bus_.publish(channels_[static_cast<size_t>(robot)].command_result,
-                 to_message(result, std::llround(core_.world().sensors(robot).time * 1e6)));
-  };
+                       ResultStatus::kDone};
   if (auto fault = core_.take_light_command(robot, to_light_command(message))) {
     result.status = ResultStatus::kRefused;
     result.reason = *std::move(fault);
-  } else {
-    publish();
-    result.status = ResultStatus::kDone;
   }
-  publish();
+  bus_.publish(channels_[static_cast<size_t>(robot)].command_result,
+               to_message(result, std::llround(core_.world().sensors(robot).time * 1e6)));
 }
 
 // false: executed before; senders repeat their commands.

@@ -1,5 +1,7 @@
 #include "viewer/message_store.h"
 
+#include "common/bus.h"
+
 namespace nao::viewer {
 namespace {
 
@@ -13,7 +15,7 @@ template <class Message>
 bool decode(const uint8_t* data, int num_bytes, double time,
             std::optional<Received<Message>>& place) {
   Received<Message> received;
-  if (received.message.decode(data, 0, num_bytes) < 0) return false;
+  if (!decode_message({data, static_cast<size_t>(num_bytes)}, received.message)) return false;
   received.time = time;
   place = std::move(received);
   return true;

@@ -2,7 +2,7 @@
 
 #include <imgui.h>
 
-#include "viewer/command_sender.h"
+#include "viewer/viewer_commands.h"
 #include "viewer/world_view.h"
 
 namespace nao::viewer {
@@ -27,7 +27,7 @@ constexpr double kMaxBallDistance = 20;
 
 // Left button: rotate the view, drag the ball, or push (with Ctrl) a link; right or middle: pan;
 // wheel: zoom. Returns whether the view was panned.
-bool MouseControl::update(WorldView& world, const PinholeCamera& pinhole, CommandSender* commands,
+bool MouseControl::update(WorldView& world, const PinholeCamera& pinhole, ViewerCommands* commands,
                           double now) {
   const ImGuiIO& io = ImGui::GetIO();
   // ImGui's (0, 0) is the corner of the first pixel, the camera's is its center.
@@ -88,7 +88,7 @@ const Handle* MouseControl::handle_at(const WorldView& world, const Eigen::Vecto
   return nearest;
 }
 
-void MouseControl::drag_ball(const Eigen::Vector3d& ray_in_camera, CommandSender& commands,
+void MouseControl::drag_ball(const Eigen::Vector3d& ray_in_camera, ViewerCommands& commands,
                              double now) {
   Eigen::Vector3d point;
   // The ball moves on the plane at the height of its center.

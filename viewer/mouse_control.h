@@ -9,7 +9,7 @@
 
 namespace nao::viewer {
 
-class CommandSender;
+class ViewerCommands;
 class WorldView;
 
 /** Mouse in the 3D view: moves the camera, drags the ball, pushes links of robots. */
@@ -26,7 +26,7 @@ class MouseControl {
    * @param now  s, monotonic.
    * @return true if the camera was moved sideways, so that it should not follow the robot any more.
    */
-  bool update(WorldView& world, const PinholeCamera& pinhole, CommandSender* commands, double now);
+  bool update(WorldView& world, const PinholeCamera& pinhole, ViewerCommands* commands, double now);
 
  private:
   enum class Drag { kNone, kView, kBall, kPush };
@@ -36,7 +36,7 @@ class MouseControl {
   /** @return nullptr if the ray hits no handle. */
   const Handle* handle_at(const WorldView& world, const Eigen::Vector3d& ray_in_camera,
                           bool is_ball) const;
-  void drag_ball(const Eigen::Vector3d& ray_in_camera, CommandSender& commands, double now);
+  void drag_ball(const Eigen::Vector3d& ray_in_camera, ViewerCommands& commands, double now);
   void drag_push(const Eigen::Vector3d& ray_in_camera);
 
   OrbitCamera camera_;

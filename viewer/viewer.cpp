@@ -59,8 +59,9 @@ Viewer::Viewer(const RobotModel& model, Bus* bus, const ViewerOptions& options)
   }
   if (bus_ != nullptr) {
     commands_.emplace(*bus_, store_.channels());
-    bus_->subscribe_raw(".*", [this](const std::string& channel, const uint8_t* data, int size) {
-      receive(channel, data, size, monotonic_seconds());
+    bus_->subscribe_raw(".*", [this](const RawMessage& message) {
+      receive(message.channel, message.bytes.data(), static_cast<int>(message.bytes.size()),
+              monotonic_seconds());
     });
   } else {
     player_.emplace(LogFile(options.log_file));
@@ -76,7 +77,7 @@ Viewer::~Viewer() {
 
 void Viewer::receive(const std::string& channel, const uint8_t* data, int num_bytes, double time) {
   if (!store_.receive(channel, data, num_bytes, time)) {
-    throw std::runtime_error(
+    throw MessageError(
         "the message is not of its channel's type, or from another version of the project");
   }
   plots_.receive(channel, data, num_bytes, time);
@@ -120,21 +121,18 @@ void Viewer::update_image() {
 // A walk's velocities are sent while its button is held.
 void Viewer::send_commands(double now) {
   if (!commands_) return;
-  commands_->repeat(now);
-  if (!panels_.is_walking) {
-    commands_->end_walk();
-  } else if (now - last_walk_ >= kWalkPeriod) {
+  if (panels_.is_walking) {
     commands_->walk(panels_.vx, panels_.vy, panels_.wz);
-    last_walk_ = now;
+  } else {
+    commands_->end_walk();
   }
+  commands_->repeat(now);
   if (panels_.is_camera_open && now - last_image_request_ >= kImageRequestPeriod) {
     naolcm::camera_command_t command{};
-    command.wall_utime = wall_utime();
-    command.source = "viewer." + std::to_string(getpid());
     command.camera = panels_.camera;
     command.width = kImageWidth;
     command.rate = kImageRate;
-    bus_->publish(store_.channels().head_camera_command, command);
+    commands_->request_images(command);
     last_image_request_ = now;
   }
 }
@@ -147,7 +145,7 @@ PinholeCamera Viewer::pinhole(int width, int height) const {
 
 void Viewer::draw_panels(double now) {
   const double time = message_time(now);
-  CommandSender* commands = commands_ ? &*commands_ : nullptr;
+  ViewerCommands* commands = commands_ ? &*commands_ : nullptr;
   draw_world_panel(store_, commands, panels_, time);
   draw_motion_panel(store_, model_, commands, panels_, time);
   draw_view_panel(panels_, world_.problems());
@@ -173,7 +171,7 @@ void Viewer::draw(unsigned framebuffer, int width, int height, double now) {
   // Mouse and panels, which change the camera, send commands and cover parts of the view.
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
-  CommandSender* commands = commands_ ? &*commands_ : nullptr;
+  ViewerCommands* commands = commands_ ? &*commands_ : nullptr;
   if (mouse_.update(world_, pinhole(width, height), commands, now)) panels_.follow = false;
   panels_.covered.clear();
   if (!options_.without_panels) draw_panels(now);

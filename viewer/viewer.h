@@ -5,13 +5,13 @@
 #include <string>
 
 #include "rendering/scene_renderer.h"
-#include "viewer/command_sender.h"
 #include "viewer/image_texture.h"
 #include "viewer/log_player.h"
 #include "viewer/message_store.h"
 #include "viewer/mouse_control.h"
 #include "viewer/panels/panel_state.h"
 #include "viewer/time_plots.h"
+#include "viewer/viewer_commands.h"
 #include "viewer/viewer_options.h"
 #include "viewer/world_view.h"
 
@@ -56,14 +56,13 @@ class Viewer {
   TimePlots plots_;
   /** nullptr if a log is played; commands_ is then empty and player_ is not. */
   Bus* bus_;
-  std::optional<CommandSender> commands_;
+  std::optional<ViewerCommands> commands_;
   std::optional<LogPlayer> player_;
   ImageTexture image_;
   PanelState panels_;
   MouseControl mouse_;
   // Times of the last frame, walk message and image request, s, and of the image that is shown.
   double last_draw_ = 0;
-  double last_walk_ = 0;
   double last_image_request_ = 0;
   double image_time_ = -1;
   int64_t num_frames_ = 0;

@@ -48,7 +48,7 @@ HeadCameraDaemon::HeadCameraDaemon(Bus& bus, const RobotModel& model,
       model_(model),
       options_(options),
       channels_(options.robot),
-      status_(bus, kProgram),
+      status_(bus, kProgram, options.robot),
       source_(make_source(bus, model, options)),
       cameras_(source_->cameras()) {
   logger::info("{}", source_->description());
@@ -80,7 +80,7 @@ void HeadCameraDaemon::attach(EventLoop& loop) {
 void HeadCameraDaemon::receive_command(const naolcm::camera_command_t& command) {
   const ImageRequest request{command.camera, command.width, command.rate, command.quality};
   const std::string problem = check_request(request, cameras_);
-  if (!problem.empty()) throw Error(command.source + ": " + problem);
+  if (!problem.empty()) throw MessageError(command.source + ": " + problem);
   requests_.add(command.source, request, monotonic_seconds());
 }
 
@@ -110,12 +110,13 @@ void HeadCameraDaemon::step(const std::string& camera, double now) {
   update_state(now, !requests.empty());
   std::erase_if(requests, [&](const ImageRequest& request) { return request.camera != camera; });
   std::vector<ImageRequest> due = schedules_[camera].due(requests);
-  if (!source_->has_image(camera, now)) return;
+  const bool is_for_webots = webots_ && webots_->has_clients(camera);
+  if ((due.empty() && !is_for_webots) || !source_->has_image(camera, now)) return;
   remove_unchanged(due, now);
   // A failed image must not end the program; requests and states continue.
   try {
     send_images(camera, due, now);
-  } catch (const std::exception& error) {
+  } catch (const Error& error) {
     if (const auto num_suppressed = warnings_.allow(now)) {
       logger::warn("no image: {} ({} more such warnings)", error.what(), *num_suppressed);
     }

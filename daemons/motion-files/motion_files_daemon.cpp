@@ -31,7 +31,7 @@ MotionFilesDaemon::MotionFilesDaemon(Bus& bus, EventLoop& loop, const RobotModel
                                      const std::filesystem::path& folder, const std::string& robot)
     : bus_(bus),
       channels_(robot),
-      status_(bus, "nao-motion-files"),
+      status_(bus, "nao-motion-files", robot),
       core_(model, folder),
       checker_(options) {
   for (const std::string& fault : core_.store().faults()) logger::warn("{}", fault);
@@ -39,15 +39,16 @@ MotionFilesDaemon::MotionFilesDaemon(Bus& bus, EventLoop& loop, const RobotModel
       channels_.motion_file_command, Bus::Queue::kAll,
       [this](const naolcm::motion_file_command_t& message) {
         const auto command = from_message(message);
-        if (!command) throw Error("its operation is unknown, or its lists have unequal lengths");
+        if (!command)
+          throw MessageError("its operation is unknown, or its lists have unequal lengths");
         core_.receive(*command);
         step();
       });
   bus_.subscribe<naolcm::daemon_status_t>(
-      kDaemonStatusChannel, Bus::Queue::kAll, [this](const naolcm::daemon_status_t& message) {
-        if (message.program != kMotionProgram) return;
-        // A new nao-motion has no taught motions. Those of other robots cannot be distinguished,
-        // but do not listen.
+      kDaemonStatusChannel, Bus::Queue::kAll,
+      [this, robot](const naolcm::daemon_status_t& message) {
+        if (message.program != kMotionProgram || message.robot != robot) return;
+        // A new nao-motion has no taught motions.
         if (!motion_processes_.insert({message.host, message.process_id}).second) return;
         for (const std::string& name : core_.store().names()) announcements_.push_back({0, name});
       });

@@ -25,7 +25,8 @@ constexpr double kMaxPeriod = 0.1;
 void require_finite(const double* values, int count, const char* quantity) {
   for (int i = 0; i < count; ++i) {
     if (!std::isfinite(values[i])) {
-      throw Error(std::string(quantity) + " " + std::to_string(i) + " is not a finite number");
+      throw MessageError(std::string(quantity) + " " + std::to_string(i) +
+                         " is not a finite number");
     }
   }
 }
@@ -49,7 +50,7 @@ void read_joints(const RobotModel& model, const naolcm::sensor_state_t& message,
        {"torque", message.joint_torque, sensors.torque},
        {"target position", message.joint_target_position, sensors.target_position},
        {"stiffness", message.joint_stiffness, sensors.stiffness, 0, 1}});
-  if (fault) throw Error(to_sentence(*fault));
+  if (fault) throw MessageError(to_sentence(*fault));
 }
 
 void read_inertial_unit(const naolcm::sensor_state_t& message, Sensors& sensors) {
@@ -63,7 +64,7 @@ void read_inertial_unit(const naolcm::sensor_state_t& message, Sensors& sensors)
   sensors.orientation_torso_in_world = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
   const double norm = sensors.orientation_torso_in_world.norm();
   if (std::abs(norm - 1) > kOrientationTolerance) {
-    throw Error("the orientation's norm is " + to_argument(norm) + "; it must be 1");
+    throw MessageError("the orientation's norm is " + to_argument(norm) + "; it must be 1");
   }
 }
 
@@ -75,8 +76,8 @@ void read_foot_sensors(const RobotModel& model, const naolcm::sensor_state_t& me
   for (int i = 0; i < message.num_foot_sensors; ++i) {
     const std::string& name = message.foot_sensor_names[i];
     const size_t index = find_foot_sensor(model, name);
-    if (index == num_sensors) throw Error("the robot has no foot sensor " + quoted(name));
-    if (is_listed[index]) throw Error("foot sensor " + name + " is listed twice");
+    if (index == num_sensors) throw MessageError("the robot has no foot sensor " + quoted(name));
+    if (is_listed[index]) throw MessageError("foot sensor " + name + " is listed twice");
     is_listed[index] = true;
     require_finite(&message.foot_force[i], 1, "force of a foot sensor");
     // Noise may make the reading of an unloaded sensor negative; forces on the ground only push.
@@ -84,7 +85,8 @@ void read_foot_sensors(const RobotModel& model, const naolcm::sensor_state_t& me
   }
   for (size_t index = 0; index < num_sensors; ++index) {
     if (!is_listed[index]) {
-      throw Error("foot sensor " + model.links()[model.foot_sensors()[index]].name + " is missing");
+      throw MessageError("foot sensor " + model.links()[model.foot_sensors()[index]].name +
+                         " is missing");
     }
   }
 }
@@ -105,8 +107,8 @@ Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& messag
   sensors.tick = message.tick;
   // Written so that NaN fails, too.
   if (!(message.period >= kMinPeriod && message.period <= kMaxPeriod)) {
-    throw Error("period " + to_argument(message.period) + " s is outside [" +
-                to_argument(kMinPeriod) + ", " + to_argument(kMaxPeriod) + "]");
+    throw MessageError("period " + to_argument(message.period) + " s is outside [" +
+                       to_argument(kMinPeriod) + ", " + to_argument(kMaxPeriod) + "]");
   }
   sensors.period = message.period;
   read_joints(model, message, sensors);
@@ -155,13 +157,13 @@ Command to_command(const naolcm::stop_command_t& message) {
 
 TaughtChange to_taught(const RobotModel& model, const naolcm::keyframe_motion_t& message) {
   if (!is_motion_name(message.name))
-    throw Error(quoted(message.name) + " is not a valid motion name");
+    throw MessageError(quoted(message.name) + " is not a valid motion name");
   if (message.num_keyframes == 0) return {message.name, nullptr};
   const auto motion = from_message(message);
-  if (!motion) throw Error("the lists of motion " + message.name + " have unequal lengths");
+  if (!motion) throw MessageError("the lists of motion " + message.name + " have unequal lengths");
   auto script = to_script(model, *motion);
   if (const auto* fault = std::get_if<MotionFault>(&script)) {
-    throw Error("motion " + message.name + ": " + to_sentence(fault->reason));
+    throw MessageError("motion " + message.name + ": " + to_sentence(fault->reason));
   }
   return {message.name,
           std::make_shared<const ActionScript>(std::get<ActionScript>(std::move(script)))};

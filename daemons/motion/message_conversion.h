@@ -27,8 +27,8 @@ namespace nao::motion {
 // Conversions between the messages of the bus and the core's types. A wrong number in a command is
 // no error here: the core refuses the command with a reason.
 
-/** @throws Error  naming the joint or sensor that is missing, unknown or listed twice, or the
- * quantity that is not finite or out of its range. Such a message must not reach the core. */
+/** @throws MessageError  naming the joint or sensor that is missing, unknown or listed twice, or
+ * the quantity that is not finite or out of its range. Such a message must not reach the core. */
 Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& message);
 
 Command to_command(const naolcm::walk_command_t& message);
@@ -38,7 +38,7 @@ Command to_command(const naolcm::joint_change_command_t& message);
 Command to_command(const naolcm::action_command_t& message);
 Command to_command(const naolcm::stop_command_t& message);
 
-/** @throws Error  if it is not a motion of this robot: it must not reach the core. */
+/** @throws MessageError  if it is not a motion of this robot: it must not reach the core. */
 TaughtChange to_taught(const RobotModel& model, const naolcm::keyframe_motion_t& message);
 
 /** @param names  Names of all motors' joints, in motor order. */

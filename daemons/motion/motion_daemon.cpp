@@ -41,7 +41,7 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
     : bus_(bus),
       model_(model),
       channels_(robot),
-      status_(bus, "nao-motion"),
+      status_(bus, "nao-motion", robot),
       core_(model, options) {
   subscribe_to_command<naolcm::walk_command_t>(channels_.walk_command);
   subscribe_to_command<naolcm::move_to_command_t>(channels_.move_to_command);
@@ -53,7 +53,8 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
       channels_.keyframe_motion, Bus::Queue::kAll,
       [this](const naolcm::keyframe_motion_t& message) {
         if (taught_.size() >= kMaxWaitingMotions) {
-          throw Error("more than " + std::to_string(kMaxWaitingMotions) + " motions in one step");
+          throw MessageError("more than " + std::to_string(kMaxWaitingMotions) +
+                             " motions in one step");
         }
         taught_.push_back(to_taught(model_, message));
       });
@@ -69,10 +70,11 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
 
 template <class Message>
 void MotionDaemon::subscribe_to_command(const std::string& channel) {
-  // The bus counts an exception as a dropped message; the sender repeats its command.
+  // The sender repeats a dropped command.
   bus_.subscribe<Message>(channel, Bus::Queue::kAll, [this](const Message& message) {
     if (commands_.size() >= kMaxWaitingCommands) {
-      throw Error("more than " + std::to_string(kMaxWaitingCommands) + " commands in one step");
+      throw MessageError("more than " + std::to_string(kMaxWaitingCommands) +
+                         " commands in one step");
     }
     commands_.push_back(to_command(message));
   });

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "messages/command.h"
-#include "messages/command_retry.h"
+#include "messages/command_sender.h"
 
 namespace nao::play {
 
@@ -36,31 +35,23 @@ class MotionDriver {
   std::vector<Command> step(double time);
 
   bool is_walking() const { return walk_id_ != 0; }
-  bool is_performing() const { return action_.has_value(); }
+  bool is_performing() const { return action_id_ != 0; }
   /** How the last action ended, once. */
   std::optional<CommandResult> take_ended();
 
  private:
-  /** A command that is sent until it is answered. */
-  struct Event {
-    Command command;
-    CommandRetry retry;
-  };
-
-  Event make_event(decltype(Command::request) request, double confirm_period, double time);
+  /** @return Number of the command. */
+  int64_t send(decltype(Command::request) request, double time, const CommandTiming& timing);
 
   std::string source_;
   int64_t next_id_;
   std::vector<std::string> head_joints_;
-  /** Number of the walk that is being commanded; 0: none. */
+  CommandSender<Command> sender_;
+  /** Numbers of the walk that is being commanded, of the action and of the last walk; 0: none. */
   int64_t walk_id_ = 0;
-  WalkCommand velocity_;
-  int num_zeros_left_ = 0;
+  int64_t action_id_ = 0;
   int64_t last_walk_id_ = 0;
-  double last_walk_sent_ = -1e9;
-  std::optional<Event> action_;
-  std::optional<Event> stop_;
-  std::optional<Event> head_;
+  int64_t head_id_ = 0;
   std::vector<double> head_angles_;
   double last_head_ = -1e9;
   std::optional<CommandResult> ended_;

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <naolcm/action_command_t.hpp>
-#include <naolcm/camera_command_t.hpp>
 #include <naolcm/command_result_t.hpp>
 #include <naolcm/joint_change_command_t.hpp>
 #include <naolcm/match_state_t.hpp>
@@ -18,6 +17,7 @@
 #include "common/bus.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
+#include "common/robot_option.h"
 #include "common/wall_clock.h"
 #include "messages/result_message.h"
 
@@ -29,14 +29,8 @@ const char* const kProgram = "nao-play";
 constexpr double kStatusPeriod = 1;
 /** Time without a message of nao-motion after which there is no robot, s: robot_state_t. */
 constexpr double kRobotTimeout = 0.5;
-/** The camera's requests are valid for 2 s. */
-constexpr double kRequestPeriod = 1;
 /** Time without match messages after which a match is over, s: ten of nao-referee's messages. */
 constexpr double kMatchTimeout = 2;
-/** Size and rate of the requested images: the size that nao-vision is made for, at half of its
- * greatest rate. Chosen: two cameras in turn, and a host that renders them, too. */
-constexpr int kWidth = 640;
-constexpr double kRate = 15;
 
 PlayConstants make_constants(const RobotModel& model, const PlayOptions& options) {
   PlayConstants constants = load_constants(model, options.scene);
@@ -61,7 +55,7 @@ PlayDaemon::PlayDaemon(Bus& bus, const RobotModel& model, const PlayOptions& opt
       model_(model),
       clock_(std::move(clock)),
       channels_(options.robot),
-      status_(bus, kProgram),
+      status_(bus, kProgram, options.robot),
       commands_(bus_, channels_),
       viewer_(model),
       source_("play." + std::to_string(getpid())),
@@ -135,6 +129,10 @@ void PlayDaemon::watch_teammates(const MatchState& state) {
   if (own == nullptr) return;
   for (const MatchPlayer& player : state.players) {
     if (player.team != own->team || player.robot == robot_) continue;
+    // It becomes part of a channel's name.
+    if (const std::string fault = fault_of_robot_name(player.robot); !fault.empty()) {
+      throw MessageError(fault);
+    }
     if (!watched_.insert(player.robot).second) continue;
     bus_.subscribe<naolcm::vision_state_t>(
         RobotChannels(player.robot).vision_state, Bus::Queue::kLatest,
@@ -193,29 +191,15 @@ void PlayDaemon::step(double now) {
   for (const CommandResult& result : output.results) {
     bus_.publish(channels_.command_result, to_message(result, utime_));
   }
-  request_camera(output.camera, now);
-}
-
-// The request is repeated because requests expire.
-void PlayDaemon::request_camera(const std::string& camera, double now) {
-  const bool is_due = camera != camera_ || now - last_camera_request_ >= kRequestPeriod;
-  camera_ = camera;
-  if (camera.empty() || !is_due) return;
-  last_camera_request_ = now;
-  naolcm::camera_command_t command{};
-  command.utime = utime_;
-  command.wall_utime = wall_utime();
-  command.source = source_;
-  command.camera = camera;
-  command.width = kWidth;
-  command.rate = kRate;
-  bus_.publish(channels_.head_camera_command, command);
+  if (std::exchange(camera_, output.camera) != output.camera) publish_state();
 }
 
 void PlayDaemon::publish_state() {
   PlayState state = core_.state();
   if (!core_.is_active() && autonomy_.waits_for_release()) state.reason = Reason(kWaitsForRelease);
-  bus_.publish(channels_.play_state, encode_state(state, utime_));
+  naolcm::play_state_t message = encode_state(state, utime_);
+  message.camera = camera_;
+  bus_.publish(channels_.play_state, message);
 }
 
 void PlayDaemon::publish_status(double now) {

@@ -69,7 +69,6 @@ class PlayDaemon {
   void watch_teammates(const MatchState& state);
   /** Adds the command to play by itself, if one is due. */
   void request_auto(double now);
-  void request_camera(const std::string& camera, double now);
 
   Bus& bus_;
   const RobotModel& model_;
@@ -96,7 +95,6 @@ class PlayDaemon {
   /** Monotonic time of the last match state, s. */
   double last_match_ = -1e9;
   std::string camera_;
-  double last_camera_request_ = -1e9;
 };
 
 }  // namespace nao::play

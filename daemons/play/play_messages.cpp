@@ -23,12 +23,12 @@ RobotPose decode_pose(const RobotModel& model, const naolcm::robot_state_t& stat
   pose.position.assign(static_cast<size_t>(model.num_motors()), 0.0);
   const auto fault = read_named_joints(model.motor_names(), state.joint_names,
                                        {{"position", state.joint_position, pose.position}});
-  if (fault) throw Error(to_sentence(*fault));
+  if (fault) throw MessageError(to_sentence(*fault));
   const double(&q)[4] = state.orientation_torso_in_odometry;
   const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
   const Eigen::Vector3d position(state.position_torso_in_odometry);
   if (!position.allFinite() || !(std::abs(rotation.norm() - 1) < kNormTolerance)) {
-    throw Error("the torso's pose is not finite, or its quaternion's norm is not 1");
+    throw MessageError("the torso's pose is not finite, or its quaternion's norm is not 1");
   }
   pose.torso_in_odometry.linear() = rotation.normalized().toRotationMatrix();
   pose.torso_in_odometry.translation() = position;
@@ -65,7 +65,7 @@ Vision decode_vision(const naolcm::vision_state_t& message, const TorsoHistory& 
     ball.seen_time = 1e-6 * static_cast<double>(message.ball_utime);
     ball.is_rolling = message.is_ball_rolling != 0;
     if (!ball.position.allFinite() || !ball.velocity.allFinite()) {
-      throw Error("the ball's position or velocity is not finite");
+      throw MessageError("the ball's position or velocity is not finite");
     }
     vision.ball = ball;
   }
@@ -80,7 +80,7 @@ Vision decode_vision(const naolcm::vision_state_t& message, const TorsoHistory& 
   if (message.has_field_pose == 0) return vision;
   const double(&pose)[3] = message.torso_in_field;
   if (!(std::isfinite(pose[0]) && std::isfinite(pose[1]) && std::isfinite(pose[2]))) {
-    throw Error("the pose on the field is not finite");
+    throw MessageError("the pose on the field is not finite");
   }
   if (then) {
     const Pose2 torso_in_field{{pose[0], pose[1]}, pose[2]};
@@ -96,7 +96,7 @@ TeamObservation decode_observation(const naolcm::vision_state_t& message) {
   const Pose2 torso{{message.torso_in_field[0], message.torso_in_field[1]},
                     message.torso_in_field[2]};
   if (!torso.position.allFinite() || !std::isfinite(torso.heading)) {
-    throw Error("the pose on the field is not finite");
+    throw MessageError("the pose on the field is not finite");
   }
   seen.position = torso.position;
   for (const naolcm::detection_t& detection : message.detections) {

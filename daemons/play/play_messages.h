@@ -22,7 +22,7 @@ struct RobotPose {
   std::vector<double> position;
 };
 
-/** @throws Error  for an unknown or missing joint, or a number that is not finite. */
+/** @throws MessageError  for an unknown or missing joint, or a number that is not finite. */
 RobotPose decode_pose(const RobotModel& model, const naolcm::robot_state_t& state);
 
 /** The torso's ground poses in the last second, to relate what was seen to the pose at that time.
@@ -37,11 +37,11 @@ class TorsoHistory {
   std::deque<std::pair<int64_t, Pose2>> poses_;
 };
 
-/** @throws Error  for a number that is not finite. */
+/** @throws MessageError  for a number that is not finite. */
 Vision decode_vision(const naolcm::vision_state_t& message, const TorsoHistory& torso);
 
 /** Converts what a teammate's vision reports about itself and the ball.
- * @throws Error  for a number that is not finite. */
+ * @throws MessageError  for a number that is not finite. */
 TeamObservation decode_observation(const naolcm::vision_state_t& message);
 
 /** @param utime  Robot time, microseconds. */

@@ -19,6 +19,7 @@
 #include "common/text_file.h"
 #include "daemons/referee/match_file.h"
 #include "daemons/referee/places.h"
+#include "messages/command_sender.h"
 #include "messages/result_message.h"
 #include "robot_model/robot_model.h"
 
@@ -164,6 +165,7 @@ RefereeDaemon::RefereeDaemon(Bus& bus, const RefereeOptions& options, std::funct
       clock_(std::move(clock)),
       status_(bus, kProgram),
       second_process_(bus, kProgram, clock_),
+      commands_(bus, RobotChannels(options.robots.empty() ? "NAO" : options.robots.front().name)),
       ready_postures_(ready_postures_of(options.robots)),
       // Numbers that no earlier referee with the same process id has used.
       last_id_(wall_utime()) {
@@ -311,7 +313,6 @@ void RefereeDaemon::handle(const naolcm::world_truth_t& truth) {
 
 void RefereeDaemon::put(const Placement& placement) {
   naolcm::world_command_t command{};
-  command.source = own_source();
   command.command_id = ++last_id_;
   command.command = placement.robot.empty() ? "place-ball" : "place-robot";
   command.robot = placement.robot;
@@ -328,9 +329,8 @@ void RefereeDaemon::put(const Placement& placement) {
 
 void RefereeDaemon::send_placement() {
   if (placements_.empty()) return;
-  placements_.front().utime = utime_;
-  placements_.front().wall_utime = wall_utime();
-  bus_.publish(kWorldCommandChannel, placements_.front());
+  const naolcm::world_command_t& next = placements_.front();
+  commands_.publish(kWorldCommandChannel, next, own_source(), next.command_id);
 }
 
 void RefereeDaemon::write_files(const std::vector<MatchEvent>& events) {

@@ -24,6 +24,7 @@
 #include "daemons/referee/game_controller_referee.h"
 #include "daemons/referee/referee_core.h"
 #include "messages/command_ledger.h"
+#include "messages/command_publisher.h"
 #include "messages/match_command.h"
 
 namespace nao {
@@ -75,9 +76,8 @@ GameControllerReturn to_return(const MatchPlayer& player, const RobotSighting& r
  * what robots tell it; publishes MATCH_STATE, MATCH_COMMAND_RESULT and WORLD_COMMAND. */
 class RefereeDaemon {
  public:
-  /** Time between two match_state_t, and between two transmissions of a world command, s. */
+  /** Time between two match_state_t, s. */
   static constexpr double kStatePeriod = 0.2;
-  static constexpr double kRepeatPeriod = 0.1;
 
   /** @param bus  Must outlive this. @param clock  s, monotonic.
    * @throws ConfigError  if a robot has no team, a team no robot, or the scene no field.
@@ -122,6 +122,7 @@ class RefereeDaemon {
   std::function<double()> clock_;
   StatusReporter status_;
   SecondProcess second_process_;
+  CommandPublisher commands_;
   std::map<std::string, std::string> ready_postures_;
   std::unique_ptr<Referee> referee_;
   /** Only with a GameController: the same referee, and the socket. */

@@ -41,7 +41,7 @@ RobotDaemon::RobotDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
       model_(model),
       options_(options),
       channels_(robot),
-      status_(bus, "nao-robot"),
+      status_(bus, "nao-robot", robot),
       map_(LolaMap::load(model)),
       messages_(model, map_) {
   deadline_ = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
@@ -187,8 +187,6 @@ void RobotDaemon::take_light_command(const naolcm::light_command_t& message) {
     } else {
       lights.set(command);
       result.reason = {};
-      result.status = ResultStatus::kAccepted;
-      publish(result);
       result.status = ResultStatus::kDone;
     }
   }

@@ -94,7 +94,7 @@ void merge(const naolcm::joint_command_t& message, const std::vector<std::string
                         {{"position", message.joint_position, targets.position},
                          {"stiffness", message.joint_stiffness, targets.stiffness, 0, 1}},
                         JointCoverage::kSubset);
-  if (fault) throw Error(to_sentence(*fault));
+  if (fault) throw MessageError(to_sentence(*fault));
 }
 
 }  // namespace nao::robot

@@ -30,7 +30,7 @@ class RobotMessages {
 };
 
 /** Merges a joint command into targets; joints that it does not name keep theirs.
- * @throws Error  naming the joint and what is wrong with it; then nothing changes. */
+ * @throws MessageError  naming the joint and what is wrong with it; then nothing changes. */
 void merge(const naolcm::joint_command_t& message, const std::vector<std::string>& motor_names,
            Targets& targets);
 

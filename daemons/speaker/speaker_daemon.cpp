@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <naolcm/light_command_t.hpp>
-#include <naolcm/motion_state_t.hpp>
 #include <naolcm/speech_audio_t.hpp>
 #include <utility>
 
@@ -48,7 +47,8 @@ SpeakerDaemon::SpeakerDaemon(Bus& bus, Synthesizer& synthesizer,
     : bus_(bus),
       options_(options),
       channels_(options.robot),
-      status_(bus, kProgram),
+      status_(bus, kProgram, options.robot),
+      commands_(bus, channels_),
       core_(synthesizer, options.language),
       output_(std::move(output)),
       source_("speaker." + std::to_string(getpid())),
@@ -58,9 +58,6 @@ SpeakerDaemon::SpeakerDaemon(Bus& bus, Synthesizer& synthesizer,
       channels_.speech_command, Bus::Queue::kAll, [this](const naolcm::speech_command_t& message) {
         requests_.push_back({message.source, message.command_id, to_speech_command(message)});
       });
-  bus_.subscribe<naolcm::motion_state_t>(
-      channels_.motion_state, Bus::Queue::kLatest,
-      [this](const naolcm::motion_state_t& message) { robot_utime_ = message.utime; });
   publish_status(monotonic_seconds());
 }
 
@@ -83,7 +80,7 @@ void SpeakerDaemon::step(double now) {
       logger::info("{} {}: {}", quoted(result.source), to_string(result.status),
                    to_sentence(result.reason));
     }
-    bus_.publish(channels_.command_result, to_message(result, robot_utime_));
+    bus_.publish(channels_.command_result, to_message(result, commands_.robot_utime()));
   }
   for (const AudioPiece& piece : output.audio) {
     publish(piece);
@@ -95,7 +92,7 @@ void SpeakerDaemon::step(double now) {
 
 void SpeakerDaemon::publish(const AudioPiece& piece) {
   naolcm::speech_audio_t message;
-  message.utime = robot_utime_;
+  message.utime = commands_.robot_utime();
   message.source = piece.source;
   message.command_id = piece.command_id;
   message.sample_rate = piece.sample_rate;
@@ -117,12 +114,7 @@ void SpeakerDaemon::light_eyes(double loudness, double time_left) {
   // The duration is above 0, which would mean "until replaced".
   command.duration =
       std::clamp(time_left, kStepPeriod, kLightPeriods * SpeechCore::kLoudnessPeriod);
-  naolcm::light_command_t message = to_message(command);
-  message.utime = robot_utime_;
-  message.wall_utime = wall_utime();
-  message.source = source_;
-  message.command_id = ++last_light_id_;
-  bus_.publish(channels_.light_command, message);
+  commands_.publish(channels_.light_command, to_message(command), source_, ++last_light_id_);
 }
 
 void SpeakerDaemon::publish_status(double now) {

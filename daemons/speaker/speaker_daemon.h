@@ -9,6 +9,7 @@
 #include "common/status_reporter.h"
 #include "daemons/speaker/audio_output.h"
 #include "daemons/speaker/speech_core.h"
+#include "messages/command_publisher.h"
 
 namespace nao {
 class Bus;
@@ -55,13 +56,12 @@ class SpeakerDaemon {
   SpeakerOptions options_;
   RobotChannels channels_;
   StatusReporter status_;
+  CommandPublisher commands_;
   SpeechCore core_;
   std::unique_ptr<AudioOutput> output_;
   std::vector<SpeechRequest> requests_;
   std::string source_;
   int64_t last_light_id_;
-  /** Robot time of the last motion state, microseconds. */
-  int64_t robot_utime_ = 0;
   /** s; 0 before the first step. */
   double last_step_ = 0;
 };

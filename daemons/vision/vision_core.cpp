@@ -99,9 +99,9 @@ void VisionCore::localize(const VisionInput& input, VisionResult& result) {
 
 VisionResult VisionCore::process(const VisionInput& input) {
   if (input.bgr.type() != CV_8UC3 || input.bgr.cols < 64 || input.bgr.rows < 48) {
-    throw Error("the image has " + std::to_string(input.bgr.cols) + "x" +
-                std::to_string(input.bgr.rows) + " pixels in OpenCV's format " +
-                std::to_string(input.bgr.type()) + "; 64x48 pixels of 3 bytes are needed");
+    throw MessageError("the image has " + std::to_string(input.bgr.cols) + "x" +
+                       std::to_string(input.bgr.rows) + " pixels in OpenCV's format " +
+                       std::to_string(input.bgr.type()) + "; 64x48 pixels of 3 bytes are needed");
   }
   VisionResult result;
   const CameraGeometry geometry(input.calibration, input.pose_camera_in_heading);

@@ -64,7 +64,7 @@ class VisionCore {
   /** @throws Error  if a network cannot be read. */
   explicit VisionCore(const VisionNetworks& networks = VisionNetworks::load());
 
-  /** @throws Error  if the image has another format or is too small. */
+  /** @throws MessageError  if the image has another format or is too small. */
   VisionResult process(const VisionInput& input);
 
   /** From now on the pose on the field is estimated; see Localizer. */

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <naolcm/camera_command_t.hpp>
+#include <naolcm/play_state_t.hpp>
 #include <utility>
 
 #include "common/bus.h"
@@ -19,6 +20,8 @@ const char* const kProgram = "nao-vision";
 /** s. */
 constexpr double kStatusPeriod = 1;
 constexpr double kRequestPeriod = 1;
+/** Time without a play_state_t after which nao-play has ended, s. */
+constexpr double kPlayTimeout = 1;
 /** Time without an image after which the program reports that it waits, s. */
 constexpr double kImageValidity = 2;
 /** Width of requested images, pixels. */
@@ -39,7 +42,8 @@ VisionDaemon::VisionDaemon(Bus& bus, const RobotModel& model, const VisionOption
       model_(model),
       options_(options),
       channels_(options.robot),
-      status_(bus, kProgram),
+      status_(bus, kProgram, options.robot),
+      commands_(bus, channels_),
       poses_(model) {
   if (options_.field_start) {
     core_.localize(options_.field_start->first, options_.field_start->second);
@@ -52,6 +56,11 @@ VisionDaemon::VisionDaemon(Bus& bus, const RobotModel& model, const VisionOption
   // oldest two, which on a busy host are a second old when their turn comes.
   bus_.subscribe<naolcm::image_t>(channels_.head_camera_image, Bus::Queue::kAll,
                                   [this](const naolcm::image_t& image) { receive_image(image); });
+  bus_.subscribe<naolcm::play_state_t>(
+      channels_.play_state, Bus::Queue::kLatest, [this](const naolcm::play_state_t& play) {
+        last_play_ = monotonic_seconds();
+        if (std::exchange(play_camera_, play.camera) != play.camera) request(play.camera);
+      });
   publish_status(monotonic_seconds());
 }
 
@@ -61,20 +70,24 @@ void VisionDaemon::attach(EventLoop& loop) {
     process_images();
   });
   loop.every(kStatusPeriod, [this] { publish_status(monotonic_seconds()); });
-  if (!options_.request_camera.empty()) {
-    request_images();
-    loop.every(kRequestPeriod, [this] { request_images(); });
-  }
+  request(options_.request_camera);
+  loop.every(kRequestPeriod, [this] { request_images(); });
 }
 
 // The request is repeated because requests expire.
 void VisionDaemon::request_images() {
+  request(options_.request_camera);
+  const bool has_play = monotonic_seconds() - last_play_ < kPlayTimeout;
+  if (has_play && play_camera_ != options_.request_camera) request(play_camera_);
+}
+
+void VisionDaemon::request(const std::string& camera) {
+  if (camera.empty()) return;
   naolcm::camera_command_t command{};
-  command.source = kProgram;
-  command.camera = options_.request_camera;
+  command.camera = camera;
   command.width = kWidth;
   command.rate = options_.rate;
-  bus_.publish(channels_.head_camera_command, command);
+  commands_.publish(channels_.head_camera_command, command, kProgram);
 }
 
 void VisionDaemon::receive_image(const naolcm::image_t& image) {
@@ -100,7 +113,7 @@ void VisionDaemon::process_images() {
   for (const auto& [camera, image] : std::exchange(waiting_, {})) {
     try {
       process(image);
-    } catch (const std::exception& error) {
+    } catch (const MessageError& error) {
       ++num_refused_;
       if (const auto num_suppressed = warnings_.allow(monotonic_seconds())) {
         logger::warn("{}: image refused: {} ({} similar warnings suppressed)",
@@ -112,13 +125,13 @@ void VisionDaemon::process_images() {
 
 void VisionDaemon::process(const naolcm::image_t& image) {
   const double start = monotonic_seconds();
-  if (image.format != "jpeg") throw Error("the image's format is not jpeg");
+  if (image.format != "jpeg") throw MessageError("the image's format is not jpeg");
   VisionInput input;
   input.calibration = decode_calibration(image);
   const std::string problem = decode_jpeg(image.data.data(), image.data.size(), bgr_);
-  if (!problem.empty()) throw Error(problem);
+  if (!problem.empty()) throw MessageError(problem);
   if (bgr_.cols != image.width || bgr_.rows != image.height) {
-    throw Error("the size of the image differs from its message's");
+    throw MessageError("the size of the image differs from its message's");
   }
   input.bgr = bgr_;
   input.utime = image.utime;

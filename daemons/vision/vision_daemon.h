@@ -13,6 +13,7 @@
 #include "common/status_reporter.h"
 #include "daemons/vision/pose_history.h"
 #include "daemons/vision/vision_core.h"
+#include "messages/command_publisher.h"
 
 namespace nao {
 class Bus;
@@ -24,7 +25,8 @@ namespace nao::vision {
 struct VisionOptions {
   /** Prefix of the channels. */
   std::string robot = "NAO";
-  /** Camera whose images are requested; empty: only images that others request are processed. */
+  /** Camera whose images are requested at all times, beside the one that nao-play needs; empty:
+   * none. */
   std::string request_camera;
   /** Images a second that are requested. */
   double rate = 15;
@@ -32,9 +34,10 @@ struct VisionOptions {
   std::optional<std::pair<FieldModel, Pose2>> field_start;
 };
 
-/** Connects VisionCore to the bus: receives NAO_HEAD_CAMERA_IMAGE and NAO_ROBOT_STATE, publishes
- * NAO_VISION_STATE with each image. Of several images of one camera and time only the first is
- * processed; where images come faster than they are processed, only the newest of each camera. */
+/** Connects VisionCore to the bus: receives NAO_HEAD_CAMERA_IMAGE, NAO_ROBOT_STATE and
+ * NAO_PLAY_STATE, publishes NAO_VISION_STATE with each image and NAO_HEAD_CAMERA_COMMAND. Of
+ * several images of one camera and time only the first is processed; where images come faster than
+ * they are processed, only the newest of each camera. */
 class VisionDaemon {
  public:
   /** @param bus, model  Must outlive this. */
@@ -55,21 +58,26 @@ class VisionDaemon {
 
  private:
   void receive_image(const naolcm::image_t& image);
-  /** @throws Error  if the image is damaged. */
+  /** @throws MessageError  if the image is damaged. */
   void process(const naolcm::image_t& image);
   void request_images();
+  void request(const std::string& camera);
 
   Bus& bus_;
   const RobotModel& model_;
   VisionOptions options_;
   RobotChannels channels_;
   StatusReporter status_;
+  CommandPublisher commands_;
   PoseHistory poses_;
   VisionCore core_;
   cv::Mat bgr_;
   /** Robot time of the last image of each camera. */
   std::map<std::string, int64_t> last_image_;
   std::map<std::string, int64_t> last_wide_image_;
+  /** Camera that nao-play needs, and when it said so, s, monotonic. */
+  std::string play_camera_;
+  double last_play_ = -1e9;
   /** Received and not processed yet, by camera. */
   std::map<std::string, naolcm::image_t> waiting_;
   int64_t num_refused_ = 0;

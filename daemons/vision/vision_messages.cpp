@@ -47,12 +47,12 @@ RobotPosture decode_posture(const RobotModel& model, const naolcm::robot_state_t
   posture.position.assign(model.num_motors(), 0.0);
   const auto fault = read_named_joints(model.motor_names(), state.joint_names,
                                        {{"position", state.joint_position, posture.position}});
-  if (fault) throw Error(to_sentence(*fault));
+  if (fault) throw MessageError(to_sentence(*fault));
   const double(&q)[4] = state.orientation_torso_in_odometry;
   const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
   const Eigen::Vector3d position(state.position_torso_in_odometry);
   if (!position.allFinite() || !(std::abs(rotation.norm() - 1) < kNormTolerance)) {
-    throw Error("the torso's pose is not finite, or its quaternion's norm is not 1");
+    throw MessageError("the torso's pose is not finite, or its quaternion's norm is not 1");
   }
   posture.pose_torso_in_odometry.linear() = rotation.normalized().toRotationMatrix();
   posture.pose_torso_in_odometry.translation() = position;
@@ -63,7 +63,8 @@ CameraCalibration decode_calibration(const naolcm::image_t& image) {
   CameraCalibration calibration{image.fx, image.fy, image.cx, image.cy, {}};
   std::copy(std::begin(image.distortion), std::end(image.distortion),
             calibration.distortion.begin());
-  if (!calibration.is_valid()) throw Error("the image's intrinsics are not finite or not positive");
+  if (!calibration.is_valid())
+    throw MessageError("the image's intrinsics are not finite or not positive");
   return calibration;
 }
 

@@ -10,10 +10,10 @@
 
 namespace nao::vision {
 
-/** @throws Error  for an unknown or missing joint, or a number that is not finite. */
+/** @throws MessageError  for an unknown or missing joint, or a number that is not finite. */
 RobotPosture decode_posture(const RobotModel& model, const naolcm::robot_state_t& state);
 
-/** Intrinsics of an image. @throws Error  if they are not usable. */
+/** Intrinsics of an image. @throws MessageError  if they are not usable. */
 CameraCalibration decode_calibration(const naolcm::image_t& image);
 
 /** The message of a result. The field pose is unknown: localisation is not part of this. */

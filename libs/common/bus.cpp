@@ -1,12 +1,23 @@
 #include "common/bus.h"
 
-#include "common/error.h"
 #include "common/logger.h"
 #include "common/wall_clock.h"
 
 namespace nao {
+namespace {
 
-Bus::Bus(const std::string& url) : lcm_(url) {
+/** @return The subscription, which LCM refuses by nullptr. @throws BusError  then. */
+lcm_subscription_t* require_subscription(lcm_subscription_t* subscription,
+                                         const std::string& pattern, const std::string& url) {
+  if (subscription != nullptr) return subscription;
+  throw BusError("cannot receive " + pattern + " from the message bus " + url +
+                 ": a firewall drops its multicast messages, or the pattern of the channels is not "
+                 "a regular expression; allow UDP to its address and port; try: nao bus");
+}
+
+}  // namespace
+
+Bus::Bus(const std::string& url) : url_(url), lcm_(url) {
   if (!lcm_.good()) {
     throw BusError("cannot open the message bus " + url +
                    ": the address is wrong, or this machine has no multicast route; "
@@ -16,12 +27,14 @@ Bus::Bus(const std::string& url) : lcm_(url) {
 
 // All messages that have arrived, without waiting; handlers run here.
 void Bus::handle() {
-  while (lcm_.handleTimeout(0) > 0) {
+  while (handle_for(0)) {
   }
 }
 
 bool Bus::handle_for(double timeout) {
-  return lcm_.handleTimeout(static_cast<int>(timeout * 1e3)) > 0;
+  const bool has_handled = lcm_.handleTimeout(static_cast<int>(timeout * 1e3)) > 0;
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  return has_handled;
 }
 
 void Bus::count_sent(const std::string& channel, bool sent) {
@@ -40,32 +53,47 @@ void Bus::drop(const std::string& channel, const std::string& why) {
   }
 }
 
-// Messages of all types on matching channels, not decoded: for recorders.
 void Bus::publish_raw(const std::string& channel, std::span<const uint8_t> message) {
   count_sent(channel,
              lcm_.publish(channel, message.data(), static_cast<unsigned>(message.size())) == 0);
 }
 
-void Bus::subscribe_raw(const std::string& pattern,
-                        std::function<void(const std::string&, const uint8_t*, int)> handler) {
-  auto receiver = std::make_shared<RawReceiver>();
-  receiver->call = std::move(handler);
-  receiver->bus = this;
-  // Chosen: about 2 s of the traffic of one robot, 500 messages/s.
-  constexpr int kQueueCapacity = 1000;
-  open_socket();
+void Bus::subscribe_raw(const std::string& pattern, std::function<void(const RawMessage&)> handler,
+                        int queue_capacity) {
+  add_receiver(pattern, queue_capacity, std::move(handler));
   filter_.pass_all();
-  lcm_.subscribe(pattern, &RawReceiver::receive, receiver.get())->setQueueCapacity(kQueueCapacity);
-  raw_receivers_.push_back(std::move(receiver));
 }
 
-void Bus::RawReceiver::receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+void Bus::add_receiver(const std::string& pattern, int queue_capacity,
+                       std::function<void(const RawMessage&)> handler) {
+  open_socket();
+  const auto& receiver =
+      receivers_.emplace_back(std::make_unique<Receiver>(Receiver{this, std::move(handler)}));
+  const auto receive = [](const lcm_recv_buf_t* buffer, const char* channel, void* user) {
+    const auto* data = static_cast<const uint8_t*>(buffer->data);
+    static_cast<Receiver*>(user)->receive({channel, {data, buffer->data_size}, buffer->recv_utime});
+  };
+  lcm_subscription_set_queue_capacity(
+      require_subscription(
+          lcm_subscribe(lcm_.getUnderlyingLCM(), pattern.c_str(), receive, receiver.get()), pattern,
+          url_),
+      queue_capacity);
+}
+
+// Called by LCM's C code, which no exception may cross.
+void Bus::Receiver::receive(const RawMessage& message) const {
+  // LCM's own message, sent whenever a program opens the bus.
+  if (message.channel == "LCM_SELF_TEST") return;
+  // The program ends: a handler of the same message has failed.
+  if (bus->failure_) return;
   ++bus->counters_.num_in;
-  // No exception may cross LCM's C code.
   try {
-    call(channel, static_cast<const uint8_t*>(buffer->data), static_cast<int>(buffer->data_size));
-  } catch (const std::exception& error) {
-    bus->drop(channel, error.what());
+    handler(message);
+  } catch (const MessageError& error) {
+    bus->drop(message.channel, error.what());
+  } catch (...) {
+    logger::error("the handler of {} failed", message.channel);
+    bus->failure_ = std::current_exception();
   }
 }
 

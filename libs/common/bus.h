@@ -11,22 +11,40 @@
 #include <vector>
 
 #include "common/channel_filter.h"
+#include "common/error.h"
 #include "common/rate_limiter.h"
 
 namespace nao {
 
-/** Messages received, sent, and dropped (undecodable, or rejected by a handler) since the start. */
+/** Messages received, sent, and dropped (undecodable, or with a MessageError) since the start. */
 struct BusCounters {
   int64_t num_in = 0;
   int64_t num_out = 0;
   int64_t num_dropped = 0;
 };
 
+/** A message as it was received. */
+struct RawMessage {
+  std::string channel;
+  std::span<const uint8_t> bytes;
+  /** Wall clock at its reception, microseconds since 1970. */
+  int64_t wall_utime;
+};
+
+/** Decodes a whole message.
+ * @return false if the bytes are not a Message of this version of the project. */
+template <class Message>
+bool decode_message(std::span<const uint8_t> bytes, Message& message) {
+  const int size = static_cast<int>(bytes.size());
+  return message.decode(bytes.data(), 0, size) == size;
+}
+
 /** The message bus: LCM, with protection against malformed messages.
  *
  * Messages on channels that nobody has subscribed to do not wake the process (ChannelFilter).
- * A message that does not decode, or whose handler throws, is counted, reported at most once a
- * second, and dropped. No exception propagates through LCM's C code. Not thread-safe. */
+ * A message that does not decode, or whose handler throws a MessageError, is counted, reported at
+ * most once a second, and dropped. Any other exception of a handler ends handle(), and so the
+ * program, which its supervisor restarts. Not thread-safe. */
 class Bus {
  public:
   /** Queue of one subscription: with kLatest one message waits for handle(), and LCM drops those
@@ -49,38 +67,35 @@ class Bus {
   void publish_raw(const std::string& channel, std::span<const uint8_t> message);
 
   /** Calls `handler(message)` for every message on a channel, inside handle().
-   * @param queue  kLatest for states, of which the next one will do, kAll for events. */
+   * @param queue  kLatest for states, of which the next one will do, kAll for events.
+   * @throws BusError  if this host does not receive the bus. */
   template <class Message>
   void subscribe(const std::string& channel, Queue queue,
                  std::function<void(const Message&)> handler) {
-    auto receiver = std::make_shared<Receiver>();
-    receiver->call = [this, channel,
-                      handler = std::move(handler)](const lcm::ReceiveBuffer& buffer) {
-      try {
-        Message message;
-        // LCM's decoder throws where a text has the length 0.
-        if (message.decode(buffer.data, 0, static_cast<int>(buffer.data_size)) < 0) {
-          drop(channel, std::string("it is not a ") + Message::getTypeName() +
-                            " of this version of the project");
-          return;
-        }
-        handler(message);
-      } catch (const std::exception& error) {
-        drop(channel, error.what());
+    subscribe_encoded(channel, queue, [handler = std::move(handler)](const RawMessage& raw) {
+      Message message;
+      if (!decode_message(raw.bytes, message)) {
+        throw MessageError(std::string("it is damaged, or not a ") + Message::getTypeName() +
+                           " of this version of the project");
       }
-    };
-    receiver->counters = &counters_;
-    open_socket();
-    lcm::Subscription* subscription = lcm_.subscribe(channel, &Receiver::receive, receiver.get());
-    subscription->setQueueCapacity(queue == Queue::kLatest ? 1 : 0);
-    receivers_.push_back(std::move(receiver));
+      handler(message);
+    });
+  }
+
+  /** As subscribe(), with messages undecoded: for receivers that decode few of many. */
+  void subscribe_encoded(const std::string& channel, Queue queue,
+                         std::function<void(const RawMessage&)> handler) {
+    add_receiver(channel, queue == Queue::kLatest ? 1 : 0, std::move(handler));
     filter_.add(channel);
   }
 
-  /** Calls `handler(channel, data, num_bytes)` for every message on the channels that match a
-   * regular expression, undecoded: for loggers and viewers. The queue holds 1000 messages. */
-  void subscribe_raw(const std::string& pattern,
-                     std::function<void(const std::string&, const uint8_t*, int)> handler);
+  /** Calls `handler` for every message on the channels whose whole name matches a regular
+   * expression, undecoded: for loggers and viewers.
+   * @param queue_capacity  Messages that wait for handle(); 0: any number. Default: about 2 s of
+   * the traffic of one robot, 500 messages/s.
+   * @throws BusError  if this host does not receive the bus, or the expression is wrong. */
+  void subscribe_raw(const std::string& pattern, std::function<void(const RawMessage&)> handler,
+                     int queue_capacity = 1000);
 
   /** Descriptor that is readable while a message is queued; for EventLoop::on_readable(). */
   int descriptor() {
@@ -88,41 +103,37 @@ class Bus {
     return lcm_.getFileno();
   }
 
-  /** Handles every queued message without blocking. */
+  /** Handles every queued message without blocking. @throws What a handler throws. */
   void handle();
 
-  /** Waits up to `timeout` seconds for a message and handles it. @return false if none came. */
+  /** Waits up to `timeout` seconds for a message and handles it. @return false if none came.
+   * @throws What a handler throws. */
   bool handle_for(double timeout);
 
   const BusCounters& counters() const { return counters_; }
 
  private:
   struct Receiver {
-    std::function<void(const lcm::ReceiveBuffer&)> call;
-    BusCounters* counters;
-    void receive(const lcm::ReceiveBuffer* buffer, const std::string& /*channel*/) {
-      ++counters->num_in;
-      call(*buffer);
-    }
-  };
-
-  struct RawReceiver {
-    std::function<void(const std::string&, const uint8_t*, int)> call;
     Bus* bus;
-    void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+    std::function<void(const RawMessage&)> handler;
+    void receive(const RawMessage& message) const;
   };
 
   /** LCM opens its socket when it first has to receive. */
   void open_socket() {
     filter_.open_socket([this] { (void)lcm_.getFileno(); });
   }
+  void add_receiver(const std::string& pattern, int queue_capacity,
+                    std::function<void(const RawMessage&)> handler);
   void count_sent(const std::string& channel, bool sent);
   void drop(const std::string& channel, const std::string& why);
 
+  std::string url_;
   lcm::LCM lcm_;
   ChannelFilter filter_;
-  std::vector<std::shared_ptr<Receiver>> receivers_;
-  std::vector<std::shared_ptr<RawReceiver>> raw_receivers_;
+  std::vector<std::unique_ptr<Receiver>> receivers_;
+  /** What a handler has thrown, while it waits for LCM's C code to return. */
+  std::exception_ptr failure_;
   BusCounters counters_;
   RateLimiter warnings_{1.0};
 };

@@ -4,7 +4,7 @@
 
 namespace nao {
 
-/** Failure during start-up. The text states what failed, where, and what to do. */
+/** Failure of a program. The text states what failed, where, and what to do. */
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -16,6 +16,12 @@ struct ConfigError : Error {
 
 /** A robot file (URDF, mesh, posture, ...) is missing or invalid. */
 struct ModelError : Error {
+  using Error::Error;
+};
+
+/** A received message cannot be decoded, or its content is invalid: it is dropped. The text states
+ * what is wrong with it. */
+struct MessageError : Error {
   using Error::Error;
 };
 

@@ -13,9 +13,8 @@ namespace nao {
  * Construct it before any thread is started (the bus starts one), so that every thread inherits the
  * blocked signals.
  *
- * Built on poll(2), signalfd(2) and timerfd_create(2). The gateway uses
- * Boost.Asio instead, because it serves many TCP connections; the other programs need only the bus
- * and timers and do not link it. */
+ * Built on poll(2), signalfd(2) and timerfd_create(2). Servers of many TCP connections use
+ * AsioLoop instead; the other programs need only the bus and timers and do not link Boost.Asio. */
 class EventLoop {
  public:
   /** @throws Error  if the signal descriptor cannot be created. */

@@ -13,8 +13,8 @@
 
 namespace nao {
 
-StatusReporter::StatusReporter(Bus& bus, std::string program)
-    : bus_(bus), program_(std::move(program)) {
+StatusReporter::StatusReporter(Bus& bus, std::string program, std::string robot)
+    : bus_(bus), program_(std::move(program)), robot_(std::move(robot)) {
   std::array<char, 256> host{};
   if (gethostname(host.data(), host.size() - 1) == 0) host_ = host.data();
 }
@@ -39,6 +39,7 @@ void StatusReporter::publish(const std::vector<std::pair<std::string, double>>& 
   naolcm::daemon_status_t status;
   status.wall_utime = wall_utime();
   status.program = program_;
+  status.robot = robot_;
   status.host = host_;
   status.process_id = getpid();
   status.version = version();

@@ -12,8 +12,9 @@ namespace nao {
  * main loop and publish() once a second. */
 class StatusReporter {
  public:
-  /** @param program  Name as in daemon_status_t, "nao-sim". The bus must outlive this. */
-  StatusReporter(Bus& bus, std::string program);
+  /** @param program, robot  Names as in daemon_status_t: "nao-motion", "NAO". The bus must outlive
+   * this. */
+  StatusReporter(Bus& bus, std::string program, std::string robot = "");
 
   /** Records one period of the main loop at `now`, s of the monotonic clock. */
   void tick(double now);
@@ -28,6 +29,7 @@ class StatusReporter {
  private:
   Bus& bus_;
   std::string program_;
+  std::string robot_;
   std::string host_;
   std::string state_ = "starting";
   std::string detail_;

@@ -1,4 +1,6 @@
 #include "inspection/foxglove_converter.h"
+//
+#include "common/bus.h"
 
 #include <algorithm>
 #include <exception>
@@ -65,14 +67,7 @@ template <class Message>
 void FoxgloveConverter::decode(std::span<const uint8_t> bytes,
                                void (FoxgloveConverter::*take)(const Message&)) {
   Message message;
-  const int size = static_cast<int>(bytes.size());
-  try {
-    if (message.decode(bytes.data(), 0, size) != size) return;
-  } catch (const std::exception&) {
-    // LCM's decoder throws if a text has the length 0, or a list more elements than memory holds.
-    return;
-  }
-  (this->*take)(message);
+  if (decode_message(bytes, message)) (this->*take)(message);
 }
 
 bool FoxgloveConverter::is_due(size_t output, int64_t utime) {

@@ -3,6 +3,7 @@
 #include <limits>
 #include <naolcm/action_command_t.hpp>
 #include <naolcm/joint_change_command_t.hpp>
+#include <naolcm/motion_state_t.hpp>
 #include <naolcm/move_to_command_t.hpp>
 #include <naolcm/posture_command_t.hpp>
 #include <naolcm/stop_command_t.hpp>
@@ -82,11 +83,17 @@ const std::string& channel_of(const Command& command, const RobotChannels& chann
 
 }  // namespace
 
+CommandPublisher::CommandPublisher(Bus& bus, const RobotChannels& channels)
+    : bus_(bus), channels_(channels) {
+  bus_.subscribe<naolcm::motion_state_t>(
+      channels_.motion_state, Bus::Queue::kLatest,
+      [this](const naolcm::motion_state_t& state) { robot_utime_ = state.utime; });
+}
+
 void CommandPublisher::publish(const Command& command) const {
   std::visit(
       [&](const auto& request) {
-        auto message = to_message(request);
-        publish(channel_of(command, channels_), message, command.source, command.id);
+        publish(channel_of(command, channels_), to_message(request), command.source, command.id);
       },
       command.request);
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "common/bus.h"
 #include "common/channels.h"
@@ -10,29 +11,37 @@
 
 namespace nao {
 
-/** Publishes commands, each as the message of its channel. */
+/** Publishes commands, each as the message of its channel, with the sender's times. */
 class CommandPublisher {
  public:
-  /** Both must outlive this. */
-  CommandPublisher(Bus& bus, const RobotChannels& channels) : bus_(bus), channels_(channels) {}
+  /** Receives the robot's NAO_MOTION_STATE for its time. @param bus  Must outlive this; this must
+   * outlive the bus's last handle(). */
+  CommandPublisher(Bus& bus, const RobotChannels& channels);
+  CommandPublisher(const CommandPublisher&) = delete;
+  CommandPublisher& operator=(const CommandPublisher&) = delete;
 
   /** A command of nao-motion. */
   void publish(const Command& command) const;
 
-  /** Any command's message, with its sender and number. */
+  /** Any command's message.
+   * @param id  Number of the command; unused by image requests, which have none. */
   template <class Message>
-  void publish(const std::string& channel, Message& message, const std::string& source,
-               int64_t id) const {
-    message.utime = 0;
+  void publish(const std::string& channel, Message message, const std::string& source,
+               int64_t id = 0) const {
+    message.utime = robot_utime_;
     message.wall_utime = wall_utime();
     message.source = source;
-    message.command_id = id;
+    if constexpr (requires { message.command_id; }) message.command_id = id;
     bus_.publish(channel, message);
   }
 
+  /** `utime` of the commands: robot time, microseconds; 0 as long as there was no motion state. */
+  int64_t robot_utime() const { return robot_utime_; }
+
  private:
   Bus& bus_;
-  const RobotChannels& channels_;
+  RobotChannels channels_;
+  int64_t robot_utime_ = 0;
 };
 
 }  // namespace nao

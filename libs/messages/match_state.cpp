@@ -18,11 +18,11 @@ static_assert(match_state_t::EVENT_MATCH_END == static_cast<int>(MatchEventKind:
 static_assert(player_t::PENALTY_OPERATOR == static_cast<int>(Penalty::kOperator));
 static_assert(player_t::ROLE_KEEPER == static_cast<int>(PlayRole::kKeeper));
 
-/** @throws Error  unless least <= value <= greatest. */
+/** @throws MessageError  unless least <= value <= greatest. */
 template <class Value>
 Value within(Value value, Value least, Value greatest, const char* field) {
   if (!(value >= least && value <= greatest)) {
-    throw Error(std::string(field) + " is " + std::to_string(value));
+    throw MessageError(std::string(field) + " is " + std::to_string(value));
   }
   return value;
 }

@@ -39,9 +39,8 @@ naolcm::keyframe_motion_t to_message(const NamedMotion& motion) {
   return message;
 }
 
-naolcm::motion_file_command_t to_message(const MotionFileCommand& command, int64_t wall_utime) {
+naolcm::motion_file_command_t to_message(const MotionFileCommand& command) {
   naolcm::motion_file_command_t message{};
-  message.wall_utime = wall_utime;
   message.source = command.source;
   message.command_id = command.id;
   message.operation = static_cast<int8_t>(command.operation);

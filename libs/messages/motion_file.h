@@ -70,7 +70,7 @@ inline bool is_temporary_motion(const std::string& name) {
 }
 
 naolcm::keyframe_motion_t to_message(const NamedMotion& motion);
-naolcm::motion_file_command_t to_message(const MotionFileCommand& command, int64_t wall_utime);
+naolcm::motion_file_command_t to_message(const MotionFileCommand& command);
 naolcm::motion_file_result_t to_message(const MotionFileResult& result);
 
 /** @return Nothing if the lengths of the lists do not match one another. */

@@ -21,7 +21,7 @@ std::vector<LitLight> decode_lights(const naolcm::robot_truth_t& robot) {
     const Eigen::Map<const Eigen::Vector3d> rgb(robot.light_rgb[i].data());
     // Written so that NaN fails, too; minCoeff() may skip one.
     if (!((rgb.array() >= 0).all() && (rgb.array() <= 1).all())) {
-      throw Error("the color of the light " + robot.light_names[i] + " is outside [0, 1]");
+      throw MessageError("the color of the light " + robot.light_names[i] + " is outside [0, 1]");
     }
     if (rgb.maxCoeff() > 0) lights.push_back({robot.light_names[i], rgb.cast<float>()});
   }
@@ -37,7 +37,7 @@ std::vector<double> decode_positions(const RobotModel& model, const std::vector<
   std::vector<double> decoded(model.num_motors(), 0.0);
   const auto fault = read_named_joints(model.motor_names(), names,
                                        {{"position", position, decoded}}, JointCoverage::kSubset);
-  if (fault) throw Error(to_sentence(*fault));
+  if (fault) throw MessageError(to_sentence(*fault));
   return decoded;
 }
 
@@ -45,10 +45,11 @@ std::vector<double> decode_positions(const RobotModel& model, const std::vector<
 Eigen::Isometry3d decode_pose(const double (&position)[3], const double (&quaternion)[4]) {
   const Eigen::Quaterniond rotation(quaternion[0], quaternion[1], quaternion[2], quaternion[3]);
   const Eigen::Vector3d translation(position[0], position[1], position[2]);
-  if (!translation.allFinite()) throw Error("a position is not finite");
+  if (!translation.allFinite()) throw MessageError("a position is not finite");
   // Written so that NaN fails.
   if (!(std::abs(rotation.norm() - 1) < kNormTolerance)) {
-    throw Error("a quaternion has the norm " + std::to_string(rotation.norm()) + " instead of 1");
+    throw MessageError("a quaternion has the norm " + std::to_string(rotation.norm()) +
+                       " instead of 1");
   }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = rotation.normalized().toRotationMatrix();

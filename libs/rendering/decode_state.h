@@ -11,9 +11,9 @@ namespace naolcm {
 class world_truth_t;
 }
 
-/** Converts messages to states that can be drawn. All functions throw nao::Error, with the reason,
- * if a joint is unknown, arrays differ in length, a number is not finite or a quaternion is not a
- * unit quaternion. */
+/** Converts messages to states that can be drawn. All functions throw nao::MessageError, with the
+ * reason, if a joint is unknown, arrays differ in length, a number is not finite or a quaternion is
+ * not a unit quaternion. */
 namespace nao {
 
 /** Joint positions in motor order; a motor that the message does not list is at 0.

@@ -26,6 +26,7 @@
 #include "phone-gateway/server/pairing/phone_urls.h"
 #include "phone-gateway/server/pairing/qr_code.h"
 #include "phone-gateway/server/pairing/token_file.h"
+#include "phone-gateway/web_stream/asio_loop.h"
 #include "phone-gateway/web_stream/own_host.h"
 
 namespace nao::gateway {
@@ -264,9 +265,9 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   add_scene_page(pages, options.scene);
   Network network(options.network, make_access_rules(options), daemon.core(), pages);
 
-  network.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
-  network.every(kStepPeriod, [&daemon] { daemon.step(monotonic_seconds()); });
-  network.every(kStatusPeriod, [&daemon] { daemon.publish_status(monotonic_seconds()); });
+  network.loop().on_readable(bus.descriptor(), [&bus] { bus.handle(); });
+  network.loop().every(kStepPeriod, [&daemon] { daemon.step(monotonic_seconds()); });
+  network.loop().every(kStatusPeriod, [&daemon] { daemon.publish_status(monotonic_seconds()); });
   logger::info("HTTP and WebSocket on {}:{}, TCP on {}:{}", options.network.bind,
                network.http_port(), options.network.bind, network.tcp_port());
   const std::vector<std::string> urls = addresses_for_phones(options, network.http_port());
@@ -282,7 +283,7 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   ServiceDiscovery discovery(announcement);
   DiscoveryLog discovery_log;
   if (announcement) {
-    network.every(kDiscoveryPeriod, [&] {
+    network.loop().every(kDiscoveryPeriod, [&] {
       discovery.step(monotonic_seconds());
       discovery_log.write(discovery, network.http_port());
     });
@@ -292,7 +293,7 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   daemon.publish_status(monotonic_seconds());
 
   // First the last messages of the core, then time to send them.
-  const std::string reason = network.run();
+  const std::string reason = network.loop().run();
   daemon.shut_down(monotonic_seconds());
   network.drain(kDrainTime);
   const NetworkCounters& counters = network.counters();

@@ -11,6 +11,9 @@ namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
 using boost::system::error_code;
 
+/** Time until the next attempt after accepting has failed (no file descriptor left). */
+constexpr auto kAcceptPause = std::chrono::milliseconds(100);
+
 error_code listen_at(Tcp::acceptor& acceptor, const Tcp::endpoint& endpoint) {
   error_code error;
   acceptor.close(error);
@@ -44,6 +47,30 @@ Tcp::acceptor listen(asio::io_context& io, const std::string& address, uint16_t 
   }
   if (error) throw Error("cannot listen on " + where + ": " + error.message());
   return acceptor;
+}
+
+TcpListener::TcpListener(asio::io_context& io, const std::string& address, uint16_t port,
+                         const std::string& option, std::function<void(Tcp::socket)> serve)
+    : acceptor_(listen(io, address, port, option)),
+      port_(acceptor_.local_endpoint().port()),
+      pause_(io),
+      serve_(std::move(serve)) {
+  accept();
+}
+
+void TcpListener::accept() {
+  acceptor_.async_accept([this](const error_code& error, Tcp::socket socket) {
+    if (error == asio::error::operation_aborted) return;
+    if (error) {
+      pause_.expires_after(kAcceptPause);
+      pause_.async_wait([this](const error_code& cancelled) {
+        if (!cancelled) accept();
+      });
+      return;
+    }
+    serve_(std::move(socket));
+    accept();
+  });
 }
 
 }  // namespace nao

@@ -5,7 +5,9 @@
 //
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace nao {
@@ -17,5 +19,27 @@ namespace nao {
  * @throws Error  if the address or the port cannot be used. */
 boost::asio::ip::tcp::acceptor listen(boost::asio::io_context& io, const std::string& address,
                                       uint16_t port, const std::string& option);
+
+/** Accepts TCP connections, as long as it exists. */
+class TcpListener {
+ public:
+  /** Parameters as of listen(). @param serve  Gets each connection. */
+  TcpListener(boost::asio::io_context& io, const std::string& address, uint16_t port,
+              const std::string& option, std::function<void(boost::asio::ip::tcp::socket)> serve);
+  TcpListener(const TcpListener&) = delete;
+  TcpListener& operator=(const TcpListener&) = delete;
+
+  /** Also after close(). */
+  uint16_t port() const { return port_; }
+  void close() { acceptor_.close(); }
+
+ private:
+  void accept();
+
+  boost::asio::ip::tcp::acceptor acceptor_;
+  const uint16_t port_;
+  boost::asio::steady_timer pause_;
+  std::function<void(boost::asio::ip::tcp::socket)> serve_;
+};
 
 }  // namespace nao

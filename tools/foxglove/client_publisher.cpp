@@ -53,10 +53,12 @@ const MessageType* find_type(const std::string& name) {
 
 }  // namespace
 
-ClientPublisher::ClientPublisher(std::string source, std::string robot, Clock clock, Send send)
+ClientPublisher::ClientPublisher(std::string source, std::string robot, Clock clock,
+                                 Clock robot_clock, Send send)
     : source_(std::move(source)),
       robot_(std::move(robot)),
       clock_(std::move(clock)),
+      robot_clock_(std::move(robot_clock)),
       send_(std::move(send)) {}
 
 std::string ClientPublisher::type_of(const std::string& channel) const {
@@ -93,6 +95,7 @@ std::string ClientPublisher::publish(uint32_t client, const std::string& channel
   Json& message = *parsed;
   if (!message.contains("command_id")) message["command_id"] = command_id(client, channel);
   message["source"] = source_ + "." + std::to_string(client);
+  message["utime"] = robot_clock_();
   message["wall_utime"] = clock_();
   const std::string type = type_of(channel);
   const EncodedMessage encoded =

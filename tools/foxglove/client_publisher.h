@@ -19,8 +19,8 @@ class ClientPublisher {
   using Send = std::function<void(const std::string& channel, std::span<const uint8_t> message)>;
 
   /** @param source  Beginning of the senders' names. @param robot  Name of the robot, "NAO".
-   * @param clock  Microseconds since 1970. */
-  ClientPublisher(std::string source, std::string robot, Clock clock, Send send);
+   * @param clock  Microseconds since 1970. @param robot_clock  Robot time, microseconds. */
+  ClientPublisher(std::string source, std::string robot, Clock clock, Clock robot_clock, Send send);
 
   /** Whether clients may publish on a channel. @param encoding  Of the messages.
    * @return Why they may not, as a sentence; "" if they may. */
@@ -42,6 +42,7 @@ class ClientPublisher {
   std::string source_;
   std::string robot_;
   Clock clock_;
+  Clock robot_clock_;
   Send send_;
   int64_t last_id_ = 0;
   /** A repeated command that has not ended. */

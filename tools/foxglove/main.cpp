@@ -14,6 +14,8 @@
 #include "common/program.h"
 #include "common/status_reporter.h"
 #include "common/wall_clock.h"
+#include "messages/command_publisher.h"
+#include "phone-gateway/web_stream/asio_loop.h"
 #include "robot_model/robot_model.h"
 #include "tools/foxglove/bus_relay.h"
 #include "tools/foxglove/client_publisher.h"
@@ -72,8 +74,9 @@ void add_options(CommandLine& app, Options& options) {
 /** Requests images of the cameras that clients watch. */
 class ImageRequests {
  public:
-  ImageRequests(Bus& bus, const RobotChannels& channels, const Options& options)
-      : bus_(bus), channel_(channels.head_camera_command), options_(options) {}
+  ImageRequests(const CommandPublisher& commands, const RobotChannels& channels,
+                const Options& options)
+      : commands_(commands), channel_(channels.head_camera_command), options_(options) {}
 
   /** Requests those of cameras that were not wanted before at once. */
   void update(std::set<std::string> cameras) {
@@ -89,15 +92,13 @@ class ImageRequests {
  private:
   void send(const std::string& camera) {
     naolcm::camera_command_t command{};
-    command.wall_utime = wall_utime();
-    command.source = kProgram;
     command.camera = camera;
     command.width = options_.camera_width;
     command.rate = options_.camera_rate;
-    bus_.publish(channel_, command);
+    commands_.publish(channel_, command, kProgram);
   }
 
-  Bus& bus_;
+  const CommandPublisher& commands_;
   std::string channel_;
   const Options& options_;
   std::set<std::string> cameras_;
@@ -114,20 +115,21 @@ void run(const CommonOptions& common, Options options) {
   FoxgloveConverter converter(model, common.robot);
   BusRelay relay(core, converter);
   Bus bus(common.lcm_url);
-  ClientPublisher publisher(kProgram, common.robot, wall_utime,
-                            [&bus](const std::string& channel, std::span<const uint8_t> message) {
-                              bus.publish_raw(channel, message);
-                            });
+  const RobotChannels channels(common.robot);
+  const CommandPublisher commands(bus, channels);
+  ClientPublisher publisher(
+      kProgram, common.robot, wall_utime, [&commands] { return commands.robot_utime(); },
+      [&bus](const std::string& channel, std::span<const uint8_t> message) {
+        bus.publish_raw(channel, message);
+      });
   if (options.allow_commands) core.allow_publishing(publisher);
-  bus.subscribe_raw(".*", [&relay](const std::string& channel, const uint8_t* data, int size) {
-    // LCM's own self-test message, sent whenever a program opens the bus.
-    if (channel == "LCM_SELF_TEST") return;
-    relay.receive(channel, {data, static_cast<size_t>(size)}, wall_utime());
+  bus.subscribe_raw(".*", [&relay](const RawMessage& message) {
+    relay.receive(message.channel, message.bytes, message.wall_utime);
   });
   options.network.accepts_viewers = !options.allow_commands && options.network.origins.empty();
   Network network(options.network, core, files);
-  ImageRequests images(bus, RobotChannels(common.robot), options);
-  StatusReporter status(bus, kProgram);
+  ImageRequests images(commands, channels, options);
+  StatusReporter status(bus, kProgram, common.robot);
   const auto report = [&] {
     const ServerCounters& counters = core.counters();
     status.set_state("ready", std::to_string(core.num_clients()) + " clients");
@@ -138,9 +140,9 @@ void run(const CommonOptions& common, Options options) {
                     {"undecodable", static_cast<double>(relay.num_undecodable())}});
   };
 
-  network.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
-  network.every(kCameraPeriod, [&] { images.update(relay.wanted_cameras()); });
-  network.every(kStatusPeriod, [&] {
+  network.loop().on_readable(bus.descriptor(), [&bus] { bus.handle(); });
+  network.loop().every(kCameraPeriod, [&] { images.update(relay.wanted_cameras()); });
+  network.loop().every(kStatusPeriod, [&] {
     images.repeat();
     status.tick(monotonic_seconds());
     report();
@@ -150,7 +152,7 @@ void run(const CommonOptions& common, Options options) {
   logger::info("listening: ws://{}:{}", options.network.bind, network.port());
   report();
 
-  const std::string reason = network.run();
+  const std::string reason = network.loop().run();
   const ServerCounters& counters = core.counters();
   logger::info("stopped: {}; {} clients, {} messages sent, {} dropped, {} requests refused", reason,
                counters.num_clients, counters.num_sent, counters.num_dropped, counters.num_refused);

@@ -2,14 +2,7 @@
 
 #include "tools/foxglove/connection.h"
 //
-#include <algorithm>
-#include <boost/asio/posix/stream_descriptor.hpp>
-#include <boost/asio/signal_set.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <chrono>
-#include <csignal>
-#include <list>
-
+#include "phone-gateway/web_stream/asio_loop.h"
 #include "phone-gateway/web_stream/listen.h"
 #include "phone-gateway/web_stream/own_host.h"
 
@@ -18,13 +11,10 @@ namespace {
 
 namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
-using boost::system::error_code;
 
 // Connections of clients and of requests for files together. Chosen: a program fetches some files
 // at once; well below the usual limit of 1024 file descriptors.
 constexpr size_t kMaxConnections = 200;
-// Time until the next attempt after accepting has failed (no file descriptor left).
-constexpr auto kAcceptPause = std::chrono::milliseconds(100);
 
 AccessRules make_access_rules(const NetworkOptions& options) {
   std::vector<std::string> names = own_host_names();
@@ -35,101 +25,33 @@ AccessRules make_access_rules(const NetworkOptions& options) {
 }  // namespace
 
 struct Network::Impl {
-  Impl(const NetworkOptions& options, ServerCore& core, AssetFolder& files)
-      : context{io, core, files, make_access_rules(options), options.accepts_viewers},
-        acceptor(listen(io, options.bind, options.port, "--port")),
-        pause(io),
-        signals(io, SIGINT, SIGTERM) {
-    accept();
-    signals.async_wait([this](const error_code& error, int signal) {
-      if (error) return;
-      reason = signal == SIGINT ? "SIGINT" : "SIGTERM";
-      io.stop();
-    });
-  }
+  Impl(std::unique_ptr<AsioLoop> new_loop, const NetworkOptions& options, ServerCore& core,
+       AssetFolder& files)
+      : context{new_loop->io(), core, files, make_access_rules(options), options.accepts_viewers},
+        loop(std::move(new_loop)),
+        listener(loop->io(), options.bind, options.port, "--port", [this](Tcp::socket socket) {
+          if (context.num_connections < kMaxConnections) serve(context, std::move(socket));
+        }) {}
 
-  void accept() {
-    acceptor.async_accept([this](const error_code& error, Tcp::socket socket) {
-      if (error == asio::error::operation_aborted) return;
-      if (error) {
-        pause.expires_after(kAcceptPause);
-        pause.async_wait([this](const error_code& cancelled) {
-          if (!cancelled) accept();
-        });
-        return;
-      }
-      if (context.num_connections < kMaxConnections) serve(context, std::move(socket));
-      accept();
-    });
-  }
-
-  struct Watched {
-    asio::posix::stream_descriptor descriptor;
-    std::function<void()> handler;
-  };
-  void wait(Watched& watched) {
-    watched.descriptor.async_wait(asio::posix::stream_descriptor::wait_read,
-                                  [this, &watched](const error_code& error) {
-                                    if (error) return;
-                                    watched.handler();
-                                    wait(watched);
-                                  });
-  }
-
-  struct Timer {
-    asio::steady_timer timer;
-    std::chrono::nanoseconds period;
-    std::function<void()> handler;
-  };
-  void wait(Timer& timer) {
-    timer.timer.expires_after(timer.period);
-    timer.timer.async_wait([this, &timer](const error_code& error) {
-      if (error) return;
-      timer.handler();
-      wait(timer);
-    });
-  }
-
-  // Before `io`, which destroys the connections: they use the context until then.
+  // Before `loop`, which destroys the connections: they use the context until then.
   ConnectionContext context;
-  asio::io_context io{1};
-  Tcp::acceptor acceptor;
-  asio::steady_timer pause;
-  asio::signal_set signals;
-  std::list<Watched> watched;
-  std::list<Timer> timers;
-  std::string reason;
+  std::unique_ptr<AsioLoop> loop;
+  TcpListener listener;
 };
 
 Network::Network(const NetworkOptions& options, ServerCore& core, AssetFolder& files)
-    : impl_(std::make_unique<Impl>(options, core, files)) {}
+    : impl_(std::make_unique<Impl>(std::make_unique<AsioLoop>(), options, core, files)) {}
 
 Network::~Network() {
   impl_->context.is_shutting_down = true;
-  // The caller owns these descriptors.
-  for (Impl::Watched& watched : impl_->watched) watched.descriptor.release();
 }
 
 uint16_t Network::port() const {
-  return impl_->acceptor.local_endpoint().port();
+  return impl_->listener.port();
 }
 
-void Network::on_readable(int descriptor, std::function<void()> handler) {
-  impl_->watched.push_back(
-      {asio::posix::stream_descriptor(impl_->io, descriptor), std::move(handler)});
-  impl_->wait(impl_->watched.back());
-}
-
-void Network::every(double period, std::function<void()> handler) {
-  impl_->timers.push_back({asio::steady_timer(impl_->io),
-                           std::chrono::nanoseconds(static_cast<int64_t>(period * 1e9)),
-                           std::move(handler)});
-  impl_->wait(impl_->timers.back());
-}
-
-std::string Network::run() {
-  impl_->io.run();
-  return impl_->reason;
+AsioLoop& Network::loop() {
+  return *impl_->loop;
 }
 
 }  // namespace nao::foxglove

@@ -9,6 +9,10 @@
 #include "tools/foxglove/asset_folder.h"
 #include "tools/foxglove/server_core.h"
 
+namespace nao {
+class AsioLoop;
+}
+
 namespace nao::foxglove {
 
 struct NetworkOptions {
@@ -24,8 +28,7 @@ struct NetworkOptions {
   bool accepts_viewers = false;
 };
 
-/** Sockets and main loop: WebSockets and, on the same port, the robot's files over HTTP; timers,
- * other file descriptors, SIGINT and SIGTERM, in one thread. */
+/** Sockets and their loop: WebSockets and, on the same port, the robot's files over HTTP. */
 class Network {
  public:
   /** Starts to listen. Core and files must outlive this.
@@ -36,12 +39,8 @@ class Network {
   Network& operator=(const Network&) = delete;
 
   uint16_t port() const;
-  /** Calls `handler` whenever `descriptor` is readable. The caller keeps it open. */
-  void on_readable(int descriptor, std::function<void()> handler);
-  /** Calls `handler` every `period` seconds. */
-  void every(double period, std::function<void()> handler);
-  /** Runs until a signal. @return "SIGINT" or "SIGTERM". */
-  std::string run();
+  /** The loop that the connections run in. */
+  AsioLoop& loop();
 
  private:
   struct Impl;

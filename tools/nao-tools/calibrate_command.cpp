@@ -8,10 +8,7 @@
 #include <limits>
 #include <memory>
 #include <naolcm/command_result_t.hpp>
-#include <naolcm/joint_change_command_t.hpp>
 #include <naolcm/motion_state_t.hpp>
-#include <naolcm/move_to_command_t.hpp>
-#include <naolcm/posture_command_t.hpp>
 #include <naolcm/sensor_state_t.hpp>
 #include <optional>
 #include <string>
@@ -26,6 +23,7 @@
 #include "common/output_file.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
+#include "messages/command_publisher.h"
 #include "messages/named_joints.h"
 #include "tools/nao/command_exchange.h"
 #include "tools/nao/subcommand.h"
@@ -59,7 +57,8 @@ class CalibrationSession {
         run_(model, num_stations),
         source_("nao-calibrate." + std::to_string(getpid())),
         bus_(common.lcm_url),
-        channels_(common.robot) {
+        channels_(common.robot),
+        commands_(bus_, channels_) {
     loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
     bus_.subscribe<naolcm::command_result_t>(
         channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
@@ -102,7 +101,13 @@ class CalibrationSession {
       }
     }
     if (exchange_) {
-      if (exchange_->should_send(now)) send();
+      if (exchange_->should_send(now)) {
+        std::visit(
+            [this](const auto& request) {
+              commands_.publish({source_, command_id_, request});
+            },
+            *command_);
+      }
       if (const auto outcome = exchange_->outcome(now)) {
         exchange_.reset();
         if (outcome->status == "unanswered" || outcome->status == "silent") {
@@ -114,41 +119,6 @@ class CalibrationSession {
       }
     }
     if (run_.is_done()) loop_.stop("end");
-  }
-
-  template <class Message>
-  void publish(const std::string& channel, Message message) {
-    message.utime = 0;
-    message.wall_utime = wall_utime();
-    message.source = source_;
-    message.command_id = command_id_;
-    bus_.publish(channel, message);
-  }
-
-  void send() {
-    if (const auto* posture = std::get_if<PostureCommand>(&*command_)) {
-      naolcm::posture_command_t message;
-      message.posture = posture->posture;
-      message.speed = posture->speed;
-      publish(channels_.posture_command, message);
-    } else if (const auto* move_to = std::get_if<MoveToCommand>(&*command_)) {
-      naolcm::move_to_command_t message;
-      message.x = move_to->x;
-      message.y = move_to->y;
-      message.theta = move_to->theta;
-      publish(channels_.move_to_command, message);
-    } else if (const auto* change = std::get_if<JointChangeCommand>(&*command_)) {
-      naolcm::joint_change_command_t message;
-      message.num_joints = static_cast<int32_t>(change->joint_names.size());
-      message.joint_names = change->joint_names;
-      message.joint_position = change->joint_position;
-      message.joint_stiffness.assign(change->joint_names.size(),
-                                     std::numeric_limits<double>::quiet_NaN());
-      message.is_relative = 0;
-      message.speed = change->speed;
-      message.allow_tipping = change->allow_tipping ? 1 : 0;
-      publish(channels_.joint_change_command, message);
-    }
   }
 
   void measure(const naolcm::sensor_state_t& message) {
@@ -181,6 +151,7 @@ class CalibrationSession {
   EventLoop loop_;
   Bus bus_;
   RobotChannels channels_;
+  CommandPublisher commands_;
   std::optional<CalibrationCommand> command_;
   int64_t command_id_ = 0;
   std::optional<CommandExchange> exchange_;

@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <lcm/lcm-cpp.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -8,7 +7,6 @@
 
 #include "common/bus.h"
 #include "common/command_line.h"
-#include "common/error.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
 #include "common/status_reporter.h"
@@ -63,14 +61,12 @@ struct Recorder {
     if (!before.empty() && fault.empty()) logger::info("the recording goes on");
   }
 
-  void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    // LCM's own self-test message, sent whenever a program opens the bus.
-    if (channel == "LCM_SELF_TEST") return;
-    if (without && without->matches(channel)) return;
-    const auto* data = static_cast<const uint8_t*>(buffer->data);
-    // No exception may propagate through LCM's C code; flush() meets the same error and tells it.
+  void receive(const RawMessage& message) {
+    if (without && without->matches(message.channel)) return;
+    // flush() meets the same error and tells it.
     try {
-      writer.write({0, buffer->recv_utime, channel, {data, data + buffer->data_size}});
+      writer.write(
+          {0, message.wall_utime, message.channel, {message.bytes.begin(), message.bytes.end()}});
     } catch (const Error&) {
     }
   }
@@ -78,25 +74,18 @@ struct Recorder {
 
 int run_record(const CommonOptions& common, const RecordOptions& options) {
   EventLoop loop;
-  // nao::Bus decodes one known type per channel; a recorder takes raw messages, as spy.cpp does.
-  lcm::LCM lcm(with_receive_buffer(common.lcm_url));
-  if (!lcm.good()) {
-    throw BusError("cannot open the message bus " + common.lcm_url + "; try: nao bus");
-  }
+  Bus bus(with_receive_buffer(common.lcm_url));
   std::optional<ChannelPattern> without;
   if (!options.without.empty()) without.emplace("--without", options.without);
   Recorder recorder{
       LogWriter(options.file, {static_cast<int64_t>(options.split_mb * 1e6), options.num_kept}),
       std::move(without),
       {}};
-  Bus bus(common.lcm_url);
   StatusReporter status(bus, "nao-record");
-  lcm::Subscription* subscription = lcm.subscribe(options.channels, &Recorder::receive, &recorder);
-  subscription->setQueueCapacity(kQueueCapacity);
-  loop.on_readable(lcm.getFileno(), [&lcm] {
-    while (lcm.handleTimeout(0) > 0) {
-    }
-  });
+  bus.subscribe_raw(
+      options.channels, [&](const RawMessage& message) { recorder.receive(message); },
+      kQueueCapacity);
+  loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
   const double end = monotonic_seconds() + options.duration;
   loop.every(kFlushPeriod, [&] {
     recorder.flush();
@@ -110,7 +99,6 @@ int run_record(const CommonOptions& common, const RecordOptions& options) {
                     {"messages_lost", static_cast<double>(writer.num_lost())}});
   });
   loop.run();
-  lcm.unsubscribe(subscription);
   recorder.writer.flush();
   std::fprintf(stderr, "%ld messages recorded\n", static_cast<long>(recorder.writer.num_events()));
   if (recorder.writer.num_lost() > 0) {

@@ -4,13 +4,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <naolcm/body_state_t.hpp>
 #include <naolcm/camera_command_t.hpp>
 #include <naolcm/command_result_t.hpp>
 #include <naolcm/image_t.hpp>
-#include <naolcm/joint_change_command_t.hpp>
 #include <naolcm/motion_state_t.hpp>
 #include <naolcm/sensor_state_t.hpp>
 #include <optional>
@@ -23,6 +21,7 @@
 #include "common/event_loop.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
+#include "messages/command_publisher.h"
 #include "messages/named_joints.h"
 #include "tools/nao-tools/self_test.h"
 #include "tools/nao/command_exchange.h"
@@ -48,7 +47,8 @@ class SelfTestSession {
         test_(model),
         source_("nao-self-test." + std::to_string(getpid())),
         bus_(common.lcm_url),
-        channels_(common.robot) {
+        channels_(common.robot),
+        commands_(bus_, channels_) {
     loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
     bus_.subscribe<naolcm::command_result_t>(
         channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
@@ -100,7 +100,7 @@ class SelfTestSession {
       }
     }
     if (exchange_) {
-      if (exchange_->should_send(now)) send();
+      if (exchange_->should_send(now)) commands_.publish({source_, command_id_, *command_});
       if (const auto outcome = exchange_->outcome(now)) {
         exchange_.reset();
         if (outcome->status == "unanswered" || outcome->status == "silent") {
@@ -117,30 +117,13 @@ class SelfTestSession {
     loop_.stop("end");
   }
 
-  void send() {
-    naolcm::joint_change_command_t message{};
-    message.wall_utime = wall_utime();
-    message.source = source_;
-    message.command_id = command_id_;
-    message.num_joints = static_cast<int32_t>(command_->joint_names.size());
-    message.joint_names = command_->joint_names;
-    message.joint_position = command_->joint_position;
-    message.joint_stiffness.assign(command_->joint_names.size(),
-                                   std::numeric_limits<double>::quiet_NaN());
-    message.is_relative = command_->is_relative ? 1 : 0;
-    message.speed = command_->speed;
-    bus_.publish(channels_.joint_change_command, message);
-  }
-
   void request_images() {
     for (const CameraModel& camera : model_.cameras()) {
       naolcm::camera_command_t message{};
-      message.wall_utime = wall_utime();
-      message.source = source_;
       message.camera = camera.name;
       message.width = kImageWidth;
       message.rate = kImageRate;
-      bus_.publish(channels_.head_camera_command, message);
+      commands_.publish(channels_.head_camera_command, message, source_);
     }
   }
 
@@ -207,6 +190,7 @@ class SelfTestSession {
   EventLoop loop_;
   Bus bus_;
   RobotChannels channels_;
+  CommandPublisher commands_;
   std::optional<JointChangeCommand> command_;
   int64_t command_id_ = 0;
   std::optional<CommandExchange> exchange_;

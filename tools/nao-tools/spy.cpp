@@ -1,12 +1,11 @@
 #include <cmath>
 #include <cstdio>
-#include <lcm/lcm-cpp.hpp>
 #include <limits>
 #include <memory>
 #include <string>
 
+#include "common/bus.h"
 #include "common/command_line.h"
-#include "common/error.h"
 #include "common/event_loop.h"
 #include "common/wall_clock.h"
 #include "tools/nao-tools/channel_statistics.h"
@@ -20,44 +19,31 @@ namespace {
 /** Averaging period of the rates, s. */
 constexpr double kPeriod = 1.0;
 
-/** Adds every message on the bus, of any type, to the statistics. */
-struct Listener {
-  ChannelStatistics statistics;
-
-  void receive(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    // LCM's own self-test message, sent whenever a program opens the bus.
-    if (channel == "LCM_SELF_TEST") return;
-    statistics.add(channel, buffer->data, static_cast<int>(buffer->data_size), monotonic_seconds());
-  }
-};
-
 int run_spy(const CommonOptions& common, double duration, bool as_json) {
   EventLoop loop;
-  // nao::Bus decodes one known type per channel; this program receives all types.
-  lcm::LCM lcm(common.lcm_url);
-  if (!lcm.good())
-    throw BusError("cannot open the message bus " + common.lcm_url + "; try: nao bus");
-  Listener listener;
-  lcm.subscribe(".*", &Listener::receive, &listener)->setQueueCapacity(0);
-  loop.on_readable(lcm.getFileno(), [&lcm] {
-    while (lcm.handleTimeout(0) > 0) {
-    }
-  });
+  Bus bus(common.lcm_url);
+  ChannelStatistics statistics;
+  bus.subscribe_raw(
+      ".*",
+      [&statistics](const RawMessage& message) {
+        statistics.add(message.channel, message.bytes.data(),
+                       static_cast<int>(message.bytes.size()), monotonic_seconds());
+      },
+      0);
+  loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
   const double start = monotonic_seconds();
   loop.every(kPeriod, [&] {
     const double now = monotonic_seconds();
-    listener.statistics.finish_period(now);
+    statistics.finish_period(now);
     const bool is_last = now - start >= duration;
     if (is_last) loop.stop("end");
     if (std::isfinite(duration) && !is_last) return;
     clear_terminal();
-    std::fputs(as_json ? (listener.statistics.to_json(now) + "\n").c_str()
-                       : listener.statistics.to_text(now).c_str(),
+    std::fputs(as_json ? (statistics.to_json(now) + "\n").c_str() : statistics.to_text(now).c_str(),
                stdout);
     if (!as_json) {
-      std::printf("%zu channels, %ld undecodable messages\n\n",
-                  listener.statistics.channels().size(),
-                  static_cast<long>(listener.statistics.num_undecodable()));
+      std::printf("%zu channels, %ld undecodable messages\n\n", statistics.channels().size(),
+                  static_cast<long>(statistics.num_undecodable()));
     }
     std::fflush(stdout);
   });

@@ -4,14 +4,12 @@
 #include <string>
 #include <utility>
 
-#include "messages/command_retry.h"
+#include "messages/command_sender.h"
 
 namespace nao {
 
-/** State of one command of this program: retransmission, and its outcome in words.
- *
- * CommandRetry decides when the command is sent again; this class adds the texts for the user. Time
- * is an argument: s of any monotonic clock. */
+/** State of one command of this program: retransmission, and its outcome in words. Time is an
+ * argument: s of any monotonic clock. */
 class CommandExchange {
  public:
   /** How the command ended. */
@@ -23,33 +21,45 @@ class CommandExchange {
     std::string reason;
   };
 
+  /** Time from the last message of a program until it counts as ended, s. */
+  static constexpr double kSilenceTimeout = 3.0;
+  /** Of a command with a result, which is confirmed once a second. */
+  static constexpr CommandTiming kTiming{.confirm_period = 1.0, .silence_timeout = kSilenceTimeout};
+  /** Of a walk, which is repeated as long as it lasts. */
+  static constexpr CommandTiming kWalkTiming{.confirm_period = kRepeatPeriod,
+                                             .silence_timeout = kSilenceTimeout};
+
   /** @param program  That answers, for texts.
    * @param now  Time from which the timeout for the first answer counts. */
-  CommandExchange(std::string program, double now)
-      : program_(std::move(program)), retry_(kTiming, now) {}
+  CommandExchange(std::string program, double now, const CommandTiming& timing = kTiming)
+      : program_(std::move(program)) {
+    sender_.send({}, now, {}, timing);
+  }
 
   /** @return true once per period: the command must be sent now. */
-  bool should_send(double now) { return retry_.should_send(now); }
+  bool should_send(double now) { return !sender_.take_due(now).empty(); }
 
-  /** Handles a command_result_t of this command. */
+  /** Handles a result of this command. */
   void handle_result(ResultStatus status, const std::string& reason, double now);
 
   /** Handles any other message of the program. */
-  void handle_sign_of_life(double now) { retry_.handle_sign_of_life(now); }
+  void handle_sign_of_life(double now) { sender_.handle_sign_of_life(now); }
 
-  bool is_accepted() const { return retry_.is_accepted(); }
+  bool is_accepted() const { return is_accepted_; }
 
   /** @return nullopt while the command is in progress. */
-  std::optional<Outcome> outcome(double now) const;
+  std::optional<Outcome> outcome(double now);
 
  private:
-  /** The periods are the protocol's, see README.md. Timeouts, s: chosen: 30 repetitions, so that
-   * only a stopped program causes one. */
-  static constexpr CommandRetry::Timing kTiming{
-      .repeat_period = 0.1, .confirm_period = 1.0, .answer_timeout = 3.0, .silence_timeout = 3.0};
+  /** The caller has the command itself. */
+  struct Key {
+    std::string source;
+    int64_t id = 0;
+  };
 
   std::string program_;
-  CommandRetry retry_;
+  CommandSender<Key> sender_;
+  bool is_accepted_ = false;
   std::optional<Outcome> result_;
 };
 

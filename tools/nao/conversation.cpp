@@ -17,21 +17,16 @@ void add_wait_options(CommandLine& command, WaitOptions& wait) {
 }
 
 Conversation::Conversation(const CommonOptions& common, std::string name,
-                           const std::string& program)
+                           const std::string& program, const CommandTiming& timing)
     : name_(std::move(name)),
       source_("nao." + std::to_string(getpid())),
       command_id_(wall_utime()),
       bus_(common.lcm_url),
       channels_(common.robot),
-      exchange_(program, monotonic_seconds()) {
+      commands_(bus_, channels_),
+      exchange_(program, monotonic_seconds(), timing) {
   loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
-  bus_.subscribe<naolcm::command_result_t>(
-      channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
-        if (result.source == source_ && result.command_id == command_id_) {
-          exchange_.handle_result(static_cast<ResultStatus>(result.status), result.reason,
-                                  monotonic_seconds());
-        }
-      });
+  take_results(channels_.command_result);
   if (program != "nao-motion") return;
   bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
                                          [this](const naolcm::motion_state_t&) {
@@ -39,17 +34,22 @@ Conversation::Conversation(const CommonOptions& common, std::string name,
                                          });
 }
 
+void Conversation::take_results(const std::string& channel) {
+  bus_.subscribe<naolcm::command_result_t>(
+      channel, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
+        if (result.source != source_ || result.command_id != command_id_) return;
+        handle_result(static_cast<ResultStatus>(result.status), result.reason);
+      });
+}
+
 int Conversation::run_walk(naolcm::walk_command_t command, double duration) {
-  constexpr double kSendPeriod = 0.1;  // s, as the gateway's; a walk command expires after 0.5 s
   const double start = monotonic_seconds();
   double end = start + duration;
-  double last_sent = -kForever;
   const auto step = [&] {
     const double now = monotonic_seconds();
     if (now >= end) command.vx = command.vy = command.wz = 0;
-    if (now - last_sent >= kSendPeriod) {
-      publish(channels_.walk_command, command);
-      last_sent = now;
+    if (exchange_.should_send(now)) {
+      commands_.publish(channels_.walk_command, command, source_, command_id_);
     }
     if (exchange_.outcome(now)) loop_.stop("end");
   };

@@ -10,6 +10,7 @@
 #include "common/event_loop.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
+#include "messages/command_publisher.h"
 #include "tools/nao/command_exchange.h"
 
 namespace nao {
@@ -38,9 +39,19 @@ class Conversation {
   /** @param name  The command as given by the user, for messages: "posture Crouch".
    * @param program  That executes it. */
   Conversation(const CommonOptions& common, std::string name,
-               const std::string& program = "nao-motion");
+               const std::string& program = "nao-motion",
+               const CommandTiming& timing = CommandExchange::kTiming);
 
+  Bus& bus() { return bus_; }
   const RobotChannels& channels() const { return channels_; }
+  const std::string& source() const { return source_; }
+  int64_t command_id() const { return command_id_; }
+  /** Takes results on a channel beside that of the robot's. */
+  void take_results(const std::string& channel);
+  /** Takes a result of the command that came in another message. */
+  void handle_result(ResultStatus status, const std::string& reason) {
+    exchange_.handle_result(status, reason, monotonic_seconds());
+  }
 
   /** Sends a command with a final result until its end. @return The exit status. */
   template <class Command>
@@ -48,7 +59,7 @@ class Conversation {
     const double start = monotonic_seconds();
     loop_.every(0.02, [this, &channel, &command, &wait, start] {
       const double now = monotonic_seconds();
-      if (exchange_.should_send(now)) publish(channel, command);
+      if (exchange_.should_send(now)) commands_.publish(channel, command, source_, command_id_);
       if (exchange_.outcome(now) || (wait.accepts_only && exchange_.is_accepted())) {
         loop_.stop("end");
       } else if (now - start > wait.timeout) {
@@ -63,16 +74,6 @@ class Conversation {
   int run_walk(naolcm::walk_command_t command, double duration);
 
  private:
-  /** Sets the source and publishes the command. */
-  template <class Command>
-  void publish(const std::string& channel, Command& command) {
-    command.utime = 0;
-    command.wall_utime = wall_utime();
-    command.source = source_;
-    command.command_id = command_id_;
-    bus_.publish(channel, command);
-  }
-
   int report(const std::string& why_ended, double start);
 
   std::string name_;
@@ -81,6 +82,7 @@ class Conversation {
   EventLoop loop_;
   Bus bus_;
   RobotChannels channels_;
+  CommandPublisher commands_;
   CommandExchange exchange_;
 };
 

@@ -1,62 +1,27 @@
 // nao match: shows a match, and overrules its referee.
 #include "messages/match_command.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <naolcm/command_result_t.hpp>
 #include <string>
 
 #include "common/bus.h"
 #include "common/channels.h"
 #include "common/command_line.h"
 #include "common/event_loop.h"
-#include "common/wall_clock.h"
 #include "messages/match_state.h"
+#include "tools/nao/conversation.h"
 #include "tools/nao/subcommand.h"
 
 namespace nao {
 namespace {
 
-int report_silence(const std::string& what) {
-  std::fprintf(stderr, "nao: match %s: nao-referee does not answer; is it running?\n",
-               what.c_str());
-  return 1;
-}
-
 int overrule(const CommonOptions& common, const MatchCommand& command) {
-  EventLoop loop;
-  Bus bus(common.lcm_url);
-  naolcm::match_command_t message = to_message(command);
-  message.source = "nao." + std::to_string(getpid());
-  message.command_id = wall_utime();
-  const std::string name(to_string(command.operation));
-  std::optional<naolcm::command_result_t> answer;
-  bus.subscribe<naolcm::command_result_t>(
-      kMatchCommandResultChannel, Bus::Queue::kAll, [&](const naolcm::command_result_t& result) {
-        if (result.source != message.source || result.command_id != message.command_id) return;
-        answer = result;
-        loop.stop("answer");
-      });
-  loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
-  const double start = monotonic_seconds();
-  const auto send = [&] {
-    message.wall_utime = wall_utime();
-    bus.publish(kMatchCommandChannel, message);
-    if (monotonic_seconds() - start > kAnswerTimeout) loop.stop("timeout");
-  };
-  send();
-  loop.every(kRepeatPeriod, send);
-  loop.run();
-  if (!answer) return report_silence(name);
-  if (answer->status != naolcm::command_result_t::STATUS_DONE) {
-    std::fprintf(stderr, "nao: match %s: refused: %s\n", name.c_str(), answer->reason.c_str());
-    return 1;
-  }
-  std::printf("match %s: done\n", name.c_str());
-  return 0;
+  Conversation conversation(common, "match " + std::string(to_string(command.operation)),
+                            "nao-referee");
+  conversation.take_results(kMatchCommandResultChannel);
+  return conversation.run_command(kMatchCommandChannel, to_message(command), {});
 }
 
 /** "playing, half 1, 4:07 left, 2:1". */
@@ -89,9 +54,12 @@ int show(const CommonOptions& common) {
                                          loop.stop("answer");
                                        });
   loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
-  loop.every(kAnswerTimeout, [&loop] { loop.stop("timeout"); });
+  loop.every(kListenTimeout, [&loop] { loop.stop("timeout"); });
   loop.run();
-  if (text.empty()) return report_silence("show");
+  if (text.empty()) {
+    std::fprintf(stderr, "nao: match show: nao-referee does not answer; is it running?\n");
+    return 1;
+  }
   std::fputs(text.c_str(), stdout);
   return 0;
 }

@@ -14,8 +14,9 @@
 #include "common/event_loop.h"
 #include "common/text_file.h"
 #include "common/wall_clock.h"
-#include "messages/command_retry.h"
+#include "messages/command_publisher.h"
 #include "messages/motion_file.h"
+#include "tools/nao/command_exchange.h"
 #include "tools/nao/subcommand.h"
 
 namespace nao {
@@ -37,6 +38,7 @@ std::optional<MotionFileResult> ask_motion_files(const CommonOptions& common,
   EventLoop loop;
   Bus bus(common.lcm_url);
   const RobotChannels channels(common.robot);
+  const CommandPublisher commands(bus, channels);
   command.source = "nao." + std::to_string(getpid());
   command.id = wall_utime();
   std::optional<MotionFileResult> answer;
@@ -50,18 +52,18 @@ std::optional<MotionFileResult> ask_motion_files(const CommonOptions& common,
         answer = result;
         loop.stop("end");
       });
-  CommandRetry::Timing timing;
-  timing.repeat_period = 1.0;
-  timing.answer_timeout = timeout;
-  CommandRetry retry(timing, last_heard);
+  // As of motion_file_command_t.
+  CommandExchange exchange("nao-motion-files", last_heard,
+                           {.repeat_period = 1.0, .answer_timeout = timeout});
   loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
   loop.every(0.02, [&] {
     const double now = monotonic_seconds();
-    if (retry.should_send(now)) {
-      bus.publish(channels.motion_file_command, to_message(command, wall_utime()));
+    if (exchange.should_send(now)) {
+      commands.publish(channels.motion_file_command, to_message(command), command.source,
+                       command.id);
     }
     // While it checks a motion it still lists all of them once a second.
-    if (retry.has_timed_out(now) || now - last_heard > kAnswerTimeout) loop.stop("timeout");
+    if (exchange.outcome(now) || now - last_heard > kListenTimeout) loop.stop("timeout");
   });
   loop.run();
   return answer;
@@ -93,7 +95,7 @@ std::optional<MotionFileResult> ask_motion_files_or_complain(const CommonOptions
 int list_motions(const CommonOptions& common) {
   MotionFileCommand command;
   command.operation = MotionFileOperation::kList;
-  const auto result = ask_motion_files_or_complain(common, command, "list", kAnswerTimeout);
+  const auto result = ask_motion_files_or_complain(common, command, "list", kListenTimeout);
   if (!result) return 1;
   for (const std::string& name : result->names) std::printf("%s\n", name.c_str());
   return 0;
@@ -103,7 +105,7 @@ int print_motion(const CommonOptions& common, const std::string& name) {
   MotionFileCommand command;
   command.operation = MotionFileOperation::kGet;
   command.name = name;
-  const auto result = ask_motion_files_or_complain(common, command, "get", kAnswerTimeout);
+  const auto result = ask_motion_files_or_complain(common, command, "get", kListenTimeout);
   if (!result) return 1;
   std::printf("%s", result->yaml.c_str());
   return 0;
@@ -113,7 +115,7 @@ int delete_motion(const CommonOptions& common, const std::string& name) {
   MotionFileCommand command;
   command.operation = MotionFileOperation::kDelete;
   command.name = name;
-  return ask_motion_files_or_complain(common, command, "delete", kAnswerTimeout) ? 0 : 1;
+  return ask_motion_files_or_complain(common, command, "delete", kListenTimeout) ? 0 : 1;
 }
 
 int check_or_save_motion(const CommonOptions& common, const MotionArguments& options, bool saves) {

@@ -42,7 +42,8 @@ void add_walk(CommandLine& app, Invocation& invocation) {
       ->positive();
   walk->on_parsed([&invocation, command, duration] {
     invocation.run = [&invocation, command, duration] {
-      return Conversation(invocation.common, "walk").run_walk(*command, *duration);
+      return Conversation(invocation.common, "walk", "nao-motion", CommandExchange::kWalkTiming)
+          .run_walk(*command, *duration);
     };
   });
 }

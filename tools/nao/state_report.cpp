@@ -137,7 +137,7 @@ int run_state(const CommonOptions& common, bool as_json, bool watches) {
       std::fflush(stdout);
       report = {};
       if (!watches) loop.stop("end");
-    } else if (now - last_complete > kAnswerTimeout) {
+    } else if (now - last_complete > kListenTimeout) {
       is_silent = true;
       loop.stop("silence");
     }

@@ -95,18 +95,18 @@ class StatusListener {
   }
 
   std::string to_text() const {
-    std::vector<std::vector<std::string>> rows{{"program", "host", "process", "state", "loop Hz",
-                                                "worst ms", "in", "out", "dropped", "cpu %",
-                                                "memory MB", "detail"}};
+    std::vector<std::vector<std::string>> rows{{"program", "robot", "host", "process", "state",
+                                                "loop Hz", "worst ms", "in", "out", "dropped",
+                                                "cpu %", "memory MB", "detail"}};
     for (const auto& [key, report] : programs_) {
       const naolcm::daemon_status_t& status = report.status;
       const auto [cpu, memory] = usage_of(report);
-      rows.push_back({status.program, status.host, std::to_string(status.process_id), status.state,
-                      rate_text(status), format_number(status.loop_period_worst * 1000, 1),
-                      std::to_string(status.num_messages_in),
-                      std::to_string(status.num_messages_out),
-                      std::to_string(status.num_messages_dropped), format_number(cpu, 0),
-                      format_number(memory / 1e6, 0), status.detail});
+      rows.push_back(
+          {status.program, status.robot, status.host, std::to_string(status.process_id),
+           status.state, rate_text(status), format_number(status.loop_period_worst * 1000, 1),
+           std::to_string(status.num_messages_in), std::to_string(status.num_messages_out),
+           std::to_string(status.num_messages_dropped), format_number(cpu, 0),
+           format_number(memory / 1e6, 0), status.detail});
     }
     std::string text = format_table(rows);
     if (body_) {
@@ -124,6 +124,7 @@ class StatusListener {
       const auto [cpu, memory] = usage_of(report);
       json.begin_object();
       json.add("program", status.program);
+      json.add("robot", status.robot);
       json.add("host", status.host);
       json.add("process_id", status.process_id);
       json.add("version", status.version);

@@ -9,11 +9,9 @@ namespace nao {
 
 class CommandLine;
 
-/** Time without an answer after which a program is reported as unavailable, s. Chosen: many times
- * the period of its messages, and 30 transmissions of a command. */
-constexpr double kAnswerTimeout = 3.0;
-/** Time between two transmissions of a command that is not answered, s. */
-constexpr double kRepeatPeriod = 0.1;
+/** Time without a message after which a program is reported as unavailable, s. Chosen: many times
+ * the period of its messages. */
+constexpr double kListenTimeout = 3.0;
 
 /** Action selected on the command line; set by the subcommand. */
 struct Invocation {

@@ -100,7 +100,7 @@ int run_show(const CommonOptions& common, bool as_json) {
       kWorldTruthChannel, Bus::Queue::kLatest,
       [&truth](const naolcm::world_truth_t& message) { truth = message; });
   const double start = monotonic_seconds();
-  while (!truth && monotonic_seconds() - start < kAnswerTimeout) bus.handle_for(0.1);
+  while (!truth && monotonic_seconds() - start < kListenTimeout) bus.handle_for(0.1);
   if (!truth) {
     std::fprintf(stderr, "nao: no simulated world on %s; is nao-sim running?\n",
                  common.lcm_url.c_str());

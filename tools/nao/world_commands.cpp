@@ -1,7 +1,4 @@
-#include <unistd.h>
-
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <naolcm/world_command_t.hpp>
@@ -9,55 +6,28 @@
 #include <string>
 #include <vector>
 
-#include "common/bus.h"
 #include "common/channels.h"
 #include "common/command_line.h"
-#include "common/event_loop.h"
-#include "common/wall_clock.h"
+#include "tools/nao/conversation.h"
 #include "tools/nao/subcommand.h"
 
 namespace nao {
 namespace {
 
 /** Sends a world command until WORLD_TRUTH acknowledges it. @return The exit status. */
-int run_world(const CommonOptions& common, naolcm::world_command_t command) {
-  EventLoop loop;
-  Bus bus(common.lcm_url);
-  command.source = "nao." + std::to_string(getpid());
-  command.command_id = wall_utime();
-  bool is_answered = false;
-  std::string error;
-  bus.subscribe<naolcm::world_truth_t>(kWorldTruthChannel, Bus::Queue::kLatest,
-                                       [&](const naolcm::world_truth_t& truth) {
-                                         if (truth.last_command_source != command.source ||
-                                             truth.last_command_id != command.command_id) {
-                                           return;
-                                         }
-                                         is_answered = true;
-                                         error = truth.last_command_error;
-                                         loop.stop("answer");
-                                       });
-  loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
-  const double start = monotonic_seconds();
-  const auto send = [&] {
-    command.wall_utime = wall_utime();
-    bus.publish(kWorldCommandChannel, command);
-    if (monotonic_seconds() - start > kAnswerTimeout) loop.stop("timeout");
-  };
-  send();
-  loop.every(kRepeatPeriod, send);
-  loop.run();
-  if (!is_answered) {
-    std::fprintf(stderr, "nao: world %s: nao-sim does not answer; is it running?\n",
-                 command.command.c_str());
-    return 1;
-  }
-  if (!error.empty()) {
-    std::fprintf(stderr, "nao: world %s: refused: %s\n", command.command.c_str(), error.c_str());
-    return 1;
-  }
-  std::printf("world %s: done\n", command.command.c_str());
-  return 0;
+int run_world(const CommonOptions& common, const naolcm::world_command_t& command) {
+  Conversation conversation(common, "world " + command.command, "nao-sim");
+  conversation.bus().subscribe<naolcm::world_truth_t>(
+      kWorldTruthChannel, Bus::Queue::kLatest, [&conversation](const naolcm::world_truth_t& truth) {
+        if (truth.last_command_source != conversation.source() ||
+            truth.last_command_id != conversation.command_id()) {
+          return;
+        }
+        const bool is_done = truth.last_command_error.empty();
+        conversation.handle_result(is_done ? ResultStatus::kDone : ResultStatus::kRefused,
+                                   truth.last_command_error);
+      });
+  return conversation.run_command(kWorldCommandChannel, command, {});
 }
 
 /** Adds one subcommand of `nao world`. @return The subcommand and its message, for its options. */

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/output_file.h"
 #include "common/text_file.h"
 #include "robot_import/gait_text.h"
 #include "robot_import/robot_import.h"

@@ -6,11 +6,11 @@
 #include "messages/command.h"
 #include "messages/mode.h"
 #include "robot_model/robot_model.h"
-#include "viewer/command_sender.h"
 #include "viewer/message_store.h"
 #include "viewer/panels/panel_state.h"
 #include "viewer/panels/panels.h"
 #include "viewer/panels/widgets.h"
+#include "viewer/viewer_commands.h"
 
 namespace nao::viewer {
 namespace {
@@ -46,7 +46,7 @@ void show_body(const MessageStore& store, double now) {
   ImGui::PopStyleColor();
 }
 
-void show_posture_buttons(const RobotModel& model, CommandSender& commands, PanelState& state) {
+void show_posture_buttons(const RobotModel& model, ViewerCommands& commands, PanelState& state) {
   bool is_first = true;
   for (const Posture& posture : model.postures()) {
     if (!is_first) same_line_if_fits(posture.name.c_str());
@@ -57,7 +57,7 @@ void show_posture_buttons(const RobotModel& model, CommandSender& commands, Pane
   }
 }
 
-void show_action_buttons(const RobotModel& model, CommandSender& commands) {
+void show_action_buttons(const RobotModel& model, ViewerCommands& commands) {
   bool is_first = true;
   for (const Action& action : model.actions()) {
     if (!is_first) same_line_if_fits(action.name.c_str());
@@ -81,7 +81,7 @@ void show_walk_controls(const WalkLimits& limits, PanelState& state) {
   state.is_walking = ImGui::IsItemActive();
 }
 
-void show_controls(const RobotModel& model, CommandSender& commands, PanelState& state) {
+void show_controls(const RobotModel& model, ViewerCommands& commands, PanelState& state) {
   if (button("Stop", "Ends any motion: a walk at its next double support.")) commands.stop();
   ImGui::SameLine();
   ImGui::SetNextItemWidth(110);
@@ -114,7 +114,7 @@ void show_results(const MessageStore& store) {
 
 }  // namespace
 
-void draw_motion_panel(const MessageStore& store, const RobotModel& model, CommandSender* commands,
+void draw_motion_panel(const MessageStore& store, const RobotModel& model, ViewerCommands* commands,
                        PanelState& state, double now) {
   place(8, 186, 296, 420);
   // Set by the button below while it is held: a closed panel must not keep the robot walking.

@@ -9,7 +9,7 @@ class RobotModel;
 
 namespace nao::viewer {
 
-class CommandSender;
+class ViewerCommands;
 class ImageTexture;
 class LogPlayer;
 class MessageStore;
@@ -23,9 +23,9 @@ inline constexpr float kPlotsHeight = 230;
  *
  * @param commands  nullptr while a log is played: no commands can be sent.
  * @param now  s, on the time line of the messages: monotonic, or of the log. */
-void draw_world_panel(const MessageStore& store, CommandSender* commands, PanelState& state,
+void draw_world_panel(const MessageStore& store, ViewerCommands* commands, PanelState& state,
                       double now);
-void draw_motion_panel(const MessageStore& store, const RobotModel& model, CommandSender* commands,
+void draw_motion_panel(const MessageStore& store, const RobotModel& model, ViewerCommands* commands,
                        PanelState& state, double now);
 /** @param problems  Faults of messages and files, one sentence each. */
 void draw_view_panel(PanelState& state, const std::vector<std::string>& problems);

@@ -19,7 +19,8 @@ void show_figures(const naolcm::daemon_status_t& status) {
   for (size_t i = 0; i < num; ++i) {
     figures += status.metric_names[i] + " " + std::to_string(status.metric_values[i]) + "\n";
   }
-  ImGui::SetTooltip("process %d, version %s, dropped %lld\n%s", status.process_id,
+  ImGui::SetTooltip("robot %s, process %d, version %s, dropped %lld\n%s",
+                    status.robot.empty() ? "all" : status.robot.c_str(), status.process_id,
                     status.version.c_str(), static_cast<long long>(status.num_messages_dropped),
                     figures.c_str());
 }

@@ -1,10 +1,10 @@
 #include <imgui.h>
 
-#include "viewer/command_sender.h"
 #include "viewer/message_store.h"
 #include "viewer/panels/panel_state.h"
 #include "viewer/panels/panels.h"
 #include "viewer/panels/widgets.h"
+#include "viewer/viewer_commands.h"
 
 namespace nao::viewer {
 namespace {
@@ -29,7 +29,7 @@ void show_truth(const naolcm::world_truth_t* truth) {
                      static_cast<long long>(truth->num_late_ticks));
 }
 
-void show_controls(CommandSender& commands, bool is_paused) {
+void show_controls(ViewerCommands& commands, bool is_paused) {
   if (button(is_paused ? "Resume" : "Pause", "Pauses or resumes the simulation.")) {
     commands.send_world_command(is_paused ? "resume" : "pause");
   }
@@ -52,7 +52,7 @@ void show_controls(CommandSender& commands, bool is_paused) {
 
 }  // namespace
 
-void draw_world_panel(const MessageStore& store, CommandSender* commands, PanelState& state,
+void draw_world_panel(const MessageStore& store, ViewerCommands* commands, PanelState& state,
                       double now) {
   place(8, 8, 296, 170);
   if (begin_panel("World", state)) {

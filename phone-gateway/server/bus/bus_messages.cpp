@@ -23,12 +23,12 @@ constexpr size_t kMaxImageSizes = 128;
 constexpr size_t kMaxDetections = 200;
 
 double finite(double value, const char* field) {
-  if (!std::isfinite(value)) throw Error(std::string(field) + " is not finite");
+  if (!std::isfinite(value)) throw MessageError(std::string(field) + " is not finite");
   return value;
 }
 
 Mode read_mode(int8_t mode) {
-  if (mode < 0 || mode >= kNumModes) throw Error("unknown mode " + std::to_string(mode));
+  if (mode < 0 || mode >= kNumModes) throw MessageError("unknown mode " + std::to_string(mode));
   return static_cast<Mode>(mode);
 }
 
@@ -37,7 +37,7 @@ naoremote::CommandKind read_activity_kind(int8_t kind) {
   static_assert(naolcm::motion_state_t::COMMAND_KIND_NONE + 1 == naoremote::COMMAND_KIND_NONE);
   static_assert(naolcm::motion_state_t::COMMAND_KIND_STOP + 1 == naoremote::COMMAND_KIND_STOP);
   if (!naoremote::CommandKind_IsValid(kind + 1)) {
-    throw Error("unknown command kind " + std::to_string(kind));
+    throw MessageError("unknown command kind " + std::to_string(kind));
   }
   return static_cast<naoremote::CommandKind>(kind + 1);
 }
@@ -95,7 +95,7 @@ RobotSnapshot RobotStateReader::read(const naolcm::robot_state_t& message) const
   if (const auto fault =
           read_named_joints(joint_names_, message.joint_names,
                             {{"position", message.joint_position, robot.joint_position}})) {
-    throw Error(to_sentence(*fault));
+    throw MessageError(to_sentence(*fault));
   }
   for (size_t i = 0; i < robot.torso_orientation.size(); ++i) {
     robot.torso_orientation[i] =
@@ -128,8 +128,8 @@ MotionSnapshot read_motion_state(const naolcm::motion_state_t& message) {
 }
 
 CachedImage read_image(const naolcm::image_t& message) {
-  if (message.format != "jpeg") throw Error("an image of format " + quoted(message.format));
-  if (message.width <= 0 || message.height <= 0) throw Error("an image without size");
+  if (message.format != "jpeg") throw MessageError("an image of format " + quoted(message.format));
+  if (message.width <= 0 || message.height <= 0) throw MessageError("an image without size");
   CachedImage image;
   image.utime = message.utime;
   image.camera = message.camera;
@@ -147,7 +147,7 @@ std::vector<uint32_t> read_lights(const naolcm::body_state_t& message,
     for (size_t i = 0; i < message.light_names.size(); ++i) {
       if (message.light_names[i] != light.name()) continue;
       for (const double part : message.light_rgb[i]) {
-        if (!(part >= 0 && part <= 1)) throw Error("the color of the light " + light.name());
+        if (!(part >= 0 && part <= 1)) throw MessageError("the color of the light " + light.name());
         color = color << 8 | static_cast<uint32_t>(std::lround(255 * part));
       }
     }
@@ -181,13 +181,13 @@ std::optional<naoremote::Body> read_body(const naolcm::body_state_t& message,
 }
 
 SpeechPiece read_audio(const naolcm::speech_audio_t& message) {
-  if (message.format != "s16le") throw Error("audio of format " + quoted(message.format));
+  if (message.format != "s16le") throw MessageError("audio of format " + quoted(message.format));
   if (message.size_bytes % 2 != 0 || message.size_bytes > kMaxAudioBytes) {
-    throw Error("a piece of audio of " + std::to_string(message.size_bytes) + " bytes");
+    throw MessageError("a piece of audio of " + std::to_string(message.size_bytes) + " bytes");
   }
   if (message.sample_rate < kMinSampleRate || message.sample_rate > kMaxSampleRate ||
       message.first_sample < 0) {
-    throw Error("audio of " + std::to_string(message.sample_rate) + " samples a second");
+    throw MessageError("audio of " + std::to_string(message.sample_rate) + " samples a second");
   }
   return {message.source,
           message.command_id,
@@ -221,7 +221,7 @@ ImageSizes::Size ImageSizes::find(const std::string& camera, int64_t utime) cons
 naoremote::Vision read_vision(const naolcm::vision_state_t& message, const ImageSizes& sizes) {
   using naoremote::Vision;
   if (!Vision::ImageStatus_IsValid(message.image_status)) {
-    throw Error("unknown image status " + std::to_string(message.image_status));
+    throw MessageError("unknown image status " + std::to_string(message.image_status));
   }
   Vision vision;
   vision.set_utime(static_cast<uint64_t>(message.utime));
@@ -231,7 +231,7 @@ naoremote::Vision read_vision(const naolcm::vision_state_t& message, const Image
   for (const naolcm::detection_t& seen : message.detections) {
     if (vision.detections_size() >= static_cast<int>(kMaxDetections)) break;
     if (!Vision::Detection::Kind_IsValid(seen.kind)) {
-      throw Error("unknown kind of object " + std::to_string(seen.kind));
+      throw MessageError("unknown kind of object " + std::to_string(seen.kind));
     }
     Vision::Detection& detection = *vision.add_detections();
     detection.set_kind(static_cast<Vision::Detection::Kind>(seen.kind));
@@ -254,7 +254,7 @@ naoremote::Vision read_vision(const naolcm::vision_state_t& message, const Image
 
 naoremote::PlayState read_play_state(const naolcm::play_state_t& message) {
   if (!naoremote::PlayState::Phase_IsValid(message.phase)) {
-    throw Error("unknown phase " + std::to_string(message.phase));
+    throw MessageError("unknown phase " + std::to_string(message.phase));
   }
   naoremote::PlayState state;
   state.set_utime(static_cast<uint64_t>(message.utime));
@@ -305,10 +305,10 @@ naoremote::Match read_match(const MatchState& state) {
 
 CommandResult read_result(const naolcm::command_result_t& message) {
   if (message.command_kind < 0 || message.command_kind > static_cast<int>(CommandKind::kLight)) {
-    throw Error("unknown command kind " + std::to_string(message.command_kind));
+    throw MessageError("unknown command kind " + std::to_string(message.command_kind));
   }
   if (message.status < message.STATUS_ACCEPTED || message.status > message.STATUS_FAILED) {
-    throw Error("unknown result status " + std::to_string(message.status));
+    throw MessageError("unknown result status " + std::to_string(message.status));
   }
   CommandResult result;
   result.source = message.source;

@@ -29,23 +29,24 @@ class RobotStateReader {
  public:
   explicit RobotStateReader(const naoremote::RobotDescription& robot);
 
-  /** @throws Error  if a joint is unknown, repeated or missing, the lists have unequal lengths, or
-   * a number is not finite. */
+  /** @throws MessageError  if a joint is unknown, repeated or missing, the lists have unequal
+   * lengths, or a number is not finite. */
   RobotSnapshot read(const naolcm::robot_state_t& message) const;
 
  private:
   std::vector<std::string> joint_names_;
 };
 
-/** @throws Error  if a number that must be finite is not, or an enumeration has an unknown value.
+/** @throws MessageError  if a number that must be finite is not, or an enumeration has an unknown
+ * value.
  */
 MotionSnapshot read_motion_state(const naolcm::motion_state_t& message);
 
-/** @throws Error  if the image is no JPEG or has no size. */
+/** @throws MessageError  if the image is no JPEG or has no size. */
 CachedImage read_image(const naolcm::image_t& message);
 
 /** Colors of body_state_t as 0xRRGGBB, in the order of the robot's description; a light that the
- * message does not have is black. @throws Error  if a color is not in range. */
+ * message does not have is black. @throws MessageError  if a color is not in range. */
 std::vector<uint32_t> read_lights(const naolcm::body_state_t& message,
                                   const naoremote::RobotDescription& robot);
 
@@ -54,7 +55,7 @@ std::vector<uint32_t> read_lights(const naolcm::body_state_t& message,
 std::optional<naoremote::Body> read_body(const naolcm::body_state_t& message,
                                          const naoremote::RobotDescription& robot);
 
-/** @throws Error  if the samples are too many or of another format. */
+/** @throws MessageError  if the samples are too many or of another format. */
 SpeechPiece read_audio(const naolcm::speech_audio_t& message);
 
 /** Size of the images that nao-vision has analysed: of several of one camera and time the widest.
@@ -82,10 +83,11 @@ class ImageSizes {
 };
 
 /** Boxes and lines become fractions of the image's size.
- * @throws Error  if a number that must be finite is not, or an enumeration has an unknown value. */
+ * @throws MessageError  if a number that must be finite is not, or an enumeration has an unknown
+ * value. */
 naoremote::Vision read_vision(const naolcm::vision_state_t& message, const ImageSizes& sizes);
 
-/** @throws Error  if an enumeration has an unknown value. */
+/** @throws MessageError  if an enumeration has an unknown value. */
 naoremote::PlayState read_play_state(const naolcm::play_state_t& message);
 
 /** Teams and numbers of the players. */
@@ -94,7 +96,7 @@ std::vector<PlayerLabel> read_players(const MatchState& state);
 /** A match as clients see it, with whole seconds. */
 naoremote::Match read_match(const MatchState& state);
 
-/** @throws Error  if the kind or the status has an unknown value. */
+/** @throws MessageError  if the kind or the status has an unknown value. */
 CommandResult read_result(const naolcm::command_result_t& message);
 
 }  // namespace nao::gateway

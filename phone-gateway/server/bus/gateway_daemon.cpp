@@ -82,10 +82,11 @@ void GatewayDaemon::subscribe() {
   bus_.subscribe<naolcm::daemon_status_t>(
       kDaemonStatusChannel, Bus::Queue::kAll, [this](const naolcm::daemon_status_t& message) {
         const double now = monotonic_seconds();
-        // A status names no robot. A camera that has ended beside others is found by its images.
         for (size_t i = 0; i < core_.num_robots(); ++i) {
           ComponentMonitor& components = core_.robot(i).components();
-          if (message.program == kCameraProgram) components.handle_camera_status(now);
+          if (message.program == kCameraProgram && message.robot == core_.robot(i).name()) {
+            components.handle_camera_status(now);
+          }
           if (message.program == kSimulatorProgram) components.handle_simulator_status(now);
         }
       });

@@ -24,7 +24,8 @@ RobotSetup RobotLink::setup() {
           {[this](const Command& command) { commands_.publish(command); },
            [this](const ServiceCommand& command) { send_service(command); },
            [this](const MotionFileCommand& command) {
-             bus_.publish(channels_.motion_file_command, to_message(command, wall_utime()));
+             commands_.publish(channels_.motion_file_command, to_message(command), command.source,
+                               command.id);
            },
            [this](const DragCommand& drag) { send_drag(drag); },
            [this](const SentPlayCommand& command) { send_play(command); }}};
@@ -59,7 +60,7 @@ void RobotLink::subscribe(GatewayRobot& robot,
       channels_.motion_file_result, Bus::Queue::kAll,
       [&robot](const naolcm::motion_file_result_t& message) {
         const auto result = from_message(message);
-        if (!result) throw Error("the lists of its motion have unequal lengths");
+        if (!result) throw MessageError("the lists of its motion have unequal lengths");
         robot.motions().handle_result(*result, monotonic_seconds());
       });
   subscribe_perception(robot, add_image);
@@ -92,29 +93,25 @@ void RobotLink::send_service(const ServiceCommand& command) {
   const bool is_speech = std::holds_alternative<SpeechCommand>(command.request);
   std::visit(
       [&](const auto& request) {
-        auto message = to_message(request);
-        commands_.publish(is_speech ? channels_.speech_command : channels_.light_command, message,
-                          command.source, command.id);
+        commands_.publish(is_speech ? channels_.speech_command : channels_.light_command,
+                          to_message(request), command.source, command.id);
       },
       command.request);
 }
 
 void RobotLink::send_play(const SentPlayCommand& command) {
-  naolcm::play_command_t message = to_message(command.command);
-  commands_.publish(channels_.play_command, message, command.source, command.id);
+  commands_.publish(channels_.play_command, to_message(command.command), command.source,
+                    command.id);
 }
 
 void RobotLink::send_drag(const DragCommand& drag) {
   naolcm::world_command_t message{};
-  message.wall_utime = wall_utime();
-  message.source = source_;
-  message.command_id = ++last_drag_id_;
   message.command = "drag-in-torso";
   message.robot = description_.name();
   message.link = drag.link;
   std::copy_n(drag.point, 3, message.point_in_link);
   std::copy_n(drag.target, 3, message.target_in_world);
-  bus_.publish(kWorldCommandChannel, message);
+  commands_.publish(kWorldCommandChannel, message, source_, ++last_drag_id_);
 }
 
 void RobotLink::send_camera_requests(std::vector<CameraRequest> requests, bool always) {
@@ -122,14 +119,12 @@ void RobotLink::send_camera_requests(std::vector<CameraRequest> requests, bool a
   last_requests_ = std::move(requests);
   for (const CameraRequest& request : last_requests_) {
     naolcm::camera_command_t message{};
-    message.wall_utime = wall_utime();
-    message.source = source_;
     message.camera = request.image.camera;
     message.width = static_cast<int32_t>(request.image.width);
     // camera_command_t allows rates from 1/s on.
     message.rate = std::max(1.0, request.rate);
     message.quality = static_cast<int32_t>(request.image.quality);
-    bus_.publish(channels_.head_camera_command, message);
+    commands_.publish(channels_.head_camera_command, message, source_);
   }
 }
 

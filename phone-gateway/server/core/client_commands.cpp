@@ -35,23 +35,46 @@ Command ClientCommands::make(uint32_t client, decltype(Command::request) request
   return {source_ + "." + std::to_string(client), next_id_++, std::move(request)};
 }
 
-void ClientCommands::send(uint32_t client, uint32_t request_id, const Command& command,
-                          double now) {
-  track(client, request_id, command, now);
-  transmit_(command);
-}
-
-void ClientCommands::track(uint32_t client, uint32_t request_id, const Command& command,
-                           double now) {
-  // A newer command replaces what was not accepted yet: it must not be repeated any more.
-  for (const CommandTracker::Entry& entry : tracker_.supersede(kind_of(command))) {
+void ClientCommands::send(ClientRequest request, const Command& command, double now) {
+  // If older commands were still repeated, one of them could arrive last.
+  const CommandKind newer = kind_of(command);
+  for (const Sender::Entry& entry : sender_.take_if([newer](const Sender::Entry& older) {
+         const CommandKind kind = kind_of(older.command);
+         const bool add_up =
+             newer == CommandKind::kJointChange && kind == CommandKind::kJointChange;
+         return !older.is_accepted && kind != CommandKind::kWalk && !add_up;
+       })) {
     report(entry, ResultStatus::kInterrupted, Reason("replaced-before-start"), now);
   }
-  tracker_.add(client, request_id, command, now);
+  const bool is_walk = newer == CommandKind::kWalk;
+  sender_.send(command, now, request, is_walk ? CommandTiming::of_stream() : CommandTiming());
+  transmit_due(now);
+}
+
+void ClientCommands::update_walk(const Command& walk, double now) {
+  sender_.update(walk, true);
+  transmit_due(now);
+}
+
+void ClientCommands::end_walk(const Command& walk, double now) {
+  sender_.end({walk.source, walk.id, WalkCommand{}});
+  transmit_due(now);
+}
+
+// The commands go on; only their results have no receiver any more. Tells whether a move-to is
+// among them: the robot would go on walking without its driver.
+bool ClientCommands::forget_client(uint32_t client) {
+  bool has_move_to = false;
+  for (Sender::Entry& entry : sender_.entries()) {
+    if (entry.receiver.client != client) continue;
+    has_move_to |= kind_of(entry.command) == CommandKind::kMoveTo;
+    entry.receiver.client = 0;
+  }
+  return has_move_to;
 }
 
 void ClientCommands::handle_result(const CommandResult& result, double now) {
-  const auto entry = tracker_.handle_result(result.source, result.id, result.status, now);
+  const auto entry = sender_.handle_result(result.source, result.id, result.status, now);
   if (!entry) return;
   // nao-motion's own sentence: a newer nao-motion may send codes that this gateway does not know.
   report(*entry, result.status, result.reason,
@@ -59,36 +82,39 @@ void ClientCommands::handle_result(const CommandResult& result, double now) {
 }
 
 void ClientCommands::fail_all(const Reason& reason, double now) {
-  for (const CommandTracker::Entry& entry : tracker_.take_all()) {
+  for (const Sender::Entry& entry : sender_.take_if([](const Sender::Entry&) { return true; })) {
     report(entry, ResultStatus::kFailed, reason, now);
   }
 }
 
-// Repeats commands that are unanswered, and reports those that stay so.
 void ClientCommands::step(double now) {
-  for (const Command& command : tracker_.take_due(now)) transmit_(command);
-  for (const CommandTracker::Entry& entry : tracker_.take_timed_out(now)) {
+  transmit_due(now);
+  for (const Sender::Entry& entry : sender_.take_timed_out(now)) {
     report(entry, ResultStatus::kFailed,
-           gateway_reason("command-unanswered", {to_argument(answer_timeout_)}), now);
+           gateway_reason("command-unanswered", {to_argument(kAnswerTimeout)}), now);
   }
 }
 
-void ClientCommands::report(const CommandTracker::Entry& entry, ResultStatus status,
-                            const Reason& reason, double now) {
+void ClientCommands::transmit_due(double now) {
+  for (const Command& command : sender_.take_due(now)) transmit_(command);
+}
+
+void ClientCommands::report(const Sender::Entry& entry, ResultStatus status, const Reason& reason,
+                            double now) {
   report(entry, status, reason, describe_reason(reason), now);
 }
 
-void ClientCommands::report(const CommandTracker::Entry& entry, ResultStatus status,
-                            const Reason& reason, const std::string& sentence, double now) {
+void ClientCommands::report(const Sender::Entry& entry, ResultStatus status, const Reason& reason,
+                            const std::string& sentence, double now) {
   // The client may have left, or watch another robot.
-  ClientSession* session = sessions_.find(entry.client);
+  ClientSession* session = sessions_.find(entry.receiver.client);
   if (session == nullptr) return;
   const bool is_walk = kind_of(entry.command) == CommandKind::kWalk;
   if (is_walk && status == ResultStatus::kRefused && is_repeated_walk_refusal(sentence, now)) {
     return;
   }
-  session->send(
-      make_result_notice(entry.request_id, status, reason, sentence, describe(entry.command)));
+  session->send(make_result_notice(entry.receiver.request_id, status, reason, sentence,
+                                   describe(entry.command)));
 }
 
 bool ClientCommands::is_repeated_walk_refusal(const std::string& sentence, double now) {

@@ -135,13 +135,16 @@ std::optional<Refusal> Driving::walk(const ClientSession& session, uint32_t requ
                    gateway_reason("link-too-slow", {to_argument(session.round_trip_time)})};
   }
   const WalkCommand allowed{fraction * velocity.vx, fraction * velocity.vy, fraction * velocity.wz};
-  if (!walk_.is_walking()) {
-    play_.abandon();
-    const Command begun = commands_.make(session.id, allowed);
-    walk_.begin(begun.source, begun.id);
-    commands_.track(session.id, request_id, begun, now);
+  if (is_walking_) {
+    walk_.request = allowed;
+    commands_.update_walk(walk_, now);
+    return std::nullopt;
   }
-  commands_.transmit(walk_.update(allowed, now));
+  play_.abandon();
+  abandon_walk();
+  walk_ = commands_.make(session.id, allowed);
+  is_walking_ = true;
+  commands_.send({session.id, request_id}, walk_, now);
   return std::nullopt;
 }
 
@@ -151,10 +154,10 @@ std::optional<Refusal> Driving::command(const ClientSession& session, uint32_t r
   control_.refresh(now);
   // Head and arms may move during a walk; any other command replaces it. The walk is abandoned, not
   // ended: a zero velocity after the new command would end that one.
-  if (!std::holds_alternative<JointChangeCommand>(request)) walk_.abandon();
+  if (!std::holds_alternative<JointChangeCommand>(request)) abandon_walk();
   // Any command ends a behavior: nao-play listens, too.
   play_.abandon();
-  commands_.send(session.id, request_id, commands_.make(session.id, std::move(request)), now);
+  commands_.send({session.id, request_id}, commands_.make(session.id, std::move(request)), now);
   return std::nullopt;
 }
 
@@ -167,7 +170,7 @@ std::optional<Refusal> Driving::play(const ClientSession& session, uint32_t requ
     return std::nullopt;
   }
   // Without zeros, which would end the behavior's walk.
-  walk_.abandon();
+  abandon_walk();
   play_.begin(session.id, request_id, command, now);
   return std::nullopt;
 }
@@ -175,12 +178,12 @@ std::optional<Refusal> Driving::play(const ClientSession& session, uint32_t requ
 std::optional<Refusal> Driving::stop(const ClientSession& session, uint32_t request_id,
                                      double now) {
   if (control_.driver() == session.id) control_.refresh(now);
-  if (walk_.is_walking()) is_walk_blocked_ = true;
+  if (is_walking_) is_walk_blocked_ = true;
   // A stop needs no control: any client that sees the robot in danger may stop it.
-  walk_.abandon();
+  abandon_walk();
   play_.end(now);
   // Sent even if nao-motion seems to be unavailable: it may still receive.
-  commands_.send(session.id, request_id, commands_.make(session.id, StopCommand{}), now);
+  commands_.send({session.id, request_id}, commands_.make(session.id, StopCommand{}), now);
   if (components_.is_available(Component::kMotion)) return std::nullopt;
   return Refusal{naoremote::ROBOT_UNAVAILABLE, availability_reason(Component::kMotion, false)};
 }
@@ -188,20 +191,23 @@ std::optional<Refusal> Driving::stop(const ClientSession& session, uint32_t requ
 // No client waits for the result: 0.
 void Driving::stop_move_of(uint32_t client, const ClientSession& sender, double now) {
   if (!commands_.forget_client(client)) return;
-  commands_.send(0, 0, commands_.make(sender.id, StopCommand{}), now);
+  commands_.send({}, commands_.make(sender.id, StopCommand{}), now);
 }
 
 void Driving::handle_result(const CommandResult& result) {
   const bool is_final = result.status != ResultStatus::kAccepted;
-  const bool is_of_walk =
-      walk_.is_walking() && result.id == walk_.command_id() && result.source == walk_.source();
+  const bool is_of_walk = result.id == walk_.id && result.source == walk_.source;
   // The next WalkTurn begins a new walk with a new number.
-  if (is_final && is_of_walk) walk_.abandon();
+  if (is_final && is_of_walk) is_walking_ = false;
 }
 
 void Driving::end_walk(double now) {
-  walk_.end(now);
-  step(now);
+  if (std::exchange(is_walking_, false)) commands_.end_walk(walk_, now);
+}
+
+void Driving::abandon_walk() {
+  is_walking_ = false;
+  commands_.abandon_walk(walk_);
 }
 
 void Driving::end_motion(double now) {
@@ -209,11 +215,10 @@ void Driving::end_motion(double now) {
   play_.end(now);
 }
 
-// More than one command may be due after a delay.
 void Driving::step(double now) {
   // A client whose robot acts by itself drives it.
   if (play_.is_active()) control_.refresh(now);
-  while (const auto command = walk_.step(now)) commands_.transmit(*command);
+  if (now - last_walk_turn_ >= limits_.walk_timeout) end_walk(now);
 }
 
 }  // namespace nao::gateway

@@ -12,7 +12,6 @@
 #include "phone-gateway/server/core/gateway_reasons.h"
 #include "phone-gateway/server/core/play_stream.h"
 #include "phone-gateway/server/core/robot_sessions.h"
-#include "phone-gateway/server/core/walk_stream.h"
 
 namespace nao::gateway {
 
@@ -27,8 +26,7 @@ class Driving {
         components_(components),
         commands_(commands),
         play_(play),
-        control_(sessions, limits.lease_idle_timeout),
-        walk_(limits) {}
+        control_(sessions, limits.lease_idle_timeout) {}
 
   /** Client that drives; 0 if none. */
   uint32_t driver() const { return control_.driver(); }
@@ -74,20 +72,22 @@ class Driving {
   /** nao-motion has become unavailable: walk and behavior are not continued when it is available
    * again. */
   void abandon_motion() {
-    walk_.abandon();
+    abandon_walk();
     play_.abandon();
   }
 
   /** Ends walk and behavior now, if there are any. */
   void end_motion(double now);
 
-  /** Transmits the walk command that is due. */
+  /** Ends a walk that the driver does not repeat. */
   void step(double now);
 
  private:
   /** Whether a client drives and the robot is available. */
   std::optional<Refusal> check_driver(const ClientSession& session) const;
   void end_walk(double now);
+  /** Another command replaces the walk: nothing more is transmitted. */
+  void abandon_walk();
   /** Stops a MoveTo that a client without control has left behind. */
   void stop_move_of(uint32_t client, const ClientSession& sender, double now);
 
@@ -96,10 +96,12 @@ class Driving {
   ClientCommands& commands_;
   PlayStream& play_;
   ControlState control_;
-  WalkStream walk_;
+  /** The driver's last walk, which is repeated, and whether it goes on. */
+  Command walk_;
+  bool is_walking_ = false;
   /** Stop was sent during a walk: no new walk until the driver releases the joystick. */
   bool is_walk_blocked_ = false;
-  /** s. */
+  /** s. The walk ends as long after it as nao-motion would end it. */
   double last_walk_turn_ = -1e9;
 };
 

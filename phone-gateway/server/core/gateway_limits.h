@@ -42,10 +42,6 @@ struct GatewayLimits {
   /** Between two transmissions of a play command that was accepted: two may be lost within the 2 s
    * after which nao-play ends the behavior. */
   double play_period = 0.5;
-  /** Between two transmissions of a walk command, or of an unanswered command, on the bus. */
-  double repeat_period = 0.1;
-  /** From sending a command to reporting that nao-motion does not answer. */
-  double answer_timeout = 1.5;
   /** From the driver's last command to the moment when another client may take control. */
   double lease_idle_timeout = 10;
   /** From a GetState with image to the end of the image request that it stands for. */

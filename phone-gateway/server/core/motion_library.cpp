@@ -69,17 +69,16 @@ std::optional<Refusal> MotionLibrary::request(uint32_t client, uint32_t request_
     return Refusal{naoremote::ROBOT_UNAVAILABLE, unavailable()};
   }
   const auto num_of_client =
-      std::count_if(pending_.begin(), pending_.end(),
-                    [client](const Pending& pending) { return pending.client == client; });
+      std::count_if(sender_.entries().begin(), sender_.entries().end(),
+                    [client](const auto& pending) { return pending.receiver.client == client; });
   if (num_of_client >= limits_.max_motion_requests) {
     return Refusal{naoremote::TOO_MANY_REQUESTS, gateway_reason("motion-files-busy")};
   }
   command.source = source_;
   command.id = next_id_++;
-  CommandRetry::Timing timing;
-  timing.repeat_period = limits_.motion_file_repeat_period;
-  timing.answer_timeout = limits_.motion_file_timeout;
-  pending_.push_back({client, request_id, std::move(command), CommandRetry(timing, now)});
+  sender_.send(std::move(command), now, {client, request_id},
+               {.repeat_period = limits_.motion_file_repeat_period,
+                .answer_timeout = limits_.motion_file_timeout});
   step(now);
   return std::nullopt;
 }
@@ -87,14 +86,8 @@ std::optional<Refusal> MotionLibrary::request(uint32_t client, uint32_t request_
 void MotionLibrary::handle_result(const MotionFileResult& result, double now) {
   last_heard_ = now;
   set_names(result.names);
-  if (result.source != source_) return;
-  const auto found = std::find_if(pending_.begin(), pending_.end(), [&](const Pending& pending) {
-    return pending.command.id == result.id;
-  });
-  if (found == pending_.end()) return;
-  const Pending pending = std::move(*found);
-  pending_.erase(found);
-  answer(pending, &result);
+  const auto pending = sender_.handle_result(result.source, result.id, ResultStatus::kDone, now);
+  if (pending) answer(*pending, &result);
 }
 
 void MotionLibrary::set_names(const std::vector<std::string>& names) {
@@ -111,26 +104,25 @@ void MotionLibrary::set_names(const std::vector<std::string>& names) {
 }
 
 void MotionLibrary::step(double now) {
-  for (auto it = pending_.begin(); it != pending_.end();) {
-    // Also of a client that watches another robot by now: every request is answered.
-    if (sessions_.all().find(it->client) == nullptr) {
-      it = pending_.erase(it);
-    } else if (it->retry.has_timed_out(now) || now - last_heard_ > limits_.motion_files_timeout) {
-      answer(*it, nullptr);
-      it = pending_.erase(it);
-    } else {
-      if (it->retry.should_send(now)) transmit_(it->command);
-      ++it;
-    }
+  // Also of a client that watches another robot by now: every request is answered.
+  sender_.take_if([this](const Sender::Entry& pending) {
+    return sessions_.all().find(pending.receiver.client) == nullptr;
+  });
+  const bool is_silent = now - last_heard_ > limits_.motion_files_timeout;
+  for (const Sender::Entry& pending :
+       is_silent ? sender_.take_if([](const Sender::Entry&) { return true; })
+                 : sender_.take_timed_out(now)) {
+    answer(pending, nullptr);
   }
+  for (const MotionFileCommand& command : sender_.take_due(now)) transmit_(command);
 }
 
-void MotionLibrary::answer(const Pending& pending, const MotionFileResult* result) const {
-  ClientSession* session = sessions_.all().find(pending.client);
+void MotionLibrary::answer(const Sender::Entry& pending, const MotionFileResult* result) const {
+  ClientSession* session = sessions_.all().find(pending.receiver.client);
   if (session == nullptr) return;
   naoremote::ServerMessage message;
   naoremote::Response& response = *message.mutable_response();
-  response.set_request_id(pending.request_id);
+  response.set_request_id(pending.receiver.request_id);
   if (result != nullptr) {
     write_result(pending.command, *result, response);
   } else {

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "messages/command_retry.h"
+#include "messages/command_sender.h"
 #include "messages/motion_file.h"
+#include "phone-gateway/server/core/client_commands.h"
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/gateway_reasons.h"
 #include "phone-gateway/server/core/robot_sessions.h"
@@ -50,23 +51,18 @@ class MotionLibrary {
   void step(double now);
 
  private:
-  struct Pending {
-    uint32_t client;
-    uint32_t request_id;
-    MotionFileCommand command;
-    CommandRetry retry;
-  };
+  using Sender = CommandSender<MotionFileCommand, ClientRequest>;
 
   void set_names(const std::vector<std::string>& names);
   /** @param result  Nothing: no answer in time. */
-  void answer(const Pending& pending, const MotionFileResult* result) const;
+  void answer(const Sender::Entry& pending, const MotionFileResult* result) const;
 
   GatewayLimits limits_;
   const RobotSessions& sessions_;
   std::string source_;
   int64_t next_id_;
   std::function<void(const MotionFileCommand&)> transmit_;
-  std::vector<Pending> pending_;
+  Sender sender_;
   std::vector<std::string> names_;
   /** When nao-motion-files was heard last, s. */
   double last_heard_ = -1e9;

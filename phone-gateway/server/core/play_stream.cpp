@@ -2,14 +2,9 @@
 
 #include <utility>
 
-#include "phone-gateway/server/core/client_commands.h"
-
 namespace nao::gateway {
 namespace {
 
-/** Transmissions of "none" and of the release. With 1 % of messages lost, all three are lost once
- * in a million times; then nao-play ends the behavior itself. */
-constexpr int kNumTransmissions = 3;
 /** A release is sent so long after control has ended, s, if nao-play says by the end of the second
  * time that the robot waits for it. Chosen: the last transmissions of a walk and of "none", which
  * would count as new commands, are over after 0.3 s; nao-play speaks five times a second. */
@@ -20,8 +15,16 @@ constexpr double kSilentPeriods = 4;
 
 }  // namespace
 
-SentPlayCommand PlayStream::make(uint32_t client, const PlayCommand& command) {
-  return {source_ + "." + std::to_string(client), next_id_++, command};
+int64_t PlayStream::send(uint32_t client, ClientRequest receiver, const PlayCommand& command,
+                         double now, const CommandTiming& timing) {
+  const int64_t id = next_id_++;
+  sender_.send({source_ + "." + std::to_string(client), id, command}, now, receiver, timing);
+  transmit_due(now);
+  return id;
+}
+
+void PlayStream::transmit_due(double now) {
+  for (const SentPlayCommand& command : sender_.take_due(now)) transmit_(command);
 }
 
 bool PlayStream::is_heard(uint32_t client, double now) const {
@@ -29,85 +32,61 @@ bool PlayStream::is_heard(uint32_t client, double now) const {
   return session != nullptr && now - session->last_request < limits_.play_timeout;
 }
 
-void PlayStream::transmit(const SentPlayCommand& command) const {
-  if (transmit_) transmit_(command);
-}
-
 void PlayStream::begin(uint32_t client, uint32_t request_id, const PlayCommand& command,
                        double now) {
   // nao-play reports that the new command replaces the old one.
-  if (active_) ended_ = std::move(active_);
-  num_last_left_ = 0;
-  released_.reset();
-  CommandRetry::Timing timing;
-  timing.repeat_period = limits_.repeat_period;
-  timing.confirm_period = limits_.play_period;
-  timing.answer_timeout = limits_.answer_timeout;
-  timing.silence_timeout = kSilentPeriods * limits_.play_period;
-  active_.emplace(Entry{client, request_id, make(client, command), CommandRetry(timing, now)});
-  if (active_->retry.should_send(now)) transmit(active_->sent);
+  abandon();
+  client_ = client;
+  active_id_ = send(client, {client, request_id}, command, now,
+                    {.confirm_period = limits_.play_period,
+                     .silence_timeout = kSilentPeriods * limits_.play_period});
 }
 
 void PlayStream::end(double now) {
   released_.reset();
-  if (!active_) return;
-  last_ = make(active_->client, {});
-  ended_ = std::move(active_);
-  active_.reset();
-  num_last_left_ = kNumTransmissions;
-  next_last_ = now;
-  step(now);
+  if (!is_active()) return;
+  abandon();
+  last_id_ = send(client_, {}, {}, now, {.num_left = kNumLast});
 }
 
 void PlayStream::abandon() {
-  if (active_) ended_ = std::move(active_);
-  active_.reset();
-  num_last_left_ = 0;
+  sender_.cease(active_id_);
+  sender_.cease(last_id_);
+  active_id_ = 0;
   released_.reset();
 }
 
 void PlayStream::handle_result(const CommandResult& result, double now) {
-  for (std::optional<Entry>* entry : {&active_, &ended_}) {
-    if (!*entry || (*entry)->sent.id != result.id || (*entry)->sent.source != result.source) {
-      continue;
-    }
-    (*entry)->retry.handle_sign_of_life(now);
-    if (!(*entry)->retry.handle_result(result.status, now)) return;
-    report(**entry, result.status, result.reason,
-           result.sentence.empty() ? describe_reason(result.reason) : result.sentence);
-    if ((*entry)->retry.has_ended()) entry->reset();
-    return;
-  }
+  const auto entry = sender_.handle_result(result.source, result.id, result.status, now);
+  if (!entry) return;
+  report(*entry, result.status, result.reason,
+         result.sentence.empty() ? describe_reason(result.reason) : result.sentence);
+  if (result.status != ResultStatus::kAccepted && result.id == active_id_) active_id_ = 0;
 }
 
 void PlayStream::step(double now) {
-  if (active_ && !is_heard(active_->client, now)) end(now);
-  if (active_ && active_->retry.has_timed_out(now)) {
-    const Reason reason = gateway_reason("play-unanswered", {to_argument(limits_.answer_timeout)});
-    report(*active_, ResultStatus::kFailed, reason, describe_reason(reason));
-    active_.reset();
+  if (is_active() && !is_heard(client_, now)) end(now);
+  for (const Sender::Entry& entry : sender_.take_timed_out(now)) {
+    // Nobody waits for a result of a behavior that was replaced.
+    if (entry.command.id != active_id_) continue;
+    const Reason reason = gateway_reason("play-unanswered", {to_argument(kAnswerTimeout)});
+    report(entry, ResultStatus::kFailed, reason, describe_reason(reason));
+    active_id_ = 0;
   }
-  if (active_ && active_->retry.should_send(now)) transmit(active_->sent);
   if (released_ && now - *released_ > kReleaseTimeout) released_.reset();
   if (released_ && now - *released_ > kReleaseDelay && waits_for_release_) {
     released_.reset();
-    last_ = make(0, {Behavior::kAuto});
-    num_last_left_ = kNumTransmissions;
-    next_last_ = now;
+    last_id_ = send(0, {}, {Behavior::kAuto}, now, {.num_left = kNumLast});
   }
-  while (num_last_left_ > 0 && now >= next_last_) {
-    --num_last_left_;
-    next_last_ += limits_.repeat_period;
-    transmit(last_);
-  }
+  transmit_due(now);
 }
 
-void PlayStream::report(const Entry& entry, ResultStatus status, const Reason& reason,
+void PlayStream::report(const Sender::Entry& entry, ResultStatus status, const Reason& reason,
                         const std::string& sentence) const {
-  ClientSession* session = sessions_.find(entry.client);
+  ClientSession* session = sessions_.find(entry.receiver.client);
   if (session == nullptr) return;
-  session->send(make_result_notice(entry.request_id, status, reason, sentence,
-                                   std::string(to_string(entry.sent.command.behavior))));
+  session->send(make_result_notice(entry.receiver.request_id, status, reason, sentence,
+                                   std::string(to_string(entry.command.command.behavior))));
 }
 
 }  // namespace nao::gateway

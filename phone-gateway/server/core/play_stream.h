@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "messages/command.h"
-#include "messages/command_retry.h"
+#include "messages/command_sender.h"
 #include "messages/play_command.h"
+#include "phone-gateway/server/core/client_commands.h"
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/robot_sessions.h"
 
@@ -50,24 +50,21 @@ class PlayStream {
   void set_waits_for_release(bool waits) { waits_for_release_ = waits; }
 
   /** True from begin() to its end; false while "none" is transmitted. */
-  bool is_active() const { return active_.has_value(); }
+  bool is_active() const { return active_id_ != 0; }
 
   void handle_result(const CommandResult& result, double now);
   void step(double now);
 
  private:
-  struct Entry {
-    uint32_t client = 0;
-    uint32_t request_id = 0;
-    SentPlayCommand sent;
-    CommandRetry retry;
-  };
+  using Sender = CommandSender<SentPlayCommand, ClientRequest>;
 
-  SentPlayCommand make(uint32_t client, const PlayCommand& command);
+  /** @return Number of the command. */
+  int64_t send(uint32_t client, ClientRequest receiver, const PlayCommand& command, double now,
+               const CommandTiming& timing);
+  void transmit_due(double now);
   /** The client was heard of lately. */
   bool is_heard(uint32_t client, double now) const;
-  void transmit(const SentPlayCommand& command) const;
-  void report(const Entry& entry, ResultStatus status, const Reason& reason,
+  void report(const Sender::Entry& entry, ResultStatus status, const Reason& reason,
               const std::string& sentence) const;
 
   GatewayLimits limits_;
@@ -75,13 +72,12 @@ class PlayStream {
   std::string source_;
   int64_t next_id_;
   std::function<void(const SentPlayCommand&)> transmit_;
-  std::optional<Entry> active_;
-  /** Whose results are still to be reported after the end. */
-  std::optional<Entry> ended_;
-  /** "none", or the release. */
-  SentPlayCommand last_;
-  int num_last_left_ = 0;
-  double next_last_ = 0;
+  Sender sender_;
+  /** Number of the running behavior's command, and its client; 0: none. */
+  int64_t active_id_ = 0;
+  uint32_t client_ = 0;
+  /** Number of "none", or of the release. */
+  int64_t last_id_ = 0;
   bool waits_for_release_ = false;
   /** s: when the robot was released. */
   std::optional<double> released_;

@@ -79,7 +79,7 @@ std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Req
   };
   const auto send_service = [&](auto command) -> std::optional<Refusal> {
     if (auto refusal = driving.check_control(session, now)) return refusal;
-    robot.services().send(session.id, id, std::move(command), now);
+    robot.services().send({session.id, id}, std::move(command), now);
     return std::nullopt;
   };
   switch (request.use_case_case()) {

@@ -1,16 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <string>
 #include <variant>
 
-#include "messages/command.h"
-#include "messages/command_retry.h"
+#include "messages/command_sender.h"
 #include "messages/light_command.h"
 #include "messages/speech_command.h"
-#include "phone-gateway/server/core/gateway_limits.h"
+#include "phone-gateway/server/core/client_commands.h"
 #include "phone-gateway/server/core/gateway_reasons.h"
 #include "phone-gateway/server/core/robot_sessions.h"
 
@@ -30,42 +28,34 @@ class ServiceCommands {
    * @param first_id  Number of the first command.
    * @param transmit  Puts a command on the bus.
    * `sessions` must outlive this. */
-  ServiceCommands(const GatewayLimits& limits, const RobotSessions& sessions, std::string source,
-                  int64_t first_id, std::function<void(const ServiceCommand&)> transmit)
-      : limits_(limits),
-        sessions_(sessions),
+  ServiceCommands(const RobotSessions& sessions, std::string source, int64_t first_id,
+                  std::function<void(const ServiceCommand&)> transmit)
+      : sessions_(sessions),
         source_(std::move(source)),
         next_id_(first_id),
         transmit_(std::move(transmit)) {}
 
-  /** Sends a checked command. Of more than 256 unfinished ones the oldest is forgotten. */
-  void send(uint32_t client, uint32_t request_id, decltype(ServiceCommand::request) request,
-            double now);
+  /** Sends a checked command. */
+  void send(ClientRequest receiver, decltype(ServiceCommand::request) request, double now);
 
   void handle_result(const CommandResult& result, double now);
 
   /** Repeats commands that are unanswered, and gives up those that are too long. */
   void step(double now);
 
-  size_t size() const { return entries_.size(); }
+  size_t size() { return sender_.entries().size(); }
 
  private:
-  struct Entry {
-    uint32_t client = 0;
-    uint32_t request_id = 0;
-    ServiceCommand command;
-    CommandRetry retry;
-  };
+  using Sender = CommandSender<ServiceCommand, ClientRequest>;
 
-  void report(const Entry& entry, ResultStatus status, const Reason& reason,
+  void report(const Sender::Entry& entry, ResultStatus status, const Reason& reason,
               const std::string& sentence);
 
-  GatewayLimits limits_;
   const RobotSessions& sessions_;
   std::string source_;
   int64_t next_id_;
   std::function<void(const ServiceCommand&)> transmit_;
-  std::deque<Entry> entries_;
+  Sender sender_;
 };
 
 }  // namespace nao::gateway

@@ -6,14 +6,9 @@
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <boost/asio/posix/stream_descriptor.hpp>
-#include <boost/asio/signal_set.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <chrono>
-#include <csignal>
-#include <optional>
 
 #include "common/error.h"
+#include "phone-gateway/web_stream/asio_loop.h"
 #include "phone-gateway/web_stream/listen.h"
 
 namespace nao::gateway {
@@ -24,8 +19,6 @@ using boost::system::error_code;
 /** See PROTOCOL.md. Chosen: four times the clients that may connect, well below the usual limit of
  * 1024 file descriptors. */
 constexpr size_t kMaxHandshakes = 128;
-/** Time until the next attempt after accepting has failed (no file descriptor left). */
-constexpr auto kAcceptPause = std::chrono::milliseconds(100);
 /** Bytes that the kernel holds unsent before it stops accepting more: two images of 320 x 240
  * pixels (7 kB each), so that the next image is chosen late, but the connection always has data. */
 constexpr int kMaxUnsentBytes = 16384;
@@ -45,10 +38,6 @@ std::unique_ptr<asio::ssl::context> load_tls(const NetworkOptions& options) {
   tls->use_private_key_file(options.key_file, asio::ssl::context::pem, error);
   if (error) throw Error("cannot use the key " + options.key_file + ": " + error.message());
   return tls;
-}
-
-std::chrono::nanoseconds to_duration(double seconds) {
-  return std::chrono::nanoseconds(static_cast<int64_t>(seconds * 1e9));
 }
 
 /** The address itself; for an IPv4 client on an IPv6 socket its IPv4 address. */
@@ -102,118 +91,51 @@ size_t count_unacknowledged(Tcp::socket& socket) {
 }
 
 struct Network::Impl {
-  Impl(const NetworkOptions& options, AccessRules rules, GatewayCore& core, WebPages& pages)
-      : context{io,
+  Impl(std::unique_ptr<AsioLoop> new_loop, const NetworkOptions& options, AccessRules rules,
+       GatewayCore& core, WebPages& pages)
+      : context{new_loop->io(),
                 core,
                 pages,
                 std::move(rules),
                 load_tls(options),
                 HandshakeLimiter(kMaxHandshakes),
                 {},
-                FairQueue(io),
+                FairQueue(new_loop->io()),
                 false},
-        http{listen(io, options.bind, options.http_port, "--http-port"), asio::steady_timer(io),
-             serve_http},
-        tcp{listen(io, options.bind, options.tcp_port, "--tcp-port"), asio::steady_timer(io),
-            serve_tcp},
-        signals(io, SIGINT, SIGTERM),
-        http_port(http.acceptor.local_endpoint().port()),
-        tcp_port(tcp.acceptor.local_endpoint().port()) {
-    accept(http);
-    accept(tcp);
-    signals.async_wait([this](const error_code& error, int signal) {
-      if (!error) stop(signal == SIGINT ? "SIGINT" : "SIGTERM");
-    });
-  }
+        loop(std::move(new_loop)),
+        http(loop->io(), options.bind, options.http_port, "--http-port", accepting(serve_http)),
+        tcp(loop->io(), options.bind, options.tcp_port, "--tcp-port", accepting(serve_tcp)) {}
 
-  struct Listener {
-    Tcp::acceptor acceptor;
-    asio::steady_timer pause;
-    void (*serve)(ConnectionContext&, Tcp::socket);
-  };
-  void accept(Listener& listener) {
-    listener.acceptor.async_accept([this, &listener](const error_code& error, Tcp::socket socket) {
-      // The acceptor was closed: the gateway ends.
-      if (error == asio::error::operation_aborted) return;
-      if (error) {
-        listener.pause.expires_after(kAcceptPause);
-        listener.pause.async_wait([this, &listener](const error_code& cancelled) {
-          if (!cancelled) accept(listener);
-        });
-        return;
-      }
+  std::function<void(Tcp::socket)> accepting(void (*serve)(ConnectionContext&, Tcp::socket)) {
+    return [this, serve](Tcp::socket socket) {
       ++context.counters.num_accepted;
       prepare_socket(socket);
-      listener.serve(context, std::move(socket));
-      accept(listener);
-    });
+      serve(context, std::move(socket));
+    };
   }
 
-  void stop(const std::string& why) {
-    reason = why;
-    io.stop();
-  }
-
-  struct Watched {
-    asio::posix::stream_descriptor descriptor;
-    std::function<void()> handler;
-  };
-  void wait(Watched& watched) {
-    watched.descriptor.async_wait(asio::posix::stream_descriptor::wait_read,
-                                  [this, &watched](const error_code& error) {
-                                    if (error) return;
-                                    watched.handler();
-                                    wait(watched);
-                                  });
-  }
-
-  struct Timer {
-    asio::steady_timer timer;
-    std::chrono::nanoseconds period;
-    std::function<void()> handler;
-  };
-  void wait(Timer& timer) {
-    // From the planned time, so that the period is kept; never in the past, so that a delay is not
-    // followed by a burst.
-    const auto next = timer.timer.expiry() + timer.period;
-    timer.timer.expires_at(std::max(next, asio::steady_timer::clock_type::now()));
-    timer.timer.async_wait([this, &timer](const error_code& error) {
-      if (error) return;
-      timer.handler();
-      wait(timer);
-    });
-  }
-
-  // Declared before `io`, which destroys the connections: they use the context until then.
+  // Before `loop`, which destroys the connections: they use the context until then.
   ConnectionContext context;
-  asio::io_context io{1};
-  Listener http;
-  Listener tcp;
-  asio::signal_set signals;
-  // Also after drain() has closed the acceptors.
-  const uint16_t http_port;
-  const uint16_t tcp_port;
-  std::list<Watched> watched;
-  std::list<Timer> timers;
-  std::string reason;
+  std::unique_ptr<AsioLoop> loop;
+  TcpListener http;
+  TcpListener tcp;
 };
 
 Network::Network(const NetworkOptions& options, AccessRules rules, GatewayCore& core,
                  WebPages& pages)
-    : impl_(std::make_unique<Impl>(options, std::move(rules), core, pages)) {}
+    : impl_(std::make_unique<Impl>(std::make_unique<AsioLoop>(), options, std::move(rules), core,
+                                   pages)) {}
 
 Network::~Network() {
   impl_->context.is_shutting_down = true;
-  // The caller owns these descriptors.
-  for (Impl::Watched& watched : impl_->watched) watched.descriptor.release();
 }
 
 uint16_t Network::http_port() const {
-  return impl_->http_port;
+  return impl_->http.port();
 }
 
 uint16_t Network::tcp_port() const {
-  return impl_->tcp_port;
+  return impl_->tcp.port();
 }
 
 const NetworkCounters& Network::counters() const {
@@ -237,34 +159,15 @@ std::vector<Metric> Network::metrics() const {
              "Connections that violated HTTP, WebSocket or framing")};
 }
 
-void Network::on_readable(int descriptor, std::function<void()> handler) {
-  impl_->watched.push_back(
-      {asio::posix::stream_descriptor(impl_->io, descriptor), std::move(handler)});
-  impl_->wait(impl_->watched.back());
-}
-
-void Network::every(double period, std::function<void()> handler) {
-  impl_->timers.push_back({asio::steady_timer(impl_->io, asio::steady_timer::clock_type::now()),
-                           to_duration(period), std::move(handler)});
-  impl_->wait(impl_->timers.back());
-}
-
-std::string Network::run() {
-  impl_->io.restart();
-  impl_->io.run();
-  return impl_->reason;
-}
-
-void Network::stop(const std::string& reason) {
-  impl_->stop(reason);
+AsioLoop& Network::loop() {
+  return *impl_->loop;
 }
 
 // Connections are closed by the core; this gives them time to send their last messages.
 void Network::drain(double time) {
-  impl_->http.acceptor.close();
-  impl_->tcp.acceptor.close();
-  impl_->io.restart();
-  impl_->io.run_for(to_duration(time));
+  impl_->http.close();
+  impl_->tcp.close();
+  impl_->loop->run_for(time);
 }
 
 }  // namespace nao::gateway

@@ -11,6 +11,10 @@
 #include "phone-gateway/server/http/web_pages.h"
 #include "phone-gateway/web_stream/access_rules.h"
 
+namespace nao {
+class AsioLoop;
+}
+
 namespace nao::gateway {
 
 /** Addresses, ports and certificate of the gateway. */
@@ -37,8 +41,7 @@ struct NetworkCounters {
   int64_t num_violations = 0;
 };
 
-/** The gateway's sockets and main loop: HTTP and WebSocket on one port, raw TCP on another, timers,
- * other file descriptors, SIGINT and SIGTERM, in one thread. */
+/** The gateway's sockets and their loop: HTTP and WebSocket on one port, raw TCP on another. */
 class Network {
  public:
   /** Starts to listen. Core and pages must outlive this.
@@ -54,18 +57,8 @@ class Network {
   /** The counters as metrics. */
   std::vector<Metric> metrics() const;
 
-  /** Calls `handler` whenever `descriptor` is readable. The caller keeps it open. */
-  void on_readable(int descriptor, std::function<void()> handler);
-
-  /** Calls `handler` every `period` seconds. After a delay it is called once, not for each missed
-   * period. */
-  void every(double period, std::function<void()> handler);
-
-  /** Runs until a signal or stop(). @return "SIGINT", "SIGTERM" or the reason passed to stop(). */
-  std::string run();
-
-  /** Ends run(), from within a handler. */
-  void stop(const std::string& reason);
+  /** The loop that the connections run in. */
+  AsioLoop& loop();
 
   /** Closes the listening sockets and runs for up to `time` seconds, so that queued messages are
    * sent. */

@@ -51,7 +51,7 @@ TEST_F(MotionFilesDaemonTest, ChecksSavesAndAnnouncesAMotion) {
   command.id = 1;
   command.operation = MotionFileOperation::kSave;
   command.yaml = to_yaml(*test_model(), make_motion(kWave));
-  bus_.publish("NAO_MOTION_FILE_COMMAND", to_message(command, 0));
+  bus_.publish("NAO_MOTION_FILE_COMMAND", to_message(command));
   const auto has_result = [this] {
     return std::any_of(results_.begin(), results_.end(),
                        [](const auto& result) { return result.source == "test"; });
@@ -64,6 +64,7 @@ TEST_F(MotionFilesDaemonTest, ChecksSavesAndAnnouncesAMotion) {
   motions_.clear();
   naolcm::daemon_status_t status{};
   status.program = "nao-motion";
+  status.robot = "NAO";
   status.process_id = 4711;
   bus_.publish("DAEMON_STATUS", status);
   run_until([this] { return !motions_.empty(); });
@@ -71,7 +72,7 @@ TEST_F(MotionFilesDaemonTest, ChecksSavesAndAnnouncesAMotion) {
   command.operation = MotionFileOperation::kDelete;
   command.name = "test";
   motions_.clear();
-  bus_.publish("NAO_MOTION_FILE_COMMAND", to_message(command, 0));
+  bus_.publish("NAO_MOTION_FILE_COMMAND", to_message(command));
   run_until([this] { return !motions_.empty() && motions_.back().num_keyframes == 0; });
 }
 

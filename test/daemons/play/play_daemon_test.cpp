@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <naolcm/camera_command_t.hpp>
 #include <naolcm/command_result_t.hpp>
 #include <naolcm/daemon_status_t.hpp>
 #include <naolcm/motion_state_t.hpp>
@@ -31,7 +30,6 @@ class PlayDaemonTest : public testing::Test {
         daemon_(bus_, model_, {}, [this] { return now_; }) {
     collect("NAO_WALK_COMMAND", walks_);
     collect("NAO_COMMAND_RESULT", results_);
-    collect("NAO_HEAD_CAMERA_COMMAND", cameras_);
     collect("NAO_PLAY_STATE", states_);
   }
 
@@ -100,19 +98,17 @@ class PlayDaemonTest : public testing::Test {
   PlayDaemon daemon_;
   std::vector<naolcm::walk_command_t> walks_;
   std::vector<naolcm::command_result_t> results_;
-  std::vector<naolcm::camera_command_t> cameras_;
   std::vector<naolcm::play_state_t> states_;
   int64_t utime_ = 1000000;
 };
 
-TEST_F(PlayDaemonTest, WalksToTheBallAndAsksForImages) {
+TEST_F(PlayDaemonTest, WalksToTheBallAndNamesTheCamera) {
   run(40);
   ASSERT_FALSE(walks_.empty());
   EXPECT_GT(walks_.back().vx, 0.1);
   EXPECT_TRUE(walks_.back().source.starts_with("play."));
-  ASSERT_FALSE(cameras_.empty());
-  EXPECT_EQ(cameras_.back().camera, "top");
-  EXPECT_EQ(cameras_.back().width, 640);
+  ASSERT_FALSE(states_.empty()) << "published at once when the camera changes";
+  EXPECT_EQ(states_.back().camera, "top");
   ASSERT_FALSE(results_.empty());
   EXPECT_EQ(results_[0].command_kind, naolcm::command_result_t::COMMAND_KIND_PLAY);
   EXPECT_EQ(results_[0].status, naolcm::command_result_t::STATUS_ACCEPTED);
@@ -244,6 +240,15 @@ TEST_F(AutonomousTest, StandsAndSaysSoUntilThePersonWhoDroveItReleasesIt) {
   command(Behavior::kAuto);
   EXPECT_TRUE(plays_after(1));
   EXPECT_TRUE(plays_after(5)) << "the one who released it need not repeat the command";
+}
+
+TEST_F(AutonomousTest, DropsAMatchWhoseRobotsCannotHaveChannels) {
+  MatchState state;
+  state.players = {{.robot = "NAO", .team = 0, .number = 1},
+                   {.robot = "(", .team = 0, .number = 2}};
+  bus_.publish(kMatchStateChannel, to_message(state, 0, 1));
+  EXPECT_NO_THROW(deliver());
+  EXPECT_GE(bus_.counters().num_dropped, 1);
 }
 
 TEST_F(AutonomousTest, WaitsForReleaseAlsoAfterABehaviorAndItsEnd) {

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <naolcm/camera_command_t.hpp>
 #include <naolcm/daemon_status_t.hpp>
 #include <naolcm/image_t.hpp>
+#include <naolcm/play_state_t.hpp>
 #include <naolcm/robot_state_t.hpp>
 #include <naolcm/vision_state_t.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -200,6 +202,23 @@ TEST_F(VisionDaemonTest, ReportsItsStatus) {
   daemon_.publish_status(10);
   deliver();
   EXPECT_EQ(status_.program, "nao-vision");
+}
+
+TEST_F(VisionDaemonTest, RequestsImagesOfTheCameraThatPlayNeeds) {
+  std::vector<naolcm::camera_command_t> requests;
+  bus_.subscribe<naolcm::camera_command_t>(
+      "NAO_HEAD_CAMERA_COMMAND", Bus::Queue::kAll,
+      [&](const naolcm::camera_command_t& request) { requests.push_back(request); });
+  naolcm::play_state_t play{};
+  for (const char* camera : {"", "top", "top", "bottom", ""}) {
+    play.camera = camera;
+    bus_.publish("NAO_PLAY_STATE", play);
+    bus_.handle();
+  }
+  ASSERT_EQ(requests.size(), 2u) << "at once when it changes";
+  EXPECT_EQ(requests[0].camera, "top");
+  EXPECT_EQ(requests[1].camera, "bottom");
+  EXPECT_EQ(requests[1].width, 640);
 }
 
 }  // namespace

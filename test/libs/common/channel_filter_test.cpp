@@ -109,7 +109,7 @@ TEST(ChannelFilter, ABusIsNotWokenByOtherChannels) {
   EXPECT_EQ(num_kernel_drops("1EB7") - before, 4);
   // A pattern lets everything in.
   int num_raw = 0;
-  receiver.subscribe_raw(".*", [&](const std::string&, const uint8_t*, int) { ++num_raw; });
+  receiver.subscribe_raw(".*", [&](const RawMessage&) { ++num_raw; });
   sender.publish("OTHER", naolcm::stop_command_t());
   while (num_raw < 1) ASSERT_TRUE(receiver.handle_for(2));
 }

@@ -45,7 +45,7 @@ TEST(MotionFile, RefusesListsThatDoNotMatch) {
 }
 
 TEST(MotionFile, RefusesAnUnknownOperation) {
-  naolcm::motion_file_command_t message = to_message(MotionFileCommand{}, 0);
+  naolcm::motion_file_command_t message = to_message(MotionFileCommand{});
   EXPECT_TRUE(from_message(message));
   message.operation = 5;
   EXPECT_FALSE(from_message(message));

@@ -32,6 +32,7 @@ class ClientPublisherTest : public testing::Test {
   std::string channel_;
   std::vector<uint8_t> bytes_;
   ClientPublisher publisher_{"nao-foxglove", "NAO", [this] { return utime_; },
+                             [] { return int64_t{7}; },
                              [this](const std::string& channel, std::span<const uint8_t> message) {
                                channel_ = channel;
                                bytes_.assign(message.begin(), message.end());
@@ -46,7 +47,7 @@ TEST_F(ClientPublisherTest, SendsCommandsWithSenderAndTime) {
   EXPECT_EQ(posture.speed, 0.5);
   EXPECT_EQ(posture.source, "nao-foxglove.3");
   EXPECT_EQ(posture.wall_utime, utime_);
-  EXPECT_EQ(posture.utime, 0);
+  EXPECT_EQ(posture.utime, 7);
   // Each is a command of its own.
   EXPECT_EQ(publisher_.publish(3, "NAO_POSTURE_COMMAND", R"({"posture":"Sit"})"), "");
   EXPECT_NE(sent<naolcm::posture_command_t>().command_id, posture.command_id);

@@ -37,7 +37,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     }
   };
   const auto now = [] { return int64_t{1}; };
-  nao::foxglove::ClientPublisher publisher("fuzz", "NAO", now, check);
+  const auto robot_now = [] { return int64_t{0}; };
+  nao::foxglove::ClientPublisher publisher("fuzz", "NAO", now, robot_now, check);
   core.allow_publishing(publisher);
   for (const char* topic : {"A", "B", "C"}) core.add_channel(topic, "a", "{}");
   uint32_t clients[]{core.open([] {}), core.open([] {})};

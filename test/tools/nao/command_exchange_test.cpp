@@ -39,10 +39,10 @@ TEST(CommandExchange, KeepsTheReasonOfARefusal) {
 
 TEST(CommandExchange, TimesOutUnansweredEvenIfMotionPublishes) {
   CommandExchange exchange("nao-motion", 0);
-  for (int i = 0; i < 29; ++i) exchange.handle_sign_of_life(i * 0.1);
-  EXPECT_FALSE(exchange.outcome(2.9));
-  ASSERT_TRUE(exchange.outcome(3.1));
-  EXPECT_EQ(exchange.outcome(3.1)->status, "unanswered");
+  for (int i = 0; i < 14; ++i) exchange.handle_sign_of_life(i * 0.1);
+  EXPECT_FALSE(exchange.outcome(1.4));
+  ASSERT_TRUE(exchange.outcome(1.6));
+  EXPECT_EQ(exchange.outcome(1.6)->status, "unanswered");
 }
 
 TEST(CommandExchange, WaitsForAnAcceptedCommandWhileMotionPublishes) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <naolcm/daemon_status_t.hpp>
 #include <naolcm/match_state_t.hpp>
 
 #include "common/wall_clock.h"
@@ -92,6 +93,16 @@ TEST_F(GatewayDaemonTest, ImagesComeFromTheRobotThatIsWatched) {
   second_.send_image(320, 100);
   ask({});
   EXPECT_EQ(num_images(), 1);
+}
+
+TEST_F(GatewayDaemonTest, ACamerasStatusCountsForItsRobotOnly) {
+  naolcm::daemon_status_t status{};
+  status.program = "nao-head-camera";
+  status.robot = "NAO2";
+  bus_.publish(kDaemonStatusChannel, status);
+  run();
+  EXPECT_FALSE(daemon_.core().robot(0).components().is_available(Component::kCamera));
+  EXPECT_TRUE(daemon_.core().robot(1).components().is_available(Component::kCamera));
 }
 
 TEST_F(GatewayDaemonTest, TeamsAndNumbersComeFromTheMatch) {

@@ -10,6 +10,7 @@
 #include "common/wall_clock.h"
 #include "phone-gateway/server/bus/gateway_daemon.h"
 #include "phone-gateway/server/network/network.h"
+#include "phone-gateway/web_stream/asio_loop.h"
 #include "test/phone-gateway/server/core/test_robot.h"
 #include "test/support/fake_motion.h"
 #include "test/support/temporary_folder.h"
@@ -63,13 +64,14 @@ class LiveGateway {
       pages.add_page("/metrics",
                      {"text/plain", true, [&] { return daemon.metrics_text(network.metrics()); }});
       bool has_started = false;
-      network.on_readable(bus.descriptor(), [&] { bus.handle(); });
-      network.every(0.01, [&] { motion.step(); });
-      network.every(1 / options.image_rate, [&] { motion.send_image(320, options.image_bytes); });
-      network.every(0.02, [&] {
+      network.loop().on_readable(bus.descriptor(), [&] { bus.handle(); });
+      network.loop().every(0.01, [&] { motion.step(); });
+      network.loop().every(1 / options.image_rate,
+                           [&] { motion.send_image(320, options.image_bytes); });
+      network.loop().every(0.02, [&] {
         daemon.step(monotonic_seconds());
         num_sessions_ = static_cast<int>(daemon.core().sessions().all().size());
-        if (is_stopping_) network.stop("test");
+        if (is_stopping_) network.loop().stop("test");
         if (!has_started && daemon.core().robot().components().is_available(Component::kRobot)) {
           has_started = true;
           is_ready.set_value();
@@ -78,7 +80,7 @@ class LiveGateway {
       http_port_ = network.http_port();
       tcp_port_ = network.tcp_port();
       motion_ = &motion;
-      network.run();
+      network.loop().run();
       daemon.shut_down(monotonic_seconds());
       network.drain(0.05);
     } catch (...) {

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "common/channels.h"
-#include "messages/command_retry.h"
+#include "messages/command_publisher.h"
+#include "messages/command_sender.h"
 
 namespace naolcm {
+class camera_command_t;
 class command_result_t;
 class world_command_t;
 class world_truth_t;
@@ -21,17 +23,18 @@ class Bus;
 
 namespace nao::viewer {
 
-/** Sends the viewer's commands; repeats each until it is acknowledged or 2 s have passed. */
-class CommandSender {
+/** Sends the viewer's commands; repeats each until it is acknowledged, a walk as long as it lasts.
+ */
+class ViewerCommands {
  public:
   /** @param bus  Must outlive this. */
-  CommandSender(Bus& bus, const RobotChannels& channels);
+  ViewerCommands(Bus& bus, const RobotChannels& channels);
 
   /** @param speed  Fraction of the maximum speed, (0, 1]. */
   void go_to_posture(const std::string& posture, double speed);
   void start_action(const std::string& action);
   void stop();
-  /** Sends one message of a walk; to be repeated while the robot should walk.
+  /** Begins a walk, or changes its velocity.
    * @param vx, vy, wz  Commanded velocity: m/s forward, m/s to the left, rad/s. */
   void walk(double vx, double vy, double wz);
   /** Ends the walk, if there is one, with the velocity zero: the next walk() is a new command. */
@@ -46,6 +49,9 @@ class CommandSender {
   /** @param impulse  N s, in the world, at the link's center of mass. */
   void push(const std::string& robot, const std::string& link, const Eigen::Vector3d& impulse);
 
+  /** Sends an image request, which is to be repeated once a second. */
+  void request_images(const naolcm::camera_command_t& request);
+
   /** Takes the acknowledgement of a command. */
   void receive(const naolcm::command_result_t& result);
   void receive(const naolcm::world_truth_t& truth);
@@ -59,27 +65,25 @@ class CommandSender {
   const std::string& last_outcome() const { return last_outcome_; }
 
  private:
-  /** A command that is not acknowledged. */
-  struct Pending {
+  struct Outgoing {
+    std::string source;
     int64_t id;
     std::string name;
     std::function<void()> publish;
-    CommandRetry retry;
   };
 
-  void send(const std::string& name, int64_t id, std::function<void()> publish);
+  Outgoing outgoing(int64_t id, decltype(Command::request) request);
+  void send(Outgoing command);
   void send_world(const naolcm::world_command_t& command);
-  /** A message with source, command id and time. */
-  template <class Message>
-  Message make_command();
 
-  Bus& bus_;
   RobotChannels channels_;
+  CommandPublisher commands_;
   std::string source_;
   int64_t last_id_;
-  /** Command id of the current walk; 0: none. */
+  /** Command ids of the current walk, 0: none, and of the last one that was ended. */
   int64_t walk_id_ = 0;
-  std::vector<Pending> pending_;
+  int64_t ended_walk_id_ = 0;
+  CommandSender<Outgoing> sender_;
   std::string last_outcome_;
 };
 

@@ -1,4 +1,4 @@
-#include "viewer/command_sender.h"
+#include "viewer/viewer_commands.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,9 +15,9 @@
 namespace nao::viewer {
 namespace {
 
-class CommandSenderTest : public testing::Test {
+class ViewerCommandsTest : public testing::Test {
  protected:
-  CommandSenderTest() : bus_("memq://"), sender_(bus_, RobotChannels("NAO")) {
+  ViewerCommandsTest() : bus_("memq://"), sender_(bus_, RobotChannels("NAO")) {
     bus_.subscribe<naolcm::posture_command_t>(
         "NAO_POSTURE_COMMAND", Bus::Queue::kAll,
         [this](const naolcm::posture_command_t& command) { postures_.push_back(command); });
@@ -41,16 +41,16 @@ class CommandSenderTest : public testing::Test {
   }
 
   Bus bus_;
-  CommandSender sender_;
+  ViewerCommands sender_;
   double now_ = monotonic_seconds();
   std::vector<naolcm::posture_command_t> postures_;
   std::vector<naolcm::walk_command_t> walks_;
   std::vector<naolcm::world_command_t> worlds_;
 };
 
-TEST_F(CommandSenderTest, RepeatsACommandUnchangedUntilItIsAcknowledged) {
+TEST_F(ViewerCommandsTest, RepeatsACommandUnchangedUntilItIsAcknowledged) {
   sender_.go_to_posture("Crouch", 0.5);
-  advance(1.0);
+  advance(0.5);
   ASSERT_GE(postures_.size(), 4u);
   EXPECT_LE(postures_.size(), 7u);
   for (const auto& command : postures_) {
@@ -71,16 +71,16 @@ TEST_F(CommandSenderTest, RepeatsACommandUnchangedUntilItIsAcknowledged) {
   EXPECT_EQ(postures_.size(), acknowledged);
 }
 
-TEST_F(CommandSenderTest, ReportsATimeoutWithoutAnAnswer) {
+TEST_F(ViewerCommandsTest, ReportsATimeoutWithoutAnAnswer) {
   sender_.send_world_command("pause");
   advance(3.0);
-  EXPECT_EQ(sender_.last_outcome(), "pause: no answer within 2 s");
+  EXPECT_EQ(sender_.last_outcome(), "pause: no answer");
   const size_t num_sent = worlds_.size();
   advance(1.0);
   EXPECT_EQ(worlds_.size(), num_sent);
 }
 
-TEST_F(CommandSenderTest, ReportsTheAnswerOfTheSimulator) {
+TEST_F(ViewerCommandsTest, ReportsTheAnswerOfTheSimulator) {
   sender_.push("NAO", "torso", {1, 0, 0});
   deliver();
   ASSERT_EQ(worlds_.size(), 1u);
@@ -93,7 +93,7 @@ TEST_F(CommandSenderTest, ReportsTheAnswerOfTheSimulator) {
   EXPECT_EQ(sender_.last_outcome(), "push: no link \"torso\"");
 }
 
-TEST_F(CommandSenderTest, RepeatsOnlyTheLastPlacementOfTheBall) {
+TEST_F(ViewerCommandsTest, RepeatsOnlyTheLastPlacementOfTheBall) {
   sender_.place_ball(1, 0);
   sender_.place_ball(2, 0);
   deliver();
@@ -103,28 +103,33 @@ TEST_F(CommandSenderTest, RepeatsOnlyTheLastPlacementOfTheBall) {
   for (const auto& command : worlds_) EXPECT_DOUBLE_EQ(command.position_in_world[0], 2);
 }
 
-TEST_F(CommandSenderTest, SendsAWalkAsOneCommand) {
+TEST_F(ViewerCommandsTest, SendsAWalkAsOneCommand) {
   sender_.walk(0.1, 0, 0);
   sender_.walk(0.2, 0, 0);
+  advance(0.3);
+  ASSERT_GE(walks_.size(), 3u) << "it is repeated";
+  EXPECT_EQ(walks_.back().vx, 0.2);
+  EXPECT_EQ(walks_.front().command_id, walks_.back().command_id);
   sender_.end_walk();
   sender_.walk(0.1, 0, 0);
-  deliver();
-  ASSERT_EQ(walks_.size(), 4u);
-  EXPECT_EQ(walks_[0].command_id, walks_[1].command_id);
-  EXPECT_NE(walks_[1].command_id, walks_[3].command_id);
+  advance(0.3);
+  EXPECT_NE(walks_.front().command_id, walks_.back().command_id);
+  EXPECT_EQ(walks_.back().vx, 0.1) << "the end of the first walk is not repeated any more";
 }
 
-TEST_F(CommandSenderTest, EndsAWalkWithOneVelocityOfZero) {
+TEST_F(ViewerCommandsTest, EndsAWalkWithVelocitiesOfZero) {
   sender_.end_walk();
   sender_.walk(0.1, 0.2, 0.3);
   sender_.end_walk();
   sender_.end_walk();
-  deliver();
-  ASSERT_EQ(walks_.size(), 2u);
-  EXPECT_EQ(walks_[1].command_id, walks_[0].command_id);
-  EXPECT_EQ(walks_[1].vx, 0);
-  EXPECT_EQ(walks_[1].vy, 0);
-  EXPECT_EQ(walks_[1].wz, 0);
+  advance(1.0);
+  ASSERT_EQ(walks_.size(), 4u) << "the bus may lose messages";
+  for (size_t i = 1; i < walks_.size(); ++i) {
+    EXPECT_EQ(walks_[i].command_id, walks_[0].command_id);
+    EXPECT_EQ(walks_[i].vx, 0);
+    EXPECT_EQ(walks_[i].vy, 0);
+    EXPECT_EQ(walks_[i].wz, 0);
+  }
 }
 
 }  // namespace
