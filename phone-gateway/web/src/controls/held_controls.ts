@@ -46,13 +46,16 @@ export class HeldControls {
     return wasHeld;
   }
 
-  /** Nothing can be held while what is seen of the robot is old. @param released  called when something was held then. */
-  lockWhileStale(released: () => void): void {
+  /** The robot stands while what is seen of it is old; what is still held then goes on, unless the link was lost.
+   * @param stopped  called when something was held. */
+  lockWhileStale(stopped: () => void): void {
     this.store.watch(isStale, (isLocked) => {
-      const wasHeld = isLocked && this.release();
-      this.walk.isLocked = isLocked;
-      this.joints.isLocked = isLocked;
-      if (wasHeld) released();
+      if (isLocked && (this.walk.isHeld || this.joints.isHeld)) stopped();
+      this.walk.lock(isLocked);
+      this.joints.lock(isLocked);
+    });
+    this.store.watch((state) => state.phase !== "connected", (isLost) => {
+      if (isLost) this.release();
     });
   }
 

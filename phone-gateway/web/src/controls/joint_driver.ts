@@ -12,8 +12,7 @@ export class JointDriver {
   /** True: the other side does the same as in a mirror. */
   isMirrored = false;
   isInFront: () => boolean = () => false;
-  /** Nothing is held while it is locked. */
-  isLocked = false;
+  private isLocked = false;
   private stick: StickValue | null = null;
   private readonly repeater = new Repeater(() => this.step(), kJointPeriodMs);
 
@@ -22,9 +21,15 @@ export class JointDriver {
 
   /** Joystick position; null: released. The first deflection is sent at once. */
   setStick(stick: StickValue | null): void {
-    this.stick = this.isLocked ? null : stick;
-    if (isPushed(this.stick)) this.repeater.start();
+    this.stick = stick;
+    if (isPushed(stick) && !this.isLocked) this.repeater.start();
     else this.repeater.stop();
+  }
+
+  /** While it is locked nothing turns. */
+  lock(isLocked: boolean): void {
+    this.isLocked = isLocked;
+    this.setStick(this.stick);
   }
 
   get isHeld(): boolean {

@@ -24,8 +24,7 @@ export class WalkSender {
   private readonly drives = new Map<DriveSource, {drive: Drive; setMs: number}>();
   private readonly repeater = new Repeater(() => this.send(), kWalkPeriodMs);
   private lastSentMs = 0;
-  /** Nothing is held while it is locked. */
-  isLocked = false;
+  private isLocked = false;
 
   /** @param publish  takes the walk command to the robot. @param now  ms. */
   constructor(private readonly publish: (drive: Drive) => void,
@@ -35,9 +34,9 @@ export class WalkSender {
    * sensor are set again while they are held, however little changes. */
   set(source: DriveSource, drive: Drive | null): void {
     const wasHeld = this.isHeld;
-    if (drive && this.isLocked) return;
     if (drive) this.drives.set(source, {drive, setMs: this.now()});
     else if (!this.drives.delete(source)) return;
+    if (this.isLocked) return;
     if (!this.isHeld) this.end();
     else if (!wasHeld) this.repeater.start();
     else if (this.now() - this.lastSentMs >= kMinPeriodMs) this.send();
@@ -50,13 +49,22 @@ export class WalkSender {
     this.end();
   }
 
+  /** While it is locked the robot stands; what is still held afterwards walks on. */
+  lock(isLocked: boolean): void {
+    if (isLocked === this.isLocked) return;
+    this.isLocked = isLocked;
+    if (!this.isHeld) return;
+    if (isLocked) this.end();
+    else this.repeater.start();
+  }
+
   get isHeld(): boolean {
     return this.drives.size > 0;
   }
 
-  /** Sum of all held sources. */
+  /** Sum of all held sources; zero while locked. */
   get drive(): Drive {
-    return addDrives([...this.drives.values()].map(({drive}) => drive));
+    return addDrives(this.isLocked ? [] : [...this.drives.values()].map(({drive}) => drive));
   }
 
   private end(): void {

@@ -106,10 +106,6 @@ describe("ways out of a walk", () => {
     },
     "the page is left": () => window.dispatchEvent(new Event("pagehide")),
     "stop is pressed": () => held.release(),
-    "nothing new comes from the robot, and does again": () => {
-      store.set({stateAgeMs: 501});
-      store.set({stateAgeMs: 20});
-    },
     "the link is lost, and is back": () => {
       store.set({phase: "waiting"});
       store.set({phase: "connected"});
@@ -145,14 +141,25 @@ describe("ways out of a walk", () => {
       expect(sent.slice(count).filter(({x}) => x !== 0)).toEqual([]);
     });
 
-    it("cannot be held while nothing new comes from the robot, and says why it ended", () => {
+    it("stands while nothing new comes from the robot, says why, and goes on with what is still held", () => {
       store.set({stateAgeMs: 501});
       expect(sent.at(-1)).toEqual(zero);
       expect(told).toEqual(["stale"]);
       const count = sent.length;
-      begin();
       frames(kSilenceMs, hold);
       expect(sent.length).toBe(count);
+      store.set({stateAgeMs: 20});
+      frames(100, hold);
+      expect(sent.at(-1)!.x).toBeGreaterThan(0);
+    });
+
+    it("never walks later when it is released while nothing new comes", () => {
+      store.set({stateAgeMs: 501});
+      release();
+      frames(100, () => {});
+      store.set({stateAgeMs: 20});
+      frames(3 * kSilenceMs, () => {});
+      expect(sent.at(-1)).toEqual(zero);
     });
 
     it("gives way to a button, which is sent after the end of the walk, and says so", () => {
