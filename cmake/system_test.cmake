@@ -1,7 +1,7 @@
 # Tests of whole processes, in Python or JavaScript. Each has a network namespace of its own, so that they run beside each other.
 #
 # PROCESSORS of all tests counts quarters of a core, as measured in use: most of these tests wait for their programs and take
-# less than one quarter, a browser that draws in software three, and what only computes NAO_ONE_CORE. scripts/test offers six
+# less than one quarter, a browser that draws in software three, and what only computes NAO_ONE_CORE. scripts/test offers five
 # for each core, since most take less than they reserve. COST is how long a test takes alone, s: the longest begin first.
 set(NAO_ONE_CORE 4)
 

@@ -13,9 +13,9 @@ class Isolated(unittest.TestCase):
         if subprocess.run(["unshare", "--net", "--pid", "--fork", "--mount-proc", "true"], stderr=subprocess.DEVNULL, check=False).returncode != 0:
             self.skipTest("takes the right to make namespaces")
 
-    def start(self, script):
+    def start(self, script, parent=()):
         """Starts a test that leaves a process behind, which holds the output open."""
-        test = subprocess.Popen([ISOLATED, "sh", "-c", f"setsid sleep 1000 & {script}"], stdout=subprocess.PIPE, text=True)
+        test = subprocess.Popen([*parent, ISOLATED, "sh", "-c", f"setsid sleep 1000 & {script}"], stdout=subprocess.PIPE, text=True)
         self.addCleanup(test.stdout.close)
         self.assertEqual(test.stdout.readline(), "ready\n")
         return test
@@ -29,6 +29,11 @@ class Isolated(unittest.TestCase):
         test = self.start("echo ready; wait")
         test.kill()
         self.assertEqual(test.communicate(timeout=60)[0], "")
+
+    def test_a_test_whose_parent_is_killed_leaves_no_process(self):
+        parent = self.start("echo ready; wait", ["sh", "-c", '"$@"; exit', "sh"])
+        parent.kill()
+        self.assertEqual(parent.communicate(timeout=60)[0], "")
 
 
 if __name__ == "__main__":
