@@ -180,15 +180,16 @@ class RobotCore:
         if self._walk is not None and not use_case.keys() & BESIDE_A_WALK:
             walk, self._walk = self._walk, None
             walk.abandon()
-        with self._new_command() as command:
-            await self._connection.request(command.request_id, **use_case)
-        if wait:
-            try:
+        try:
+            with self._new_command() as command:
+                await self._connection.request(command.request_id, **use_case)
+            if wait:
                 await command.wait(timeout)
-            except (asyncio.CancelledError, Timeout):
-                if use_case.keys() & WALKS:
-                    await despite_failure(self._connection.request(stop=pb.Stop()))
-                raise
+        except (asyncio.CancelledError, Timeout):
+            # Also before the answer: the robot may have begun.
+            if use_case.keys() & WALKS:
+                await despite_failure(self._connection.request(stop=pb.Stop()))
+            raise
         return command
 
     def _handle_connected(self, connected: pb.Connected) -> None:

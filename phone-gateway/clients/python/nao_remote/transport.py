@@ -118,15 +118,18 @@ async def _open(address: Address, certificate: str | os.PathLike[str] | None) ->
         reader, writer = await asyncio.open_connection(address.host, address.port)
         writer.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         return TcpTransport(reader, writer)
-    from websockets.client import connect
+    from websockets import connect
     from websockets.exceptions import WebSocketException
+    from websockets.version import version
 
+    # From version 15 on the package would ask the web's proxy, which knows no robot.
+    options: dict[str, Any] = {"proxy": None} if int(version.split(".")[0]) >= 15 else {}
     context = tls_context(certificate) if address.transport == "wss" else None
     try:
         # The protocol has pings of its own, and images are compressed already.
         connection = await connect(
             address.websocket_url, ssl=context, max_size=MAX_MESSAGE, max_queue=8, ping_interval=None, compression=None,
-            open_timeout=None, close_timeout=CLOSE_TIMEOUT)
+            open_timeout=None, close_timeout=CLOSE_TIMEOUT, **options)
     except WebSocketException as error:
         raise ConnectionLost(f"no gateway at {address}: {error}") from error
     return WebSocketTransport(connection)

@@ -229,6 +229,11 @@ class Requests(WithGateway):
         robot.posture("Sit")
         self.assertEqual(robot.ping().robot_utime, 5)
 
+    def test_no_proxy_of_the_web_is_asked(self):
+        # Nothing listens on port 9.
+        with mock.patch.dict(os.environ, http_proxy="http://127.0.0.1:9", no_proxy=""):
+            self.assertEqual(self.connect().ping().robot_utime, 5)
+
     def test_the_description_is_that_of_the_robot(self):
         robot = self.connect()
         self.assertEqual(list(robot.joints), ["HeadYaw", "HeadPitch", "Tail"])
@@ -591,6 +596,16 @@ class WaysOutOfAMotion(WithGateway):
                             await robot.ping()
                     asyncio.run(drive())
                     self.assertTrue(self.gateway.received("stop"))
+
+    def test_a_motion_that_is_given_up_before_its_answer_is_stopped(self):
+        self.gateway.answers["move_to"] = lambda request: []
+
+        async def drive():
+            async with await aio.connect(self.gateway.address) as robot:
+                await self.leave("cancel", robot.move_to(1), lambda: self.gateway.received("move_to"))
+                await robot.ping()
+        asyncio.run(drive())
+        self.assertTrue(self.gateway.received("stop"))
 
     def test_ctrl_c_during_a_walk_ends_it(self):
         script = f"""

@@ -92,7 +92,7 @@ class Environment(Env):  # type: ignore[misc]
         vector = np.asarray(action, np.float32)
         if vector.shape != self.action_space.shape or not np.all(np.isfinite(vector)):
             raise SimulationError(f"an action has {self.action_space.shape[0]} finite numbers")
-        values = np.clip(vector, self.action_space.low, self.action_space.high).astype(float).tolist()
+        values = [float(value) for value in np.clip(vector, self.action_space.low, self.action_space.high)]
         before = self.simulation.state
         if self._actions == "walk":
             self.simulation.walk(*values)
