@@ -79,6 +79,11 @@ void MotionDaemon::subscribe_to_command(const std::string& channel) {
 }
 
 void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
+  if (const double now = monotonic_seconds(); !owner_.accepts(message.utime, now)) {
+    // No steps of silence either: the owner's next state is due.
+    last_step_time_ = now;
+    return;
+  }
   // In lock-step the simulator repeats a state whose answer it has not received. A second step on
   // it would make the run depend on when messages arrive.
   if (last_answer_ && message.tick == last_tick_ && message.utime == last_utime_) {
@@ -169,6 +174,7 @@ void MotionDaemon::publish_status() {
   }
   status_.publish({{"steps", static_cast<double>(num_steps_)},
                    {"missed_ticks", static_cast<double>(num_missed_ticks_)},
+                   {"other_robot_states", static_cast<double>(owner_.num_rejected())},
                    {"worst_step_us", worst_step_seconds_ * 1e6}});
   worst_step_seconds_ = 0;
 }

@@ -33,13 +33,13 @@ void print(const Findings& findings) {
   }
 }
 
-/** A name that is one folder's, "t1". */
+/** @param robots  Empty: those of the installed data. @param name  One folder's, "t1". */
 std::filesystem::path folder_of(const std::filesystem::path& robots, const std::string& name) {
   if (name.empty() || name == "." || name == ".." ||
       std::filesystem::path(name).filename() != name) {
     throw ConfigError("the robot's name \"" + name + "\" is not a folder's name, such as t1");
   }
-  return robots / name;
+  return (robots.empty() ? data_path() / "robots" : robots) / name;
 }
 
 }  // namespace
@@ -51,14 +51,20 @@ void add_robot_files_command(CommandLine& app, Invocation& invocation) {
   struct Options {
     std::string urdf;
     std::string name;
-    std::string folder = (data_path() / "robots").string();
+    std::string folder;
   };
   const auto options = std::make_shared<Options>();
   CommandLine* import = robot->add_subcommand(
       "import", "Make robots/NAME from a URDF; lists what it repaired, assumed and misses");
   import->add_option("urdf", options->urdf, "The URDF; of xacro its output")->required();
   import->add_option("--name", options->name, "Name of the robot's folder")->required();
-  import->add_option("--folder", options->folder, "Folder of the robots")->show_default();
+  CommandLine* check = robot->add_subcommand(
+      "check", "List what a robot misses for standing, walking, postures and kicks");
+  check->add_option("name", options->name, "Name of the robot's folder")->required();
+  for (CommandLine* command : {import, check}) {
+    command->add_option("--folder", options->folder,
+                        "Folder of the robots; default: robots/ of the installed data");
+  }
   import->on_parsed([&invocation, options] {
     invocation.run = [options] {
       const auto folder = folder_of(options->folder, options->name);
@@ -68,11 +74,6 @@ void add_robot_files_command(CommandLine& app, Invocation& invocation) {
 };
 }  // namespace nao
 );
-
-CommandLine* check = robot->add_subcommand(
-    "check", "List what a robot misses for standing, walking, postures and kicks");
-check->add_option("name", options->name, "Name of the robot's folder")->required();
-check->add_option("--folder", options->folder, "Folder of the robots")->show_default();
 check->on_parsed([&invocation, options] {
   invocation.run = [options] {
     const Findings findings = check_robot(folder_of(options->folder, options->name));
