@@ -79,11 +79,7 @@ void MotionDaemon::subscribe_to_command(const std::string& channel) {
 }
 
 void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
-  if (const double now = monotonic_seconds(); !owner_.accepts(message.utime, now)) {
-    // No steps of silence either: the owner's next state is due.
-    last_step_time_ = now;
-    return;
-  }
+  if (!owner_.accepts(message.utime, monotonic_seconds())) return;
   // In lock-step the simulator repeats a state whose answer it has not received. A second step on
   // it would make the run depend on when messages arrive.
   if (last_answer_ && message.tick == last_tick_ && message.utime == last_utime_) {
@@ -107,7 +103,8 @@ void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
 // commands.
 void MotionDaemon::check_for_silence() {
   const double now = monotonic_seconds();
-  if (now - last_step_time_ < kSilencePeriod) return;
+  // Commands that come after a reset wait for the new time.
+  if (now - last_step_time_ < kSilencePeriod || owner_.is_contested(now)) return;
   const double silence = now - std::max(last_step_time_, last_silent_step_time_);
   last_silent_step_time_ = now;
   step(std::nullopt, silence);

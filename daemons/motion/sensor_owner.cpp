@@ -27,4 +27,8 @@ bool SensorOwner::accepts(int64_t utime, double now) {
   return true;
 }
 
+bool SensorOwner::is_contested(double now) const {
+  return num_others_ > 0 && now - time_ < 2 * kSilence;
+}
+
 }  // namespace nao::motion

@@ -14,6 +14,9 @@ class SensorOwner {
    * @return Whether it is the owner's. */
   bool accepts(int64_t utime, double now);
 
+  /** Whether another robot, or the reset one, may become the owner within 0.5 s. */
+  bool is_contested(double now) const;
+
   int64_t num_rejected() const { return num_rejected_; }
 
  private:

@@ -28,7 +28,10 @@ TEST(SensorOwner, FollowsAResetWithinFiveStates) {
   SensorOwner owner;
   EXPECT_TRUE(owner.accepts(500'000'000, 1));
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(owner.accepts(10'000 * i, 1.01 + 0.01 * i));
+  EXPECT_TRUE(owner.is_contested(1.2));
+  EXPECT_FALSE(owner.is_contested(1.6));
   EXPECT_TRUE(owner.accepts(40'000, 1.05));
+  EXPECT_FALSE(owner.is_contested(1.05));
   EXPECT_TRUE(owner.accepts(50'000, 1.06));
 }
 
