@@ -35,6 +35,10 @@ constexpr double kLeastDistance = 0.4;
 /** Distance of a dragged point from its link's origin, m: more than a link is long. */
 constexpr double kMaxDragPoint = 1;
 
+/** Ticks after which an answer is none of this simulator's. Chosen: a second; a controller answers
+ * within one. */
+constexpr int64_t kMaxCommandAge = 100;
+
 /** Empty if none were requested. */
 std::optional<DisturbanceSet> find_disturbances(const SimOptions& options) {
   if (options.disturbances.empty()) return std::nullopt;
@@ -159,6 +163,12 @@ std::optional<std::string> SimCore::take_joint_command(int robot, const JointCom
   if (command.tick > world_.tick()) {
     return fmt::format("it answers tick {}, and the world is at tick {}", command.tick,
                        world_.tick());
+  }
+  // In real time the answer of a program of this system comes in time.
+  if (!scheduler_.is_lock_step() && scheduler_.pace() == 1 &&
+      world_.tick() - command.tick > kMaxCommandAge) {
+    return fmt::format("it answers tick {}, long before {}: that of another simulator on this bus?",
+                       command.tick, world_.tick());
   }
   if (auto reason = merge_joint_command(world_.robot(robot).model(), command, targets_[robot])) {
     return reason;

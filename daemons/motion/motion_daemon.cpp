@@ -81,6 +81,7 @@ void MotionDaemon::subscribe_to_command(const std::string& channel) {
 }
 
 void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
+  if (!owner_.accepts(message.utime, monotonic_seconds())) return;
   // In lock-step the simulator repeats a state whose answer it has not received. A second step on
   // it would make the run depend on when messages arrive.
   if (last_answer_ && message.tick == last_tick_ && message.utime == last_utime_) {
@@ -104,7 +105,8 @@ void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
 // commands.
 void MotionDaemon::check_for_silence() {
   const double now = monotonic_seconds();
-  if (now - last_step_time_ < kSilencePeriod) return;
+  // Commands that come after a reset wait for the new time.
+  if (now - last_step_time_ < kSilencePeriod || owner_.is_contested(now)) return;
   const double silence = now - std::max(last_step_time_, last_silent_step_time_);
   last_silent_step_time_ = now;
   step(std::nullopt, silence);
@@ -171,6 +173,7 @@ void MotionDaemon::publish_status() {
   }
   status_.publish({{"steps", static_cast<double>(num_steps_)},
                    {"missed_ticks", static_cast<double>(num_missed_ticks_)},
+                   {"other_robot_states", static_cast<double>(owner_.num_rejected())},
                    {"worst_step_us", worst_step_seconds_ * 1e6}});
   worst_step_seconds_ = 0;
 }

@@ -12,6 +12,7 @@
 #include "common/event_loop.h"
 #include "common/status_reporter.h"
 #include "daemons/motion/motion_core.h"
+#include "daemons/motion/sensor_owner.h"
 #include "messages/result_reminder.h"
 #include "robot_model/robot_model.h"
 
@@ -44,6 +45,7 @@ class MotionDaemon {
   RobotChannels channels_;
   StatusReporter status_;
   MotionCore core_;
+  SensorOwner owner_;
   ResultReminder reminder_;
   /** Commands for the next step. */
   std::vector<Command> commands_;

@@ -112,6 +112,14 @@ TEST_F(SimCoreTest, PlacesAndPushes) {
   EXPECT_GT(core_.world().ball().velocity.x(), 1);
 }
 
+TEST_F(SimCoreTest, ObeysNoAnswerToAnotherSimulator) {
+  run(1.5);
+  const int64_t tick = core_.world().tick();
+  EXPECT_FALSE(core_.take_joint_command(0, {tick - 50, {}, {}, {}}, now_));
+  EXPECT_TRUE(core_.take_joint_command(0, {tick - 101, {}, {}, {}}, now_));
+  EXPECT_TRUE(core_.take_joint_command(0, {tick + 1, {}, {}, {}}, now_));
+}
+
 TEST_F(SimCoreTest, DragsALimpArmUntilTheCommandsEnd) {
   const RobotModel& model = core_.world().robot(0).model();
   const int wrist = model.find_link("LWrist");

@@ -121,6 +121,14 @@ class HelpTexts(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn(f"nao log is in the program nao-tools, which is not in {folder}; build it:", result.stderr)
 
+    def test_help_needs_no_data(self):
+        for name, file in commands().items():
+            if file.parent == BIN_DIR:
+                for words in [[], *[[word] for word in subcommands(help_text(file))]]:
+                    with self.subTest(program=name, words=words):
+                        result = run([file, *words, "--help"], env={**os.environ, "NAO_REMOTE_DATA": "/no/such"})
+                        self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_every_option_that_is_named_alone_belongs_to_some_command(self):
         known = options("".join(help_text(file) for file in commands().values()))
         for document in tracked("*.md"):

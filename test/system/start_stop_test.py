@@ -12,7 +12,7 @@ import urllib.request
 from pathlib import Path
 from unittest import mock
 
-from stack import DEADLINE, ROOT, Stack, run
+from stack import DEADLINE, ROOT, Program, Stack, run
 
 PROGRAMS = {"nao-sim", "nao-motion", "nao-motion-files", "nao-head-camera", "nao-speaker", "nao-phone-gateway"}
 
@@ -53,6 +53,22 @@ class Start(unittest.TestCase):
             self.assertEqual(second.pids(), {})
             # A part of one system, which publishes nothing that the first one does.
             second.start_or_fail("--only", "head-camera")
+
+    def test_a_second_simulator_is_named_while_it_runs_and_never_obeyed_in_turns(self):
+        with Stack() as stack:
+            stack.start_or_fail("--only", "sim,motion")
+            # As when two networks are joined.
+            other = Program("nao-sim", stack.lcm_url)
+            self.addCleanup(other.kill)
+            deadline = time.monotonic() + DEADLINE
+            status = stack.script("status")
+            named = r"two programs publish on .*NAO_SENSOR_STATE: nao-sim of host \S+ \(process \d+\), nao-sim of host"
+            while not re.search(named, status.stdout):
+                self.assertLess(time.monotonic(), deadline, status.stdout)
+                status = stack.script("status")
+            for posture in ("Crouch", "StandInit"):
+                result = stack.nao("posture", posture)
+                self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_status_says_when_nothing_runs(self):
         with Stack() as stack:

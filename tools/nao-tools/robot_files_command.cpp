@@ -37,13 +37,13 @@ void print(const Findings& findings) {
   }
 }
 
-/** A name that is one folder's, "t1". */
+/** @param robots  Empty: those of the installed data. @param name  One folder's, "t1". */
 std::filesystem::path folder_of(const std::filesystem::path& robots, const std::string& name) {
   if (name.empty() || name == "." || name == ".." ||
       std::filesystem::path(name).filename() != name) {
     throw ConfigError("the robot's name \"" + name + "\" is not a folder's name, such as t1");
   }
-  return robots / name;
+  return (robots.empty() ? data_path() / "robots" : robots) / name;
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ void add_robot_files_command(CommandLine& app, Invocation& invocation) {
   struct Options {
     std::string urdf;
     std::string name;
-    std::string folder = (data_path() / "robots").string();
+    std::string folder;
     bool is_simulated = true;
     double tune_minutes = 0;
   };
@@ -66,7 +66,6 @@ void add_robot_files_command(CommandLine& app, Invocation& invocation) {
       "for up to two minutes to find settings with which it stands and walks");
   importer->add_option("urdf", options->urdf, "The URDF; of xacro its output")->required();
   importer->add_option("--name", options->name, "Name of the robot's folder")->required();
-  importer->add_option("--folder", options->folder, "Folder of the robots")->show_default();
   importer->add_option("--tune", options->tune_minutes, "Then search a better gait, minutes")
       ->not_negative()
       ->show_default();
@@ -90,7 +89,10 @@ void add_robot_files_command(CommandLine& app, Invocation& invocation) {
   CommandLine* check = robot->add_subcommand(
       "check", "List what a robot misses for standing, walking, postures and kicks");
   check->add_option("name", options->name, "Name of the robot's folder")->required();
-  check->add_option("--folder", options->folder, "Folder of the robots")->show_default();
+  for (CommandLine* command : {importer, check}) {
+    command->add_option("--folder", options->folder,
+                        "Folder of the robots; default: robots/ of the installed data");
+  }
   check->on_parsed([&invocation, options] {
     invocation.run = [options] {
       const Findings findings = check_robot(folder_of(options->folder, options->name));

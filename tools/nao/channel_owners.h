@@ -15,6 +15,9 @@ namespace nao {
  * as images, are left out. */
 class ChannelOwners {
  public:
+  /** Begins anew; processes keep their names. */
+  void forget_channels() { channels_.clear(); }
+
   /** @param sender  Address and port. */
   void note(const std::string& sender, std::span<const uint8_t> datagram);
 

@@ -70,18 +70,20 @@ void for_each_process(const std::vector<std::string>& programs, const Function& 
 /** Looks from time to time whether two systems share the bus, as when two networks are joined. */
 class SharedBusWatch {
  public:
-  explicit SharedBusWatch(const std::string& url) : address_(parse_bus_address(url)) {}
+  /** @param loop  Must outlive this. */
+  SharedBusWatch(EventLoop& loop, const std::string& url)
+      : loop_(loop), address_(parse_bus_address(url)) {}
 
   /** Call it every kStepPeriod. @return What is wrong; empty if nothing is. */
   const std::string& step(double now) {
     if (!listener_ && now >= next_start_) {
       listener_.emplace(address_);
-      owners_ = {};
+      owners_.forget_channels();
+      loop_.on_readable(listener_->descriptor(), [this] { listener_->read(owners_); });
       end_ = now + kListenTime;
     }
-    if (!listener_) return fault_;
-    listener_->read(owners_);
-    if (now < end_) return fault_;
+    if (!listener_ || now < end_) return fault_;
+    loop_.forget(listener_->descriptor());
     listener_.reset();
     next_start_ = now + kListenPause;
     const std::string fault = describe();
@@ -106,6 +108,7 @@ class SharedBusWatch {
     return text;
   }
 
+  EventLoop& loop_;
   BusAddress address_;
   ChannelOwners owners_;
   std::optional<BusListener> listener_;
@@ -121,7 +124,7 @@ int run_watchdog(const CommonOptions& common, const std::vector<std::string>& pr
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   HangDetector detector({});
-  SharedBusWatch shared_bus(common.lcm_url);
+  SharedBusWatch shared_bus(loop, common.lcm_url);
   bool is_ready = false;
   bus.subscribe<naolcm::daemon_status_t>(
       kDaemonStatusChannel, Bus::Queue::kAll, [&](const naolcm::daemon_status_t& status) {
