@@ -34,6 +34,8 @@ constexpr double kSoleWidth = 0.25;
 // A corner of an outline nearer to the line of its neighbors is left out, fraction of the outline's
 // width.
 constexpr double kLeastBend = 0.03;
+// Mass of each half of the plate that holds a robot without legs, fraction of the robot's.
+constexpr double kBaseMass = 5;
 // The origin of the root's frame may be off the plane of symmetry by as much, m.
 constexpr double kPlaneTolerance = 1e-3;
 
@@ -480,18 +482,55 @@ FoundFrame find_frame(const RobotModel& model, const MeshPoints& mesh_points) {
   return {};
 }
 
+std::array<FoundSole, 2> find_feet(const Body& body, const std::vector<Chain>& legs,
+                                   Findings& findings) {
+  std::array<FoundSole, 2> soles = {find_sole(body, legs[0]), find_sole(body, legs[1])};
+  const int hip = body.model.joints()[legs[0].joints.front()].child_link;
+  make_alike(soles, body, body.poses[hip].translation().z() - legs[0].point.z(), findings);
+  return soles;
+}
+
+/** Both halves of a plate below a robot without legs. */
+std::array<FoundSole, 2> make_base(const Body& body, Findings& findings) {
+  Eigen::AlignedBox3d box;
+  for (size_t link = 0; link < body.model.links().size(); ++link) {
+    box.extend(Vector3d(body.poses[link].translation()));
+    for (const Vector3d& point : body.points[link]) box.extend(point);
+  }
+  const double side = std::max(0.1, box.diagonal().norm());
+  std::array<FoundSole, 2> soles;
+  for (int i = 0; i < 2; ++i) {
+    FoundSole& sole = soles[i];
+    Isometry3d pose = Isometry3d::Identity();
+    // Arms that hang must not reach the floor.
+    pose.translation() << 0, (i == 0 ? 0.26 : -0.26) * side, box.min().z() - 0.3 * side;
+    sole.foot = 0;
+    sole.pose_in_foot = body.poses[0].inverse() * pose;
+    sole.outline = {{-0.5 * side, -0.25 * side},
+                    {0.5 * side, -0.25 * side},
+                    {0.5 * side, 0.25 * side},
+                    {-0.5 * side, 0.25 * side}};
+    sole.has_shape = false;
+    sole.plate_mass = kBaseMass * body.model.total_mass();
+  }
+  std::ostringstream text;
+  text << "it stands on an added plate of " << side << " m and "
+       << 2 * kBaseMass * body.model.total_mass()
+       << " kg, as if it were fixed to the floor, and cannot walk";
+  findings.push_back({Finding::Severity::kMissing, "robot.yaml", 0,
+                      "link " + body.model.links().front().name,
+                      "no two legs: no two chains of three or more joints that mirror each other "
+                      "reach lower than all other parts",
+                      text.str()});
+  return soles;
+}
+
 }  // namespace
 
 RobotStructure find_structure(const RobotModel& model, const MeshPoints& mesh_points,
                               Findings& findings) {
   const FoundFrame found = find_frame(model, mesh_points);
   const std::vector<Chain>& legs = found.legs;
-  if (legs.empty()) {
-    throw ModelError(model.name() +
-                     ": no two legs: two chains of at least three joints, one the mirror image of "
-                     "the other, must "
-                     "reach lower than all other parts");
-  }
   RobotStructure structure;
   // Without rounding, which a rotation by quarters of a turn leaves.
   structure.frame = found.frame;
@@ -507,11 +546,11 @@ RobotStructure find_structure(const RobotModel& model, const MeshPoints& mesh_po
                         "link " + model.links().front().name, text.str(),
                         "a new root with the robot's frame is added"});
   }
-  for (int side = 0; side < 2; ++side) structure.soles[side] = find_sole(body, legs[side]);
-  const double height =
-      body.poses[model.joints()[legs[0].joints.front()].child_link].translation().z() -
-      legs[0].point.z();
-  make_alike(structure.soles, body, height, findings);
+  if (legs.empty()) {
+    structure.soles = make_base(body, findings);
+  } else {
+    structure.soles = find_feet(body, legs, findings);
+  }
   const std::vector<Chain> chains = find_chains(body);
   const Chain* arms[2] = {nullptr, nullptr};
   // Arms are the other pair with the most joints.
@@ -520,7 +559,10 @@ RobotStructure find_structure(const RobotModel& model, const MeshPoints& mesh_po
       if (!is_pair(left, right) || left.joints.size() < 2) continue;
       // Toes belong to a leg.
       const auto& joints = left.joints;
-      if (std::find(joints.begin(), joints.end(), legs[0].joints.front()) != joints.end()) continue;
+      if (!legs.empty() &&
+          std::find(joints.begin(), joints.end(), legs[0].joints.front()) != joints.end()) {
+        continue;
+      }
       if (arms[0] != nullptr && left.joints.size() <= arms[0]->joints.size()) continue;
       arms[0] = &left;
       arms[1] = &right;
