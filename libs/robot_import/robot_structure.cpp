@@ -31,6 +31,8 @@ constexpr double kTiltStep = 0.02;
 // Sole of a foot without shapes, fractions of the leg's height. Chosen: a NAO's.
 constexpr double kSoleLength = 0.45;
 constexpr double kSoleWidth = 0.25;
+// Least distance of a sole's frame from its heel and toe, fraction of the sole's length.
+constexpr double kLeastHeel = 0.15;
 // A corner of an outline nearer to the line of its neighbors is left out, fraction of the outline's
 // width.
 constexpr double kLeastBend = 0.03;
@@ -74,14 +76,18 @@ std::vector<Chain> find_chains(const Body& body) {
   std::vector<Chain> chains;
   for (const Joint& joint : model.joints()) {
     if (joint.kind != Joint::Kind::kRevolute || carries_joint[joint.child_link]) continue;
-    // Of the points on the axis the one beside the link's center of mass, but not along a roll
-    // axis: that is the direction in which the foot's place is measured.
+    // Any point of its axis may be the joint's origin: of a roll axis the one beside the joint
+    // above is taken, which is the ankle's, of others the one beside the link's center of mass.
     const Isometry3d& pose = body.poses[joint.child_link];
     const Vector3d axis = pose.linear() * joint.axis;
-    const Vector3d com = pose * model.links()[joint.child_link].center_of_mass;
-    Vector3d point = pose.translation();
-    if (std::abs(axis.x()) < 0.5) point += axis.dot(com - point) * axis;
-    chains.push_back({joint.child_link, model.find_chain(joint.child_link), point});
+    Vector3d beside = pose * model.links()[joint.child_link].center_of_mass;
+    const std::vector<int> joints = model.find_chain(joint.child_link);
+    if (std::abs(axis.x()) > 0.5 && joints.size() > 1) {
+      const Joint& above = model.joints()[joints[joints.size() - 2]];
+      beside = body.poses[above.child_link].translation();
+    }
+    const Vector3d point = pose.translation() + axis.dot(beside - pose.translation()) * axis;
+    chains.push_back({joint.child_link, joints, point});
   }
   return chains;
 }
@@ -228,10 +234,19 @@ FoundSole find_sole(const Body& body, const Chain& leg) {
     sole.outline.clear();
     lowest = points.empty() ? -0.1 * height : lowest;
   }
-  // The sole's frame: level, under the ankle, with the robot's heading.
+  // The sole's frame: level, under the ankle, with the robot's heading; within the sole where the
+  // ankle is not above it.
+  double ahead = 0;
+  if (!sole.outline.empty()) {
+    Eigen::AlignedBox2d box;
+    for (const Vector2d& corner : sole.outline) box.extend(corner);
+    const double margin = kLeastHeel * box.sizes().x();
+    ahead = std::clamp(0.0, box.min().x() + margin, box.max().x() - margin);
+  }
+  for (Vector2d& corner : sole.outline) corner.x() -= ahead;
   Isometry3d pose = Isometry3d::Identity();
   pose.linear() = level.transpose();
-  pose.translation() = leg.point + level.transpose() * Vector3d(0, 0, lowest);
+  pose.translation() = leg.point + level.transpose() * Vector3d(ahead, 0, lowest);
   sole.pose_in_foot = body.poses[leg.end].inverse() * pose;
   sole.sensors = find_force_sensors(model, leg.end);
   return sole;

@@ -101,6 +101,17 @@ TEST_F(ImportedStructure, HasASoleOfAllShapesThatAreFixedToTheFoot) {
   EXPECT_EQ(model.left_sole_outline().size(), 4u);
 }
 
+// Any point of a roll axis may be the joint's origin, here one far behind the foot.
+TEST_F(ImportedStructure, HasTheSolesFrameWithinTheSole) {
+  replace("name=\"left_ankle_roll\"", "xyz=\"0 0 ", "xyz=\"-0.2 0 ");
+  replace("name=\"right_ankle_roll\"", "xyz=\"0 0 ", "xyz=\"-0.2 0 ");
+  const RobotModel model = import();
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& corner : model.left_sole_outline()) box.extend(corner);
+  EXPECT_LT(box.min().x(), -0.1 * box.sizes().x());
+  EXPECT_GT(box.max().x(), 0.1 * box.sizes().x());
+}
+
 TEST_F(ImportedStructure, HasALevelSoleWhereTheFootIsNotLevelAtTheAnglesZero) {
   for (const std::string side : {"left", "right"}) {
     replace("name=\"" + side + "_ankle_pitch\"", "<origin xyz", "<origin rpy=\"0 0.2 0\" xyz");
