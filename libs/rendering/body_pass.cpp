@@ -64,6 +64,7 @@ void BodyPass::select(const Scene& scene, const RenderView& view, ShadowPass& sh
     ball.mesh = ball_mesh_;
     ball.pose_in_world = scene.ball->pose_in_world;
     ball.scale.setConstant(scene.ball->radius);
+    ball.tint << scene.ball->hexagons, scene.ball->pentagons;
     shadows.add_caster(ball, view);
     add(ball, view, ball_);
   }

@@ -84,6 +84,7 @@ const char* const kBallFragment = R"(
 in vec3 position_in_world;
 in vec3 position_in_mesh;
 in vec3 normal_in_world;
+uniform vec4 tint;  // albedo of the hexagons; of the pentagons
 out vec4 screen;
 const float kA = 0.5257311;  // vertices of the icosahedron: (0, +-a, +-b) and its rotations
 const float kB = 0.8506508;
@@ -98,7 +99,7 @@ void main() {
   float hexagon = max(max(hexagons.x, hexagons.y), max(hexagons.z, hexagons.w));
   float edge = fwidth(pentagon) + 1e-5;
   float dark = clamp((pentagon - hexagon) / edge + 0.5, 0.0, 1.0);
-  vec3 albedo = mix(vec3(0.86), vec3(0.012), dark);
+  vec3 albedo = mix(tint.rgb, vec3(tint.a), dark);
   vec3 normal = normalize(normal_in_world);
   float fraction = direct_fraction(surface_light_place(position_in_world, normal));
   vec3 light = ambient_part(albedo, normal) +

@@ -43,6 +43,9 @@ struct SceneBall {
   Eigen::Isometry3f pose_in_world = Eigen::Isometry3f::Identity();
   /** m. */
   float radius = 0.05f;
+  /** Albedo of the light and of the dark faces. */
+  Eigen::Vector3f hexagons = Eigen::Vector3f::Constant(0.86f);
+  float pentagons = 0.012f;
 };
 
 /** Content of one image besides the ground, the goals and the sky, which the renderer stores. */

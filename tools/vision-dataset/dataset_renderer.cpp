@@ -73,7 +73,8 @@ cv::Mat DatasetRenderer::draw(const RandomScene& scene, const camera::Lens& lens
       ball.tint = ball_name_color();
       scene_.instances.push_back(ball);
     } else {
-      scene_.ball = SceneBall{scene.pose_ball_in_world->cast<float>(), radius};
+      scene_.ball = SceneBall{scene.pose_ball_in_world->cast<float>(), radius, scene.ball_hexagons,
+                              scene.ball_pentagons};
     }
   }
   if (has_named_colors) {

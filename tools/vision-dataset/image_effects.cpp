@@ -26,6 +26,7 @@ void ImageEffects::vary(Random& random) {
   if (random.uniform() < 0.4) defocus = random.uniform(0.3, 1.4);
   quality = static_cast<int>(random.uniform(55, 95));
   noise_seed = random.next();
+  if (random.uniform() < 0.5) sharpening = random.uniform(0, 1.8);
 }
 
 void ImageEffects::apply(cv::Mat& bgr) const {
@@ -39,6 +40,11 @@ void ImageEffects::apply(cv::Mat& bgr) const {
     cv::filter2D(bgr, bgr, -1, kernel);
   }
   if (defocus > 0) cv::GaussianBlur(bgr, bgr, {0, 0}, defocus);
+  if (sharpening > 0) {
+    cv::Mat smooth;
+    cv::GaussianBlur(bgr, smooth, {0, 0}, 1);
+    cv::addWeighted(bgr, 1 + sharpening, smooth, -sharpening, 0, bgr);
+  }
   Random random(noise_seed);
   std::array<float, 4096> samples;
   for (float& sample : samples) sample = static_cast<float>(noise * random.normal());

@@ -14,6 +14,8 @@ struct ImageEffects {
   double blur_angle = 0;
   /** Standard deviation of the blur of a lens out of focus, pixels. */
   double defocus = 0;
+  /** Strength of the camera's sharpening: factor on what a blur of 1 pixel takes away. */
+  double sharpening = 0;
   /** Factors on blue, green, red: exposure times white balance. */
   std::array<double, 3> gain{1, 1, 1};
   /** Added before the gain: stray light, levels of 255. */

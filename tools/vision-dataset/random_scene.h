@@ -46,6 +46,9 @@ struct RandomScene {
   camera::Distortion distortion;
   SceneAppearance appearance;
   std::optional<Eigen::Isometry3d> pose_ball_in_world;
+  /** As in SceneBall. */
+  Eigen::Vector3f ball_hexagons = Eigen::Vector3f::Ones();
+  float ball_pentagons = 0;
   std::vector<PlacedRobot> robots;
   std::vector<Distractor> distractors;
   ImageEffects effects;

@@ -6,6 +6,7 @@ import sys
 import time
 from pathlib import Path
 
+import cv2
 import torch
 from torch import nn
 
@@ -58,6 +59,9 @@ def recolored(images, generator):
         uniform(1.0, 2.2, count, 1, 1, 1),
         uniform(0.6, 1.1, count, 1, 1, 1),
     )
+    # Half get another tone curve.
+    curved = 255 * (images.clamp(0, 255) / 255) ** uniform(-0.45, 0.45, count, 1, 1, 1).exp()
+    images = torch.where(torch.rand(count, 1, 1, 1, generator=generator) < 0.5, curved, images)
     strength = uniform(0, 6, count, 1, 1, 1)
     return (gain * images + strength * noise(images.shape, generator)).clamp(0, 255)
 
@@ -83,10 +87,9 @@ class Schedule:
 
 
 def export(network, file, rows, columns):
-    """Writes the weights (.pt) and the network as ONNX, for any number of images."""
+    """Writes the network as ONNX, for any number of images."""
     network.eval()
-    weights, model = io.BytesIO(), io.BytesIO()
-    torch.save(network.state_dict(), weights)
+    model = io.BytesIO()
     torch.onnx.export(
         network,
         torch.zeros(1, 3, rows, columns),
@@ -96,7 +99,6 @@ def export(network, file, rows, columns):
         dynamic_axes={"images": {0: "count"}, "outputs": {0: "count"}},
         opset_version=11,
     )
-    replace_file(Path(file).with_suffix(".pt"), weights.getvalue())
     replace_file(file, model.getvalue())
     print(f"{file}: {Path(file).stat().st_size} bytes")
 
@@ -104,10 +106,10 @@ def export(network, file, rows, columns):
 def parse_options(description, inputs, inputs_help, epochs, batch, rate):
     """Command line of a training. inputs: name of the list of what is learnt from."""
     parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("network", help="ONNX file to write; its weights for --start beside it")
+    parser.add_argument("network", help="ONNX file to write")
     parser.add_argument(inputs, nargs="+", help=inputs_help)
     parser.add_argument("--check", nargs="*", help="the same, which are reported and not learnt from")
-    parser.add_argument("--start", help="weights (.pt) of an earlier training to start from")
+    parser.add_argument("--start", help="network (.onnx) of an earlier training to start from")
     parser.add_argument("--epochs", type=int, default=epochs)
     parser.add_argument("--batch", type=int, default=batch)
     parser.add_argument("--rate", type=float, default=rate, help="greatest learning rate")
@@ -116,10 +118,27 @@ def parse_options(description, inputs, inputs_help, epochs, batch, rate):
     return parser.parse_args()
 
 
+def load(network, file):
+    """Takes the weights from an ONNX file, in which batch normalization is a part of the convolutions: it ends here, too."""
+    layers = cv2.dnn.readNetFromONNX(file)
+    modules = dict(network.named_modules())
+    for name in layers.getLayerNames():
+        layer = layers.getLayer(layers.getLayerId(name))
+        if layer.type == "Convolution":
+            # onnx_node!/fine/fine.1/fine.1.0/Conv
+            convolution = modules[name.split("/")[-2]]
+            convolution.weight = nn.Parameter(torch.from_numpy(layer.blobs[0].copy()))
+            convolution.bias = nn.Parameter(torch.from_numpy(layer.blobs[1].flatten().copy()))
+    for module in list(network.modules()):
+        for name, part in module.named_children():
+            if isinstance(part, nn.BatchNorm2d):
+                setattr(module, name, nn.Identity())
+
+
 def begin(network, options):
     torch.manual_seed(options.seed)
     torch.set_num_threads(options.threads)
     if options.start:
-        network.load_state_dict(torch.load(options.start))
+        load(network, options.start)
     print(f"{sum(p.numel() for p in network.parameters())} weights", flush=True)
     return torch.Generator().manual_seed(options.seed)

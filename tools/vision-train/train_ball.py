@@ -11,6 +11,8 @@ from torch import nn
 import common
 
 SIZE = 32
+# Half of a patch's width, radii of its circle: BallDetector::kPatchRadii.
+PATCH_RADII = 2.4
 NUM_NUMBERS = 8
 RECORD = np.dtype([("patch", "u1", (SIZE, SIZE, 3)), ("numbers", "<f4", NUM_NUMBERS)])
 # Outputs besides the log odds: center to the right and downwards, logarithm of the radius.
@@ -43,6 +45,22 @@ def mirrored(patches, numbers, generator):
     numbers = numbers.clone()
     numbers[is_mirrored, 1] *= -1
     return patches, numbers
+
+
+def faded(patches, numbers, generator):
+    """Of a half of the balls the dark faces become lighter, as on worn balls; a half of all patches is blurred."""
+    count = len(patches)
+    position = (torch.arange(SIZE) + 0.5) * (2 * PATCH_RADII / SIZE) - PATCH_RADII
+    radius = numbers[:, 3].exp()[:, None, None]
+    dx = position[None, None, :] - numbers[:, 1, None, None]
+    dy = position[None, :, None] - numbers[:, 2, None, None]
+    is_inside = ((dx**2 + dy**2 < (0.95 * radius) ** 2) & (numbers[:, 0, None, None] > 0.5))[:, None]
+    light = (patches * is_inside).amax(dim=(2, 3), keepdim=True)
+    strength = 1.6 * torch.rand(count, 1, 1, 1, generator=generator) - 0.8
+    patches = patches + strength.clamp(min=0) * is_inside * (light - patches)
+    smooth = nn.functional.avg_pool2d(patches, 3, 1, 1, count_include_pad=False)
+    strength = 2 * torch.rand(count, 1, 1, 1, generator=generator) - 1
+    return patches + strength.clamp(min=0) * (smooth - patches)
 
 
 def read(files):
@@ -112,6 +130,7 @@ def train(options):
         num_batches = min(len(order) // options.batch, num_steps - step)
         for batch in order.split(options.batch)[:num_batches]:
             some, targets = mirrored(patches[batch].float(), numbers[batch], generator)
+            some = faded(some, targets, generator)
             some = common.recolored(some, generator)
             loss = loss_of(network(common.normalized(some)).flatten(1), targets)
             schedule.step(loss)
