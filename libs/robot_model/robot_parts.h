@@ -43,7 +43,7 @@ struct Link {
   std::vector<Shape> collisions;
 };
 
-/** A motor with gear and servo, all quantities at the joint; data/robots/nao/README.md has the sources. */
+/** A motor with gear and servo, all quantities at the joint. */
 struct Motor {
   /** Torque that it can hold without a time limit, and for some seconds (the URDF's effort limit),
    * N m. */
