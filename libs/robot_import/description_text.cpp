@@ -146,14 +146,14 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
   }
   Kinematics kinematics(model);
   kinematics.update(std::vector<double>(model.num_motors(), 0.0));
-  const std::array<Eigen::Isometry3d, 2> straight = {kinematics.left_sole(),
-                                                     kinematics.right_sole()};
+  std::array<Eigen::Isometry3d, 2> straight = {kinematics.left_sole(), kinematics.right_sole()};
+  // Level, also where the feet are not at the angles 0.
+  for (Eigen::Isometry3d& sole : straight) sole.linear().setIdentity();
   // The center of mass is brought over the center of the outline, in the sole's frame, or as near
   // to it as the ankles hold it there.
-  double center = 0;
-  for (const Eigen::Vector2d& corner : model.left_sole_outline()) {
-    center += corner.x() / static_cast<double>(model.left_sole_outline().size());
-  }
+  Eigen::AlignedBox2d outline;
+  for (const Eigen::Vector2d& corner : model.left_sole_outline()) outline.extend(corner);
+  double center = outline.center().x();
   const int ankle = legs->motors(Leg::kLeft)[legs->roles(Leg::kLeft).ankle_pitch];
   const double ankle_x =
       (straight[0].inverse() * kinematics.link_pose(model.motor_joint(ankle).child_link))
@@ -268,6 +268,14 @@ std::string make_sole_links(const RobotModel& model, const RobotStructure& struc
            << box.center().y() << " " << 0.5 * thickness << "\"/><geometry><box size=\""
            << box.sizes().x() << " " << box.sizes().y() << " " << thickness
            << "\"/></geometry></collision>";
+      if (sole.plate_mass > 0) {
+        // A flat box: m / 12 (a^2 + b^2).
+        const double x = sole.plate_mass / 12 * std::pow(box.sizes().x(), 2);
+        const double y = sole.plate_mass / 12 * std::pow(box.sizes().y(), 2);
+        text << "<inertial><mass value=\"" << sole.plate_mass << "\"/><inertia ixx=\"" << y
+             << "\" iyy=\"" << x << "\" izz=\"" << x + y
+             << "\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
+      }
     }
     text << "</link>\n";
     add_joint(name + "_mount", model.links()[sole.foot].name, name, sole.pose_in_foot);
@@ -294,7 +302,8 @@ std::string make_description_text(const RobotModel& model) {
       poses[model.left_sole()].translation().y() - poses[model.right_sole()].translation().y();
   const auto legs = find_leg_kinematics(model);
   const double length = legs ? legs->reach() : height;
-  const double speed = kFroudeVelocity * std::sqrt(kGravity * length);
+  // 0 for a robot that cannot walk.
+  const double speed = legs ? kFroudeVelocity * std::sqrt(kGravity * length) : 0;
   Kinematics kinematics(model);
   kinematics.update(std::vector<double>(model.num_motors(), 0.0));
   const double center_height =
@@ -308,7 +317,8 @@ std::string make_description_text(const RobotModel& model) {
        << ", least_hip_height: " << 0.6 * length << "}\n"
        << "\n# Slow: v / sqrt(g * leg length) = " << kFroudeVelocity
        << ". nao-walk-tuner finds what the robot sustains.\nwalk_limits: {forward: " << speed
-       << ", backward: " << 0.6 * speed << ", sideways: " << 0.5 * speed << ", turning: 0.5}\n"
+       << ", backward: " << 0.6 * speed << ", sideways: " << 0.5 * speed
+       << ", turning: " << (legs ? 0.5 : 0) << "}\n"
        << "\nactions:\n  - {name: get-up, does: stand-up}\n  - {name: rest, does: rest}\n";
   return text.str();
 }
@@ -324,6 +334,8 @@ std::string make_postures_text(const RobotModel& model, Findings& findings) {
   const auto add = [&](const std::string& name, const std::string& family, double bend) {
     auto stance = find_stance(model, bend);
     if (!stance) stance = find_level_stance(model, bend);
+    // A robot without legs has one stance.
+    if (model.legs()[0].joints.empty()) stance = zero;
     if (!stance) {
       findings.push_back({Finding::Severity::kMissing, "postures.yaml", 0, "posture " + name,
                           "the legs do not reach it",

@@ -17,9 +17,15 @@ constexpr int kNumRounds = 60;
 // Weights of a foot's heading and of the distance from the angles 0, relative to its tilt.
 constexpr double kHeadingWeight = 0.2;
 constexpr double kRestWeight = 0.02;
-// Errors of a posture that is accepted: tilt of a sole, rad; place, fraction of the height.
+// Angle from which the search starts for a knee, rad.
+constexpr double kStartBend = 0.3;
+// Weight of the center of mass over the middle of the soles, relative to their height.
+constexpr double kAheadWeight = 0.3;
+// Errors of a posture that is accepted: tilt of a sole, rad; height, fraction of the robot's; place
+// of the center of mass, fraction of the sole's half length.
 constexpr double kMaxTilt = 0.03;
-constexpr double kMaxOff = 0.03;
+constexpr double kMaxOff = 0.05;
+constexpr double kMaxAhead = 0.6;
 
 class LevelStance {
  public:
@@ -42,6 +48,8 @@ class LevelStance {
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector2d& corner : model.left_sole_outline()) box.extend(corner);
     center_ = box.center().x();
+    bend_knees();
+    half_length_ = 0.5 * box.sizes().x();
   }
 
   std::optional<std::vector<double>> solve() {
@@ -81,6 +89,18 @@ class LevelStance {
  private:
   static constexpr int kPerSole = 6;
 
+  // A stretched knee is a singularity, at which nothing says which way it bends: its limits do.
+  void bend_knees() {
+    const auto poses = model_.link_poses(rest_);
+    for (const int motor : motors_) {
+      const Joint& joint = model_.motor_joint(motor);
+      const double pitch = (poses[joint.child_link].linear() * joint.axis).y();
+      const double middle = 0.5 * (joint.lower + joint.upper);
+      if (std::abs(pitch) < 0.7 || std::abs(middle) < kStartBend) continue;
+      position_[motor] = model_.clip_to_limits(motor, std::copysign(kStartBend, middle), rest_);
+    }
+  }
+
   // For each sole: height, place ahead and aside, tilt about x and y, heading; then the distances
   // from the angles 0. Places in units of the height.
   VectorXd errors() {
@@ -92,8 +112,9 @@ class LevelStance {
       const Eigen::Vector3d off = soles[side].translation() - start_[side].translation();
       const Eigen::Matrix3d& r = soles[side].linear();
       const double ahead = com.x() - (soles[side] * Eigen::Vector3d(center_, 0, 0)).x();
-      error.segment<kPerSole>(kPerSole * side) << (off.z() - lift_) / height_, ahead / height_,
-          off.y() / height_, r(2, 1), r(2, 0), kHeadingWeight * r(1, 0);
+      error.segment<kPerSole>(kPerSole * side) << (off.z() - lift_) / height_,
+          kAheadWeight * ahead / height_, off.y() / height_, r(2, 1), r(2, 0),
+          kHeadingWeight * r(1, 0);
     }
     for (size_t i = 0; i < motors_.size(); ++i) {
       error[2 * kPerSole + static_cast<Eigen::Index>(i)] =
@@ -106,7 +127,8 @@ class LevelStance {
     for (int side = 0; side < 2; ++side) {
       const auto of = error.segment<kPerSole>(kPerSole * side);
       // The feet may come nearer to each other where the ankles cannot roll.
-      if (of.head<2>().cwiseAbs().maxCoeff() > kMaxOff || of.segment<2>(3).norm() > kMaxTilt) {
+      if (std::abs(of[0]) > kMaxOff || of.segment<2>(3).norm() > kMaxTilt ||
+          std::abs(of[1]) * height_ > kMaxAhead * kAheadWeight * half_length_) {
         return false;
       }
     }
@@ -122,6 +144,7 @@ class LevelStance {
   double height_ = 0;
   double lift_ = 0;
   double center_ = 0;
+  double half_length_ = 0;
 };
 
 }  // namespace

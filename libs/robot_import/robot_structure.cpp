@@ -31,9 +31,13 @@ constexpr double kTiltStep = 0.02;
 // Sole of a foot without shapes, fractions of the leg's height. Chosen: a NAO's.
 constexpr double kSoleLength = 0.45;
 constexpr double kSoleWidth = 0.25;
+// Least distance of a sole's frame from its heel and toe, fraction of the sole's length.
+constexpr double kLeastHeel = 0.15;
 // A corner of an outline nearer to the line of its neighbors is left out, fraction of the outline's
 // width.
 constexpr double kLeastBend = 0.03;
+// Mass of each half of the plate that holds a robot without legs, fraction of the robot's.
+constexpr double kBaseMass = 5;
 // The origin of the root's frame may be off the plane of symmetry by as much, m.
 constexpr double kPlaneTolerance = 1e-3;
 
@@ -72,14 +76,18 @@ std::vector<Chain> find_chains(const Body& body) {
   std::vector<Chain> chains;
   for (const Joint& joint : model.joints()) {
     if (joint.kind != Joint::Kind::kRevolute || carries_joint[joint.child_link]) continue;
-    // Of the points on the axis the one beside the link's center of mass, but not along a roll
-    // axis: that is the direction in which the foot's place is measured.
+    // Any point of its axis may be the joint's origin: of a roll axis the one beside the joint
+    // above is taken, which is the ankle's, of others the one beside the link's center of mass.
     const Isometry3d& pose = body.poses[joint.child_link];
     const Vector3d axis = pose.linear() * joint.axis;
-    const Vector3d com = pose * model.links()[joint.child_link].center_of_mass;
-    Vector3d point = pose.translation();
-    if (std::abs(axis.x()) < 0.5) point += axis.dot(com - point) * axis;
-    chains.push_back({joint.child_link, model.find_chain(joint.child_link), point});
+    Vector3d beside = pose * model.links()[joint.child_link].center_of_mass;
+    const std::vector<int> joints = model.find_chain(joint.child_link);
+    if (std::abs(axis.x()) > 0.5 && joints.size() > 1) {
+      const Joint& above = model.joints()[joints[joints.size() - 2]];
+      beside = body.poses[above.child_link].translation();
+    }
+    const Vector3d point = pose.translation() + axis.dot(beside - pose.translation()) * axis;
+    chains.push_back({joint.child_link, joints, point});
   }
   return chains;
 }
@@ -226,10 +234,19 @@ FoundSole find_sole(const Body& body, const Chain& leg) {
     sole.outline.clear();
     lowest = points.empty() ? -0.1 * height : lowest;
   }
-  // The sole's frame: level, under the ankle, with the robot's heading.
+  // The sole's frame: level, under the ankle, with the robot's heading; within the sole where the
+  // ankle is not above it.
+  double ahead = 0;
+  if (!sole.outline.empty()) {
+    Eigen::AlignedBox2d box;
+    for (const Vector2d& corner : sole.outline) box.extend(corner);
+    const double margin = kLeastHeel * box.sizes().x();
+    ahead = std::clamp(0.0, box.min().x() + margin, box.max().x() - margin);
+  }
+  for (Vector2d& corner : sole.outline) corner.x() -= ahead;
   Isometry3d pose = Isometry3d::Identity();
   pose.linear() = level.transpose();
-  pose.translation() = leg.point + level.transpose() * Vector3d(0, 0, lowest);
+  pose.translation() = leg.point + level.transpose() * Vector3d(ahead, 0, lowest);
   sole.pose_in_foot = body.poses[leg.end].inverse() * pose;
   sole.sensors = find_force_sensors(model, leg.end);
   return sole;
@@ -480,18 +497,55 @@ FoundFrame find_frame(const RobotModel& model, const MeshPoints& mesh_points) {
   return {};
 }
 
+std::array<FoundSole, 2> find_feet(const Body& body, const std::vector<Chain>& legs,
+                                   Findings& findings) {
+  std::array<FoundSole, 2> soles = {find_sole(body, legs[0]), find_sole(body, legs[1])};
+  const int hip = body.model.joints()[legs[0].joints.front()].child_link;
+  make_alike(soles, body, body.poses[hip].translation().z() - legs[0].point.z(), findings);
+  return soles;
+}
+
+/** Both halves of a plate below a robot without legs. */
+std::array<FoundSole, 2> make_base(const Body& body, Findings& findings) {
+  Eigen::AlignedBox3d box;
+  for (size_t link = 0; link < body.model.links().size(); ++link) {
+    box.extend(Vector3d(body.poses[link].translation()));
+    for (const Vector3d& point : body.points[link]) box.extend(point);
+  }
+  const double side = std::max(0.1, box.diagonal().norm());
+  std::array<FoundSole, 2> soles;
+  for (int i = 0; i < 2; ++i) {
+    FoundSole& sole = soles[i];
+    Isometry3d pose = Isometry3d::Identity();
+    // Arms that hang must not reach the floor.
+    pose.translation() << 0, (i == 0 ? 0.26 : -0.26) * side, box.min().z() - 0.3 * side;
+    sole.foot = 0;
+    sole.pose_in_foot = body.poses[0].inverse() * pose;
+    sole.outline = {{-0.5 * side, -0.25 * side},
+                    {0.5 * side, -0.25 * side},
+                    {0.5 * side, 0.25 * side},
+                    {-0.5 * side, 0.25 * side}};
+    sole.has_shape = false;
+    sole.plate_mass = kBaseMass * body.model.total_mass();
+  }
+  std::ostringstream text;
+  text << "it stands on an added plate of " << side << " m and "
+       << 2 * kBaseMass * body.model.total_mass()
+       << " kg, as if it were fixed to the floor, and cannot walk";
+  findings.push_back({Finding::Severity::kMissing, "robot.yaml", 0,
+                      "link " + body.model.links().front().name,
+                      "no two legs: no two chains of three or more joints that mirror each other "
+                      "reach lower than all other parts",
+                      text.str()});
+  return soles;
+}
+
 }  // namespace
 
 RobotStructure find_structure(const RobotModel& model, const MeshPoints& mesh_points,
                               Findings& findings) {
   const FoundFrame found = find_frame(model, mesh_points);
   const std::vector<Chain>& legs = found.legs;
-  if (legs.empty()) {
-    throw ModelError(model.name() +
-                     ": no two legs: two chains of at least three joints, one the mirror image of "
-                     "the other, must "
-                     "reach lower than all other parts");
-  }
   RobotStructure structure;
   // Without rounding, which a rotation by quarters of a turn leaves.
   structure.frame = found.frame;
@@ -507,11 +561,11 @@ RobotStructure find_structure(const RobotModel& model, const MeshPoints& mesh_po
                         "link " + model.links().front().name, text.str(),
                         "a new root with the robot's frame is added"});
   }
-  for (int side = 0; side < 2; ++side) structure.soles[side] = find_sole(body, legs[side]);
-  const double height =
-      body.poses[model.joints()[legs[0].joints.front()].child_link].translation().z() -
-      legs[0].point.z();
-  make_alike(structure.soles, body, height, findings);
+  if (legs.empty()) {
+    structure.soles = make_base(body, findings);
+  } else {
+    structure.soles = find_feet(body, legs, findings);
+  }
   const std::vector<Chain> chains = find_chains(body);
   const Chain* arms[2] = {nullptr, nullptr};
   // Arms are the other pair with the most joints.
@@ -520,7 +574,10 @@ RobotStructure find_structure(const RobotModel& model, const MeshPoints& mesh_po
       if (!is_pair(left, right) || left.joints.size() < 2) continue;
       // Toes belong to a leg.
       const auto& joints = left.joints;
-      if (std::find(joints.begin(), joints.end(), legs[0].joints.front()) != joints.end()) continue;
+      if (!legs.empty() &&
+          std::find(joints.begin(), joints.end(), legs[0].joints.front()) != joints.end()) {
+        continue;
+      }
       if (arms[0] != nullptr && left.joints.size() <= arms[0]->joints.size()) continue;
       arms[0] = &left;
       arms[1] = &right;

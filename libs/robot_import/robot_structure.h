@@ -22,6 +22,8 @@ struct FoundSole {
   std::vector<Eigen::Vector2d> outline;
   /** Whether a shape of the foot is above it; otherwise it needs one to stand on. */
   bool has_shape = true;
+  /** Mass of the plate that is added there, kg: what holds a robot without legs. */
+  double plate_mass = 0;
   /** Links of the foot's force sensors; empty: none. */
   std::vector<int> sensors;
 };
@@ -41,8 +43,9 @@ struct RobotStructure {
  * The plane of symmetry is the one that mirrors most joints onto others. Legs are the pair of
  * chains of at least three joints that reaches lower than every other part and hangs below the
  * center of mass of the rest. Ahead is where the feet are longer, and where the knees point.
- * @param findings  Receives what was assumed.
- * @throws ModelError  if it does not find two legs. */
+ * A robot without legs stands on a heavy plate that is fixed to its root; its soles are the plate's
+ * halves.
+ * @param findings  Receives what was assumed. */
 RobotStructure find_structure(const RobotModel& model, const MeshPoints& mesh_points,
                               Findings& findings);
 
