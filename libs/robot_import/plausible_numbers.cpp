@@ -27,6 +27,8 @@ constexpr double kAssumedVelocity = 1.5;
 // farthest known point, as shapes may be smaller than the link, and of the leg.
 constexpr double kGreatestGyration = 1.5;
 constexpr double kGreatestGyrationOfLeg = 0.4;
+// Of a link without shapes and further joints.
+constexpr double kLeastExtentOfLeg = 0.1;
 // That of a ball, sqrt(2 / 5), of half of this size.
 constexpr double kAssumedGyration = 0.32;
 
@@ -113,7 +115,8 @@ class Numbers {
     TiXmlElement* inertial = element == nullptr ? nullptr : element->FirstChildElement("inertial");
     TiXmlElement* inertia = inertial == nullptr ? nullptr : inertial->FirstChildElement("inertia");
     if (inertia == nullptr) return;
-    const double assumed = link.mass * std::pow(kAssumedGyration * extent, 2);
+    const double assumed =
+        link.mass * std::pow(kAssumedGyration * std::max(extent, kLeastExtentOfLeg * leg_), 2);
     for (const char* key : {"ixx", "iyy", "izz"}) {
       inertia->SetAttribute(key, to_text(assumed).c_str());
     }

@@ -27,11 +27,13 @@ namespace fs = std::filesystem;
 // unsafe, fraction of the leg's length.
 constexpr double kStanceMargin = 0.03;
 
-/** From the first joint of the left leg to its sole, at the angle 0, m. */
+/** From the first joint of the left leg to its sole, at the angle 0, m; 0: there are no legs. */
 double calc_leg_height(const RobotModel& model, const RobotStructure& structure) {
   const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
   const FoundSole& sole = structure.soles[0];
-  const int hip = model.joints()[model.find_chain(sole.foot).front()].child_link;
+  const std::vector<int> chain = model.find_chain(sole.foot);
+  if (chain.empty()) return 0;
+  const int hip = model.joints()[chain.front()].child_link;
   return (poses[hip].translation() - poses[sole.foot] * sole.pose_in_foot.translation()).norm();
 }
 

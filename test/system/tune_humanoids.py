@@ -88,7 +88,8 @@ class Workshop:
         speed = LEAST_SPEED * math.sqrt(GRAVITY * dimensions["leg_m"])
         result = {"robot": number, **dimensions, "least_mps": round(speed, 3)}
         watch = Watch()
-        self.run("nao", "robot", "import", self.folder / f"{name}.urdf", "--name", name, "--folder", self.robots)
+        self.run("nao", "robot", "import", self.folder / f"{name}.urdf", "--name", name, "--folder", self.robots,
+                 "--no-simulation")
         self.run("nao", "robot", "check", name)
         result["import"] = watch.times()
         result["untuned"] = self.measure(name, speed)

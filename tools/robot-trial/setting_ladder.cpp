@@ -33,7 +33,7 @@ RobotSettings climb_ladder(const std::function<SettingsResult(const RobotSetting
     is_better = false;
     for (const Rung& rung : rungs()) {
       for (const double value : rung.values) {
-        if (result.is_perfect() || is_time_over()) return best;
+        if (result.holds() || is_time_over()) return best;
         RobotSettings settings = best;
         settings.*rung.setting = value;
         if (std::find(known.begin(), known.end(), settings) != known.end()) continue;

@@ -43,7 +43,13 @@ TEST_F(ImportedUrdf, ReplacesAnInertiaThatIsLargerThanTheLink) {
   replace("<link name=\"left_foot\">", "ixx=\"", "ixx=\"1");
   replace("<link name=\"left_foot\">", "iyy=\"", "iyy=\"1");
   replace("<link name=\"left_foot\">", "izz=\"", "izz=\"1");
+  // A link of which nothing is known but its mass.
+  urdf_.insert(urdf_.rfind("</robot>"),
+               "<link name=\"pad\"><inertial><mass value=\"0.1\"/><inertia ixx=\"9\" iyy=\"9\" "
+               "izz=\"9\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link><joint name=\"pad\" "
+               "type=\"fixed\"><parent link=\"trunk\"/><child link=\"pad\"/></joint>");
   const RobotModel model = import();
+  EXPECT_LT(model.links()[model.find_link("pad")].inertia.maxCoeff(), 0.1);
   EXPECT_LT(model.links()[model.find_link("left_foot")].inertia.maxCoeff(), 0.1);
   EXPECT_THAT(lines_, testing::Contains(testing::HasSubstr("radius of gyration")));
 }

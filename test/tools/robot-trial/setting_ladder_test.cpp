@@ -20,7 +20,7 @@ TEST(SettingLadder, EndsAtOnceWhenTheFirstSettingsHold) {
       never, result);
   EXPECT_EQ(best, RobotSettings());
   EXPECT_EQ(calls, 1);
-  EXPECT_TRUE(result.is_perfect());
+  EXPECT_TRUE(result.holds());
 }
 
 TEST(SettingLadder, FindsSettingsThatHoldOnlyTogether) {
@@ -39,7 +39,7 @@ TEST(SettingLadder, FindsSettingsThatHoldOnlyTogether) {
   EXPECT_EQ(best.peak_error, 0.05);
   EXPECT_EQ(best.speed, 0.5);
   EXPECT_EQ(best.swing_height, 1.5);
-  EXPECT_TRUE(result.is_perfect());
+  EXPECT_TRUE(result.holds());
 }
 
 TEST(SettingLadder, GivesTheBestWhenNothingHoldsOrTheTimeIsOver) {
