@@ -264,6 +264,7 @@ void vary_exposure(RandomScene& scene, SceneKind kind, Random& random) {
     effects.glare_size = {random.uniform(80, is_above ? 900 : 300), random.uniform(60, 260)};
     effects.glare = random.uniform(50, 200);
   }
+  if (random.uniform() < 0.5) effects.sharpening = random.uniform(0, 1.8);
   double exposure = 1;
   if (kind == SceneKind::kBallOverexposed) exposure = random.uniform(1.3, 2.1);
   if (kind == SceneKind::kBallUnderexposed) exposure = random.uniform(0.15, 0.45);

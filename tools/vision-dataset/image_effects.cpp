@@ -26,7 +26,6 @@ void ImageEffects::vary(Random& random) {
   if (random.uniform() < 0.4) defocus = random.uniform(0.3, 1.4);
   quality = static_cast<int>(random.uniform(55, 95));
   noise_seed = random.next();
-  if (random.uniform() < 0.5) sharpening = random.uniform(0, 1.8);
 }
 
 void ImageEffects::apply(cv::Mat& bgr) const {

@@ -207,14 +207,14 @@ RandomScene make_scene(const RobotModel& model, const SceneFile& field, const Sc
   scene.effects = ImageEffects::of_place(of_place);
   scene.distortion.k1 = of_place.uniform(-0.12, 0.06);
   add_clutter(scene, *field.field, of_place);
-  // From new to worn and dirty: faces of nearly one grey to white and black.
-  scene.ball_hexagons =
-      static_cast<float>(of_place.uniform(0.45, 0.9)) * random_color(of_place, 0.85, 1);
-  scene.ball_pentagons = static_cast<float>(std::exp(of_place.uniform(-4.6, -1.5)));
   if (options.kind == SceneKind::kMixed) {
     place_camera(scene, *field.field, of_image);
     add_objects(scene, model, field, options, of_image);
   } else {
+    // From new to worn and dirty: faces of nearly one grey to white and black.
+    scene.ball_hexagons =
+        static_cast<float>(of_place.uniform(0.45, 0.9)) * random_color(of_place, 0.85, 1);
+    scene.ball_pentagons = static_cast<float>(std::exp(of_place.uniform(-4.6, -1.5)));
     add_hard_objects(scene, model, field, options.kind, of_image);
   }
   scene.effects.vary(of_image);

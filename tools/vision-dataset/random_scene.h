@@ -47,8 +47,8 @@ struct RandomScene {
   SceneAppearance appearance;
   std::optional<Eigen::Isometry3d> pose_ball_in_world;
   /** As in SceneBall. */
-  Eigen::Vector3f ball_hexagons = Eigen::Vector3f::Ones();
-  float ball_pentagons = 0;
+  Eigen::Vector3f ball_hexagons = Eigen::Vector3f::Constant(0.86f);
+  float ball_pentagons = 0.012f;
   std::vector<PlacedRobot> robots;
   std::vector<Distractor> distractors;
   ImageEffects effects;

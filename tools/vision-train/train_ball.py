@@ -63,6 +63,13 @@ def faded(patches, numbers, generator):
     return patches + strength.clamp(min=0) * (smooth - patches)
 
 
+def cut(patches, numbers, generator):
+    """A sixth of them loses its lower part, as at the lower border of an image; at most the lower half of a ball."""
+    border = SIZE * (0.5 + numbers[:, 2] / (2 * PATCH_RADII) + 0.5 * torch.rand(len(patches), generator=generator))
+    border[torch.rand(len(patches), generator=generator) > 1 / 6] = SIZE
+    return patches * (torch.arange(SIZE) < border[:, None])[:, None, :, None]
+
+
 def read(files):
     records = np.concatenate([np.fromfile(file, RECORD) for file in files])
     patches = torch.from_numpy(np.ascontiguousarray(records["patch"].transpose(0, 3, 1, 2)))
@@ -131,7 +138,7 @@ def train(options):
         for batch in order.split(options.batch)[:num_batches]:
             some, targets = mirrored(patches[batch].float(), numbers[batch], generator)
             some = faded(some, targets, generator)
-            some = common.recolored(some, generator)
+            some = cut(common.recolored(some, generator), targets, generator)
             loss = loss_of(network(common.normalized(some)).flatten(1), targets)
             schedule.step(loss)
             total += float(loss)
