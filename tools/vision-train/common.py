@@ -128,7 +128,8 @@ def load(network, file):
             # onnx_node!/fine/fine.1/fine.1.0/Conv
             convolution = modules[name.split("/")[-2]]
             convolution.weight = nn.Parameter(torch.from_numpy(layer.blobs[0].copy()))
-            convolution.bias = nn.Parameter(torch.from_numpy(layer.blobs[1].flatten().copy()))
+            if len(layer.blobs) > 1:
+                convolution.bias = nn.Parameter(torch.from_numpy(layer.blobs[1].flatten().copy()))
     for module in list(network.modules()):
         for name, part in module.named_children():
             if isinstance(part, nn.BatchNorm2d):
