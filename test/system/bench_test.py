@@ -21,7 +21,8 @@ class Bench(unittest.TestCase):
         self.page = self.root / "docs/performance.md"
         for name in ("bin", "docs", "scripts"):
             (self.root / name).mkdir()
-        shutil.copy(ROOT / "scripts/bench", self.root / "scripts")
+        for name in ("bench", "output_file.py"):
+            shutil.copy(ROOT / "scripts" / name, self.root / "scripts")
         self.page.write_text(PAGE)
         self.put("bus", 35, baseline="UDP", baseline_value=12, ratio=35 / 12)
         self.put("camera", 8.6)

@@ -155,9 +155,9 @@ void GatewayCore::step(double now) {
   robots_.step(now);
   match_.step(now);
   sessions_.step(now);
-  // Images that wait until the last one has arrived.
+  // Whether the last image has arrived: its time is measured, and the next one may wait for it.
   for (const auto& [id, session] : sessions_.all()) {
-    if (session->outbox.is_image_due()) session->wake();
+    if (session->streams.image_pacer.is_under_way()) session->wake();
   }
 }
 

@@ -38,6 +38,8 @@ class ImagePacer {
 
   /** Whether the last image has arrived. */
   bool may_send() const { return is_free_; }
+  /** Whether update() must be called soon, to measure the time of the last image. */
+  bool is_under_way() const { return is_under_way_; }
 
   /** The images that this link can take, of those that the client wants. */
   ImageSelection reduce(ImageSelection wanted) const {
@@ -54,9 +56,10 @@ class ImagePacer {
   static constexpr size_t kFreeBytes = 4096;
   /** Times that an image may take, s. Above the first the next one is smaller; if twenty in
    * succession take less than the second, one is larger. Chosen: a level has about twice the bytes
-   * of the next, and an image of 0.1 s leaves a state age of 0.12 s. */
+   * of the next, an image of 0.1 s leaves a state age of 0.12 s, and the arrival of a small one is
+   * noticed within two of the gateway's steps of 0.02 s. */
   static constexpr double kLongTime = 0.1;
-  static constexpr double kShortTime = 0.035;
+  static constexpr double kShortTime = 0.05;
   static constexpr int kNumShort = 20;
   static constexpr uint32_t kReducedQuality = 40;
   static constexpr uint32_t kLeastWidth = 160;

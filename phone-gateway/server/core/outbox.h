@@ -55,7 +55,6 @@ class Outbox {
     if (!audio_.empty() && !(was_audio_last_ && has_image)) return Next::kAudio;
     return has_image ? Next::kImage : Next::kNothing;
   }
-  bool is_image_due() const { return is_image_due_; }
 
   /** Removes what next() returned: the message or piece itself, or the mark that a state or image
    * is due. */
