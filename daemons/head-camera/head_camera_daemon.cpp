@@ -110,8 +110,7 @@ void HeadCameraDaemon::step(const std::string& camera, double now) {
   update_state(now, !requests.empty());
   std::erase_if(requests, [&](const ImageRequest& request) { return request.camera != camera; });
   std::vector<ImageRequest> due = schedules_[camera].due(requests);
-  const bool is_for_webots = webots_ && webots_->has_clients(camera);
-  if ((due.empty() && !is_for_webots) || !source_->has_image(camera, now)) return;
+  if (!source_->has_image(camera, now)) return;
   remove_unchanged(due, now);
   // A failed image must not end the program; requests and states continue.
   try {

@@ -27,10 +27,9 @@ class ImageSource {
   /** Names and fields of view of the cameras that it has images of. */
   virtual std::vector<CameraModel> cameras() const = 0;
   /** Why no camera has an image, in words; empty if one has. @param now  s, monotonic. */
-  virtual std::string missing_input(double now) = 0;
-  /** Whether take() has an image of this camera that is not outdated; asked when one is due.
-   * @param now  s, monotonic. */
-  virtual bool has_image(const std::string& camera, double now) = 0;
+  virtual std::string missing_input(double now) const = 0;
+  /** Whether take() has an image of this camera that is not outdated. @param now  s, monotonic. */
+  virtual bool has_image(const std::string& camera, double now) const = 0;
   /** Robot time of what take() would show, microseconds. */
   virtual int64_t utime(const std::string& camera) const = 0;
   /** The newest image. @param min_width  Sizes below this width are not computed.

@@ -23,19 +23,6 @@ constexpr double kTruthValidity = 2.0;
  * message and is dropped; a larger difference means that the simulation was restarted. */
 constexpr int64_t kRestartThreshold = 1000000;
 
-/** Period at which a state is decoded, although no image is due, to know whether the world has the
- * robot, s: of the status. */
-constexpr double kRobotCheckPeriod = 0.5;
-
-/** Robot time of an encoded message, which begins with the fingerprint of its type, microseconds.
- */
-std::optional<int64_t> utime_of(std::span<const uint8_t> bytes) {
-  if (bytes.size() < 16) return std::nullopt;
-  uint64_t utime = 0;
-  for (const uint8_t byte : bytes.subspan(8, 8)) utime = utime << 8 | byte;
-  return static_cast<int64_t>(utime);
-}
-
 /** A robot with all joints at 0, for rendering before any message has arrived. */
 WorldState default_world(const RobotModel& model, const std::string& robot) {
   WorldState world;
@@ -53,18 +40,15 @@ WorldState default_world(const RobotModel& model, const std::string& robot) {
 }  // namespace
 
 RenderedSource::RenderedSource(Bus& bus, const RobotModel& model, const HeadCameraOptions& options)
-    : model_(model),
-      models_(model),
-      robot_(options.robot),
-      needs_earlier_(options.exposure > 0),
-      camera_(model, options) {
+    : model_(model), models_(model), robot_(options.robot), camera_(model, options) {
   // The first image of a camera compiles shaders and allocates memory; this is done before the
   // first request.
   for (const CameraModel& camera : model.cameras()) {
     camera_.take(default_world(model, options.robot), camera.name, kFullWidth / 4);
   }
-  bus.subscribe_encoded(kWorldTruthChannel, Bus::Queue::kLatest,
-                        [this](const RawMessage& message) { receive_truth(message); });
+  bus.subscribe<naolcm::world_truth_t>(
+      kWorldTruthChannel, Bus::Queue::kLatest,
+      [this](const naolcm::world_truth_t& truth) { receive_truth(truth); });
 }
 
 void RenderedSource::attach(EventLoop& loop, std::function<void(const std::string&)> on_image) {
@@ -79,51 +63,22 @@ std::vector<CameraModel> RenderedSource::cameras() const {
   return cameras;
 }
 
-void RenderedSource::receive_truth(const RawMessage& message) {
-  const std::optional<int64_t> utime = utime_of(message.bytes);
-  if (!utime) throw MessageError("it is too short");
+void RenderedSource::receive_truth(const naolcm::world_truth_t& truth) {
   // UDP may deliver messages out of order. The exception makes the bus count the message as
   // dropped.
-  if (*utime < utime_ && utime_ - *utime < kRestartThreshold) {
+  if (world_ && truth.utime < world_->utime && world_->utime - truth.utime < kRestartThreshold) {
     throw MessageError("the message is older than the previous one");
   }
-  earlier_.clear();
-  if (*utime < utime_) {
+  WorldState world = decode_truth(models_, truth);
+  if (world_ && world.utime < world_->utime) {
     logger::info("the simulation was restarted");
-  } else if (needs_earlier_) {
-    earlier_.swap(newest_);
+    world_.reset();
   }
-  newest_.assign(message.bytes.begin(), message.bytes.end());
-  utime_ = *utime;
-  is_decoded_ = false;
+  earlier_ = std::exchange(world_, std::move(world));
   last_truth_ = monotonic_seconds();
 }
 
-// Only when a state is needed: 100 come a second, of which at most 30 are drawn.
-void RenderedSource::decode(double now) {
-  if (std::exchange(is_decoded_, true)) return;
-  last_decoded_ = now;
-  const auto read = [this](const std::vector<uint8_t>& bytes) -> std::optional<WorldState> {
-    if (bytes.empty()) return std::nullopt;
-    naolcm::world_truth_t truth;
-    if (!decode_message(bytes, truth)) throw MessageError("it is not a world_truth_t");
-    return decode_truth(models_, truth);
-  };
-  try {
-    std::optional<WorldState> world = read(newest_);
-    earlier_world_ = read(earlier_);
-    world_ = std::move(world);
-  } catch (const MessageError& error) {
-    utime_ = world_ ? world_->utime : 0;
-    if (const auto num_suppressed = warnings_.allow(now)) {
-      problems_.push_back(std::string(kWorldTruthChannel) + ": message dropped: " + error.what() +
-                          " (" + std::to_string(*num_suppressed) + " similar warnings suppressed)");
-    }
-  }
-}
-
-std::string RenderedSource::missing_input(double now) {
-  if (!world_ || now - last_decoded_ >= kRobotCheckPeriod) decode(now);
+std::string RenderedSource::missing_input(double now) const {
   if (!world_ || now - last_truth_ > kTruthValidity) {
     return std::string("waiting for ") + kWorldTruthChannel;
   }
@@ -131,26 +86,22 @@ std::string RenderedSource::missing_input(double now) {
   return "";
 }
 
-bool RenderedSource::has_image(const std::string& camera, double now) {
-  decode(now);
+bool RenderedSource::has_image(const std::string& camera, double now) const {
   const bool has_truth = world_ && now - last_truth_ <= kTruthValidity;
   return camera == kOverviewCamera ? has_truth : missing_input(now).empty();
 }
 
 int64_t RenderedSource::utime(const std::string& /*camera*/) const {
-  return utime_;
+  return world_ ? world_->utime : 0;
 }
 
 const CameraFrame& RenderedSource::take(const std::string& camera, int min_width) {
   if (!world_) throw Error("there is no state of the world to render");
-  return camera_.take(*world_, camera, min_width, earlier_world_ ? &*earlier_world_ : nullptr);
+  return camera_.take(*world_, camera, min_width, earlier_ ? &*earlier_ : nullptr);
 }
 
 std::vector<std::string> RenderedSource::take_problems() {
-  std::vector<std::string> problems = camera_.take_problems();
-  problems.insert(problems.end(), problems_.begin(), problems_.end());
-  problems_.clear();
-  return problems;
+  return camera_.take_problems();
 }
 
 std::string RenderedSource::description() const {

@@ -130,7 +130,7 @@ size_t V4l2Source::find(const std::string& name) const {
   return i;
 }
 
-std::string V4l2Source::missing_input(double now) {
+std::string V4l2Source::missing_input(double now) const {
   std::string faults;
   for (const Camera& camera : cameras_) {
     if (has_image(camera.frame.camera, now)) return "";
@@ -140,7 +140,7 @@ std::string V4l2Source::missing_input(double now) {
   return faults;
 }
 
-bool V4l2Source::has_image(const std::string& name, double now) {
+bool V4l2Source::has_image(const std::string& name, double now) const {
   const size_t i = find(name);
   if (i == cameras_.size()) return false;
   const Camera& camera = cameras_[i];

@@ -21,8 +21,8 @@ class V4l2Source : public ImageSource {
 
   void attach(EventLoop& loop, std::function<void(const std::string&)> on_image) override;
   std::vector<CameraModel> cameras() const override { return model_.cameras(); }
-  std::string missing_input(double now) override;
-  bool has_image(const std::string& camera, double now) override;
+  std::string missing_input(double now) const override;
+  bool has_image(const std::string& camera, double now) const override;
   int64_t utime(const std::string& camera) const override;
   const CameraFrame& take(const std::string& camera, int min_width) override;
   std::vector<std::string> take_problems() override;
