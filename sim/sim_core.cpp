@@ -164,8 +164,8 @@ std::optional<std::string> SimCore::take_joint_command(int robot, const JointCom
     return fmt::format("it answers tick {}, and the world is at tick {}", command.tick,
                        world_.tick());
   }
-  // In real time the answer of a program of this system comes in time. Programs that answer no state
-  // leave the tick at 0.
+  // In real time the answer of a program of this system comes in time. Programs that answer no
+  // state leave the tick at 0.
   if (command.tick > 0 && !scheduler_.is_lock_step() && scheduler_.pace() == 1 &&
       world_.tick() - command.tick > kMaxCommandAge) {
     return fmt::format("it answers tick {}, long before {}: that of another simulator on this bus?",
