@@ -60,7 +60,7 @@ class Processor(unittest.TestCase):
 
     @unittest.skipUnless(QEMU, "no qemu-x86_64: scripts/setup --with test")
     def test_the_walk_is_computed(self):
-        result = self.emulated(BIN_DIR / "nao-trial", "walk", "--duration", "1", "--seeds", "1")
+        result = self.emulated(BIN_DIR / "nao-trial", "walk", "--vx", "0.1", "--duration", "3", "--seeds", "1")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("1 of 1 succeeded", result.stdout)
 

@@ -165,10 +165,10 @@ class RecordReplay(unittest.TestCase):
             time.sleep(0.05)
 
     def wait_for_silence(self, path):
-        """Waits until a recorder has stopped writing."""
-        size = -1
-        while path.stat().st_size != size:
-            size = path.stat().st_size
+        """Waits until a recorder hears no states any more; its own status goes on."""
+        num_states = -1
+        while len(messages(path, "NAO_ROBOT_STATE")) != num_states:
+            num_states = len(messages(path, "NAO_ROBOT_STATE"))
             time.sleep(1)
 
     def wait_for_listener(self, lcm_url):

@@ -250,7 +250,7 @@ class Image:
         part = Path(f"{os.fspath(path)}.part")
         try:
             part.write_bytes(self.jpeg)
-            part.replace(path)
+            part.replace(Path(path))
         finally:
             part.unlink(missing_ok=True)
 
