@@ -135,7 +135,8 @@ export class FakeGateway {
   }
 
   private async serve(request: IncomingMessage, response: ServerResponse): Promise<void> {
-    const path = normalize(new URL(request.url ?? "/", "http://x").pathname);
+    const asked = normalize(new URL(request.url ?? "/", "http://x").pathname);
+    const path = asked === "/scene.yaml" ? "/scenes/soccer.yaml" : asked;
     const file = /^\/(robots|scenes)\//.test(path) ? path : join("/web", path === "/" ? "index.html" : path);
     try {
       const bytes = await readFile(join(this.options.dataDir, file));
