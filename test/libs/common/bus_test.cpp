@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 #include <naolcm/joint_change_command_t.hpp>
 #include <naolcm/joint_command_t.hpp>
 #include <naolcm/posture_command_t.hpp>
@@ -56,7 +56,7 @@ struct EncodedMessage {
   // NOLINTNEXTLINE(readability-identifier-naming): called by Bus as lcm-gen names it.
   int getEncodedSize() const { return static_cast<int>(bytes.size()); }
   int encode(void* buffer, int /*offset*/, int size) const {
-    std::memcpy(buffer, bytes.data(), size);
+    std::copy_n(bytes.begin(), size, static_cast<uint8_t*>(buffer));
     return size;
   }
 };
