@@ -16,8 +16,6 @@
 namespace nao::viewer {
 namespace {
 
-/** Interval of walk messages, s: each is valid for 0.5 s. */
-constexpr double kWalkPeriod = 0.1;
 /** Interval of image requests, s: each is valid for 2 s. */
 constexpr double kImageRequestPeriod = 1;
 /** Requested images: the width of the panel in pixels, and a rate that shows motion and leaves time

@@ -148,8 +148,9 @@ class MechanismRepair {
       std::vector<TiXmlElement*> moving;
       std::string root;
       for (const auto& [name, link] : links_) {
+        const std::string& link_name = name;
         const bool is_child = std::any_of(joints_.begin(), joints_.end(), [&](TiXmlElement* joint) {
-          return child_of(*joint) == name;
+          return child_of(*joint) == link_name;
         });
         if (!is_child) root = name;
       }

@@ -261,7 +261,7 @@ fs::path UrdfRepair::find_mesh(const std::string& name) const {
   fs::path base = start;
   for (int level = 0; level < 4; ++level) {
     for (const fs::path& ending : endings) {
-      const fs::path found = find_file(base, ending);
+      fs::path found = find_file(base, ending);
       if (!found.empty()) return found;
     }
     if (base == base.parent_path()) break;

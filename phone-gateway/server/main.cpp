@@ -131,12 +131,13 @@ void prepare_tls(GatewayOptions& options) {
 void add_scene_page(WebPages& pages, const std::string& scene) {
   const std::filesystem::path path = data_path() / "scenes" / (scene + ".yaml");
   std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (text.empty()) {
     logger::warn("cannot read {}: the app shows no field", path.string());
     return;
   }
-  pages.add_page("/scene.yaml", {"text/yaml; charset=utf-8", false, [text] { return text; }});
+  pages.add_page("/scene.yaml",
+                 {"text/yaml; charset=utf-8", false, [text = std::move(text)] { return text; }});
 }
 
 /** The addresses to open in a phone's browser. */

@@ -74,7 +74,7 @@ std::optional<MotionFileResult> ask_motion_files_or_complain(const CommonOptions
                                                              const MotionFileCommand& command,
                                                              const std::string& what,
                                                              double timeout) {
-  const auto result = ask_motion_files(common, command, timeout);
+  auto result = ask_motion_files(common, command, timeout);
   if (!result) {
     std::fprintf(stderr, "nao: motion %s: nao-motion-files does not answer; is it running?\n",
                  what.c_str());

@@ -254,7 +254,7 @@ RobotCard try_robot(const std::filesystem::path& folder, double minutes, double 
   card.settings = climb_ladder(
       [&](const RobotSettings& settings) {
         trial.write(settings);
-        const SettingsResult found = trial.evaluate();
+        SettingsResult found = trial.evaluate();
         progress(fmt::format(
             "peak error {}, speed {}, swing {}, hips {}, step {}: stands {:.0f} %, walks {:.0f} "
             "%{}",
