@@ -41,7 +41,7 @@ std::optional<Reason> read(const std::vector<std::string>& names,
                            JointCoverage coverage = JointCoverage::kAll) {
   std::vector<double> read_position = {7, 8, 9};
   std::vector<double> read_stiffness = {7, 8, 9};
-  const auto fault =
+  auto fault =
       read_named_joints(kRobotJoints, names,
                         {{.quantity = "position", .values = position, .result = read_position},
                          {.quantity = "stiffness",

@@ -108,8 +108,7 @@ class RenamedRobotTrial : public testing::Test {
   void expect_same_bits() {
     const Eigen::Matrix4d pose = nao_.torso_in_world().matrix();
     const Eigen::Matrix4d copied = copy_.torso_in_world().matrix();
-    ASSERT_EQ(std::memcmp(pose.data(), copied.data(), sizeof(double) * 16), 0)
-        << "torso at " << nao_.time() << " s";
+    ASSERT_TRUE((pose.array() == copied.array()).all()) << "torso at " << nao_.time() << " s";
     const std::vector<double>& targets = nao_.targets();
     ASSERT_EQ(targets.size(), copy_.targets().size());
     ASSERT_EQ(std::memcmp(targets.data(), copy_.targets().data(), sizeof(double) * targets.size()),
