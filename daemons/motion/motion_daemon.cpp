@@ -42,6 +42,7 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
       model_(model),
       channels_(robot),
       status_(bus, "nao-motion", robot),
+      second_process_(bus, "nao-motion", robot),
       core_(model, options) {
   subscribe_to_command<naolcm::walk_command_t>(channels_.walk_command);
   subscribe_to_command<naolcm::move_to_command_t>(channels_.move_to_command);
@@ -81,6 +82,11 @@ void MotionDaemon::subscribe_to_command(const std::string& channel) {
 }
 
 void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
+  if (second_process_.was_first()) {
+    throw Error(second_process_.describe() +
+                "; this one ends, since the robot would obey both in turns. Stop the other one "
+                "first, or use a bus of its own (LCM_DEFAULT_URL)");
+  }
   if (!owner_.accepts(message.utime, monotonic_seconds())) return;
   // In lock-step the simulator repeats a state whose answer it has not received. A second step on
   // it would make the run depend on when messages arrive.

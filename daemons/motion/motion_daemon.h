@@ -10,6 +10,7 @@
 #include "common/bus.h"
 #include "common/channels.h"
 #include "common/event_loop.h"
+#include "common/second_process.h"
 #include "common/status_reporter.h"
 #include "daemons/motion/motion_core.h"
 #include "daemons/motion/sensor_owner.h"
@@ -19,7 +20,9 @@
 namespace nao::motion {
 
 /** The motion core on the bus: one control step for every NAO_SENSOR_STATE, answered with its tick.
- * A repeated state gets the same answer again without another step. */
+ * A repeated state gets the same answer again without another step. A simulator would obey two such
+ * programs in turns, so one that begins while another runs for the same robot ends with an Error
+ * from the loop. */
 class MotionDaemon {
  public:
   /** Subscribes to the channels.
@@ -44,6 +47,7 @@ class MotionDaemon {
   const RobotModel& model_;
   RobotChannels channels_;
   StatusReporter status_;
+  SecondProcess second_process_;
   MotionCore core_;
   SensorOwner owner_;
   ResultReminder reminder_;

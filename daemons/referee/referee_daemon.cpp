@@ -35,13 +35,6 @@ constexpr double kStatusPeriod = 1;
 constexpr double kPlayTimeout = 2;
 /** Time without the truth after which the simulator counts as gone, s. */
 constexpr double kTruthTimeout = 2;
-/** Time without a message of the GameController, which sends two a second, after which it counts as
- * gone, s. */
-constexpr double kGameControllerTimeout = 3;
-/** Time between two equal warnings, s, and number of warnings for which that is remembered. Chosen:
- * messages come twice a second for a whole match, with a few causes. */
-constexpr double kWarningPeriod = 60;
-constexpr size_t kMaxWarnings = 20;
 /** Time between two messages of a robot to the GameController, s (SPL rules, "GameController": one
  * to four a second). */
 constexpr double kReturnPeriod = 0.5;
@@ -164,7 +157,7 @@ RefereeDaemon::RefereeDaemon(Bus& bus, const RefereeOptions& options, std::funct
       options_(options),
       clock_(std::move(clock)),
       status_(bus, kProgram),
-      second_process_(bus, kProgram, clock_),
+      second_process_(bus, kProgram, "", clock_),
       commands_(bus, RobotChannels(options.robots.empty() ? "NAO" : options.robots.front().name)),
       ready_postures_(ready_postures_of(options.robots)),
       // Numbers that no earlier referee with the same process id has used.
@@ -189,55 +182,17 @@ void RefereeDaemon::make_referee() {
   }
   auto follower =
       std::make_unique<GameControllerReferee>(players, scene, options_.team_numbers, random_id());
-  follower_ = follower.get();
+  game_controller_.emplace(*options_.game_controller_port, options_.return_port, *follower, clock_);
   referee_ = std::move(follower);
-  link_.emplace(*options_.game_controller_port, options_.return_port);
-  logger::info("the GameController decides; UDP port {}, answers to port {}", link_->port(),
-               options_.return_port);
-}
-
-void RefereeDaemon::receive_game_controller() {
-  while (const auto message = link_->receive()) {
-    try {
-      const GameControllerData data = decode_game_controller(*message);
-      if (!obeys(data)) continue;
-      follower_->receive(data);
-      link_->accept_sender();
-      last_game_controller_ = clock_();
-    } catch (const Error& error) {
-      warn(std::string(error.what()) + "; it comes from " + link_->sender());
-    }
-  }
-}
-
-// Two GameControllers would decide in turns: the first one does until it falls silent.
-bool RefereeDaemon::obeys(const GameControllerData& data) {
-  if (!follower_->concerns(data)) return false;
-  const bool is_alone = clock_() - last_game_controller_ > kGameControllerTimeout;
-  if (is_alone || link_->is_from_controller()) return true;
-  other_game_controller_ = link_->sender();
-  last_other_ = clock_();
-  warn("the GameController at " + link_->controller() + " decides, and a second one at " +
-       other_game_controller_ + " is ignored; stop one of them, or choose with --team-numbers");
-  return false;
-}
-
-void RefereeDaemon::warn(const std::string& text) {
-  if (warnings_.size() >= kMaxWarnings && !warnings_.contains(text)) warnings_.clear();
-  RateLimiter& limiter = warnings_.try_emplace(text, kWarningPeriod).first->second;
-  if (const auto num_suppressed = limiter.allow(clock_())) {
-    logger::warn("{} ({} more such warnings)", text, *num_suppressed);
-  }
 }
 
 void RefereeDaemon::answer_game_controller() {
   for (const MatchPlayer& player : referee_->state().players) {
     const RobotSighting* robot = find_robot(last_input_, player.robot);
     if (robot == nullptr) continue;
-    GameControllerReturn answer =
-        to_return(player, *robot, knowledge_[player.robot], 1e-6 * static_cast<double>(utime_));
-    answer.team_number = follower_->team_number(player.team);
-    link_->send(encode(answer));
+    game_controller_->send(
+        to_return(player, *robot, knowledge_[player.robot], 1e-6 * static_cast<double>(utime_)),
+        player.team);
   }
 }
 
@@ -254,7 +209,7 @@ void RefereeDaemon::subscribe() {
         [this, name = robot.name](const naolcm::play_state_t& state) {
           plays_[name] = {state, clock_()};
         });
-    if (!link_) continue;
+    if (!game_controller_) continue;
     bus_.subscribe<naolcm::vision_state_t>(
         RobotChannels(robot.name).vision_state, Bus::Queue::kLatest,
         [this, name = robot.name](const naolcm::vision_state_t& state) {
@@ -267,8 +222,8 @@ void RefereeDaemon::attach(EventLoop& loop) {
   loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
   loop.every(kStatePeriod, [this] { publish_state(); });
   loop.every(kRepeatPeriod, [this] { send_placement(); });
-  if (link_) {
-    loop.on_readable(link_->descriptor(), [this] { receive_game_controller(); });
+  if (game_controller_) {
+    loop.on_readable(game_controller_->descriptor(), [this] { game_controller_->receive(); });
     loop.every(kReturnPeriod, [this] { answer_game_controller(); });
   }
   loop.every(kStatusPeriod, [this] { publish_status(clock_()); });
@@ -392,15 +347,16 @@ void RefereeDaemon::publish_status(double now) {
     status_.set_state("ready", second);
   } else if (now - last_truth_ > kTruthTimeout) {
     status_.set_state("waiting", "for nao-sim");
-  } else if (link_ && now - last_game_controller_ > kGameControllerTimeout) {
+  } else if (game_controller_ && game_controller_->is_silent()) {
     // Ready: the GameController is often started, or sends, only later.
-    status_.set_state("ready",
-                      "waits for the GameController at UDP port " + std::to_string(link_->port()));
+    status_.set_state("ready", "waits for the GameController at UDP port " +
+                                   std::to_string(game_controller_port()));
   } else {
     std::string detail = std::string(to_string(state.phase)) + ", " +
                          std::to_string(state.score[0]) + ":" + std::to_string(state.score[1]);
-    if (now - last_other_ < kGameControllerTimeout) {
-      detail += "; ignores a second GameController at " + other_game_controller_;
+    if (const std::string ignored = game_controller_ ? game_controller_->ignored() : "";
+        !ignored.empty()) {
+      detail += "; ignores a second GameController at " + ignored;
     }
     status_.set_state("ready", detail);
   }

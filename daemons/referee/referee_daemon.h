@@ -15,13 +15,11 @@
 #include <string>
 #include <vector>
 
-#include "common/rate_limiter.h"
 #include "common/robot_option.h"
 #include "common/second_process.h"
 #include "common/status_reporter.h"
 #include "common/wall_clock.h"
-#include "daemons/referee/game_controller_link.h"
-#include "daemons/referee/game_controller_referee.h"
+#include "daemons/referee/game_controller_listener.h"
 #include "daemons/referee/referee_core.h"
 #include "messages/command_ledger.h"
 #include "messages/command_publisher.h"
@@ -95,9 +93,9 @@ class RefereeDaemon {
 
   const Referee& referee() const { return *referee_; }
   /** Port of the GameController's messages; 0 without. */
-  uint16_t game_controller_port() const { return link_ ? link_->port() : 0; }
+  uint16_t game_controller_port() const { return game_controller_ ? game_controller_->port() : 0; }
   /** Takes what the GameController has sent. */
-  void receive_game_controller();
+  void receive_game_controller() { game_controller_->receive(); }
   /** Sends the robots' messages to it. */
   void answer_game_controller();
 
@@ -108,9 +106,6 @@ class RefereeDaemon {
   };
 
   void make_referee();
-  bool obeys(const GameControllerData& data);
-  /** Logs a warning, at most once a minute the same one. */
-  void warn(const std::string& text);
   void subscribe();
   void handle(const naolcm::world_truth_t& truth);
   void handle(const naolcm::match_command_t& message);
@@ -125,15 +120,8 @@ class RefereeDaemon {
   CommandPublisher commands_;
   std::map<std::string, std::string> ready_postures_;
   std::unique_ptr<Referee> referee_;
-  /** Only with a GameController: the same referee, and the socket. */
-  GameControllerReferee* follower_ = nullptr;
-  std::optional<GameControllerLink> link_;
-  double last_game_controller_ = -1e9;
-  /** A second GameController, which is not obeyed, and when it was heard last, s. */
-  std::string other_game_controller_;
-  double last_other_ = -1e9;
-  /** By their text. */
-  std::map<std::string, RateLimiter> warnings_;
+  /** Only with a GameController. */
+  std::optional<GameControllerListener> game_controller_;
   std::map<std::string, RobotKnowledge> knowledge_;
   RefereeInput last_input_;
   std::map<std::string, Play> plays_;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <naolcm/command_result_t.hpp>
+#include <naolcm/daemon_status_t.hpp>
 #include <naolcm/joint_command_t.hpp>
 #include <naolcm/posture_command_t.hpp>
 #include <naolcm/robot_state_t.hpp>
@@ -51,6 +52,22 @@ TEST_F(MotionDaemonTest, AnswersEverySensorStateWithItsTick) {
     EXPECT_EQ(commands_[i].num_joints, nao_model().num_motors());
     EXPECT_EQ(states_[i].utime, i * 10000);
   }
+}
+
+TEST_F(MotionDaemonTest, EndsIfAnotherOneRunsForTheSameRobot) {
+  naolcm::daemon_status_t status{};
+  status.program = "nao-motion";
+  status.robot = "Other";
+  status.host = "pc";
+  status.wall_utime = wall_utime();
+  status.num_messages_out = 1000;
+  bus_.publish("DAEMON_STATUS", status);
+  tick();
+  EXPECT_EQ(commands_.size(), 1u);
+  status.robot = "NAO";
+  bus_.publish("DAEMON_STATUS", status);
+  EXPECT_THROW(tick(), Error);
+  EXPECT_EQ(commands_.size(), 1u);
 }
 
 TEST_F(MotionDaemonTest, AnswersARepeatedStateAgainWithoutAnotherStep) {

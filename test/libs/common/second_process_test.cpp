@@ -11,8 +11,11 @@ namespace {
 
 class SecondProcessTest : public testing::Test {
  protected:
-  void hear(const std::string& program, const std::string& host, int process) {
+  void hear(const std::string& program, const std::string& host, int process,
+            int64_t num_messages_out = 0, int64_t age = 0) {
     naolcm::daemon_status_t status{};
+    status.wall_utime = wall_utime() - age;
+    status.num_messages_out = num_messages_out;
     status.program = program;
     status.host = host;
     status.process_id = process;
@@ -23,7 +26,7 @@ class SecondProcessTest : public testing::Test {
 
   Bus bus_{"memq://"};
   double now_ = 10;
-  SecondProcess second_{bus_, "nao-sim", [this] { return now_; }};
+  SecondProcess second_{bus_, "nao-sim", "", [this] { return now_; }};
 };
 
 TEST_F(SecondProcessTest, IsNamedUntilItIsSilent) {
@@ -42,6 +45,27 @@ TEST_F(SecondProcessTest, IsNeitherThisOneNorAnotherProgram) {
   // A process id says nothing about another host.
   hear("nao-sim", "pc", getpid());
   EXPECT_NE(second_.describe(), "");
+}
+
+TEST_F(SecondProcessTest, WasFirstIfItHadSentMoreWhenThisOneBegan) {
+  hear("nao-sim", "pc", 12, 0);
+  EXPECT_FALSE(second_.was_first());
+  hear("nao-sim", "pc", 12, 1000);
+  EXPECT_TRUE(second_.was_first());
+}
+
+TEST_F(SecondProcessTest, WasNotFirstInARecordingOrWhenNetworksAreJoinedLater) {
+  hear("nao-sim", "pc", 12, 1000, 3600'000'000);
+  EXPECT_FALSE(second_.was_first());
+  now_ += 10;
+  hear("nao-sim", "pc", 12, 1000);
+  EXPECT_FALSE(second_.was_first());
+}
+
+TEST_F(SecondProcessTest, OfARobotIgnoresThoseOfOtherRobots) {
+  SecondProcess of_robot(bus_, "nao-motion", "NAO", [this] { return now_; });
+  hear("nao-motion", "pc", 12, 1000);
+  EXPECT_EQ(of_robot.describe(), "");
 }
 
 }  // namespace
