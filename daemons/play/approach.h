@@ -2,9 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "kinematics/pose2.h"
-#include "messages/command.h"
-#include "robot_model/robot_description.h"
+#include "daemons/play/situation.h"
 
 namespace nao::play {
 
@@ -27,9 +25,10 @@ Pose2 calc_approach_error(const ApproachGoal& goal, const Pose2& feet);
 /** Velocity that leads the feet to the goal on a curve that does not touch the ball: tangentially
  * around a circle about it, then straight ahead to the goal. Far from the ball the robot looks
  * where it walks; near it, it looks at the ball and then along the goal's heading. */
-WalkCommand plan_approach(const ApproachGoal& goal, const Pose2& feet, const WalkLimits& limits);
+WalkCommand plan_approach(const ApproachGoal& goal, const Pose2& feet,
+                          const PlayConstants& constants);
 
 /** Velocity that leads the feet straight to a pose, turning to it on the way. */
-WalkCommand plan_walk_to(const Pose2& pose, const Pose2& feet, const WalkLimits& limits);
+WalkCommand plan_walk_to(const Pose2& pose, const Pose2& feet, const PlayConstants& constants);
 
 }  // namespace nao::play

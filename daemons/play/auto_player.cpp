@@ -11,35 +11,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** Age of a sighting, s, above which the ball may be elsewhere. */
-constexpr double kForgetBall = 4;
-/** The team that does not kick off waits until the ball has moved by this, m, or for so long, s
- * (SPL rules, "Kick-off": 10 s). */
-constexpr double kBallMoved = 0.3;
-constexpr double kKickOffWait = 10;
-/** Distance of a supporter behind the ball, and sideways, m. Chosen: it does not obstruct others,
- * and is next to the ball when the striker loses it. */
-constexpr double kBehindBall = 1.2;
-constexpr double kBesideBall = 0.9;
-/** Time from the referee's message that the ball has left the field until the ball lies where play
- * restarts, s: 1 s (nao-referee), plus the latency of messages and images. */
-constexpr double kBallReturn = 1.4;
-/** Distance, m, within which the robot searches for a ball that only teammates see: their sighting
- * includes the error of their own poses. */
-constexpr double kToldDistance = 1.2;
-/** The keeper kicks away a resting ball that is nearer to it than the first distance, m, and nearer
- * to the goal line than the third, until it is farther than the second. Chosen: it is back before a
- * shot comes. */
-constexpr double kClearDistance = 1.0;
-constexpr double kClearedDistance = 1.6;
-constexpr double kClearZone = 1.7;
-/** Least distance of a supporter from the side line, m. */
-constexpr double kFromSideLine = 0.5;
-
 }  // namespace
 
 AutoPlayer::AutoPlayer(const PlayConstants& constants)
-    : constants_(constants), positioner_(constants), keeper_(constants) {}
+    : constants_(constants),
+      parameters_(constants.parameters.auto_player),
+      positioner_(constants),
+      keeper_(constants) {}
 
 void AutoPlayer::restart() {
   keeper_.restart();
@@ -49,7 +27,7 @@ void AutoPlayer::restart() {
 }
 
 bool AutoPlayer::sees_ball(const Situation& situation) const {
-  return situation.ball && situation.time - situation.ball->seen_time < kForgetBall &&
+  return situation.ball && situation.time - situation.ball->seen_time < parameters_.forget_ball &&
          situation.ball->seen_time > restart_time_;
 }
 
@@ -59,11 +37,12 @@ void AutoPlayer::note_ball_out(const Situation& situation) {
     restart_.reset();
     return;
   }
-  const double time = situation.time - situation.match->ball_out->age + kBallReturn;
-  if (std::abs(time - restart_time_) < 0.5 * kBallReturn) return;
+  const double time = situation.time - situation.match->ball_out->age + parameters_.ball_return;
+  if (std::abs(time - restart_time_) < 0.5 * parameters_.ball_return) return;
   std::optional<Vector2d> last;
   if (situation.ball) last = situation.field_in_odometry.inverse() * situation.ball->position;
-  const bool is_old = !situation.ball || situation.time - situation.ball->seen_time > kForgetBall;
+  const bool is_old =
+      !situation.ball || situation.time - situation.ball->seen_time > parameters_.forget_ball;
   if (is_old) {
     if (const auto told = find_team_ball(*situation.match, {}, situation.time)) last = told;
   }
@@ -136,10 +115,11 @@ Decision AutoPlayer::take_place(const Situation& situation) {
 bool AutoPlayer::must_wait_for_kick_off(const Situation& situation,
                                         const std::optional<Vector2d>& ball) const {
   const MatchView& match = *situation.match;
-  if (match.kicks_off || match.since_kick_off < 0 || match.since_kick_off > kKickOffWait) {
+  if (match.kicks_off || match.since_kick_off < 0 ||
+      match.since_kick_off > parameters_.kick_off_wait) {
     return false;
   }
-  return !ball || ball->norm() < kBallMoved;
+  return !ball || ball->norm() < parameters_.ball_moved;
 }
 
 Decision AutoPlayer::play(const Situation& situation) {
@@ -162,7 +142,7 @@ Decision AutoPlayer::play(const Situation& situation) {
   } else if (role_ == PlayRole::kSupporter && ball) {
     decision = support(situation, *ball);
   } else if (!is_busy && ball && !sees_ball(situation) &&
-             (*ball - position).norm() > kToldDistance) {
+             (*ball - position).norm() > parameters_.told_distance) {
     decision = go_where_told(situation, *ball);
   } else {
     decision = strike(situation);
@@ -175,9 +155,9 @@ Decision AutoPlayer::play(const Situation& situation) {
 bool AutoPlayer::is_to_be_cleared(const Situation& situation, const std::optional<Vector2d>& ball,
                                   const Vector2d& position) const {
   if (!ball || !situation.ball || situation.ball->is_rolling) return false;
-  const double limit = is_clearing_ ? kClearedDistance : kClearDistance;
+  const double limit = is_clearing_ ? parameters_.cleared_distance : parameters_.clear_distance;
   return (*ball - position).norm() < limit &&
-         ball->x() < -0.5 * constants_.field.length + kClearZone;
+         ball->x() < -0.5 * constants_.field.length + parameters_.clear_zone;
 }
 
 Decision AutoPlayer::strike(const Situation& situation) {
@@ -204,15 +184,17 @@ Decision AutoPlayer::go_where_told(const Situation& situation, const Vector2d& b
   decision.reason = Reason("ball-not-in-sight");
   decision.target = place;
   decision.gaze.point = place;
-  decision.walk = plan_walk_to({place, std::atan2(way.y(), way.x())}, feet, constants_.walk_limits);
+  decision.walk = plan_walk_to({place, std::atan2(way.y(), way.x())}, feet, constants_);
   return decision;
 }
 
 Decision AutoPlayer::support(const Situation& situation, const Vector2d& ball) {
   const Vector2d half(0.5 * constants_.field.length, 0.5 * constants_.field.width);
-  Vector2d place(ball.x() - kBehindBall, ball.y() + (ball.y() > 0 ? -1 : 1) * kBesideBall);
+  Vector2d place(ball.x() - parameters_.behind_ball,
+                 ball.y() + (ball.y() > 0 ? -1 : 1) * parameters_.beside_ball);
   place.x() = std::max(place.x(), -half.x() + constants_.field.goal_depth + 1);
-  place.y() = std::clamp(place.y(), -half.y() + kFromSideLine, half.y() - kFromSideLine);
+  place.y() = std::clamp(place.y(), -half.y() + parameters_.from_side_line,
+                         half.y() - parameters_.from_side_line);
   const Vector2d way = ball - place;
   const Pose2 in_field{place, std::atan2(way.y(), way.x())};
   return positioner_.step(situation.field_in_odometry * in_field,

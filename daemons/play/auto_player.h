@@ -41,6 +41,7 @@ class AutoPlayer : public BehaviorMachine {
                               const std::optional<Eigen::Vector2d>& ball) const;
 
   const PlayConstants& constants_;
+  const PlayParameters::AutoPlayer& parameters_;
   Positioner positioner_;
   Keeper keeper_;
   std::unique_ptr<Striker> striker_;

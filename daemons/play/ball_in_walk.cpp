@@ -8,28 +8,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** Nearer to the goal than the first distance, m, no ball is kicked during the walk. Between it and
- * the second, a ball is dribbled and then shot from a stand, unless another robot is nearer to it
- * than kContestedDistance, m. Chosen with nao-trial match-error-model, seeds 101 to 112. */
-constexpr double kPassingGoalDistance = 2.6;
-constexpr double kShotDistance = 3.5;
-constexpr double kContestedDistance = 1.2;
-/** Conditions of a kick during the walk: where the ball must lie, m ahead and sideways; the
- * greatest heading error, rad; and the greatest age of the ball's position, s. */
-constexpr double kPassingNear = 0.28;
-constexpr double kPassingFar = 0.5;
-constexpr double kPassingAside = 0.12;
-constexpr double kPassingTolerance = 0.2;
-constexpr double kPassingAge = 0.3;
-/** Distance from the goal, m, to which a ball is dribbled before the shot: from 2.2 m and more a
- * keeper's dive stops nearly every shot, and nearer than 1.7 m the keeper comes out and clears the
- * ball. Then, where the ball must lie for dribbling, m ahead and sideways, and the greatest heading
- * error, rad. Chosen on seeds 101 to 106. */
-constexpr double kCarryTo = 1.9;
-constexpr double kCarryNear = 0.1;
-constexpr double kCarryAside = 0.09;
-constexpr double kCarryTolerance = 0.3;
-
 /** Distance from the middle of the opponents' goal line, m. */
 double distance_to_goal(const Ball& ball, const Situation& situation, const Field& field) {
   const Vector2d goal = situation.field_in_odometry * Vector2d(0.5 * field.length, 0);
@@ -37,43 +15,51 @@ double distance_to_goal(const Ball& ball, const Situation& situation, const Fiel
 }
 
 /** Whether another robot is near the ball. */
-bool is_contested(const Ball& ball, const Situation& situation) {
+bool is_contested(const Ball& ball, const Situation& situation, double distance) {
   return std::any_of(situation.robots.begin(), situation.robots.end(), [&](const Vector2d& robot) {
-    return (robot - ball.position).norm() < kContestedDistance;
+    return (robot - ball.position).norm() < distance;
   });
 }
 
 }  // namespace
 
 bool can_kick_in_passing(const Ball& ball, const Aim& aim, const Situation& situation,
-                         const Field& field) {
+                         const PlayConstants& constants) {
+  const PlayParameters::BallInWalk& parameters = constants.parameters.ball_in_walk;
   if (situation.is_still || ball.is_rolling) return false;
   const Pose2& feet = situation.robot.feet_in_odometry;
   const Vector2d in_feet = feet.inverse() * ball.position;
-  const double tolerance = std::max(kPassingTolerance, aim.tolerance);
-  const bool is_right = in_feet.x() > kPassingNear && in_feet.x() < kPassingFar &&
-                        std::abs(in_feet.y()) < kPassingAside &&
+  const double tolerance = std::max(parameters.passing_tolerance, aim.tolerance);
+  const bool is_right = in_feet.x() > parameters.passing_near &&
+                        in_feet.x() < parameters.passing_far &&
+                        std::abs(in_feet.y()) < parameters.passing_aside &&
                         std::abs(wrapped(aim.heading - feet.heading)) < tolerance &&
-                        situation.time - ball.seen_time < kPassingAge;
-  const double to_goal = distance_to_goal(ball, situation, field);
-  if (!is_right || to_goal < kPassingGoalDistance) return false;
+                        situation.time - ball.seen_time < parameters.passing_age;
+  const double to_goal = distance_to_goal(ball, situation, constants.field);
+  if (!is_right || to_goal < parameters.passing_goal_distance) return false;
   // From here a kick while standing reaches the goal, if nobody comes first.
-  return to_goal >= kShotDistance || is_contested(ball, situation);
+  return to_goal >= parameters.shot_distance ||
+         is_contested(ball, situation, parameters.contested_distance);
 }
 
-bool can_carry(const Ball& ball, const Aim& aim, const Situation& situation, const Field& field) {
+bool can_carry(const Ball& ball, const Aim& aim, const Situation& situation,
+               const PlayConstants& constants) {
+  const PlayParameters::BallInWalk& parameters = constants.parameters.ball_in_walk;
   if (situation.is_still) return false;
   const Pose2& feet = situation.robot.feet_in_odometry;
-  const double to_goal = distance_to_goal(ball, situation, field);
+  const double to_goal = distance_to_goal(ball, situation, constants.field);
   const Vector2d in_feet = feet.inverse() * ball.position;
-  return to_goal > kCarryTo && to_goal < kShotDistance && in_feet.x() > kCarryNear &&
-         in_feet.x() < kPushReach && std::abs(in_feet.y()) < kCarryAside &&
-         std::abs(wrapped(aim.heading - feet.heading)) < kCarryTolerance &&
-         !is_contested(ball, situation);
+  return to_goal > parameters.carry_to && to_goal < parameters.shot_distance &&
+         in_feet.x() > parameters.carry_near && in_feet.x() < parameters.push_reach &&
+         std::abs(in_feet.y()) < parameters.carry_aside &&
+         std::abs(wrapped(aim.heading - feet.heading)) < parameters.carry_tolerance &&
+         !is_contested(ball, situation, parameters.contested_distance);
 }
 
-bool may_carry_on(const Ball& ball, const Situation& situation, const Field& field) {
-  return distance_to_goal(ball, situation, field) >= kCarryTo && !is_contested(ball, situation);
+bool may_carry_on(const Ball& ball, const Situation& situation, const PlayConstants& constants) {
+  const PlayParameters::BallInWalk& parameters = constants.parameters.ball_in_walk;
+  return distance_to_goal(ball, situation, constants.field) >= parameters.carry_to &&
+         !is_contested(ball, situation, parameters.contested_distance);
 }
 
 }  // namespace nao::play

@@ -3,19 +3,7 @@
 #include <algorithm>
 
 namespace nao::play {
-namespace {
-
-/** Sightings after which a candidate counts as a ball. Chosen: false balls in two successive images
- * about one place are rare, and a ball at 4 m is seen about twice a second (docs/vision.md). */
-constexpr int kConfirmed = 3;
-/** Time for which the robot looks at a candidate after it was seen last, s. */
-constexpr double kDoubt = 1.2;
-/** Distance within which sightings are of one place: m, and its increase for each m of distance,
- * since an error of the camera's tilt moves a distant ball more. */
-constexpr double kAgreement = 0.4;
-constexpr double kAgreementPerDistance = 0.15;
-
-}  // namespace
+namespace {}  // namespace
 
 void BallMemory::take(const std::optional<Ball>& ball, const Pose2& feet_in_odometry) {
   if (!ball) {
@@ -25,7 +13,7 @@ void BallMemory::take(const std::optional<Ball>& ball, const Pose2& feet_in_odom
   }
   if (last_ && ball->seen_time == last_->seen_time) return;
   const double distance = (ball->position - feet_in_odometry.position).norm();
-  double agreement = kAgreement + kAgreementPerDistance * distance;
+  double agreement = parameters_.agreement + parameters_.agreement_per_distance * distance;
   if (last_) {
     const double elapsed = std::max(0.0, ball->seen_time - last_->seen_time);
     agreement += elapsed * std::max(last_->velocity.norm(), ball->velocity.norm());
@@ -36,11 +24,11 @@ void BallMemory::take(const std::optional<Ball>& ball, const Pose2& feet_in_odom
 }
 
 bool BallMemory::is_confirmed() const {
-  return num_seen_ >= kConfirmed;
+  return num_seen_ >= parameters_.confirmed;
 }
 
 bool BallMemory::is_candidate(double time) const {
-  return last_ && !is_confirmed() && time - last_->seen_time < kDoubt;
+  return last_ && !is_confirmed() && time - last_->seen_time < parameters_.doubt;
 }
 
 }  // namespace nao::play

@@ -10,6 +10,9 @@ namespace nao::play {
  * one place. */
 class BallMemory {
  public:
+  /** @param parameters  Must outlive this. */
+  explicit BallMemory(const PlayParameters::BallMemory& parameters) : parameters_(parameters) {}
+
   /** To be called in every step, with the ball as perception tracks it. */
   void take(const std::optional<Ball>& ball, const Pose2& feet_in_odometry);
   /** The ball of the last take() was seen several times. */
@@ -19,6 +22,7 @@ class BallMemory {
   bool is_candidate(double time) const;
 
  private:
+  const PlayParameters::BallMemory& parameters_;
   std::optional<Ball> last_;
   int num_seen_ = 0;
 };

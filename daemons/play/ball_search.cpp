@@ -8,24 +8,11 @@
 namespace nao::play {
 namespace {
 
-/** Time for one direction of the head scan, s: 0.3 s to turn there, and two images or more even
- * where only 4 a second are analysed. Chosen. */
-constexpr double kDwell = 0.8;
-/** Depression of the first camera's axis, rad: its image reaches from the horizon to about 0.7 m
- * (field of view of the NAO: 0.83 rad). */
-constexpr double kScanDepression = 0.28;
 /** Directions of the scan, rad to the left: with a field of view of 1.06 rad they leave no gap. */
 constexpr double kScanBearings[] = {0, 0.85, -0.85};
-/** Rate of the turn, rad/s. The motion blur of an image stays below half a degree, and what it
- * shows is in view for more than a second. */
-constexpr double kTurnRate = 0.7;
-/** Longest walk to another place, s. */
-constexpr double kRoamTime = 12;
 /** Places to which the robot walks, as fractions of half the field's length and width, in its own
  * half and just beyond its line. */
 constexpr double kPlaces[][2] = {{-0.35, 0}, {0.2, 0.3}, {-0.6, 0.4}, {-0.6, -0.4}, {0.2, -0.3}};
-/** Distance at which a place is reached, m. */
-constexpr double kReached = 0.3;
 
 }  // namespace
 
@@ -49,13 +36,14 @@ void BallSearch::enter(Stage stage, const Situation& situation) {
 }
 
 Decision BallSearch::step(const Situation& situation, const PlayConstants& constants) {
+  const PlayParameters::BallSearch& parameters = constants.parameters.ball_search;
   Decision decision;
   decision.phase = PlayPhase::kSearch;
   decision.reason = Reason("ball-not-in-sight");
-  decision.gaze.depression = kScanDepression;
+  decision.gaze.depression = parameters.scan_depression;
   switch (stage_) {
     case Stage::kScan:
-      scan(situation, decision);
+      scan(situation, parameters, decision);
       break;
     case Stage::kTurn:
       turn(situation, constants, decision);
@@ -67,8 +55,9 @@ Decision BallSearch::step(const Situation& situation, const PlayConstants& const
   return decision;
 }
 
-void BallSearch::scan(const Situation& situation, Decision& decision) {
-  int index = static_cast<int>((situation.time - stage_start_) / kDwell);
+void BallSearch::scan(const Situation& situation, const PlayParameters::BallSearch& parameters,
+                      Decision& decision) {
+  int index = static_cast<int>((situation.time - stage_start_) / parameters.dwell);
   if (last_) {
     decision.gaze.point = last_;
     if (index == 0) return;
@@ -93,12 +82,13 @@ void BallSearch::scan(const Situation& situation, Decision& decision) {
 
 void BallSearch::turn(const Situation& situation, const PlayConstants& constants,
                       Decision& decision) {
+  const PlayParameters::BallSearch& parameters = constants.parameters.ball_search;
   const double heading = situation.robot.feet_in_odometry.heading;
   turned_ += wrapped(heading - heading_);
   heading_ = heading;
-  decision.walk.wz = direction_ * std::min(kTurnRate, constants.walk_limits.turning);
+  decision.walk.wz = direction_ * std::min(parameters.turn_rate, constants.walk_limits.turning);
   // The cameras are used in turn, for far and near objects.
-  const auto cycle = static_cast<size_t>((situation.time - stage_start_) / kDwell);
+  const auto cycle = static_cast<size_t>((situation.time - stage_start_) / parameters.dwell);
   const bool looks_down = cycle % 4 == 3 && situation.robot.cameras.size() > 1;
   decision.gaze.camera = looks_down ? 1 : 0;
   if (looks_down) decision.gaze.depression += 0.6;
@@ -109,17 +99,19 @@ void BallSearch::turn(const Situation& situation, const PlayConstants& constants
 
 void BallSearch::roam(const Situation& situation, const PlayConstants& constants,
                       Decision& decision) {
+  const PlayParameters::BallSearch& parameters = constants.parameters.ball_search;
   const double* place = kPlaces[static_cast<size_t>(num_roams_ - 1) % std::size(kPlaces)];
   const Eigen::Vector2d in_field(0.5 * constants.field.length * place[0],
                                  0.5 * constants.field.width * place[1]);
   const Pose2& feet = situation.robot.feet_in_odometry;
   const Eigen::Vector2d goal = situation.field_in_odometry * in_field;
   decision.target = goal;
-  decision.walk = plan_walk_to({goal, feet.heading}, feet, constants.walk_limits);
+  decision.walk = plan_walk_to({goal, feet.heading}, feet, constants);
   // While it walks, the robot looks from side to side.
   decision.gaze.bearing = 0.7 * std::sin(2 * (situation.time - stage_start_));
-  const bool is_there = (goal - feet.position).norm() < kReached;
-  if (is_there || situation.time - stage_start_ > kRoamTime) enter(Stage::kScan, situation);
+  const bool is_there = (goal - feet.position).norm() < parameters.reached;
+  if (is_there || situation.time - stage_start_ > parameters.roam_time)
+    enter(Stage::kScan, situation);
 }
 
 }  // namespace nao::play

@@ -26,7 +26,8 @@ class BallSearch {
   enum class Stage { kScan, kTurn, kRoam };
 
   void enter(Stage stage, const Situation& situation);
-  void scan(const Situation& situation, Decision& decision);
+  void scan(const Situation& situation, const PlayParameters::BallSearch& parameters,
+            Decision& decision);
   void turn(const Situation& situation, const PlayConstants& constants, Decision& decision);
   void roam(const Situation& situation, const PlayConstants& constants, Decision& decision);
 

@@ -6,11 +6,6 @@
 namespace nao::play {
 namespace {
 
-/** Advantage of another camera, rad, for it to replace the present one. Chosen. */
-constexpr double kHysteresis = 0.15;
-/** Cost of a pitch other than 0, relative to that of missing the point: a head that looks ahead
- * also sees landmarks. Chosen. */
-constexpr double kPitchCost = 0.4;
 /** Height of a ball's center, m: the target of a gaze is slightly above the ground. */
 constexpr double kHeight = 0.05;
 
@@ -43,8 +38,8 @@ std::optional<HeadTarget> HeadControl::look(const Gaze& gaze, const RobotView& r
     const HeadTarget target = turn_to(bearing, depression, camera, robot);
     const double missed =
         std::abs(robot.head_pitch + depression - camera.depression - target.pitch);
-    const double cost =
-        missed + kPitchCost * std::abs(target.pitch) - (i == camera_ ? kHysteresis : 0);
+    const double cost = missed + parameters_.pitch_cost * std::abs(target.pitch) -
+                        (i == camera_ ? parameters_.hysteresis : 0);
     if (best && cost >= least) continue;
     best = target;
     least = cost;

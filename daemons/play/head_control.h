@@ -25,7 +25,8 @@ struct HeadTarget {
  * joints turn about z and y (pitch positive downwards), as in every robot here. */
 class HeadControl {
  public:
-  explicit HeadControl(const HeadLimits& limits) : limits_(limits) {}
+  HeadControl(const HeadLimits& limits, const PlayParameters::HeadControl& parameters)
+      : limits_(limits), parameters_(parameters) {}
 
   /** @return Nothing if the robot has no camera. */
   std::optional<HeadTarget> look(const Gaze& gaze, const RobotView& robot);
@@ -35,6 +36,7 @@ class HeadControl {
                      const RobotView& robot) const;
 
   HeadLimits limits_;
+  PlayParameters::HeadControl parameters_;
   size_t camera_ = 0;
 };
 

@@ -11,25 +11,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** Time without a sighting after which the keeper searches for the ball, s. */
-constexpr double kLookForBall = 4;
-/** Distance of the feet before the middle of the goal line, m: out far enough to cover more of the
- * goal's mouth, near enough that a dive comes in time. */
-constexpr double kOut = 0.5;
-/** Half of the width that a block covers, and the greatest that a dive reaches, m. */
-constexpr double kBlockHalf = 0.2;
-constexpr double kDiveReach = 0.85;
-/** Time before the ball arrives at which the robot moves, s: a dive is on the ground after 0.66 s,
- * a block after 0.21 s (nao-trial block), and images and bus delay the decision. */
-constexpr double kDiveTime = 1.0;
-constexpr double kBlockTime = 0.6;
-/** Distance from a post, m, beyond which a ball that passes the goal is ignored. */
-constexpr double kWideOfPost = 0.15;
-/** Greatest speed of a sidestep, m/s. */
-constexpr double kAsideSpeed = 0.14;
-/** Least time between two actions, s, since the second one would react to the same shot. */
-constexpr double kActionPause = 1;
-
 }  // namespace
 
 Pose2 Keeper::calc_place(const std::optional<Vector2d>& ball, const Situation& situation) const {
@@ -41,7 +22,7 @@ Pose2 Keeper::calc_place(const std::optional<Vector2d>& ball, const Situation& s
     // Never behind the goal line.
     if (seen.norm() > 0.1) way = Vector2d(std::max(seen.x(), 0.1), seen.y()).normalized();
   }
-  Vector2d place = goal + kOut * way;
+  Vector2d place = goal + parameters_.out * way;
   place.x() = std::max(place.x(), goal.x() + 0.2);
   return {field * place, wrapped(field.heading + std::atan2(way.y(), way.x()))};
 }
@@ -54,33 +35,35 @@ bool Keeper::is_towards_goal(const Ball& ball, const Situation& situation) const
   const double way = position.x() + 0.5 * constants_.field.length;
   if (way < 0) return false;
   const double y = position.y() + velocity.y() * way / -velocity.x();
-  return std::abs(y) < 0.5 * constants_.field.goal_width + kWideOfPost;
+  return std::abs(y) < 0.5 * constants_.field.goal_width + parameters_.wide_of_post;
 }
 
 std::optional<Decision> Keeper::answer_shot(const Ball& ball, const Situation& situation) {
-  if (!ball.is_rolling || situation.time - last_action_ < kActionPause) return std::nullopt;
+  if (!ball.is_rolling || situation.time - last_action_ < parameters_.action_pause)
+    return std::nullopt;
   const Pose2 in_feet = situation.robot.feet_in_odometry.inverse();
-  const auto shot = predict_shot(in_feet * ball.position, in_feet.rotate(ball.velocity));
+  const auto shot =
+      predict_shot(in_feet * ball.position, in_feet.rotate(ball.velocity), constants_.parameters);
   if (!shot || !is_towards_goal(ball, situation)) return std::nullopt;
   Decision decision;
   decision.gaze.point = ball.position;
   decision.phase = PlayPhase::kBlock;
   const double aside = std::abs(shot->aside);
   const ActionNames& names = constants_.actions;
-  const bool needs_dive = aside > kBlockHalf;
+  const bool needs_dive = aside > parameters_.block_half;
   const std::string& action = !needs_dive       ? names.block
                               : shot->aside > 0 ? names.dive_left
                                                 : names.dive_right;
-  const bool is_due = shot->time < (needs_dive ? kDiveTime : kBlockTime);
-  if (is_due && aside < kDiveReach && !action.empty()) {
+  const bool is_due = shot->time < (needs_dive ? parameters_.dive_time : parameters_.block_time);
+  if (is_due && aside < parameters_.dive_reach && !action.empty()) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     decision.action = ActionCommand{action, nan, nan, nan};
     last_action_ = situation.time;
     return decision;
   }
   // There is time for a sidestep.
-  if (aside > 0.5 * kBlockHalf && shot->time > kDiveTime) {
-    const double most = std::min(kAsideSpeed, constants_.walk_limits.sideways);
+  if (aside > 0.5 * parameters_.block_half && shot->time > parameters_.dive_time) {
+    const double most = std::min(parameters_.aside_speed, constants_.walk_limits.sideways);
     decision.walk.vy = std::clamp(shot->aside, -most, most);
   }
   return decision;
@@ -99,7 +82,7 @@ Decision Keeper::step(const Situation& situation) {
     return decision;
   }
   std::optional<Ball> ball = situation.ball;
-  if (ball && situation.time - ball->seen_time > kLookForBall) ball.reset();
+  if (ball && situation.time - ball->seen_time > parameters_.look_for_ball) ball.reset();
   if (!ball) return guard(ball, situation);
   if (auto decision = answer_shot(*ball, situation)) return *decision;
   return guard(ball, situation);

@@ -12,7 +12,8 @@ namespace nao::play {
 class Keeper : public BehaviorMachine {
  public:
   /** @param constants  Must outlive this. */
-  explicit Keeper(const PlayConstants& constants) : constants_(constants), positioner_(constants) {}
+  explicit Keeper(const PlayConstants& constants)
+      : constants_(constants), parameters_(constants.parameters.keeper), positioner_(constants) {}
 
   Decision step(const Situation& situation) override;
   void restart() override { positioner_.stop_search(); }
@@ -25,6 +26,7 @@ class Keeper : public BehaviorMachine {
   Decision guard(const std::optional<Ball>& ball, const Situation& situation);
 
   const PlayConstants& constants_;
+  const PlayParameters::Keeper& parameters_;
   Positioner positioner_;
   double last_action_ = -1e9;
 };

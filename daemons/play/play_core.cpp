@@ -35,8 +35,9 @@ PlayCore::PlayCore(const PlayConstants& constants, const HeadLimits& head_limits
                    std::vector<std::string> head_joints, const std::string& source,
                    int64_t first_id)
     : constants_(constants),
-      head_(head_limits),
-      motion_(source, first_id, std::move(head_joints)) {}
+      head_(head_limits, constants.parameters.head_control),
+      motion_(source, first_id, std::move(head_joints)),
+      robots_(constants.parameters.robot_memory) {}
 
 PlayOutput PlayCore::step(const PlayInput& input) {
   PlayOutput output;
@@ -261,7 +262,8 @@ void PlayCore::execute(const Decision& decision, const Situation& situation, con
     if (decision.walks_on) motion_.walk(decision.walk, input.time);
     motion_.perform(*decision.action, decision.walks_on, input.time);
   } else {
-    motion_.walk(keep_clear(decision.walk, situation.robots, input.robot->feet_in_odometry),
+    motion_.walk(keep_clear(decision.walk, situation.robots, input.robot->feet_in_odometry,
+                            constants_.parameters.robot_memory),
                  input.time);
   }
 }

@@ -12,7 +12,8 @@ namespace nao::play {
 class Positioner {
  public:
   /** @param constants  Must outlive this. */
-  explicit Positioner(const PlayConstants& constants) : constants_(constants) {}
+  explicit Positioner(const PlayConstants& constants)
+      : constants_(constants), parameters_(constants.parameters.positioner) {}
 
   /** One step.
    * @param place  Position of the feet, in the odometry frame. @param ball  m, in the odometry
@@ -25,6 +26,7 @@ class Positioner {
 
  private:
   const PlayConstants& constants_;
+  const PlayParameters::Positioner& parameters_;
   BallSearch search_;
   bool is_in_place_ = false;
 };

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "daemons/play/play_parameters.h"
 #include "kinematics/pose2.h"
 #include "messages/command.h"
 
@@ -11,6 +12,8 @@ namespace nao::play {
 /** Remembers where other robots were seen recently. */
 class RobotMemory {
  public:
+  explicit RobotMemory(const PlayParameters::RobotMemory& parameters) : parameters_(parameters) {}
+
   /** @param robots  m, in the odometry frame. @param time  Robot time, s. */
   void add(const std::vector<Eigen::Vector2d>& robots, double time);
   void forget(double time);
@@ -22,6 +25,7 @@ class RobotMemory {
     Eigen::Vector2d position;
     double time = 0;
   };
+  PlayParameters::RobotMemory parameters_;
   std::vector<Seen> seen_;
 };
 
@@ -29,6 +33,6 @@ class RobotMemory {
  * falls to zero, and the robot passes on the side that is nearer to its path.
  * @param robots  m, in the odometry frame. @param feet  In the odometry frame. */
 WalkCommand keep_clear(WalkCommand walk, const std::vector<Eigen::Vector2d>& robots,
-                       const Pose2& feet);
+                       const Pose2& feet, const PlayParameters::RobotMemory& parameters);
 
 }  // namespace nao::play

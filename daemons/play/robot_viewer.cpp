@@ -82,6 +82,7 @@ PlayConstants load_constants(const RobotModel& model, const std::string& scene) 
                        name_of_action(model, Action::Kind::kBlock),
                        name_of_action(model, Action::Kind::kDive, Side::kLeft),
                        name_of_action(model, Action::Kind::kDive, Side::kRight)};
+  constants.parameters = PlayParameters::load(model.folder() / "play.yaml");
   const std::filesystem::path kick = model.folder() / kKickFile;
   if (!std::filesystem::exists(kick)) return constants;
   const YamlEntry root = YamlEntry::load(kick);

@@ -35,8 +35,8 @@ class RobotViewer {
   std::vector<std::string> head_joints_;
 };
 
-/** Reads what never changes: walk limits, actions, kick (data/robots/NAME/actions/kick.yaml), and
- * the field of a scene.
+/** Reads what never changes: walk limits, actions, kick (data/robots/NAME/actions/kick.yaml),
+ * parameters, and the field of a scene.
  * @throws ConfigError  if the scene has no field. */
 PlayConstants load_constants(const RobotModel& model, const std::string& scene);
 

@@ -11,32 +11,27 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** Distance, m, within which the feet stop a ball that rolls past. Chosen: half the width of a
- * stance and the ball's radius. */
-constexpr double kStoppedByFeet = 0.2;
-/** Least speed of a shot, m/s. */
-constexpr double kShotSpeed = 0.25;
-/** Distance of the ball ahead of the feet's line at which a foot stops it, m. */
-constexpr double kFootLength = 0.1;
-
 }  // namespace
 
-Vector2d predict_rest(const Ball& ball, const Vector2d& feet) {
+Vector2d predict_rest(const Ball& ball, const Vector2d& feet, const PlayParameters& parameters) {
   const double speed = ball.velocity.norm();
   if (!ball.is_rolling || speed <= 0) return ball.position;
-  const double path = std::min(speed * speed / (2 * kBallRollingDeceleration), kKickDistance);
+  const double path =
+      std::min(speed * speed / (2 * kBallRollingDeceleration), parameters.shot_aim.kick_distance);
   const Vector2d way = ball.velocity / speed;
   const Vector2d to_feet = feet - ball.position;
   const double along = to_feet.dot(way);
-  const bool meets_feet =
-      along > 0 && along < path && (to_feet - along * way).norm() < kStoppedByFeet;
-  return ball.position + (meets_feet ? along - kStoppedByFeet : path) * way;
+  const bool meets_feet = along > 0 && along < path &&
+                          (to_feet - along * way).norm() < parameters.rolling_ball.stopped_by_feet;
+  return ball.position +
+         (meets_feet ? along - parameters.rolling_ball.stopped_by_feet : path) * way;
 }
 
-std::optional<Shot> predict_shot(const Vector2d& ball, const Vector2d& velocity) {
+std::optional<Shot> predict_shot(const Vector2d& ball, const Vector2d& velocity,
+                                 const PlayParameters& parameters) {
   const double speed = velocity.norm();
-  if (speed < kShotSpeed || velocity.x() >= 0) return std::nullopt;
-  const double ahead = ball.x() - kFootLength;
+  if (speed < parameters.rolling_ball.shot_speed || velocity.x() >= 0) return std::nullopt;
+  const double ahead = ball.x() - parameters.rolling_ball.foot_length;
   if (ahead < 0) return std::nullopt;
   // Along its straight path: s = v t - a t^2 / 2.
   const double path = ahead * speed / -velocity.x();

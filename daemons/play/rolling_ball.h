@@ -10,7 +10,8 @@ namespace nao::play {
 /** Where a ball comes to rest, m: a rolling one at the end of its straight path or before the feet
  * that it meets; any other where it is. All is in the odometry frame.
  * @param feet  Position of the robot, m. */
-Eigen::Vector2d predict_rest(const Ball& ball, const Eigen::Vector2d& feet);
+Eigen::Vector2d predict_rest(const Ball& ball, const Eigen::Vector2d& feet,
+                             const PlayParameters& parameters);
 
 /** A ball that rolls towards the robot. */
 struct Shot {
@@ -22,6 +23,7 @@ struct Shot {
 
 /** Prediction of a rolling ball with constant deceleration.
  * @param ball, velocity  In F. @return Nothing if it does not come or stops before. */
-std::optional<Shot> predict_shot(const Eigen::Vector2d& ball, const Eigen::Vector2d& velocity);
+std::optional<Shot> predict_shot(const Eigen::Vector2d& ball, const Eigen::Vector2d& velocity,
+                                 const PlayParameters& parameters);
 
 }  // namespace nao::play

@@ -6,13 +6,6 @@
 
 namespace nao::play {
 
-/** Distance, m, that a kick moves the ball: nao-trial kick measures 5.1 in the mean and 4.6 at
- * least (docs/performance.md). */
-inline constexpr double kKickDistance = 4.5;
-/** Least and greatest tolerance of a direction, rad. */
-inline constexpr double kLeastTolerance = 0.06;
-inline constexpr double kGreatestTolerance = 0.3;
-
 /** Where the ball should go. */
 struct Aim {
   /** Direction in the odometry frame, rad, and the tolerance of the feet. */
@@ -24,10 +17,12 @@ struct Aim {
 
 /** The middle of the opponents' goal, or of its wider part beside a keeper. In a match, teams of
  * two or more have a keeper also where none is seen. @param ball  m, in the odometry frame. */
-Aim aim_at_goal(const Eigen::Vector2d& ball, const Situation& situation, const Field& field);
+Aim aim_at_goal(const Eigen::Vector2d& ball, const Situation& situation,
+                const PlayConstants& constants);
 
 /** Turns the aim past a robot that stands in front of the ball. @param ball  m, in the odometry
  * frame. */
-Aim aim_past_robots(const Aim& aim, const Eigen::Vector2d& ball, const Situation& situation);
+Aim aim_past_robots(const Aim& aim, const Eigen::Vector2d& ball, const Situation& situation,
+                    const PlayConstants& constants);
 
 }  // namespace nao::play

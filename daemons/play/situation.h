@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemons/play/match_view.h"
+#include "daemons/play/play_parameters.h"
 #include "kinematics/pose2.h"
 #include "messages/command.h"
 #include "messages/play_command.h"
@@ -97,6 +98,7 @@ struct PlayConstants {
   WalkLimits walk_limits;
   std::optional<KickPlace> kick{};
   ActionNames actions{};
+  PlayParameters parameters{};
   /** The robot's pose in the field at the origin of its odometry, used until it is localised. */
   Pose2 start_in_field{};
 };

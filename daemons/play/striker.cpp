@@ -12,55 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/** Time without a sighting after which the robot searches for the ball, s; longer near the feet,
- * where its own steps move the image. Chosen. */
-constexpr double kForgetAfter = 5;
-constexpr double kForgetAfterNear = 8;
-constexpr double kNear = 0.6;
-/** Time after which the search is given up, s. */
-constexpr double kSearchTimeout = 120;
-/** Fractions of the kick's reach at which the walk stops: the last step and the settling move the
- * feet by about a centimetre. */
-constexpr double kStopFraction = 0.55;
-constexpr double kKickFraction = 0.9;
-/** Time for which the robot stands before it judges the place of the ball, and the longest time for
- * which it waits for an image, s. */
-constexpr double kSettleTime = 0.3;
-constexpr double kSettleTimeout = 2.0;
-/** Time from the start of a kick until the foot has struck, s: phases of
- * data/robots/nao/actions/kick.yaml. */
-constexpr double kStrikeTime = 1.2;
 /** Age of an image when its contents are known, s. */
 constexpr double kImageAge = 0.1;
-/** Times after a kick for which the robot looks in front of its feet, in case it missed, and then
- * after the ball, s. */
-constexpr double kLookDown = 0.6;
-constexpr double kWatchTime = 1.4;
-/** Distance of a kick during the walk, m (nao-trial walk-kick), and the walking speed in it, m/s.
- */
-constexpr double kPassingKickDistance = 2.1;
-constexpr double kPassingSpeed = 0.15;
-/** Speed of the dribbled ball, m/s, and the distance to its target at which it has arrived, m. */
-constexpr double kPushSpeed = 0.16;
-constexpr double kTargetReached = 0.3;
-/** A ball seen this far behind the goal line, m, has passed it: its radius, half of the line's
- * width, and some of the pose's error. A ball that lies nearer is kicked once more. */
-constexpr double kBehindLine = 0.11;
-/** Error of the camera's tilt, rad, and its height, m: a ball is that much nearer than it seems,
- * 0.02 m at 0.5 m, 0.17 m at 2 m. Under `moderate` the tilt is off by up to 1.3 degrees. */
-constexpr double kTiltError = 0.018;
-constexpr double kCameraHeight = 0.45;
-/** Distance, m, within which the robot can judge where the ball has gone. */
-constexpr double kJudgeDistance = 2;
-/** Distance of the feet from the ball at the end of going to it, m. */
-constexpr double kBeforeBall = 0.25;
-/** A robot that walks far looks for landmarks every kLandmarkPeriod s, for kLandmarkTime s, while
- * the ball is beyond kLandmarkDistance m. Chosen. */
-constexpr double kLandmarkPeriod = 4;
-constexpr double kLandmarkTime = 0.9;
-constexpr double kLandmarkDistance = 1.2;
-/** Depression, rad, of the first camera's axis for landmarks. */
-constexpr double kLandmarkDepression = 0.2;
 
 }  // namespace
 
@@ -87,7 +40,7 @@ Decision Striker::step(const Situation& situation) {
     ball.reset();
   }
   if (stage_ == Stage::kWatch) {
-    const bool is_over = situation.time - stage_start_ > kWatchTime;
+    const bool is_over = situation.time - stage_start_ > parameters_.watch_time;
     if (task_ == Task::kKick || (!is_over && !ball)) return watch(situation);
     stage_ = Stage::kApproach;
   }
@@ -99,7 +52,8 @@ Decision Striker::step(const Situation& situation) {
   // If the ball is out of sight again, as after a kick, the robot searches where it rolls to.
   const Vector2d way = ball->position - situation.robot.feet_in_odometry.position;
   expected_.reset();
-  if (way.norm() > kLandmarkDistance) expected_ = into_field(ball->position, 0, situation);
+  if (way.norm() > parameters_.landmark_distance)
+    expected_ = into_field(ball->position, 0, situation);
   if (auto end = find_end(*ball, situation)) return *end;
   switch (stage_) {
     case Stage::kSettle:
@@ -123,8 +77,9 @@ void Striker::handle_end(const CommandResult& result, const Situation& situation
   stage_ = is_passing_ ? Stage::kApproach : Stage::kWatch;
   num_settles_ = 0;
   side_ = 0;
-  ignore_before_ = is_passing_ ? situation.time - kImageAge : kick_start_ + kStrikeTime;
-  expected_ = kicked_ball_ + (is_passing_ ? kPassingKickDistance : kKickDistance) *
+  ignore_before_ = is_passing_ ? situation.time - kImageAge : kick_start_ + parameters_.strike_time;
+  expected_ = kicked_ball_ + (is_passing_ ? parameters_.passing_kick_distance
+                                          : constants_.parameters.shot_aim.kick_distance) *
                                  Vector2d(std::cos(kick_heading_), std::sin(kick_heading_));
   // It does not leave the goal again.
   expected_ = into_field(*expected_, -0.5 * constants_.field.goal_depth, situation);
@@ -143,8 +98,11 @@ std::optional<Ball> Striker::find_ball(const Situation& situation) const {
   Ball ball = *situation.ball;
   const double distance = (ball.position - situation.robot.feet_in_odometry.position).norm();
   const double age = situation.time - ball.seen_time;
-  if (age > (distance < kNear ? kForgetAfterNear : kForgetAfter)) return std::nullopt;
-  ball.position = predict_rest(ball, situation.robot.feet_in_odometry.position);
+  if (age >
+      (distance < parameters_.near ? parameters_.forget_after_near : parameters_.forget_after))
+    return std::nullopt;
+  ball.position =
+      predict_rest(ball, situation.robot.feet_in_odometry.position, constants_.parameters);
   return ball;
 }
 
@@ -153,22 +111,23 @@ Aim Striker::calc_aim(const Vector2d& ball, const Situation& situation) const {
   Aim aim;
   if (task_ == Task::kGoToBall) {
     const Vector2d way = ball - feet;
-    aim = {std::atan2(way.y(), way.x()), kGreatestTolerance, ball};
+    aim = {std::atan2(way.y(), way.x()), constants_.parameters.shot_aim.greatest_tolerance, ball};
   } else if (target_) {
     const Vector2d way = *target_ - ball;
-    aim = {std::atan2(way.y(), way.x()), kLeastTolerance, *target_};
+    aim = {std::atan2(way.y(), way.x()), constants_.parameters.shot_aim.least_tolerance, *target_};
   } else {
-    aim = aim_past_robots(aim_at_goal(ball, situation, constants_.field), ball, situation);
+    aim = aim_past_robots(aim_at_goal(ball, situation, constants_), ball, situation, constants_);
   }
   // A robot that several times could not stop accurately enough accepts a larger error.
-  aim.tolerance =
-      std::min(kGreatestTolerance, aim.tolerance + 0.04 * std::max(0, num_settles_ - 2));
+  aim.tolerance = std::min(constants_.parameters.shot_aim.greatest_tolerance,
+                           aim.tolerance + 0.04 * std::max(0, num_settles_ - 2));
   return aim;
 }
 
 ApproachGoal Striker::make_goal(const Vector2d& ball, const Aim& aim, const Pose2& feet) {
-  if (task_ == Task::kGoToBall) return {ball, aim.heading, {kBeforeBall, 0}};
-  const Vector2d place = constants_.kick ? constants_.kick->ball : Vector2d(kBeforeBall, 0);
+  if (task_ == Task::kGoToBall) return {ball, aim.heading, {parameters_.before_ball, 0}};
+  const Vector2d place =
+      constants_.kick ? constants_.kick->ball : Vector2d(parameters_.before_ball, 0);
   // Chooses the foot on the ball's side: the left one if the ball is to the left. It has a
   // hysteresis, m, and does not change near the ball.
   const Pose2 ball_in_odometry{ball, aim.heading};
@@ -187,22 +146,26 @@ std::optional<Decision> Striker::find_end(const Ball& ball, const Situation& sit
   const Vector2d seen = situation.field_in_odometry.inverse() * situation.ball->position;
   const double distance = (ball.position - situation.robot.feet_in_odometry.position).norm();
   if (task_ == Task::kScore) {
-    if (distance > kJudgeDistance) return std::nullopt;
+    if (distance > parameters_.judge_distance) return std::nullopt;
     const double tilt_error =
-        kTiltError * (distance * distance + kCameraHeight * kCameraHeight) / kCameraHeight;
-    const bool is_behind_line = seen.x() > 0.5 * field.length + kBehindLine + tilt_error;
+        parameters_.tilt_error *
+        (distance * distance + parameters_.camera_height * parameters_.camera_height) /
+        parameters_.camera_height;
+    const bool is_behind_line =
+        seen.x() > 0.5 * field.length + parameters_.behind_line + tilt_error;
     const double opening = 0.5 * field.goal_width + 0.1;
     if (is_behind_line && std::abs(seen.y()) < opening) return decision;
     const bool is_beside =
         is_behind_line ||
-        std::abs(seen.y()) > 0.5 * field.width + std::max(kTargetReached, kBehindLine + tilt_error);
+        std::abs(seen.y()) > 0.5 * field.width + std::max(parameters_.target_reached,
+                                                          parameters_.behind_line + tilt_error);
     if (!is_beside || ball.is_rolling) return std::nullopt;
     decision.has_failed = true;
     decision.reason = Reason("ball-out");
     return decision;
   }
   if (task_ == Task::kDribble && target_ && !ball.is_rolling &&
-      (ball.position - *target_).norm() < kTargetReached) {
+      (ball.position - *target_).norm() < parameters_.target_reached) {
     return decision;
   }
   return std::nullopt;
@@ -226,8 +189,7 @@ Decision Striker::look_for_ball(const Situation& situation) {
       decision.reason = Reason("ball-not-in-sight");
       decision.target = expected_;
       const Vector2d way = *expected_ - feet.position;
-      decision.walk =
-          plan_walk_to({*expected_, std::atan2(way.y(), way.x())}, feet, constants_.walk_limits);
+      decision.walk = plan_walk_to({*expected_, std::atan2(way.y(), way.x())}, feet, constants_);
       decision.gaze.point = expected_;
       return decision;
     }
@@ -242,12 +204,12 @@ Decision Striker::look_for_ball(const Situation& situation) {
     search_.start(last, situation);
   }
   Decision decision = search_.step(situation, constants_);
-  if (search_.duration(situation) > kSearchTimeout) {
+  if (search_.duration(situation) > parameters_.search_timeout) {
     decision = {};
     decision.phase = PlayPhase::kDone;
     decision.is_done = true;
     decision.has_failed = true;
-    decision.reason = Reason("ball-not-found", {to_argument(kSearchTimeout)});
+    decision.reason = Reason("ball-not-found", {to_argument(parameters_.search_timeout)});
   }
   return decision;
 }
@@ -255,14 +217,14 @@ Decision Striker::look_for_ball(const Situation& situation) {
 void Striker::look_at(const Ball& ball, const Situation& situation, Decision& decision) const {
   const Pose2& feet = situation.robot.feet_in_odometry;
   const double distance = (ball.position - feet.position).norm();
-  const bool looks_around = distance > kLandmarkDistance &&
-                            situation.time - situation.ball->seen_time < 1 &&
-                            std::fmod(situation.time, kLandmarkPeriod) < kLandmarkTime;
+  const bool looks_around =
+      distance > parameters_.landmark_distance && situation.time - situation.ball->seen_time < 1 &&
+      std::fmod(situation.time, parameters_.landmark_period) < parameters_.landmark_time;
   if (!looks_around) {
     decision.gaze.point = ball.position;
     return;
   }
-  decision.gaze.depression = kLandmarkDepression;
+  decision.gaze.depression = parameters_.landmark_depression;
 }
 
 Decision Striker::approach(const Ball& ball, const Situation& situation) {
@@ -272,19 +234,18 @@ Decision Striker::approach(const Ball& ball, const Situation& situation) {
   const Pose2 error = calc_approach_error(goal, feet);
   const double distance = (ball.position - feet.position).norm();
   Decision decision;
-  decision.phase = distance < kNear ? PlayPhase::kAlign : PlayPhase::kApproach;
+  decision.phase = distance < parameters_.near ? PlayPhase::kAlign : PlayPhase::kApproach;
   decision.target = task_ == Task::kGoToBall ? ball.position : aim.target;
   look_at(ball, situation, decision);
-  decision.walk = plan_approach(goal, feet, constants_.walk_limits);
+  decision.walk = plan_approach(goal, feet, constants_);
   if (auto passing = kick_in_passing(ball, aim, situation)) return *passing;
-  if (kicks_in_passing_ && task_ == Task::kScore &&
-      can_carry(ball, aim, situation, constants_.field)) {
+  if (kicks_in_passing_ && task_ == Task::kScore && can_carry(ball, aim, situation, constants_)) {
     stage_ = Stage::kPush;
     return push(ball, situation);
   }
-  const bool is_before_ball = task_ == Task::kGoToBall && distance < kBeforeBall + 0.08;
-  const Vector2d reach =
-      kStopFraction * (constants_.kick ? constants_.kick->reach : Vector2d(0.05, 0.025));
+  const bool is_before_ball = task_ == Task::kGoToBall && distance < parameters_.before_ball + 0.08;
+  const Vector2d reach = parameters_.stop_fraction *
+                         (constants_.kick ? constants_.kick->reach : Vector2d(0.05, 0.025));
   // Position of the ball seen from the feet, used even if the aim is met only roughly.
   const Vector2d off = (feet.inverse() * ball.position - goal.ball_in_feet).cwiseAbs();
   const bool is_in_place =
@@ -304,7 +265,7 @@ Decision Striker::approach(const Ball& ball, const Situation& situation) {
 std::optional<Decision> Striker::kick_in_passing(const Ball& ball, const Aim& aim,
                                                  const Situation& situation) {
   if (!kicks_in_passing_ || !constants_.kick) return std::nullopt;
-  if (!can_kick_in_passing(ball, aim, situation, constants_.field)) return std::nullopt;
+  if (!can_kick_in_passing(ball, aim, situation, constants_)) return std::nullopt;
   const Pose2& feet = situation.robot.feet_in_odometry;
   const Vector2d in_feet = feet.inverse() * ball.position;
   Decision decision;
@@ -316,7 +277,7 @@ std::optional<Decision> Striker::kick_in_passing(const Ball& ball, const Aim& ai
       ActionCommand{is_left ? constants_.actions.kick_left : constants_.actions.kick_right,
                     in_feet.x(), in_feet.y(), std::numeric_limits<double>::quiet_NaN()};
   decision.walks_on = true;
-  decision.walk.vx = std::min(kPassingSpeed, constants_.walk_limits.forward);
+  decision.walk.vx = std::min(parameters_.passing_speed, constants_.walk_limits.forward);
   kicked_ball_ = ball.position;
   kick_heading_ = feet.heading;
   kick_start_ = situation.time;
@@ -333,13 +294,14 @@ Decision Striker::settle(const Ball& ball, const Situation& situation) {
   decision.target = aim.target;
   if (!situation.is_still) {
     still_since_.reset();
-    if (situation.time - stage_start_ > 3 * kSettleTimeout) stage_ = Stage::kApproach;
+    if (situation.time - stage_start_ > 3 * parameters_.settle_timeout) stage_ = Stage::kApproach;
     return decision;
   }
   if (!still_since_) still_since_ = situation.time;
   const double still = situation.time - *still_since_;
-  const bool has_seen = ball.seen_time > *still_since_ + 0.5 * kSettleTime;
-  if (still < kSettleTime || (!has_seen && still < kSettleTimeout)) return decision;
+  const bool has_seen = ball.seen_time > *still_since_ + 0.5 * parameters_.settle_time;
+  if (still < parameters_.settle_time || (!has_seen && still < parameters_.settle_timeout))
+    return decision;
   if (task_ == Task::kGoToBall) {
     decision.phase = PlayPhase::kDone;
     decision.is_done = true;
@@ -357,7 +319,7 @@ Decision Striker::settle(const Ball& ball, const Situation& situation) {
   const double side = in_feet.y() > 0 ? 1 : -1;
   const Vector2d place(constants_.kick->ball.x(), side * constants_.kick->ball.y());
   const Vector2d off = (in_feet - place).cwiseAbs();
-  const Vector2d reach = kKickFraction * constants_.kick->reach;
+  const Vector2d reach = parameters_.kick_fraction * constants_.kick->reach;
   const bool is_aimed = std::abs(wrapped(aim.heading - feet.heading)) < aim.tolerance;
   if (off.x() > reach.x() || off.y() > reach.y() || !is_aimed || ball.is_rolling) return decision;
   decision.phase = PlayPhase::kKick;
@@ -383,11 +345,13 @@ Decision Striker::push(const Ball& ball, const Situation& situation) {
   if (task_ == Task::kScore) side_ = in_feet.y() > 0 ? 1 : -1;
   const double aside = in_feet.y() - side_ * (constants_.kick ? constants_.kick->ball.y() : 0);
   const double turn = wrapped(aim.heading - feet.heading);
-  decision.walk = {std::min(kPushSpeed, constants_.walk_limits.forward), 1.2 * aside, turn};
-  if (task_ == Task::kScore && !may_carry_on(ball, situation, constants_.field)) {
+  decision.walk = {std::min(parameters_.push_speed, constants_.walk_limits.forward), 1.2 * aside,
+                   turn};
+  if (task_ == Task::kScore && !may_carry_on(ball, situation, constants_)) {
     stage_ = Stage::kApproach;
   }
-  if (in_feet.norm() > kPushReach || std::abs(aside) > 0.1 || std::abs(turn) > 0.5) {
+  if (in_feet.norm() > constants_.parameters.ball_in_walk.push_reach || std::abs(aside) > 0.1 ||
+      std::abs(turn) > 0.5) {
     stage_ = Stage::kApproach;
   }
   return decision;
@@ -397,10 +361,11 @@ Decision Striker::watch(const Situation& situation) {
   Decision decision;
   decision.phase = PlayPhase::kKick;
   const double time = situation.time - stage_start_;
-  decision.gaze.point = time < kLookDown ? kicked_ball_
-                                         : kicked_ball_ + 2 * Vector2d(std::cos(kick_heading_),
-                                                                       std::sin(kick_heading_));
-  if (task_ == Task::kKick && time > kLookDown) {
+  decision.gaze.point =
+      time < parameters_.look_down
+          ? kicked_ball_
+          : kicked_ball_ + 2 * Vector2d(std::cos(kick_heading_), std::sin(kick_heading_));
+  if (task_ == Task::kKick && time > parameters_.look_down) {
     decision.phase = PlayPhase::kDone;
     decision.is_done = true;
   }

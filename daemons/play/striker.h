@@ -22,7 +22,12 @@ class Striker : public BehaviorMachine {
    * less far and less accurately. */
   Striker(const PlayConstants& constants, Task task, const std::optional<Eigen::Vector2d>& target,
           bool kicks_in_passing = false)
-      : constants_(constants), task_(task), target_(target), kicks_in_passing_(kicks_in_passing) {}
+      : constants_(constants),
+        parameters_(constants.parameters.striker),
+        task_(task),
+        target_(target),
+        kicks_in_passing_(kicks_in_passing),
+        memory_(constants.parameters.ball_memory) {}
 
   Decision step(const Situation& situation) override;
   void restart() override;
@@ -51,6 +56,7 @@ class Striker : public BehaviorMachine {
   void look_at(const Ball& ball, const Situation& situation, Decision& decision) const;
 
   const PlayConstants& constants_;
+  const PlayParameters::Striker& parameters_;
   Task task_;
   std::optional<Eigen::Vector2d> target_;
   bool kicks_in_passing_;

@@ -1,22 +1,16 @@
 #include "daemons/motion/walk/gait.h"
 
-#include <algorithm>
+#include <utility>
 
-#include "common/yaml_entry.h"
+#include "common/parameter_table.h"
 
 namespace nao::motion {
 namespace {
 
-Gait::Parameter parameter(const char* name, double& (*in)(Gait&)) {
-  return {name, in};
-}
+#define NAO_GAIT_PARAMETER(group, key) NAO_PARAMETER(Gait, group, key)
 
-// A parameter's name in the file is the name of its member: "timing.step_duration".
-#define NAO_GAIT_PARAMETER(group, key) \
-  parameter(#group "." #key, [](Gait& gait) -> double& { return gait.group.key; })
-
-const std::vector<Gait::Parameter>& all_parameters() {
-  static const std::vector<Gait::Parameter> parameters = {
+const ParameterTable<Gait>& all_parameters() {
+  static const ParameterTable<Gait> parameters = {
       NAO_GAIT_PARAMETER(timing, step_duration),
       NAO_GAIT_PARAMETER(timing, min_step_duration),
       NAO_GAIT_PARAMETER(timing, max_step_duration),
@@ -96,21 +90,6 @@ const std::vector<Gait::Parameter>& all_parameters() {
 
 #undef NAO_GAIT_PARAMETER
 
-Gait::Parameter read_parameter(const std::string& name, const YamlEntry& entry, Gait& gait) {
-  // An unknown name is an error: a misspelled parameter would silently keep its default.
-  const auto known =
-      std::find_if(all_parameters().begin(), all_parameters().end(),
-                   [&](const Gait::Parameter& parameter) { return parameter.name == name; });
-  if (known == all_parameters().end()) entry.fail("is unknown");
-  entry.allow_only({"value", "range"});
-  const double value = entry.at("value").number();
-  const std::vector<double> range = entry.at("range").numbers(2);
-  // Written so that NaN fails, too.
-  if (!(range[0] <= value && value <= range[1])) entry.fail("has a value outside its range");
-  known->in(gait) = value;
-  return {name, known->in, range[0], range[1]};
-}
-
 }  // namespace
 
 std::optional<Gait::Contradiction> Gait::find_contradiction() const {
@@ -135,21 +114,20 @@ Gait Gait::load(const std::filesystem::path& file, std::vector<Parameter>* param
   const YamlEntry root = YamlEntry::load(file);
   Gait gait;
   std::vector<Parameter> read;
-  for (const auto& [group, keys] : root.entries()) {
-    for (const auto& [key, entry] : keys.entries()) {
-      read.push_back(read_parameter(group + "." + key, entry, gait));
-    }
-  }
-  // at() reports a parameter that the file does not have.
-  for (const Parameter& parameter : all_parameters()) {
-    const size_t dot = parameter.name.find('.');
-    (void)root.at(parameter.name.substr(0, dot)).at(parameter.name.substr(dot + 1));
-  }
+  read_parameters(root, all_parameters(),
+                  [&](const NamedParameter<Gait>& known, const YamlEntry& entry) {
+                    entry.allow_only({"value", "range"});
+                    const double value = entry.at("value").number();
+                    const std::vector<double> range = entry.at("range").numbers(2);
+                    // Written so that NaN fails, too.
+                    if (!(range[0] <= value && value <= range[1]))
+                      entry.fail("has a value outside its range");
+                    known.in(gait) = value;
+                    read.push_back({known.name, known.in, range[0], range[1]});
+                  });
+  for (const NamedParameter<Gait>& parameter : all_parameters()) (void)parameter.entry(root);
   if (const auto found = gait.find_contradiction()) {
-    const size_t dot = found->parameter.find('.');
-    root.at(found->parameter.substr(0, dot))
-        .at(found->parameter.substr(dot + 1))
-        .fail(found->requirement);
+    NamedParameter<Gait>{found->parameter, nullptr}.entry(root).fail(found->requirement);
   }
   if (parameters != nullptr) *parameters = std::move(read);
   return gait;

@@ -125,7 +125,8 @@ Ball ball_at(double x, double time) {
 }
 
 TEST(BallMemory, ConfirmsABallThatIsSeenThreeTimesAboutOnePlace) {
-  BallMemory memory;
+  const PlayParameters parameters = PlayParameters::load("");
+  BallMemory memory(parameters.ball_memory);
   memory.take(ball_at(2, 10), {});
   // The same sighting in the next step.
   memory.take(ball_at(2, 10), {});

@@ -8,7 +8,7 @@ namespace {
 using Eigen::Vector2d;
 
 TEST(RobotMemory, RemembersEachRobotOnceAndForgets) {
-  RobotMemory memory;
+  RobotMemory memory(PlayParameters::load("").robot_memory);
   memory.add({{1, 0}, {2, 2}}, 10);
   memory.add({{1.1, 0.1}}, 11);
   EXPECT_EQ(memory.positions().size(), 2u);
@@ -20,7 +20,7 @@ TEST(RobotMemory, RemembersEachRobotOnceAndForgets) {
 TEST(KeepClear, ChangesNothingFarFromRobotsOrAwayFromThem) {
   const WalkCommand walk{0.2, 0.05, 0.3};
   for (const std::vector<Vector2d>& robots : {std::vector<Vector2d>{}, {{2, 0}}, {{-0.5, 0}}}) {
-    const WalkCommand clear = keep_clear(walk, robots, {});
+    const WalkCommand clear = keep_clear(walk, robots, {}, PlayParameters::load("").robot_memory);
     EXPECT_EQ(clear.vx, walk.vx);
     EXPECT_EQ(clear.vy, walk.vy);
     EXPECT_EQ(clear.wz, walk.wz);
@@ -28,6 +28,7 @@ TEST(KeepClear, ChangesNothingFarFromRobotsOrAwayFromThem) {
 }
 
 TEST(KeepClear, WalksPastARobotWithoutTouchingIt) {
+  const auto parameters = PlayParameters::load("").robot_memory;
   for (const double aside : {-0.2, -0.05, 0.0, 0.05, 0.2}) {
     const Vector2d robot(1.5, aside);
     const Vector2d goal(3, 0);
@@ -36,7 +37,7 @@ TEST(KeepClear, WalksPastARobotWithoutTouchingIt) {
     for (int i = 0; i < 600; ++i) {
       const Vector2d way = feet.inverse() * goal;
       WalkCommand walk{0.25 * way.normalized().x(), 0.25 * way.normalized().y(), 0};
-      walk = keep_clear(walk, {robot}, feet);
+      walk = keep_clear(walk, {robot}, feet, parameters);
       feet.position += 0.05 * feet.rotate({walk.vx, walk.vy});
       nearest = std::min(nearest, (feet.position - robot).norm());
     }

@@ -16,6 +16,7 @@ PlayConstants make_toy_constants() {
   constants.field = {9, 6, 1.5, 0.5, {0.6, 2.2}};
   constants.walk_limits = {0.3, 0.2, 0.2, 2};
   constants.kick = KickPlace{{0.18, 0.05}, {0.05, 0.025}};
+  constants.parameters = PlayParameters::load("");
   constants.actions = {"kick-left", "kick-right", "block", "dive-left", "dive-right"};
   return constants;
 }

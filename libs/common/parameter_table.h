@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "common/yaml_entry.h"
+
+namespace nao {
+
+/** A number of a struct of groups, and its name in a YAML file: "GROUP.KEY". */
+template <class Parameters>
+struct NamedParameter {
+  std::string name;
+  double& (*in)(Parameters&);
+
+  /** Its entry in a file. Errors report one that the file does not have. */
+  YamlEntry entry(const YamlEntry& root) const {
+    const size_t dot = name.find('.');
+    return root.at(name.substr(0, dot)).at(name.substr(dot + 1));
+  }
+};
+
+template <class Parameters>
+using ParameterTable = std::vector<NamedParameter<Parameters>>;
+
+/** An element of a ParameterTable: the name in the file is that of the member. */
+#define NAO_PARAMETER(Parameters, group, key)                                  \
+  {                                                                            \
+#group "." #key, [](Parameters & all) -> double& { return all.group.key; } \
+  }
+
+/** Calls `read` with each parameter of a file and its entry, in the file's order. An unknown name
+ * is an error: a misspelled parameter would silently keep its default. */
+template <class Parameters, class Read>
+void read_parameters(const YamlEntry& root, const ParameterTable<Parameters>& table, Read read) {
+  for (const auto& [group, keys] : root.entries()) {
+    for (const auto& [key, entry] : keys.entries()) {
+      const auto known = std::find_if(
+          table.begin(), table.end(),
+          [name = group + "." + key](const auto& parameter) { return parameter.name == name; });
+      if (known == table.end()) entry.fail("is unknown");
+      read(*known, entry);
+    }
+  }
+}
+
+}  // namespace nao
