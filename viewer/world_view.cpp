@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "messages/pose_message.h"
 #include "rendering/decode_state.h"
 #include "viewer/message_store.h"
 

@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "messages/named_joints.h"
+#include "messages/pose_message.h"
 
 namespace nao::play {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 /** Microseconds. */
 constexpr int64_t kHistoryLength = 1000000;
 constexpr int64_t kHistoryGap = 100000;
-/** Deviation of a quaternion's norm from 1 that rounding cannot explain. */
-constexpr double kNormTolerance = 1e-3;
 
 }  // namespace
 
@@ -24,14 +23,8 @@ RobotPose decode_pose(const RobotModel& model, const naolcm::robot_state_t& stat
   const auto fault = read_named_joints(model.motor_names(), state.joint_names,
                                        {{"position", state.joint_position, pose.position}});
   if (fault) throw MessageError(to_sentence(*fault));
-  const double(&q)[4] = state.orientation_torso_in_odometry;
-  const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
-  const Eigen::Vector3d position(state.position_torso_in_odometry);
-  if (!position.allFinite() || !(std::abs(rotation.norm() - 1) < kNormTolerance)) {
-    throw MessageError("the torso's pose is not finite, or its quaternion's norm is not 1");
-  }
-  pose.torso_in_odometry.linear() = rotation.normalized().toRotationMatrix();
-  pose.torso_in_odometry.translation() = position;
+  pose.torso_in_odometry =
+      nao::decode_pose(state.position_torso_in_odometry, state.orientation_torso_in_odometry);
   return pose;
 }
 

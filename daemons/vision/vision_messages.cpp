@@ -4,12 +4,10 @@
 
 #include "common/error.h"
 #include "messages/named_joints.h"
+#include "messages/pose_message.h"
 
 namespace nao::vision {
 namespace {
-
-/** Deviation of a quaternion's norm from 1 that rounding cannot explain. */
-constexpr double kNormTolerance = 1e-3;
 
 naolcm::detection_t encode_detection(const Detection& detection) {
   naolcm::detection_t message{};
@@ -48,14 +46,8 @@ RobotPosture decode_posture(const RobotModel& model, const naolcm::robot_state_t
   const auto fault = read_named_joints(model.motor_names(), state.joint_names,
                                        {{"position", state.joint_position, posture.position}});
   if (fault) throw MessageError(to_sentence(*fault));
-  const double(&q)[4] = state.orientation_torso_in_odometry;
-  const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
-  const Eigen::Vector3d position(state.position_torso_in_odometry);
-  if (!position.allFinite() || !(std::abs(rotation.norm() - 1) < kNormTolerance)) {
-    throw MessageError("the torso's pose is not finite, or its quaternion's norm is not 1");
-  }
-  posture.pose_torso_in_odometry.linear() = rotation.normalized().toRotationMatrix();
-  posture.pose_torso_in_odometry.translation() = position;
+  posture.pose_torso_in_odometry =
+      decode_pose(state.position_torso_in_odometry, state.orientation_torso_in_odometry);
   return posture;
 }
 

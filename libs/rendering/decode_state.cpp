@@ -1,19 +1,15 @@
 #include "rendering/decode_state.h"
 
-#include <cmath>
 #include <memory>
 #include <naolcm/world_truth_t.hpp>
 #include <utility>
 
 #include "common/error.h"
 #include "messages/named_joints.h"
+#include "messages/pose_message.h"
 
 namespace nao {
 namespace {
-
-/** Allowed deviation of a quaternion's norm from 1. Chosen: far above rounding errors, small enough
- * that a damaged message is rejected. */
-constexpr double kNormTolerance = 1e-3;
 
 std::vector<LitLight> decode_lights(const naolcm::robot_truth_t& robot) {
   std::vector<LitLight> lights;
@@ -39,22 +35,6 @@ std::vector<double> decode_positions(const RobotModel& model, const std::vector<
                                        {{"position", position, decoded}}, JointCoverage::kSubset);
   if (fault) throw MessageError(to_sentence(*fault));
   return decoded;
-}
-
-// The quaternion is w, x, y, z.
-Eigen::Isometry3d decode_pose(const double (&position)[3], const double (&quaternion)[4]) {
-  const Eigen::Quaterniond rotation(quaternion[0], quaternion[1], quaternion[2], quaternion[3]);
-  const Eigen::Vector3d translation(position[0], position[1], position[2]);
-  if (!translation.allFinite()) throw MessageError("a position is not finite");
-  // Written so that NaN fails.
-  if (!(std::abs(rotation.norm() - 1) < kNormTolerance)) {
-    throw MessageError("a quaternion has the norm " + std::to_string(rotation.norm()) +
-                       " instead of 1");
-  }
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = rotation.normalized().toRotationMatrix();
-  pose.translation() = translation;
-  return pose;
 }
 
 WorldState decode_truth(RobotModels& models, const naolcm::world_truth_t& truth) {

@@ -12,17 +12,13 @@ class world_truth_t;
 }
 
 /** Converts messages to states that can be drawn. All functions throw nao::MessageError, with the
- * reason, if a joint is unknown, arrays differ in length, a number is not finite or a quaternion is
- * not a unit quaternion. */
+ * reason, if a joint is unknown, arrays differ in length or a number is not finite. */
 namespace nao {
 
 /** Joint positions in motor order; a motor that the message does not list is at 0.
  * @param names, position  Arrays of a message: rad (hands: opening). */
 std::vector<double> decode_positions(const RobotModel& model, const std::vector<std::string>& names,
                                      const std::vector<double>& position);
-
-/** @param position  m. @param quaternion  (w, x, y, z), of norm 1 within 0.001. */
-Eigen::Isometry3d decode_pose(const double (&position)[3], const double (&quaternion)[4]);
 
 /** The visible part of the simulated world. @param models  Loads those that it does not have. */
 WorldState decode_truth(RobotModels& models, const naolcm::world_truth_t& truth);

@@ -1,31 +1,24 @@
 // nao calibrate: learns how this robot's joints and sensors differ from its model.
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <limits>
 #include <memory>
-#include <naolcm/command_result_t.hpp>
-#include <naolcm/motion_state_t.hpp>
 #include <naolcm/sensor_state_t.hpp>
 #include <optional>
 #include <string>
 
 #include "calibration/calibration_run.h"
 #include "common/bus.h"
-#include "common/channels.h"
 #include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/error.h"
-#include "common/event_loop.h"
 #include "common/output_file.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
-#include "messages/command_publisher.h"
 #include "messages/named_joints.h"
-#include "tools/nao/command_exchange.h"
+#include "tools/nao-tools/motion_session.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/tools_subcommands.h"
 
@@ -50,75 +43,35 @@ std::string now_as_text() {
 }
 
 /** A calibration on the bus: sends the run's commands, and gives it results and sensors. */
-class CalibrationSession {
+class Calibrator {
  public:
-  CalibrationSession(const CommonOptions& common, const RobotModel& model, int num_stations)
-      : model_(model),
-        run_(model, num_stations),
-        source_("nao-calibrate." + std::to_string(getpid())),
-        bus_(common.lcm_url),
-        channels_(common.robot),
-        commands_(bus_, channels_) {
-    loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
-    bus_.subscribe<naolcm::command_result_t>(
-        channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
-          if (!exchange_ || result.source != source_ || result.command_id != command_id_) return;
-          exchange_->handle_result(static_cast<ResultStatus>(result.status), result.reason,
-                                   monotonic_seconds());
-        });
-    bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
-                                           [this](const naolcm::motion_state_t&) {
-                                             if (exchange_)
-                                               exchange_->handle_sign_of_life(monotonic_seconds());
-                                           });
-    bus_.subscribe<naolcm::sensor_state_t>(
-        channels_.sensor_state, Bus::Queue::kAll,
+  Calibrator(const CommonOptions& common, const RobotModel& model, int num_stations)
+      : model_(model), run_(model, num_stations), session_(common, "nao-calibrate") {
+    session_.bus().subscribe<naolcm::sensor_state_t>(
+        session_.channels().sensor_state, Bus::Queue::kAll,
         [this](const naolcm::sensor_state_t& message) { measure(message); });
   }
 
-  /** @return Whether all poses were measured; Ctrl-C, silence and repeated faults end it before. */
-  bool execute() {
-    loop_.every(0.02, [this] { step(); });
-    const std::string reason = loop_.run();
-    if (reason != "end") fault_ = "stopped by " + reason;
-    if (fault_.empty()) fault_ = run_.fault();
-    return fault_.empty();
+  /** @return Why not all poses were measured: Ctrl-C, silence or repeated faults; empty: they were.
+   */
+  std::string execute() {
+    const std::string fault =
+        session_.execute({[this] { return next_request(); },
+                          [this](const std::string& reason) { run_.end_command(reason); },
+                          [this] { return run_.is_done(); }});
+    return fault.empty() ? run_.fault() : fault;
   }
 
-  const std::string& fault() const { return fault_; }
   CalibrationEstimator& estimator() { return run_.estimator(); }
 
  private:
-  void step() {
-    const double now = monotonic_seconds();
-    if (!exchange_) {
-      command_ = run_.next_command();
-      if (command_) {
-        command_id_ = wall_utime();
-        exchange_.emplace("nao-motion", now);
-        std::printf("\r%3.0f %%", 100 * run_.progress());
-        std::fflush(stdout);
-      }
-    }
-    if (exchange_) {
-      if (exchange_->should_send(now)) {
-        std::visit(
-            [this](const auto& request) {
-              commands_.publish({source_, command_id_, request});
-            },
-            *command_);
-      }
-      if (const auto outcome = exchange_->outcome(now)) {
-        exchange_.reset();
-        if (outcome->status == "unanswered" || outcome->status == "silent") {
-          fault_ = outcome->reason;
-          loop_.stop("end");
-          return;
-        }
-        run_.end_command(outcome->is_success ? "" : outcome->status + ": " + outcome->reason);
-      }
-    }
-    if (run_.is_done()) loop_.stop("end");
+  std::optional<decltype(Command::request)> next_request() {
+    const auto command = run_.next_command();
+    if (!command) return std::nullopt;
+    std::printf("\r%3.0f %%", 100 * run_.progress());
+    std::fflush(stdout);
+    return std::visit([](const auto& request) { return decltype(Command::request)(request); },
+                      *command);
   }
 
   void measure(const naolcm::sensor_state_t& message) {
@@ -147,28 +100,20 @@ class CalibrationSession {
 
   const RobotModel& model_;
   CalibrationRun run_;
-  std::string source_;
-  EventLoop loop_;
-  Bus bus_;
-  RobotChannels channels_;
-  CommandPublisher commands_;
-  std::optional<CalibrationCommand> command_;
-  int64_t command_id_ = 0;
-  std::optional<CommandExchange> exchange_;
+  MotionSession session_;
   int64_t last_utime_ = 0;
-  std::string fault_;
 };
 
 int calibrate(const CommonOptions& common, const CalibrateOptions& options) {
   const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
-  CalibrationSession session(common, model, options.num_stations);
-  const bool is_complete = session.execute();
+  Calibrator calibrator(common, model, options.num_stations);
+  const std::string fault = calibrator.execute();
   std::printf("\n");
-  if (!is_complete) {
-    std::fprintf(stderr, "nao: calibrate: %s; wrote nothing\n", session.fault().c_str());
+  if (!fault.empty()) {
+    std::fprintf(stderr, "nao: calibrate: %s; wrote nothing\n", fault.c_str());
     return 1;
   }
-  CalibrationEstimator& estimator = session.estimator();
+  CalibrationEstimator& estimator = calibrator.estimator();
   Calibration calibration = estimator.solve();
   calibration.date = now_as_text();
   replace_file(options.file, calibration.to_yaml(model));

@@ -1,30 +1,22 @@
 // nao self-test: moves each joint a little and looks at every sensor.
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <naolcm/body_state_t.hpp>
 #include <naolcm/camera_command_t.hpp>
-#include <naolcm/command_result_t.hpp>
 #include <naolcm/image_t.hpp>
-#include <naolcm/motion_state_t.hpp>
 #include <naolcm/sensor_state_t.hpp>
 #include <optional>
 #include <string>
 
-#include "common/bus.h"
-#include "common/channels.h"
 #include "common/command_line.h"
 #include "common/data_path.h"
-#include "common/event_loop.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
-#include "messages/command_publisher.h"
 #include "messages/named_joints.h"
+#include "tools/nao-tools/motion_session.h"
 #include "tools/nao-tools/self_test.h"
-#include "tools/nao/command_exchange.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/tools_subcommands.h"
 
@@ -40,90 +32,56 @@ constexpr int kImageWidth = 320;
 constexpr double kImageRate = 5;
 
 /** A self-test on the bus: sends its commands, and gives it results, sensors and images. */
-class SelfTestSession {
+class SelfTester {
  public:
-  SelfTestSession(const CommonOptions& common, const RobotModel& model)
-      : model_(model),
-        test_(model),
-        source_("nao-self-test." + std::to_string(getpid())),
-        bus_(common.lcm_url),
-        channels_(common.robot),
-        commands_(bus_, channels_) {
-    loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
-    bus_.subscribe<naolcm::command_result_t>(
-        channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
-          if (!exchange_ || result.source != source_ || result.command_id != command_id_) return;
-          exchange_->handle_result(static_cast<ResultStatus>(result.status), result.reason,
-                                   monotonic_seconds());
-        });
-    bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
-                                           [this](const naolcm::motion_state_t&) {
-                                             if (exchange_)
-                                               exchange_->handle_sign_of_life(monotonic_seconds());
-                                           });
-    bus_.subscribe<naolcm::sensor_state_t>(
-        channels_.sensor_state, Bus::Queue::kAll,
+  SelfTester(const CommonOptions& common, const RobotModel& model)
+      : model_(model), test_(model), session_(common, "nao-self-test") {
+    const RobotChannels& channels = session_.channels();
+    session_.bus().subscribe<naolcm::sensor_state_t>(
+        channels.sensor_state, Bus::Queue::kAll,
         [this](const naolcm::sensor_state_t& message) { measure(message); });
-    bus_.subscribe<naolcm::body_state_t>(
-        channels_.body_state, Bus::Queue::kAll,
+    session_.bus().subscribe<naolcm::body_state_t>(
+        channels.body_state, Bus::Queue::kAll,
         [this](const naolcm::body_state_t& message) { measure(message); });
-    bus_.subscribe<naolcm::image_t>(channels_.head_camera_image, Bus::Queue::kAll,
-                                    [this](const naolcm::image_t& image) {
-                                      // Other receivers' images of other sizes say nothing more.
-                                      if (image.width != kImageWidth) return;
-                                      test_.add_image(image.camera, image.size_bytes);
-                                    });
+    session_.bus().subscribe<naolcm::image_t>(channels.head_camera_image, Bus::Queue::kAll,
+                                              [this](const naolcm::image_t& image) {
+                                                // Other receivers' images of other sizes say
+                                                // nothing more.
+                                                if (image.width != kImageWidth) return;
+                                                test_.add_image(image.camera, image.size_bytes);
+                                              });
   }
 
   /** @return Why it could not be done; empty: it is done. */
   std::string execute() {
     last_sensors_ = monotonic_seconds();
     request_images();
-    loop_.every(1.0, [this] { request_images(); });
-    loop_.every(0.02, [this] { step(); });
-    const std::string reason = loop_.run();
-    return reason == "end" ? fault_ : "stopped by " + reason;
+    session_.loop().every(1.0, [this] { request_images(); });
+    return session_.execute({[this] { return next_request(); },
+                             [this](const std::string& fault) { test_.end_command(fault); },
+                             [this] { return test_.is_done(); }});
   }
 
   const SelfTest& test() const { return test_; }
 
  private:
-  void step() {
-    const double now = monotonic_seconds();
-    if (now - last_sensors_ > kSilence) return fail("no robot answers");
-    if (!exchange_) {
-      command_ = test_.next_command();
-      if (command_) {
-        command_id_ = wall_utime();
-        exchange_.emplace("nao-motion", now);
-        std::fprintf(stderr, "\r%3.0f %%", 100 * test_.progress());
-      }
-    }
-    if (exchange_) {
-      if (exchange_->should_send(now)) commands_.publish({source_, command_id_, *command_});
-      if (const auto outcome = exchange_->outcome(now)) {
-        exchange_.reset();
-        if (outcome->status == "unanswered" || outcome->status == "silent") {
-          return fail(outcome->reason);
-        }
-        test_.end_command(outcome->is_success ? "" : outcome->status + ": " + outcome->reason);
-      }
-    }
-    if (test_.is_done()) loop_.stop("end");
+  std::optional<decltype(Command::request)> next_request() {
+    const auto command = test_.next_command();
+    if (!command) return std::nullopt;
+    std::fprintf(stderr, "\r%3.0f %%", 100 * test_.progress());
+    return *command;
   }
 
-  void fail(const std::string& fault) {
-    fault_ = fault;
-    loop_.stop("end");
-  }
-
+  /** Also looks whether there is a robot. */
   void request_images() {
+    if (monotonic_seconds() - last_sensors_ > kSilence) return session_.fail("no robot answers");
     for (const CameraModel& camera : model_.cameras()) {
       naolcm::camera_command_t message{};
       message.camera = camera.name;
       message.width = kImageWidth;
       message.rate = kImageRate;
-      commands_.publish(channels_.head_camera_command, message, source_);
+      session_.commands().publish(session_.channels().head_camera_command, message,
+                                  session_.source());
     }
   }
 
@@ -186,29 +144,21 @@ class SelfTestSession {
 
   const RobotModel& model_;
   SelfTest test_;
-  std::string source_;
-  EventLoop loop_;
-  Bus bus_;
-  RobotChannels channels_;
-  CommandPublisher commands_;
-  std::optional<JointChangeCommand> command_;
-  int64_t command_id_ = 0;
-  std::optional<CommandExchange> exchange_;
+  MotionSession session_;
   int64_t last_utime_ = 0;
   double last_sensors_ = 0;
-  std::string fault_;
 };
 
 int run_self_test(const CommonOptions& common, const std::string& model_name) {
   const RobotModel model = RobotModel::load(data_path() / "robots" / model_name);
-  SelfTestSession session(common, model);
-  const std::string fault = session.execute();
+  SelfTester tester(common, model);
+  const std::string fault = tester.execute();
   std::fprintf(stderr, "\r     \r");
   if (!fault.empty()) {
     std::fprintf(stderr, "nao: self-test: %s\n", fault.c_str());
     return 1;
   }
-  const std::vector<SelfTestFinding> findings = session.test().findings();
+  const std::vector<SelfTestFinding> findings = tester.test().findings();
   std::fputs(to_table(findings).c_str(), stdout);
   for (const SelfTestFinding& finding : findings) {
     if (finding.verdict == SelfTestFinding::Verdict::kFault) return 1;

@@ -30,7 +30,7 @@ class PendulumWalk {
     steps_.start();
     plan();
     // Both begin on the plan.
-    com_ = {feet_.midpoint(), {}};
+    com_ = {feet_.midpoint(), Eigen::Vector2d::Zero()};
     com_.velocity = reference_.omega() * (steps_.dcm().start - com_.position);
     reference_.follow(com_, 1e9);
   }
