@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <naolcm/match_command_t.hpp>
 #include <random>
@@ -297,16 +299,26 @@ void RefereeDaemon::write_files(const std::vector<MatchEvent>& events) {
     if (options_.events_file.empty()) continue;
     std::ofstream stream(options_.events_file, std::ios::app);
     stream << event_to_json(event, state) << "\n";
-    if (!stream.flush()) logger::error("cannot write {}", options_.events_file.string());
+    const bool is_written = static_cast<bool>(stream.flush());
+    note_file(options_.events_file, is_written ? "" : std::strerror(errno));
   }
   const double now = clock_();
   if (options_.state_file.empty() || (events.empty() && now - last_saved_ < kSavePeriod)) return;
   last_saved_ = now;
   try {
     replace_file(options_.state_file, to_json(referee_->state()));
+    note_file(options_.state_file, "");
   } catch (const Error& error) {
-    logger::error("{}", error.what());
+    note_file(options_.state_file, error.what());
   }
+}
+
+void RefereeDaemon::note_file(const std::filesystem::path& file, const std::string& fault) {
+  std::string& last = file_faults_[file.string()];
+  if (!fault.empty() && fault != last) {
+    logger::error("cannot write {}: {}; the match continues", file.string(), fault);
+  }
+  last = fault;
 }
 
 void RefereeDaemon::handle(const naolcm::match_command_t& message) {
@@ -357,6 +369,9 @@ void RefereeDaemon::publish_status(double now) {
     if (const std::string ignored = game_controller_ ? game_controller_->ignored() : "";
         !ignored.empty()) {
       detail += "; ignores a second GameController at " + ignored;
+    }
+    for (const auto& [file, fault] : file_faults_) {
+      if (!fault.empty()) detail += "; cannot write " + file + ": " + fault;
     }
     status_.set_state("ready", detail);
   }

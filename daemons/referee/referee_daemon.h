@@ -111,6 +111,8 @@ class RefereeDaemon {
   void handle(const naolcm::match_command_t& message);
   void put(const Placement& placement);
   void write_files(const std::vector<MatchEvent>& events);
+  /** @param fault  Why it was not written, as when the disk is full; empty: it was. */
+  void note_file(const std::filesystem::path& file, const std::string& fault);
 
   Bus& bus_;
   RefereeOptions options_;
@@ -135,6 +137,8 @@ class RefereeDaemon {
   /** Touches of the ball since the last step; contacts are shorter than steps. */
   std::map<std::string, bool> touches_;
   double next_step_ = 0;
+  /** By file, for the status. */
+  std::map<std::string, std::string> file_faults_;
   double last_saved_ = -1e9;
 };
 

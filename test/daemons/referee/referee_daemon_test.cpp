@@ -369,5 +369,23 @@ TEST_F(GameControllerDaemonTest, FollowsItAndAnswersForEveryRobot) {
   EXPECT_EQ(results_.back().reason_code, "match-by-game-controller");
 }
 
+/** A referee whose disk is full. */
+class RefereeOnAFullDisk : public RefereeDaemonTest {
+ protected:
+  RefereeOnAFullDisk()
+      : RefereeDaemonTest([](RefereeOptions& options) { options.events_file = "/dev/full"; }) {}
+};
+
+TEST_F(RefereeOnAFullDisk, SaysSoInItsStatusAndPlaysOn) {
+  std::string detail;
+  bus_.subscribe<naolcm::daemon_status_t>(
+      "DAEMON_STATUS", Bus::Queue::kAll,
+      [&](const naolcm::daemon_status_t& status) { detail = status.detail; });
+  play();
+  daemon_->publish_status(now_);
+  deliver();
+  EXPECT_EQ(detail, "playing, 0:0; cannot write /dev/full: No space left on device");
+}
+
 }  // namespace
 }  // namespace nao::referee
