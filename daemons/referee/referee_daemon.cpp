@@ -300,7 +300,9 @@ void RefereeDaemon::write_files(const std::vector<MatchEvent>& events) {
     std::ofstream stream(options_.events_file, std::ios::app);
     stream << event_to_json(event, state) << "\n";
     const bool is_written = static_cast<bool>(stream.flush());
-    note_file(options_.events_file, is_written ? "" : std::strerror(errno));
+    note_file(options_.events_file, is_written ? ""
+                                               : "cannot write " + options_.events_file.string() +
+                                                     ": " + std::strerror(errno));
   }
   const double now = clock_();
   if (options_.state_file.empty() || (events.empty() && now - last_saved_ < kSavePeriod)) return;
@@ -316,7 +318,7 @@ void RefereeDaemon::write_files(const std::vector<MatchEvent>& events) {
 void RefereeDaemon::note_file(const std::filesystem::path& file, const std::string& fault) {
   std::string& last = file_faults_[file.string()];
   if (!fault.empty() && fault != last) {
-    logger::error("cannot write {}: {}; the match continues", file.string(), fault);
+    logger::error("{}; the match continues", fault);
   }
   last = fault;
 }
@@ -371,7 +373,7 @@ void RefereeDaemon::publish_status(double now) {
       detail += "; ignores a second GameController at " + ignored;
     }
     for (const auto& [file, fault] : file_faults_) {
-      if (!fault.empty()) detail += "; cannot write " + file + ": " + fault;
+      if (!fault.empty()) detail += "; " + fault;
     }
     status_.set_state("ready", detail);
   }
