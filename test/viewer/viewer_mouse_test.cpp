@@ -109,8 +109,12 @@ TEST_F(ViewerMouse, PushesTheLinkThatIsDraggedWithControlHeld) {
                           decode_truth(models_, truth_).robots[0].position);
   const Link& root = model_.links()[0];
   const Eigen::Vector3d center = poses[0] * root.center_of_mass;
+#if IMGUI_VERSION_NUM >= 18900
+  ImGui::GetIO().AddKeyEvent(ImGuiMod_Ctrl, true);
+#else
   ImGui::GetIO().KeyCtrl = true;
   ImGui::GetIO().KeyMods = ImGuiKeyModFlags_Ctrl;
+#endif
   point_at(center);
   press(true);
   point_at(center + Eigen::Vector3d(0, 0.3, 0));
