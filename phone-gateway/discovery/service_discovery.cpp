@@ -48,7 +48,7 @@ std::vector<std::string> ServiceDiscovery::alias_names(const std::string& alias)
 }
 
 /** Every handler gets the D-Bus message and returns 0; errors of the D-Bus library mean that the
- * bus is gone, which step() notices. */
+ * bus is unavailable, which step() notices. */
 struct ServiceDiscovery::Impl {
   using Handler = int (Impl::*)(sd_bus_message*);
 
