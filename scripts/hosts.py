@@ -24,15 +24,15 @@ class Host(NamedTuple):
     name: str
     # USER@ADDRESS; empty: this machine.
     ssh: str
-    # Of the project on that host.
+    # Folder of the project on that host.
     folder: str
-    # Of scripts/start there, for logs and settings; empty: its default.
+    # Run directory of scripts/start there; empty: its default.
     run_dir: str
     # Full names, "nao-motion".
     programs: list
-    # Of which it runs the programs that there are for each robot.
+    # Robots whose own programs run on this host.
     robots: list
-    # Of scripts/start on this host only.
+    # Options of scripts/start on this host only.
     options: list
 
     def script(self, name, *words):

@@ -18,7 +18,7 @@ CALL = os.environ.get("NAO_REMOTE_CALL", "scripts/")
 SIM = "nao-sim"
 # All programs of a stack.
 PROGRAMS = (SIM, "nao-motion", "nao-motion-files", "nao-head-camera", "nao-speaker", "nao-phone-gateway")
-# Of these, those without which the robot can be driven.
+# Those of them without which the robot can be driven.
 OPTIONAL = ("nao-speaker",)
 # With --backend lola one more: the bridge of a real robot, which its watchdog starts.
 ROBOT = "nao-robot"

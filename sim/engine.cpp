@@ -17,7 +17,7 @@ std::vector<std::string> engine_names() {
 #endif
 }
 
-// The engine of that name. An engine that is missing in this build is told apart from an unknown
+// The engine of that name. An engine that is missing in this build is distinguished from an unknown
 // one, since the first can be installed.
 std::unique_ptr<Engine> make_engine(const SceneFile& scene, const WorldOptions& options,
                                     MovingBodies& bodies) {

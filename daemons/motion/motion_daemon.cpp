@@ -107,8 +107,8 @@ void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
   step(std::move(sensors), is_successor ? elapsed : period);
 }
 
-// Without sensors the core still runs, on wall time: it notices that the robot is gone, and refuses
-// commands.
+// Without sensors the core still runs, on wall time: it notices that the robot is unavailable, and
+// refuses commands.
 void MotionDaemon::check_for_silence() {
   const double now = monotonic_seconds();
   // Commands that come after a reset wait for the new time.

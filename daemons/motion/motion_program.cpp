@@ -29,7 +29,7 @@ int nao::motion::run_motion(int argc, char** argv) {
       ->show_default();
   app.add_option("--calibration", calibration_file,
                  "File of the robot's own joint and sensor errors, as nao calibrate writes it");
-  app.add_flag("!--no-get-up", options.gets_up, "After a fall, lie until a command");
+  app.add_flag("!--no-get-up", options.gets_up, "After a fall, remain lying until a command");
   return nao::run_program(app, common, argc, argv, [&] {
     // Errors of the model end the program here, before it answers on any channel.
     const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);

@@ -21,7 +21,7 @@ class SensorOwner {
 
  private:
   bool has_owner_ = false;
-  /** Of the owner's last state. */
+  /** Time of the owner's last state. */
   int64_t utime_ = 0;
   double time_ = 0;
   /** States of another robot since then. */

@@ -30,8 +30,9 @@ int main(int argc, char** argv) {
          "(default: 0,0,0)")
       ->separated_by(',')
       ->count(3);
-  app.add_flag("--autonomous", options.is_autonomous,
-               "In a match: play by itself, but for 10 s after another program's last command");
+  app.add_flag(
+      "--autonomous", options.is_autonomous,
+      "Play matches by itself; once another program has commanded the robot, wait for its release");
   return nao::run_program(app, common, argc, argv, [&] {
     options.robot = common.robot;
     options.start_in_field = {{start_pose[0], start_pose[1]}, start_pose[2] * nao::kDegree};

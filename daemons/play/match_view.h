@@ -62,9 +62,9 @@ std::optional<Eigen::Vector2d> find_team_ball(const MatchView& match,
                                               const std::optional<Eigen::Vector2d>& own,
                                               double time);
 
-/** The robot's task in its team. Of the players that play by themselves, the one with the highest
- * number keeps the goal if the team has another player without a penalty; the one nearest to the
- * ball among the others is the striker.
+/** The robot's task in its team. Among the players that play by themselves, the one with the
+ * highest number keeps the goal if the team has another player without a penalty; the one nearest
+ * to the ball among the others is the striker.
  * @param position  Position of the robot, m. @param ball  Nothing: unknown.
  * @param present  Its role until now, which it keeps if the distances differ little. */
 PlayRole choose_role(const MatchView& match, const Eigen::Vector2d& position,

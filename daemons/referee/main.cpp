@@ -11,7 +11,7 @@
 #include "daemons/referee/referee_daemon.h"
 
 int main(int argc, char** argv) {
-  nao::CommandLine app("Referee of a match of simulated robots: kick-off, goals, time, penalties",
+  nao::CommandLine app("Referees a match of simulated robots: kick-off, goals, time, penalties",
                        "nao-referee");
   nao::CommonOptions common;
   nao::referee::RefereeOptions options;
@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
   app.add_option("--model", model, "Folder of robots/ that describes robots without a model")
       ->show_default();
   app.add_option("--scene", options.scene, "Scene with field, goals and ball")->show_default();
-  app.add_option("--half-duration", options.rules.half_duration, "Of a half, s")
+  app.add_option("--half-duration", options.rules.half_duration, "Duration of a half, s")
       ->range(10.0, 3600.0)
       ->show_default();
   app.add_flag("--start", options.starts_by_itself,

@@ -71,7 +71,7 @@ GameControllerReturn to_return(const MatchPlayer& player, const RobotSighting& r
 
 /** Connects a referee, our own or the GameController, to the bus: receives WORLD_TRUTH,
  * NAO_PLAY_STATE of every robot and MATCH_COMMAND, with a GameController also NAO_VISION_STATE for
- * what robots tell it; publishes MATCH_STATE, MATCH_COMMAND_RESULT and WORLD_COMMAND. */
+ * what robots report; publishes MATCH_STATE, MATCH_COMMAND_RESULT and WORLD_COMMAND. */
 class RefereeDaemon {
  public:
   /** Time between two match_state_t, s. */

@@ -24,8 +24,8 @@ constexpr double kStiffLeg = 0.05;
 /** Difference of stiffness that counts as none. Chosen: far above the rounding of a frame's float,
  * and far below what holds a joint. */
 constexpr double kStiffnessStep = 0.01;
-/** Time for which a robot that does not become limp is told so before the program ends, s: 25
- * frames. Chosen. */
+/** Time for which "limp" is sent to a robot that does not become limp before the program ends, s:
+ * 25 frames. Chosen. */
 constexpr double kLastFramesTime = 0.3;
 /** Stiffness while it sits down: B-Human's of legs. */
 constexpr double kSittingStiffness = 0.75;

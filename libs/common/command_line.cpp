@@ -9,7 +9,7 @@ namespace nao {
 
 // CLI11 is hidden behind this file: its header is slow to compile.
 struct CommandLine::Parts {
-  /** Of a program; its subcommands belong to it. */
+  /** Parser of a program; its subcommands belong to it. */
   std::unique_ptr<CLI::App> own_app;
   CLI::App& app;
   std::deque<Option> options;

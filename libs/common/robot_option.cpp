@@ -21,7 +21,7 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-/** @throws ConfigError  if the text is no number in the range. */
+/** @throws ConfigError  if the text is not a number in the range. */
 int parse_number(const std::string& text, int least, int greatest, const std::string& what) {
   int number = 0;
   const char* end = text.data() + text.size();

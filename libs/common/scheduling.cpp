@@ -5,7 +5,7 @@
 namespace nao {
 namespace {
 
-// Of the calling thread.
+// Applies to the calling thread.
 bool set_round_robin(int priority) {
   sched_param param{};
   param.sched_priority = priority;

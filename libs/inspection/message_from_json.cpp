@@ -215,7 +215,7 @@ class StructEncoder {
   const Json* object_;
   std::string path_;
   WireWriter& writer_;
-  /** Length by the name of its field; -1 until an array tells it. */
+  /** Length by the name of its field; -1 until an array gives it. */
   std::map<std::string, int64_t> lengths_;
 };
 

@@ -7,7 +7,7 @@ namespace {
 // app. Chosen.
 constexpr size_t kMaxQuotedLength = 40;
 constexpr size_t kMaxNamesListed = 4;
-// Of a source, characters. Chosen: a host name and a program name fit in.
+// Longest name of a source, characters. Chosen: a host name and a program name fit in.
 constexpr size_t kMaxSourceLength = 64;
 
 }  // namespace

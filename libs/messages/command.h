@@ -53,7 +53,7 @@ struct ActionCommand {
   /** Ball on the ground, m forward and to the left of the midpoint between the soles. */
   double ball_x = 0;
   double ball_y = 0;
-  /** Of a kick, (0, 1]. */
+  /** Strength of a kick, (0, 1]. */
   double strength = 0;
 };
 

@@ -40,7 +40,7 @@ struct CommandTiming {
   /** Transmissions that are left; below 0: any number. */
   int num_left = -1;
 
-  /** Of a walk, which is repeated as long as it lasts, and for whose results nobody waits. */
+  /** Timing of a walk, which is repeated as long as it lasts; nobody waits for its results. */
   static constexpr CommandTiming of_stream() {
     return {.confirm_period = kRepeatPeriod, .answer_timeout = kNever};
   }

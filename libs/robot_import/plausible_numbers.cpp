@@ -27,7 +27,7 @@ constexpr double kAssumedVelocity = 1.5;
 // farthest known point, as shapes may be smaller than the link, and of the leg.
 constexpr double kGreatestGyration = 1.5;
 constexpr double kGreatestGyrationOfLeg = 0.4;
-// Of a link without shapes and further joints.
+// Least extent of a link without shapes and further joints.
 constexpr double kLeastExtentOfLeg = 0.1;
 // That of a ball, sqrt(2 / 5), of half of this size.
 constexpr double kAssumedGyration = 0.32;

@@ -160,8 +160,8 @@ void RobotModelReader::estimate_motors(const YamlEntry& robot) {
   // at an error of 0.1 rad.
   double armature_per_torque = 1e-3;
   double peak_error = 0.1;
-  // Of the joints that lead to the soles, N m/rad; up to kGreatestStiffening times that by
-  // peak_error: stiffer servos shake. Found with ten published robots.
+  // Least stiffness of the joints that lead to the soles, N m/rad; up to kGreatestStiffening times
+  // that by peak_error: stiffer servos shake. Found with ten published robots.
   double least_leg_stiffness = 0;
   constexpr double kGreatestStiffening = 2;
   if (robot.has("motor_defaults")) {

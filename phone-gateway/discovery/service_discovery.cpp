@@ -48,7 +48,7 @@ std::vector<std::string> ServiceDiscovery::alias_names(const std::string& alias)
 }
 
 /** Every handler gets the D-Bus message and returns 0; errors of the D-Bus library mean that the
- * bus is gone, which step() notices. */
+ * bus is unavailable, which step() notices. */
 struct ServiceDiscovery::Impl {
   using Handler = int (Impl::*)(sd_bus_message*);
 
@@ -357,7 +357,7 @@ struct ServiceDiscovery::Impl {
   /** Names that are tried now. */
   int service_number = 1;
   int alias_number = 1;
-  /** Of the alias, added so far. */
+  /** Addresses of the alias that have been added. */
   size_t num_addresses = 0;
   /** Interfaces on which a service is seen, by its name. */
   std::map<std::string, std::set<int>> seen;

@@ -10,7 +10,7 @@ namespace nao {
 
 /** A gateway in the local network, as it announces itself. */
 struct GatewayService {
-  /** Of the service, unique in the network: "NAO on lab-3". */
+  /** Name of the service, unique in the network: "NAO on lab-3". */
   std::string name;
   std::string robot;
   std::string model;

@@ -72,7 +72,7 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
                "runs, does so unless --bind is a loopback address");
   app.add_option("--mdns-name", options.mdns_name,
                  "Announce this host also as NAME.local, or NAME-2.local where that is taken; "
-                 "empty: not")
+                 "empty: no name")
       ->show_default();
   app.add_option(
       "--allow-origin", options.origins,

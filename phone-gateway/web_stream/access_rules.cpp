@@ -117,7 +117,7 @@ bool AccessRules::is_known_host(std::string_view host_header) const {
 }
 
 // Against pages of other sites that open a WebSocket: browsers always send the Origin (RFC 6455,
-// 10.2). Clients that are no browsers send none.
+// 10.2). Clients that are not browsers send none.
 bool AccessRules::is_known_origin(std::string_view origin, std::string_view host_header,
                                   bool is_secure) const {
   if (origin.empty()) return true;

@@ -26,8 +26,8 @@ class AccessRules {
    * localhost and *.localhost, which never leave this computer (RFC 6761, 6.3); the host's names
    * alone; and the host's names in a domain in which no attacker gets a name: the suffixes of home
    * routers and private networks (RFC 6762, appendix G; RFC 8375; fritz.box, which is AVM's), and
-   * `domains`. The host's name in any domain would not do: it is no secret, and HOST.evil.example
-   * can be made. A dot at the end changes nothing (RFC 1034, 3.1). */
+   * `domains`. The host's name in any domain would not do: it is not a secret, and
+   * HOST.evil.example can be made. A dot at the end changes nothing (RFC 1034, 3.1). */
   bool is_known_host(std::string_view host_header) const;
 
   /** Names that is_known_host() accepts, for a certificate: the host's names, those without a
@@ -35,7 +35,7 @@ class AccessRules {
   std::vector<std::string> all_host_names() const;
 
   /** Whether a WebSocket with this Origin may be opened: that of the server's own pages, or an
-   * allowed one. Clients that are no browsers send none and are accepted. */
+   * allowed one. Clients that are not browsers send none and are accepted. */
   bool is_known_origin(std::string_view origin, std::string_view host_header, bool is_secure) const;
 
  private:

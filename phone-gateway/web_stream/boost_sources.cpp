@@ -1,4 +1,4 @@
-// The parts of Boost.Asio and Boost.Beast that are no templates, compiled once: see
+// Compiles the parts of Boost.Asio and Boost.Beast that are not templates once: see
 // BOOST_ASIO_SEPARATE_COMPILATION and BOOST_BEAST_SEPARATE_COMPILATION.
 #include <utility>
 //

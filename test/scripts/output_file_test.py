@@ -47,7 +47,7 @@ class OutputFile(unittest.TestCase):
         self.assertEqual(self.file.stat().st_mode & 0o777, 0o600)
 
     def test_every_tool_uses_it(self):
-        """Streams that grow (logs), locks, generated sources and examples for users' programs are no results."""
+        """Streams that grow (logs), locks, generated sources and examples for users' programs are not results."""
         direct = {"*.py": r"write_text\(|write_bytes\(|open\([^)]*, \"w", "*.cpp": r"ofstream|fopen\([^)]*\"w|imwrite\("}
         allowed = {
             "libs/message_reflection/generate_message_layouts.py", "phone-gateway/clients/python/examples/teach_and_replay.py",

@@ -85,7 +85,7 @@ class RecordReplay(unittest.TestCase):
             self.assertGreater(len(messages(part, "OLD_SENSOR_STATE")), 20)
             self.assertEqual(messages(part, "NAO_SENSOR_STATE"), [])
 
-            # The log itself is no output, also by a link.
+            # The log itself is not a valid output, also by a link.
             link = stack.run_dir / "link.lcmlog"
             link.symlink_to(part)
             before = part.read_bytes()

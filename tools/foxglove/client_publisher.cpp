@@ -36,7 +36,7 @@ constexpr CommandChannel kCommands[] = {
     {"_PLAY_COMMAND", "play_command_t", 2'000'000},
 };
 
-/** nullptr if it is no channel of commands of the robot. */
+/** nullptr if it is not a command channel of the robot. */
 const CommandChannel* find_command(const std::string& robot, const std::string& channel) {
   const auto found =
       std::find_if(std::begin(kCommands), std::end(kCommands),

@@ -224,7 +224,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
                                                   origin) != kViewerOrigins.end());
   }
 
-  /** Answers, and tells the log, what this is not served to and which option would change it. */
+  /** Answers and logs why this client is not served, and which option would change that. */
   void refuse(http::status status, const std::string& what, std::string_view value,
               const std::string& option) {
     const std::string text = "nao-foxglove does not answer " + what + " " +

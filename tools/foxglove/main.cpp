@@ -65,7 +65,7 @@ void add_options(CommandLine& app, Options& options) {
   app.add_option("--allow-origin", options.network.origins,
                  "Site whose pages may connect, such as https://app.foxglove.dev (repeatable; "
                  "default: with --allow-commands none, else the published Foxglove and Lichtblick, "
-                 "their desktop programs, and pages from this computer). Programs that are no "
+                 "their desktop programs, and pages from this computer). Other programs than "
                  "browsers always may");
   app.add_option("--host-name", options.network.host_names,
                  "Another name of this host that browsers may use (repeatable)");

@@ -23,8 +23,8 @@ struct OutgoingMessage {
 /** Messages that wait for a client, within limits, so that a client that reads slowly or not at all
  * costs no more than them.
  *
- * Answers wait in order. Of a channel the newest messages wait: as many as a short pause of the
- * client brings, of large ones (images) one. */
+ * Answers wait in order. The newest messages of a channel wait: as many as arrive in a short pause
+ * of the client, and one if they are large (images). */
 class Outbox {
  public:
   /** Messages of one channel that may wait. Chosen: 0.1 s at 100 a second. */

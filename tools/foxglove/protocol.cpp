@@ -56,7 +56,7 @@ ClientRequest parse_subscribe(const Json& message) {
 }
 
 /** Reads a list of the numbers under which the client knows something. Those beyond 32 bits are
- * left out: nothing has them. @return false if it is no such list. */
+ * left out: nothing has them. @return false if it is not such a list. */
 bool read_numbers(const Json& message, const char* key, std::vector<uint32_t>& numbers) {
   const auto list = message.find(key);
   if (list == message.end() || !list->is_array()) return false;

@@ -59,7 +59,7 @@ struct Advertise {
     /** The client's number for its channel. */
     uint32_t id = 0;
     std::string topic;
-    /** Of the messages; "json" is understood. */
+    /** Encoding of the messages; "json" is understood. */
     std::string encoding;
   };
   std::vector<Entry> entries;

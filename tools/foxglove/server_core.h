@@ -18,7 +18,7 @@ namespace nao::foxglove {
 /** Limits of clients. */
 struct ClientLimits {
   size_t max_clients = 16;
-  /** Of all messages that wait for one client. All meshes of a robot, some MB, must fit. */
+  /** Size of all messages that wait for one client. All meshes of a robot, some MB, must fit. */
   size_t max_queued_bytes = 32u << 20;
 };
 

@@ -37,7 +37,7 @@ struct LogOptions {
   bool as_json = false;
   LogPart part;
   std::string model = "nao";
-  /** Of the options of all subcommands. */
+  /** Robot that the options of all subcommands name. */
   std::string robot;
 };
 

@@ -11,7 +11,7 @@ namespace nao {
 
 /** Statistics of one channel of a log. */
 struct LoggedChannel {
-  /** Of the last message; "?" if the type is unknown. */
+  /** Type of the last message; "?" if it is unknown. */
   std::string type = "?";
   int64_t num_messages = 0;
   int64_t num_bytes = 0;

@@ -61,7 +61,7 @@ class McapWriter {
   Bytes chunk_;
   uint64_t chunk_first_time_ = 0;
   uint64_t chunk_last_time_ = 0;
-  /** Of each channel: time and offset in the chunk of its messages. */
+  /** For each channel, time and offset in the chunk of its messages. */
   std::map<uint16_t, std::vector<std::pair<uint64_t, uint64_t>>> chunk_index_;
   std::vector<ChunkIndex> chunks_;
 };

@@ -63,7 +63,7 @@ struct Recorder {
 
   void receive(const RawMessage& message) {
     if (without && without->matches(message.channel)) return;
-    // flush() meets the same error and tells it.
+    // flush() meets the same error and reports it.
     try {
       writer.write(
           {0, message.wall_utime, message.channel, {message.bytes.begin(), message.bytes.end()}});

@@ -16,7 +16,7 @@
 namespace nao {
 namespace {
 
-// Of the search after an import, on two cores.
+// Duration of the search after an import, on two cores.
 constexpr double kSearchMinutes = 2;
 
 const char* name_of(Finding::Severity severity) {

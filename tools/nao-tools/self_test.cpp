@@ -222,7 +222,7 @@ SelfTestFinding SelfTest::judge_joint() const {
   const Joint& joint = model_.motor_joint(motor_);
   SelfTestFinding finding{"joint " + joint.name, SelfTestFinding::Verdict::kFault, ""};
   const double commanded = direction_ * (is_opening_[index] ? kOpeningChange : kChange);
-  // Of joints with a unit; positive: as commanded.
+  // Fraction of the commanded change that the joint has moved.
   const double moved = (after_.position[index] - before_.position[index]) / commanded;
   std::string measured = is_opening_[index] ? "opened by " + format_number(moved * commanded, 2) +
                                                   " of " + format_number(commanded, 2)

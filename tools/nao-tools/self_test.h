@@ -106,7 +106,7 @@ class SelfTest {
   std::vector<bool> is_opening_;
   Phase phase_ = Phase::kRest;
   double time_ = 0;
-  /** Of the whole test, s. */
+  /** Duration of the whole test, s. */
   double total_time_ = 0;
   int motor_ = 0;
   /** Direction of the change: away from the nearer limit. */

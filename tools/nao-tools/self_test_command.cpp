@@ -27,7 +27,7 @@ namespace {
 constexpr double kLongestInterval = 0.1;
 /** Silence of the sensors after which there is no robot, s. */
 constexpr double kSilence = 3;
-/** Of the images that it asks for: enough to see whether a camera works. */
+/** Width and rate of the images that it asks for: enough to see whether a camera works. */
 constexpr int kImageWidth = 320;
 constexpr double kImageRate = 5;
 

@@ -23,9 +23,9 @@ class CommandExchange {
 
   /** Time from the last message of a program until it counts as ended, s. */
   static constexpr double kSilenceTimeout = 3.0;
-  /** Of a command with a result, which is confirmed once a second. */
+  /** Timing of a command with a result, which is confirmed once a second. */
   static constexpr CommandTiming kTiming{.confirm_period = 1.0, .silence_timeout = kSilenceTimeout};
-  /** Of a walk, which is repeated as long as it lasts. */
+  /** Timing of a walk, which is repeated as long as it lasts. */
   static constexpr CommandTiming kWalkTiming{.confirm_period = kRepeatPeriod,
                                              .silence_timeout = kSilenceTimeout};
 

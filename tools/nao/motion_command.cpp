@@ -134,7 +134,7 @@ int check_or_save_motion(const CommonOptions& common, const MotionArguments& opt
 
 void add_motion_command(CommandLine& app, Invocation& invocation) {
   CommandLine* motion =
-      app.add_subcommand("motion", "Taught motions: list, check, save, get, delete and play them");
+      app.add_subcommand("motion", "List, check, save, get, delete and play taught motions");
   motion->require_subcommand();
   const auto options = std::make_shared<MotionArguments>();
   const auto add = [&](const std::string& name, const std::string& help,

@@ -47,7 +47,7 @@ void ImageEffects::apply(cv::Mat& bgr) const {
   Random random(noise_seed);
   std::array<float, 4096> samples;
   for (float& sample : samples) sample = static_cast<float>(noise * random.normal());
-  // Of each column and row; a normal curve of two dimensions is their product.
+  // Factors of each column and row; a normal curve of two dimensions is their product.
   const auto curve = [](int count, double middle, double size) {
     std::vector<float> values(count);
     for (int i = 0; i < count; ++i) {

@@ -92,7 +92,8 @@ int main(int argc, char** argv) {
   app.add_option("--balls", options.scene.ball_fraction, "Fraction of images with a ball")
       ->show_default()
       ->range(0.0, 1.0);
-  app.add_option("--robots", options.scene.most_robots, "Most other robots in an image")
+  app.add_option("--robots", options.scene.most_robots,
+                 "Greatest number of other robots in an image")
       ->show_default()
       ->range(0, 3);
   app.add_option("--kinds", options.kinds,

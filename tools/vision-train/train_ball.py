@@ -18,7 +18,7 @@ RECORD = np.dtype([("patch", "u1", (SIZE, SIZE, 3)), ("numbers", "<f4", NUM_NUMB
 # Outputs besides the log odds: center to the right and downwards, logarithm of the radius.
 NUM_TARGETS = 3
 # Patches without a ball that are learnt from in every epoch: those to which the network gives this
-# probability or more. Of the other patches, a fraction is used.
+# probability or more. A fraction of the other patches is used.
 HARD_PROBABILITY = 0.003
 EASY_FRACTION = 0.15
 

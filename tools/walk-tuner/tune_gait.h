@@ -12,7 +12,7 @@ namespace nao::tool {
 struct TunerOptions {
   SearchOptions search = {
       .output = "gait.yaml", .generations = 30, .population = 14, .sigma = 0.05};
-  /** Of the robot. */
+  /** Folder of the robot. */
   std::filesystem::path folder;
   /** Gait to start from; empty: the robot's. */
   std::string gait_file;

@@ -164,7 +164,7 @@ void CommandArbiter::assign(Assignment assignment) {
   waiting_ = std::move(assignment);
 }
 
-// A fall, or a robot that is gone: every command that is not finished gets its final result.
+// After a fall, or without a robot, every command that is not finished gets its final result.
 void CommandArbiter::abort_all(const Reason& reason) {
   end_running(ResultStatus::kFailed, reason);
   end_overlay(ResultStatus::kFailed, reason);
@@ -233,7 +233,7 @@ std::optional<CommandArbiter::EndedMotion> CommandArbiter::step_running(
   return ended;
 }
 
-// The kick during a walk has no motion of its own: the walk's state tells its end.
+// The kick during a walk has no motion of its own: the walk's state shows its end.
 void CommandArbiter::watch_kick() {
   if (!walk_kick_) return;
   const auto strike = running_ ? running_->generator->strike() : MotionGenerator::Strike::kNone;

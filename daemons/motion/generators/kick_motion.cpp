@@ -24,7 +24,7 @@ constexpr double kFade = 0.3;
 std::optional<Reason> KickMotion::find_obstacle(const Kick& kick, bool is_left,
                                                 const Vector2d& ball) {
   const Vector2d best(kick.ball.x(), (is_left ? 1 : -1) * kick.ball.y());
-  // Only coordinates that are given are checked; the reason tells the range in which the ball must
+  // Only coordinates that are given are checked; the reason gives the range in which the ball must
   // lie, m, in the frame of the command.
   for (int i = 0; i < 2; ++i) {
     if (std::isnan(ball[i]) || std::abs(ball[i] - best[i]) <= kick.ball_reach[i]) continue;

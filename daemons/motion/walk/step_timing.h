@@ -15,8 +15,8 @@ struct LateralDcm {
 /** Duration of the present step, s, adapted to the DCM.
  *
  * The DCM moves away from the ZMP exponentially, d(t) = d(0) e^(omega t). It reaches the planned
- * end point after log(end / now) / omega; then the foot must land. Of the difference from the
- * nominal duration the fraction timing_gain is applied, within [min, max]_step_duration.
+ * end point after log(end / now) / omega; then the foot must land. The fraction timing_gain of the
+ * difference from the nominal duration is applied, within [min, max]_step_duration.
  *
  * @param time  Elapsed in the step, s. @param duration  Present duration, s.
  * @param omega  1/s. @return `duration` where the step ends in less than kMinHorizon. */

@@ -61,7 +61,7 @@ void ClientCommands::end_walk(const Command& walk, double now) {
   transmit_due(now);
 }
 
-// The commands go on; only their results have no receiver any more. Tells whether a move-to is
+// The commands go on; only their results have no receiver any more. Returns whether a move-to is
 // among them: the robot would go on walking without its driver.
 bool ClientCommands::forget_client(uint32_t client) {
   bool has_move_to = false;

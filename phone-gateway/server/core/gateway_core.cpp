@@ -162,7 +162,7 @@ void GatewayCore::step(double now) {
 }
 
 void GatewayCore::shut_down(double now) {
-  // Clients are told before the connections end, and the robots stop.
+  // Clients get a notice before the connections end, and the robots stop.
   for (const auto& [id, session] : sessions_.all()) {
     sessions_.close(*session, gateway_reason("gateway-stopping"), now);
   }

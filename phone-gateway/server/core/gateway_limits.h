@@ -53,9 +53,9 @@ struct GatewayLimits {
   double robot_timeout = 1.0;
   double image_timeout = 1.5;
   double camera_status_timeout = 1.8;
-  /** Of nao-motion-files, which lists its motions once a second: three may be lost. */
+  /** Timeout of nao-motion-files, which lists its motions once a second: three may be lost. */
   double motion_files_timeout = 3.5;
-  /** Of nao-sim's DAEMON_STATUS, which says that the robot is simulated. */
+  /** Timeout of nao-sim's DAEMON_STATUS, which says that the robot is simulated. */
   double simulator_timeout = 3.5;
 
   /** Taught motions that a client may have under way. */

@@ -10,7 +10,7 @@ namespace nao::gateway {
 /** The match that is played, as all clients see it. */
 class MatchBoard {
  public:
-  /** A match that nobody tells of for so long is none, s: fifteen of nao-referee's messages. */
+  /** Time without a message after which there is no match, s: fifteen of nao-referee's messages. */
   static constexpr double kTimeout = 3;
 
   /** @param sessions  Must outlive this. */

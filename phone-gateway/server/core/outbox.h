@@ -12,7 +12,7 @@ namespace nao::gateway {
 /** Messages to be sent to one client: responses and notices in order, at most one each of state,
  * image, play state and vision, and pieces of audio in order. All but the audio are only marked as
  * due here; they are encoded when the connection can take them, so that a slow client receives
- * fewer of them, but always the newest. Of audio a slow client loses the oldest pieces. */
+ * fewer of them, but always the newest. A slow client loses the oldest pieces of audio. */
 class Outbox {
  public:
   enum class Next { kNothing, kMessage, kPlayState, kVision, kState, kAudio, kImage };

@@ -27,7 +27,8 @@ class RequestAge {
   }
 
  private:
-  /** Of two periods, s. Chosen: clocks differ by 100 parts in a million at most, 3 ms in it. */
+  /** Duration of each of two periods, s. Chosen: clocks differ by 100 parts in a million at most, 3
+   * ms in it. */
   static constexpr double kPeriod = 15;
   static constexpr double kNone = 1e300;
 

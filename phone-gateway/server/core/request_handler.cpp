@@ -264,7 +264,7 @@ std::optional<Refusal> RequestHandler::connect(ClientSession& session,
   *connected.mutable_control() = robot.driving().control().describe(session);
   if (robots_.size() > 1) *connected.mutable_robots() = robots_.list();
   if (match_.match() != nullptr) *connected.mutable_match() = *match_.match();
-  // A new client is told once what is missing; later changes come as notices to all.
+  // A new client learns once what is unavailable; later changes come as notices to all.
   robot.report_missing_components(session);
   return std::nullopt;
 }

@@ -69,7 +69,7 @@ class Sessions {
   std::function<void(const ClientSession&, double)> on_disconnect_;
   Map sessions_;
   uint32_t last_id_ = 0;
-  /** Of the clients that have disconnected. */
+  /** Counters of the clients that have disconnected. */
   ClientCounters past_counters_;
 };
 

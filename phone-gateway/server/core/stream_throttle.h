@@ -8,8 +8,8 @@ namespace nao::gateway {
  *
  * On average it passes `rate` events a second, or all events if fewer arrive. An event may pass up
  * to half a period early, so that a stream of exactly the requested rate passes completely in spite
- * of its jitter. Of several streams that begin together and are reduced to the same rate, those
- * with different phases pass different events. */
+ * of its jitter. If several streams begin together and are reduced to the same rate, those with
+ * different phases pass different events. */
 class StreamThrottle {
  public:
   /** @param rate   Events a second to pass; 0: none.

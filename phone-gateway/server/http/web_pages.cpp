@@ -55,7 +55,7 @@ const FileType* find_type(const fs::path& file) {
   return found == kFileTypes.end() ? nullptr : &*found;
 }
 
-// -1 for what is no hexadecimal digit.
+// @return -1 if it is not a hexadecimal digit.
 int hex_value(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;

@@ -74,8 +74,8 @@ class WebPages {
 };
 
 /** The path of a request target: without query and fragment, percent-decoded.
- * @return Nothing if it is no absolute path, or could leave the served folder ("..", zero bytes,
- *   backslashes, hidden files). */
+ * @return Nothing if it is not an absolute path, or could leave the served folder ("..", zero
+ *   bytes, backslashes, hidden files). */
 std::optional<std::string> clean_path(std::string_view target);
 
 /** The MIME type for a file name. */

@@ -98,7 +98,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
   void on_bad_request(const error_code& error) {
-    // A browser that keeps a connection open without further requests is no fault.
+    // A browser that keeps a connection open without further requests is not a fault.
     if (error == beast::error::timeout && !has_requested_) note_refusal(kNoRequest);
     const bool is_http_error =
         error.category() == http::make_error_code(http::error::bad_method).category();

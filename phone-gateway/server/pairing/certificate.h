@@ -29,7 +29,7 @@ CertificateFiles own_certificate(const std::filesystem::path& folder,
                                  const CertificateNames& names);
 
 /** SHA-256 fingerprint of a certificate as browsers show it, "AB:CD:...".
- * @throws Error  if the file is no certificate. */
+ * @throws Error  if the file is not a certificate. */
 std::string certificate_fingerprint(const std::filesystem::path& certificate);
 
 }  // namespace nao::gateway

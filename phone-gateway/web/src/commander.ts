@@ -67,7 +67,7 @@ export class Commander {
    * @param robot  name of another robot than the one that is watched. */
   async takeControl(robot = ""): Promise<boolean> {
     const response = await this.requester.request(useCases.takeControl(robot));
-    // Who drives a robot that is not watched is no matter of the controls.
+    // The controls do not show who drives a robot that is not watched.
     if (response && response.error !== ErrorCode.OK && robot && robot !== this.store.get().robot?.name) {
       this.refused(this.inWords(response));
       return false;

@@ -366,7 +366,7 @@ export class FakeGateway {
     for (const phone of this.phones) if (phone.states) send(phone, {case: "state", value: state});
   }
 
-  /** Sends the joints to the keyframe that the action is at. @return how it is told in a state. */
+  /** Sends the joints to the keyframe that the action is at. @return what a state says of it. */
   private play(): {progress: number; mode?: pb.Mode; activity?: {kind: pb.CommandKind; name: string}} {
     const {name, since} = this.playing;
     const time = this.time - since;

@@ -1,4 +1,4 @@
-/** A transport in the hands of a test: it says when the link opens, speaks and breaks. */
+/** A transport that a test controls: the test opens and breaks the link, and sends messages. */
 import {create, fromBinary, toBinary} from "@bufbuild/protobuf";
 import * as pb from "../src/protocol/generated/remote_pb";
 import type {Transport, TransportListener} from "../src/transport";

@@ -60,7 +60,7 @@ TEST_F(MotionFilesDaemonTest, ChecksSavesAndAnnouncesAMotion) {
   EXPECT_TRUE(results_.back().is_ok) << results_.back().reason;
   EXPECT_EQ(motions_.front().name, "test");
   EXPECT_EQ(motions_.front().num_keyframes, 3);
-  // A new nao-motion is told all of them.
+  // A new nao-motion receives all of them.
   motions_.clear();
   naolcm::daemon_status_t status{};
   status.program = "nao-motion";

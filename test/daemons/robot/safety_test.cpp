@@ -196,7 +196,7 @@ TEST_F(SafeRobot, EndsWhenTheServosAreLimpAndNotWhenTheyWereTold) {
   frame_.angles = {0.6f, 0};
   is_ending_ = true;
   const LolaState stiff = frame_;
-  // The robot loses four frames: it is told again in each.
+  // The robot loses four frames: the command is sent again in each.
   for (int i = 0; i < 4; ++i) {
     frame();
     EXPECT_EQ(core_->safety().phase(), Phase::kLimp);

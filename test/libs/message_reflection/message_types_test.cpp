@@ -45,7 +45,7 @@ TEST(MessageTypes, EveryLcmFileHasATypeWithItsOwnFingerprint) {
   EXPECT_EQ(fingerprints.size(), num_files);
 }
 
-/** Of a message in used memory, none of whose fields is set. */
+/** Encodes a message in used memory, none of whose fields is set. */
 template <class Message>
 std::vector<uint8_t> encode_without_setting_a_field() {
   alignas(Message) std::array<uint8_t, sizeof(Message)> memory;

@@ -21,7 +21,7 @@ class Command:
     def __init__(self, request_id: int) -> None:
         self.request_id = request_id
         self._end: asyncio.Future[CommandResult] = asyncio.get_running_loop().create_future()
-        # An end that nobody waits for is no error of the program.
+        # An end that nobody waits for is not an error of the program.
         self._end.add_done_callback(lambda end: end.cancelled() or end.exception())
 
     @property

@@ -39,7 +39,7 @@ class Connection:
         self.robot = robot
         self.timeout = timeout
         # Called after each successful Connect, after each loss (with whether it was the last one), and with every
-        # message that is no response.
+        # message that is not a response.
         self.on_connected: Callable[[pb.Connected], None] = lambda connected: None
         self.on_lost: Callable[[ConnectionLost, bool], None] = lambda error, is_final: None
         self.on_message: Callable[[pb.ServerMessage], None] = lambda message: None

@@ -116,7 +116,7 @@ class RobotDescription:
     min_vx: float
     max_vy: float
     max_wz: float
-    # Of the postures: where walks and actions begin; upright; without load on the motors. Empty: none.
+    # Postures in which walks and actions begin; upright; without load on the motors. Empty: none.
     ready_posture: str
     stand_posture: str
     rest_posture: str

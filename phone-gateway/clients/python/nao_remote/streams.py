@@ -13,7 +13,7 @@ T = TypeVar("T")
 
 
 class Stream(AsyncIterator[T], Generic[T]):
-    """Values as they arrive. Of values that arrive faster than they are read only the newest `capacity` are kept.
+    """Values as they arrive. If they arrive faster than they are read, only the newest `capacity` are kept.
 
     A stream goes on after the client has connected again. Close it when it is no longer needed, so that the gateway stops
     sending: `with robot.states() as states:`.

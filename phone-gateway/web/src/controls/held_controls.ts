@@ -59,7 +59,7 @@ export class HeldControls {
     });
   }
 
-  /** A motion that ends a walk wins over what is held, which is told. */
+  /** A motion that ends a walk releases the held controls, which are notified. */
   yieldTo(commander: Commander, messages: Messages): void {
     commander.onMotion = () => {
       if (this.release()) messages.show("info", say("drive.released"));

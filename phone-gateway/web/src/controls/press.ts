@@ -1,7 +1,7 @@
 /** Presses that work while another finger is down. A browser makes a click of the first finger only, so a
  * button that listens for clicks alone does not react while another finger holds a joystick: Stop above all. */
 
-/** A touch that moves farther is no press but a drag, px. */
+/** A touch that moves farther is a drag, not a press, px. */
 const kTravel = 14;
 
 /** Calls `act` when the element is pressed and released: by any finger, mouse, or key. */

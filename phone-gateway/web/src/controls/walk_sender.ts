@@ -3,9 +3,9 @@ import {Repeater} from "./repeater";
 import type {Drive} from "./stick";
 import {addDrives} from "./stick";
 
-/** Of the gateway, which ends a walk so long after its last command; ms. */
+/** Time after a walk's last command at which the gateway ends the walk, ms. */
 export const kWalkTimeoutMs = 500;
-/** Of five commands four may be lost; ms. */
+/** Period of the commands, ms: four of five may be lost. */
 export const kWalkPeriodMs = kWalkTimeoutMs / 5;
 
 /** A changed command is sent at once, but not more often than this; ms. */

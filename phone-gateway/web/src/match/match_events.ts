@@ -1,4 +1,4 @@
-/** Tells what happens in the match: a message, and a sound. */
+/** Reports what happens in the match by a message and a sound. */
 import type {Messages} from "../messages";
 import {Match_Event} from "../protocol/generated/remote_pb";
 import type {Match} from "../protocol/generated/remote_pb";

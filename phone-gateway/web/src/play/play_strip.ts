@@ -14,7 +14,7 @@ const kOffered = ["score", "keep-goal", "go-to-ball", "kick", "dribble"] as cons
 export class PlayStrip {
   readonly element: HTMLElement;
   private readonly strip: ChoiceStrip;
-  /** The behaviour that this page has begun last: its end is told. */
+  /** The behaviour that this page has begun last: its end is reported. */
   private begun: Play_Behavior = Play_Behavior.NONE;
 
   constructor(private readonly store: Store, private readonly commander: Commander,

@@ -2,7 +2,7 @@
 import {Vision_Detection_Kind} from "../protocol/generated/remote_pb";
 import type {State, Vision, Vision_Detection} from "../protocol/generated/remote_pb";
 
-/** Of the ellipses that show an uncertainty: two standard deviations, which hold 86 % of all places. */
+/** Size of the ellipses that show an uncertainty, in standard deviations: they hold 86 % of all places. */
 const kSigmas = 2;
 /** A finger meets a ball in the image within its box and this fraction of the image around it. */
 const kImageReach = 0.04;

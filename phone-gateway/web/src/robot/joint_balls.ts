@@ -41,8 +41,8 @@ interface Arc {
 export class JointBalls {
   private readonly balls: Ball[] = [];
   private arcs: readonly Arc[] = [];
-  /** Of each group that was chosen before: made once, since some graphics drivers keep the memory of each change
-   * to drop. */
+  /** Arcs of each group that was chosen before: they are made once, since some graphics drivers leak memory at
+   * each change. */
   private readonly arcsOfGroup = new Map<string, readonly Arc[]>();
   private selected = "";
   private readonly place = new Vector3();

@@ -2,7 +2,7 @@
 import {Box3} from "three";
 import type {Object3D} from "three";
 
-/** Of a robot without shells, m. */
+/** Assumed height of a robot without shells, m. */
 const kUnknownHeight = 0.6;
 
 /** From the lowest to the highest point of its shells in the pose that it has, m.

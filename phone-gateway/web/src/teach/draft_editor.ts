@@ -25,7 +25,7 @@ export class DraftEditor {
     this.put(draft);
   }
 
-  /** As change(), for what is no step of its own: a letter of the name, a joint that was touched. */
+  /** As change(), for what is not a step of its own: a letter of the name, a joint that was touched. */
   note(draft: MotionDraft): void {
     if (draft !== this.draft) this.put(draft);
   }

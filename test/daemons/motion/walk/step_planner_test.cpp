@@ -76,7 +76,7 @@ TEST_F(StepPlannerTest, TheLastStepsLeadToRestBetweenTheFeet) {
     return planner_.dcm().start;
   }());
   const auto follow = [&](const Vector3d& velocity, bool is_ending) {
-    // The reference tells the planner where the DCM is.
+    // The reference gives the planner the DCM.
     reference_.rest_at(com.position);
     reference_.follow(com, 1e9);
     plan(velocity, is_ending);

@@ -50,7 +50,7 @@ class Simulation:
         self._pipe = pipe
         self._realtime = realtime
         self._commands: list[pb.Command] = []
-        # Of the present step.
+        # Times of the present step.
         self._begin = self._duration = 0.0
         self._is_stepping = False
         try:
