@@ -1,27 +1,18 @@
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
 
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "common/json_writer.h"
 #include "common/log_reader.h"
 #include "common/output_file.h"
 #include "common/program.h"
-#include "inspection/foxglove_converter.h"
-#include "inspection/foxglove_schemas.h"
-#include "inspection/message_json.h"
-#include "message_reflection/message_types.h"
-#include "robot_model/robot_model.h"
 #include "tools/nao-tools/channel_pattern.h"
 #include "tools/nao-tools/log_input.h"
 #include "tools/nao-tools/log_statistics.h"
-#include "tools/nao-tools/mcap_writer.h"
 #include "tools/nao-tools/message_table.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/tools_subcommands.h"
@@ -129,22 +120,6 @@ int write_csv(const LogOptions& options) {
   return end_reading(log, undecodable);
 }
 
-/** Reads a log to its end and passes the messages of selected channels on: event, layout, JSON
- * text. @return Statistics of undecodable messages. */
-template <class Take>
-Undecodable read_as_json(LogInput& log, const ChannelPattern& selected, Take take) {
-  Undecodable undecodable;
-  LogEvent event;
-  while (log.read(event)) {
-    if (!selected.matches(event.channel)) continue;
-    const MessageLayout* layout = layout_of(event);
-    const auto message = layout != nullptr ? message_to_json(*layout, event.data) : std::nullopt;
-    undecodable.note(event, message.has_value());
-    if (message) take(event, *layout, *message);
-  }
-  return undecodable;
-}
-
 int write_json(const LogOptions& options) {
   refuse_own_input(options);
   const ChannelPattern selected("--channels", options.channels);
@@ -167,55 +142,11 @@ int write_json(const LogOptions& options) {
   return end_reading(log, undecodable);
 }
 
-/** Channels of an MCAP file, which begin at their first message. */
-class McapChannels {
- public:
-  explicit McapChannels(McapWriter& mcap) : mcap_(mcap) {}
-
-  /** @param schema  Makes the JSON Schema, where the file does not have it yet. */
-  uint16_t find(const std::string& topic, const std::string& schema_name,
-                const std::function<std::string()>& schema) {
-    // A channel whose type changed during the recording becomes two channels of the file.
-    const auto [channel, is_new] = channels_.try_emplace({topic, schema_name});
-    if (is_new) {
-      const auto [number, is_new_schema] = schemas_.try_emplace(schema_name);
-      if (is_new_schema) number->second = mcap_.add_schema(schema_name, schema());
-      channel->second = mcap_.add_channel(topic, number->second);
-    }
-    return channel->second;
-  }
-
- private:
-  McapWriter& mcap_;
-  std::map<std::string, uint16_t> schemas_;
-  std::map<std::pair<std::string, std::string>, uint16_t> channels_;
-};
-
 int write_mcap(const LogOptions& options) {
   refuse_own_input(options);
-  const ChannelPattern selected("--channels", options.channels);
-  const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
-  FoxgloveConverter converter(model, options.robot);
   LogInput log(options.file);
-  McapWriter mcap(options.output);
-  McapChannels channels(mcap);
-  const auto write = [&](const LogEvent& event, const MessageLayout& layout,
-                         const std::string& message) {
-    const uint16_t channel = channels.find(event.channel, "naolcm." + layout.name,
-                                           [&] { return json_schema_of(layout); });
-    mcap.add_message(channel, event.wall_utime, message);
-    converter.convert(
-        event.channel, event.data, [](size_t) { return true; },
-        [&](size_t output, const std::string& json) {
-          const FoxgloveConverter::Output& known = converter.outputs()[output];
-          mcap.add_message(channels.find(known.topic, known.schema,
-                                         [&] { return foxglove_schema(known.schema); }),
-                           event.wall_utime, json);
-        });
-  };
-  const Undecodable undecodable = read_as_json(log, selected, write);
-  mcap.finish();
-  return end_reading(log, undecodable);
+  return end_reading(log, convert_to_mcap(log, ChannelPattern("--channels", options.channels),
+                                          options.output, options.model, options.robot));
 }
 
 int write_cut(const LogOptions& options) {

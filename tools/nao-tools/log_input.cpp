@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "common/error.h"
+#include "inspection/message_json.h"
 #include "message_reflection/message_types.h"
 #include "tools/nao-tools/channel_pattern.h"
 
@@ -112,6 +113,22 @@ void Undecodable::warn() const {
             : "messages of unknown types; they were recorded by another version, whose nao "
               "can read them");
   }
+}
+
+Undecodable read_as_json(
+    LogInput& log, const ChannelPattern& selected,
+    const std::function<void(const LogEvent& event, const MessageLayout& layout,
+                             const std::string& json)>& take) {
+  Undecodable undecodable;
+  LogEvent event;
+  while (log.read(event)) {
+    if (!selected.matches(event.channel)) continue;
+    const MessageLayout* layout = layout_of(event);
+    const auto message = layout != nullptr ? message_to_json(*layout, event.data) : std::nullopt;
+    undecodable.note(event, message.has_value());
+    if (message) take(event, *layout, *message);
+  }
+  return undecodable;
 }
 
 }  // namespace nao

@@ -10,6 +10,7 @@
 #include "common/command_line.h"
 #include "common/log_reader.h"
 #include "message_reflection/message_layout.h"
+#include "tools/nao-tools/channel_pattern.h"
 #include "tools/nao/subcommand.h"
 
 namespace nao {
@@ -76,6 +77,19 @@ class Undecodable {
   };
   std::map<std::string, Channel> channels_;
 };
+
+/** Reads a log to its end and passes the messages of selected channels on, as JSON text.
+ * @return Statistics of undecodable messages. */
+Undecodable read_as_json(
+    LogInput& log, const ChannelPattern& selected,
+    const std::function<void(const LogEvent& event, const MessageLayout& layout,
+                             const std::string& json)>& take);
+
+/** A log becomes a file that Foxglove and Lichtblick open. @param selected  Channels of it.
+ * @param model  Folder of the robot. @param robot  Its name. @return Messages that were skipped.
+ * @throws Error  The file cannot be written. */
+Undecodable convert_to_mcap(LogInput& log, const ChannelPattern& selected, const std::string& file,
+                            const std::string& model, const std::string& robot);
 
 /** Adds "nao log play". */
 void add_log_player(CommandLine& log, Invocation& invocation);
