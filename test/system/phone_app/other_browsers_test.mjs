@@ -87,7 +87,7 @@ for (const Browser of [WebKit, Firefox]) {
     });
 
     test("turns a joint", async () => {
-      await tap(".lock");
+      await tap(".joints-button");
       await browser.evaluate(`document.querySelector('.joints-panel [data-name="right shoulder"]').click()`);
       await turn(0.8);
     });

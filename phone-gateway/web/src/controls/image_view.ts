@@ -29,6 +29,8 @@ export class ImageView {
   readonly element: HTMLElement;
   /** A tap that this handles does not change the image's size. */
   onTap: (tap: ImageTap) => boolean = () => false;
+  /** Called when it has become the large picture, or the small one. */
+  onSwap: (isLarge: boolean) => void = () => {};
   /** Images drawn so far. */
   numImages = 0;
   isLarge = false;
@@ -125,17 +127,19 @@ export class ImageView {
     const box = this.canvas.getBoundingClientRect();
     const tap = {x: (event.clientX - box.left) / box.width, y: (event.clientY - box.top) / box.height,
                  pageX: event.clientX, pageY: event.clientY};
-    if (!this.onTap(tap)) this.toggleSize();
+    if (!this.onTap(tap)) this.swap();
   }
 
   private clicked(event: MouseEvent): void {
-    if (event.detail === 0) this.toggleSize(); // by keyboard
+    if (event.detail === 0) this.swap(); // by keyboard
   }
 
-  private toggleSize(): void {
+  /** The large picture becomes the small one, and the other way round. */
+  swap(): void {
     this.isLarge = !this.isLarge;
     this.element.classList.toggle("large", this.isLarge);
     this.relabel();
+    this.onSwap(this.isLarge);
     this.requestChanged();
   }
 
