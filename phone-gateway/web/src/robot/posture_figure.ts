@@ -14,13 +14,13 @@ export const kPictureSize = 128;
 const kPauseMs = 60;
 /** The eye of a drawing: to the right of the robot's front, a little above. */
 const kEye = new Vector3(3, 1.4, 2.6);
-const kGhostOpacity = 0.28;
+const kGhostOpacity = 0.4;
 /** Turn of the torso in the lying families, pitch, rad. */
 const kPitch: Readonly<Record<string, number>> = {"lying-back": -Math.PI / 2, "lying-belly": Math.PI / 2};
 
 export class PostureFigure {
   readonly tree: RobotTree;
-  private readonly ghost = new MeshBasicMaterial({color: 0x6cc8ff, transparent: true, opacity: kGhostOpacity, depthWrite: false});
+  private readonly ghost = new MeshBasicMaterial({color: 0x6cc8ff, transparent: true, opacity: kGhostOpacity});
   private readonly meshes: Mesh[] = [];
 
   /** @param model  the robot, whose meshes it shares. */

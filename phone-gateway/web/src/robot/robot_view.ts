@@ -12,10 +12,14 @@ import type {Posture} from "./posture_file";
 import type {RobotTree} from "./robot_tree";
 import type {Stage} from "./stage";
 
+/** So long a posture is shown before the robot takes it: later both would be in each other's way, ms. */
+const kGhostMs = 1500;
+
 export class RobotView {
   tree: RobotTree | null = null;
   balls: JointBalls | null = null;
   private figure: PostureFigure | null = null;
+  private ghostTimer: ReturnType<typeof setTimeout> | undefined;
   private path = "";
   private mirror: PoseMirror | null = null;
 
@@ -80,6 +84,8 @@ export class RobotView {
     if (!this.figure || !this.tree) return;
     this.figure.standAt(posture, this.tree.torso, this.stage.heading);
     this.stage.outdate();
+    clearTimeout(this.ghostTimer);
+    if (posture) this.ghostTimer = setTimeout(() => this.showGhost(null), kGhostMs);
   }
 
   private async drawPostures(figure: PostureFigure, urdfUrl: URL): Promise<void> {

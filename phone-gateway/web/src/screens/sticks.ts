@@ -17,8 +17,8 @@ export class Sticks {
   private neutral: Tilt | null = null;
 
   constructor(private readonly walk: WalkSender, private readonly tilt: TiltSensor) {
-    this.walkStick = new Joystick(say("drive.walk"), "walk", false, () => this.changed());
-    this.turnStick = new Joystick(say("drive.turn"), "turn", true, () => this.changed());
+    this.walkStick = new Joystick(say("drive.walk"), "walk", false, () => this.changed(), ["W", "A", "S", "D"]);
+    this.turnStick = new Joystick(say("drive.turn"), "turn", true, () => this.changed(), ["", "Q", "", "E"]);
     tilt.onChange = () => this.changed();
     tilt.onTurn = () => this.walkStick.release();
   }
