@@ -384,9 +384,21 @@ export class App {
       case "ready": return this.goToPosture(this.store.get().robot?.readyPosture);
       case "stand": return this.goToPosture(this.store.get().robot?.standPosture);
       case "crouch": return this.goToPosture(this.store.get().robot?.restPosture);
+      case "next-group": return this.selectNext(1);
+      case "previous-group": return this.selectNext(-1);
       case "kick-left": return this.kick("left");
       case "kick-right": return this.kick("right");
     }
+  }
+
+  /** In joints mode the group after, or before, the chosen one. */
+  private selectNext(step: number): void {
+    const {isJointsMode, robot, selectedGroup} = this.store.get();
+    const names = (robot?.jointGroups ?? []).map(({name}) => name);
+    if (!isJointsMode || names.length === 0) return;
+    const index = names.indexOf(selectedGroup);
+    const next = index < 0 && step < 0 ? names.length - 1 : (index + step + names.length) % names.length;
+    this.store.set({selectedGroup: names[next]!});
   }
 
   private goToPosture(posture: string | undefined): void {

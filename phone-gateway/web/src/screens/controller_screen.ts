@@ -116,6 +116,7 @@ export class ControllerScreen {
   private showMode(isJointsMode: boolean): void {
     this.element.dataset["mode"] = isJointsMode ? "joints" : "drive";
     relabel(this.joints, isJointsMode ? "drive.drive" : "drive.joints", isJointsMode ? kWalkIcon : kJointsIcon);
+    this.joints.append(el("kbd", {}, "L"));
     this.joints.setAttribute("aria-pressed", String(isJointsMode));
   }
 

@@ -231,9 +231,12 @@ const kTexts = {
   "menu.helpGround": ["Tap the ground to send the robot there, its arm or head to move that.",
                       "Toque no chão para o robô andar até lá, num braço ou na cabeça para os mover.",
                       "Auf den Boden tippen schickt den Roboter dorthin, auf Arm oder Kopf bewegt diese."],
-  "menu.helpKeys": ["Keyboard: W A S D walk, Q E or arrows turn, Shift slowly, space stops, L joints.",
-                    "Teclado: W A S D anda, Q E ou setas viram, Shift devagar, espaço para, L articulações.",
-                    "Tastatur: W A S D geht, Q E oder Pfeile drehen, Umschalt langsam, Leertaste stoppt, L Gelenke."],
+  "menu.helpKeys": ["Keyboard: W A S D walk, Q E or arrows turn, Shift slowly, space stops, 1 2 kick, R ready, C crouch, L joints, " +
+                    "comma and point choose one.",
+                    "Teclado: W A S D anda, Q E ou setas viram, Shift devagar, espaço para, 1 2 chutam, R pronto, C agacha, " +
+                    "L juntas, vírgula e ponto escolhem uma.",
+                    "Tastatur: W A S D geht, Q E oder Pfeile drehen, Umschalt langsam, Leertaste stoppt, 1 2 schießen, R startklar, " +
+                    "C hockt, L Gelenke, Komma und Punkt wählen eines."],
   "menu.helpPad": ["Gamepad: sticks walk and turn, A ready, B stop, X crouch, Y stand, shoulders kick.",
                    "Gamepad: manípulos andam e viram, A pronto, B parar, X agachar, Y de pé, L/R chutam.",
                    "Gamepad: Sticks gehen und drehen, A startklar, B Stopp, X hocken, Y stehen, Schultertasten schießen."],
