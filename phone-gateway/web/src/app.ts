@@ -16,7 +16,7 @@ import {Lobby} from "./lobby";
 import {MatchEvents} from "./match/match_events";
 import {Messages} from "./messages";
 import {registerOfflineShell} from "./offline";
-import {Mode} from "./protocol/generated/remote_pb";
+import {Mode, Notice_Component} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import {Perception} from "./play/perception";
 import {PlayStrip} from "./play/play_strip";
@@ -212,6 +212,7 @@ export class App {
     scheme.addEventListener("change", () => this.takeColors());
     this.takeColors();
     this.held.listen(() => this.root.dataset["screen"] === "controller");
+    this.store.watch((state) => state.unavailableComponents.includes(Notice_Component.CAMERA), (isOff) => this.image.setOff(isOff));
     // Another motion replaces the walk to the marked spot.
     this.store.watch((state) => state.state?.activity?.name ?? "", (activity) => {
       if (activity) this.walkHere.clear();
@@ -357,6 +358,8 @@ export class App {
     this.held.release();
     this.walkHere.clear();
     this.store.set({isJointsMode, selectedGroup: ""});
+    // The balls are on the robot.
+    if (isJointsMode && this.image.isLarge) this.image.swap();
     this.stage.orbit.setView(isJointsMode ? kJointsView : kDriveView);
     if (!isJointsMode) void this.teach.leave();
     else this.teach.explain();

@@ -21,12 +21,12 @@ class Stranger {
     await this.phone.tap(selector);
   }
 
-  /** Pushes a pad, or holds a key, until something is so. */
-  async push(selector, what, isSo) {
+  /** Pushes a pad up, and to the right by a fraction of its radius, until something is so. */
+  async push(selector, right, what, isSo) {
     this.count++;
     const {x, y, radius} = await this.phone.middleOf(selector);
     await this.phone.fingers("touchStart", [{id: 1, x, y}]);
-    await this.phone.fingers("touchMove", [{id: 1, x, y: y - 0.7 * radius}]);
+    await this.phone.fingers("touchMove", [{id: 1, x: x + right * radius, y: y - 0.6 * radius}]);
     await until(what, isSo).finally(() => this.phone.lift());
   }
 
@@ -63,7 +63,7 @@ test("by touch: walking in 3, a kick in 3 more, a bent joint in 4", async (t) =>
   const stranger = new Stranger(phone);
   await phone.sees("controller");
   assert.ok(await phone.page.locator(".hint").isVisible(), "nothing says how to walk");
-  await stranger.push(".joystick-walk", "the robot walks", walks(phone));
+  await stranger.push(".joystick-walk", 0, "the robot walks", walks(phone));
   t.diagnostic(`walks ${((Date.now() - begin) / 1000).toFixed(1)} s after the address was opened`);
   assert.ok(stranger.take() <= 3);
   assert.ok(await phone.page.locator(".hint").isHidden(), "the hint stays");
@@ -81,7 +81,7 @@ test("by touch: walking in 3, a kick in 3 more, a bent joint in 4", async (t) =>
   const group = await phone.look("state.selectedGroup");
   const joint = (await phone.look("state.robot.jointGroups")).find(({name}) => name === group);
   const bent = await isBent(phone, joint.pitchJoint || joint.yawJoint);
-  await stranger.push(".joystick-joint", `${group} is bent`, bent);
+  await stranger.push(".joystick-joint", 0.6, `${group} is bent`, bent);
   assert.ok(stranger.take() <= 4);
   assert.deepEqual(phone.errors, []);
   await phone.close();

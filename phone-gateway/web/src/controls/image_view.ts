@@ -41,6 +41,7 @@ export class ImageView {
   camera = "";
   private cameras: readonly string[] = [];
   private readonly canvas = el("canvas", {width: 320, height: 240, "aria-hidden": "true"});
+  private readonly empty = el("span", {class: "image-empty"}, say("drive.imageWaiting"));
   private readonly cameraName = el("span");
   private readonly enlarge: HTMLButtonElement;
   private readonly switcher: HTMLButtonElement;
@@ -59,7 +60,7 @@ export class ImageView {
       onpointerup: (event: PointerEvent) => this.lifted(event),
       onlostpointercapture: (event: PointerEvent) => this.dragged(event, true),
     },
-                      this.canvas, el("span", {class: "image-empty"}, say("drive.imageWaiting")));
+                      this.canvas, this.empty);
     this.switcher = el("button", {class: "image-camera", onclick: () => this.switchCamera()},
                        el("span", {class: "image-label"}, icon(kCameraIcon), this.cameraName));
     this.element = el("section", {class: "image", "aria-label": say("drive.image")},
@@ -80,6 +81,12 @@ export class ImageView {
     this.cameras = cameras;
     if (!cameras.includes(this.camera)) this.camera = cameras[0] ?? "";
     this.relabel();
+  }
+
+  /** True: the last image stays, with the words that the camera sends none. */
+  setOff(isOff: boolean): void {
+    this.element.classList.toggle("off", isOff);
+    this.empty.textContent = say(isOff ? "component.camera" : "drive.imageWaiting");
   }
 
   show(image: Image): void {

@@ -49,7 +49,7 @@ export class ControllerScreen {
     this.sticks = new Sticks(walk, tilt);
     this.sticks.onUse = () => this.hintServed();
     const stop = el("button", {class: "stop"}, icon(kStopIcon), el("span", {}, say("drive.stop")),
-                    el("kbd", {}, say("drive.stopKey")));
+                    el("kbd", {"aria-hidden": "true"}, say("drive.stopKey")));
     onPressDown(stop, () => act.stop());
     onPress(this.joints, () => act.setJointsMode(!store.get().isJointsMode));
     onPress(this.more, () => this.setOpen(!this.element.classList.contains("open")));
@@ -116,7 +116,7 @@ export class ControllerScreen {
   private showMode(isJointsMode: boolean): void {
     this.element.dataset["mode"] = isJointsMode ? "joints" : "drive";
     relabel(this.joints, isJointsMode ? "drive.drive" : "drive.joints", isJointsMode ? kWalkIcon : kJointsIcon);
-    this.joints.append(el("kbd", {}, "L"));
+    this.joints.append(el("kbd", {"aria-hidden": "true"}, "L"));
     this.joints.setAttribute("aria-pressed", String(isJointsMode));
   }
 

@@ -32,7 +32,7 @@ export class Deck {
     this.actions = new ChoiceStrip(say("drive.actions"), (name) => void commander.command(useCases.doAction(name)));
     this.postures.element.classList.add("postures");
     this.actions.element.classList.add("actions");
-    this.element = el("div", {class: "strips"}, play.element, this.actions.element, this.postures.element, map);
+    this.element = el("div", {class: "strips"}, play.element, this.postures.element, this.actions.element, map);
     store.watch((state) => state.robot, (robot) => this.postures.setChoices(
         (robot?.postures ?? []).map((name) => ({name, label: sayName("posture", name)}))));
     store.watch((state) => state.pictures, (pictures) => this.postures.setPictures(pictures));

@@ -65,8 +65,8 @@ export class Status {
     const isNext = this.isNext;
     const next = !control?.nextId ? "" : isNext ? say("control.youNext") : say("control.next", {name: control.nextName});
     setText(this.driver, next ? `${driver}, ${next}` : driver);
-    // Somebody else waits: nothing to ask for.
-    this.ask.hidden = who === "free" || (control?.isMuted ?? false) || (who === "other" && next !== "" && !isNext);
+    // While somebody else waits there is nothing to ask for, and the wish has its own button.
+    this.ask.hidden = who === "free" || (control?.isMuted ?? false) || (next !== "" && !isNext);
     setText(this.ask, say(who === "mine" ? "control.release" : isNext ? "control.withdraw" : "control.ask"));
   }
 
