@@ -23,7 +23,30 @@ naoremote::Control ControlState::describe(const ClientSession& session) const {
   control.set_driver_name(driver_name());
   control.set_is_mine(driver() == session.id);
   control.set_is_muted(session.is_muted);
+  if (const ClientSession* waiting = next()) {
+    control.set_next_id(waiting->id);
+    control.set_next_name(waiting->name);
+  }
   return control;
+}
+
+bool ControlState::wait(const ClientSession& session) {
+  if (driver() == 0 || driver() == kOperatorId || session.is_muted || next() != nullptr)
+    return false;
+  next_ = session.id;
+  return true;
+}
+
+bool ControlState::withdraw(uint32_t client) {
+  if (next_ != client || client == 0) return false;
+  next_ = 0;
+  return true;
+}
+
+bool ControlState::release(uint32_t client) {
+  if (!lease_.release(client)) return false;
+  next_ = 0;
+  return true;
 }
 
 std::optional<Refusal> ControlState::check_taking(const ClientSession& session, double now) const {

@@ -29,10 +29,21 @@ class ControlState {
   /** Whether a client has control. @return Why it must not command, or nothing. */
   [[nodiscard]] std::optional<Refusal> check(const ClientSession& session) const;
 
-  /** Gives control to a client or the operator, also if another one has it. */
-  void assign(uint32_t client, double now) { lease_.assign(client, now); }
-  /** @return true if `client` had control. */
-  bool release(uint32_t client) { return lease_.release(client); }
+  /** Client that asked the driver for control and waits; nullptr if none. */
+  const ClientSession* next() const { return next_ == 0 ? nullptr : sessions_.find(next_); }
+  /** A client that was refused waits, unless another one waits. @return true if that is new. */
+  bool wait(const ClientSession& session);
+  /** @return true if `client` waited; no client waits then. */
+  bool withdraw(uint32_t client);
+
+  /** Gives control to a client or the operator, also if another one has it. No client waits then.
+   */
+  void assign(uint32_t client, double now) {
+    lease_.assign(client, now);
+    next_ = 0;
+  }
+  /** @return true if `client` had control; no client waits then. */
+  bool release(uint32_t client);
   /** The driver sent a command. */
   void refresh(double now) { lease_.refresh(now); }
 
@@ -49,6 +60,7 @@ class ControlState {
 
   const RobotSessions& sessions_;
   DrivingLease lease_;
+  uint32_t next_ = 0;
 };
 
 }  // namespace nao::gateway

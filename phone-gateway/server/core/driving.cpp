@@ -32,8 +32,20 @@ std::optional<Refusal> Driving::take_control(const ClientSession& session, doubl
   return std::nullopt;
 }
 
-void Driving::release_control(const ClientSession& session, double now) {
+void Driving::wait_for_control(const ClientSession& session) {
+  if (control_.wait(session)) control_.tell_all(gateway_reason("control-asked", {session.name}));
+}
+
+void Driving::withdraw(const ClientSession& session) {
+  if (!control_.withdraw(session.id)) return;
+  control_.tell_all(gateway_reason("control-ask-withdrawn", {session.name}));
+}
+
+void Driving::release_control(const ClientSession& session, uint32_t successor, double now) {
+  withdraw(session);
   if (control_.driver() != session.id) return;
+  const ClientSession* next = control_.next();
+  if (next != nullptr && next->id == successor) return assign_control(*next, now);
   end_motion(now);
   play_.release(now);
   control_.release(session.id);
@@ -73,6 +85,7 @@ void Driving::release_control_as_operator(const ClientSession& console, double n
 // A phone that vanishes stops the robot: walk and move-to end.
 void Driving::handle_disconnect(const ClientSession& session, double now) {
   stop_move_of(session.id, session, now);
+  withdraw(session);
   if (control_.driver() != session.id) return;
   end_motion(now);
   control_.release(session.id);
@@ -83,6 +96,7 @@ void Driving::handle_disconnect(const ClientSession& session, double now) {
 void Driving::handle_departure(const ClientSession& session, const std::string& next_robot,
                                double now) {
   stop_move_of(session.id, session, now);
+  withdraw(session);
   if (control_.driver() != session.id) return;
   end_motion(now);
   control_.release(session.id);

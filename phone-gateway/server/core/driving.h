@@ -48,7 +48,10 @@ class Driving {
   [[nodiscard]] std::optional<Refusal> stop(const ClientSession& session, uint32_t request_id,
                                             double now);
   [[nodiscard]] std::optional<Refusal> take_control(const ClientSession& session, double now);
-  void release_control(const ClientSession& session, double now);
+  /** The client that is refused asks the driver, whom it waits for. */
+  void wait_for_control(const ClientSession& session);
+  /** @param successor  The waiting client, which gets control; 0: none. */
+  void release_control(const ClientSession& session, uint32_t successor, double now);
 
   /** The operator takes control from any client, or releases it. @param console  For the log. */
   void take_control_as_operator(const ClientSession& console, double now);
@@ -86,6 +89,8 @@ class Driving {
   /** Whether a client drives and the robot is available. */
   std::optional<Refusal> check_driver(const ClientSession& session) const;
   void end_walk(double now);
+  /** The client no longer waits for control, if it did. */
+  void withdraw(const ClientSession& session);
   /** Another command replaces the walk: nothing more is transmitted. */
   void abandon_walk();
   /** Stops a MoveTo that a client without control has left behind. */

@@ -61,6 +61,8 @@ inline constexpr auto kGatewayReasons = std::to_array<ReasonEntry>({
     {"walk-stopped", "", "Stopped; release the joystick before walking again."},
     {"driver-changed", "driver", "{0} has control now."},
     {"control-released", "client", "{0} released control; no client has control."},
+    {"control-asked", "client", "{0} asks for control."},
+    {"control-ask-withdrawn", "client", "{0} no longer asks for control."},
     {"driver-disconnected", "client", "{0} disconnected; no client has control."},
     {"driver-left", "client, robot", "{0} changed to {1}; no client has control."},
     {"muted-by-operator", "", "The operator lets this client watch only."},

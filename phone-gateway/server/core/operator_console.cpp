@@ -73,7 +73,7 @@ void OperatorConsole::mute(ClientSession& client, bool is_muted, double now) {
   sessions_.audit("operator", client,
                   is_muted ? "lets this client watch only" : "lets this client drive again");
   client.is_muted = is_muted;
-  driving.release_control(client, now);
+  driving.release_control(client, 0, now);
   driving.control().tell(client, is_muted ? gateway_reason("muted-by-operator")
                                           : gateway_reason("unmuted-by-operator"));
 }

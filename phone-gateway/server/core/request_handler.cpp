@@ -143,22 +143,24 @@ std::optional<Refusal> RequestHandler::execute_control_request(ClientSession& se
                                                                const Request& request,
                                                                Response& response, double now) {
   if (request.has_take_control()) {
-    return take_control(session, request.take_control().robot(), response, now);
+    return take_control(session, request.take_control(), response, now);
   }
   if (request.has_watch_robot()) {
     const auto index = robots_.find(request.watch_robot().robot());
     if (!index) return robots_.refuse_unknown(request.watch_robot().robot());
     robots_.change(session, *index, now);
   } else {
-    robots_.of(session).driving().release_control(session, now);
+    const uint32_t successor = request.release_control().successor_id();
+    robots_.of(session).driving().release_control(session, successor, now);
   }
   *response.mutable_control() = robots_.of(session).driving().control().describe(session);
   return std::nullopt;
 }
 
 std::optional<Refusal> RequestHandler::take_control(ClientSession& session,
-                                                    const std::string& robot, Response& response,
-                                                    double now) {
+                                                    const naoremote::TakeControl& request,
+                                                    Response& response, double now) {
+  const std::string& robot = request.robot();
   const std::optional<size_t> index = robot.empty() ? session.robot : robots_.find(robot);
   if (!index) return robots_.refuse_unknown(robot);
   Driving& driving = robots_.at(*index).driving();
@@ -167,6 +169,10 @@ std::optional<Refusal> RequestHandler::take_control(ClientSession& session,
   if (!refusal) {
     robots_.change(session, *index, now);
     refusal = driving.take_control(session, now);
+  }
+  const bool may_wait = request.wait() && *index == session.robot;
+  if (refusal && refusal->error == naoremote::CONTROL_TAKEN && may_wait) {
+    driving.wait_for_control(session);
   }
   if (!refusal || refusal->error == naoremote::CONTROL_TAKEN) {
     *response.mutable_control() = driving.control().describe(session);

@@ -54,7 +54,7 @@ class RequestHandler {
   std::optional<Refusal> execute_control_request(ClientSession& session,
                                                  const naoremote::Request& request,
                                                  naoremote::Response& response, double now);
-  std::optional<Refusal> take_control(ClientSession& session, const std::string& robot,
+  std::optional<Refusal> take_control(ClientSession& session, const naoremote::TakeControl& request,
                                       naoremote::Response& response, double now);
   void ping(const ClientSession& session, const naoremote::Ping& request, naoremote::Pong& pong,
             double now);

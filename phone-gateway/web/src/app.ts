@@ -16,7 +16,7 @@ import {Lobby} from "./lobby";
 import {MatchEvents} from "./match/match_events";
 import {Messages} from "./messages";
 import {registerOfflineShell} from "./offline";
-import {Mode} from "./protocol/generated/remote_pb";
+import {Mode, Notice_Component} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import {Perception} from "./play/perception";
 import {PlayStrip} from "./play/play_strip";
@@ -27,12 +27,13 @@ import {kDriveView, kJointsView, Stage} from "./robot/stage";
 import {attachGestures} from "./robot/stage_gestures";
 import {ConnectionScreen} from "./screens/connection_screen";
 import type {ConnectionForm} from "./screens/connection_screen";
-import {ControllerScreen, linkInWords, linkQuality} from "./screens/controller_screen";
+import {causeBar} from "./screens/cause";
+import {ControllerScreen} from "./screens/controller_screen";
 import {JointsPanel} from "./screens/joints_panel";
+import {linkInWords, linkQuality} from "./screens/link_sign";
 import {LoadingScreen} from "./screens/loading_screen";
 import {messageList} from "./screens/message_list";
 import {MenuSheet} from "./screens/menu_sheet";
-import {Tour} from "./screens/tour";
 import {WalkHere} from "./screens/walk_here";
 import {pageUrl, remember, saveSettings, tokenFromUrl} from "./settings";
 import type {Settings} from "./settings";
@@ -58,10 +59,6 @@ const kTapPattern = 12;
 const kLimitPattern = 30;
 const kRefusalPattern = [25, 60, 25];
 
-/** After a lost link the controller stays for so many attempts, which take 3.5 s where a gateway is down, and up to 20 s where
- * nothing answers. Chosen. */
-const kPatientAttempts = 3;
-
 type ScreenName = "loading" | "connection" | "lobby" | "controller";
 
 export class App {
@@ -83,7 +80,6 @@ export class App {
   private readonly held: HeldControls;
   private readonly view: RobotView;
   private readonly teach: Teach;
-  private readonly tour: Tour;
   private readonly walkHere: WalkHere;
   private readonly menu: MenuSheet;
   private readonly lobby: Lobby;
@@ -121,7 +117,6 @@ export class App {
     const canvas = el("canvas", {class: "stage", role: "img", "aria-label": say("drive.stage")});
     const lost = el("div", {class: "lost-context", role: "alert", hidden: true}, el("p", {}, say("drive.lostContext")),
                     reloadButton());
-    root.append(canvas, lost);
     watchContext(canvas, (isLost) => {
       lost.hidden = !isLost;
       this.stage.outdate();
@@ -162,16 +157,24 @@ export class App {
     this.play = new PlayStrip(this.store, this.commander, this.messages);
     this.perception = new Perception(this.store, this.stage, this.image, this.play, settings.hasBoxes,
                                      (hasBoxes) => this.keep({hasBoxes}));
-    this.controllerScreen = new ControllerScreen(this.store, this.commander, this.walk, this.image,
-                                                 joints, this.tilt, this.walkHere.element, this.play,
-                                                 this.perception.map.element, {
+    const view = el("div", {class: "view"}, canvas, this.walkHere.element, lost);
+    const notes = el("div", {class: "notes"}, causeBar(this.store, this.commander, {
+      retryNow: () => this.retry(),
+      openForm: () => this.store.set({isFormOpen: true}),
+      changeRobot: () => this.lobby.open(),
+    }));
+    this.controllerScreen = new ControllerScreen(this.store, this.commander, this.walk, view, this.image, joints, this.tilt,
+                                                 this.play, this.perception.map.element, notes, {
       openMenu: () => this.openMenu(),
       openSpeech: () => this.openSpeech(),
       changeRobot: () => this.lobby.open(),
       setJointsMode: (isJointsMode) => this.setJointsMode(isJointsMode),
       stop: () => this.stop(),
       explainLink: () => this.explainLink(),
+      walked: () => this.keep({hasWalked: true}),
     });
+    if (!settings.hasWalked) this.controllerScreen.showHint();
+    this.image.onSwap = (isLarge) => this.controllerScreen.showCameraLarge(isLarge);
     this.controllerScreen.setSwapped(settings.isSwapped);
     this.menu = new MenuSheet(settings.isSwapped, {
       setTilt: (isOn) => this.setTilt(isOn),
@@ -180,25 +183,20 @@ export class App {
         this.controllerScreen.setSwapped(isSwapped);
       },
       setLanguage: (language) => this.setLanguage(language),
-      startTour: () => this.tour.start(),
       changeRobot: () => this.lobby.open(),
       leave: () => this.leave(),
-    });
-    this.tour = new Tour(root, {
-      isJointsMode: () => this.store.get().isJointsMode,
-      setJointsMode: (isOn) => this.setJointsMode(isOn),
-      ended: () => this.keep({isTourSeen: true}),
     });
     this.lobby = new Lobby(this.store, this.commander, this.messages, {
       letGo: () => this.leaveControls(),
       subscribe: () => this.subscribe(),
       leave: () => this.leave(),
     });
+    const messages = messageList(this.store);
+    this.store.watch((state) => state.isChoosingRobot, (isLobby) => (isLobby ? this.lobby.screen.element : notes).append(messages));
     root.append(new LoadingScreen(this.store, () => void this.view.load()).element,
                 this.connectionScreen.element, this.lobby.screen.element, this.controllerScreen.element,
-                messageList(this.store), this.menu.element,
-                this.speech.sheet.element, this.teach.sheet.element, this.perception.choice.element,
-                this.tour.element);
+                this.menu.element, this.speech.sheet.element, this.teach.sheet.element,
+                this.perception.choice.element);
     this.controllerScreen.observeFreeArea((area) => this.stage.setFreeArea(area));
   }
 
@@ -210,7 +208,11 @@ export class App {
       vibrate(kRefusalPattern);
       this.messages.show("bad", say("drive.linkLost"));
     });
+    const scheme = matchMedia("(prefers-color-scheme: light)");
+    scheme.addEventListener("change", () => this.takeColors());
+    this.takeColors();
     this.held.listen(() => this.root.dataset["screen"] === "controller");
+    this.store.watch((state) => state.unavailableComponents.includes(Notice_Component.CAMERA), (isOff) => this.image.setOff(isOff));
     // Another motion replaces the walk to the marked spot.
     this.store.watch((state) => state.state?.activity?.name ?? "", (activity) => {
       if (activity) this.walkHere.clear();
@@ -224,7 +226,7 @@ export class App {
       this.perception.setField(lines);
       this.stage.outdate();
     });
-    this.store.watch((state) => `${state.phase} ${state.attempts} ${state.isChoosingRobot} ${state.loading.done} ${state.loading.error}`,
+    this.store.watch((state) => `${state.phase} ${state.problem} ${state.isFormOpen} ${state.isChoosingRobot} ${state.loading.done} ${state.loading.error}`,
                      () => this.chooseScreen());
     window.addEventListener("online", () => this.connection.retryNow());
     listenToLeaving({
@@ -234,10 +236,21 @@ export class App {
     });
     this.openFromUrl();
     this.store.watch((state) => state.phase, (phase) => {
-      if (phase === "connected") this.wakeLock.hold();
-      else this.wakeLock.release();
+      if (phase === "connected") {
+        this.wakeLock.hold();
+        this.store.set({isFormOpen: false});
+      } else {
+        this.wakeLock.release();
+      }
       if (phase === "idle" || phase === "waiting") void this.showNearby();
     });
+  }
+
+  /** The stage has the colors of the style sheet. */
+  private takeColors(): void {
+    const style = getComputedStyle(document.documentElement);
+    this.stage.floor.setColors(style.getPropertyValue("--turf"), style.getPropertyValue("--turf-line"));
+    this.stage.outdate();
   }
 
   private async showNearby(): Promise<void> {
@@ -267,6 +280,12 @@ export class App {
   private open(): void {
     this.connection.connect({token: this.token, clientName: this.settings.clientName,
                              clientSoftware: kSoftware});
+  }
+
+  /** At once; also after a refusal that waiting alone would not change. */
+  private retry(): void {
+    if (this.store.get().phase === "waiting") this.connection.retryNow();
+    else this.open();
   }
 
   private leave(): void {
@@ -325,25 +344,25 @@ export class App {
   }
 
   private tapped(x: number, y: number): void {
-    if (!this.store.get().isJointsMode) {
-      if (this.perception.tapped(x, y)) this.walkHere.clear();
-      else this.walkHere.tapped(x, y);
-      return;
-    }
-    const group = this.view.ballAt(x, y);
-    if (group) {
-      vibrate(kTapPattern);
-      this.store.set({selectedGroup: group});
-    }
+    const {isJointsMode, robot} = this.store.get();
+    if (this.image.isLarge) return this.image.swap();
+    const group = isJointsMode ? this.view.ballAt(x, y) : this.stage.groupAt(x, y, robot?.jointGroups ?? []);
+    if (!isJointsMode && this.perception.tapped(x, y)) return this.walkHere.clear();
+    if (!group) return isJointsMode ? undefined : this.walkHere.tapped(x, y);
+    vibrate(kTapPattern);
+    if (!isJointsMode) this.setJointsMode(true);
+    this.store.set({selectedGroup: group});
   }
 
   private setJointsMode(isJointsMode: boolean): void {
     this.held.release();
     this.walkHere.clear();
     this.store.set({isJointsMode, selectedGroup: ""});
+    // The balls are on the robot.
+    if (isJointsMode && this.image.isLarge) this.image.swap();
     this.stage.orbit.setView(isJointsMode ? kJointsView : kDriveView);
     if (!isJointsMode) void this.teach.leave();
-    else if (!this.tour.isRunning) this.teach.explain();
+    else this.teach.explain();
   }
 
   /** Scales fractions of the controls' range by the limits of the robot's walk. */
@@ -368,9 +387,21 @@ export class App {
       case "ready": return this.goToPosture(this.store.get().robot?.readyPosture);
       case "stand": return this.goToPosture(this.store.get().robot?.standPosture);
       case "crouch": return this.goToPosture(this.store.get().robot?.restPosture);
+      case "next-group": return this.selectNext(1);
+      case "previous-group": return this.selectNext(-1);
       case "kick-left": return this.kick("left");
       case "kick-right": return this.kick("right");
     }
+  }
+
+  /** In joints mode the group after, or before, the chosen one. */
+  private selectNext(step: number): void {
+    const {isJointsMode, robot, selectedGroup} = this.store.get();
+    const names = (robot?.jointGroups ?? []).map(({name}) => name);
+    if (!isJointsMode || names.length === 0) return;
+    const index = names.indexOf(selectedGroup);
+    const next = index < 0 && step < 0 ? names.length - 1 : (index + step + names.length) % names.length;
+    this.store.set({selectedGroup: names[next]!});
   }
 
   private goToPosture(posture: string | undefined): void {
@@ -433,21 +464,20 @@ export class App {
   }
 
   private chooseScreen(): void {
-    const {phase, attempts, robot, loading, isChoosingRobot} = this.store.get();
+    const {phase, problem, robot, loading, isChoosingRobot, isFormOpen} = this.store.get();
     const isLoaded = loading.total > 0 && loading.done === loading.total;
-    const isBack = phase !== "idle" && robot !== null && attempts <= kPatientAttempts;
-    const screen: ScreenName = phase !== "connected" && !isBack ? "connection" : isChoosingRobot ? "lobby" :
+    // What was seen of a robot stays in sight; its cause bar says why nothing new comes.
+    const hasRobot = robot !== null && !isFormOpen && (phase !== "idle" || problem !== null);
+    const screen: ScreenName = phase !== "connected" && !hasRobot ? "connection" : isChoosingRobot ? "lobby" :
         isLoaded ? "controller" : "loading";
     if (this.root.dataset["screen"] === screen) return;
     this.root.dataset["screen"] = screen;
     if (screen === "controller") {
       this.stage.start();
-      if (!this.settings.isTourSeen) this.tour.start();
     } else {
       this.held.release();
       this.stage.stop();
       this.teach.sheet.element.close();
-      this.tour.leave();
     }
   }
 }

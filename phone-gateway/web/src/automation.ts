@@ -62,10 +62,11 @@ export function exposeAutomation(store: Store, stage: Stage, image: ImageView, v
     },
     pagePlace(x, y) {
       const point = robotToScene(x, y, 0, new Vector3()).project(stage.camera);
-      return [(point.x + 1) / 2 * stage.size.width, (1 - point.y) / 2 * stage.size.height];
+      return stage.onPage((point.x + 1) / 2 * stage.size.width, (1 - point.y) / 2 * stage.size.height);
     },
     ballPlaces() {
-      return view.balls?.places(stage.camera, stage.size.width, stage.size.height) ?? {};
+      const places = view.balls?.places(stage.camera, stage.size.width, stage.size.height) ?? {};
+      return Object.fromEntries(Object.entries(places).map(([group, place]) => [group, stage.onPage(...place)]));
     },
     torsoPosition() {
       const position = view.tree?.torso.position;

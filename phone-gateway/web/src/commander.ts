@@ -80,8 +80,24 @@ export class Commander {
     return this.report(await this.requester.request(useCases.watchRobot(robot)));
   }
 
+  /** Takes control, or tells the driver that this client waits for it. */
+  async askForControl(): Promise<boolean> {
+    const response = await this.requester.request(useCases.takeControl("", true));
+    const isWaiting = response?.result.case === "control" && response.result.value.nextId === this.store.get().clientId;
+    if (!response || !isWaiting || response.result.case !== "control") return this.report(response);
+    this.store.set({control: response.result.value});
+    this.messages.show("info", say("control.asked", {name: response.result.value.driverName}));
+    return false;
+  }
+
   async releaseControl(): Promise<boolean> {
     return this.report(await this.requester.request(useCases.releaseControl()));
+  }
+
+  /** Control goes to the client that waits for it. */
+  async handOver(): Promise<boolean> {
+    this.onMotion();
+    return this.report(await this.requester.request(useCases.releaseControl(this.store.get().control?.nextId)));
   }
 
   /** Handles an event that does not answer a request. */

@@ -15,8 +15,8 @@ export interface Settings {
   language: string;
   /** True: walk on the right, turn on the left. */
   isSwapped: boolean;
-  /** The tour was seen or skipped. */
-  isTourSeen: boolean;
+  /** The person has walked a robot. */
+  hasWalked: boolean;
   /** Boxes are drawn over the image around what the robot sees. */
   hasBoxes: boolean;
   /** Newest first. */
@@ -24,7 +24,7 @@ export interface Settings {
 }
 
 const kDefaults: Settings = {
-  clientName: "", language: "", isSwapped: false, isTourSeen: false, hasBoxes: true, recent: [],
+  clientName: "", language: "", isSwapped: false, hasWalked: false, hasBoxes: true, recent: [],
 };
 
 /** Reads the settings; those that another version wrote badly count as not there. */

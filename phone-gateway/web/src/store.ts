@@ -2,6 +2,7 @@
 import type {
   Control, Joint, Match, Motion, Notice, Notice_Component, Image, PlayState, RobotDescription, RobotList_Robot, State, Vision,
 } from "./protocol/generated/remote_pb";
+import type {Postures} from "./robot/posture_file";
 import {kEmptyDraft} from "./teach/motion_draft";
 import type {MotionDraft, Pose} from "./teach/motion_draft";
 
@@ -82,6 +83,11 @@ export interface AppState {
   /** Median round trip of the last pings, ms; negative before the first. */
   latencyMs: number;
   numClients: number;
+  /** What is known of the robot's postures, and a drawing of each. */
+  postures: Postures;
+  pictures: ReadonlyMap<string, HTMLCanvasElement>;
+  /** The form for address and code is asked for, over the picture of before. */
+  isFormOpen: boolean;
   /** True in joints mode, false in drive mode. */
   isJointsMode: boolean;
   /** Name of the joint group in hand; empty: none. */
@@ -124,6 +130,9 @@ const kInitialState: AppState = {
   unavailableComponents: [],
   latencyMs: -1,
   numClients: 0,
+  postures: new Map(),
+  pictures: new Map(),
+  isFormOpen: false,
   isJointsMode: false,
   selectedGroup: "",
   savedMotions: [],

@@ -36,10 +36,20 @@ const kLights = [
                                          radius: 0.0063}]},
 ];
 
-/** Where the imaginary robot can go: joint angles, rad, and torso height, m. */
+/** Three robots beside it, which cannot be chosen: one is driven, one is away. */
+const kMatch = {
+  robots: {robots: [{name: "NAO", model: "nao", team: 0, number: 2, isAvailable: true},
+                    {name: "NAO2", model: "nao", team: 0, number: 3, isAvailable: true, driverId: 99, driverName: "Ana"},
+                    {name: "NAO3", model: "nao", team: 1, number: 2, isAvailable: true},
+                    {name: "NAO4", model: "nao", team: 1, number: 3}]},
+  match: {phase: pb.Match_Phase.PLAYING, half: 1, timeLeft: 272, score0: 1, score1: 2},
+};
+
+/** Where the imaginary robot can go: joint angles, rad, torso height, m, and pitch, rad. */
 export interface FakePosture {
   angles: Record<string, number>;
   height: number;
+  pitch: number;
 }
 
 export interface FakeGatewayOptions {
@@ -57,6 +67,8 @@ export interface FakeGatewayOptions {
   image?: (time: number) => Uint8Array;
   /** True: it sees a ball, and plays as far as it is told to. */
   plays?: boolean;
+  /** True: it is one of several robots, in a match. */
+  hasMatch?: boolean;
 }
 
 interface Phone {
@@ -85,13 +97,16 @@ export class FakeGateway {
   private readonly angle: number[];
   private readonly target: number[];
   private height: number;
+  private pitch = 0;
   private heading = 0;
   private x = 0;
   private y = 0;
   private drive = {vx: 0, vy: 0, wz: 0};
   private lastDriveMs = 0;
   private driverId = 0;
-  private nextId = 1;
+  /** The phone that waits for control; 0: none. */
+  private nextId = 0;
+  private lastId = 0;
   private time = 0;
   private readonly lightRgb = kLights.map(() => 0);
   private readonly timers: ReturnType<typeof setInterval>[] = [];
@@ -148,7 +163,7 @@ export class FakeGateway {
   }
 
   private welcome(socket: WebSocket): void {
-    const phone: Phone = {id: this.nextId++, name: "", isConnected: false, socket, states: false,
+    const phone: Phone = {id: ++this.lastId, name: "", isConnected: false, socket, states: false,
                           images: false};
     this.phones.add(phone);
     socket.on("message", (data: Buffer) => this.receive(phone, fromBinary(pb.RequestSchema, data)));
@@ -177,13 +192,18 @@ export class FakeGateway {
           clientUtime: useCase.value.clientUtime, numClients: this.phones.size})});
       case "takeControl":
         if (this.driverId !== 0 && this.driverId !== phone.id) {
+          if (useCase.value.wait && this.nextId === 0) {
+            this.nextId = phone.id;
+            this.tellControl();
+          }
           return answer(pb.ErrorCode.CONTROL_TAKEN, `${this.nameOf(this.driverId)} drives.`,
                         {case: "control", value: this.control(phone)});
         }
         this.setDriver(phone.id);
         return answer(pb.ErrorCode.OK, "", {case: "control", value: this.control(phone)});
       case "releaseControl":
-        if (this.driverId === phone.id) this.setDriver(0);
+        if (this.nextId === phone.id) this.nextId = 0;
+        if (this.driverId === phone.id) this.setDriver(useCase.value.successorId === this.nextId ? this.nextId : 0);
         return answer(pb.ErrorCode.OK, "", {case: "control", value: this.control(phone)});
       case "stop":
         this.playing.name = "";
@@ -237,6 +257,7 @@ export class FakeGateway {
         if (!posture) return answer(pb.ErrorCode.INVALID_ARGUMENT, "There is no such posture.");
         this.options.joints.forEach(({name}, i) => this.target[i] = posture.angles[name] ?? 0);
         this.height = posture.height;
+        this.pitch = posture.pitch;
         this.posture = useCase.value.posture;
         break;
       }
@@ -314,6 +335,7 @@ export class FakeGateway {
     answer(pb.ErrorCode.OK, "", {case: "connected", value: create(pb.ConnectedSchema, {
       protocolVersion: 1, serverVersion: "fake", clientId: phone.id, clientName: phone.name,
       control: this.control(phone),
+      ...(this.options.hasMatch ? kMatch : {}),
       robot: {name: "NAO", urdfPath: "/robots/nao/nao.urdf", joints, jointGroups, actionRoles,
               labels, actions: actionRoles.map(({name}) => name), savedMotions: this.motions.names,
               isSimulated: true, readyPosture, standPosture,
@@ -326,7 +348,8 @@ export class FakeGateway {
 
   private control(phone: Phone): pb.Control {
     return create(pb.ControlSchema, {driverId: this.driverId, driverName: this.nameOf(this.driverId),
-                                     isMine: this.driverId === phone.id});
+                                     isMine: this.driverId === phone.id, nextId: this.nextId,
+                                     nextName: this.nameOf(this.nextId)});
   }
 
   private nameOf(id: number): string {
@@ -335,6 +358,11 @@ export class FakeGateway {
 
   private setDriver(id: number): void {
     this.driverId = id;
+    this.nextId = 0;
+    this.tellControl();
+  }
+
+  private tellControl(): void {
     for (const phone of this.phones) {
       if (!phone.isConnected) continue;
       send(phone, {case: "notice", value: create(pb.NoticeSchema, {
@@ -358,7 +386,7 @@ export class FakeGateway {
     const isWalking = this.drive.vx !== 0 || this.drive.vy !== 0 || this.drive.wz !== 0;
     const state = create(pb.StateSchema, {
       utime: BigInt(Math.round(this.time * 1e6)), ageMs: 4, jointPosition: this.angle,
-      torsoOrientation: [Math.cos(this.heading / 2), 0, 0, Math.sin(this.heading / 2)],
+      torsoOrientation: orientationOf(this.heading, this.pitch),
       torsoPosition: [this.x, this.y, this.height],
       mode: isWalking ? pb.Mode.WALKING : this.mode, posture: isWalking ? "" : this.posture,
       ...activity, stiffness: 1, lightRgb: this.lightRgb,
@@ -389,6 +417,13 @@ export class FakeGateway {
       if (phone.images) send(phone, {case: "image", value: image});
     }
   }
+}
+
+/** Heading about z after pitch about y, rad, as a quaternion (w, x, y, z). */
+function orientationOf(heading: number, pitch: number): number[] {
+  const [c, s] = [Math.cos(heading / 2), Math.sin(heading / 2)];
+  const [cp, sp] = [Math.cos(pitch / 2), Math.sin(pitch / 2)];
+  return [c * cp, -s * sp, c * sp, s * cp];
 }
 
 function send(phone: Phone, message: pb.ServerMessage["message"]): void {

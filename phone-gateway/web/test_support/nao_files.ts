@@ -2,6 +2,7 @@
 import {readFileSync} from "node:fs";
 import {join} from "node:path";
 import {DOMParser} from "@xmldom/xmldom";
+import {parsePostures} from "../src/robot/posture_file";
 import {parseUrdf} from "../src/robot/urdf";
 import type {Urdf} from "../src/robot/urdf";
 import type {FakeGatewayOptions, FakePosture} from "./fake_gateway";
@@ -51,19 +52,12 @@ const kHeights: Record<string, number> = {
   LyingBack: 0.06, LyingBelly: 0.06,
 };
 
-/** Postures: list items that begin "- name: Crouch", with lines "Joint: angle", in postures.yaml. */
 export function readPostures(folder: string): Record<string, FakePosture> {
-  const postures: Record<string, FakePosture> = {};
-  const text = readFileSync(join(folder, "postures.yaml"), "utf8");
-  for (const block of text.split("- name: ").slice(1)) {
-    const name = /^\w+/.exec(block)![0];
-    const height = kHeights[name];
-    if (height === undefined) continue;
-    const angles = [...block.matchAll(/^ +(\w+): *(-?[\d.]+)$/gm)]
-        .map((match) => [match[1]!, Number(match[2])] as const);
-    postures[name] = {angles: Object.fromEntries(angles), height};
-  }
-  return postures;
+  const postures = parsePostures(readFileSync(join(folder, "postures.yaml"), "utf8"));
+  return Object.fromEntries([...postures].filter(([name]) => name in kHeights).map(([name, {angles, family}]) => {
+    const pitch = family === "lying-back" ? -Math.PI / 2 : family === "lying-belly" ? Math.PI / 2 : 0;
+    return [name, {angles, height: kHeights[name]!, pitch}];
+  }));
 }
 
 /** Actions: lines like "- {name: kick-left, does: kick, side: left}" in robot.yaml. */

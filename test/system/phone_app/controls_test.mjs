@@ -138,7 +138,7 @@ for (const [language, stop] of [["pt", "Parar"], ["de", "Stopp"], ["en", "Stop"]
     await phone.page.locator(".menu-button").tap();
     await Promise.all([phone.page.waitForEvent("load"), phone.page.locator(".menu[open] select").selectOption(language)]);
     await phone.sees("controller");
-    assert.equal((await phone.page.locator(".stop").textContent()).trim(), stop);
+    assert.equal((await phone.page.locator(".stop").innerText()).trim(), stop);
     assert.equal(await phone.page.evaluate("document.documentElement.lang"), language);
   });
 }

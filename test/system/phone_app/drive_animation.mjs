@@ -64,7 +64,7 @@ try {
   await film(phone, 1.5);
 
   await placeBallAhead();
-  await phone.page.locator('[data-name="kick-left"]').tap();
+  await phone.choose('[data-name="kick-left"]');
   await film(phone, kKickSeconds);
   await browser.close();
 

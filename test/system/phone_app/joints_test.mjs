@@ -16,7 +16,7 @@ const kMoved = 3 * kDegree;
 const kShownTolerance = 0.003;
 const kDeadlineMs = 20_000;
 
-const {stack, phone} = setUp({prepare: (phone) => phone.tap(".lock")});
+const {stack, phone} = setUp({prepare: (phone) => phone.tap(".joints-button")});
 
 /** Taps the ball of a group once the view has come to rest. */
 async function choose(group) {
@@ -124,7 +124,7 @@ test("the roll slider turns the roll joint, and both sides at once if selected",
 });
 
 test("the lock takes the balls away and brings the drive controls back", async () => {
-  await phone.tap(".lock");
+  await phone.tap(".joints-button");
   assert.ok(await phone.page.locator(".joystick-walk").isVisible());
   assert.ok(await phone.page.locator(".joint-card").isHidden());
   assert.deepEqual(phone.errors, []);

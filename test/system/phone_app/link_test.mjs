@@ -28,15 +28,32 @@ test("the first to touch a control drives; the second phone sees who, and may as
   // A command of the second phone moves nothing, and names the driver.
   await ben.tap('[data-name="Crouch"]');
   await ben.page.locator(".message", {hasText: "Ana drives"}).waitFor();
-  // Ana is active: refused. When she has given no command for 10 s, granted.
+  // Ana is active: she is asked, and hands over by name. A third one sees who is next.
   await ben.tap(".driver-button");
-  await until("Ben drives", async () => {
-    if ((await driverText(ben)) === "You drive") return true;
-    await ben.page.waitForTimeout(1000);
-    await ben.tap(".driver-button");
+  await ben.page.locator(".message", {hasText: "Ana sees that you would like to drive."}).waitFor();
+  const eva = await openPhone();
+  await eva.sees("controller");
+  const name = await ben.look("state.clientName");
+  await until("Eva sees who is next", async () => (await driverText(eva)) === `Ana drives, ${name} is next`);
+  await ana.page.locator(".cause", {hasText: `${name} would like to drive.`}).waitFor();
+  await ana.page.getByText(`Hand over to ${name}`).tap();
+  await until("Ben drives", async () => (await driverText(ben)) === "You drive");
+  await until("Ana sees it", async () => (await driverText(ana)) === `${name} drives`);
+  await eva.close();
+});
+
+test("control is granted when the driver has given no command for 10 s", async () => {
+  await until("Ana drives", async () => {
+    if ((await driverText(ana)) === "You drive") return true;
+    await ana.page.waitForTimeout(1000);
+    // Asks, then waits no longer, and asks again.
+    await ana.tap(".driver-button");
     return false;
   });
-  await until("Ana sees it", async () => (await driverText(ana)).endsWith(" drives"));
+  await until("Ben sees it", async () => (await driverText(ben)) === "Ana drives");
+  await ana.tap(".driver-button");
+  await ben.tap('[data-name="StandInit"]');
+  await until("Ben drives again", async () => (await driverText(ben)) === "You drive");
 });
 
 test("the driver hands over, and the other takes control by touching a joystick", async () => {
@@ -52,12 +69,12 @@ test("anybody may stop the robot, spectators too", async () => {
   assert.equal(await ben.page.locator(".message.bad").count(), 0);
 });
 
-test("a killed gateway brings the connection screen, and the app comes back by itself with it", async () => {
+test("a killed gateway is told over the last picture, with a button, and the app comes back by itself with it", async () => {
   await stack.end("nao-phone-gateway", "SIGKILL");
-  await ana.sees("connection");
-  await ana.page.locator(".problem").waitFor();
+  await ana.page.locator('.cause [data-remedy="retry"]').waitFor();
+  assert.ok(await ana.page.locator(".stage").isVisible(), "the picture has gone");
   await stack.startGateway();
-  await ana.sees("controller");
+  await ana.page.locator(".cause").waitFor({state: "hidden"});
   await until("images go on", async () => {
     const count = await ana.look("numImages");
     return until("another", async () => (await ana.look("numImages")) > count, 2000);
@@ -84,7 +101,7 @@ test("a gateway that hangs is told at once, and given up after 5 s of silence", 
   assert.equal(await ana.page.locator(".stale .controller-screen").count(), 1, "the sticks are not locked");
   assert.ok(Date.now() - begin < 3000, "told too late");
   // The controller stays while the app tries again.
-  await ana.page.locator(".mode", {hasText: "The robot has gone quiet."}).waitFor();
+  await ana.page.locator(".cause", {hasText: "The robot has gone quiet."}).waitFor();
   assert.ok(Date.now() - begin > 4000, "given up too early");
   gateway.child.kill("SIGCONT");
   await ana.sees("controller");

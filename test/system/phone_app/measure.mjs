@@ -85,7 +85,7 @@ function watchThumb() {
 
 async function measureTouch() {
   const phone = await openController();
-  await phone.tap(".lock");
+  await phone.tap(".joints-button");
   await phone.page.locator('[data-name="head"]').tap();
   await pause(3000);
   const pad = await phone.middleOf(".joystick-joint");
@@ -214,14 +214,14 @@ async function driveALittle(phone) {
   await phone.tap(".image-main");
   await pause(1000);
   await phone.tap(".image-main");
-  await phone.tap(".lock");
+  await phone.tap(".joints-button");
   await phone.page.locator(`[data-name="${side > 0 ? "head" : "left shoulder"}"]`).tap();
   const pad = await phone.middleOf(".joystick-joint");
   await phone.fingers("touchStart", [{id: 1, x: pad.x, y: pad.y}]);
   await phone.fingers("touchMove", [{id: 1, x: pad.x, y: pad.y + 0.4 * side * pad.radius}]);
   await pause(1000);
   await phone.fingers("touchEnd", []);
-  await phone.tap(".lock");
+  await phone.tap(".joints-button");
   const mode = await phone.look("mode");
   if (mode !== "holding" && mode !== "walking" && mode !== "moving") await standsReady(phone);
 }

@@ -69,12 +69,10 @@ for (const Browser of [WebKit, Firefox]) {
     });
     after(() => browser.close());
 
-    test("connects, draws the robot, and begins with the tour", async () => {
+    test("connects, draws the robot, and says how to walk", async () => {
       await seen('#app[data-screen="controller"]');
       await until("the robot is drawn", async () => (await look("numFrames")) > 0, kDeadlineMs);
-      await seen(".tour-bubble");
-      await browser.evaluate(`document.querySelector(".tour-bubble .button:not(.primary)").click()`);
-      assert.equal(await isSeen(".tour-bubble"), false);
+      await seen(".hint");
     });
 
     test("shows the head's images", async () => {
@@ -83,11 +81,12 @@ for (const Browser of [WebKit, Firefox]) {
 
     test("walks while the pad is held, and stands when it is let go", async () => {
       await hold(".joystick-walk", 0, 0.6, "the robot walks", async () => (await look("mode")) === "walking");
+      assert.equal(await isSeen(".hint"), false, "the hint has served");
       await until("the robot stands", async () => (await look("mode")) === "holding", kDeadlineMs);
     });
 
     test("turns a joint", async () => {
-      await tap(".lock");
+      await tap(".joints-button");
       await browser.evaluate(`document.querySelector('.joints-panel [data-name="right shoulder"]').click()`);
       await turn(0.8);
     });

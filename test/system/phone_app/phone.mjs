@@ -17,21 +17,11 @@ export async function openBrowser(webDir) {
   return chromium.launch({executablePath: kChromium, args: kOptions});
 }
 
-/** In the page: the app remembers that its tour was seen. */
-function forgoTour() {
+/** In the page: what the app remembers. */
+function remember(known) {
   try {
     const settings = JSON.parse(localStorage.getItem("nao-remote") ?? "{}");
-    localStorage.setItem("nao-remote", JSON.stringify({...settings, isTourSeen: true}));
-  } catch {
-    // about:blank keeps nothing.
-  }
-}
-
-/** In the page: the app remembers what the person is called. */
-function setName(clientName) {
-  try {
-    const settings = JSON.parse(localStorage.getItem("nao-remote") ?? "{}");
-    localStorage.setItem("nao-remote", JSON.stringify({...settings, clientName}));
+    localStorage.setItem("nao-remote", JSON.stringify({...settings, ...known}));
   } catch {
     // about:blank keeps nothing.
   }
@@ -49,12 +39,12 @@ export class Phone {
   }
 
   /** @param size  CSS pixels: {width, height}.
-   * @param options  of Playwright's context; hasTour: the phone has not seen the tour yet; name: what others see. */
-  async open(browser, url, size = {width: 412, height: 915}, {hasTour = false, name = "", ...options} = {}) {
+   * @param options  of Playwright's context; isStranger: the person has not walked a robot yet; name: what others see. */
+  async open(browser, url, size = {width: 412, height: 915}, {isStranger = false, name = "", ...options} = {}) {
     this.context = await browser.newContext({
       viewport: size, deviceScaleFactor: 1, isMobile: true, hasTouch: true, locale: "en-US", ...options});
-    if (!hasTour) await this.context.addInitScript(forgoTour);
-    if (name) await this.context.addInitScript(setName, name);
+    if (!isStranger) await this.context.addInitScript(remember, {hasWalked: true});
+    if (name) await this.context.addInitScript(remember, {clientName: name});
     this.page = await this.context.newPage();
     this.page.on("pageerror", (error) => this.errors.push(error.message));
     this.page.on("console", (message) => {
@@ -80,6 +70,13 @@ export class Phone {
 
   async tap(selector) {
     await this.page.locator(selector).tap();
+  }
+
+  /** Taps a choice, which may be behind "More". */
+  async choose(selector) {
+    const choice = this.page.locator(selector);
+    if (!(await choice.isVisible())) await this.tap(".more-button");
+    await choice.tap();
   }
 
   /** The middle of an element, px. */

@@ -35,15 +35,15 @@ const behavior = () => phone.look("state.playState.behavior");
 const activity = () => phone.page.locator(".activity").textContent();
 
 test("a tap on Score begins it, the status says what the robot does, and a second tap ends it", async () => {
-  await phone.tap('.play-strip [data-name="score"]');
+  await phone.choose('.play-strip [data-name="score"]');
   await until("the robot plays", async () => (await behavior()) === kScore);
   await until("the status says so", async () => (await activity()) === "Score: walks to the ball");
-  await phone.tap('.play-strip [data-name="score"]');
+  await phone.choose('.play-strip [data-name="score"]');
   await until("it has ended", async () => (await behavior()) === 0);
 });
 
 test("a hidden page ends what the robot does by itself", async () => {
-  await phone.tap('.play-strip [data-name="keep-goal"]');
+  await phone.choose('.play-strip [data-name="keep-goal"]');
   await until("the robot plays", async () => (await behavior()) !== 0);
   await phone.hide();
   await until("it has ended", async () => (await behavior()) === 0);
@@ -57,7 +57,7 @@ test("the ball is drawn where the robot takes it to be, and a tap on it offers t
   await phone.page.touchscreen.tap(x, y);
   await phone.tap('.ball-choice [data-name="go-to-ball"]');
   await until("the robot goes to the ball", async () => (await behavior()) === kGoToBall);
-  await phone.tap('.play-strip [data-name="go-to-ball"]');
+  await phone.choose('.play-strip [data-name="go-to-ball"]');
   await until("it has ended", async () => (await behavior()) === 0);
 });
 
@@ -74,6 +74,7 @@ test("boxes are drawn over the image until they are switched off", async () => {
 });
 
 test("the map is there while the robot knows its place, and nothing complains", async () => {
+  await phone.page.locator('.more-button[aria-expanded="true"]').waitFor();
   assert.ok(await phone.page.locator(".field-map").isVisible());
   if (process.env.NAO_SCREENSHOT) await phone.page.screenshot({path: process.env.NAO_SCREENSHOT});
   assert.deepEqual(phone.errors, []);

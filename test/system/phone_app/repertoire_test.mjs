@@ -30,7 +30,7 @@ async function pressAndSee(name, isReached) {
  * @return a question for the sentence of refusal that came since; undefined if none did. */
 async function press(name) {
   const newest = await phone.look("state.messages.reduce((id, message) => Math.max(id, message.id), 0)");
-  await phone.page.locator(`.chip[data-name="${name}"]`).tap();
+  await phone.choose(`.chip[data-name="${name}"]`);
   return () => phone.look(`state.messages.find(({id, kind, text}) =>
       id > ${newest} && kind === "bad" && !${kPartIsAway}.test(text))?.text`);
 }

@@ -39,7 +39,7 @@ test("a tap on Score puts the ball into the goal", {skip: !hasVision && "nao-vis
     await stack.nao("world", "set-pace", String(pace));
     await stack.nao("world", "place-ball", "1.2", "0.25");
     await until("nothing is played", async () => (await behavior(phone)) === kNone);
-    await phone.tap('.play-strip [data-name="score"]');
+    await phone.choose('.play-strip [data-name="score"]');
     await until("the robot plays", async () => (await behavior(phone)) === kScore);
     place = await until("the ball is in the goal, or the robot has given up", async () => {
       phases.add(await phone.page.locator(".activity").textContent());

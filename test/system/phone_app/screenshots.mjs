@@ -72,18 +72,18 @@ const screens = {
     await phone.tap(".image-main");
   },
   async joints(phone, name) {
-    await phone.tap(".lock");
+    await phone.tap(".joints-button");
     await phone.page.locator('[data-name="left shoulder"]').tap();
     await take(phone, `joints-${name}`);
-    await phone.tap(".lock");
+    await phone.tap(".joints-button");
   },
   async teach(phone, name) {
-    await phone.tap(".lock");
+    await phone.tap(".joints-button");
     await phone.tap(".teach-add");
     await phone.tap(".teach-open");
     await take(phone, `teach-${name}`);
     await phone.tap(".motions header .round");
-    await phone.tap(".lock");
+    await phone.tap(".joints-button");
   },
   async speech(phone, name) {
     await phone.tap(".speech-button");

@@ -73,7 +73,7 @@ async function addPose(phone) {
 
 /** The motion of a first-time user: the right arm up, and to and fro. */
 async function teachWave(phone) {
-  await tap(phone, ".lock");
+  await tap(phone, ".joints-button");
   await choose(phone, "right shoulder");
   await turn(phone, "RShoulderPitch", 0, 0.9, 1.2);
   await addPose(phone);
@@ -179,7 +179,7 @@ test("poses are reordered, mirrored and undone; the draft survives a reload", as
   await phone.page.reload();
   await phone.sees("controller");
   assert.deepEqual(await keyframes(phone), before);
-  await tap(phone, ".lock");
+  await tap(phone, ".joints-button");
   await tap(phone, ".teach-open");
   await phone.page.getByRole("button", {name: "Start anew"}).tap();
   assert.deepEqual(await keyframes(phone), []);
@@ -219,7 +219,7 @@ test("a motion is downloaded, deleted, brought back by undo, uploaded, and repla
 
 test("a limb is relaxed and dragged in the simulation, and its pose is added", async (t) => {
   const phone = await openReady(t);
-  await tap(phone, ".lock");
+  await tap(phone, ".joints-button");
   await choose(phone, "left shoulder");
   await tap(phone, ".relax");
   // One group after the other; only a limp one can be held.

@@ -5,11 +5,14 @@ import {onPress} from "./press";
 export interface Choice {
   name: string;
   label: string;
+  /** What style sheets know it by. */
+  kind?: string;
 }
 
 export class ChoiceStrip {
   readonly element: HTMLElement;
   private readonly buttons = new Map<string, HTMLButtonElement>();
+  private pictures: ReadonlyMap<string, HTMLCanvasElement> = new Map();
 
   constructor(label: string, private readonly choose: (name: string) => void) {
     this.element = el("div", {class: "strip", role: "group", "aria-label": label});
@@ -17,28 +20,41 @@ export class ChoiceStrip {
 
   setChoices(choices: readonly Choice[]): void {
     this.buttons.clear();
-    for (const {name, label} of choices) {
-      const button = el("button", {class: "chip", "data-name": name}, label);
+    for (const {name, label, kind} of choices) {
+      const button = el("button", {class: "chip", "data-name": name, "data-kind": kind}, el("span", {}, label));
       onPress(button, () => this.choose(name));
       this.buttons.set(name, button);
     }
     this.element.replaceChildren(...this.buttons.values());
+    this.setPictures(this.pictures);
   }
 
-  private markButton(button: HTMLButtonElement): void {
-    if (button.hasAttribute("aria-current")) return;
-    button.setAttribute("aria-current", "true");
-    // Into sight, without moving anything but this row.
-    const {element} = this;
-    const left = button.offsetLeft - (element.clientWidth - button.offsetWidth) / 2;
-    if (element.offsetParent) element.scrollTo({left});
+  /** Puts a drawing over each label. @param pictures  by name. */
+  setPictures(pictures: ReadonlyMap<string, HTMLCanvasElement>): void {
+    this.pictures = pictures;
+    for (const [name, button] of this.buttons) {
+      button.querySelector("canvas")?.remove();
+      const picture = pictures.get(name);
+      if (!picture) continue;
+      picture.setAttribute("aria-hidden", "true");
+      button.prepend(picture);
+    }
   }
 
   /** Marks the one that holds now; none if the name is empty. */
   mark(current: string): void {
     for (const [name, button] of this.buttons) {
-      if (name === current) this.markButton(button);
-      else button.removeAttribute("aria-current");
+      if (name !== current) button.removeAttribute("aria-current");
+      else if (!button.hasAttribute("aria-current")) this.markButton(button);
     }
+  }
+
+  private markButton(button: HTMLButtonElement): void {
+    button.setAttribute("aria-current", "true");
+    // Into sight, without moving anything but this row.
+    const {element} = this;
+    const strip = element.getBoundingClientRect();
+    const box = button.getBoundingClientRect();
+    if (strip.width > 0) element.scrollBy({left: box.left + box.width / 2 - strip.left - strip.width / 2});
   }
 }

@@ -1,5 +1,5 @@
 /** Keyboard and gamepad of this page; what they mean is in keys.ts. */
-import {isDeflected, isDriveKey, pressedButtons, sticksFromPad} from "./keys";
+import {isDeflected, isDriveKey, kButtonKeys, pressedButtons, sticksFromPad} from "./keys";
 import type {PadButton, PadSticks} from "./keys";
 import {kSilenceMs} from "./walk_sender";
 
@@ -21,12 +21,11 @@ export function listenToKeys(isActive: () => boolean, actions: KeyActions): () =
       if (event.repeat) return;
       held.add(event.code);
       notify(event);
-    } else if (event.code === "Space" || event.code === "Escape") {
-      event.preventDefault();
-      actions.pressed("stop");
-    } else if (event.code === "KeyL" && !event.repeat) {
-      actions.pressed("lock");
+      return;
     }
+    const button = kButtonKeys[event.code];
+    if (button === "stop") event.preventDefault();
+    if (button && (button === "stop" || !event.repeat)) actions.pressed(button);
   });
   document.addEventListener("keyup", (event) => {
     if (held.delete(event.code) || event.key === "Shift") notify(event);

@@ -15,6 +15,9 @@ const kTapTravel = 8;
 /** Not more often than this while dragging, ms. */
 const kLookPeriodMs = 60;
 
+/** As in controller.css. */
+const kDesk = "(min-width: 1000px) and (min-height: 600px) and (hover: hover) and (pointer: fine)";
+
 const kCameraIcon = "M4 8h3l2-2h6l2 2h3v11H4zM12 16.5a3.5 3.5 0 1 0 0-7 3.5 3.5 0 0 0 0 7z";
 
 /** A tap on the image: fractions of its size, and px on the page. */
@@ -29,6 +32,8 @@ export class ImageView {
   readonly element: HTMLElement;
   /** A tap that this handles does not change the image's size. */
   onTap: (tap: ImageTap) => boolean = () => false;
+  /** Called when it has become the large picture, or the small one. */
+  onSwap: (isLarge: boolean) => void = () => {};
   /** Images drawn so far. */
   numImages = 0;
   isLarge = false;
@@ -36,6 +41,7 @@ export class ImageView {
   camera = "";
   private cameras: readonly string[] = [];
   private readonly canvas = el("canvas", {width: 320, height: 240, "aria-hidden": "true"});
+  private readonly empty = el("span", {class: "image-empty"}, say("drive.imageWaiting"));
   private readonly cameraName = el("span");
   private readonly enlarge: HTMLButtonElement;
   private readonly switcher: HTMLButtonElement;
@@ -54,7 +60,7 @@ export class ImageView {
       onpointerup: (event: PointerEvent) => this.lifted(event),
       onlostpointercapture: (event: PointerEvent) => this.dragged(event, true),
     },
-                      this.canvas, el("span", {class: "image-empty"}, say("drive.imageWaiting")));
+                      this.canvas, this.empty);
     this.switcher = el("button", {class: "image-camera", onclick: () => this.switchCamera()},
                        el("span", {class: "image-label"}, icon(kCameraIcon), this.cameraName));
     this.element = el("section", {class: "image", "aria-label": say("drive.image")},
@@ -70,9 +76,17 @@ export class ImageView {
 
   /** Sets the cameras of the connected robot; keeps the selected one if the robot has it. */
   setCameras(cameras: readonly string[]): void {
+    // At a desk there is room to see as the robot does.
+    if (this.cameras.length === 0 && cameras.length > 0 && !this.isLarge && matchMedia(kDesk).matches) this.swap();
     this.cameras = cameras;
     if (!cameras.includes(this.camera)) this.camera = cameras[0] ?? "";
     this.relabel();
+  }
+
+  /** True: the last image stays, with the words that the camera sends none. */
+  setOff(isOff: boolean): void {
+    this.element.classList.toggle("off", isOff);
+    this.empty.textContent = say(isOff ? "component.camera" : "drive.imageWaiting");
   }
 
   show(image: Image): void {
@@ -125,17 +139,19 @@ export class ImageView {
     const box = this.canvas.getBoundingClientRect();
     const tap = {x: (event.clientX - box.left) / box.width, y: (event.clientY - box.top) / box.height,
                  pageX: event.clientX, pageY: event.clientY};
-    if (!this.onTap(tap)) this.toggleSize();
+    if (!this.onTap(tap)) this.swap();
   }
 
   private clicked(event: MouseEvent): void {
-    if (event.detail === 0) this.toggleSize(); // by keyboard
+    if (event.detail === 0) this.swap(); // by keyboard
   }
 
-  private toggleSize(): void {
+  /** The large picture becomes the small one, and the other way round. */
+  swap(): void {
     this.isLarge = !this.isLarge;
     this.element.classList.toggle("large", this.isLarge);
     this.relabel();
+    this.onSwap(this.isLarge);
     this.requestChanged();
   }
 

@@ -18,9 +18,10 @@ export class Joystick {
   private centerY = 0;
   private radius = 1;
 
-  /** @param isHorizontal  true if only left and right count. @param changed  called at each change. */
+  /** @param isHorizontal  true if only left and right count. @param changed  called at each change.
+   * @param keys  that do the same: up, left, down, right. */
   constructor(label: string, name: string, private readonly isHorizontal: boolean,
-              private readonly changed: () => void) {
+              private readonly changed: () => void, keys: readonly string[] = []) {
     this.knob = el("div", {class: "joystick-knob"});
     this.label = el("span", {class: "joystick-label"}, label);
     this.element = el("div", {
@@ -33,7 +34,8 @@ export class Joystick {
       oncontextmenu: (event: Event) => event.preventDefault(),
       onkeydown: (event: KeyboardEvent) => this.key(event, true),
       onkeyup: (event: KeyboardEvent) => this.key(event, false),
-    }, drawing(isHorizontal ? kTwoWays : kFourWays, 100, "joystick-rim"), this.knob, this.label);
+    }, drawing(isHorizontal ? kTwoWays : kFourWays, 100, "joystick-rim"), this.knob, this.label,
+       ...keys.map((key) => el("kbd", {class: "key", "aria-hidden": "true", hidden: key === ""}, key)));
     // Secure pages hear of a move as it comes, others with the next frame.
     this.element.addEventListener("pointerrawupdate", (event) => this.move(event as PointerEvent));
   }

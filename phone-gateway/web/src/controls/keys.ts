@@ -38,7 +38,13 @@ export function stickFromKeys(held: ReadonlySet<string>, isSlow: boolean): Stick
   return drive && {up: drive.x, right: -(drive.y || drive.theta)};
 }
 
-export type PadButton = "stop" | "ready" | "stand" | "crouch" | "lock" | "kick-left" | "kick-right";
+export type PadButton = "stop" | "ready" | "stand" | "crouch" | "lock" | "kick-left" | "kick-right" | "next-group" | "previous-group";
+
+/** Keys that do something once, by their place on the keyboard. */
+export const kButtonKeys: Readonly<Record<string, PadButton>> = {
+  Space: "stop", Escape: "stop", KeyL: "lock", KeyR: "ready", KeyC: "crouch", Digit1: "kick-left", Digit2: "kick-right",
+  Period: "next-group", Comma: "previous-group",
+};
 
 /** Buttons of the standard layout, by their number there. */
 const kPadButtons: Record<number, PadButton> = {

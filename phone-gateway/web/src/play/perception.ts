@@ -42,7 +42,8 @@ export class Perception {
   tapped(x: number, y: number): boolean {
     this.choice.clear();
     const spot = this.stage.groundAt(x, y);
-    return this.canPlay && spot !== null && isBallAt(this.store.get().vision, spot) && this.offer(x, y);
+    return this.canPlay && spot !== null && isBallAt(this.store.get().vision, spot) &&
+        this.offer(...this.stage.onPage(x, y));
   }
 
   private get canPlay(): boolean {

@@ -1,10 +1,11 @@
 /** What the robot sees, on the 3D stage: ball, lines, goal posts and robots at their estimated places, with ellipses
  * of two standard deviations. */
 import {
-  BufferAttribute, BufferGeometry, CylinderGeometry, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Mesh,
-  MeshBasicMaterial, MeshStandardMaterial, RingGeometry, SphereGeometry,
+  BufferAttribute, BufferGeometry, CapsuleGeometry, CylinderGeometry, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Mesh,
+  MeshBasicMaterial, MeshLambertMaterial, RingGeometry, SphereGeometry,
 } from "three";
 import type {Material, Object3D} from "three";
+import {mergeGeometries} from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import {Vision_Detection_Kind} from "../protocol/generated/remote_pb";
 import type {State, Vision} from "../protocol/generated/remote_pb";
 import type {Stage} from "../robot/stage";
@@ -42,6 +43,19 @@ class Mark {
   }
 }
 
+/** Where the parts of a robot that is seen are, m over the ground and to its left: legs, trunk with arms, head. */
+const kParts = [{radius: 0.045, length: 0.17, z: 0.13, y: 0.06}, {radius: 0.045, length: 0.17, z: 0.13, y: -0.06},
+                {radius: 0.085, length: 0.09, z: 0.34, y: 0}, {radius: 0.03, length: 0.13, z: 0.33, y: 0.125},
+                {radius: 0.03, length: 0.13, z: 0.33, y: -0.125}, {radius: 0.062, length: 0.01, z: 0.5, y: 0}];
+
+/** A robot in outline, of one mesh: which one it is, and how it stands, is not known. */
+function figure(material: Material): Mesh {
+  const mesh = new Mesh(mergeGeometries(kParts.map(({radius, length, z, y}) =>
+      new CapsuleGeometry(radius, length, 4, 12).rotateX(Math.PI / 2).translate(0, y, z))), material);
+  mesh.castShadow = true;
+  return mesh;
+}
+
 /** A column from the ground up. */
 function column(radius: number, height: number, material: Material): Mesh {
   const mesh = new Mesh(new CylinderGeometry(radius, radius, height, 20).rotateX(Math.PI / 2), material);
@@ -58,14 +72,14 @@ export class SeenObjects {
   private readonly ends = new Float32Array(kMaxLines * 6);
 
   constructor(private readonly stage: Stage) {
-    const sphere = new Mesh(new SphereGeometry(kBallRadius, 24, 16), new MeshStandardMaterial({color: 0xf4f4f4}));
+    const sphere = new Mesh(new SphereGeometry(kBallRadius, 24, 16), new MeshLambertMaterial({color: 0xf4f4f4}));
     sphere.position.z = kBallRadius;
     this.ball = new Mark(sphere, 0xffb84d);
-    const ghost = new MeshBasicMaterial({color: 0xff6a6a, transparent: true, opacity: 0.35, depthWrite: false});
-    const white = new MeshBasicMaterial({color: 0xdfe9f2, transparent: true, opacity: 0.5, depthWrite: false});
+    const red = new MeshLambertMaterial({color: 0xd8595c});
+    const white = new MeshLambertMaterial({color: 0xf4f7f9});
     for (let i = 0; i < kMaxThings; i++) {
-      this.robots.push(new Mark(column(0.12, 0.55, ghost), 0xff6a6a));
-      this.posts.push(new Mark(column(0.05, 0.8, white), 0xdfe9f2));
+      this.robots.push(new Mark(figure(red), 0xff6a6a));
+      this.posts.push(new Mark(column(0.05, 0.8, white), 0xf4f7f9));
     }
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(this.ends, 3).setUsage(DynamicDrawUsage));

@@ -113,12 +113,14 @@ export function setLights(names: readonly string[], rgb: number): UseCase {
 
 export const stop = (): UseCase => ({case: "stop", value: create(pb.StopSchema)});
 /** @param robot  name of the robot; empty: the one that is watched. */
-export const takeControl = (robot = ""): UseCase =>
-    ({case: "takeControl", value: create(pb.TakeControlSchema, {robot})});
+/** @param wait  True: if it is refused this client is the next one. */
+export const takeControl = (robot = "", wait = false): UseCase =>
+    ({case: "takeControl", value: create(pb.TakeControlSchema, {robot, wait})});
 export const watchRobot = (robot: string): UseCase =>
     ({case: "watchRobot", value: create(pb.WatchRobotSchema, {robot})});
-export const releaseControl = (): UseCase =>
-    ({case: "releaseControl", value: create(pb.ReleaseControlSchema)});
+/** @param successorId  the client that waits; 0: none. */
+export const releaseControl = (successorId = 0): UseCase =>
+    ({case: "releaseControl", value: create(pb.ReleaseControlSchema, {successorId})});
 
 /** @param clientUtime this page's clock, microseconds; comes back in the Pong. */
 export function ping(clientUtime: number): UseCase {

@@ -1,7 +1,7 @@
-/** The ground: dark turf with the lines of the field, fading out around the robot. Lines are computed
+/** The ground: turf with the lines of the field, fading out around the robot. Lines are computed
  * per pixel, as in the head camera's image, so that they stay sharp without a texture. */
 import {
-  Group, Mesh, MeshBasicMaterial, PlaneGeometry, RingGeometry, ShaderMaterial, ShadowMaterial,
+  Color, Group, Mesh, MeshBasicMaterial, PlaneGeometry, RingGeometry, ShaderMaterial, ShadowMaterial,
   Vector2, Vector4,
 } from "three";
 
@@ -16,7 +16,9 @@ export interface FieldLines {
 }
 
 /** Beyond this distance from the robot the ground has faded out, m. */
-const kVisibleRadius = 3.2;
+const kVisibleRadius = 4.5;
+/** Of the darkness around the feet, m: a little wider than they stand. Chosen. */
+const kContactWidth = 0.17;
 
 const kVertexShader = `
   varying vec2 place;
@@ -33,6 +35,9 @@ const kFragmentShader = `
   uniform float hasField;
   uniform vec4 field;    // half length, half width, half line width, circle radius
   uniform vec2 penalty;  // penalty area: length, half width
+  uniform vec3 turf;
+  uniform vec3 lines;
+  uniform float contact;  // of the darkness around the feet: squared radius over its squared width
 
   // Share of a pixel, so wide at this place, that lies within half the line width of the line at distance d.
   float line(float d, float halfWidth, float pixel) {
@@ -61,10 +66,11 @@ const kFragmentShader = `
     vec2 pixel = fwidth(place) + 1e-6;
     float d = distance(place, centre) / radius;
     if (d > 1.0) discard;
-    float fade = 1.0 - smoothstep(0.25, 1.0, d);
-    vec3 turf = mix(vec3(0.010, 0.022, 0.032), vec3(0.009, 0.036, 0.034), hasField);
-    vec3 color = turf + vec3(0.010, 0.017, 0.020) * grid(place, pixel);
-    if (hasField > 0.5) color = mix(color, vec3(0.30, 0.38, 0.42), 0.85 * fieldLines(place, pixel));
+    float fade = 1.0 - smoothstep(0.3, 1.0, d);
+    vec3 color = mix(turf, lines, 0.12 * (1.0 - hasField) * grid(place, pixel));
+    if (hasField > 0.5) color = mix(color, lines, 0.9 * fieldLines(place, pixel));
+    // A soft darkness around the feet, where shadows cost too much as well.
+    color *= 1.0 - 0.45 * exp(-d * d * contact);
     gl_FragColor = vec4(color, fade);
     #include <colorspace_fragment>
   }`;
@@ -91,6 +97,9 @@ export class Floor {
         hasField: {value: 0},
         field: {value: new Vector4()},
         penalty: {value: new Vector2()},
+        turf: {value: new Color()},
+        lines: {value: new Color()},
+        contact: {value: (kVisibleRadius / kContactWidth) ** 2},
       },
     });
     const plane = new PlaneGeometry(2 * kVisibleRadius, 2 * kVisibleRadius);
@@ -115,6 +124,13 @@ export class Floor {
     (field!.value as Vector4).set(lines.length / 2, lines.width / 2, lines.lineWidth / 2,
                                  lines.centreCircleDiameter / 2);
     (penalty!.value as Vector2).set(lines.penaltyAreaLength, lines.penaltyAreaWidth / 2);
+  }
+
+  /** @param turf,lines  as in style sheets. */
+  setColors(turf: string, lines: string): void {
+    const {uniforms} = this.material;
+    (uniforms["turf"]!.value as Color).set(turf);
+    (uniforms["lines"]!.value as Color).set(lines);
   }
 
   /** Whether the robot's shadow is drawn on it. */

@@ -1,16 +1,25 @@
 /** The connected robot on the stage: loads it, lets it follow the state, and finds its balls. */
+import {CommandKind} from "../protocol/generated/remote_pb";
 import type {State} from "../protocol/generated/remote_pb";
 import type {Store} from "../store";
 import {JointBalls} from "./joint_balls";
 import {LinkDrag} from "./link_drag";
 import {loadRobot} from "./load_robot";
 import {PoseMirror} from "./pose_mirror";
+import {PostureFigure} from "./posture_figure";
+import {loadPostures} from "./posture_file";
+import type {Posture} from "./posture_file";
 import type {RobotTree} from "./robot_tree";
 import type {Stage} from "./stage";
+
+/** So long a posture is shown before the robot takes it: later both would be in each other's way, ms. */
+const kGhostMs = 1500;
 
 export class RobotView {
   tree: RobotTree | null = null;
   balls: JointBalls | null = null;
+  private figure: PostureFigure | null = null;
+  private ghostTimer: ReturnType<typeof setTimeout> | undefined;
   private path = "";
   private mirror: PoseMirror | null = null;
 
@@ -21,6 +30,8 @@ export class RobotView {
       this.balls?.show(isOn);
       stage.outdate();
     });
+    store.watch((state) => state.state?.activity?.kind === CommandKind.POSTURE ? state.state.activity.name : "",
+                (name) => this.showGhost(store.get().postures.get(name) ?? null));
     store.watch((state) => state.selectedGroup, (group) => {
       this.balls?.select(group);
       stage.outdate();
@@ -55,6 +66,7 @@ export class RobotView {
       this.tree = tree;
       this.path = path;
       this.stage.setRobot(this.tree);
+      void this.drawPostures(new PostureFigure(this.tree), new URL(path, location.href));
       this.balls = new JointBalls(this.tree, this.stage.surface, this.store.get().robot?.jointGroups ?? []);
       this.balls.show(this.store.get().isJointsMode);
       this.makeMirror();
@@ -65,6 +77,24 @@ export class RobotView {
       const why = error instanceof Error ? error.message : String(error);
       this.store.set({loading: {done: 0, total: 0, error: why}});
     }
+  }
+
+  /** The posture that the robot goes to, where it stands. */
+  private showGhost(posture: Posture | null): void {
+    if (!this.figure || !this.tree) return;
+    this.figure.standAt(posture, this.tree.torso, this.stage.heading);
+    this.stage.outdate();
+    clearTimeout(this.ghostTimer);
+    if (posture) this.ghostTimer = setTimeout(() => this.showGhost(null), kGhostMs);
+  }
+
+  private async drawPostures(figure: PostureFigure, urdfUrl: URL): Promise<void> {
+    const postures = await loadPostures(urdfUrl);
+    if (figure.tree.urdf !== this.tree?.urdf) return;
+    this.figure?.standAt(null, this.tree.torso, 0);
+    this.store.set({postures, pictures: await this.stage.drawPostures(figure, postures)});
+    figure.becomeGhost(this.stage.robotAxes);
+    this.figure = figure;
   }
 
   setTarget(state: State): void {

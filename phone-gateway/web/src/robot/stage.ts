@@ -4,6 +4,7 @@ import {
   ACESFilmicToneMapping, DirectionalLight, Group, HemisphereLight, PCFShadowMap,
   PerspectiveCamera, Scene, Vector3, WebGLRenderer,
 } from "three";
+import type {JointGroup} from "../protocol/generated/remote_pb";
 import {openDrawingContext} from "./drawing_context";
 import {Floor} from "./floor";
 import {makeRobotAxes, robotToScene} from "./frames";
@@ -11,6 +12,9 @@ import {Orbit} from "./orbit";
 import type {View} from "./orbit";
 import {PixelBudget} from "./pixel_budget";
 import {calcHeight} from "./robot_height";
+import {groupAt} from "./link_at";
+import type {PostureFigure} from "./posture_figure";
+import type {Postures} from "./posture_file";
 import {RobotSurface} from "./robot_surface";
 import type {RobotTree} from "./robot_tree";
 
@@ -27,6 +31,9 @@ const kSoftwarePixelRatio = 0.5;
 /** Time between two frames at the least where a processor draws, ms. At 60 frames a second a page took 1.5 cores, perhaps of
  * those that simulate the robot. */
 const kSoftwareFramePeriodMs = 50;
+/** Where a processor draws, what stands still for so long, ms, is drawn once more with so many pixels: smooth edges. */
+const kRestMs = 500;
+const kRestPixelRatio = 1.5;
 /** The eye has moved if it did so by more than this, m. */
 const kSeenMove = 0.0002;
 /** A movement's first frame goes as far as any other, s. */
@@ -47,7 +54,7 @@ const kShadowDepth = 7;
 /** Until a robot has been loaded, m. */
 const kUnknownHeight = 0.6;
 
-/** The part of the canvas that no control covers, px from its top left. */
+/** A part of the canvas, px from its top left. */
 export interface FreeArea {
   left: number;
   top: number;
@@ -82,6 +89,7 @@ export class Stage {
   private isOutdated = true;
   private isChanging = false;
   private isAhead = false;
+  private isSharp = false;
   private width = 1;
   private height = 1;
   private freeArea: FreeArea | null = null;
@@ -163,9 +171,15 @@ export class Stage {
     this.isOutdated ||= hasMoved || this.hasEyeMoved();
     this.isChanging = this.isOutdated;
     if (this.isOutdated && nowMs - this.drawnMs >= this.framePeriodMs) this.draw(nowMs);
+    else if (this.framePeriodMs > 0 && !this.isSharp && nowMs - this.drawnMs > kRestMs) this.draw(nowMs, true);
   }
 
-  private draw(nowMs: number): void {
+  /** @param isSharp  with the pixels of what stands still. */
+  private draw(nowMs: number, isSharp = false): void {
+    if (isSharp !== this.isSharp) {
+      this.isSharp = isSharp;
+      this.renderer.setPixelRatio(isSharp ? kRestPixelRatio : this.budget.pixelRatio);
+    }
     this.isOutdated = false;
     this.drawnMs = nowMs;
     this.drawnEye.copy(this.camera.position);
@@ -219,6 +233,7 @@ export class Stage {
     const {clientWidth, clientHeight} = this.canvas;
     this.width = Math.max(clientWidth, 1);
     this.height = Math.max(clientHeight, 1);
+    this.isSharp = false;
     this.renderer.setPixelRatio(this.budget.pixelRatio);
     this.renderer.setSize(this.width, this.height, false);
     this.renderer.shadowMap.enabled = this.sun.castShadow = this.budget.hasShadow;
@@ -229,8 +244,18 @@ export class Stage {
     this.frameRobot();
   }
 
-  /** Places the robot in the middle of the free area, as large as fits. */
-  setFreeArea(area: FreeArea): void {
+  /** A drawing of each posture. */
+  drawPostures(figure: PostureFigure, postures: Postures): Promise<Map<string, HTMLCanvasElement>> {
+    return figure.draw(this.renderer, postures);
+  }
+
+  /** Joint group that moves the part of the robot under a point, px from the top left; empty if there is none. */
+  groupAt(x: number, y: number, groups: readonly JointGroup[]): string {
+    return this.robot ? groupAt(this.robot, groups, this.camera, 2 * x / this.width - 1, 1 - 2 * y / this.height, this.robotHeight) : "";
+  }
+
+  /** Places the robot in the middle of an area, as large as fits; null: of all. */
+  setFreeArea(area: FreeArea | null): void {
     this.freeArea = area;
     this.frameRobot();
   }
@@ -243,6 +268,12 @@ export class Stage {
 
   get size(): {width: number; height: number} {
     return {width: this.width, height: this.height};
+  }
+
+  /** A point of the canvas on the page, px from its top left. */
+  onPage(x: number, y: number): [number, number] {
+    const {left, top} = this.canvas.getBoundingClientRect();
+    return [left + x, top + y];
   }
 
   /** The spot on the ground under a point of the canvas, m in the robot's axes; null above the horizon.

@@ -43,7 +43,7 @@ export class JointsPanel {
   constructor(private readonly store: Store, private readonly driver: JointDriver,
               readonly teachBar: TeachBar,
               private readonly actions: JointsActions) {
-    this.stick = new Joystick(say("joints.move"), "joint", false, () => driver.setStick(this.stick.value));
+    this.stick = new Joystick(say("joints.move"), "joint", false, () => driver.setStick(this.stick.value), ["W", "A", "S", "D"]);
     this.strip = new ChoiceStrip(say("joints.groups"), (name) => actions.select(name));
     this.both = el("button", {class: "button small", "aria-pressed": "false"}, say("joints.both"));
     onPress(this.both, () => this.toggleBoth());

@@ -1,6 +1,6 @@
 import {describe, expect, it} from "vitest";
 import {Store} from "../store";
-import {linkDelay, linkInWords, linkQuality} from "./controller_screen";
+import {linkDelay, linkInWords, linkQuality} from "./link_sign";
 
 describe("the link sign", () => {
   const state = (stateAgeMs: number, latencyMs = 43) => {

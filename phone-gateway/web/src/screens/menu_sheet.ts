@@ -13,8 +13,6 @@ export interface MenuActions {
   setTilt(isOn: boolean): Promise<boolean>;
   setSwapped(isSwapped: boolean): void;
   setLanguage(language: Language): void;
-  /** Shows the tour. */
-  startTour(): void;
   changeRobot(): void;
   leave(): void;
 }
@@ -40,7 +38,6 @@ export class MenuSheet {
       el("h3", {}, say("menu.help")),
       el("ul", {class: "help-list"}, ...kHelp.map((key) => el("li", {}, say(key)))),
       el("div", {class: "menu-buttons"}, this.change,
-         el("button", {class: "button wide tour-again", onclick: () => this.startTour()}, say("tour.again")),
          el("button", {class: "button wide", onclick: () => this.leave()}, say("drive.leave"))));
     // A tap beside the sheet closes it, as people expect.
     this.element.addEventListener("click", (event) => {
@@ -59,11 +56,6 @@ export class MenuSheet {
   private changeRobot(): void {
     this.element.close();
     this.actions.changeRobot();
-  }
-
-  private startTour(): void {
-    this.element.close();
-    this.actions.startTour();
   }
 
   private leave(): void {

@@ -10,7 +10,6 @@ const kColors: readonly [TextKey, number][] = [
   ["lights.off", 0x000000],
 ];
 const kCloseIcon = "M6 6l12 12M18 6L6 18";
-export const kSpeechIcon = "M4 5h16v11H11l-5 4v-4H4zM8 9h8M8 12.5h5";
 
 export interface SpeechActions {
   say(text: string, language: string): void;

@@ -231,6 +231,8 @@ export const kReasonTexts: Readonly<Record<string, readonly [pt: string, de: str
   "walk-stopped": ["Parado: solte o comando e depois continue.", "Gestoppt: erst loslassen, dann weitergehen."],
   "driver-changed": ["Agora conduz {0}.", "Jetzt steuert {0}."],
   "control-released": ["{0} deixou de conduzir; ninguém conduz.", "{0} hat abgegeben; niemand steuert."],
+  "control-asked": ["{0} pede para conduzir.", "{0} möchte steuern."],
+  "control-ask-withdrawn": ["{0} já não pede para conduzir.", "{0} möchte nicht mehr steuern."],
   "driver-disconnected": ["{0} desligou-se; ninguém conduz.", "{0} ist getrennt; niemand steuert."],
   "driver-left": ["{0} mudou para {1}; ninguém conduz.", "{0} ist zu {1} gewechselt; niemand steuert."],
   "muted-by-operator": ["Por agora só pode ver; foi decidido junto do robô.",

@@ -1,4 +1,4 @@
-/** Texts of taught motions and of the tour; as in texts.ts. */
+/** Texts of taught motions; as in texts.ts. */
 import type {Row} from "./texts";
 
 export const kTeachTexts = {
@@ -84,28 +84,4 @@ export const kTeachTexts = {
   "motion.fileTooLarge": ["The file is larger than {size} kB.", "O ficheiro tem mais de {size} kB.",
                           "Die Datei ist größer als {size} kB."],
   "motion.openRepaired": ["Open the repaired motion", "Abrir o movimento corrigido", "Reparierte Bewegung öffnen"],
-  // Tour.
-  "tour.title": ["Tour", "Visita guiada", "Rundgang"],
-  "tour.again": ["Show the tour", "Ver a visita guiada", "Rundgang zeigen"],
-  "tour.step": ["{number} of {total}", "{number} de {total}", "{number} von {total}"],
-  "tour.next": ["Next", "Seguinte", "Weiter"],
-  "tour.done": ["Done", "Terminar", "Fertig"],
-  "tour.skip": ["Skip", "Saltar", "Überspringen"],
-  "tour.link": ["Three bars: the robot answers quickly. With one bar, drive gently.",
-                "Três barras: o robô responde depressa. Com uma barra, conduza devagar.",
-                "Drei Balken: Der Roboter antwortet schnell. Bei einem Balken fahr behutsam."],
-  "tour.walk": ["Hold and push: the robot walks. Let go and it stands. Try it.",
-                "Segure e empurre: o robô anda. Solte e ele para. Experimente.",
-                "Halten und schieben: Der Roboter geht. Loslassen, und er steht. Probier es."],
-  "tour.postures": ["Postures and actions, one tap each. Slide the rows for more.",
-                    "Posturas e ações, um toque cada. Deslize as filas para ver mais.",
-                    "Haltungen und Aktionen, je ein Tipp. Schieb die Reihen für mehr."],
-  "tour.joints": ["The lock lets you move single joints. Tap it.", "O cadeado deixa mover articulações. Toque nele.",
-                  "Das Schloss gibt einzelne Gelenke frei. Tippe darauf."],
-  "tour.teach": ["Tap a ball, move it with the pad, add the pose. Some poses are a motion that you can play and save.",
-                 "Toque numa esfera, mova-a com o comando, junte a pose. Várias poses são um movimento que pode ver e guardar.",
-                 "Tippe auf eine Kugel, bewege sie mit dem Feld, merke die Pose. Mehrere Posen sind eine Bewegung zum Abspielen und Sichern."],
-  "tour.stop": ["Stop ends every motion at once. Anybody may press it, at any time.",
-                "Parar termina logo qualquer movimento. Qualquer pessoa o pode premir, a qualquer momento.",
-                "Stopp beendet jede Bewegung sofort. Jeder darf ihn drücken, jederzeit."],
 } as const satisfies Record<string, Row>;

@@ -52,6 +52,44 @@ TEST_F(GatewayDriving, CanBeTakenOverAfterTenSecondsWithoutACommand) {
   EXPECT_EQ(go_to(ana, "Crouch").error(), naoremote::CONTROL_TAKEN);
 }
 
+TEST_F(GatewayDriving, IsHandedOverToTheClientThatAsked) {
+  Client ana = connect_driver("Ana");
+  Client ben = connect("Ben");
+  Client eva = connect("Eva");
+  walk(ana, 0.1);
+  EXPECT_EQ(wait_for_control(ben).control().next_name(), "Ben");
+  EXPECT_EQ(wait_for_control(eva).control().next_name(), "Ben") << "Ben asked first";
+  const auto asked = notices(ana, Notice::CONTROL_CHANGED).back();
+  EXPECT_EQ(asked.reason_code(), "control-asked");
+  EXPECT_EQ(asked.control().next_id(), ben.id);
+  EXPECT_TRUE(asked.control().is_mine());
+  EXPECT_EQ(release_control(ana, ben.id).control().driver_id(), ben.id);
+  const auto seen = notices(eva, Notice::CONTROL_CHANGED).back().control();
+  EXPECT_EQ(seen.driver_name(), "Ben");
+  EXPECT_EQ(seen.next_id(), 0u);
+  // A joystick that he holds already does not walk; the one of Ana neither.
+  EXPECT_EQ(walk(ben, 0.1).error(), naoremote::STOPPED);
+  EXPECT_EQ(walk(ana, 0.1).error(), naoremote::CONTROL_TAKEN);
+  walk(ben, 0);
+  EXPECT_EQ(walk(ben, 0.1).error(), naoremote::OK);
+}
+
+TEST_F(GatewayDriving, IsHandedOverToNobodyWhoDoesNotWait) {
+  Client ana = connect_driver("Ana");
+  Client ben = connect("Ben");
+  take_control(ben);
+  EXPECT_EQ(release_control(ana, ben.id).control().driver_id(), 0u) << "asked without waiting";
+  take_control(ana);
+  wait_for_control(ben);
+  release_control(ben);
+  EXPECT_EQ(notices(ana, Notice::CONTROL_CHANGED).back().reason_code(), "control-ask-withdrawn");
+  EXPECT_EQ(release_control(ana, ben.id).control().driver_id(), 0u) << "withdrawn";
+  take_control(ana);
+  wait_for_control(ben);
+  core_->closed(ben.id, "test", now_);
+  EXPECT_EQ(release_control(ana, ben.id).control().driver_id(), 0u) << "disconnected";
+}
+
 TEST_F(GatewayDriving, IsReleasedByDisconnecting) {
   Client ana = connect_driver("Ana");
   Client ben = connect("Ben");

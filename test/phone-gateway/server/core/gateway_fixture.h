@@ -136,9 +136,15 @@ class GatewayFixture : public testing::Test {
     request.mutable_take_control();
     return ask(client, request);
   }
-  naoremote::Response release_control(Client& client) {
+  /** Is refused, and waits. */
+  naoremote::Response wait_for_control(Client& client) {
     naoremote::Request request;
-    request.mutable_release_control();
+    request.mutable_take_control()->set_wait(true);
+    return ask(client, request);
+  }
+  naoremote::Response release_control(Client& client, uint32_t successor = 0) {
+    naoremote::Request request;
+    request.mutable_release_control()->set_successor_id(successor);
     return ask(client, request);
   }
   naoremote::Response walk(Client& client, double vx, double vy = 0, double wz = 0) {

@@ -1,0 +1,76 @@
+/** Why something does not work, in one sentence, and the one thing to do about it. */
+import type {Commander} from "../commander";
+import {onPress} from "../controls/press";
+import {el} from "../dom";
+import {Notice_Component} from "../protocol/generated/remote_pb";
+import type {AppState, Problem, Store} from "../store";
+import {say} from "../text/texts";
+import type {TextKey} from "../text/texts";
+
+export type Remedy = "reload" | "form" | "retry" | "robots" | "hand-over";
+
+export interface Cause {
+  text: string;
+  /** What the button does; null: there is nothing to do but wait. */
+  remedy: Remedy | null;
+  /** What it says. */
+  button: string;
+}
+
+const kRemedies: Record<Problem, readonly [Remedy, TextKey]> = {
+  "wrong-version": ["reload", "connection.reload"],
+  "wrong-token": ["form", "connection.typeCode"],
+  "not-a-robot": ["form", "connection.typeCode"],
+  "too-many": ["retry", "connection.now"],
+  unreachable: ["retry", "connection.now"],
+  silent: ["retry", "connection.now"],
+  closed: ["retry", "connection.now"],
+};
+
+/** The weightiest cause; null: all is well. Pure. */
+export function causeOf(state: Readonly<AppState>): Cause | null {
+  const {phase, problem, unavailableComponents, robots, control} = state;
+  if (phase !== "connected") {
+    if (!problem) return null;
+    const [remedy, key] = kRemedies[problem];
+    return {text: say(`problem.${problem}`), remedy, button: say(key)};
+  }
+  for (const [component, name] of [[Notice_Component.ROBOT, "robot"], [Notice_Component.MOTION, "motion"]] as const) {
+    if (!unavailableComponents.includes(component)) continue;
+    const remedy = robots.length > 1 ? "robots" : null;
+    return {text: say(`component.${name}`), remedy, button: remedy ? say("lobby.open") : ""};
+  }
+  if (control?.isMine && control.nextId !== 0) {
+    return {text: say("control.wish", {name: control.nextName}), remedy: "hand-over",
+            button: say("control.handOverTo", {name: control.nextName})};
+  }
+  return null;
+}
+
+export interface CauseActions {
+  retryNow(): void;
+  openForm(): void;
+  changeRobot(): void;
+}
+
+export function causeBar(store: Store, commander: Commander, act: CauseActions): HTMLElement {
+  const bar = el("div", {class: "cause", role: "status", hidden: true});
+  const remedies: Record<Remedy, () => void> = {
+    reload: () => location.reload(),
+    form: () => act.openForm(),
+    retry: () => act.retryNow(),
+    robots: () => act.changeRobot(),
+    "hand-over": () => void commander.handOver(),
+  };
+  const show = (): void => {
+    const cause = causeOf(store.get());
+    bar.hidden = cause === null;
+    if (!cause) return bar.replaceChildren();
+    const {remedy} = cause;
+    const button = remedy ? el("button", {class: "button small primary", "data-remedy": remedy}, cause.button) : null;
+    if (button && remedy) onPress(button, remedies[remedy]);
+    bar.replaceChildren(el("p", {}, cause.text), ...(button ? [button] : []));
+  };
+  store.watch((state) => JSON.stringify(causeOf(state)), show);
+  return bar;
+}

@@ -1,0 +1,151 @@
+// Every screen in every state, at five sizes, in light and dark, in three languages: laid out and accessible. With
+// NAO_PICTURES=FOLDER a picture of each is left there: scripts/pictures app.
+import assert from "node:assert/strict";
+import {mkdtempSync, rmSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {join} from "node:path";
+import {after, before, test} from "node:test";
+import {violations} from "./accessibility.mjs";
+import {drawCameraImage, startFake} from "./fake.mjs";
+import {faultsOfLayout} from "./layout.mjs";
+import {openBrowser, Phone} from "./phone.mjs";
+import {kWebDir} from "./set_up.mjs";
+import {pause, until} from "./stack.mjs";
+
+const kPictures = process.env.NAO_PICTURES;
+/** The view glides to its place, ms. */
+const kGlideMs = 700;
+const kDesk = {isMobile: false, hasTouch: false};
+const kDark = {colorScheme: "dark"};
+const kLight = {colorScheme: "light"};
+const kPasses = [
+  {name: "320-light-de", size: [320, 568], options: {...kLight, locale: "de-DE"}},
+  {name: "320-dark-pt", size: [320, 568], options: {...kDark, locale: "pt-PT"}},
+  {name: "412-light-en", size: [412, 915], options: {...kLight, locale: "en-US"}},
+  {name: "412-dark-de", size: [412, 915], options: {...kDark, locale: "de-DE"}},
+  {name: "915-light-pt", size: [915, 412], options: {...kLight, locale: "pt-PT"}},
+  {name: "915-dark-en", size: [915, 412], options: {...kDark, locale: "en-US"}},
+  {name: "768-light-pt", size: [768, 1024], options: {...kLight, locale: "pt-PT"}},
+  {name: "1024-dark-de", size: [1024, 768], options: {...kDark, locale: "de-DE"}},
+  {name: "desk-light-de", size: [1280, 800], options: {...kLight, ...kDesk, locale: "de-DE"}},
+  {name: "desk-dark-pt", size: [1280, 800], options: {...kDark, ...kDesk, locale: "pt-PT"}},
+  {name: "412-right-to-left", size: [412, 915], options: kLight, isRightToLeft: true},
+  {name: "412-letters-200", size: [412, 915], options: kDark, letters: "200%"},
+];
+
+let browser;
+let fake;
+let match;
+let folder;
+
+before(async () => {
+  browser = await openBrowser(kWebDir);
+  folder = mkdtempSync(join(tmpdir(), "nao-image-"));
+  const image = join(folder, "image.jpg");
+  await drawCameraImage(browser, image);
+  fake = await startFake({NAO_PLAYS: "1", NAO_IMAGE: image});
+  match = await startFake({NAO_PLAYS: "1", NAO_IMAGE: image, NAO_MATCH: "1"});
+});
+after(async () => {
+  await browser?.close();
+  fake?.end();
+  match?.end();
+  rmSync(folder, {recursive: true, force: true});
+});
+
+/** As set by a phone that reads from right to left, or shows large letters. */
+function setPage({isRightToLeft, letters}) {
+  const set = () => {
+    if (isRightToLeft) document.documentElement.dir = "rtl";
+    if (letters) document.documentElement.style.fontSize = letters;
+  };
+  if (document.documentElement) set();
+  document.addEventListener("DOMContentLoaded", set);
+}
+
+for (const {name, size: [width, height], options, ...page} of kPasses) {
+  test(`every screen is laid out and accessible: ${name}`, async () => {
+    const faults = [];
+    const open = async (url, person) => {
+      const phone = await Phone.open(browser, "about:blank", {width, height}, {...options, name: person});
+      await phone.context.addInitScript(setPage, page);
+      await phone.page.goto(url);
+      return phone;
+    };
+    const look = async (phone, state) => {
+      await pause(kGlideMs);
+      if (kPictures) await phone.page.screenshot({path: join(kPictures, `${name}-${state}.png`)});
+      for (const fault of [...await faultsOfLayout(phone), ...await violations(phone)]) faults.push(`${state}: ${fault}`);
+    };
+    const click = (phone, selector) => phone.page.locator(selector).click();
+
+    const ana = await open(fake.url, "Ana");
+    await ana.sees("controller");
+    await until("the postures are drawn", () => ana.page.locator(".postures canvas").count());
+    await until("an image", async () => (await ana.look("numImages")) > 0);
+    await look(ana, "drive");
+    await click(ana, ".image-main");
+    await look(ana, "swapped");
+    await click(ana, (await ana.page.locator(".camera-large").count()) ? ".stage" : ".image-main");
+    if (await ana.page.locator(".more-button").isVisible()) {
+      await click(ana, ".more-button");
+      await look(ana, "more");
+      await click(ana, ".more-button");
+    }
+    await click(ana, ".joints-button");
+    await click(ana, '.joints-panel [data-name="left shoulder"]');
+    await look(ana, "joints");
+    await click(ana, ".teach-add");
+    await look(ana, "teach");
+    await click(ana, ".teach-open");
+    await click(ana, ".pose-title");
+    await look(ana, "motions");
+    await click(ana, ".motions header .round");
+    await click(ana, ".joints-button");
+    await click(ana, ".speech-button");
+    await look(ana, "speech");
+    await click(ana, ".speech-sheet header .round");
+    await click(ana, ".menu-button");
+    await look(ana, "menu");
+    await click(ana, ".menu[open] header .round");
+    await click(ana, '[data-name="LyingBack"]');
+    await until("it lies", async () => (await ana.look("state.state.posture")) === "LyingBack");
+    await look(ana, "lying");
+    const ben = await open(fake.url, "Ben");
+    await ben.sees("controller");
+    await click(ben, ".driver-button");
+    await ana.page.locator('.cause [data-remedy="hand-over"]').waitFor();
+    await look(ana, "wish");
+    await look(ben, "next");
+    await click(ana, '.cause [data-remedy="hand-over"]');
+    await until("Ben drives", () => ben.look("state.control.isMine"));
+    const {token, robot} = await ben.page.evaluate(() => ({token: location.hash, robot: window.naoRemote.state.robot.name}));
+    assert.deepEqual([token, robot], ["", "NAO"], "the code stays in sight");
+    // The robot stands for the next one.
+    await ben.page.evaluate(() => document.querySelector('[data-name="StandInit"]').click());
+    await until("it stands", async () => (await ben.look("state.state.posture")) === "StandInit");
+    for (const phone of [ana, ben]) {
+      assert.deepEqual(phone.errors, []);
+      await phone.close();
+    }
+
+    const eva = await open(fake.url.replace("token=fake", "token=old"), "Eva");
+    await eva.page.locator(".problem").waitFor();
+    await look(eva, "code");
+    await eva.close();
+
+    const dan = await open(match.url, "Dan");
+    await dan.sees("lobby");
+    await look(dan, "lobby");
+    await click(dan, '[data-robot="NAO"] .robot-drive');
+    await dan.sees("controller");
+    await until("the postures are drawn", () => dan.page.locator(".postures canvas").count());
+    await look(dan, "match");
+    await dan.page.route("**/ws", (route) => route.abort());
+    await dan.context.setOffline(true);
+    await dan.page.locator('.cause [data-remedy="retry"]').waitFor();
+    await look(dan, "lost");
+    await dan.close();
+    assert.deepEqual(faults, []);
+  });
+}
