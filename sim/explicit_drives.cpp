@@ -17,6 +17,7 @@ constexpr double kStill = 0.01;
 const std::vector<JointForce>& JointDrives::begin_explicit_step(double h,
                                                                 const MotorTargets& targets,
                                                                 const TreeState& state) {
+  set_gains(targets);
   joint_forces_.clear();
   for (size_t i = 0; i < drives_.size(); ++i) {
     Drive& drive = drives_[i];

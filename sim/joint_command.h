@@ -18,13 +18,16 @@ struct JointCommand {
   /** rad (hands: opening), one for each name; and fractions of the peak torque, 0 to 1. */
   std::vector<double> position;
   std::vector<double> stiffness;
+  /** Gains, N m/rad and N m s/rad, 0 or above; NaN: the servo's own. Empty: all are. */
+  std::vector<double> kp{};
+  std::vector<double> kd{};
 };
 
 /** Merges targets for some joints into targets for all; joints that are not named keep theirs.
  *
  * @param targets  Changed only if the whole command is valid.
  * @return Nothing, or why the command is rejected: an unknown joint, a number that is not finite, a
- * stiffness outside [0, 1], or lists of unequal length. */
+ * stiffness outside [0, 1], a negative gain, or lists of unequal length. */
 [[nodiscard]] std::optional<std::string> merge_joint_command(const RobotModel& model,
                                                              const JointCommand& command,
                                                              MotorTargets& targets);

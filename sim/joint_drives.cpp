@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace nao::sim {
@@ -36,6 +37,8 @@ JointDrives::JointDrives(const RobotModel& model, const Tree& tree, const RobotO
     drive.motor = model.motor(i);
     drive.motor.peak_torque *= options.torque_scale;
     drive.motor.continuous_torque *= options.torque_scale;
+    drive.own_stiffness_gain = drive.motor.stiffness_gain;
+    drive.own_damping_gain = drive.motor.damping_gain;
     const Joint& joint = model.motor_joint(i);
     drive.lower = joint.lower;
     drive.upper = joint.upper;
@@ -113,7 +116,22 @@ void JointDrives::switch_on() {
   for (Drive& drive : drives_) drive.heat = 0;
 }
 
+void JointDrives::set_gains(const MotorTargets& targets) {
+  if (!has_commanded_gains_ && targets.kp.size() == 0) return;
+  has_commanded_gains_ = targets.kp.size() > 0;
+  for (size_t i = 0; i < drives_.size(); ++i) {
+    Drive& drive = drives_[i];
+    drive.motor.stiffness_gain = drive.own_stiffness_gain;
+    drive.motor.damping_gain = drive.own_damping_gain;
+    if (!has_commanded_gains_) continue;
+    const auto k = static_cast<long>(i);
+    if (!std::isnan(targets.kp[k])) drive.motor.stiffness_gain = targets.kp[k];
+    if (!std::isnan(targets.kd[k])) drive.motor.damping_gain = targets.kd[k];
+  }
+}
+
 void JointDrives::begin_step(double h, const MotorTargets& targets, TreeIntegrator& integrator) {
+  set_gains(targets);
   const TreeState& state = integrator.state();
   for (size_t i = 0; i < drives_.size(); ++i) {
     Drive& drive = drives_[i];

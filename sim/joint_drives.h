@@ -84,6 +84,8 @@ class JointDrives {
   void end_tick(const Eigen::VectorXd& torque_impulse, const MotorTargets& targets, double period);
 
  private:
+  /** The commanded gains, or the servos' own. */
+  void set_gains(const MotorTargets& targets);
   /** Sets chain and entries of a row on one degree of freedom. @return false if the solver's memory
    * is used up. */
   bool set_entries(int dof, const TreeDynamics& dynamics, int first_dof, ConstraintSolver& solver,
@@ -99,6 +101,8 @@ class JointDrives {
 
   const Tree& tree_;
   std::vector<Drive> drives_;
+  /** Whether a target has gains of its own. */
+  bool has_commanded_gains_ = false;
   std::vector<JointForce> joint_forces_;
   /** Targets' positions in the last step, rad. */
   Eigen::VectorXd last_target_;

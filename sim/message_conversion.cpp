@@ -92,7 +92,8 @@ void add_lights(const LolaRobot& lola, naolcm::robot_truth_t& truth) {
 // Copies fields only: ranges and lengths are checked in the core, see merge_joint_command() and
 // SimCore::take_world_command().
 JointCommand to_core(const naolcm::joint_command_t& message) {
-  return {message.tick, message.joint_names, message.joint_position, message.joint_stiffness};
+  return {message.tick,     message.joint_names, message.joint_position, message.joint_stiffness,
+          message.joint_kp, message.joint_kd};
 }
 
 WorldCommand to_core(const naolcm::world_command_t& message) {

@@ -26,6 +26,9 @@ inline constexpr double kStopDamping = 5;
  * clipping is left to the solver, as bounds (JointRow). */
 struct Drive {
   Motor motor;
+  /** The servo's own gains; those of `motor` are these or the commanded ones. */
+  double own_stiffness_gain = 0;
+  double own_damping_gain = 0;
   /** Degree of freedom of the joint, or -1 for an opening (of a hand), which moves no body. */
   int dof = -1;
   /** Range of the joint, rad, and its largest speed, rad/s. */

@@ -13,6 +13,10 @@ struct MotorTargets {
   Eigen::VectorXd position;
   /** Fraction of the peak torque that each motor may use, 0 to 1. */
   Eigen::VectorXd stiffness;
+  /** Gains of the position servos, N m/rad and N m s/rad; NaN: the motor's own. Both may be empty:
+   * all are the motors' own. */
+  Eigen::VectorXd kp{};
+  Eigen::VectorXd kd{};
 };
 
 /** Servo targets that take effect a number of control ticks after they are set. */
@@ -28,6 +32,8 @@ class DelayedTargets {
   void set(const MotorTargets& targets) {
     newest_.position = targets.position;
     newest_.stiffness = targets.stiffness;
+    newest_.kp = targets.kp;
+    newest_.kd = targets.kd;
   }
   /** As set last. */
   const MotorTargets& newest() const { return newest_; }

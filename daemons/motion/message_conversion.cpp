@@ -180,8 +180,10 @@ naolcm::joint_command_t to_message(const JointTargets& targets, const RobotState
   // NaN: the servo's own gains, and no velocity target (joint_command_t).
   message.joint_velocity.assign(names.size(), kNan);
   message.joint_torque.assign(names.size(), 0.0);
-  message.joint_kp.assign(names.size(), kNan);
-  message.joint_kd.assign(names.size(), kNan);
+  message.joint_kp = targets.kp;
+  message.joint_kd = targets.kd;
+  message.joint_kp.resize(names.size(), kNan);
+  message.joint_kd.resize(names.size(), kNan);
   message.joint_stiffness = targets.stiffness;
   return message;
 }
@@ -246,6 +248,20 @@ naolcm::motion_state_t to_message(const MotionState& state) {
     part.heading_in_odometry = footstep.heading_in_odometry;
     message.footsteps.push_back(part);
   }
+  return message;
+}
+
+naolcm::policy_state_t to_message(const PolicyRecord& record, int64_t utime) {
+  naolcm::policy_state_t message;
+  message.utime = utime;
+  message.policy = record.policy;
+  message.num_observations = static_cast<int>(record.observation.size());
+  message.observation = record.observation;
+  message.num_joints = static_cast<int>(record.joint_names.size());
+  message.joint_names = record.joint_names;
+  message.action = record.action;
+  message.action.resize(record.joint_names.size());
+  message.wall_inference_time = record.wall_inference_time;
   return message;
 }
 

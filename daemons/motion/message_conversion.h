@@ -6,6 +6,7 @@
 #include <naolcm/keyframe_motion_t.hpp>
 #include <naolcm/motion_state_t.hpp>
 #include <naolcm/move_to_command_t.hpp>
+#include <naolcm/policy_state_t.hpp>
 #include <naolcm/posture_command_t.hpp>
 #include <naolcm/robot_state_t.hpp>
 #include <naolcm/sensor_state_t.hpp>
@@ -46,5 +47,6 @@ naolcm::joint_command_t to_message(const JointTargets& targets, const RobotState
                                    const std::vector<std::string>& names);
 naolcm::robot_state_t to_message(const RobotState& state, const std::vector<std::string>& names);
 naolcm::motion_state_t to_message(const MotionState& state);
+naolcm::policy_state_t to_message(const PolicyRecord& record, int64_t utime);
 
 }  // namespace nao::motion

@@ -33,6 +33,7 @@ MotionCore::MotionCore(const RobotModel& model, const MotionOptions& options)
       arbiter_(model, factory_, guard_),
       falls_(model, options_),
       limiter_(model),
+      gains_(model),
       reporter_(options.motion_state_period),
       standing_(factory_.make_standing_balance()) {
   if (options.calibration) correction_.emplace(model, *options.calibration);
@@ -63,6 +64,9 @@ Output MotionCore::step(const Input& input, double dt) {
     output.joint_targets->position = sent_;
     if (correction_) correction_->to_servos(output.joint_targets->position);
     output.robot_state = estimator_.state();
+    const Assignment* running = arbiter_.running();
+    const PolicyRecord* record = running ? running->generator->policy_record() : nullptr;
+    if (record != nullptr) output.policy = *record;
   }
   output.motion_state =
       reporter_.update({context(dt), targets_, arbiter_, mode(), falls_.needs_help()}, dt);
@@ -104,6 +108,7 @@ void MotionCore::take_over(bool is_placed) {
   if (is_placed) clip_to_limits(*model_, targets_.position);
   targets_.velocity.assign(model_->num_motors(), 0.0);
   targets_.stiffness = sensors.stiffness;
+  gains_.reset();
   sent_ = targets_.position;
 }
 
@@ -119,6 +124,7 @@ void MotionCore::move(double dt) {
   choose_first_motion(dt);
   handle_falls(dt);
   run_motions(dt);
+  gains_.limit(dt, targets_);
   follow_limp_joints();
   limit_targets(last, dt);
 }
@@ -155,7 +161,7 @@ void MotionCore::handle_falls(double dt) {
   activity.is_walking = arbiter_.is_walking();
   switch (falls_.update(estimator_.state(), activity, dt)) {
     case FallSupervisor::Action::kProtect:
-      arbiter_.abort_all({"robot-fell"});
+      arbiter_.abort_all(running ? running->generator->note_fall() : Reason("robot-fell"));
       // The fall's motion begins in this tick; it cannot wait for the end of another motion.
       arbiter_.start({std::make_unique<FallMotion>(), std::nullopt, "fall"}, context(0), targets_);
       break;
@@ -169,6 +175,9 @@ void MotionCore::handle_falls(double dt) {
 
 void MotionCore::run_motions(double dt) {
   arbiter_.start_waiting(context(0), targets_);
+  // A motion that needs gains of its own commands them in each step.
+  targets_.kp.clear();
+  targets_.kd.clear();
   if (const auto ended = arbiter_.step(context(dt), targets_)) {
     FallSupervisor::Ended kind = FallSupervisor::Ended::kMotion;
     if (ended->mode == Mode::kFalling) kind = FallSupervisor::Ended::kFall;

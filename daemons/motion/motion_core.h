@@ -11,6 +11,7 @@
 #include "daemons/motion/falls/fall_supervisor.h"
 #include "daemons/motion/guards/joint_change_guard.h"
 #include "daemons/motion/guards/joint_limits.h"
+#include "daemons/motion/guards/servo_gains.h"
 #include "daemons/motion/joint_targets.h"
 #include "daemons/motion/motion_factory.h"
 #include "daemons/motion/motion_options.h"
@@ -50,6 +51,8 @@ struct Output {
   std::optional<MotionState> motion_state;
   /** In the order in which they were made. */
   std::vector<CommandResult> results;
+  /** Present if a policy made a step. */
+  std::optional<PolicyRecord> policy;
 };
 
 /** Computes joint targets from sensors and commands: takes over a robot, keeps it on its feet,
@@ -80,6 +83,7 @@ class MotionCore {
 
   const MotionState& motion_state() const { return reporter_.state(); }
   const RobotModel& model() const { return *model_; }
+  const std::vector<Policy>& policies() const { return factory_.policies(); }
 
  private:
   void take_sensors(const Sensors& sensors, double dt);
@@ -118,6 +122,7 @@ class MotionCore {
   CommandArbiter arbiter_;
   FallSupervisor falls_;
   TargetLimiter limiter_;
+  ServoGains gains_;
   StateReporter reporter_;
   std::optional<StandingBalance> standing_;
   /** Targets of the motions in the last step. */

@@ -66,6 +66,15 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
   loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
   loop.every(kSilencePeriod, [this] { check_for_silence(); });
   loop.every(kStatusPeriod, [this] { publish_status(); });
+  for (const Policy& policy : core_.policies()) {
+    if (policy.fault.empty()) {
+      logger::info("policy {}: {} observations, {} joints, {:.0f} Hz", policy.name,
+                   policy.manifest->num_observations(), policy.manifest->num_actions(),
+                   1 / policy.manifest->period);
+    } else {
+      logger::warn("policy {} cannot be used: {}", policy.name, policy.fault);
+    }
+  }
   last_step_time_ = monotonic_seconds();
 }
 
@@ -158,6 +167,7 @@ void MotionDaemon::publish(const Output& output) {
     bus_.publish(channels_.robot_state, to_message(*output.robot_state, names));
   }
   if (output.motion_state) bus_.publish(channels_.motion_state, to_message(*output.motion_state));
+  if (output.policy) bus_.publish(channels_.policy_state, to_message(*output.policy, last_utime_));
 }
 
 void MotionDaemon::publish(const CommandResult& result) {

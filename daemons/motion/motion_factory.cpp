@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/error.h"
 #include "daemons/motion/actions/taught_script.h"
 #include "daemons/motion/generators/joint_change_motion.h"
 #include "daemons/motion/generators/kick_motion.h"
+#include "daemons/motion/generators/policy_motion.h"
 #include "daemons/motion/generators/posture_path_motion.h"
 #include "daemons/motion/generators/rest_motion.h"
 #include "daemons/motion/generators/script_motion.h"
@@ -32,6 +34,23 @@ TransitionGraph load_graph(const RobotModel& model, const MotionOptions& options
 // refused.
 constexpr double kCarryingStiffness = 0.6;
 
+/** @throws ConfigError  if there is no policy of that name that walks. One that cannot be used is
+ * refused when it shall walk. */
+const Policy& find_walk_policy(const std::vector<Policy>& policies, const std::string& name) {
+  std::string known;
+  for (const Policy& policy : policies) {
+    if (policy.name == name) {
+      if (policy.manifest && policy.manifest->kind != PolicyManifest::Kind::kWalk) {
+        throw ConfigError("the policy " + name + " does not walk; start it as an action");
+      }
+      return policy;
+    }
+    known += (known.empty() ? "" : ", ") + policy.name;
+  }
+  throw ConfigError("the robot has no policy " + name + "; it has " +
+                    (known.empty() ? "none" : known));
+}
+
 /** A state of the body as an argument of a reason. */
 std::string name_of(const std::string& body_state) {
   return body_state.empty() ? "unknown" : body_state;
@@ -50,7 +69,10 @@ MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& optio
   const std::filesystem::path& folder = model.folder();
   // A robot without gait, kick or scripts is controlled without these; its commands are refused.
   if (!gait_ && std::filesystem::exists(folder / kGaitFile)) gait_ = Gait::load(folder / kGaitFile);
-  if (gait_) legs_.emplace(model);
+  policies_ = load_policies(model);
+  if (gait_ || !policies_.empty()) legs_.emplace(model);
+  if (!options.walk_policy.empty())
+    walk_policy_ = &find_walk_policy(policies_, options.walk_policy);
   if (std::filesystem::exists(folder / kKickFile)) kick_ = Kick::load(folder / kKickFile);
   if (std::filesystem::exists(folder / kScriptFile)) {
     scripts_ = ActionScript::load(model, folder / kScriptFile);
@@ -83,6 +105,19 @@ MotionFactory::ActionPlanner MotionFactory::make_planner(const Action& action) {
       return [this, is_left = action.side == Side::kLeft](const ActionCommand& command,
                                                           const Situation& situation) {
         return plan_kick(command, situation, is_left);
+      };
+    case Action::Kind::kPolicy:
+      for (const Policy& policy : policies_) {
+        if (policy.name != action.name) continue;
+        return [this, &policy](const ActionCommand&, const Situation& situation) {
+          return plan_policy(policy, situation);
+        };
+      }
+      return nullptr;
+    case Action::Kind::kOwnGait:
+      return [this](const ActionCommand&, const Situation&) -> MotionPlan {
+        walk_policy_ = nullptr;
+        return std::make_unique<StopMotion>();
       };
     default:
       return make_keyframe_planner(action.keyframes);
@@ -130,6 +165,16 @@ std::optional<StandingBalance> MotionFactory::make_standing_balance() const {
 }
 
 MotionPlan MotionFactory::plan_request(const WalkCommand& walk, const Situation& situation) {
+  if (walk_policy_ != nullptr) {
+    const Policy& policy = *walk_policy_;
+    if (const std::string fault = policy.find_fault(); !fault.empty()) {
+      // The operator is told; the next walk is by the gait.
+      walk_policy_ = nullptr;
+      return Reason("policy-unusable", {policy.name, fault});
+    }
+    if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
+    return make_policy_motion(policy, walk);
+  }
   if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
   return std::make_unique<WalkMotion>(*model_, *gait_, make_stand_path(), walk);
 }
@@ -177,6 +222,30 @@ MotionPlan MotionFactory::plan_request(const ActionCommand& action, const Situat
 MotionPlan MotionFactory::plan_request(const StopCommand& /*stop*/,
                                        const Situation& /*situation*/) {
   return std::make_unique<StopMotion>();
+}
+
+std::unique_ptr<MotionGenerator> MotionFactory::make_policy_motion(const Policy& policy,
+                                                                   const WalkCommand& command) {
+  return std::make_unique<PolicyMotion>(*model_, policy, make_stand_path(), make_stand_path(),
+                                        command, [this] { walk_policy_ = nullptr; });
+}
+
+MotionPlan MotionFactory::plan_policy(const Policy& policy, const Situation& situation) {
+  if (const std::string fault = policy.find_fault(); !fault.empty()) {
+    return Reason("policy-unusable", {policy.name, fault});
+  }
+  switch (policy.manifest->kind) {
+    case PolicyManifest::Kind::kWalk:
+      walk_policy_ = &policy;
+      // A walk ends, and the next one is by the policy.
+      return std::make_unique<StopMotion>();
+    case PolicyManifest::Kind::kAction:
+      if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
+      break;
+    case PolicyManifest::Kind::kGetUp:
+      break;
+  }
+  return make_policy_motion(policy, {});
 }
 
 MotionPlan MotionFactory::plan_kick(const ActionCommand& action, const Situation& situation,
@@ -242,7 +311,7 @@ std::optional<Reason> MotionFactory::find_relaxed_support(const JointChangeComma
 
 std::optional<Reason> MotionFactory::find_walk_obstacle(const Situation& situation) const {
   const RobotState& state = situation.context.state;
-  if (!gait_) return Reason("no-gait", {model_->name()});
+  if (!legs_) return Reason("no-gait", {model_->name()});
   if (is_lying(state, options_->lying_tilt)) return Reason("robot-fallen");
   return motion::find_walk_obstacle(*legs_, state, situation.targets.stiffness);
 }
@@ -253,7 +322,7 @@ std::optional<Reason> MotionFactory::find_obstacle_after_standing_up(
   // legs do.
   const RobotState& state = situation.context.state;
   const bool sits = is_sitting(*model_, find_body_state(*model_, state, options_->lying_tilt));
-  if (!gait_ || !sits) return find_walk_obstacle(situation);
+  if (!legs_ || !sits) return find_walk_obstacle(situation);
   return find_soft_leg(*legs_, situation.targets.stiffness);
 }
 

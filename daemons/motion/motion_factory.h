@@ -19,6 +19,7 @@
 #include "kinematics/leg_kinematics.h"
 #include "messages/command.h"
 #include "messages/reason.h"
+#include "policy/policy.h"
 #include "robot_model/robot_model.h"
 
 namespace nao::motion {
@@ -64,6 +65,9 @@ class MotionFactory {
   /** The posture in which walks and actions begin. */
   const Posture& stand() const { return *stand_; }
 
+  /** The robot's policies, also those that cannot be used. */
+  const std::vector<Policy>& policies() const { return policies_; }
+
  private:
   /** Command-independent input of a plan. */
   struct Situation {
@@ -85,6 +89,10 @@ class MotionFactory {
   MotionPlan plan_request(const ActionCommand& action, const Situation& situation);
   MotionPlan plan_request(const StopCommand& stop, const Situation& situation);
 
+  MotionPlan plan_policy(const Policy& policy, const Situation& situation);
+  /** A motion by a policy. @param command  Of a walk. */
+  std::unique_ptr<MotionGenerator> make_policy_motion(const Policy& policy,
+                                                      const WalkCommand& command);
   MotionPlan plan_kick(const ActionCommand& action, const Situation& situation, bool is_left) const;
   MotionPlan plan_script(const ActionScript& script, const Situation& situation) const;
   MotionPlan plan_taught(const std::shared_ptr<const ActionScript>& script,
@@ -108,11 +116,14 @@ class MotionFactory {
   TransitionGraph graph_;
   /** None for a robot that does not walk, or does not kick. */
   std::optional<Gait> gait_;
-  /** Exists with the gait. */
+  /** Exist with the gait or a policy. */
   std::optional<LegKinematics> legs_;
   std::optional<Kick> kick_;
   std::vector<ActionScript> scripts_;
   const Posture* stand_;
+  std::vector<Policy> policies_;
+  /** The one that walks; nullptr: the gait. */
+  const Policy* walk_policy_ = nullptr;
   std::map<std::string, ActionPlanner> actions_;
   std::map<std::string, std::shared_ptr<const ActionScript>> taught_;
 };

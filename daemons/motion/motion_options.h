@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "calibration/calibration.h"
 #include "daemons/motion/transitions/transition_graph.h"
@@ -43,6 +44,8 @@ struct MotionOptions {
   std::optional<Gait> gait;
   /** Transitions between states of the body; nothing: as in the robot's transitions.yaml. */
   std::optional<TransitionGraph> transitions;
+  /** Policy that walks instead of the gait; empty: none. */
+  std::string walk_policy;
   /** How the robot differs from its model; nothing: not at all. */
   std::optional<Calibration> calibration;
 

@@ -27,6 +27,8 @@ int nao::motion::run_motion(int argc, char** argv) {
   app.add_option("--default-speed", options.default_speed,
                  "Speed of the robot's own motions, fraction of the maximum")
       ->show_default();
+  app.add_option("--walk-policy", options.walk_policy,
+                 "Policy that walks instead of the gait, a folder in policies/ of the robot");
   app.add_option("--calibration", calibration_file,
                  "File of the robot's own joint and sensor errors, as nao calibrate writes it");
   app.add_flag("!--no-get-up", options.gets_up, "After a fall, remain lying until a command");

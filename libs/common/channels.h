@@ -20,6 +20,7 @@ struct RobotChannels {
       : sensor_state(robot + "_SENSOR_STATE"),
         joint_command(robot + "_JOINT_COMMAND"),
         robot_state(robot + "_ROBOT_STATE"),
+        policy_state(robot + "_POLICY_STATE"),
         motion_state(robot + "_MOTION_STATE"),
         walk_command(robot + "_WALK_COMMAND"),
         move_to_command(robot + "_MOVE_TO_COMMAND"),
@@ -44,6 +45,7 @@ struct RobotChannels {
   std::string sensor_state;
   std::string joint_command;
   std::string robot_state;
+  std::string policy_state;
   std::string motion_state;
   std::string walk_command;
   std::string move_to_command;

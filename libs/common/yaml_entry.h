@@ -40,6 +40,7 @@ class YamlEntry {
   /** Keys and values, in the file's order; a key that appears twice is refused. */
   std::vector<std::pair<std::string, YamlEntry>> entries() const;
   std::vector<YamlEntry> items() const;
+  bool is_list() const { return node_.IsSequence(); }
   std::string text() const;
   /** A finite number. */
   double number() const;

@@ -62,6 +62,9 @@ inline constexpr auto kReasons = std::to_array<ReasonEntry>({
     {"robot-lifted", "", "The robot was lifted off the ground."},
     {"walk-command-timeout", "seconds", "The walk ended: no walk command for {0} s."},
     {"goal-timeout", "metres", "The goal was not reached in time; {0} m remain."},
+    // Policies.
+    {"policy-unusable", "policy, fault", "The policy {0} cannot be used: {1}."},
+    {"policy-stopped", "policy, fault", "The policy {0} was stopped: {1}."},
     // Kicks and other actions.
     {"no-kick", "robot", "The robot {0} has no kick."},
     {"ball-out-of-reach", "least x, greatest x, least y, greatest y", "The ball is out of reach: it must be {0} to {1} m ahead and {2} to {3} m to the left."},

@@ -96,9 +96,16 @@ struct Symmetry {
   const JointPair* find_pair(const std::string& name) const;
 };
 
+/** Folder of a robot's policies, file of each, and the action that ends the use of one that walks.
+ */
+inline constexpr const char* kPolicyFolder = "policies";
+inline constexpr const char* kPolicyFile = "policy.yaml";
+inline constexpr const char* kOwnGaitAction = "own-gait";
+
 /** An action that users can start by its name. */
 struct Action {
-  enum class Kind { kStandUp, kRest, kKick, kBlock, kDive, kGesture };
+  /** kPolicy: a folder in policies/ (docs/policies.md); kOwnGait: back from a policy that walks. */
+  enum class Kind { kStandUp, kRest, kKick, kBlock, kDive, kGesture, kPolicy, kOwnGait };
 
   std::string name;
   Kind kind = Kind::kGesture;

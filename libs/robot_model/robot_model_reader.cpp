@@ -89,6 +89,7 @@ RobotModel RobotModelReader::read(const std::filesystem::path& folder) {
   reader.read_contact_clusters(robot);
   // Postures need coupled limits; reference postures need the postures.
   if (robot.has("actions")) reader.read_actions(robot.at("actions"));
+  reader.find_policies();
 
   const YamlEntry postures = YamlEntry::load(reader.model_.folder_ / "postures.yaml");
   postures.allow_only({"postures"});

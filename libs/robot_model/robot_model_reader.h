@@ -45,6 +45,8 @@ class RobotModelReader {
   void read_postures(const YamlEntry& list);
   void read_references(const YamlEntry& robot);
   void read_actions(const YamlEntry& list);
+  /** Adds the robot's policies to its actions. */
+  void find_policies();
   void read_labels(const YamlEntry& root);
   void read_heights(const YamlEntry& entry);
   void read_contact_forces(const YamlEntry& robot);

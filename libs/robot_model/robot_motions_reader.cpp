@@ -183,6 +183,27 @@ void RobotModelReader::read_actions(const YamlEntry& list) {
   }
 }
 
+// Their files are read by what runs them: one that is wrong is no fault of the robot.
+void RobotModelReader::find_policies() {
+  std::set<std::string> names;
+  const std::filesystem::path folder = model_.folder_ / kPolicyFolder;
+  if (!std::filesystem::is_directory(folder)) return;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (std::filesystem::exists(entry.path() / kPolicyFile)) {
+      names.insert(entry.path().filename().string());
+    }
+  }
+  if (names.empty()) return;
+  names.insert(kOwnGaitAction);
+  for (const std::string& name : names) {
+    if (model_.find_action(name) != nullptr) {
+      throw ModelError((folder / name).string() + ": is the name of an action of the robot, too");
+    }
+    const auto kind = name == kOwnGaitAction ? Action::Kind::kOwnGait : Action::Kind::kPolicy;
+    model_.actions_.push_back({name, kind, Side::kNone, name});
+  }
+}
+
 void RobotModelReader::read_labels(const YamlEntry& root) {
   root.allow_only({"postures", "actions", "groups", "cameras"});
   // Labels are texts for people in several languages; a label of an unknown name is a spelling

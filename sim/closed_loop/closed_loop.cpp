@@ -177,6 +177,10 @@ void ClosedLoop::step_core() {
     const auto& stiffness = output.joint_targets->stiffness;
     targets.position = Eigen::VectorXd::Map(targets_.data(), model().num_motors());
     targets.stiffness = Eigen::VectorXd::Map(stiffness.data(), model().num_motors());
+    const std::vector<double>& kp = output.joint_targets->kp;
+    const std::vector<double>& kd = output.joint_targets->kd;
+    targets.kp = Eigen::VectorXd::Map(kp.data(), static_cast<long>(kp.size()));
+    targets.kd = Eigen::VectorXd::Map(kd.data(), static_cast<long>(kd.size()));
     world_->set_targets(robot_, targets);
   }
   if (on_tick_) on_tick_();

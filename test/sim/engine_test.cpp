@@ -250,6 +250,33 @@ TEST_P(EngineTest, WalksAtTheCommandedSpeed) {
   EXPECT_LT(loop.torso_tilt(), 0.3);
 }
 
+TEST_P(EngineTest, ServosObeyCommandedGains) {
+  WorldOptions options;
+  options.engine = GetParam();
+  World world{SceneFile{}, options};
+  RobotOptions robot;
+  robot.is_on_stand = true;
+  robot.height = 1;
+  robot.command_latency_ticks = 0;
+  const int index = world.add_robot(nao_model(), robot);
+  const int arm = nao_model()->find_motor("LShoulderPitch");
+  // The arm is held ahead against gravity: it sags by torque / kp.
+  const auto sag = [&](double factor) {
+    MotorTargets targets = world.targets(index);
+    targets.position[arm] = 0;
+    targets.kp.setConstant(nao_model()->num_motors(), std::nan(""));
+    targets.kd = targets.kp;
+    targets.kp[arm] = factor * nao_model()->motor(arm).stiffness_gain;
+    world.set_targets(index, targets);
+    for (int i = 0; i < 300; ++i) world.step_tick();
+    return world.robot(index).motor_position()[arm];
+  };
+  const double own = sag(std::nan(""));
+  EXPECT_GT(own, 0);
+  EXPECT_NEAR(sag(0.25) / own, 4, 1.5);
+  EXPECT_NEAR(sag(std::nan("")), own, 0.25 * own);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, EngineTest, testing::ValuesIn(engine_names()),
                          [](const auto& info) { return info.param; });
 

@@ -28,6 +28,29 @@ TEST(JointCommand, SetsTheNamedJointsAndKeepsTheOthers) {
   EXPECT_EQ(targets.position.cwiseAbs().sum(), 0.7);
 }
 
+TEST(JointCommand, SetsGainsAndReturnsToTheServosOwn) {
+  const double nan = std::nan("");
+  const int head = nao_model()->find_motor("HeadYaw");
+  const int knee = nao_model()->find_motor("LKneePitch");
+  MotorTargets targets = zero_targets();
+  const auto merge = [&](double kp, double kd) {
+    return merge_joint_command(*nao_model(), {0, {"HeadYaw"}, {0}, {1}, {kp}, {kd}}, targets);
+  };
+  EXPECT_FALSE(merge(nan, nan));
+  EXPECT_EQ(targets.kp.size(), 0);
+  EXPECT_FALSE(merge(20, 0.5));
+  EXPECT_EQ(targets.kp[head], 20);
+  EXPECT_EQ(targets.kd[head], 0.5);
+  EXPECT_TRUE(std::isnan(targets.kp[knee]));
+  EXPECT_FALSE(merge(nan, nan));
+  EXPECT_TRUE(std::isnan(targets.kp[head]));
+  for (const double bad : {-1.0, std::numeric_limits<double>::infinity()}) {
+    EXPECT_TRUE(merge(bad, 1));
+    EXPECT_TRUE(merge(1, bad));
+    EXPECT_TRUE(std::isnan(targets.kp[head]));
+  }
+}
+
 TEST(JointCommand, RejectsAnInvalidMessageAsAWhole) {
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();

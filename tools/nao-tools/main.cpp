@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   nao::add_calibrate_command(app, invocation);
   nao::add_self_test_command(app, invocation);
   nao::add_robot_files_command(app, invocation);
+  nao::add_policy_command(app, invocation);
   nao::add_record_command(app, invocation);
   nao::add_log_command(app, invocation);
   return nao::run_program_with_status(app, invocation.common, argc, argv,

@@ -145,6 +145,9 @@ int main(int argc, char** argv) {
                      "Calibrate each robot before its run, standing in so many directions (0: not)")
         ->range(0, 8)
         ->show_default();
+    command->add_option(
+        "--policy", options.trial.motion.walk_policy,
+        "Policy that walks instead of the gait, a folder in policies/ of the robot");
     command->add_flag("--ideal", options.trial.is_ideal,
                       "No noise or latency either: --disturbances none");
     command->add_flag("--verbose", is_verbose, "Print a line for each run");

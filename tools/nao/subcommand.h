@@ -60,6 +60,9 @@ void add_log_command(CommandLine& app, Invocation& invocation);
 /** Adds robot and its own subcommands. */
 void add_robot_files_command(CommandLine& app, Invocation& invocation);
 
+/** Adds policy and its own subcommands. */
+void add_policy_command(CommandLine& app, Invocation& invocation);
+
 /** Adds calibrate. */
 void add_calibrate_command(CommandLine& app, Invocation& invocation);
 

@@ -26,6 +26,9 @@ constexpr ToolsSubcommand kSelfTestSubcommand = {
 
 constexpr ToolsSubcommand kRobotSubcommand = {"robot", "Import and check the files of a robot"};
 
+constexpr ToolsSubcommand kPolicySubcommand = {"policy",
+                                               "Check a neural network that moves a robot"};
+
 constexpr ToolsSubcommand kRecordSubcommand = {
     "record", "Record messages into a log until Ctrl-C; scripts/record knows the stack's bus"};
 
@@ -33,8 +36,8 @@ constexpr ToolsSubcommand kLogSubcommand = {
     "log", "Read and convert logs of scripts/record; needs no running robot"};
 
 /** All of them, in the order of the help text. */
-constexpr const ToolsSubcommand* kToolsSubcommands[] = {&kSpySubcommand,      &kCalibrateSubcommand,
-                                                        &kSelfTestSubcommand, &kRobotSubcommand,
-                                                        &kRecordSubcommand,   &kLogSubcommand};
+constexpr const ToolsSubcommand* kToolsSubcommands[] = {
+    &kSpySubcommand,    &kCalibrateSubcommand, &kSelfTestSubcommand, &kRobotSubcommand,
+    &kPolicySubcommand, &kRecordSubcommand,    &kLogSubcommand};
 
 }  // namespace nao

@@ -133,6 +133,15 @@ void SimulationCore::set_joint_targets(const protocol::JointTargets& targets) {
   if (targets.stiffness_size() > 0) {
     check_values(targets.stiffness(), num_joints, "stiffness", 0, 1);
   }
+  // More than any robot's servo has; a larger number is a mistake.
+  constexpr double kMaxGain = 1e4;
+  for (const auto& [gains, name] :
+       {std::pair(&targets.kp(), "kp"), std::pair(&targets.kd(), "kd")}) {
+    if (gains->size() > 0) check_values(*gains, num_joints, name, 0, kMaxGain);
+  }
+  if (targets.kp_size() != targets.kd_size()) throw ConfigError("kp and kd must both be given");
+  targets_.kp = Eigen::VectorXd::Map(targets.kp().data(), targets.kp_size());
+  targets_.kd = Eigen::VectorXd::Map(targets.kd().data(), targets.kd_size());
   targets_.position.resize(num_joints);
   targets_.stiffness.setOnes(num_joints);
   for (int i = 0; i < num_joints; ++i) {

@@ -98,6 +98,8 @@ void write_state(ClosedLoop& loop, protocol::State& state) {
   write_numbers(sensors.velocity, *state.mutable_joint_velocity());
   write_numbers(sensors.torque, *state.mutable_joint_torque());
   write_numbers(loop.world().targets(0).position, *state.mutable_joint_target());
+  write_numbers(Eigen::VectorXd::Map(loop.targets().data(), loop.model().num_motors()),
+                *state.mutable_motion_target());
   write_numbers(sensors.accelerometer, *state.mutable_accelerometer());
   write_numbers(sensors.gyroscope, *state.mutable_gyroscope());
   write_quaternion(sensors.orientation, *state.mutable_orientation_torso_in_world());

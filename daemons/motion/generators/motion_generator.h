@@ -6,6 +6,7 @@
 #include "daemons/motion/joint_targets.h"
 #include "daemons/motion/motion_options.h"
 #include "daemons/motion/motion_state.h"
+#include "daemons/motion/policy_record.h"
 #include "daemons/motion/robot_state.h"
 #include "daemons/motion/sensors.h"
 #include "kinematics/kinematics.h"
@@ -95,6 +96,12 @@ class MotionGenerator {
 
   /** Why it failed after kFailed; a remark, usually none, after kDone. */
   virtual Reason reason() const { return {}; }
+
+  /** The robot falls, and the motion ends. @return Why it failed. */
+  virtual Reason note_fall() { return {"robot-fell"}; }
+
+  /** Step that a policy made in this control step; nullptr without one. */
+  virtual const PolicyRecord* policy_record() const { return nullptr; }
 
   /** Adds what only this motion knows: a walk's velocity after clipping, its footsteps. */
   virtual void describe(MotionState& /*state*/) const {}

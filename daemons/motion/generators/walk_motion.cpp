@@ -14,8 +14,6 @@ namespace {
 
 // Least stiffness of the legs: the vendor's walk refuses at 0.6 or less.
 constexpr double kLeastStiffness = 0.6;
-// A walk command is valid for this long, s.
-constexpr double kCommandLifetime = 0.5;
 // Torso tilted more than this falls, rad.
 constexpr double kFallingTilt = 0.6;
 // s without weight on any foot after which the robot has been lifted: longer than any hop.

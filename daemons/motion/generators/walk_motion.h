@@ -11,6 +11,9 @@
 
 namespace nao::motion {
 
+/** A walk command is valid for this long, s. */
+inline constexpr double kCommandLifetime = 0.5;
+
 /** Why legs of this stiffness must not walk; nothing if they may.
  * @param stiffness  Stiffness of all motors, motor order. */
 std::optional<Reason> find_soft_leg(const LegKinematics& legs,

@@ -27,6 +27,10 @@ const char* name_of(Action::Kind kind) {
       return "dive";
     case Action::Kind::kGesture:
       return "gesture";
+    case Action::Kind::kPolicy:
+      return "policy";
+    case Action::Kind::kOwnGait:
+      return "own-gait";
   }
   return "";
 }

@@ -90,7 +90,8 @@ class JointGroup:
 
 @dataclass(frozen=True)
 class Action:
-    """An action. `kind`: "stand-up", "rest", "kick", "block", "dive" or "gesture"; `side`: "left", "right" or empty."""
+    """An action. `kind`: "stand-up", "rest", "kick", "block", "dive", "gesture", "policy" or
+    "own-gait"; `side`: "left", "right" or empty."""
 
     name: str
     kind: str

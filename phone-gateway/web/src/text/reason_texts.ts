@@ -53,6 +53,8 @@ export const kReasonTexts: Readonly<Record<string, readonly [pt: string, de: str
                           "{0} trägt den Roboter; lass ihn sich setzen oder hinlegen, bevor du es entspannst."],
   // Walks.
   "no-gait": ["O robô {0} não sabe andar.", "Der Roboter {0} hat keinen Gang."],
+  "policy-unusable": ["A política {0} não pode ser usada: {1}.", "Die Policy {0} kann nicht benutzt werden: {1}."],
+  "policy-stopped": ["A política {0} foi parada: {1}.", "Die Policy {0} wurde angehalten: {1}."],
   "not-walking": ["O robô não está a andar.", "Der Roboter geht nicht."],
   "legs-too-soft": ["As pernas estão moles: rigidez de {0} %, é preciso mais de {1} %.",
                     "Die Beine sind zu weich: Steifigkeit {0} %, nötig sind mehr als {1} %."],

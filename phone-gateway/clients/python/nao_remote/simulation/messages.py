@@ -72,6 +72,8 @@ class SimulationState:
     joint_velocity: tuple[float, ...]
     joint_torque: tuple[float, ...]
     joint_target: tuple[float, ...]
+    # Targets of the motion core, rad, also while other targets take their place.
+    motion_target: tuple[float, ...]
     # Specific force, m/s^2, and angular velocity, rad/s, in the torso frame.
     accelerometer: tuple[float, ...]
     gyroscope: tuple[float, ...]
@@ -103,7 +105,7 @@ class SimulationState:
         return SimulationState(
             time=message.time, period=message.period, joint_position=tuple(message.joint_position),
             joint_velocity=tuple(message.joint_velocity), joint_torque=tuple(message.joint_torque),
-            joint_target=tuple(message.joint_target), accelerometer=tuple(message.accelerometer),
+            joint_target=tuple(message.joint_target), motion_target=tuple(message.motion_target), accelerometer=tuple(message.accelerometer),
             gyroscope=tuple(message.gyroscope), orientation_torso_in_world=tuple(message.orientation_torso_in_world),
             foot_force=tuple(message.foot_force), torso_position=tuple(message.torso_position),
             torso_orientation=tuple(message.torso_orientation),

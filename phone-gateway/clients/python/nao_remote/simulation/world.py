@@ -120,21 +120,24 @@ class Simulation:
     # ---- Steps ----
 
     def step(self, num_ticks: int = 1, joint_targets: JointTargets | None = None,
-             stiffness: Sequence[float] | None = None, truth: bool = False) -> SimulationState:
+             stiffness: Sequence[float] | None = None, truth: bool = False,
+             gains: tuple[Sequence[float], Sequence[float]] | None = None) -> SimulationState:
         """Steps the world by control ticks (`state.period` s each).
 
         @param joint_targets  Servo targets during these ticks, rad, instead of the motion core's: of all joints in the order
                               of the description, or of some by name, while the others keep theirs. The robot then has no
                               balance but yours. None: the motion core moves the robot.
         @param stiffness  Of all joints, 0 to 1; None: all 1.
+        @param gains  kp, N m/rad, and kd, N m s/rad, of all joints' servos; None: the robot's own.
         @param truth  The state has the truth, too.
         @raise SimulationError  if a value is refused; the world is unchanged then.
         """
-        self.begin_step(num_ticks, joint_targets, stiffness, truth)
+        self.begin_step(num_ticks, joint_targets, stiffness, truth, gains)
         return self.end_step()
 
     def begin_step(self, num_ticks: int = 1, joint_targets: JointTargets | None = None,
-                   stiffness: Sequence[float] | None = None, truth: bool = False) -> None:
+                   stiffness: Sequence[float] | None = None, truth: bool = False,
+                   gains: tuple[Sequence[float], Sequence[float]] | None = None) -> None:
         """Sends a step without waiting for its end, so that other simulations step at the same time; end_step() follows."""
         if self._is_stepping:
             raise SimulationError("a step is being executed; call end_step() first")
@@ -143,6 +146,9 @@ class Simulation:
         if joint_targets is not None:
             step.joint_targets.position.extend(self._all_targets(joint_targets))
             step.joint_targets.stiffness.extend(stiffness or ())
+            if gains is not None:
+                step.joint_targets.kp.extend(gains[0])
+                step.joint_targets.kd.extend(gains[1])
         self._begin = time.monotonic()
         self._duration = num_ticks * self._state.period
         self._pipe.send(pb.Request(step=step).SerializeToString())

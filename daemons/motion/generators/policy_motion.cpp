@@ -1,0 +1,270 @@
+#include "daemons/motion/generators/policy_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/smooth_step.h"
+#include "daemons/motion/generators/walk_motion.h"
+#include "daemons/motion/standing_rates.h"
+#include "kinematics/pose2.h"
+
+namespace nao::motion {
+namespace {
+
+using Kind = PolicyManifest::Kind;
+
+// Time at the default angles before a policy begins, in which gains and posture settle, s.
+constexpr double kDefaultAnglesTime = 0.3;
+// Time in which the targets change from those before to the policy's, s. Chosen: the first outputs
+// of a policy may jump, since its last action is 0.
+constexpr double kBlendTime = 0.1;
+// Greatest change of the commanded velocity, m/s^2 and rad/s^2. Chosen: policies are trained with
+// jumps; less is gentler.
+const Eigen::Vector3d kAcceleration(1, 1, 2);
+// Duration of the return to the stand, s, at least.
+constexpr double kReturnTime = 0.3;
+// A walk ends when the robot has been commanded to stand for the first time, s, and both feet carry
+// it at less than this velocity, m/s; after the second time in any case.
+constexpr double kStopTime = 0.5;
+constexpr double kLongestStopTime = 2.5;
+constexpr double kStill = 0.15;
+// A get-up ends when the torso has been upright, rad, for so long, s.
+constexpr double kUpright = 0.25;
+constexpr double kUprightTime = 0.5;
+// s without weight on any foot after which the robot has been lifted: longer than any hop.
+constexpr double kLongestFlight = 0.5;
+
+double tilt_of(const RobotState& state) {
+  return std::acos(std::clamp(state.torso_in_odometry.linear()(2, 2), -1.0, 1.0));
+}
+
+}  // namespace
+
+PolicyMotion::PolicyMotion(const RobotModel& model, const Policy& policy,
+                           std::unique_ptr<MotionGenerator> stand_up,
+                           std::unique_ptr<MotionGenerator> end, const WalkCommand& command,
+                           std::function<void()> on_fault)
+    : model_(&model),
+      policy_(&policy),
+      runner_(model, *policy.manifest, *policy.network),
+      stand_up_(std::move(stand_up)),
+      end_(std::move(end)),
+      command_(command),
+      on_fault_(std::move(on_fault)) {
+  record_.policy = policy.name;
+  for (const PolicyJoint& joint : policy.manifest->joints) {
+    record_.joint_names.push_back(model.motor_names()[static_cast<size_t>(joint.motor)]);
+  }
+}
+
+void PolicyMotion::start(const MotionContext& context, const JointTargets& targets) {
+  if (kind() == Kind::kGetUp) {
+    begin_policy(targets);
+  } else if (is_walking_stance(context.model, targets.position)) {
+    approach(context, targets);
+  } else {
+    stand_up_->start(context, targets);
+  }
+}
+
+void PolicyMotion::approach(const MotionContext& context, const JointTargets& targets) {
+  stage_ = Stage::kApproaching;
+  time_ = 0;
+  trajectory_ =
+      JointTrajectory(targets.position, targets.velocity, policy_->manifest->default_position,
+                      standing_rates(context, context.options.default_speed));
+}
+
+void PolicyMotion::begin_policy(const JointTargets& targets) {
+  stage_ = Stage::kRunning;
+  time_ = 0;
+  begin_ = targets.position;
+  runner_.start();
+}
+
+void PolicyMotion::return_to_stand(const MotionContext& context, const JointTargets& targets) {
+  stage_ = Stage::kReturning;
+  time_ = 0;
+  velocity_.setZero();
+  trajectory_ = JointTrajectory(
+      targets.position, targets.velocity, policy_->manifest->default_position,
+      joint_rates(context.model, 1, context.options.free_acceleration), kReturnTime);
+}
+
+void PolicyMotion::fail(const std::string& why) {
+  reason_ = Reason("policy-stopped", {policy_->name, why});
+  on_fault_();
+}
+
+Reason PolicyMotion::note_fall() {
+  if (stage_ != Stage::kRunning) return {"robot-fell"};
+  fail("the robot fell");
+  return reason_;
+}
+
+MotionGenerator::Phase PolicyMotion::step(const MotionContext& context, JointTargets& targets) {
+  has_record_ = false;
+  time_ += context.dt;
+  if (stage_ == Stage::kStandingUp || stage_ == Stage::kEnding) {
+    MotionGenerator& path = stage_ == Stage::kEnding ? *end_ : *stand_up_;
+    if (is_finishing_) path.finish();
+    const Phase phase = path.step(context, targets);
+    if (phase == Phase::kRunning) return phase;
+    if (phase == Phase::kFailed && reason_.empty()) reason_ = path.reason();
+    if (phase == Phase::kFailed) return phase;
+    if (stage_ == Stage::kEnding) {
+      return reason_.empty() || reason_.code == "walk-command-timeout" ? Phase::kDone
+                                                                       : Phase::kFailed;
+    }
+    if (is_finishing_) return Phase::kDone;
+    approach(context, targets);
+    return Phase::kRunning;
+  }
+  if (stage_ == Stage::kRunning) {
+    if (!run(context, targets)) return_to_stand(context, targets);
+  } else {
+    trajectory_.sample(time_, targets.position);
+    if (stage_ == Stage::kApproaching && time_ > trajectory_.duration() + kDefaultAnglesTime) {
+      begin_policy(targets);
+    }
+    if (stage_ == Stage::kReturning && time_ > trajectory_.duration()) {
+      stage_ = Stage::kEnding;
+      end_->start(context, targets);
+    }
+  }
+  // After a fault the servos have their own gains, which hold the robot best.
+  if (stage_ != Stage::kEnding && (reason_.empty() || reason_.code == "walk-command-timeout")) {
+    targets.kp = policy_->manifest->kp;
+    targets.kd = policy_->manifest->kd;
+  }
+  return Phase::kRunning;
+}
+
+bool PolicyMotion::run(const MotionContext& context, JointTargets& targets) {
+  if (kind() == Kind::kWalk) steer(context);
+  const int64_t num_steps = runner_.num_steps();
+  const auto fault = runner_.step(input_of(context), context.dt);
+  if (runner_.num_steps() != num_steps) record();
+  if (fault) {
+    fail(*fault);
+    return false;
+  }
+  const bool is_in_air = !context.state.left_foot_carries && !context.state.right_foot_carries;
+  time_in_air_ = is_in_air && kind() != Kind::kGetUp ? time_in_air_ + context.dt : 0;
+  if (time_in_air_ > kLongestFlight) {
+    reason_ = Reason("robot-lifted");
+    return false;
+  }
+  const double share = smooth_step(std::min(1.0, time_ / kBlendTime));
+  std::vector<double> goal = policy_->manifest->default_position;
+  for (size_t i = 0; i < runner_.targets().size(); ++i) {
+    goal[static_cast<size_t>(policy_->manifest->joints[i].motor)] = runner_.targets()[i];
+  }
+  for (size_t i = 0; i < goal.size(); ++i) {
+    targets.position[i] = begin_[i] + share * (goal[i] - begin_[i]);
+  }
+  return !is_over(context);
+}
+
+void PolicyMotion::steer(const MotionContext& context) {
+  age_ += context.dt;
+  const PolicyManifest& limits = *policy_->manifest;
+  Eigen::Vector3d goal(std::clamp(command_.vx, limits.vx.lower, limits.vx.upper),
+                       std::clamp(command_.vy, limits.vy.lower, limits.vy.upper),
+                       std::clamp(command_.wz, limits.wz.lower, limits.wz.upper));
+  // The walk ends when the sender falls silent: a lost phone must not leave a robot walking.
+  const bool is_silent = age_ > kCommandLifetime;
+  if (is_silent || is_finishing_) goal.setZero();
+  reason_ = is_silent ? Reason("walk-command-timeout", {to_argument(kCommandLifetime)}) : Reason();
+  const Eigen::Vector3d change = kAcceleration * context.dt;
+  velocity_ += (goal - velocity_).cwiseMax(-change).cwiseMin(change);
+}
+
+bool PolicyMotion::is_over(const MotionContext& context) {
+  const RobotState& state = context.state;
+  switch (kind()) {
+    case Kind::kWalk: {
+      time_at_rest_ = velocity_.isZero(0) ? time_at_rest_ + context.dt : 0;
+      const bool stands = state.left_foot_carries && state.right_foot_carries &&
+                          state.velocity_torso_in_heading.head<2>().norm() < kStill;
+      return time_at_rest_ > kLongestStopTime || (time_at_rest_ > kStopTime && stands);
+    }
+    case Kind::kGetUp:
+      time_at_rest_ =
+          tilt_of(state) < kUpright && (state.left_foot_carries || state.right_foot_carries)
+              ? time_at_rest_ + context.dt
+              : 0;
+      if (time_at_rest_ > kUprightTime) return true;
+      if (time_ < policy_->manifest->duration) return false;
+      fail("the robot did not stand within " + to_argument(policy_->manifest->duration) + " s");
+      return true;
+    default:
+      return is_finishing_ || time_ > policy_->manifest->duration;
+  }
+}
+
+void PolicyMotion::record() {
+  record_.observation = runner_.observation();
+  record_.action = runner_.action();
+  record_.wall_inference_time = runner_.inference_time();
+  has_record_ = true;
+}
+
+PolicyInput PolicyMotion::input_of(const MotionContext& context) const {
+  const RobotState& state = context.state;
+  const Eigen::Matrix3d torso_in_odometry = state.torso_in_odometry.linear();
+  const Eigen::AngleAxisd heading(heading_of(torso_in_odometry), Eigen::Vector3d::UnitZ());
+  PolicyInput input;
+  input.angular_velocity = context.sensors.gyroscope_torso;
+  input.projected_gravity = -torso_in_odometry.transpose().col(2);
+  input.linear_velocity =
+      torso_in_odometry.transpose() * (heading * state.velocity_torso_in_heading);
+  input.command = velocity_;
+  input.joint_position = context.sensors.position;
+  input.joint_velocity = context.sensors.velocity;
+  return input;
+}
+
+bool PolicyMotion::can_be_replaced() const {
+  switch (stage_) {
+    case Stage::kStandingUp:
+      return stand_up_->can_be_replaced();
+    case Stage::kEnding:
+      // After a fault the robot stands first.
+      return reason_.empty() && end_->can_be_replaced();
+    case Stage::kApproaching:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool PolicyMotion::adopt(const Command& command) {
+  const auto* walk = std::get_if<WalkCommand>(&command.request);
+  const bool is_ending = stage_ == Stage::kReturning || stage_ == Stage::kEnding;
+  if (walk == nullptr || kind() != Kind::kWalk || is_ending) return false;
+  command_ = *walk;
+  age_ = 0;
+  return true;
+}
+
+Mode PolicyMotion::mode() const {
+  if (stage_ == Stage::kStandingUp) return stand_up_->mode();
+  if (stage_ == Stage::kEnding) return end_->mode();
+  return kind() == Kind::kWalk    ? Mode::kWalking
+         : kind() == Kind::kGetUp ? Mode::kGettingUp
+                                  : Mode::kActing;
+}
+
+bool PolicyMotion::must_stay_upright() const {
+  if (stage_ == Stage::kStandingUp) return stand_up_->must_stay_upright();
+  if (stage_ == Stage::kEnding) return end_->must_stay_upright();
+  return kind() != Kind::kGetUp;
+}
+
+void PolicyMotion::describe(MotionState& state) const {
+  state.walk_velocity = velocity_;
+}
+
+}  // namespace nao::motion

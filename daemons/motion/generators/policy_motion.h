@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemons/motion/generators/joint_trajectory.h"
+#include "daemons/motion/generators/motion_generator.h"
+#include "daemons/motion/policy_record.h"
+#include "policy/policy.h"
+#include "policy/policy_runner.h"
+
+namespace nao::motion {
+
+/** A motion by a policy: stands up, goes to the policy's default angles, lets the policy move the
+ * robot, and returns to the stand. A get-up begins with the policy at once.
+ *
+ * When the policy must not go on it returns to the stand by itself, and fails with the reason. */
+class PolicyMotion : public MotionGenerator {
+ public:
+  /** @param model, policy  Must outlive this; the policy has no fault.
+   * @param stand_up, end  Paths to the stand, before and after.
+   * @param command        Of a walk.
+   * @param on_fault       Called when the policy must not go on. */
+  PolicyMotion(const RobotModel& model, const Policy& policy,
+               std::unique_ptr<MotionGenerator> stand_up, std::unique_ptr<MotionGenerator> end,
+               const WalkCommand& command, std::function<void()> on_fault);
+
+  void start(const MotionContext& context, const JointTargets& targets) override;
+  Phase step(const MotionContext& context, JointTargets& targets) override;
+  bool can_be_replaced() const override;
+  void finish() override { is_finishing_ = true; }
+  bool adopt(const Command& command) override;
+  Mode mode() const override;
+  bool must_stay_upright() const override;
+  Reason reason() const override { return reason_; }
+  void describe(MotionState& state) const override;
+  Reason note_fall() override;
+  const PolicyRecord* policy_record() const override { return has_record_ ? &record_ : nullptr; }
+
+ private:
+  enum class Stage { kStandingUp, kApproaching, kRunning, kReturning, kEnding };
+
+  PolicyManifest::Kind kind() const { return policy_->manifest->kind; }
+  void approach(const MotionContext& context, const JointTargets& targets);
+  void begin_policy(const JointTargets& targets);
+  void return_to_stand(const MotionContext& context, const JointTargets& targets);
+  void fail(const std::string& why);
+  /** @return Whether the policy still moves the robot. */
+  bool run(const MotionContext& context, JointTargets& targets);
+  void steer(const MotionContext& context);
+  /** Whether the motion may end now: a walk that stands, a get-up that is up, an action whose time
+   * is over. */
+  bool is_over(const MotionContext& context);
+  void record();
+  PolicyInput input_of(const MotionContext& context) const;
+
+  const RobotModel* model_;
+  const Policy* policy_;
+  PolicyRunner runner_;
+  std::unique_ptr<MotionGenerator> stand_up_;
+  std::unique_ptr<MotionGenerator> end_;
+  WalkCommand command_;
+  std::function<void()> on_fault_;
+  Stage stage_ = Stage::kStandingUp;
+  bool is_finishing_ = false;
+  /** Time in this stage, s; since the last walk command; for which the end's condition holds; and
+   * without a foot on the ground. */
+  double time_ = 0;
+  double age_ = 0;
+  double time_at_rest_ = 0;
+  double time_in_air_ = 0;
+  /** Velocity that the policy is commanded. */
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  JointTrajectory trajectory_;
+  /** Targets when the policy began, rad, motor order. */
+  std::vector<double> begin_;
+  Reason reason_;
+  PolicyRecord record_;
+  bool has_record_ = false;
+};
+
+}  // namespace nao::motion
