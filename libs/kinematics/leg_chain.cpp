@@ -92,6 +92,30 @@ std::string find_roles(LegChain& chain) {
   return roles.hip_roll < 0 ? "roll of the hip" : "";
 }
 
+// Difference of a knee's limits, fraction of its range, above which they tell how it bends.
+constexpr double kOneSided = 0.2;
+
+/** The sense of the knee's angle in which the leg bends: that of its longer range; of a symmetric
+ * one that in which hip and ankle follow farther, or else the one that takes the shank back. */
+double find_bend_sign(const LegChain& chain) {
+  const LegRoles& roles = chain.roles;
+  const double lower = chain.lower[roles.knee];
+  const double upper = chain.upper[roles.knee];
+  if (std::abs(lower + upper) > kOneSided * (upper - lower)) return upper > -lower ? 1 : -1;
+  const auto deepest = [&](double sign) {
+    double bend = sign > 0 ? upper : -lower;
+    for (const int role : {roles.hip_pitch, roles.ankle_pitch}) {
+      if (role < 0) continue;
+      const double turn = -sign * roles.sign[roles.knee] * roles.sign[role];
+      bend = std::min(bend, 2 * (turn > 0 ? chain.upper[role] : -chain.lower[role]));
+    }
+    return bend;
+  };
+  const double more = deepest(1) - deepest(-1);
+  if (std::abs(more) > 0.5 * kOneSided * (upper - lower)) return more > 0 ? 1 : -1;
+  return roles.sign[roles.knee];
+}
+
 }  // namespace
 
 LegChain LegChain::read(const RobotModel& model, Leg leg) {
@@ -124,7 +148,19 @@ LegChain LegChain::read(const RobotModel& model, Leg leg) {
   chain.sole = poses[model.legs()[leg == Leg::kLeft ? 0 : 1].sole];
   const std::string missing = find_roles(chain);
   if (!missing.empty()) fail("no joint is the " + missing);
+  chain.bend_sign = find_bend_sign(chain);
   return chain;
+}
+
+LegAngles LegChain::calc_bent(double bend) const {
+  const double knee = bend_sign * bend;
+  LegAngles angles{};
+  for (const int role : {roles.hip_pitch, roles.ankle_pitch}) {
+    if (role >= 0) angles[role] = -0.5 * knee * roles.sign[roles.knee] * roles.sign[role];
+  }
+  angles[roles.knee] = knee;
+  for (int i = 0; i < num_joints; ++i) angles[i] = std::clamp(angles[i], lower[i], upper[i]);
+  return angles;
 }
 
 Eigen::Isometry3d LegChain::calc_sole(const LegAngles& angles) const {

@@ -54,10 +54,16 @@ struct LegChain {
   LegAngles lower{};
   LegAngles upper{};
   LegRoles roles;
+  /** 1 or -1: the sense of the knee's angle in which the leg bends. */
+  double bend_sign = 1;
 
   /** @throws ModelError  unless the leg has three to eight joints of its own, among them the hip's
    * roll and pitch and the knee. */
   static LegChain read(const RobotModel& model, Leg leg);
+
+  /** Angles within the limits with a bent knee, hip and ankle half as much the other way, so that
+   * the sole stays level. @param bend  rad, 0 or more. */
+  LegAngles calc_bent(double bend) const;
 
   /** Pose of the sole in the root's frame. */
   Eigen::Isometry3d calc_sole(const LegAngles& angles) const;

@@ -11,6 +11,10 @@
 namespace nao {
 namespace {
 
+// Bend of the knee from which the search starts for a robot without a ready posture, rad: stretched
+// legs can bend either way.
+constexpr double kStartBend = 0.15;
+
 Eigen::Matrix3d rotation_x(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
 }
@@ -47,7 +51,7 @@ void LegKinematics::choose_method(const RobotModel& model) {
   const Posture* ready = model.find_posture(model.references().ready);
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     const LegChain& c = chain(leg);
-    const LegAngles start = ready != nullptr ? read(leg, ready->position) : LegAngles{};
+    const LegAngles start = ready != nullptr ? read(leg, ready->position) : c.calc_bent(kStartBend);
     numeric_[index(leg)].emplace(c, start);
     hips_[index(leg)] =
         method_ == Method::kAnalytic ? analytic_[index(leg)]->hip() : c.point[c.roles.hip_pitch];

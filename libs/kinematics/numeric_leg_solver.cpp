@@ -161,23 +161,9 @@ LegSolution NumericLegSolver::solve(const Eigen::Isometry3d& sole_in_torso) cons
   solution.angles = start_;
   double least = descend(sole_in_torso, solution.angles);
   const double reached = is_exact_ ? kReached : kNearlyReached;
-  const LegRoles& roles = chain_.roles;
   for (const double bend : kKneeStarts) {
     if (least < reached) break;
-    // The knee bends towards the farther one of its limits; hip and ankle pitch keep the sole
-    // level.
-    const bool bends_up = chain_.upper[roles.knee] > -chain_.lower[roles.knee];
-    const double knee = (bends_up ? 1 : -1) * bend;
-    LegAngles angles{};
-    angles[roles.knee] = knee;
-    angles[roles.hip_pitch] = -0.5 * knee * roles.sign[roles.knee] * roles.sign[roles.hip_pitch];
-    if (roles.ankle_pitch >= 0) {
-      angles[roles.ankle_pitch] =
-          -0.5 * knee * roles.sign[roles.knee] * roles.sign[roles.ankle_pitch];
-    }
-    for (int i = 0; i < chain_.num_joints; ++i) {
-      angles[i] = std::clamp(angles[i], chain_.lower[i], chain_.upper[i]);
-    }
+    LegAngles angles = chain_.calc_bent(bend);
     const double error = descend(sole_in_torso, angles);
     if (error >= least) continue;
     least = error;
