@@ -12,6 +12,7 @@ void StandingBalance::add_to(const RobotState& state, std::vector<double>& posit
     const LegRoles& roles = legs_->roles(leg);
     // roles.sign turns an angle about the torso's y axis into the joint's own sense of rotation.
     const auto add = [&](int role, double angle) {
+      if (role < 0) return;
       position[legs_->motors(leg)[role]] += roles.sign[role] * angle;
     };
     add(roles.ankle_pitch, gains_->ankle_pitch * rate);

@@ -43,6 +43,7 @@ bool are_perpendicular(const Vector3d& a, const Vector3d& b) {
 std::optional<AnalyticLegSolver> AnalyticLegSolver::make(const LegChain& chain) {
   // Three hip axes that are perpendicular to one another and meet (a ball joint), and a knee
   // parallel to the ankle's pitch: then position and orientation separate (Pieper's condition).
+  if (chain.num_joints != 6) return std::nullopt;
   const auto& axis = chain.axis;
   const bool is_hip = are_perpendicular(axis[0], axis[1]) && are_perpendicular(axis[1], axis[2]) &&
                       are_perpendicular(axis[0], axis[2]);
@@ -83,8 +84,11 @@ double AnalyticLegSolver::solve_knee(double distance, bool& is_reachable) const 
   const double bend = knee_bend(thigh_.norm(), tibia_.norm(), distance, is_reachable);
   // Knee angle of a straight leg: 0 only if thigh and tibia are in line at the angles 0.
   const double straight = angle_in_plane(thigh_) - angle_in_plane(tibia_);
-  // Take the solution nearer to the middle of the knee's range.
-  const double middle = 0.5 * (chain_.lower[3] + chain_.upper[3]);
+  // Take the solution nearer to the middle of the knee's range, or of the half in which it bends.
+  double middle = 0.5 * (chain_.lower[3] + chain_.upper[3]);
+  if (middle * chain_.bend_sign <= 0) {
+    middle = 0.5 * (chain_.bend_sign > 0 ? chain_.upper[3] : chain_.lower[3]);
+  }
   const double up = wrapped(straight + bend);
   const double down = wrapped(straight - bend);
   return std::abs(up - middle) <= std::abs(down - middle) ? up : down;

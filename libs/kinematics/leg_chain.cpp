@@ -10,6 +10,9 @@
 namespace nao {
 namespace {
 
+// Component along x, the sine of an angle, above which a tilted hip axis can roll the leg.
+constexpr double kTilted = 0.3;
+
 /** Joints of one leg that are not shared with the other leg. */
 std::vector<int> own_joints(const RobotModel& model, Leg leg) {
   const std::vector<int>& joints = model.legs()[leg == Leg::kLeft ? 0 : 1].joints;
@@ -31,27 +34,86 @@ int direction_of(const Eigen::Vector3d& axis) {
   return size.y() >= size.x() ? 1 : 0;
 }
 
-/** @return false if the joints' directions are not those of a leg. */
-bool find_roles(const std::array<Eigen::Vector3d, 6>& axis, LegRoles& roles) {
-  std::vector<int> rolls;
-  std::vector<int> pitches;
-  std::vector<int> yaws;
-  for (int i = 0; i < 6; ++i) {
-    const int direction = direction_of(axis[i]);
-    // Order along the chain matters: the first roll is the hip's, the last the ankle's.
-    (direction == 0 ? rolls : direction == 1 ? pitches : yaws).push_back(i);
-    roles.sign[i] = axis[i][direction] < 0 ? -1 : 1;
+// Distance of a second pitch axis from the sole, fraction of its distance from the first one, below
+// which it is the ankle's and not the knee's.
+constexpr double kAnkleDistance = 0.4;
+
+/** The knee among the pitch joints: the one farthest from hip and ankle. -1: none. */
+int find_knee(const LegChain& chain, const std::vector<int>& pitches) {
+  const Eigen::Vector3d hip = chain.point[pitches.front()];
+  const auto distance = [&](int i, const Eigen::Vector3d& from) {
+    return (chain.point[i] - from).cross(chain.axis[i]).norm();
+  };
+  if (pitches.size() == 2) {
+    const double shank = distance(pitches[1], chain.sole.translation());
+    return shank < kAnkleDistance * distance(pitches[1], hip) ? -1 : pitches[1];
   }
-  if (rolls.size() != 2 || pitches.size() != 3 || yaws.size() != 1) return false;
-  roles.hip_yaw = yaws[0];
-  roles.hip_roll = rolls[0];
-  roles.hip_pitch = pitches[0];
-  roles.knee = pitches[1];
-  roles.ankle_pitch = pitches[2];
-  roles.ankle_roll = rolls[1];
-  // The three hip joints come before the knee in any order; the knee is the fourth joint.
-  const int last_of_hip = std::max({roles.hip_yaw, roles.hip_roll, roles.hip_pitch});
-  return last_of_hip < roles.knee && roles.knee == 3;
+  const Eigen::Vector3d ankle = chain.point[pitches.back()];
+  int knee = -1;
+  double farthest = 0;
+  for (size_t i = 1; i + 1 < pitches.size(); ++i) {
+    const double apart = std::min(distance(pitches[i], hip), distance(pitches[i], ankle));
+    if (apart <= farthest) continue;
+    farthest = apart;
+    knee = pitches[i];
+  }
+  return knee;
+}
+
+/** @return The function that no joint has and a leg needs; empty: none. */
+std::string find_roles(LegChain& chain) {
+  LegRoles& roles = chain.roles;
+  std::array<int, kMaxLegJoints> direction{};
+  std::vector<int> pitches;
+  for (int i = 0; i < chain.num_joints; ++i) {
+    direction[i] = direction_of(chain.axis[i]);
+    if (direction[i] == 1) pitches.push_back(i);
+  }
+  if (pitches.empty()) return "pitch of the hip";
+  roles.hip_pitch = pitches.front();
+  roles.knee = pitches.size() < 2 ? -1 : find_knee(chain, pitches);
+  if (roles.knee < 0) return "knee";
+  if (pitches.back() != roles.knee) roles.ankle_pitch = pitches.back();
+  // Order along the chain matters: rolls before the knee are the hip's, those after it the ankle's.
+  for (int i = 0; i < chain.num_joints; ++i) {
+    int& roll = i < roles.knee ? roles.hip_roll : roles.ankle_roll;
+    if (direction[i] == 0 && roll < 0) roll = i;
+    if (direction[i] == 2 && roles.hip_yaw < 0) roles.hip_yaw = i;
+  }
+  // Two hip axes at 45 degrees between roll and yaw: the second one is the roll.
+  for (int i = roles.knee - 1; i >= 0 && roles.hip_roll < 0; --i) {
+    if (direction[i] != 2 || i == roles.hip_yaw || std::abs(chain.axis[i].x()) < kTilted) continue;
+    roles.hip_roll = i;
+    direction[i] = 0;
+  }
+  for (int i = 0; i < chain.num_joints; ++i) {
+    roles.sign[i] = chain.axis[i][direction[i]] < 0 ? -1 : 1;
+  }
+  return roles.hip_roll < 0 ? "roll of the hip" : "";
+}
+
+// Difference of a knee's limits, fraction of its range, above which they tell how it bends.
+constexpr double kOneSided = 0.2;
+
+/** The sense of the knee's angle in which the leg bends: that of its longer range; of a symmetric
+ * one that in which hip and ankle follow farther, or else the one that takes the shank back. */
+double find_bend_sign(const LegChain& chain) {
+  const LegRoles& roles = chain.roles;
+  const double lower = chain.lower[roles.knee];
+  const double upper = chain.upper[roles.knee];
+  if (std::abs(lower + upper) > kOneSided * (upper - lower)) return upper > -lower ? 1 : -1;
+  const auto deepest = [&](double sign) {
+    double bend = sign > 0 ? upper : -lower;
+    for (const int role : {roles.hip_pitch, roles.ankle_pitch}) {
+      if (role < 0) continue;
+      const double turn = -sign * roles.sign[roles.knee] * roles.sign[role];
+      bend = std::min(bend, 2 * (turn > 0 ? chain.upper[role] : -chain.lower[role]));
+    }
+    return bend;
+  };
+  const double more = deepest(1) - deepest(-1);
+  if (std::abs(more) > 0.5 * kOneSided * (upper - lower)) return more > 0 ? 1 : -1;
+  return roles.sign[roles.knee];
 }
 
 }  // namespace
@@ -63,9 +125,11 @@ LegChain LegChain::read(const RobotModel& model, Leg leg) {
   };
   const std::vector<int> joints = own_joints(model, leg);
   LegChain chain;
-  if (joints.size() != chain.motors.size()) {
-    fail("it has " + std::to_string(joints.size()) + " joints of its own instead of 6");
+  if (joints.size() < 3 || joints.size() > chain.motors.size()) {
+    fail("it has " + std::to_string(joints.size()) + " joints of its own instead of 3 to " +
+         std::to_string(kMaxLegJoints));
   }
+  chain.num_joints = static_cast<int>(joints.size());
   // All joints at 0: axes and points of the product of exponentials, in T.
   const std::vector<Eigen::Isometry3d> poses =
       model.link_poses(std::vector<double>(model.num_motors(), 0.0));
@@ -82,20 +146,28 @@ LegChain LegChain::read(const RobotModel& model, Leg leg) {
     chain.upper[i] = joint.upper;
   }
   chain.sole = poses[model.legs()[leg == Leg::kLeft ? 0 : 1].sole];
-  if (!find_roles(chain.axis, chain.roles)) {
-    fail(
-        "its axes are other than yaw, roll and pitch of the hip in any order, the knee's pitch, "
-        "and "
-        "pitch and roll of the ankle");
-  }
+  const std::string missing = find_roles(chain);
+  if (!missing.empty()) fail("no joint is the " + missing);
+  chain.bend_sign = find_bend_sign(chain);
   return chain;
+}
+
+LegAngles LegChain::calc_bent(double bend) const {
+  const double knee = bend_sign * bend;
+  LegAngles angles{};
+  for (const int role : {roles.hip_pitch, roles.ankle_pitch}) {
+    if (role >= 0) angles[role] = -0.5 * knee * roles.sign[roles.knee] * roles.sign[role];
+  }
+  angles[roles.knee] = knee;
+  for (int i = 0; i < num_joints; ++i) angles[i] = std::clamp(angles[i], lower[i], upper[i]);
+  return angles;
 }
 
 Eigen::Isometry3d LegChain::calc_sole(const LegAngles& angles) const {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  // Product of exponentials: sole(q) = exp(S_1 q_1) ... exp(S_6 q_6) sole(0).
-  for (size_t i = 0; i < angles.size(); ++i) {
+  // Product of exponentials: sole(q) = exp(S_1 q_1) ... exp(S_n q_n) sole(0).
+  for (int i = 0; i < num_joints; ++i) {
     // exp(S q): a rotation about the axis through the point.
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(angles[i], axis[i]).toRotationMatrix();
     translation += rotation * (point[i] - turn * point[i]);

@@ -9,8 +9,11 @@ namespace nao {
 
 enum class Leg { kLeft = 0, kRight = 1 };
 
-/** Angles of the six joints of one leg, rad, from the root to the sole. */
-using LegAngles = std::array<double, 6>;
+/** Greatest number of joints of one leg. */
+constexpr int kMaxLegJoints = 8;
+
+/** Angles of the joints of one leg, rad, from the root to the sole; 0 beyond its last joint. */
+using LegAngles = std::array<double, kMaxLegJoints>;
 
 /** Result of the inverse kinematics for one leg. */
 struct LegSolution {
@@ -20,7 +23,8 @@ struct LegSolution {
   bool is_reachable = true;
 };
 
-/** Functions of the six joints of a leg, as indices into LegAngles. */
+/** Functions of the joints of a leg, as indices into LegAngles; -1: it has no such joint. Hip roll,
+ * hip pitch and knee always exist. */
 struct LegRoles {
   int hip_yaw = -1;
   int hip_roll = -1;
@@ -30,29 +34,36 @@ struct LegRoles {
   int ankle_roll = -1;
   /** 1 or -1: a positive angle turns about +x (roll), +y (pitch), +z (yaw) of the root, or about
    * the opposite direction. */
-  std::array<double, 6> sign{};
+  std::array<double, kMaxLegJoints> sign{};
 };
 
 /** The joints of one leg as screw axes: each joint's axis and a point on it, in the root's frame,
  * at the angle 0 of all joints.
  *
- * The pose of the sole is X(q) = exp(S_1 q_1) ... exp(S_6 q_6) X(0), the product of exponentials.
+ * The pose of the sole is X(q) = exp(S_1 q_1) ... exp(S_n q_n) X(0), the product of exponentials.
  * Joints that both legs have in common, such as a waist, are held at the angle 0.
  *
  * Source: K. Lynch, F. Park, "Modern Robotics", Cambridge 2017, chapter 4. */
 struct LegChain {
-  std::array<int, 6> motors{};
-  std::array<Eigen::Vector3d, 6> axis;
-  std::array<Eigen::Vector3d, 6> point;
+  int num_joints = 0;
+  std::array<int, kMaxLegJoints> motors{};
+  std::array<Eigen::Vector3d, kMaxLegJoints> axis;
+  std::array<Eigen::Vector3d, kMaxLegJoints> point;
   Eigen::Isometry3d sole = Eigen::Isometry3d::Identity();
   /** Limits of the joints, rad. */
   LegAngles lower{};
   LegAngles upper{};
   LegRoles roles;
+  /** 1 or -1: the sense of the knee's angle in which the leg bends. */
+  double bend_sign = 1;
 
-  /** @throws ModelError  unless the leg has six joints of its own: yaw, roll and two or three
-   * pitches before the ankle, whose pitch and roll come last. */
+  /** @throws ModelError  unless the leg has three to eight joints of its own, among them the hip's
+   * roll and pitch and the knee. */
   static LegChain read(const RobotModel& model, Leg leg);
+
+  /** Angles within the limits with a bent knee, hip and ankle half as much the other way, so that
+   * the sole stays level. @param bend  rad, 0 or more. */
+  LegAngles calc_bent(double bend) const;
 
   /** Pose of the sole in the root's frame. */
   Eigen::Isometry3d calc_sole(const LegAngles& angles) const;

@@ -11,6 +11,10 @@
 namespace nao {
 namespace {
 
+// Bend of the knee from which the search starts for a robot without a ready posture, rad: stretched
+// legs can bend either way.
+constexpr double kStartBend = 0.15;
+
 Eigen::Matrix3d rotation_x(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
 }
@@ -47,7 +51,7 @@ void LegKinematics::choose_method(const RobotModel& model) {
   const Posture* ready = model.find_posture(model.references().ready);
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {
     const LegChain& c = chain(leg);
-    const LegAngles start = ready != nullptr ? read(leg, ready->position) : LegAngles{};
+    const LegAngles start = ready != nullptr ? read(leg, ready->position) : c.calc_bent(kStartBend);
     numeric_[index(leg)].emplace(c, start);
     hips_[index(leg)] =
         method_ == Method::kAnalytic ? analytic_[index(leg)]->hip() : c.point[c.roles.hip_pitch];
@@ -55,7 +59,9 @@ void LegKinematics::choose_method(const RobotModel& model) {
   // Length of thigh and tibia: the distance from hip to ankle of a straight leg.
   const LegChain& left = chains_[0];
   const Eigen::Vector3d& knee = left.point[left.roles.knee];
-  reach_ = (hips_[0] - knee).norm() + (knee - left.point[left.roles.ankle_pitch]).norm();
+  const int ankle = left.roles.ankle_pitch;
+  reach_ = (hips_[0] - knee).norm() +
+           (knee - (ankle < 0 ? left.sole.translation() : left.point[ankle])).norm();
 }
 
 LegKinematics::CoupledLeg LegKinematics::read_coupled(const RobotModel& model, Leg leg) {
@@ -218,14 +224,14 @@ LegsSolution LegKinematics::solve_both(const Eigen::Isometry3d& left_sole_in_tor
 void LegKinematics::write(Leg leg, const LegAngles& angles, std::vector<double>& position) const {
   // The right leg does not write the shared motor: both solutions have the same angle.
   const bool has_own_first = leg == Leg::kLeft || method_ != Method::kCoupled;
-  for (size_t i = has_own_first ? 0 : 1; i < angles.size(); ++i) {
-    position[motors(leg)[i]] = angles[i];
-  }
+  const std::span<const int> all = motors(leg);
+  for (size_t i = has_own_first ? 0 : 1; i < all.size(); ++i) position[all[i]] = angles[i];
 }
 
 LegAngles LegKinematics::read(Leg leg, const std::vector<double>& position) const {
   LegAngles angles{};
-  for (size_t i = 0; i < angles.size(); ++i) angles[i] = position[chain(leg).motors[i]];
+  const std::span<const int> all = motors(leg);
+  for (size_t i = 0; i < all.size(); ++i) angles[i] = position[all[i]];
   return angles;
 }
 

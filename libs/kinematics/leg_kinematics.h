@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "kinematics/analytic_leg_solver.h"
@@ -49,16 +50,17 @@ struct LegsSolution {
  * gait for the Standard Platform League humanoid", 4th Workshop on Humanoid Soccer Robots, 2009. */
 class LegKinematics {
  public:
-  /** Coupled hips; AnalyticLegSolver; NumericLegSolver for all other legs of six joints. */
+  /** Coupled hips; AnalyticLegSolver; NumericLegSolver for all other legs. */
   enum class Method { kCoupled, kAnalytic, kNumeric };
 
-  /** @throws ModelError  if a leg does not have six joints of its own, or has a coupled hip of
-   * another design. */
+  /** @throws ModelError  as LegChain::read(), and if both legs share a hip motor in another design
+   * than the above. */
   explicit LegKinematics(const RobotModel& model);
 
   Method method() const { return method_; }
 
-  /** All six angles of one leg for a sole's pose; exact if the leg reaches it. */
+  /** All angles of one leg for a sole's pose; exact if the leg reaches it and has six joints or
+   * more, see NumericLegSolver for those with fewer. */
   LegSolution solve(Leg leg, const Eigen::Isometry3d& sole_in_torso) const;
 
   /** Coupled hips: the five other angles for a given first one: the ankle's position and the sole's
@@ -81,12 +83,14 @@ class LegKinematics {
   LegAngles read(Leg leg, const std::vector<double>& position) const;
 
   /** Motors of a leg in the order of LegAngles; coupled hips have the first one in common. */
-  const std::array<int, 6>& motors(Leg leg) const { return chain(leg).motors; }
+  std::span<const int> motors(Leg leg) const {
+    return {chain(leg).motors.data(), static_cast<size_t>(chain(leg).num_joints)};
+  }
   /** Function of each of them. */
   const LegRoles& roles(Leg leg) const { return chain(leg).roles; }
   /** Intersection of the hip axes, or else a point on the hip's pitch axis, m, root's frame. */
   const Eigen::Vector3d& hip(Leg leg) const { return hips_[index(leg)]; }
-  /** Length of the stretched leg, hip to ankle, m. */
+  /** Length of the stretched leg, hip to ankle, or to the sole without an ankle, m. */
   double reach() const { return reach_; }
 
  private:

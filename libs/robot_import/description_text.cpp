@@ -154,14 +154,14 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
   Eigen::AlignedBox2d outline;
   for (const Eigen::Vector2d& corner : model.left_sole_outline()) outline.extend(corner);
   double center = outline.center().x();
-  const int ankle = legs->motors(Leg::kLeft)[legs->roles(Leg::kLeft).ankle_pitch];
-  const double ankle_x =
-      (straight[0].inverse() * kinematics.link_pose(model.motor_joint(ankle).child_link))
-          .translation()
-          .x();
-  const double lever =
-      kAnkleLoad * 2 * model.motor_joint(ankle).max_torque / (model.total_mass() * kGravity);
-  center = std::clamp(center, ankle_x - lever, ankle_x + lever);
+  const int role = legs->roles(Leg::kLeft).ankle_pitch;
+  if (role >= 0) {
+    const Joint& ankle = model.motor_joint(legs->motors(Leg::kLeft)[role]);
+    const double ankle_x =
+        (straight[0].inverse() * kinematics.link_pose(ankle.child_link)).translation().x();
+    const double lever = kAnkleLoad * 2 * ankle.max_torque / (model.total_mass() * kGravity);
+    center = std::clamp(center, ankle_x - lever, ankle_x + lever);
+  }
   // The legs' own mass moves with them: a few rounds bring the center of mass over the soles.
   double ahead = 0;
   for (int round = 0; round < 6; ++round) {

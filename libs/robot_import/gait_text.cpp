@@ -170,6 +170,9 @@ struct Sizes {
   double hip_height;
   double least_distance;
   Eigen::AlignedBox2d sole;
+  /** Ankles that move the zero moment point along and across the sole. */
+  bool has_ankle_pitch = true;
+  bool has_ankle_roll = true;
 
   double unit(Scale scale) const {
     const double time = std::sqrt(leg / kGravity);
@@ -221,7 +224,9 @@ Sizes measure(const RobotModel& model, const LegKinematics& legs) {
               left.y() - right.y(),
               stretched * std::clamp(height, kBentHeight, kStretchedHeight),
               0,
-              {}};
+              {},
+              legs.roles(Leg::kLeft).ankle_pitch >= 0,
+              legs.roles(Leg::kLeft).ankle_roll >= 0};
   for (const Eigen::Vector2d& corner : model.left_sole_outline()) sizes.sole.extend(corner);
   Eigen::AlignedBox2d right_sole;
   for (const Eigen::Vector2d& corner : model.right_sole_outline()) right_sole.extend(corner);
@@ -229,6 +234,15 @@ Sizes measure(const RobotModel& model, const LegKinematics& legs) {
   sizes.least_distance = std::min({kWidthsApart * sizes.sole.sizes().y(), inner_sides + kSoleGap,
                                    kOfStance * sizes.foot_distance});
   return sizes;
+}
+
+// Without that axis of the ankle the foot carries the robot below the ankle, and footsteps alone
+// keep the balance in this direction.
+bool is_held_by_ankle(const Sizes& sizes, const std::string& group, const std::string& name) {
+  if (name == "zmp_inward" || name == "reach_sideways") return sizes.has_ankle_roll;
+  const bool is_along = name == "zmp_forward" || name == "reach_forward" ||
+                        name == "reach_backward" || (group == "feedback" && name == "max_bias");
+  return !is_along || sizes.has_ankle_pitch;
 }
 
 double factor_of(const GaitFactors& factors, const std::string& group, const std::string& name) {
@@ -260,8 +274,9 @@ std::string make_gait_text(const RobotModel& model, const GaitFactors& factors) 
         continue;
       }
       const double unit = sizes.unit(row.scale) * factor_of(factors, group, row.name);
-      text << "  " << row.name << ": {value: " << unit * row.value << ", range: ["
-           << unit * row.lower << ", " << unit * row.upper << "]}";
+      const double value = is_held_by_ankle(sizes, group, row.name) ? unit * row.value : 0;
+      text << "  " << row.name << ": {value: " << value << ", range: [" << unit * row.lower << ", "
+           << unit * row.upper << "]}";
       if (*row.comment != 0) text << "  # " << row.comment;
       text << "\n";
     }

@@ -22,6 +22,8 @@ constexpr double kPairTolerance = 0.1;
 // Joints mirror each other within this fraction of the robot's height, and this angle's sine.
 constexpr double kPlaceTolerance = 0.02;
 constexpr double kAxisTolerance = 0.05;
+// The same along the axes of two joints.
+constexpr double kSlideTolerance = 0.2;
 // Distance of a foot's points from its lowest one within which they belong to the sole, fraction of
 // the leg's height. Chosen: the height of cleats.
 constexpr double kSoleDepth = 0.03;
@@ -603,16 +605,18 @@ Symmetry find_symmetry(const RobotModel& model) {
   Symmetry symmetry;
   for (int motor = 0; motor < model.num_motors(); ++motor) symmetry.mirrors.push_back({motor, 1});
   for (int motor = 0; motor < model.num_motors(); ++motor) {
-    // Each motor's mirror image: the joint whose place and axis are nearest to the reflected ones.
+    // Each motor's mirror image: the joint whose axis is the reflected one, and of these the one
+    // whose place, which may be any point of its axis, is nearest.
     const Vector3d point = place(motor).cwiseProduct(Vector3d(1, -1, 1));
     // An angular velocity is a pseudovector: its reflection keeps y and reverses x and z.
     const Vector3d image = axis(motor).cwiseProduct(Vector3d(-1, 1, -1));
     int best = -1;
-    double nearest = kPlaceTolerance * height;
+    double nearest = kSlideTolerance * height;
     for (int other = 0; other < model.num_motors(); ++other) {
       if (image.cross(axis(other)).norm() > kAxisTolerance) continue;
-      const double distance = (place(other) - point).norm();
-      if (distance >= nearest) continue;
+      const Vector3d off = place(other) - point;
+      const double distance = off.norm();
+      if (off.cross(axis(other)).norm() > kPlaceTolerance * height || distance >= nearest) continue;
       nearest = distance;
       best = other;
     }

@@ -15,6 +15,12 @@ namespace nao {
 struct TestBiped {
   /** Axes of the hip from the root: "yxz" is pitch, roll, yaw. */
   std::string hip = "zxy";
+  /** Angle by which hip axes x and z are turned about y, rad. */
+  double hip_tilt = 0;
+  /** Axes of the ankle, from the shank. */
+  std::string ankle = "yx";
+  /** A pitch joint in the middle of the shank. */
+  bool has_second_knee = false;
   double thigh = 0.2;
   double shank = 0.2;
   double foot_height = 0.05;
@@ -45,17 +51,21 @@ inline std::string link(const std::string& name, double mass, double com_z, doub
 
 inline std::string joint(const std::string& name, const std::string& parent,
                          const std::string& child, const std::array<double, 3>& origin,
-                         char direction, double lower, double upper, double effort) {
+                         char direction, double lower, double upper, double effort,
+                         double tilt = 0) {
+  const double along = std::cos(tilt);
+  const double across = std::sin(tilt);
   std::ostringstream text;
   text.precision(17);
+  std::ostringstream axis;
+  axis.precision(17);
+  if (direction == 'x') axis << along << " 0 " << across;
+  if (direction == 'y') axis << "0 1 0";
+  if (direction == 'z') axis << 0 - across << " 0 " << along;
   text << "<joint name=\"" << name << "\" type=\"revolute\"><parent link=\"" << parent
        << "\"/><child link=\"" << child << "\"/><origin xyz=\"" << origin[0] << " " << origin[1]
-       << " " << origin[2] << "\"/><axis xyz=\""
-       << (direction == 'x'   ? "1 0 0"
-           : direction == 'y' ? "0 1 0"
-                              : "0 0 1")
-       << "\"/><limit lower=\"" << lower << "\" upper=\"" << upper << "\" effort=\"" << effort
-       << "\" velocity=\"12\"/></joint>\n";
+       << " " << origin[2] << "\"/><axis xyz=\"" << axis.str() << "\"/><limit lower=\"" << lower
+       << "\" upper=\"" << upper << "\" effort=\"" << effort << "\" velocity=\"12\"/></joint>\n";
   return text.str();
 }
 
@@ -81,22 +91,44 @@ inline std::string make_biped_urdf(const TestBiped& dimensions) {
     const auto name = [&](const std::string& part) { return side + "_" + part; };
     std::string parent = pelvis;
     std::array<double, 3> origin = {0, sign * dimensions.hip_width / 2, -0.1 * size};
-    for (const char axis : dimensions.hip) {
-      const std::string part = axis == 'x' ? "hip_roll" : axis == 'y' ? "hip_pitch" : "hip_yaw";
+    for (size_t i = 0; i < dimensions.hip.size(); ++i) {
+      const char axis = dimensions.hip[i];
+      std::string part = axis == 'x' ? "hip_roll" : axis == 'y' ? "hip_pitch" : "hip_yaw";
+      if (dimensions.hip.find(axis) < i) part += "_2";
       text << joint(name(part), parent, name(part + "_link"), origin, axis, axis == 'y' ? -2 : -1,
-                    axis == 'y' ? 1.5 : 1, torque)
+                    axis == 'y' ? 1.5 : 1, torque, dimensions.hip_tilt)
            << link(name(part + "_link"), 0.02 * dimensions.mass, -0.05 * size, 0.3 * size);
       parent = name(part + "_link");
       origin = {0, 0, -dimensions.hip_offset};
     }
     origin = {dimensions.knee_offset, 0, -dimensions.thigh};
     text << joint(name("knee"), parent, name("shank"), origin, 'y', 0, 2.3, torque)
-         << link(name("shank"), 0.06 * dimensions.mass, -0.5 * dimensions.shank, size)
-         << joint(name("ankle_pitch"), name("shank"), name("ankle"),
-                  {-dimensions.knee_offset, 0, -dimensions.shank}, 'y', -1.2, 1, torque)
-         << link(name("ankle"), 0.01 * dimensions.mass, 0, 0.2 * size)
-         << joint(name("ankle_roll"), name("ankle"), name("foot"), {0, 0, -dimensions.ankle_offset},
-                  'x', -0.7, 0.7, torque);
+         << link(name("shank"), 0.06 * dimensions.mass, -0.5 * dimensions.shank, size);
+    parent = name("shank");
+    origin = {-dimensions.knee_offset, 0, -dimensions.shank};
+    if (dimensions.has_second_knee) {
+      origin[2] *= 0.5;
+      text << joint(name("second_knee"), parent, name("lower_shank"), origin, 'y', -0.5, 0.5,
+                    torque)
+           << link(name("lower_shank"), 0.02 * dimensions.mass, -0.2 * size, 0.5 * size);
+      parent = name("lower_shank");
+      origin[0] = 0;
+    }
+    for (size_t i = 0; i < dimensions.ankle.size(); ++i) {
+      const bool is_pitch = dimensions.ankle[i] == 'y';
+      const bool is_last = i + 1 == dimensions.ankle.size();
+      const std::string child = name(is_last ? "foot" : "ankle");
+      text << joint(name(is_pitch ? "ankle_pitch" : "ankle_roll"), parent, child, origin,
+                    dimensions.ankle[i], is_pitch ? -1.2 : -0.7, is_pitch ? 1 : 0.7, torque);
+      if (!is_last) text << link(child, 0.01 * dimensions.mass, 0, 0.2 * size);
+      parent = child;
+      origin = {0, 0, -dimensions.ankle_offset};
+    }
+    if (dimensions.ankle.empty()) {
+      text << "<joint name=\"" << name("foot_mount") << "\" type=\"fixed\"><parent link=\""
+           << parent << "\"/><child link=\"" << name("foot") << "\"/><origin xyz=\"" << origin[0]
+           << " 0 " << origin[2] << "\"/></joint>\n";
+    }
     std::ostringstream foot;
     foot.precision(17);
     foot << "<origin xyz=\"" << 0.1 * size << " 0 " << -0.75 * dimensions.foot_height

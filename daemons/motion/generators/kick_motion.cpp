@@ -155,11 +155,15 @@ std::array<FootLoad, 2> KickMotion::calc_loads(const KickReference& reference,
 void KickMotion::write_targets(const std::vector<double>& torque,
                                const std::vector<double>& velocity, JointTargets& targets) const {
   const LegKinematics& legs = pose_.legs();
-  // Feedback of the angular velocity at the ankle of the support leg, motors 4 and 5 of a leg.
+  // Feedback of the angular velocity at the ankle of the support leg.
   std::vector<double> balance(velocity.size(), 0.0);
-  const auto& ankle = legs.motors(is_left_ ? Leg::kRight : Leg::kLeft);
-  balance[ankle[4]] = gait_->orientation.gyro_ankle_pitch * gyroscope_.value().y();
-  balance[ankle[5]] = gait_->orientation.gyro_ankle_roll * gyroscope_.value().x();
+  const Leg support = is_left_ ? Leg::kRight : Leg::kLeft;
+  const LegRoles& roles = legs.roles(support);
+  const auto add = [&](int role, double angle) {
+    if (role >= 0) balance[legs.motors(support)[role]] = roles.sign[role] * angle;
+  };
+  add(roles.ankle_pitch, gait_->orientation.gyro_ankle_pitch * gyroscope_.value().y());
+  add(roles.ankle_roll, gait_->orientation.gyro_ankle_roll * gyroscope_.value().x());
   const double fade =
       smooth_step(time_ / kFade) * smooth_step((trajectory_.duration() - time_) / kFade);
   for (const Leg leg : {Leg::kLeft, Leg::kRight}) {

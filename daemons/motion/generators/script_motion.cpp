@@ -95,6 +95,7 @@ void ScriptMotion::balance(const MotionContext& context, JointTargets& targets) 
             .cwiseMin(reach);
     const LegRoles& roles = legs_.roles(leg);
     const auto add = [&](int role, double torque, double angle) {
+      if (role < 0) return;
       const int motor = legs_.motors(leg)[role];
       const double sign = roles.sign[role];
       targets.position[motor] +=

@@ -21,6 +21,7 @@ void add_orientation_feedback(const Gait::Orientation& gains, const LegKinematic
     const LegRoles& roles = legs.roles(leg);
     // roles.sign turns an angle about the torso's axis into the joint's own sense of rotation.
     const auto add = [&](int role, double angle) {
+      if (role < 0) return;
       offset[legs.motors(leg)[role]] += roles.sign[role] * angle;
     };
     add(roles.hip_roll, gains.gyro_hip_roll * rate.x());

@@ -16,7 +16,7 @@ namespace {
 /** Random angles of a leg, a tenth of each range away from its limits, with a bent knee. */
 LegAngles random_angles(const LegChain& chain, std::mt19937& random) {
   LegAngles angles{};
-  for (size_t i = 0; i < angles.size(); ++i) {
+  for (int i = 0; i < chain.num_joints; ++i) {
     const double margin = 0.1 * (chain.upper[i] - chain.lower[i]);
     angles[i] = std::uniform_real_distribution<double>(chain.lower[i] + margin,
                                                        chain.upper[i] - margin)(random);
@@ -155,10 +155,101 @@ TEST(LegSolver, TakesNoMemory) {
   }
 }
 
-TEST(LegSolver, NeedsSixJoints) {
+TEST(LegSolver, NeedsAHipThatRolls) {
   TestBiped dimensions;
-  dimensions.hip = "xy";
+  dimensions.hip = "zy";
   EXPECT_THROW(LegKinematics{make_biped(dimensions)}, ModelError);
+}
+
+/** A leg with other than six joints. */
+struct OddLeg {
+  std::string name;
+  std::string hip;
+  std::string ankle;
+  bool has_second_knee = false;
+};
+
+class EveryOddLeg : public testing::TestWithParam<OddLeg> {
+ protected:
+  static TestBiped dimensions() {
+    TestBiped result;
+    result.hip = GetParam().hip;
+    result.ankle = GetParam().ankle;
+    result.has_second_knee = GetParam().has_second_knee;
+    return result;
+  }
+};
+
+TEST_P(EveryOddLeg, KeepsThePositionAndTheAnglesThatItHasJointsFor) {
+  const RobotModel model = make_biped(dimensions());
+  const LegKinematics legs(model);
+  ASSERT_EQ(legs.method(), LegKinematics::Method::kNumeric);
+  const LegChain chain = LegChain::read(model, Leg::kLeft);
+  std::mt19937 random(9);
+  const auto uniform = [&](double bound) {
+    return std::uniform_real_distribution<double>(-bound, bound)(random);
+  };
+  for (int trial = 0; trial < 500; ++trial) {
+    Eigen::Isometry3d goal = chain.sole;
+    goal.translation() +=
+        legs.reach() * Eigen::Vector3d(uniform(0.25), uniform(0.1), 0.15 + uniform(0.05));
+    const double yaw = chain.roles.hip_yaw < 0 ? 0 : uniform(0.3);
+    const double pitch = chain.roles.ankle_pitch < 0 ? 0 : uniform(0.15);
+    const double roll = chain.roles.ankle_roll < 0 ? 0 : uniform(0.1);
+    goal.linear() = (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+                     Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+                     Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
+                        .toRotationMatrix();
+    const LegSolution solution = legs.solve(Leg::kLeft, goal);
+    ASSERT_TRUE(solution.is_reachable) << "trial " << trial;
+    const Eigen::Isometry3d off = goal.inverse() * chain.calc_sole(solution.angles);
+    EXPECT_LT(off.translation().norm(), 2e-3 * legs.reach());
+    const Eigen::Vector3d turn =
+        Eigen::AngleAxisd(off.linear()).angle() * Eigen::AngleAxisd(off.linear()).axis();
+    EXPECT_NEAR(chain.roles.ankle_roll < 0 ? 0 : turn.x(), 0, 3e-3);
+    EXPECT_NEAR(chain.roles.ankle_pitch < 0 ? 0 : turn.y(), 0, 3e-3);
+    EXPECT_NEAR(chain.roles.hip_yaw < 0 ? 0 : turn.z(), 0, 3e-3);
+    // A pure function of the pose: the pose before does not matter.
+    EXPECT_EQ(solution.angles, legs.solve(Leg::kLeft, goal).angles);
+  }
+}
+
+TEST_P(EveryOddLeg, MovesWithoutJumpsAndTakesNoMemory) {
+  const RobotModel model = make_biped(dimensions());
+  const LegKinematics legs(model);
+  const LegChain chain = LegChain::read(model, Leg::kRight);
+  LegAngles last{};
+  for (int tick = 0; tick <= 100; ++tick) {
+    // A swing forward of half a leg's length in a second.
+    Eigen::Isometry3d goal = chain.sole;
+    goal.translation() += legs.reach() * Eigen::Vector3d(0.005 * tick - 0.25, 0.05, 0.15);
+    const size_t before = allocation_count();
+    const LegAngles angles = legs.solve(Leg::kRight, goal).angles;
+    EXPECT_EQ(allocation_count(), before);
+    for (int i = 0; tick > 0 && i < chain.num_joints; ++i) {
+      EXPECT_NEAR(angles[i], last[i], 0.03) << "joint " << i << " tick " << tick;
+    }
+    last = angles;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(LegSolver, EveryOddLeg,
+                         testing::Values(OddLeg{"Three", "xy", ""}, OddLeg{"Four", "xy", "y"},
+                                         OddLeg{"FiveWithoutRoll", "zxy", "y"},
+                                         OddLeg{"FiveWithoutYaw", "xy", "yx"},
+                                         OddLeg{"FiveWithoutPitch", "zxy", "x"},
+                                         OddLeg{"Seven", "zxy", "yx", true},
+                                         OddLeg{"Eight", "zxyx", "yx", true}),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(LegSolver, FindsTheRollOfAHipWithAxesBetweenRollAndYaw) {
+  TestBiped dimensions;
+  dimensions.hip_tilt = 0.25 * M_PI;
+  const RobotModel model = make_biped(dimensions);
+  const LegRoles roles = LegKinematics(model).roles(Leg::kLeft);
+  EXPECT_EQ(roles.hip_yaw, 0);
+  EXPECT_EQ(roles.hip_roll, 1);
+  EXPECT_EQ(roles.sign[1], 1);
 }
 
 }  // namespace
