@@ -91,6 +91,23 @@ Eigen::VectorXd draw_backlash(const DisturbanceSet& set, uint64_t seed, const Ro
   return play.isZero(0) ? Eigen::VectorXd() : play;
 }
 
+// A factor for each motor; empty without the disturbance. The motors of a joint group share one, a
+// motor that is in no group has its own, and one that is in two groups has the first's.
+Eigen::VectorXd draw_servo(const DisturbanceSet& set, Disturbance gain, uint64_t seed,
+                           const RobotModel& model) {
+  const std::vector<JointGroup>& groups = model.joint_groups();
+  const auto num_groups = static_cast<long>(groups.size());
+  const Eigen::VectorXd drawn = draw_each(set, gain, seed, num_groups + model.num_motors());
+  if (drawn.size() == 0) return {};
+  Eigen::VectorXd factor = drawn.tail(model.num_motors());
+  for (long i = num_groups - 1; i >= 0; --i) {
+    for (const int motor : {groups[i].yaw_motor, groups[i].pitch_motor, groups[i].roll_motor}) {
+      if (motor >= 0) factor[motor] = drawn[i];
+    }
+  }
+  return factor;
+}
+
 // Scale of each foot sensor's reading, 1 being exact; at most one sensor of the robot is dead
 // (scale 0). Empty if all are exact.
 Eigen::VectorXd draw_foot_sensors(const DisturbanceSet& set, uint64_t seed,
@@ -173,6 +190,8 @@ void draw_robot(const DisturbanceSet& set, uint64_t seed, int index, const Robot
   RobotErrors& errors = options.errors;
   errors.backlash = draw_backlash(set, seed, model);
   errors.joint_zero = draw_each(set, Disturbance::kJointZero, seed, model.num_motors());
+  errors.servo_stiffness = draw_servo(set, Disturbance::kServoStiffness, seed, model);
+  errors.servo_damping = draw_servo(set, Disturbance::kServoDamping, seed, model);
   errors.imu_mount = draw_axes(set, Disturbance::kImuMount, seed, Vector3d::Zero());
   errors.gyroscope_scale = draw_axes(set, Disturbance::kGyroscopeScale, seed, Vector3d::Ones());
   errors.gyroscope_offset = draw_axes(set, Disturbance::kGyroscopeOffset, seed, Vector3d::Zero());

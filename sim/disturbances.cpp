@@ -62,6 +62,8 @@ const std::vector<Rule>& rules() {
       {"contact_stiffness", kStiffness, {"robot"}, 1e3, 1e6},
       {"friction", kRatio, {"robot"}, 0.01, 10},
       {"torque_scale", kRatio, {"robot"}, 0.01, 10},
+      {"servo_stiffness", kRatio, {"group"}, 0.1, 10},
+      {"servo_damping", kRatio, {"group"}, 0.1, 10},
       {"mass_scale", kRatio, {"robot"}, 0.1, 10},
       {"torso_com", kLength, {"robot"}, -0.05, 0.05},
       {"tick_ms", kMilliseconds, {"robot"}, 2, 100},

@@ -35,6 +35,8 @@ enum class Disturbance {
   kContactStiffness,
   kFriction,
   kTorqueScale,
+  kServoStiffness,
+  kServoDamping,
   kMassScale,
   kTorsoCom,
   kTickMs,
@@ -68,7 +70,7 @@ struct Distribution {
  *
  * A file has one line for each key; docs/physics.md describes keys and units:
  *
- *     KEY: {value: x | uniform: [a, b] | sigma: s, unit: ..., per: robot|joint|foot|tick,
+ *     KEY: {value: x | uniform: [a, b] | sigma: s, unit: ..., per: robot|joint|group|foot|tick,
  *           source: "..."}
  *
  * `backlash` has such an entry for each class of joints. A key that is absent disturbs nothing. */

@@ -45,6 +45,8 @@ JointDrives::JointDrives(const RobotModel& model, const Tree& tree, const RobotO
     drive.max_velocity = joint.max_velocity;
     const RobotErrors& errors = options.errors;
     if (errors.joint_zero.size() > 0) drive.zero = errors.joint_zero[i];
+    if (errors.servo_stiffness.size() > 0) drive.motor.stiffness_gain *= errors.servo_stiffness[i];
+    if (errors.servo_damping.size() > 0) drive.motor.damping_gain *= errors.servo_damping[i];
     if (errors.backlash.size() > 0) drive.gear.half_play = errors.backlash[i] / 2;
     // The joint's degree of freedom. A motor that no body of the tree belongs to opens a hand, and
     // keeps dof -1.

@@ -11,6 +11,9 @@ struct RobotErrors {
    * rad; in motor order, (num_motors) or empty. */
   Eigen::VectorXd backlash;
   Eigen::VectorXd joint_zero;
+  /** Factors on the servos' proportional and derivative gains, (num_motors) or empty. */
+  Eigen::VectorXd servo_stiffness;
+  Eigen::VectorXd servo_damping;
   /** Rotation vector of the inertial unit's mounting in the torso, rad, torso frame. */
   Eigen::Vector3d imu_mount = Eigen::Vector3d::Zero();
   /** Factors on the readings of each axis, and the gyroscope's additional offset, rad/s. */

@@ -42,6 +42,27 @@ TEST_F(SimulatedLola, HasAFrameBeforeTheFirstCommand) {
   EXPECT_FALSE(core_.may_tick());
 }
 
+TEST(SimulatedLolaServos, DifferByTheirDisturbance) {
+  const auto moved = [](const std::string& disturbances) {
+    SimOptions options = lola_options();
+    options.disturbances = disturbances;
+    SimCore core(options);
+    LolaCommand command;
+    command.position = core.lola()->state().position;
+    for (float& position : *command.position) position += 0.1f;
+    for (int i = 0; i < 6; ++i) {
+      core.take_lola_command(command, 0);
+      core.run_tick(0);
+    }
+    return core.lola()->state().position;
+  };
+  const auto nominal = moved("sensor_loss");
+  const auto stiff = moved("servo_stiffness,sensor_loss");
+  const auto damped = moved("servo_damping,sensor_loss");
+  EXPECT_GT(std::abs(stiff[0] - nominal[0]), 1e-3);
+  EXPECT_GT(std::abs(damped[0] - nominal[0]), 1e-3);
+}
+
 TEST_F(SimulatedLola, EveryCommandIsOneFrameInLockStep) {
   const int64_t tick = core_.world().tick();
   for (int i = 1; i <= 10; ++i) {
