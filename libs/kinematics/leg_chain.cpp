@@ -125,7 +125,7 @@ LegChain LegChain::read(const RobotModel& model, Leg leg) {
   };
   const std::vector<int> joints = own_joints(model, leg);
   LegChain chain;
-  if (joints.size() < 3 || joints.size() > chain.motors.size()) {
+  if (joints.size() < 3 || joints.size() > size_t{kMaxLegJoints}) {
     fail("it has " + std::to_string(joints.size()) + " joints of its own instead of 3 to " +
          std::to_string(kMaxLegJoints));
   }
@@ -135,7 +135,7 @@ LegChain LegChain::read(const RobotModel& model, Leg leg) {
       model.link_poses(std::vector<double>(model.num_motors(), 0.0));
   for (size_t i = 0; i < joints.size(); ++i) {
     const Joint& joint = model.joints()[joints[i]];
-    chain.motors[i] = model.motor_of(joints[i]);
+    chain.motors.push_back(model.motor_of(joints[i]));
     if (joint.mimic_joint >= 0 && (joint.mimic_multiplier != 1 || joint.mimic_offset != 0)) {
       fail(joint.name + " does not follow its motor one to one");
     }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <vector>
 
 #include "robot_model/robot_model.h"
 
@@ -46,7 +47,7 @@ struct LegRoles {
  * Source: K. Lynch, F. Park, "Modern Robotics", Cambridge 2017, chapter 4. */
 struct LegChain {
   int num_joints = 0;
-  std::array<int, kMaxLegJoints> motors{};
+  std::vector<int> motors;
   std::array<Eigen::Vector3d, kMaxLegJoints> axis;
   std::array<Eigen::Vector3d, kMaxLegJoints> point;
   Eigen::Isometry3d sole = Eigen::Isometry3d::Identity();

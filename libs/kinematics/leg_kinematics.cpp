@@ -224,13 +224,13 @@ LegsSolution LegKinematics::solve_both(const Eigen::Isometry3d& left_sole_in_tor
 void LegKinematics::write(Leg leg, const LegAngles& angles, std::vector<double>& position) const {
   // The right leg does not write the shared motor: both solutions have the same angle.
   const bool has_own_first = leg == Leg::kLeft || method_ != Method::kCoupled;
-  const std::span<const int> all = motors(leg);
+  const std::vector<int>& all = motors(leg);
   for (size_t i = has_own_first ? 0 : 1; i < all.size(); ++i) position[all[i]] = angles[i];
 }
 
 LegAngles LegKinematics::read(Leg leg, const std::vector<double>& position) const {
   LegAngles angles{};
-  const std::span<const int> all = motors(leg);
+  const std::vector<int>& all = motors(leg);
   for (size_t i = 0; i < all.size(); ++i) angles[i] = position[all[i]];
   return angles;
 }

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "kinematics/analytic_leg_solver.h"
@@ -83,9 +82,7 @@ class LegKinematics {
   LegAngles read(Leg leg, const std::vector<double>& position) const;
 
   /** Motors of a leg in the order of LegAngles; coupled hips have the first one in common. */
-  std::span<const int> motors(Leg leg) const {
-    return {chain(leg).motors.data(), static_cast<size_t>(chain(leg).num_joints)};
-  }
+  const std::vector<int>& motors(Leg leg) const { return chain(leg).motors; }
   /** Function of each of them. */
   const LegRoles& roles(Leg leg) const { return chain(leg).roles; }
   /** Intersection of the hip axes, or else a point on the hip's pitch axis, m, root's frame. */
