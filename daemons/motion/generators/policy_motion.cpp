@@ -93,6 +93,7 @@ void PolicyMotion::return_to_stand(const MotionContext& context, const JointTarg
 }
 
 void PolicyMotion::fail(const std::string& why) {
+  has_failed_ = true;
   reason_ = Reason("policy-stopped", {policy_->name, why});
   on_fault_();
 }
@@ -111,11 +112,10 @@ MotionGenerator::Phase PolicyMotion::step(const MotionContext& context, JointTar
     if (is_finishing_) path.finish();
     const Phase phase = path.step(context, targets);
     if (phase == Phase::kRunning) return phase;
-    if (phase == Phase::kFailed && reason_.empty()) reason_ = path.reason();
+    if (phase == Phase::kFailed && !has_failed_) reason_ = path.reason();
     if (phase == Phase::kFailed) return phase;
     if (stage_ == Stage::kEnding) {
-      return reason_.empty() || reason_.code == "walk-command-timeout" ? Phase::kDone
-                                                                       : Phase::kFailed;
+      return has_failed_ ? Phase::kFailed : Phase::kDone;
     }
     if (is_finishing_) return Phase::kDone;
     approach(context, targets);
@@ -134,7 +134,7 @@ MotionGenerator::Phase PolicyMotion::step(const MotionContext& context, JointTar
     }
   }
   // After a fault the servos have their own gains, which hold the robot best.
-  if (stage_ != Stage::kEnding && (reason_.empty() || reason_.code == "walk-command-timeout")) {
+  if (stage_ != Stage::kEnding && !has_failed_) {
     targets.kp = policy_->manifest->kp;
     targets.kd = policy_->manifest->kd;
   }
@@ -153,6 +153,7 @@ bool PolicyMotion::run(const MotionContext& context, JointTargets& targets) {
   const bool is_in_air = !context.state.left_foot_carries && !context.state.right_foot_carries;
   time_in_air_ = is_in_air && kind() != Kind::kGetUp ? time_in_air_ + context.dt : 0;
   if (time_in_air_ > kLongestFlight) {
+    has_failed_ = true;
     reason_ = Reason("robot-lifted");
     return false;
   }
@@ -232,7 +233,7 @@ bool PolicyMotion::can_be_replaced() const {
       return stand_up_->can_be_replaced();
     case Stage::kEnding:
       // After a fault the robot stands first.
-      return reason_.empty() && end_->can_be_replaced();
+      return !has_failed_ && end_->can_be_replaced();
     case Stage::kApproaching:
       return true;
     default:

@@ -77,6 +77,8 @@ class PolicyMotion : public MotionGenerator {
   JointTrajectory trajectory_;
   /** Targets when the policy began, rad, motor order. */
   std::vector<double> begin_;
+  /** The policy must not go on. */
+  bool has_failed_ = false;
   Reason reason_;
   PolicyRecord record_;
   bool has_record_ = false;

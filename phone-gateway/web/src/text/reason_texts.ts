@@ -53,8 +53,6 @@ export const kReasonTexts: Readonly<Record<string, readonly [pt: string, de: str
                           "{0} trägt den Roboter; lass ihn sich setzen oder hinlegen, bevor du es entspannst."],
   // Walks.
   "no-gait": ["O robô {0} não sabe andar.", "Der Roboter {0} hat keinen Gang."],
-  "policy-unusable": ["A política {0} não pode ser usada: {1}.", "Die Policy {0} kann nicht benutzt werden: {1}."],
-  "policy-stopped": ["A política {0} foi parada: {1}.", "Die Policy {0} wurde angehalten: {1}."],
   "not-walking": ["O robô não está a andar.", "Der Roboter geht nicht."],
   "legs-too-soft": ["As pernas estão moles: rigidez de {0} %, é preciso mais de {1} %.",
                     "Die Beine sind zu weich: Steifigkeit {0} %, nötig sind mehr als {1} %."],
@@ -67,6 +65,9 @@ export const kReasonTexts: Readonly<Record<string, readonly [pt: string, de: str
                            "Das Gehen endete: {0} s lang kein Gehbefehl."],
   "goal-timeout": ["O destino não foi alcançado a tempo; faltam {0} m.",
                    "Das Ziel wurde nicht rechtzeitig erreicht; es fehlen {0} m."],
+  // Policies.
+  "policy-unusable": ["A política {0} não pode ser usada: {1}.", "Die Policy {0} kann nicht benutzt werden: {1}."],
+  "policy-stopped": ["A política {0} foi parada: {1}.", "Die Policy {0} wurde angehalten: {1}."],
   // Kicks and other actions.
   "no-kick": ["O robô {0} não sabe chutar.", "Der Roboter {0} hat keinen Schuss."],
   "ball-out-of-reach": ["A bola está fora de alcance: tem de estar {0} a {1} m à frente e {2} a {3} m à esquerda.",

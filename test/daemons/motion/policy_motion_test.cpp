@@ -1,0 +1,257 @@
+// Networks whose outputs are known move a simulated T1: everything around a policy.
+#include "daemons/motion/generators/policy_motion.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "common/error.h"
+#include "sim/closed_loop/closed_loop.h"
+#include "test/daemons/motion/perfect_robot.h"
+#include "test/daemons/motion/policy_robot.h"
+
+namespace nao::motion {
+namespace {
+
+constexpr const char* kWalk =
+    "kind: walk\ncommand: {vx: [-0.2, 0.4], vy: [-0.1, 0.1], wz: [-0.3, 0.3]}\n";
+constexpr const char* kKnees =
+    "  - {name: Left_Knee_Pitch, stiffness: 300, damping: 5}\n"
+    "  - {name: Right_Knee_Pitch, stiffness: 300, damping: 5}\n";
+constexpr const char* kArm = "  - {name: Left_Shoulder_Pitch}\n";
+
+class PolicyMotionTest : public testing::Test {
+ protected:
+  /** A robot that stands, with these policies. */
+  void begin(const std::string& walk_policy = "") {
+    ClosedLoopOptions options;
+    options.model = robot_.load();
+    options.scene = SceneFile::load(std::filesystem::path(NAO_TEST_DATA) / "scenes" / "empty.yaml");
+    options.is_ideal = true;
+    options.motion.walk_policy = walk_policy;
+    loop_ = std::make_unique<ClosedLoop>(options, 1);
+    loop_->on_tick([this] { watch_targets(); });
+    loop_->run(1);
+  }
+  /** The greatest speed of a target, rad/s. */
+  void watch_targets() {
+    const std::vector<double>& targets = loop_->targets();
+    for (size_t i = 0; i < last_targets_.size(); ++i) {
+      fastest_ = std::max(fastest_, std::abs(targets[i] - last_targets_[i]) / loop_->period());
+    }
+    last_targets_ = targets;
+  }
+  /** @return The final result of a walk command. */
+  CommandResult walk(double vx, double duration) {
+    const int64_t id = loop_->hold_walk({vx, 0, 0});
+    const auto early = loop_->await_end(id, duration);
+    if (early) {
+      loop_->release_walk(false);
+      return *early;
+    }
+    loop_->release_walk();
+    return loop_->await_end(id, 10).value_or(CommandResult{});
+  }
+  CommandResult act(const std::string& action) {
+    return loop_->await_end(loop_->send_action(action), 30).value_or(CommandResult{});
+  }
+  double x() { return loop_->torso_in_world().translation().x(); }
+  void expect_standing() {
+    EXPECT_TRUE(loop_->run_until(
+        [&] { return loop_->core().motion_state().posture == loop_->model().ready_posture().name; },
+        5));
+    EXPECT_LT(loop_->torso_tilt(), 0.1);
+  }
+  /** The fallback: the next walk is by the gait. */
+  void expect_own_gait() {
+    const double before = x();
+    EXPECT_NE(walk(0.3, 4).status, ResultStatus::kRefused);
+    EXPECT_GT(x() - before, 0.4);
+  }
+
+  PolicyRobot robot_;
+  std::unique_ptr<ClosedLoop> loop_;
+  std::vector<double> last_targets_;
+  double fastest_ = 0;
+};
+
+TEST_F(PolicyMotionTest, AWalkByAPolicyThatHoldsItsDefaultAnglesStands) {
+  robot_.add("hold", kWalk, kKnees, 5, {OnnxFile::constant(5, {0, 0})});
+  begin("hold");
+  const double before = x();
+  EXPECT_EQ(walk(0.3, 3).status, ResultStatus::kDone);
+  EXPECT_NEAR(x(), before, 0.02);
+  expect_standing();
+  // Neither the beginning nor the end lets a target jump.
+  EXPECT_LT(fastest_, 0.5);
+}
+
+TEST_F(PolicyMotionTest, AnotherMotionTakesOverWithoutAJump) {
+  robot_.add("hold", kWalk, kKnees, 5, {OnnxFile::constant(5, {0, 0})});
+  begin("hold");
+  loop_->hold_walk({0.3, 0, 0});
+  loop_->run(2);
+  EXPECT_EQ(loop_->core().motion_state().mode, Mode::kWalking);
+  loop_->release_walk(false);
+  const auto end = loop_->await_end(loop_->send_posture("crouch", 0.3), 15);
+  ASSERT_TRUE(end) << to_string(loop_->core().motion_state().mode)
+                   << loop_->core().motion_state().command_name;
+  EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+  EXPECT_LT(fastest_, 3);
+  EXPECT_LT(loop_->torso_tilt(), 0.2);
+}
+
+TEST_F(PolicyMotionTest, OutputsThatAreNotFiniteLeaveTheRobotStanding) {
+  // Overflows as soon as the velocity rises: 1e38 vx, times 1e38.
+  robot_.add("overflow", kWalk, kKnees, 5,
+             {{{1e38F, 0, 0, 0, 0}, {0}, ""}, {{1e38F, 0}, {0, 0}, ""}});
+  begin("overflow");
+  const CommandResult result = walk(0.3, 5);
+  EXPECT_EQ(result.status, ResultStatus::kFailed);
+  EXPECT_EQ(
+      result.reason,
+      Reason("policy-stopped", {"overflow", "output 1 of 2, for Left_Knee_Pitch, is not finite"}));
+  expect_standing();
+  expect_own_gait();
+}
+
+TEST_F(PolicyMotionTest, TargetsFasterThanTheMotorLeaveTheRobotStanding) {
+  // Each output is 1 minus the last one: the arm shakes.
+  robot_.add("shake", kWalk, kArm, 4, {{{0, 0, 0, -1}, {1}, ""}});
+  begin("shake");
+  const CommandResult result = walk(0.3, 5);
+  EXPECT_EQ(result.status, ResultStatus::kFailed);
+  EXPECT_EQ(result.reason.code, "policy-stopped");
+  EXPECT_THAT(result.reason.arguments.at(1),
+              testing::HasSubstr("it moves Left_Shoulder_Pitch at 50.0 rad/s"));
+  expect_standing();
+  expect_own_gait();
+}
+
+TEST_F(PolicyMotionTest, ARobotThatTipsFallsSafelyAndThenUsesItsGait) {
+  // Ankles that lean the body ahead.
+  robot_.add("lean", kWalk, "  - {name: Left_Ankle_Pitch}\n  - {name: Right_Ankle_Pitch}\n", 5,
+             {OnnxFile::constant(5, {-0.6F, -0.6F})});
+  begin("lean");
+  const CommandResult result = walk(0.3, 5);
+  EXPECT_EQ(result.status, ResultStatus::kFailed);
+  EXPECT_EQ(result.reason, Reason("policy-stopped", {"lean", "the robot fell"}));
+  EXPECT_EQ(loop_->core().motion_state().mode, Mode::kFalling);
+}
+
+TEST_F(PolicyMotionTest, ARemovedFileIsARefusalWithItsName) {
+  robot_.add("hold", kWalk, kKnees, 5, {OnnxFile::constant(5, {0, 0})});
+  begin("hold");
+  std::filesystem::remove(robot_.network_of("hold"));
+  const CommandResult result = walk(0.3, 1);
+  EXPECT_EQ(result.status, ResultStatus::kRefused);
+  EXPECT_EQ(result.reason.code, "policy-unusable");
+  EXPECT_THAT(result.reason.arguments.at(1), testing::EndsWith("policy.onnx: was removed"));
+  expect_standing();
+  expect_own_gait();
+}
+
+TEST_F(PolicyMotionTest, AWrongShapeIsRefusedWithTheNumbers) {
+  robot_.add("narrow", kWalk, kKnees, 4, {OnnxFile::constant(4, {0, 0})});
+  begin("narrow");
+  EXPECT_THAT(
+      loop_->core().policies().at(0).fault,
+      testing::EndsWith("policy.onnx: has 4 inputs, but the manifest lists 5 observations"));
+  const CommandResult result = act("narrow");
+  EXPECT_EQ(result.status, ResultStatus::kRefused);
+  EXPECT_EQ(result.reason.code, "policy-unusable");
+  EXPECT_EQ(walk(0.3, 1).status, ResultStatus::kRefused);
+  expect_own_gait();
+}
+
+TEST_F(PolicyMotionTest, ActionsChooseWhatWalks) {
+  robot_.add("hold", kWalk, kKnees, 5, {OnnxFile::constant(5, {0, 0})});
+  begin();
+  EXPECT_EQ(act("hold").status, ResultStatus::kDone);
+  const double before = x();
+  EXPECT_EQ(walk(0.3, 2).status, ResultStatus::kDone);
+  EXPECT_NEAR(x(), before, 0.02);
+  EXPECT_EQ(act("own-gait").status, ResultStatus::kDone);
+  expect_own_gait();
+}
+
+TEST_F(PolicyMotionTest, AnActionLastsAsLongAsItSays) {
+  robot_.add("raise", "kind: action\nduration: 1.5\n", kArm, 4, {OnnxFile::constant(4, {-0.5F})});
+  begin();
+  const auto arm = static_cast<size_t>(loop_->model().find_motor("Left_Shoulder_Pitch"));
+  const double angle = loop_->targets()[arm];
+  double highest = 0;
+  loop_->on_tick([&] { highest = std::max(highest, angle - loop_->targets()[arm]); });
+  const double begin = loop_->time();
+  EXPECT_EQ(act("raise").status, ResultStatus::kDone);
+  EXPECT_NEAR(highest, 0.5, 1e-6);
+  EXPECT_NEAR(loop_->time() - begin, 1.5, 2);
+  expect_standing();
+}
+
+TEST_F(PolicyMotionTest, AGetUpThatFailsIsFollowedByTheRobotsOwn) {
+  robot_.add("lie", "kind: get-up\nduration: 1\n", kArm, 4, {OnnxFile::constant(4, {0})});
+  begin();
+  // Tips the robot over.
+  loop_->world().push(0, 0, {60, 0, 0});
+  EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() > 1.3; }, 5));
+  loop_->run(0.5);
+  const CommandResult result = act("lie");
+  if (result.status == ResultStatus::kFailed) {
+    EXPECT_EQ(result.reason,
+              Reason("policy-stopped", {"lie", "the robot did not stand within 1 s"}));
+  }
+  EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() < 0.1; }, 30));
+}
+
+TEST_F(PolicyMotionTest, AnUnknownWalkPolicyNamesTheKnownOnes) {
+  robot_.add("hold", kWalk, kKnees, 5, {OnnxFile::constant(5, {0, 0})});
+  try {
+    begin("walk");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "the robot has no policy walk; it has hold");
+  }
+}
+
+TEST(PolicyRecordTest, HasWhatTheNetworkSawAndDid) {
+  PolicyRobot robot("nao");
+  robot.add("nod", kWalk, "  - {name: HeadPitch, scale: 0.1, stiffness: 20}\n", 4,
+            {{{1, 0, 0, 0}, {0.25F}, ""}});
+  const auto model = robot.load();
+  MotionOptions options;
+  options.walk_policy = "nod";
+  MotionCore core(*model, options);
+  PerfectRobot body;
+  body.settle(core);
+  // The velocity rises to the manifest's limit.
+  const Command walk{"test", 1, WalkCommand{1, 0, 0}};
+  int num_records = 0;
+  std::optional<PolicyRecord> last;
+  std::vector<double> gains;
+  for (int i = 0; i < 300; ++i) {
+    const Output output = body.step(core, {walk});
+    if (output.policy) last = output.policy;
+    num_records += output.policy ? 1 : 0;
+    const auto& kp = output.joint_targets->kp;
+    if (!kp.empty()) gains.push_back(kp[static_cast<size_t>(model->find_motor("HeadPitch"))]);
+  }
+  ASSERT_TRUE(last);
+  EXPECT_GT(num_records, 40);
+  EXPECT_EQ(last->policy, "nod");
+  EXPECT_THAT(last->joint_names, testing::ElementsAre("HeadPitch"));
+  EXPECT_THAT(last->observation,
+              testing::Pointwise(testing::FloatNear(1e-5F), std::vector<float>{0.4F, 0, 0, 0.65F}));
+  EXPECT_NEAR(last->action.at(0), 0.65, 1e-5);
+  // The gain changes from the servo's own to the policy's in small steps.
+  ASSERT_GT(gains.size(), 30u);
+  double greatest = 0;
+  for (size_t i = 1; i < gains.size(); ++i)
+    greatest = std::max(greatest, std::abs(gains[i] - gains[i - 1]));
+  EXPECT_EQ(gains.back(), 20);
+  EXPECT_GT(std::abs(gains.front() - gains.back()), 1);
+  EXPECT_LT(greatest, 0.06 * std::max(gains.front(), gains.back()));
+}
+
+}  // namespace
+}  // namespace nao::motion
