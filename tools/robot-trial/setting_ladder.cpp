@@ -34,6 +34,8 @@ RobotSettings climb_ladder(const std::function<SettingsResult(const RobotSetting
     for (const Rung& rung : rungs()) {
       for (const double value : rung.values) {
         if (result.holds() || is_time_over()) return best;
+        // The gait does not matter to a robot that does not stand.
+        if (result.stands == 0 && rung.setting != &RobotSettings::peak_error) continue;
         RobotSettings settings = best;
         settings.*rung.setting = value;
         if (std::find(known.begin(), known.end(), settings) != known.end()) continue;

@@ -111,6 +111,36 @@ TEST(RobotImport, TenHumanoidsOfRandomDimensionsWalkWithoutTuning) {
   }
 }
 
+TEST(RobotImport, HumanoidsWithFourToEightJointsPerLegWalkWithoutTuning) {
+  const auto leg = [](const std::string& hip, const std::string& ankle, bool has_second_knee) {
+    TestBiped biped;
+    biped.hip = hip;
+    biped.ankle = ankle;
+    biped.has_second_knee = has_second_knee;
+    return biped;
+  };
+  for (const TestBiped& biped :
+       {leg("xy", "y", false), leg("zxy", "y", false), leg("xy", "yx", false),
+        leg("zxy", "yx", true), leg("zxyx", "yx", true)}) {
+    const std::string name = biped.hip + " " + biped.ankle;
+    const TemporaryFolder folder;
+    ClosedLoopOptions options;
+    options.model = import(folder.path(), biped);
+    for (uint64_t seed = 1; seed <= 3; ++seed) {
+      ClosedLoop trial(options, seed);
+      trial.run(1);
+      const double speed = options.model->walk_limits().forward;
+      const int64_t walk = trial.hold_walk({speed, 0, 0});
+      trial.run(8);
+      EXPECT_GT(trial.torso_in_world().translation().head<2>().norm(), 0.5 * 8 * speed) << name;
+      trial.release_walk();
+      const auto end = trial.await_end(walk, 10);
+      EXPECT_TRUE(end && end->status == ResultStatus::kDone) << name;
+      EXPECT_LT(trial.torso_tilt(), 0.2) << name << " seed " << seed;
+    }
+  }
+}
+
 TEST(RobotT1, Stands) {
   const auto model =
       std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / "t1"));
