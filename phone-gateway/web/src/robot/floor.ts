@@ -17,6 +17,8 @@ export interface FieldLines {
 
 /** Beyond this distance from the robot the ground has faded out, m. */
 const kVisibleRadius = 4.5;
+/** Of the line to a spot that was tapped, m. Chosen. */
+const kPathWidth = 0.018;
 /** Of the darkness around the feet, m: a little wider than they stand. Chosen. */
 const kContactWidth = 0.17;
 
@@ -85,6 +87,9 @@ export class Floor {
       new RingGeometry(0.06, 0.075, 40).rotateX(-Math.PI / 2),
       new MeshBasicMaterial({color: 0x6cc8ff, transparent: true, opacity: 0.9, depthWrite: false}));
 
+  /** The way there. */
+  private readonly path = new Mesh(new PlaneGeometry(1, kPathWidth).rotateX(-Math.PI / 2), this.marker.material);
+
   constructor() {
     this.material = new ShaderMaterial({
       vertexShader: kVertexShader,
@@ -112,9 +117,8 @@ export class Floor {
     shadow.renderOrder = -1;
     shadow.position.y = 0.001;
     this.ground.add(ground, shadow);
-    this.marker.visible = false;
-    this.marker.position.y = 0.003;
-    this.object.add(this.ground, this.marker);
+    this.mark(null);
+    this.object.add(this.ground, this.marker, this.path);
   }
 
   /** Shows the lines of a field; without, a plain grid of 0.25 m. */
@@ -138,10 +142,14 @@ export class Floor {
     this.shadow.visible = isOn;
   }
 
-  /** Marks a spot, m in the robot's axes; null: none. */
-  mark(spot: {x: number; y: number} | null): void {
-    this.marker.visible = spot !== null;
-    if (spot) this.marker.position.set(spot.x, 0.003, -spot.y);
+  /** Marks a spot and the way from another one to it, m in the robot's axes; null: none. */
+  mark(spot: {x: number; y: number} | null, from = spot): void {
+    this.marker.visible = this.path.visible = spot !== null;
+    if (!spot || !from) return;
+    this.marker.position.set(spot.x, 0.003, -spot.y);
+    this.path.position.set((spot.x + from.x) / 2, 0.002, -(spot.y + from.y) / 2);
+    this.path.scale.x = Math.hypot(spot.x - from.x, spot.y - from.y);
+    this.path.rotation.y = Math.atan2(spot.y - from.y, spot.x - from.x);
   }
 
   /** Keeps the visible part around the robot, m in the robot's axes. */

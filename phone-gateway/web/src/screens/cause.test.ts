@@ -8,7 +8,7 @@ import {causeOf} from "./cause";
 
 const cause = (patch: Partial<AppState>) => {
   const store = new Store();
-  store.set({phase: "connected", ...patch});
+  store.set({phase: "connected", robot: create(pb.RobotDescriptionSchema), ...patch});
   return causeOf(store.get());
 };
 
@@ -23,6 +23,7 @@ describe("a cause", () => {
   it("is there only while something is wrong", () => {
     expect(cause({})).toBeNull();
     expect(cause({phase: "connecting"})).toBeNull();
+    expect(cause({phase: "waiting", problem: "unreachable", robot: null})).toBeNull();
     expect(cause({unavailableComponents: [Notice_Component.CAMERA]})).toBeNull();
   });
   it("offers another robot where there is one", () => {

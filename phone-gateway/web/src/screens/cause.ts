@@ -29,9 +29,10 @@ const kRemedies: Record<Problem, readonly [Remedy, TextKey]> = {
 
 /** The weightiest cause; null: all is well. Pure. */
 export function causeOf(state: Readonly<AppState>): Cause | null {
-  const {phase, problem, unavailableComponents, robots, control} = state;
+  const {phase, problem, robot, unavailableComponents, robots, control} = state;
   if (phase !== "connected") {
-    if (!problem) return null;
+    // Before the first picture the connection screen says why.
+    if (!problem || !robot) return null;
     const [remedy, key] = kRemedies[problem];
     return {text: say(`problem.${problem}`), remedy, button: say(key)};
   }

@@ -30,7 +30,7 @@ export class WalkHere {
     const distance = spot ? Math.hypot(spot.x - robot.x, spot.y - robot.y) : Infinity;
     if (!spot || this.spot || distance > kMaxDistance || distance < kMinDistance) return this.clear();
     this.spot = spot;
-    this.stage.floor.mark(spot);
+    this.stage.floor.mark(spot, robot);
     this.stage.outdate();
     this.element.hidden = false;
     clearTimeout(this.timer);
