@@ -63,7 +63,8 @@ function look() {
     for (const element of parts.flatMap((part) => [...screen.querySelectorAll(part)]).filter(isSeen)) {
       if (overlap(robot, element.getBoundingClientRect()) > kTouch) faults.push(`${name(element)} covers the robot`);
     }
-    if (robot.bottom - robot.top < 0.1 * innerHeight) faults.push(`the robot is ${(robot.bottom - robot.top).toFixed(0)} px high`);
+    const size = Math.max(robot.bottom - robot.top, robot.right - robot.left);
+    if (size < 0.08 * innerHeight) faults.push(`the robot is ${size.toFixed(0)} px large`);
   }
   return faults;
 }

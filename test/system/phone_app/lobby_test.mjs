@@ -182,9 +182,9 @@ test("the operator lets a phone watch only, and gives a robot to another", async
 
 test("a phone that lost the link comes back to its robot", async () => {
   await stack.end("nao-phone-gateway", "SIGKILL");
-  await dan.sees("connection");
+  await dan.page.locator('.cause [data-remedy="retry"]').waitFor();
   await stack.startGateway();
-  await dan.sees("controller");
+  await dan.page.locator(".cause").waitFor({state: "hidden"});
   assert.equal(await robotOf(dan), "NAO1");
 });
 

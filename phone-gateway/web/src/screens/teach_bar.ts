@@ -24,7 +24,7 @@ export class TeachBar {
   /** What is always there; the rest comes and goes above it. */
   readonly buttons: HTMLElement;
   private readonly fault = el("div", {class: "teach-fault", role: "alert", hidden: true});
-  private readonly dots = el("ol", {class: "pose-dots", "aria-label": say("teach.poses")});
+  private readonly dots = el("ol", {class: "pose-dots", tabindex: 0, "aria-label": say("teach.poses")});
   private readonly status = el("p", {class: "unseen", role: "status"});
   private readonly play: HTMLButtonElement;
   private readonly playText = el("span", {}, say("teach.play"));
