@@ -128,6 +128,12 @@ std::optional<LolaRobot> make_lola(const SimOptions& options, const World& world
   return lola;
 }
 
+/** Whether motors would turn differently; where a robot is limp, targets do not matter. */
+bool have_changed(const MotorTargets& before, const MotorTargets& now) {
+  return before.stiffness != now.stiffness ||
+         ((before.position - now.position).array() * now.stiffness.array() != 0).any();
+}
+
 bool is_within(const Eigen::Vector3d& v, double limit) {
   return v.allFinite() && v.cwiseAbs().maxCoeff() <= limit;
 }
@@ -171,12 +177,17 @@ std::optional<std::string> SimCore::take_joint_command(int robot, const JointCom
     return fmt::format("it answers tick {}, long before {}: that of another simulator on this bus?",
                        command.tick, world_.tick());
   }
-  if (auto reason = merge_joint_command(world_.robot(robot).model(), command, targets_[robot])) {
+  MotorTargets targets = targets_[robot];
+  if (auto reason = merge_joint_command(world_.robot(robot).model(), command, targets)) {
     return reason;
   }
+  const bool have_new_targets = have_changed(targets_[robot], targets);
+  targets_[robot] = std::move(targets);
   // Merged, as a command may name some joints only.
   world_.set_targets(robot, targets_[robot]);
-  scheduler_.note_command(robot, command.tick, now);
+  // A controller that has a new command for the robot answers a tick again.
+  const bool is_repeated = scheduler_.note_command(robot, command.tick, now);
+  if (have_new_targets || is_repeated) wake(now);
   return std::nullopt;
 }
 
@@ -187,6 +198,7 @@ bool SimCore::take_world_command(const WorldCommand& command, double now) {
   if (std::find(executed_.begin(), executed_.end(), key) != executed_.end()) return false;
   executed_.push_back(key);
   if (executed_.size() > kNumRemembered) executed_.pop_front();
+  wake(now);
   outcome_ = {command.source, command.id, execute(command, now)};
   return true;
 }
@@ -391,7 +403,18 @@ double SimCore::run_tick(double now) {
   for (int i = 0; scheduler_.is_lock_step() && i < world_.num_robots(); ++i) {
     if (world_.are_readings_lost(i)) scheduler_.note_command(i, world_.tick(), now);
   }
+  update_rest();
   return delay;
+}
+
+void SimCore::update_rest() {
+  // What moves in the middle of a batch is controlled from this tick on.
+  if (!rest_.step(world_)) scheduler_.drop_batch();
+  is_state_due_ = !scheduler_.is_in_batch();
+  if (rest_.is_at_rest(world_) && is_state_due_ && !lola_ && !scheduler_.is_lock_step() &&
+      !scheduler_.is_paused() && scheduler_.pace() == 1) {
+    scheduler_.rest(world_.tick());
+  }
 }
 
 }  // namespace nao::sim

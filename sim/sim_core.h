@@ -10,6 +10,7 @@
 
 #include "sim/joint_command.h"
 #include "sim/lola_robot.h"
+#include "sim/rest_detector.h"
 #include "sim/sim_lights.h"
 #include "sim/sim_options.h"
 #include "sim/tick_scheduler.h"
@@ -25,6 +26,12 @@ class SimCore {
   /** Loads scene and robots. In a match, that is if robots have teams, the ball is at the center.
    * @throws ConfigError, ModelError */
   explicit SimCore(const SimOptions& options);
+  /** Somebody watches: the world does not rest in the next RestDetector::kRestDelay, and if it
+   * does, what is due is run at once. */
+  void wake(double now) {
+    rest_.note_activity();
+    scheduler_.wake(now);
+  }
   /** Starts the clock: the first tick is due one period from now. */
   void start(double now) { scheduler_.restart(now); }
 
@@ -63,8 +70,12 @@ class SimCore {
   double next_tick(double now) const { return scheduler_.next_time(world_.tick(), now); }
   /** Runs the next tick. @return Its delay behind its due time, s. */
   double run_tick(double now);
+  /** Whether the last tick's state is sent: not in a world at rest (TickScheduler::rest()). */
+  bool is_state_due() const { return is_state_due_; }
 
  private:
+  /** After a tick: begins or ends the rest of the world. */
+  void update_rest();
   /** @return Why a command is rejected; empty if it was executed. */
   std::string execute(const WorldCommand& command, double now);
   std::string step(const WorldCommand& command, double now);
@@ -82,6 +93,8 @@ class SimCore {
   /** Robots that were ever in the world. */
   int num_drawn_robots_ = 0;
   TickScheduler scheduler_;
+  RestDetector rest_;
+  bool is_state_due_ = true;
   /** Targets of each robot that partial commands are merged into. */
   std::vector<MotorTargets> targets_;
   /** Senders and numbers of the last world commands. */

@@ -23,6 +23,8 @@ namespace {
 /** While no tick is run, the state is repeated at this interval, s, for programs that have just
  * started. */
 constexpr double kIdlePeriod = 0.1;
+/** s. */
+constexpr double kStatusPeriod = 1;
 /** Longest time that ticks are run without returning to the event loop, s. Chosen: half the default
  * control period. */
 constexpr double kMaxBurst = 0.005;
@@ -55,8 +57,8 @@ SimDaemon::SimDaemon(Bus& bus, EventLoop& loop, const SimOptions& options)
     bus_.handle();
     run_due_ticks();
   });
-  loop_.every(kIdlePeriod, [this] { repeat_while_waiting(); });
-  loop_.every(1.0, [this] { publish_status(); });
+  idle_timer_ = loop_.every(kIdlePeriod, [this] { repeat_while_waiting(); });
+  loop_.every_aligned(kStatusPeriod, [this] { publish_status(); });
 
   // Sensor state is published before the first command: a controller answers it, and lock-step
   // could not begin otherwise.
@@ -95,6 +97,9 @@ void SimDaemon::update_robots() {
         [this, name = robot.name](const naolcm::light_command_t& message) {
           take_light_command(name, message);
         });
+    // Images show every tick.
+    bus_.subscribe_encoded(channels_.back().head_camera_command, Bus::Queue::kLatest,
+                           [this](const RawMessage&) { core_.wake(monotonic_seconds()); });
   }
 }
 
@@ -176,14 +181,15 @@ void SimDaemon::run_due_ticks() {
 
 void SimDaemon::run_tick(double now) {
   const double delay = core_.run_tick(now);
+  statistics_.note_tick(delay, monotonic_seconds() - now);
+  warn_of_failures(now);
+  if (!core_.is_state_due()) return;
   publish_sensors();
   publish_truth();
   const auto body_ticks =
       std::max<int64_t>(1, std::llround(kBodyStatePeriod / core_.world().options().period()));
   if (core_.world().tick() % body_ticks == 0) publish_bodies();
   status_.tick(now);
-  statistics_.note_tick(delay, monotonic_seconds() - now);
-  warn_of_failures(now);
 }
 
 void SimDaemon::set_timer(double now) {
@@ -197,14 +203,18 @@ void SimDaemon::set_timer(double now) {
   }
   // Without a tick to run, a time of 0 disarms the timer.
   timerfd_settime(timer_, TFD_TIMER_ABSTIME, &timing, nullptr);
+  const TickScheduler& scheduler = core_.scheduler();
+  const bool may_wait = scheduler.is_lock_step() || scheduler.is_stopped();
+  loop_.set_period(idle_timer_, may_wait ? kIdlePeriod : kStatusPeriod);
 }
 
 void SimDaemon::repeat_while_waiting() {
   const double now = monotonic_seconds();
+  const TickScheduler& scheduler = core_.scheduler();
+  if (!scheduler.is_lock_step() && !scheduler.is_stopped()) return;
   // Nine tenths: this is called every kIdlePeriod with some jitter.
   if (now - last_publish_time_ < kIdlePeriod * 0.9) return;
   // In lock-step the answer, or the sensor state itself, may have been lost.
-  const TickScheduler& scheduler = core_.scheduler();
   // A frame of LoLA is a tick, and its socket loses none.
   if (scheduler.is_lock_step() && !scheduler.is_stopped() && !lola_) publish_sensors();
   publish_truth();

@@ -45,13 +45,15 @@ void TickScheduler::reset(double now) {
   restart(now);
 }
 
-void TickScheduler::note_command(int robot, int64_t answered_tick, double now) {
+bool TickScheduler::note_command(int robot, int64_t answered_tick, double now) {
   Commands& commands = commands_[robot];
+  const bool is_repeated = answered_tick > 0 && answered_tick == commands.answered_tick;
   // Commands may arrive out of order; the newest tick counts.
   commands.answered_tick = std::max(commands.answered_tick, answered_tick);
   commands.time = now;
   commands.has_any = true;
   commands.latency.note_answer(answered_tick, now);
+  return is_repeated;
 }
 
 bool TickScheduler::may_run(int64_t tick) const {
@@ -70,7 +72,7 @@ int TickScheduler::awaited_robot(int64_t tick) const {
 
 double TickScheduler::next_time(int64_t tick, double now) const {
   const double due = pacer_.next(now);
-  if (is_lock_step_ || pacer_.pace() == 0) return due;
+  if (is_lock_step_ || pacer_.pace() == 0 || pacer_.is_in_batch()) return due;
   // In real time a tick waits for an answer only where one can be expected: the controller has been
   // active, has not answered yet, and is fast enough to answer within a period. A dead controller
   // delays nothing after kActive.
@@ -85,9 +87,11 @@ double TickScheduler::next_time(int64_t tick, double now) const {
 double TickScheduler::begin_tick(int64_t tick, double now) {
   const double delay = pacer_.delay(now);
   if (delay > kLateTick && !is_lock_step_) ++num_late_ticks_;
-  // A late command is counted once per tick for every robot that is under control.
+  // A late command is counted once per tick for every robot that is under control. In a batch only
+  // the last tick is answered.
   for (Commands& commands : commands_) {
-    const bool is_active = commands.has_any && now - commands.time < kSilence;
+    const bool is_active =
+        commands.has_any && now - commands.time < kSilence && !pacer_.is_in_batch();
     if (is_active && commands.answered_tick < tick) ++num_late_commands_;
     commands.latency.note_tick(tick + 1, now);
   }

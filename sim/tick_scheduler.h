@@ -44,8 +44,25 @@ class TickScheduler {
   /** The indices of the robots after it fall by one. */
   void remove_robot(int robot) { commands_.erase(commands_.begin() + robot); }
 
-  /** A robot's joint command was received. @param answered_tick  Tick of the sensor state. */
-  void note_command(int robot, int64_t answered_tick, double now);
+  /** A robot's joint command was received. @param answered_tick  Tick of the sensor state.
+   * @return Whether that tick had been answered before. */
+  bool note_command(int robot, int64_t answered_tick, double now);
+
+  /** The ticks after `tick` are run together, up to the next multiple of kRestTicks, without
+   * waiting for answers. In real time only. */
+  void rest(int64_t tick) { pacer_.begin_batch(kRestTicks - static_cast<int>(tick % kRestTicks)); }
+  /** Ticks are left that are run together with the last one: its sensor state is not sent. */
+  bool is_in_batch() const { return pacer_.is_in_batch(); }
+  /** Ends the batch: those of its ticks that are due are run at once. */
+  void wake(double now) {
+    if (is_in_batch()) pacer_.shorten_batch(now);
+  }
+  /** Ends the batch before its last tick was run. */
+  void drop_batch() { pacer_.drop_batch(); }
+
+  /** Ticks between two sensor states of a world at rest. nao-motion takes up to so many for one
+   * step. */
+  static constexpr int kRestTicks = 10;
 
   /** Whether the tick after `tick` may be run, as far as pause and lock-step decide. */
   bool may_run(int64_t tick) const;

@@ -69,7 +69,7 @@ HeadCameraDaemon::HeadCameraDaemon(Bus& bus, const RobotModel& model,
 void HeadCameraDaemon::attach(EventLoop& loop) {
   loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
   source_->attach(loop, [this](const std::string& camera) { step(camera, monotonic_seconds()); });
-  loop.every(kStatusPeriod, [this] {
+  loop.every_aligned(kStatusPeriod, [this] {
     // A source that hangs calls no step.
     update_state(monotonic_seconds(), !valid_requests(monotonic_seconds()).empty());
     report_problems();
@@ -82,6 +82,7 @@ void HeadCameraDaemon::receive_command(const naolcm::camera_command_t& command) 
   const std::string problem = check_request(request, cameras_);
   if (!problem.empty()) throw MessageError(command.source + ": " + problem);
   requests_.add(command.source, request, monotonic_seconds());
+  source_->set_needed(true);
 }
 
 std::vector<ImageRequest> HeadCameraDaemon::valid_requests(double now) {
@@ -150,6 +151,7 @@ void HeadCameraDaemon::report_problems() {
 }
 
 void HeadCameraDaemon::update_state(double now, bool has_requests) {
+  source_->set_needed(has_requests || webots_);
   const std::string missing = source_->missing_input(now);
   const std::string state = missing.empty() ? "ready" : "waiting";
   const std::string detail = !missing.empty() ? missing : has_requests ? "" : "no image requested";

@@ -22,6 +22,9 @@ constexpr double kTruthValidity = 2.0;
 /** Truth that is older than the last one by less than this, microseconds, was overtaken by a newer
  * message and is dropped; a larger difference means that the simulation was restarted. */
 constexpr int64_t kRestartThreshold = 1000000;
+/** Period of looking at the state while no image is needed, s. Chosen: a quarter of kTruthValidity.
+ */
+constexpr double kSleepPeriod = 0.5;
 
 /** A robot with all joints at 0, for rendering before any message has arrived. */
 WorldState default_world(const RobotModel& model, const std::string& robot) {
@@ -40,7 +43,7 @@ WorldState default_world(const RobotModel& model, const std::string& robot) {
 }  // namespace
 
 RenderedSource::RenderedSource(Bus& bus, const RobotModel& model, const HeadCameraOptions& options)
-    : model_(model), models_(model), robot_(options.robot), camera_(model, options) {
+    : bus_(bus), model_(model), models_(model), robot_(options.robot), camera_(model, options) {
   // The first image of a camera compiles shaders and allocates memory; this is done before the
   // first request.
   for (const CameraModel& camera : model.cameras()) {
@@ -52,9 +55,21 @@ RenderedSource::RenderedSource(Bus& bus, const RobotModel& model, const HeadCame
 }
 
 void RenderedSource::attach(EventLoop& loop, std::function<void(const std::string&)> on_image) {
-  loop.every(1 / kMaxRate, [this, on_image = std::move(on_image)] {
+  loop_ = &loop;
+  timer_ = loop.every(1 / kMaxRate, [this, on_image = std::move(on_image)] {
+    if (!is_needed_) bus_.set_awake(kWorldTruthChannel, true);
     for (const CameraModel& camera : cameras()) on_image(camera.name);
   });
+}
+
+void RenderedSource::set_needed(bool is_needed) {
+  // The first state is received at once.
+  is_needed |= !world_;
+  if (is_needed == is_needed_ || loop_ == nullptr) return;
+  is_needed_ = is_needed;
+  bus_.set_awake(kWorldTruthChannel, is_needed);
+  loop_->set_period(timer_, is_needed ? 1 / kMaxRate : kSleepPeriod);
+  needed_since_ = monotonic_seconds();
 }
 
 std::vector<CameraModel> RenderedSource::cameras() const {
@@ -75,7 +90,9 @@ void RenderedSource::receive_truth(const naolcm::world_truth_t& truth) {
     world_.reset();
   }
   earlier_ = std::exchange(world_, std::move(world));
+  if (last_truth_ < needed_since_) earlier_.reset();
   last_truth_ = monotonic_seconds();
+  if (!is_needed_) bus_.set_awake(kWorldTruthChannel, false);
 }
 
 std::string RenderedSource::missing_input(double now) const {
@@ -87,6 +104,7 @@ std::string RenderedSource::missing_input(double now) const {
 }
 
 bool RenderedSource::has_image(const std::string& camera, double now) const {
+  if (last_truth_ < needed_since_) return false;
   const bool has_truth = world_ && now - last_truth_ <= kTruthValidity;
   return camera == kOverviewCamera ? has_truth : missing_input(now).empty();
 }

@@ -28,6 +28,8 @@ class RenderedSource : public ImageSource {
   void attach(EventLoop& loop, std::function<void(const std::string&)> on_image) override;
   /** Cameras of the robot, and the overview. */
   std::vector<CameraModel> cameras() const override;
+  /** Unless needed, it receives one state every half second, to notice a simulator that ends. */
+  void set_needed(bool is_needed) override;
   std::string missing_input(double now) const override;
   bool has_image(const std::string& camera, double now) const override;
   int64_t utime(const std::string& camera) const override;
@@ -38,6 +40,12 @@ class RenderedSource : public ImageSource {
  private:
   void receive_truth(const naolcm::world_truth_t& truth);
 
+  Bus& bus_;
+  EventLoop* loop_ = nullptr;
+  int timer_ = -1;
+  bool is_needed_ = true;
+  /** Since when images are needed, s, monotonic: states of before are outdated. */
+  double needed_since_ = 0;
   const RobotModel& model_;
   RobotModels models_;
   std::string robot_;

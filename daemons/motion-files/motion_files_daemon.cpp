@@ -30,6 +30,7 @@ MotionFilesDaemon::MotionFilesDaemon(Bus& bus, EventLoop& loop, const RobotModel
                                      const ClosedLoopOptions& options,
                                      const std::filesystem::path& folder, const std::string& robot)
     : bus_(bus),
+      loop_(loop),
       channels_(robot),
       status_(bus, "nao-motion-files", robot),
       core_(model, folder),
@@ -51,14 +52,15 @@ MotionFilesDaemon::MotionFilesDaemon(Bus& bus, EventLoop& loop, const RobotModel
         // A new nao-motion has no taught motions.
         if (!motion_processes_.insert({message.host, message.process_id}).second) return;
         for (const std::string& name : core_.store().names()) announcements_.push_back({0, name});
+        step();
       });
   loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
-  loop.every(kStepPeriod, [this] {
+  step_timer_ = loop.every(kStepPeriod, [this] {
     status_.tick(monotonic_seconds());
     step();
   });
   loop.every(kAnnouncePeriod, [this] { announce_next(); });
-  loop.every(kListPeriod, [this] {
+  loop.every_aligned(kListPeriod, [this] {
     publish_list();
     publish_status();
   });
@@ -93,6 +95,8 @@ void MotionFilesDaemon::step() {
   }
   announce_due(now);
   if (!changes.empty()) publish_list();
+  const bool is_busy = check_.valid() || !announcements_.empty();
+  loop_.set_period(step_timer_, is_busy ? kStepPeriod : kListPeriod);
 }
 
 void MotionFilesDaemon::announce_due(double now) {

@@ -49,6 +49,9 @@ class MotionFilesDaemon {
   };
 
   Bus& bus_;
+  EventLoop& loop_;
+  /** Of step(). */
+  int step_timer_ = -1;
   RobotChannels channels_;
   StatusReporter status_;
   MotionFileCore core_;

@@ -16,8 +16,9 @@ namespace nao::motion {
 namespace {
 
 // Time without sensor data after which commands are answered without them, and the period of these
-// steps, s of wall time. Chosen: a tenth of the time after which there is no robot.
-constexpr double kSilencePeriod = 0.05;
+// steps, s of wall time. Chosen: longer than the 0.1 s between two states of a robot at rest, a
+// third of the time after which there is no robot.
+constexpr double kSilencePeriod = 0.15;
 // Control periods between two sensor states above which the gap means a pause or another robot
 // instead of lost ticks.
 constexpr double kMaxStepPeriods = 10;
@@ -39,6 +40,7 @@ constexpr size_t kMaxWaitingMotions = 16;
 MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
                            const MotionOptions& options, const std::string& robot)
     : bus_(bus),
+      loop_(loop),
       model_(model),
       channels_(robot),
       status_(bus, "nao-motion", robot),
@@ -64,8 +66,8 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
       channels_.sensor_state, Bus::Queue::kLatest,
       [this](const naolcm::sensor_state_t& message) { take_sensor_state(message); });
   loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
-  loop.every(kSilencePeriod, [this] { check_for_silence(); });
-  loop.every(kStatusPeriod, [this] { publish_status(); });
+  silence_timer_ = loop.every(kSilencePeriod, [this] { check_for_silence(); });
+  loop.every_aligned(kStatusPeriod, [this] { publish_status(); });
   for (const Policy& policy : core_.policies()) {
     if (policy.fault.empty()) {
       logger::info("policy {}: {} observations, {} joints, {:.0f} Hz", policy.name,
@@ -87,7 +89,17 @@ void MotionDaemon::subscribe_to_command(const std::string& channel) {
                          " commands in one step");
     }
     commands_.push_back(to_command(message));
+    wake_simulator();
   });
+}
+
+// The answer to the last state, once more: see sensor_state_t.
+void MotionDaemon::wake_simulator() {
+  const bool is_seldom = last_interval_ > 1.5 * last_period_ ||
+                         monotonic_seconds() - last_step_time_ > 1.5 * last_period_;
+  if (last_answer_ && is_seldom && core_.motion_state().mode != Mode::kNoRobot) {
+    bus_.publish(channels_.joint_command, *last_answer_);
+  }
 }
 
 void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
@@ -97,6 +109,7 @@ void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
                 "first, or use a bus of its own (LCM_DEFAULT_URL)");
   }
   if (!owner_.accepts(message.utime, monotonic_seconds())) return;
+  loop_.restart(silence_timer_);
   // In lock-step the simulator repeats a state whose answer it has not received. A second step on
   // it would make the run depend on when messages arrive.
   if (last_answer_ && message.tick == last_tick_ && message.utime == last_utime_) {
@@ -110,10 +123,16 @@ void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
   const double elapsed = static_cast<double>(sensors.utime - last_utime_) * 1e-6;
   const bool is_successor =
       last_tick_ >= 0 && elapsed > 0 && elapsed <= kMaxStepPeriods * period + kRounding;
-  if (is_successor) num_missed_ticks_ += std::max<int64_t>(0, sensors.tick - last_tick_ - 1);
+  // A robot at rest sends few states.
+  const Mode mode = core_.motion_state().mode;
+  if (is_successor && mode != Mode::kHolding && mode != Mode::kRelaxed) {
+    num_missed_ticks_ += std::max<int64_t>(0, sensors.tick - last_tick_ - 1);
+  }
+  last_interval_ = is_successor ? elapsed : period;
+  last_period_ = period;
   last_utime_ = sensors.utime;
   last_tick_ = sensors.tick;
-  step(std::move(sensors), is_successor ? elapsed : period);
+  step(std::move(sensors), last_interval_);
 }
 
 // Without sensors the core still runs, on wall time: it notices that the robot is unavailable, and
@@ -121,7 +140,7 @@ void MotionDaemon::take_sensor_state(const naolcm::sensor_state_t& message) {
 void MotionDaemon::check_for_silence() {
   const double now = monotonic_seconds();
   // Commands that come after a reset wait for the new time.
-  if (now - last_step_time_ < kSilencePeriod || owner_.is_contested(now)) return;
+  if (now - last_step_time_ < 0.9 * kSilencePeriod || owner_.is_contested(now)) return;
   const double silence = now - std::max(last_step_time_, last_silent_step_time_);
   last_silent_step_time_ = now;
   step(std::nullopt, silence);

@@ -38,12 +38,16 @@ class MotionDaemon {
   void subscribe_to_command(const std::string& channel);
   void take_sensor_state(const naolcm::sensor_state_t& message);
   void check_for_silence();
+  /** A command is there: a simulator whose world rests sends its state at once. */
+  void wake_simulator();
   void step(std::optional<Sensors> sensors, double dt);
   void publish(const Output& output);
   void publish(const CommandResult& result);
   void publish_status();
 
   Bus& bus_;
+  EventLoop& loop_;
+  int silence_timer_ = -1;
   const RobotModel& model_;
   RobotChannels channels_;
   StatusReporter status_;
@@ -56,8 +60,11 @@ class MotionDaemon {
   std::vector<TaughtChange> taught_;
   int64_t num_steps_ = 0;
   int64_t num_missed_ticks_ = 0;
-  /** Time of the last sensor state, microseconds. */
+  /** Time of the last sensor state, microseconds, its control period, and the robot time since the
+   * one before it, s. */
   int64_t last_utime_ = 0;
+  double last_period_ = 0;
+  double last_interval_ = 0;
   int64_t last_tick_ = -1;
   /** Answer to the last sensor state. */
   std::optional<naolcm::joint_command_t> last_answer_;

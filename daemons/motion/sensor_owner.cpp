@@ -8,9 +8,9 @@ namespace {
 constexpr int64_t kMaxStep = 2'000'000;
 // Silence after which the owner has ended, s, and states of another robot without one of the owner
 // after which it was reset. Chosen: below the 0.5 s after which there is no robot, and more states
-// than two robots of the same rate send between two of the owner's.
+// than another robot sends between two of an owner at rest.
 constexpr double kSilence = 0.25;
-constexpr int kMinOthers = 5;
+constexpr int kMinOthers = 12;
 
 }  // namespace
 

@@ -163,7 +163,7 @@ void PlayDaemon::attach(EventLoop& loop) {
   loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
   loop.every(kStepPeriod, [this] { step(clock_()); });
   loop.every(kStatePeriod, [this] { publish_state(); });
-  loop.every(kStatusPeriod, [this] { publish_status(clock_()); });
+  loop.every_aligned(kStatusPeriod, [this] { publish_status(clock_()); });
 }
 
 void PlayDaemon::step(double now) {

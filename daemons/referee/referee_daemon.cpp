@@ -228,7 +228,7 @@ void RefereeDaemon::attach(EventLoop& loop) {
     loop.on_readable(game_controller_->descriptor(), [this] { game_controller_->receive(); });
     loop.every(kReturnPeriod, [this] { answer_game_controller(); });
   }
-  loop.every(kStatusPeriod, [this] { publish_status(clock_()); });
+  loop.every_aligned(kStatusPeriod, [this] { publish_status(clock_()); });
 }
 
 void RefereeDaemon::handle(const naolcm::world_truth_t& truth) {

@@ -53,7 +53,7 @@ RobotDaemon::RobotDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
     if (read(deadline_, &expirations, sizeof expirations) > 0) handle_deadline();
   });
   loop_.every(kReconnectTime, [this] { connect(); });
-  loop_.every(1.0, [this] { publish_status(); });
+  loop_.every_aligned(1.0, [this] { publish_status(); });
   if (options_.heartbeat >= 0) {
     loop_.every(kHeartbeatPeriod, [this] {
       // A full pipe means that the watchdog does not read, which this program cannot change.

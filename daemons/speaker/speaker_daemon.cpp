@@ -18,8 +18,11 @@ namespace nao::speaker {
 namespace {
 
 const char* const kProgram = "nao-speaker";
-/** s. */
+/** s; the second one of steps in silence. */
 constexpr double kStatusPeriod = 1;
+constexpr double kIdlePeriod = 1;
+/** Time after the last text in which results are repeated (ResultReminder), s. */
+constexpr double kBusyTime = 2;
 /** Color of the eyes while the robot speaks loudest, and the fraction of it in silence. Chosen:
  * distinct from the colors that show the state of a robot (daemons/robot/eyes.h). */
 constexpr LightColor kSpeechColor{0.5, 0.9, 1};
@@ -66,14 +69,20 @@ void SpeakerDaemon::attach(EventLoop& loop) {
     bus_.handle();
     if (!requests_.empty()) step(monotonic_seconds());
   });
-  loop.every(kStepPeriod, [this] { step(monotonic_seconds()); });
-  loop.every(kStatusPeriod, [this] { publish_status(monotonic_seconds()); });
+  const int timer = loop.every(kStepPeriod, [this] { step(monotonic_seconds()); });
+  on_step_ = [this, &loop, timer] {
+    const bool is_busy = core_.is_speaking() || output_ || last_step_ - last_busy_ < kBusyTime;
+    loop.set_period(timer, is_busy ? kStepPeriod : kIdlePeriod);
+    is_busy ? commands_.wake() : commands_.nap();
+  };
+  loop.every_aligned(kStatusPeriod, [this] { publish_status(monotonic_seconds()); });
 }
 
 void SpeakerDaemon::step(double now) {
   const double dt = last_step_ > 0 ? now - last_step_ : 0;
   last_step_ = now;
   status_.tick(now);
+  if (!requests_.empty() || core_.is_speaking()) last_busy_ = now;
   const SpeechOutput output = core_.step(std::exchange(requests_, {}), dt);
   for (const CommandResult& result : output.results) {
     if (result.status == ResultStatus::kRefused || result.status == ResultStatus::kFailed) {
@@ -88,6 +97,7 @@ void SpeakerDaemon::step(double now) {
   }
   if (output_) output_->step();
   if (output.loudness) light_eyes(*output.loudness, output.time_left);
+  if (on_step_) on_step_();
 }
 
 void SpeakerDaemon::publish(const AudioPiece& piece) {

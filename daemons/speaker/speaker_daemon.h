@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -62,8 +63,12 @@ class SpeakerDaemon {
   std::vector<SpeechRequest> requests_;
   std::string source_;
   int64_t last_light_id_;
+  /** Slows down the steps in silence. */
+  std::function<void()> on_step_;
   /** s; 0 before the first step. */
   double last_step_ = 0;
+  /** When a text was spoken last, s. */
+  double last_busy_ = 0;
 };
 
 }  // namespace nao::speaker

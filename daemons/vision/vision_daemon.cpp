@@ -69,7 +69,7 @@ void VisionDaemon::attach(EventLoop& loop) {
     bus_.handle();
     process_images();
   });
-  loop.every(kStatusPeriod, [this] { publish_status(monotonic_seconds()); });
+  loop.every_aligned(kStatusPeriod, [this] { publish_status(monotonic_seconds()); });
   request(options_.request_camera);
   loop.every(kRequestPeriod, [this] { request_images(); });
 }

@@ -89,6 +89,13 @@ class Bus {
     filter_.add(channel);
   }
 
+  /** Whether messages on a subscribed channel wake the process: what is not needed for a while is
+   * left to the kernel's filter. Without it, as on "memq://", they still come. */
+  void set_awake(const std::string& channel, bool is_awake) {
+    filter_.remove(channel);
+    if (is_awake) filter_.add(channel);
+  }
+
   /** Calls `handler` for every message on the channels whose whole name matches a regular
    * expression, undecoded: for loggers and viewers.
    * @param queue_capacity  Messages that wait for handle(); 0: any number. Default: about 2 s of

@@ -123,6 +123,11 @@ void ChannelFilter::add(const std::string& channel) {
   attach();
 }
 
+void ChannelFilter::remove(const std::string& channel) {
+  std::erase(channels_, channel);
+  attach();
+}
+
 void ChannelFilter::pass_all() {
   passes_all_ = true;
   if (!socket_) return;

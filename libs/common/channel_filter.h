@@ -27,6 +27,8 @@ class ChannelFilter {
 
   /** Lets messages on this channel pass. */
   void add(const std::string& channel);
+  /** Ends add(). */
+  void remove(const std::string& channel);
   /** Lets all pass, for good. */
   void pass_all();
 

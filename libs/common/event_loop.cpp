@@ -5,12 +5,14 @@
 #include <sys/timerfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstring>
 
 #include "common/error.h"
+#include "common/wall_clock.h"
 
 namespace nao {
 namespace {
@@ -41,32 +43,59 @@ EventLoop::EventLoop() {
 
 EventLoop::~EventLoop() {
   for (const Source& source : sources_) {
-    if (source.is_timer) close(source.descriptor);
+    if (source.period > 0) close(source.descriptor);
   }
   close(signal_descriptor_);
 }
 
 void EventLoop::on_readable(int descriptor, std::function<void()> handler) {
   sources_.push_back(
-      {descriptor, false, std::make_shared<const std::function<void()>>(std::move(handler))});
+      {descriptor, 0, std::make_shared<const std::function<void()>>(std::move(handler))});
 }
 
 // Marked only: the list must not change while run() goes through it.
 void EventLoop::forget(int descriptor) {
   for (Source& source : sources_) {
-    if (!source.is_timer && source.descriptor == descriptor) source.descriptor = -1;
+    if (source.period == 0 && source.descriptor == descriptor) source.descriptor = -1;
   }
 }
 
-void EventLoop::every(double period, std::function<void()> handler) {
+int EventLoop::every(double period, std::function<void()> handler) {
+  return add_timer(monotonic_seconds() + period, period, std::move(handler));
+}
+
+int EventLoop::every_aligned(double period, std::function<void()> handler) {
+  const double next = (std::floor(monotonic_seconds() / period) + 1) * period;
+  return add_timer(next, period, std::move(handler));
+}
+
+int EventLoop::add_timer(double first, double period, std::function<void()> handler) {
   const int descriptor = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK);
   // The kernel repeats the timer: a late handler does not shift the later ones.
-  const itimerspec timing{to_timespec(period), to_timespec(period)};
-  if (descriptor < 0 || timerfd_settime(descriptor, 0, &timing, nullptr) != 0) {
+  const itimerspec timing{to_timespec(period), to_timespec(first)};
+  if (descriptor < 0 || timerfd_settime(descriptor, TFD_TIMER_ABSTIME, &timing, nullptr) != 0) {
     throw Error(std::string("cannot create a timer: ") + std::strerror(errno));
   }
   sources_.push_back(
-      {descriptor, true, std::make_shared<const std::function<void()>>(std::move(handler))});
+      {descriptor, period, std::make_shared<const std::function<void()>>(std::move(handler))});
+  return descriptor;
+}
+
+void EventLoop::set_period(int timer, double period) {
+  const auto source = std::find_if(sources_.begin(), sources_.end(), [timer](const Source& each) {
+    return each.descriptor == timer;
+  });
+  if (source == sources_.end() || source->period == period) return;
+  source->period = period;
+  restart(timer);
+}
+
+void EventLoop::restart(int timer) {
+  for (const Source& source : sources_) {
+    if (source.descriptor != timer) continue;
+    const itimerspec timing{to_timespec(source.period), to_timespec(source.period)};
+    timerfd_settime(timer, 0, &timing, nullptr);
+  }
 }
 
 // Signals first, then sources in the order in which they were added.
@@ -93,7 +122,7 @@ std::string EventLoop::run() {
     for (size_t i = 1; i < polled.size() && !is_stopped_; ++i) {
       // Forgotten by a handler of this round.
       if (polled[i].revents == 0 || sources_[i - 1].descriptor < 0) continue;
-      if (sources_[i - 1].is_timer) {
+      if (sources_[i - 1].period > 0) {
         uint64_t expirations = 0;
         // Periods that have passed meanwhile are one event: a loop that was held up does not catch
         // up with a burst.

@@ -32,8 +32,19 @@ class EventLoop {
   void forget(int descriptor);
 
   /** Calls `handler` every `period` s of the monotonic clock, first after one period. Missed
-   * periods are merged into one call. */
-  void every(double period, std::function<void()> handler);
+   * periods are merged into one call. @return The timer, for set_period(). */
+  int every(double period, std::function<void()> handler);
+
+  /** The same at multiples of the period, first within one: at the same times in all programs, so
+   * that what they send wakes its receivers once. For periodic messages. */
+  int every_aligned(double period, std::function<void()> handler);
+
+  /** Changes the period, s, of a timer: its next call comes after one of these. No effect if it is
+   * the period already. */
+  void set_period(int timer, double period);
+
+  /** The next call of a timer comes one period from now: for timeouts. */
+  void restart(int timer);
 
   /** Runs until a signal or stop().
    * @return Reason of the end: "SIGINT", "SIGTERM" or the reason given to stop(). */
@@ -46,10 +57,14 @@ class EventLoop {
   struct Source {
     /** -1: forgotten. */
     int descriptor;
-    bool is_timer;
+    /** Of a timer, s; 0: none. */
+    double period;
     /** Shared with the call that is running, during which the source may be forgotten. */
     std::shared_ptr<const std::function<void()>> handler;
   };
+
+  /** @param first  Time of the first call, s of the monotonic clock. */
+  int add_timer(double first, double period, std::function<void()> handler);
 
   std::vector<Source> sources_;
   int signal_descriptor_;

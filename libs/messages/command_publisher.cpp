@@ -85,9 +85,12 @@ const std::string& channel_of(const Command& command, const RobotChannels& chann
 
 CommandPublisher::CommandPublisher(Bus& bus, const RobotChannels& channels)
     : bus_(bus), channels_(channels) {
-  bus_.subscribe<naolcm::motion_state_t>(
-      channels_.motion_state, Bus::Queue::kLatest,
-      [this](const naolcm::motion_state_t& state) { robot_utime_ = state.utime; });
+  bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
+                                         [this](const naolcm::motion_state_t& state) {
+                                           robot_utime_ = state.utime;
+                                           if (is_napping_)
+                                             bus_.set_awake(channels_.motion_state, false);
+                                         });
 }
 
 void CommandPublisher::publish(const Command& command) const {

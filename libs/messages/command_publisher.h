@@ -35,13 +35,26 @@ class CommandPublisher {
     bus_.publish(channel, message);
   }
 
+  /** Receives one motion state, and no more until the next call of either function: for programs
+   * that seldom send. */
+  void nap() { listen(true); }
+  /** Ends nap(). */
+  void wake() { listen(false); }
+
   /** `utime` of the commands: robot time, microseconds; 0 as long as there was no motion state. */
   int64_t robot_utime() const { return robot_utime_; }
 
  private:
+  void listen(bool once) {
+    if (!once && !is_napping_) return;
+    is_napping_ = once;
+    bus_.set_awake(channels_.motion_state, true);
+  }
+
   Bus& bus_;
   RobotChannels channels_;
   int64_t robot_utime_ = 0;
+  bool is_napping_ = false;
 };
 
 }  // namespace nao

@@ -34,6 +34,8 @@ namespace {
 
 /** Period of repetitions and timeouts, s; a fifth of the shortest one, 0.1 s. */
 constexpr double kStepPeriod = 0.02;
+/** The same without a client, s. Chosen: a tenth of the timeouts of components. */
+constexpr double kIdlePeriod = 0.1;
 /** Period of DAEMON_STATUS, s. */
 constexpr double kStatusPeriod = 1.0;
 /** Period, s, of looking for messages of avahi-daemon. Chosen: the page shows changes at once for a
@@ -266,9 +268,24 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   add_scene_page(pages, options.scene);
   Network network(options.network, make_access_rules(options), daemon.core(), pages);
 
-  network.loop().on_readable(bus.descriptor(), [&bus] { bus.handle(); });
-  network.loop().every(kStepPeriod, [&daemon] { daemon.step(monotonic_seconds()); });
-  network.loop().every(kStatusPeriod, [&daemon] { daemon.publish_status(monotonic_seconds()); });
+  AsioLoop& loop = network.loop();
+  loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
+  size_t step_timer = 0;
+  // Without a client messages wait for the next step.
+  const auto set_busy = [&](bool is_busy) {
+    loop.set_watched(bus.descriptor(), is_busy);
+    loop.set_period(step_timer, is_busy ? kStepPeriod : kIdlePeriod);
+  };
+  step_timer = loop.every(kStepPeriod, [&] {
+    bus.handle();
+    daemon.step(monotonic_seconds());
+    set_busy(!daemon.core().sessions().all().empty());
+  });
+  network.on_accepted([&] {
+    bus.handle();
+    set_busy(true);
+  });
+  loop.every_aligned(kStatusPeriod, [&daemon] { daemon.publish_status(monotonic_seconds()); });
   logger::info("HTTP and WebSocket on {}:{}, TCP on {}:{}", options.network.bind,
                network.http_port(), options.network.bind, network.tcp_port());
   const std::vector<std::string> urls = addresses_for_phones(options, network.http_port());

@@ -1,6 +1,7 @@
 #include "phone-gateway/web_stream/asio_loop.h"
 
 #include <csignal>
+#include <iterator>
 
 namespace nao {
 namespace {
@@ -31,19 +32,47 @@ void AsioLoop::on_readable(int descriptor, std::function<void()> handler) {
   wait(watched_.back());
 }
 
+void AsioLoop::set_watched(int descriptor, bool is_watched) {
+  for (Watched& watched : watched_) {
+    if (watched.descriptor.native_handle() != descriptor) continue;
+    watched.is_watched = is_watched;
+    if (is_watched && !watched.is_waiting) wait(watched);
+  }
+}
+
 void AsioLoop::wait(Watched& watched) {
+  watched.is_waiting = true;
   watched.descriptor.async_wait(asio::posix::stream_descriptor::wait_read,
                                 [this, &watched](const error_code& error) {
                                   if (error) return;
+                                  watched.is_waiting = false;
                                   watched.handler();
-                                  wait(watched);
+                                  if (watched.is_watched && !watched.is_waiting) wait(watched);
                                 });
 }
 
-void AsioLoop::every(double period, std::function<void()> handler) {
-  timers_.push_back(
-      {asio::steady_timer(io_, Clock::now()), to_duration(period), std::move(handler)});
+size_t AsioLoop::every(double period, std::function<void()> handler) {
+  return add_timer(Clock::now(), period, std::move(handler));
+}
+
+size_t AsioLoop::every_aligned(double period, std::function<void()> handler) {
+  const auto now = Clock::now();
+  return add_timer(now - now.time_since_epoch() % to_duration(period), period, std::move(handler));
+}
+
+size_t AsioLoop::add_timer(Clock::time_point planned, double period,
+                           std::function<void()> handler) {
+  timers_.push_back({asio::steady_timer(io_, planned), to_duration(period), std::move(handler)});
   wait(timers_.back());
+  return timers_.size() - 1;
+}
+
+void AsioLoop::set_period(size_t number, double period) {
+  Timer& timer = *std::next(timers_.begin(), static_cast<long>(number));
+  if (timer.period == to_duration(period)) return;
+  timer.period = to_duration(period);
+  // Within its own handler it is not waiting, and begins to afterwards.
+  if (timer.timer.expires_at(Clock::now()) > 0) wait(timer);
 }
 
 void AsioLoop::wait(Timer& timer) {

@@ -35,8 +35,19 @@ class AsioLoop {
   /** Calls `handler` whenever `descriptor` is readable. The caller keeps it open. */
   void on_readable(int descriptor, std::function<void()> handler);
 
-  /** Calls `handler` every `period` s, first after one period; see next_time(). */
-  void every(double period, std::function<void()> handler);
+  /** Whether on_readable() of a descriptor is in effect; one call may come after its end. */
+  void set_watched(int descriptor, bool is_watched);
+
+  /** Calls `handler` every `period` s, first after one period; see next_time().
+   * @return The timer, for set_period(). */
+  size_t every(double period, std::function<void()> handler);
+
+  /** The same at multiples of the period of the monotonic clock, see EventLoop::every_aligned(). */
+  size_t every_aligned(double period, std::function<void()> handler);
+
+  /** Changes the period, s, of a timer: its next call comes after one of these. No effect if it is
+   * the period already. */
+  void set_period(size_t timer, double period);
 
   /** Runs until a signal or stop(). @return "SIGINT", "SIGTERM" or the reason passed to stop(). */
   std::string run();
@@ -51,6 +62,8 @@ class AsioLoop {
   struct Watched {
     boost::asio::posix::stream_descriptor descriptor;
     std::function<void()> handler;
+    bool is_watched = true;
+    bool is_waiting = false;
   };
   struct Timer {
     boost::asio::steady_timer timer;
@@ -59,6 +72,8 @@ class AsioLoop {
   };
   void wait(Watched& watched);
   void wait(Timer& timer);
+  size_t add_timer(boost::asio::steady_timer::time_point planned, double period,
+                   std::function<void()> handler);
 
   boost::asio::io_context io_{1};
   boost::asio::signal_set signals_;

@@ -47,6 +47,19 @@ class SimCoreTest : public testing::Test {
     now_ = end;
   }
 
+  /** As run(). @return States that are sent. */
+  int count_states(double duration) {
+    const double end = now_ + duration;
+    int num_states = 0;
+    for (double next = core_.next_tick(now_); next <= end; next = core_.next_tick(now_)) {
+      now_ = std::max(now_, next);
+      core_.run_tick(now_);
+      num_states += core_.is_state_due();
+    }
+    now_ = end;
+    return num_states;
+  }
+
   double now_ = 100;
   SimCore core_{options()};
   int64_t last_id_ = 0;
@@ -61,6 +74,55 @@ TEST_F(SimCoreTest, KeepsPaceWithTheClock) {
   const int64_t tick = core_.world().tick();
   run(1);
   EXPECT_NEAR(static_cast<double>(core_.world().tick() - tick), 50, 1);
+}
+
+TEST_F(SimCoreTest, SendsTenStatesASecondAtRest) {
+  run(RestDetector::kRestDelay + 1);
+  const int64_t tick = core_.world().tick();
+  EXPECT_EQ(count_states(1), 10);
+  EXPECT_NEAR(static_cast<double>(core_.world().tick() - tick), 100, 10);
+  EXPECT_EQ(core_.scheduler().num_late_ticks(), 0);
+}
+
+TEST_F(SimCoreTest, RunsWhatIsDueWhenATargetChangesAtRest) {
+  run(RestDetector::kRestDelay + 1.02);
+  const int64_t tick = core_.world().tick();
+  now_ += 0.045;
+  JointCommand command{tick, {"HeadYaw"}, {core_.world().targets(0).position[0]}, {1}};
+  EXPECT_EQ(core_.take_joint_command(0, command, now_), std::nullopt);
+  EXPECT_GT(core_.next_tick(now_), now_) << "no target has changed";
+  command.position = {0.3};
+  EXPECT_EQ(core_.take_joint_command(0, command, now_), std::nullopt);
+  EXPECT_GE(count_states(0), 1);
+  EXPECT_GE(core_.world().tick() - tick, 1);
+  EXPECT_GE(count_states(1), 100);
+}
+
+TEST_F(SimCoreTest, RunsWhatIsDueWhenATickIsAnsweredAgainAtRest) {
+  run(RestDetector::kRestDelay + 1.02);
+  now_ += 0.045;
+  const JointCommand command{core_.world().tick(), {}, {}, {}};
+  EXPECT_EQ(core_.take_joint_command(0, command, now_), std::nullopt);
+  EXPECT_GT(core_.next_tick(now_), now_);
+  EXPECT_EQ(core_.take_joint_command(0, command, now_), std::nullopt);
+  EXPECT_EQ(count_states(0), 1);
+  EXPECT_NEAR(static_cast<double>(core_.world().tick() - command.tick), 6.5, 1);
+  EXPECT_NEAR(count_states(1), 100, 1);
+}
+
+TEST_F(SimCoreTest, DoesNotRestWhileAnythingMovesOrSomebodyWatches) {
+  run(RestDetector::kRestDelay + 1);
+  WorldCommand push = command("push");
+  push.robot = "NAO";
+  push.impulse = {0.5, 0, 0};
+  EXPECT_EQ(execute(push), "");
+  EXPECT_GE(count_states(1), 100);
+  run(10);
+  EXPECT_EQ(count_states(1), 10);
+  for (int i = 0; i < 4; ++i) {
+    core_.wake(now_);
+    EXPECT_NEAR(count_states(1), 100, 1);
+  }
 }
 
 TEST_F(SimCoreTest, PausesStepsAndResumes) {

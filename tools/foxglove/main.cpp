@@ -142,7 +142,7 @@ void run(const CommonOptions& common, Options options) {
 
   network.loop().on_readable(bus.descriptor(), [&bus] { bus.handle(); });
   network.loop().every(kCameraPeriod, [&] { images.update(relay.wanted_cameras()); });
-  network.loop().every(kStatusPeriod, [&] {
+  network.loop().every_aligned(kStatusPeriod, [&] {
     images.repeat();
     status.tick(monotonic_seconds());
     report();

@@ -91,7 +91,7 @@ int run_record(const CommonOptions& common, const RecordOptions& options) {
     recorder.flush();
     if (monotonic_seconds() >= end) loop.stop("end");
   });
-  loop.every(kStatusPeriod, [&] {
+  loop.every_aligned(kStatusPeriod, [&] {
     const LogWriter& writer = recorder.writer;
     status.set_state(recorder.fault.empty() ? "ready" : "waiting",
                      recorder.fault.empty() ? "recording " + options.file : recorder.fault);

@@ -30,9 +30,12 @@ namespace nao {
 namespace {
 
 /** Period of HangDetector::step(), s: far below its limits. */
-constexpr double kStepPeriod = 0.2;
+constexpr double kStepPeriod = 0.4;
 /** As of every program, see daemon_status_t, s. */
 constexpr double kHeartbeatPeriod = 1.0;
+/** Heartbeats between two searches for processes: far less than HangDetector::Limits::first_silence
+ * takes. */
+constexpr int kSearchHeartbeats = 5;
 constexpr const char* kStackVariable = "NAO_REMOTE_STACK";
 
 /** True if a process belongs to the same stack as this one: its environment has the same value of
@@ -145,23 +148,27 @@ int run_watchdog(const CommonOptions& common, const std::vector<std::string>& pr
       reporter.set_state("ready");
       reporter.publish();
     }
-    for (const int process_id : detector.process_ids()) {
-      if (!is_of_own_stack(process_id)) detector.forget(process_id);
-    }
     for (const HangDetector::Hung& hung : detector.step(now)) {
+      if (!is_of_own_stack(hung.process_id)) continue;
       logger::warn("{} (process {}) has published no status for {:.1f} s: killing it", hung.program,
                    hung.process_id, hung.silence);
       kill(hung.process_id, SIGKILL);
     }
   });
   // A program that hangs before it is known here must be found as well.
+  int num_heartbeats = 0;
   const auto find_processes = [&] {
-    for_each_process(programs, [&detector](int process_id, const std::string& program) {
-      detector.handle_process(process_id, program);
-    });
+    for (const int process_id : detector.process_ids()) {
+      if (!is_of_own_stack(process_id)) detector.forget(process_id);
+    }
+    if (num_heartbeats++ % kSearchHeartbeats == 0) {
+      for_each_process(programs, [&detector](int process_id, const std::string& program) {
+        detector.handle_process(process_id, program);
+      });
+    }
     reporter.publish();
   };
-  loop.every(kHeartbeatPeriod, find_processes);
+  loop.every_aligned(kHeartbeatPeriod, find_processes);
   find_processes();
   logger::info("watching the programs on {}", common.lcm_url);
   logger::info("ended by {}", loop.run());

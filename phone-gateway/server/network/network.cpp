@@ -120,6 +120,7 @@ struct Network::Impl {
   std::function<void(Tcp::socket)> accepting(void (*serve)(ConnectionContext&, Tcp::socket)) {
     return [this, serve](Tcp::socket socket) {
       ++context.counters.num_accepted;
+      if (on_accepted) on_accepted();
       prepare_socket(socket);
       serve(context, std::move(socket));
     };
@@ -130,6 +131,7 @@ struct Network::Impl {
   std::unique_ptr<AsioLoop> loop;
   TcpListener http;
   TcpListener tcp;
+  std::function<void()> on_accepted;
 };
 
 Network::Network(const NetworkOptions& options, AccessRules rules, GatewayCore& core,
@@ -139,6 +141,10 @@ Network::Network(const NetworkOptions& options, AccessRules rules, GatewayCore& 
 
 Network::~Network() {
   impl_->context.is_shutting_down = true;
+}
+
+void Network::on_accepted(std::function<void()> handler) {
+  impl_->on_accepted = std::move(handler);
 }
 
 uint16_t Network::http_port() const {

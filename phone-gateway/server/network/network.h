@@ -57,6 +57,9 @@ class Network {
   /** The counters as metrics. */
   std::vector<Metric> metrics() const;
 
+  /** Calls `handler` for each connection that is accepted. */
+  void on_accepted(std::function<void()> handler);
+
   /** The loop that the connections run in. */
   AsioLoop& loop();
 

@@ -81,6 +81,25 @@ TEST_F(MotionDaemonTest, AnswersARepeatedStateAgainWithoutAnotherStep) {
   EXPECT_EQ(states_.size(), 3u);
 }
 
+TEST_F(MotionDaemonTest, ACommandAnswersTheLastStateOfARobotAtRestAgain) {
+  for (int i = 0; i < 20; ++i) tick();
+  for (int i = 0; i < 3; ++i) {
+    next_tick_ += 9;
+    tick();
+  }
+  EXPECT_EQ(commands_.size(), 23u);
+  naolcm::stop_command_t command{};
+  command.source = "test";
+  command.command_id = 1;
+  bus_.publish("NAO_STOP_COMMAND", command);
+  bus_.handle();
+  ASSERT_EQ(commands_.size(), 24u);
+  EXPECT_EQ(commands_[23].tick, commands_[22].tick);
+  EXPECT_TRUE(results_.empty());
+  tick();
+  EXPECT_FALSE(results_.empty());
+}
+
 TEST_F(MotionDaemonTest, PublishesResultsOfCommands) {
   for (int i = 0; i < 20; ++i) tick();
   naolcm::posture_command_t command{};

@@ -24,15 +24,15 @@ TEST(SensorOwner, TakesAnotherWhenTheFirstIsSilent) {
   EXPECT_TRUE(owner.accepts(20'000, 1.31));
 }
 
-TEST(SensorOwner, FollowsAResetWithinFiveStates) {
+TEST(SensorOwner, FollowsAResetWithinTwelveStates) {
   SensorOwner owner;
   EXPECT_TRUE(owner.accepts(500'000'000, 1));
-  for (int i = 0; i < 4; ++i) EXPECT_FALSE(owner.accepts(10'000 * i, 1.01 + 0.01 * i));
+  for (int i = 0; i < 11; ++i) EXPECT_FALSE(owner.accepts(10'000 * i, 1.01 + 0.01 * i));
   EXPECT_TRUE(owner.is_contested(1.2));
   EXPECT_FALSE(owner.is_contested(1.6));
-  EXPECT_TRUE(owner.accepts(40'000, 1.05));
-  EXPECT_FALSE(owner.is_contested(1.05));
-  EXPECT_TRUE(owner.accepts(50'000, 1.06));
+  EXPECT_TRUE(owner.accepts(110'000, 1.12));
+  EXPECT_FALSE(owner.is_contested(1.12));
+  EXPECT_TRUE(owner.accepts(120'000, 1.13));
 }
 
 TEST(SensorOwner, TakesRepeatedAndLostStates) {

@@ -107,6 +107,12 @@ TEST(ChannelFilter, ABusIsNotWokenByOtherChannels) {
   }
   while (num_received < 2) ASSERT_TRUE(receiver.handle_for(2));
   EXPECT_EQ(num_kernel_drops("1EB7") - before, 4);
+  receiver.set_awake("FIRST", false);
+  sender.publish("FIRST", naolcm::stop_command_t());
+  receiver.set_awake("FIRST", true);
+  sender.publish("FIRST", naolcm::stop_command_t());
+  while (num_received < 3) ASSERT_TRUE(receiver.handle_for(2));
+  EXPECT_EQ(num_kernel_drops("1EB7") - before, 5);
   // A pattern lets everything in.
   int num_raw = 0;
   receiver.subscribe_raw(".*", [&](const RawMessage&) { ++num_raw; });

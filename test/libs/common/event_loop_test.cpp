@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <string>
+
+#include "common/wall_clock.h"
 
 namespace nao {
 namespace {
@@ -50,6 +53,34 @@ TEST(EventLoop, AHandlerMayForgetItsOwnDescriptorAndAddAnother) {
   EXPECT_EQ(num_calls, 1);
   close(ends[0]);
   close(ends[1]);
+}
+
+TEST(EventLoop, ChangesThePeriodOfATimer) {
+  EventLoop loop;
+  const int timer = loop.every(1000, [&loop] { loop.stop("timer"); });
+  loop.set_period(timer, 0.001);
+  EXPECT_EQ(loop.run(), "timer");
+}
+
+TEST(EventLoop, CallsAlignedTimersAtMultiplesOfTheirPeriod) {
+  EventLoop loop;
+  loop.every_aligned(0.25, [&loop] { loop.stop("aligned"); });
+  const double before = monotonic_seconds();
+  EXPECT_EQ(loop.run(), "aligned");
+  EXPECT_GE(std::floor(monotonic_seconds() / 0.25), std::floor(before / 0.25) + 1);
+}
+
+TEST(EventLoop, ATimerThatIsRestartedDoesNotCall) {
+  EventLoop loop;
+  bool is_called = false;
+  const int timer = loop.every(0.05, [&] { is_called = true; });
+  int num_calls = 0;
+  loop.every(0.001, [&] {
+    loop.restart(timer);
+    if (++num_calls == 100) loop.stop("enough");
+  });
+  EXPECT_EQ(loop.run(), "enough");
+  EXPECT_TRUE(num_calls == 100 && !is_called);
 }
 
 TEST(EventLoop, CallsATimerOnceForManyMissedPeriods) {

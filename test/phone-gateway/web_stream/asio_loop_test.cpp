@@ -35,6 +35,12 @@ TEST(AsioLoop, CallsTimersAndReadersUntilItIsStopped) {
     });
     EXPECT_EQ(loop.run(), "read");
     EXPECT_GE(num_calls, 3);
+    // A descriptor that is not watched, until a slow timer has become fast.
+    EXPECT_EQ(write(ends[1], "x", 1), 1);
+    loop.set_watched(ends[0], false);
+    const size_t timer = loop.every(1000, [&] { loop.set_watched(ends[0], true); });
+    loop.set_period(timer, 0.001);
+    EXPECT_EQ(loop.run(), "read");
   }
   EXPECT_EQ(close(ends[0]), 0) << "the caller owns the descriptor";
   EXPECT_EQ(close(ends[1]), 0);
