@@ -1,6 +1,6 @@
 #include <fmt/core.h>
 
-#include <array>
+#include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
@@ -12,6 +12,13 @@
 namespace nao {
 namespace {
 
+/** The beginning of a text, at most 300 characters, without line breaks. */
+std::string on_one_line(std::string text) {
+  text = text.substr(0, 300);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 // OpenCV has no common name for its own and its libraries' errors: what a damaged file causes may
 // be any exception.
 class OpenCvNetwork : public PolicyNetwork {
@@ -20,6 +27,8 @@ class OpenCvNetwork : public PolicyNetwork {
       : input_(1, num_observations, CV_32F) {
     // What is wrong with a file goes into the exception, not to the terminal.
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    // Another thread costs a small network more than it saves, and would not be a real-time one.
+    cv::setNumThreads(1);
     net_ = cv::dnn::readNetFromONNX(file.string());
     net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
     net_.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
@@ -82,11 +91,10 @@ std::unique_ptr<PolicyNetwork> load_policy_network(const std::filesystem::path& 
       throw ModelError(fmt::format("{}: has {} inputs, but the manifest lists {} observations",
                                    name, num_inputs, num_observations));
     }
-    throw ModelError(
-        fmt::format("{}: OpenCV {} cannot run it with {} inputs; export it with opset 11 to 13 and "
-                    "the number of "
-                    "inputs that the manifest lists: {}",
-                    name, CV_VERSION, num_observations, error.what()));
+    throw ModelError(fmt::format(
+        "{}: OpenCV {} cannot run it; export fully connected layers with ELU, ReLU, SiLU or Tanh, "
+        "without layer normalization and clamp: {}",
+        name, CV_VERSION, on_one_line(error.what())));
   }
   if (action.size() != static_cast<size_t>(num_actions)) {
     throw ModelError(fmt::format("{}: has {} outputs, but the manifest lists {} joints", name,
