@@ -7,6 +7,7 @@
 #include "daemons/motion/motion_options.h"
 #include "daemons/motion/motion_state.h"
 #include "daemons/motion/robot_state.h"
+#include "daemons/motion/seen_ball.h"
 #include "daemons/motion/sensors.h"
 #include "kinematics/kinematics.h"
 #include "messages/command.h"
@@ -27,6 +28,8 @@ struct MotionContext {
   const Kinematics& kinematics;
   /** Time since the last step, s. */
   double dt;
+  /** nullptr while nao-vision knows none. */
+  const SeenBall* ball = nullptr;
 };
 
 /** One motion in progress: to a posture, a walk, a kick, a get-up motion.
