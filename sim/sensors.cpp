@@ -167,7 +167,9 @@ void Sensors::measure_inertia(const TrueMotion& truth, double period) {
     correction = options_.tilt_gain * weight * (readings_.accelerometer / force).cross(up);
   }
   // The correction and the gyroscope's rate are in the body's axes: multiplied from the right.
-  estimate = (estimate * rotation_of((readings_.gyroscope + correction) * period)).normalized();
+  // A unit knows its gyroscope's constant offset from when it was switched on, at rest.
+  const Vector3d rate = readings_.gyroscope - options_.errors.gyroscope_offset;
+  estimate = (estimate * rotation_of((rate + correction) * period)).normalized();
 }
 
 void Sensors::measure_feet(const TrueMotion& truth) {

@@ -155,6 +155,12 @@ Command to_command(const naolcm::stop_command_t& message) {
   return command;
 }
 
+std::optional<SeenBall> to_seen_ball(const naolcm::vision_state_t& message) {
+  if (message.has_ball == 0) return std::nullopt;
+  require_finite(message.ball_position_in_odometry, 2, "position of the ball");
+  return SeenBall{message.ball_utime, Eigen::Vector2d(message.ball_position_in_odometry)};
+}
+
 TaughtChange to_taught(const RobotModel& model, const naolcm::keyframe_motion_t& message) {
   if (!is_motion_name(message.name))
     throw MessageError(quoted(message.name) + " is not a valid motion name");

@@ -11,7 +11,9 @@
 #include <naolcm/robot_state_t.hpp>
 #include <naolcm/sensor_state_t.hpp>
 #include <naolcm/stop_command_t.hpp>
+#include <naolcm/vision_state_t.hpp>
 #include <naolcm/walk_command_t.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +43,10 @@ Command to_command(const naolcm::stop_command_t& message);
 
 /** @throws MessageError  if it is not a motion of this robot: it must not reach the core. */
 TaughtChange to_taught(const RobotModel& model, const naolcm::keyframe_motion_t& message);
+
+/** @return Nothing if nao-vision knows no ball. @throws MessageError  if its position is not
+ * finite. */
+std::optional<SeenBall> to_seen_ball(const naolcm::vision_state_t& message);
 
 /** @param names  Names of all motors' joints, in motor order. */
 naolcm::joint_command_t to_message(const JointTargets& targets, const RobotState& state,

@@ -53,6 +53,7 @@ Output MotionCore::step(const Input& input, double dt) {
   } else {
     wait_for_sensors(dt);
   }
+  ball_ = input.ball;
   for (const TaughtChange& change : input.taught) factory_.set_taught(change.name, change.script);
   // Commands are received even without a robot, and refused with the reason "no-robot".
   receive(input.commands);
@@ -218,7 +219,13 @@ void MotionCore::balance(double dt) {
 }
 
 MotionContext MotionCore::context(double dt) const {
-  return {*model_, options_, presence_.sensors(), estimator_.state(), estimator_.kinematics(), dt};
+  return {*model_,
+          options_,
+          presence_.sensors(),
+          estimator_.state(),
+          estimator_.kinematics(),
+          dt,
+          ball_ ? &*ball_ : nullptr};
 }
 
 Mode MotionCore::mode() const {

@@ -18,6 +18,7 @@
 #include "daemons/motion/motion_state.h"
 #include "daemons/motion/robot_presence.h"
 #include "daemons/motion/robot_state.h"
+#include "daemons/motion/seen_ball.h"
 #include "daemons/motion/sensor_correction.h"
 #include "daemons/motion/sensors.h"
 #include "daemons/motion/standing_balance.h"
@@ -40,6 +41,8 @@ struct Input {
   /** In the order in which they arrived. */
   std::vector<Command> commands;
   std::vector<TaughtChange> taught{};
+  /** Nothing while nao-vision knows none; one that was seen long ago tells nothing. */
+  std::optional<SeenBall> ball{};
 };
 
 /** Output of one control step. */
@@ -115,6 +118,7 @@ class MotionCore {
   DeadFootSensors dead_foot_sensors_;
   /** Sensors of this step. */
   Sensors corrected_;
+  std::optional<SeenBall> ball_;
   RobotPresence presence_;
   StateEstimator estimator_;
   JointChangeGuard guard_;

@@ -61,6 +61,9 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
         }
         taught_.push_back(to_taught(model_, message));
       });
+  bus_.subscribe<naolcm::vision_state_t>(
+      channels_.vision_state, Bus::Queue::kLatest,
+      [this](const naolcm::vision_state_t& message) { ball_ = to_seen_ball(message); });
   // The latest sensor state only: an older one would be answered with targets for the past.
   bus_.subscribe<naolcm::sensor_state_t>(
       channels_.sensor_state, Bus::Queue::kLatest,
@@ -153,6 +156,7 @@ void MotionDaemon::step(std::optional<Sensors> sensors, double dt) {
   input.sensors = std::move(sensors);
   input.commands = std::exchange(commands_, {});
   input.taught = std::exchange(taught_, {});
+  input.ball = ball_;
   const Output output = core_.step(input, dt);
   publish(output);
   // Results are sent again, since the bus may lose messages.

@@ -58,6 +58,8 @@ class MotionDaemon {
   /** Commands for the next step. */
   std::vector<Command> commands_;
   std::vector<TaughtChange> taught_;
+  /** The newest one that nao-vision knew. */
+  std::optional<SeenBall> ball_;
   int64_t num_steps_ = 0;
   int64_t num_missed_ticks_ = 0;
   /** Time of the last sensor state, microseconds, its control period, and the robot time since the

@@ -42,6 +42,10 @@ struct RobotState {
   Eigen::Isometry3d left_sole_in_odometry = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d right_sole_in_odometry = Eigen::Isometry3d::Identity();
 
+  /** Angle between the directions of up by the robot's own roll and pitch and by accelerometer and
+   * gyroscope, rad, if it has been too great for too long (OrientationCheck); else 0. */
+  double orientation_doubt = 0;
+
   /** Time for which torso and joints have not moved, s. */
   double rest_time = 0;
 

@@ -57,6 +57,7 @@ inline constexpr auto kReasons = std::to_array<ReasonEntry>({
     {"not-walking", "", "The robot does not walk."},
     {"legs-too-soft", "stiffness in percent, limit in percent", "The legs are too soft to walk: their stiffness is {0} %, more than {1} % is needed."},
     {"not-upright", "", "The robot does not stand upright."},
+    {"orientation-doubtful", "degrees", "Roll and pitch differ by {0} degrees from accelerometer and gyroscope: the robot does not walk; check its inertial unit."},
     {"no-foot-contact", "", "No foot carries weight; put the robot on the ground."},
     {"balance-lost", "", "The robot lost its balance."},
     {"robot-lifted", "", "The robot was lifted off the ground."},
@@ -68,7 +69,9 @@ inline constexpr auto kReasons = std::to_array<ReasonEntry>({
     // Kicks and other actions.
     {"no-kick", "robot", "The robot {0} has no kick."},
     {"ball-out-of-reach", "least x, greatest x, least y, greatest y", "The ball is out of reach: it must be {0} to {1} m ahead and {2} to {3} m to the left."},
-    {"kick-missed", "", "The ball could not be reached in time."},
+    {"kick-missed", "", "The kick did not move the ball."},
+    {"kick-direction", "degrees", "The ball went {0} degrees beside the kick's direction, to the left if above 0."},
+    {"kick-unobserved", "", "Nothing tells whether the kick moved the ball."},
     {"walk-ended-before-kick", "", "The walk ended before the kick."},
     {"action-without-motion", "action", "The robot has no motion for the action {0}."},
     {"action-needs-state", "action, needed state, present state", "The action {0} starts from {1}; the robot is in the state {2}."},

@@ -164,8 +164,10 @@ void ClosedLoop::step_core() {
   } else if (!is_core_crashed_) {
     motion::Input input;
     input.sensors = to_core(world_->sensors(robot_), world_->targets(robot_), period());
+    if (fault_) fault_(*input.sensors);
     input.commands = std::exchange(commands_, {});
     input.taught = std::exchange(taught_, {});
+    input.ball = ball_;
     const double begin = clock_ != nullptr ? clock_() : 0;
     const double dt = (1 + std::exchange(missed_ticks_, 0)) * period();
     const motion::Output output = core_->step(input, dt);

@@ -106,6 +106,11 @@ class ClosedLoop {
   const std::vector<CommandResult>& results() const { return results_; }
   /** Returns the same results and clears them. */
   std::vector<CommandResult> take_results() { return std::exchange(results_, {}); }
+  /** The ball that the core knows from the next tick on; nothing: none. */
+  void set_ball(std::optional<motion::SeenBall> ball) { ball_ = ball; }
+  /** Called with what the core receives of the sensors, in every tick from the next one on: a
+   * fault. */
+  void on_sensors(std::function<void(motion::Sensors&)> fault) { fault_ = std::move(fault); }
   /** Last targets of the core. */
   const std::vector<double>& targets() const { return targets_; }
   /** State as the core estimated it last. */
@@ -142,6 +147,7 @@ class ClosedLoop {
   bool is_core_crashed_ = false;
   std::vector<Command> commands_;
   std::vector<motion::TaughtChange> taught_;
+  std::optional<motion::SeenBall> ball_;
   std::optional<Command> walk_;
   int ticks_since_walk_ = 0;
   int ticks_to_miss_ = 0;
@@ -152,6 +158,7 @@ class ClosedLoop {
   std::pair<int64_t, ResultStatus> last_walk_result_{0, ResultStatus::kAccepted};
   std::vector<double> targets_;
   motion::RobotState estimate_;
+  std::function<void(motion::Sensors&)> fault_;
   std::function<void()> on_tick_;
   double (*clock_)() = nullptr;
   std::vector<double>* step_times_ = nullptr;

@@ -4,7 +4,8 @@
 
 namespace nao::trial {
 
-/** Kicks a ball that lies about where the kick has it best; odd seeds with the left foot. */
+/** Kicks a ball; odd seeds with the left foot. With half of the seeds the robot sees the ball, with
+ * every fifth one the ball lies beside the kick, which the result of the command must tell. */
 class KickScenario : public Scenario {
  public:
   const char* name() const override { return "kick"; }
@@ -12,7 +13,11 @@ class KickScenario : public Scenario {
     return "Kick a ball that lies before the left or right foot";
   }
   std::map<std::string, std::string> units() const override {
-    return {{"ball_m", "m"}, {"direction_error_deg", "degrees"}, {"ball_speed_mps", "m/s"}};
+    return {{"ball_m", "m"},
+            {"direction_error_deg", "degrees"},
+            {"ball_speed_mps", "m/s"},
+            {"told_direction_error_deg", "degrees"},
+            {"missed_reported_done", "1"}};
   }
   const char* scene() const override { return "soccer"; }
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;

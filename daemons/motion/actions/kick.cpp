@@ -15,7 +15,7 @@ Eigen::Vector2d pair_of(const YamlEntry& entry) {
 Kick Kick::load(const std::filesystem::path& file) {
   const YamlEntry root = YamlEntry::load(file);
   root.allow_only({"ball", "ball_reach", "ball_contact", "strike_duration", "strength",
-                   "balance_gain", "zmp_reach", "phases"});
+                   "balance_gain", "zmp_reach", "phases", "impact"});
   Kick kick;
   kick.ball = pair_of(root.at("ball"));
   kick.ball_reach = pair_of(root.at("ball_reach"));
@@ -40,6 +40,7 @@ Kick Kick::load(const std::filesystem::path& file) {
     phase.pitch = item.at("pitch").number();
     kick.phases.push_back(phase);
   }
+  if (root.has("impact")) kick.impact = KickImpact::read(root.at("impact"));
   if (kick.phases.empty()) root.at("phases").fail("must not be empty");
   return kick;
 }

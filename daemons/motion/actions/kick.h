@@ -3,8 +3,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "daemons/motion/actions/kick_impact.h"
 
 namespace nao::motion {
 
@@ -31,6 +34,7 @@ struct Kick {
   double balance_gain = 0;
   Eigen::Vector2d zmp_reach = Eigen::Vector2d::Zero();
   std::vector<Phase> phases;
+  std::optional<KickImpact> impact;
 
   /** @throws ModelError  naming the line and what is wrong with it. */
   static Kick load(const std::filesystem::path& file);

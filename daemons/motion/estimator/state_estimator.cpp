@@ -59,6 +59,7 @@ void StateEstimator::reset() {
   rest_time_ = 0;
   torso_velocity_in_odometry_.setZero();
   state_ = RobotState();
+  orientation_check_.reset();
 }
 
 void StateEstimator::update(const Sensors& sensors, double dt) {
@@ -92,10 +93,13 @@ void StateEstimator::detect_rest(const Sensors& sensors, double dt) {
 }
 
 void StateEstimator::estimate_orientation(const Sensors& sensors, double dt) {
-  // Simulators and robots give an orientation; only its first value is taken, as a start.
+  // Simulators and robots give an orientation; its first value is taken as a start, the later ones
+  // are compared.
   if (!is_started_) orientation_.reset(sensors.orientation_torso_in_world);
   orientation_.update(sensors.gyroscope_torso, sensors.accelerometer_torso,
                       rest_time_ > kSettlingTime, dt);
+  orientation_check_.update(sensors.orientation_torso_in_world, orientation_.orientation(), dt);
+  state_.orientation_doubt = orientation_check_.doubt();
   state_.torso_in_odometry.linear() = orientation_.orientation().toRotationMatrix();
   state_.angular_velocity_torso = orientation_.angular_velocity();
 }

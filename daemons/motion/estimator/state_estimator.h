@@ -5,6 +5,7 @@
 
 #include "daemons/motion/estimator/body_outline.h"
 #include "daemons/motion/estimator/ground_reaction.h"
+#include "daemons/motion/estimator/orientation_check.h"
 #include "daemons/motion/estimator/orientation_filter.h"
 #include "daemons/motion/robot_state.h"
 #include "daemons/motion/sensors.h"
@@ -68,6 +69,7 @@ class StateEstimator {
   Kinematics kinematics_;
   BodyOutline outline_;
   OrientationFilter orientation_;
+  OrientationCheck orientation_check_;
   RobotState state_;
   bool is_started_ = false;
   double rest_time_ = 0;

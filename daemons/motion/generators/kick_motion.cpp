@@ -44,11 +44,15 @@ KickMotion::KickMotion(const RobotModel& model, const Kick& kick, const Gait& ga
       gait_(&gait),
       stand_up_(std::move(stand_up)),
       is_left_(is_left),
-      trajectory_(kick, is_left, ball,
-                  std::clamp(std::isnan(strength) ? kick.strength : strength, 0.0, 1.0)),
+      ball_(ball),
+      strength_(std::clamp(std::isnan(strength) ? kick.strength : strength, 0.0, 1.0)),
+      trajectory_(kick, is_left, ball, strength_),
       pose_(model, is_left),
       feedforward_(model),
-      kinematics_(model) {}
+      kinematics_(model),
+      // The foot's signals are those of one strength.
+      watch_(kick.impact && strength_ == kick.strength ? &*kick.impact : nullptr, pose_.legs(),
+             is_left) {}
 
 void KickMotion::start(const MotionContext& context, const JointTargets& targets) {
   // From any other posture the robot stands up first, and the kick begins from there.
@@ -60,8 +64,16 @@ void KickMotion::start(const MotionContext& context, const JointTargets& targets
   }
 }
 
+Vector2d KickMotion::choose_ball(const MotionContext& context) const {
+  if (!std::isnan(ball_.x()) || !std::isnan(ball_.y())) return ball_;
+  const std::optional<Vector2d> seen = KickWatch::find_ball(context);
+  return seen && !find_obstacle(*kick_, is_left_, *seen) ? *seen : ball_;
+}
+
 void KickMotion::start_kick(const MotionContext& context, const JointTargets& targets) {
   time_ = 0;
+  trajectory_ = KickTrajectory(*kick_, is_left_, choose_ball(context), strength_);
+  watch_.start(context, trajectory_.strike_end());
   kinematics_.update(targets.position);
   trajectory_.start_from(pose_.start(kinematics_));
   last_planned_com_ = trajectory_.at(0).com;
@@ -90,7 +102,11 @@ MotionGenerator::Phase KickMotion::step(const MotionContext& context, JointTarge
   }
   time_ += context.dt;
   follow(context, trajectory_.at(time_), targets);
-  return time_ < trajectory_.duration() ? Phase::kRunning : Phase::kDone;
+  watch_.step(context, time_);
+  if (time_ < trajectory_.duration()) return Phase::kRunning;
+  const KickWatch::Verdict verdict = watch_.judge();
+  reason_ = verdict.reason;
+  return verdict.is_missed ? Phase::kFailed : Phase::kDone;
 }
 
 void KickMotion::follow(const MotionContext& context, const KickReference& planned,

@@ -9,6 +9,7 @@
 #include "daemons/motion/estimator/gyroscope_filter.h"
 #include "daemons/motion/generators/kick_pose.h"
 #include "daemons/motion/generators/kick_trajectory.h"
+#include "daemons/motion/generators/kick_watch.h"
 #include "daemons/motion/generators/motion_generator.h"
 #include "daemons/motion/walk/gait.h"
 #include "daemons/motion/walk/servo_feedforward.h"
@@ -28,8 +29,9 @@ class KickMotion : public MotionGenerator {
   /** @param kick, gait    Must outlive this; the kick uses the gait's gains at the ankles.
    * @param stand_up      Motion to the stand that a kick begins in, used if the robot does not
    *                      stand.
-   * @param ball          On the ground, seen from the middle between the soles, m; NaN: where the
-   *                      kick has it best. @param strength  0..1; NaN: as the kick says. */
+   * @param ball          On the ground, seen from the middle between the soles, m; NaN: where
+   *                      nao-vision sees it within the kick's reach, else where the kick has it
+   * best. @param strength  0..1; NaN: as the kick says. */
   KickMotion(const RobotModel& model, const Kick& kick, const Gait& gait,
              std::unique_ptr<MotionGenerator> stand_up, bool is_left, const Eigen::Vector2d& ball,
              double strength);
@@ -47,6 +49,8 @@ class KickMotion : public MotionGenerator {
   Reason reason() const override { return reason_; }
 
  private:
+  /** Where the foot must meet the ball: as commanded, else as seen. */
+  Eigen::Vector2d choose_ball(const MotionContext& context) const;
   void start_kick(const MotionContext& context, const JointTargets& targets);
   /** S in the odometry frame. */
   Pose2 support_in_odometry(const RobotState& state) const;
@@ -70,10 +74,14 @@ class KickMotion : public MotionGenerator {
   bool is_standing_up_ = false;
   bool is_finishing_ = false;
   bool is_left_;
+  Eigen::Vector2d ball_;
+  /** 0..1. */
+  double strength_;
   KickTrajectory trajectory_;
   KickPose pose_;
   ServoFeedforward feedforward_;
   Kinematics kinematics_;
+  KickWatch watch_;
 
   /** Time since the start of the kick, s. */
   double time_ = 0;

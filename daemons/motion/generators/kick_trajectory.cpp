@@ -73,6 +73,15 @@ void KickTrajectory::start_from(const KickReference& stand) {
   find_impact();
 }
 
+double KickTrajectory::strike_end() const {
+  double end = 0;
+  for (const Segment& segment : segments_) {
+    end += segment.duration;
+    if (segment.is_strike) break;
+  }
+  return end;
+}
+
 void KickTrajectory::find_impact() {
   // x of the kicking foot in S when it meets the ball: the ball is given from the midpoint of the
   // feet, and is met ball_contact ahead of the sole's frame.

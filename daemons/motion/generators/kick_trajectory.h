@@ -56,6 +56,8 @@ class KickTrajectory {
   const KickReference& impact() const { return impact_; }
   /** s. */
   double duration() const { return duration_; }
+  /** Time at which the strike ends, s since the start. */
+  double strike_end() const;
 
  private:
   struct Segment {

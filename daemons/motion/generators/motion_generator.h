@@ -8,6 +8,7 @@
 #include "daemons/motion/motion_state.h"
 #include "daemons/motion/policy_record.h"
 #include "daemons/motion/robot_state.h"
+#include "daemons/motion/seen_ball.h"
 #include "daemons/motion/sensors.h"
 #include "kinematics/kinematics.h"
 #include "messages/command.h"
@@ -28,6 +29,8 @@ struct MotionContext {
   const Kinematics& kinematics;
   /** Time since the last step, s. */
   double dt;
+  /** nullptr while nao-vision knows none. */
+  const SeenBall* ball = nullptr;
 };
 
 /** One motion in progress: to a posture, a walk, a kick, a get-up motion.

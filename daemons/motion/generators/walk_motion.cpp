@@ -53,9 +53,16 @@ std::optional<Reason> find_soft_leg(const LegKinematics& legs,
   return std::nullopt;
 }
 
+std::optional<Reason> find_orientation_doubt(const RobotState& state) {
+  if (state.orientation_doubt == 0) return std::nullopt;
+  return Reason("orientation-doubtful",
+                {std::to_string(std::lround(state.orientation_doubt / kDegree))});
+}
+
 std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
                                          const std::vector<double>& stiffness) {
   if (auto soft = find_soft_leg(legs, stiffness)) return soft;
+  if (auto doubt = find_orientation_doubt(state)) return doubt;
   // (2, 2) is the cosine of the torso's tilt.
   if (state.torso_in_odometry.linear()(2, 2) < std::cos(kFallingTilt)) {
     return Reason("not-upright");
@@ -126,10 +133,12 @@ MotionGenerator::Phase WalkingMotion::step(const MotionContext& context, JointTa
     reason_ = *trouble;
     return Phase::kFailed;
   }
-  if (const auto soft = find_soft_leg(engine_.legs(), targets.stiffness)) {
-    reason_ = *soft;
-    // Soft legs do not carry a step: within a step the walk is ended by a step that brings the
-    // robot to rest, otherwise it ends at once.
+  auto obstacle = find_soft_leg(engine_.legs(), targets.stiffness);
+  if (!obstacle) obstacle = find_orientation_doubt(context.state);
+  if (obstacle) {
+    reason_ = *obstacle;
+    // Soft legs do not carry a step, and a wrong orientation does not balance one: within a step
+    // the walk is ended by a step that brings the robot to rest, otherwise it ends at once.
     if (engine_.stage() != WalkEngine::Stage::kStepping) return Phase::kFailed;
     engine_.end();
   } else if (!is_finishing_) {

@@ -19,6 +19,9 @@ inline constexpr double kCommandLifetime = 0.5;
 std::optional<Reason> find_soft_leg(const LegKinematics& legs,
                                     const std::vector<double>& stiffness);
 
+/** Why a robot whose roll and pitch are doubtful must not walk; nothing if they are not. */
+std::optional<Reason> find_orientation_doubt(const RobotState& state);
+
 /** Why the robot must not start to walk; nothing if it may.
  * @param stiffness  Stiffness of all motors, motor order. */
 std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,

@@ -66,6 +66,64 @@ TEST(Kick, SendsTheBallMetresAndLeavesTheRobotStanding) {
   }
 }
 
+/** Kicks with the left foot. @param ball  From the best place, m. @param is_seen  The robot knows
+ * where the ball is.
+ * @param way  Receives the ball's displacement, m. */
+CommandResult kick_at(uint64_t seed, const Eigen::Vector2d& ball, bool is_seen,
+                      Eigen::Vector2d& way) {
+  ClosedLoop trial = make_kick_trial(seed);
+  const auto middle = [&] {
+    const auto sole = [&](int link) {
+      return Eigen::Vector3d(trial.world().robot(0).link_pose(link).translation());
+    };
+    return Eigen::Vector3d(0.5 *
+                           (sole(trial.model().left_sole()) + sole(trial.model().right_sole())));
+  }();
+  trial.world().place_ball({middle.x() + 0.18 + ball.x(), middle.y() + 0.05 + ball.y(), 0},
+                           Eigen::Vector3d::Zero());
+  if (is_seen) {
+    trial.on_tick([&] {
+      const Eigen::Vector3d seen = trial.estimate().torso_in_odometry *
+                                   trial.torso_in_world().inverse() * trial.world().ball().position;
+      trial.set_ball(motion::SeenBall{trial.estimate().utime, seen.head<2>()});
+    });
+  }
+  trial.run(0.5);
+  const Eigen::Vector3d start = trial.world().ball().position;
+  const auto end =
+      trial.await_end(trial.send({"", 0, ActionCommand{"kick-left", kNan, kNan, kNan}}), 10);
+  trial.run(4);
+  way = (trial.world().ball().position - start).head<2>();
+  return end.value_or(CommandResult{});
+}
+
+TEST(Kick, TellsABallThatItMissed) {
+  for (const bool is_seen : {true, false}) {
+    for (const Eigen::Vector2d& beside : {Eigen::Vector2d(0, 0.2), Eigen::Vector2d(0.25, 0)}) {
+      Eigen::Vector2d way;
+      const CommandResult end = kick_at(4, beside, is_seen, way);
+      EXPECT_LT(way.norm(), 0.05);
+      EXPECT_EQ(end.status, ResultStatus::kFailed) << is_seen << " " << beside.transpose();
+      EXPECT_EQ(end.reason, Reason("kick-missed"));
+    }
+  }
+}
+
+TEST(Kick, PlacesTheFootWhereTheBallIsSeenAndTellsItsDirection) {
+  Eigen::Vector2d way;
+  const CommandResult end = kick_at(4, {0.03, 0.02}, true, way);
+  EXPECT_EQ(end.status, ResultStatus::kDone);
+  EXPECT_GT(way.x(), 2.5);
+  const double direction = std::atan2(way.y(), way.x()) * 180 / M_PI;
+  EXPECT_LT(std::abs(direction), 4);
+  ASSERT_EQ(end.reason.code, "kick-direction");
+  EXPECT_NEAR(std::stod(end.reason.arguments.at(0)), direction, 2);
+  // Without sight the foot goes to the usual place, and meets the ball beside its middle.
+  Eigen::Vector2d unseen;
+  kick_at(4, {0.03, 0.02}, false, unseen);
+  EXPECT_GT(std::abs(std::atan2(unseen.y(), unseen.x())) * 180 / M_PI, std::abs(direction));
+}
+
 TEST(Kick, SendsTheBallWhereTheRobotLooked) {
   for (const bool is_left : {true, false}) {
     for (const double offset : {-0.01, 0.01}) {
@@ -138,7 +196,8 @@ TEST(Kick, AStrongOneEndsTheWalkFirst) {
   const int64_t id = trial.send({"", 0, ActionCommand{"kick-left", kNan, kNan, 1.0}});
   const auto end = trial.await_end(id, 10);
   ASSERT_TRUE(end);
-  EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+  // It stood and kicked, where no ball lies.
+  EXPECT_EQ(end->reason, Reason("kick-missed"));
   EXPECT_EQ(trial.core().motion_state().posture, "StandInit");
 }
 
