@@ -267,7 +267,7 @@ naolcm::policy_state_t to_message(const PolicyRecord& record, int64_t utime) {
   message.joint_names = record.joint_names;
   message.action = record.action;
   message.action.resize(record.joint_names.size());
-  message.wall_inference_time = record.wall_inference_time;
+  message.inference_time = record.inference_time;
   return message;
 }
 

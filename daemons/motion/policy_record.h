@@ -11,8 +11,8 @@ struct PolicyRecord {
   std::vector<float> observation;
   std::vector<std::string> joint_names;
   std::vector<float> action;
-  /** Wall time, s. */
-  double wall_inference_time = 0;
+  /** Processor time, s. */
+  double inference_time = 0;
 };
 
 }  // namespace nao::motion

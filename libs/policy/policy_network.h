@@ -11,8 +11,8 @@ class PolicyNetwork {
  public:
   virtual ~PolicyNetwork() = default;
 
-  /** @param action  Receives the outputs; they may be not finite. @return Wall time that it took,
-   * s. */
+  /** @param action  Receives the outputs; they may be not finite.
+   * @return Processor time that it took, s. */
   virtual double run(const std::vector<float>& observation, std::vector<float>& action) = 0;
 };
 

@@ -13,9 +13,9 @@ namespace {
 constexpr int kMaxFastSteps = 5;
 // Distance of a target from the default angle, rad, beyond which the output is no angle: a turn.
 constexpr double kMaxDistance = 2 * M_PI;
-// Wall time of an inference after which the policy ends at once, s, and inferences one after the
-// other that may take longer than a step. Chosen: a walking robot that holds its targets for longer
-// falls; single late ones happen on a busy machine.
+// Processor time of an inference after which the policy ends at once, s, and inferences one after
+// the other that may take longer than a step. Chosen: a walking robot that holds its targets for
+// longer falls.
 constexpr double kMaxInferenceTime = 0.1;
 constexpr int kMaxSlowInferences = 3;
 // A sum of control periods may be this much below the policy's period by rounding, s.

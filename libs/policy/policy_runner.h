@@ -31,7 +31,7 @@ class PolicyRunner {
   const std::vector<double>& targets() const { return targets_; }
   const std::vector<float>& observation() const { return observation_; }
   const std::vector<float>& action() const { return action_; }
-  /** Wall time of the last inference, s. */
+  /** Processor time of the last inference, s. */
   double inference_time() const { return inference_time_; }
   /** Steps of the policy since start(). */
   int64_t num_steps() const { return num_steps_; }

@@ -208,7 +208,7 @@ bool PolicyMotion::is_over(const MotionContext& context) {
 void PolicyMotion::record() {
   record_.observation = runner_.observation();
   record_.action = runner_.action();
-  record_.wall_inference_time = runner_.inference_time();
+  record_.inference_time = runner_.inference_time();
   has_record_ = true;
 }
 

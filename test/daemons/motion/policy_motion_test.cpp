@@ -214,6 +214,30 @@ TEST_F(PolicyMotionTest, AnUnknownWalkPolicyNamesTheKnownOnes) {
   }
 }
 
+// A file in the format of other people's trainers, described by its manifest alone.
+TEST(PolicyExample, WalksTheT1) {
+  ClosedLoopOptions options;
+  const std::filesystem::path data = NAO_TEST_DATA;
+  options.model = std::make_shared<const RobotModel>(RobotModel::load(data / "robots" / "t1"));
+  options.scene = SceneFile::load(data / "scenes" / "empty.yaml");
+  options.disturbances = std::make_shared<const sim::DisturbanceSet>(
+      sim::DisturbanceSet::load(data / "disturbances" / "default.yaml"));
+  options.motion.walk_policy = "imitated-walk";
+  for (const uint64_t seed : {3001, 3002}) {
+    ClosedLoop loop(options, seed);
+    loop.run(1);
+    const int64_t id = loop.hold_walk({0.3, 0, 0});
+    loop.run(8);
+    EXPECT_EQ(loop.core().motion_state().mode, Mode::kWalking);
+    loop.release_walk();
+    const auto end = loop.await_end(id, 10);
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
+    EXPECT_GT(loop.torso_in_world().translation().x(), 1.2);
+    EXPECT_LT(loop.torso_tilt(), 0.15);
+  }
+}
+
 TEST(PolicyRecordTest, HasWhatTheNetworkSawAndDid) {
   PolicyRobot robot("nao");
   robot.add("nod", kWalk, "  - {name: HeadPitch, scale: 0.1, stiffness: 20}\n", 4,

@@ -84,6 +84,18 @@ class Worlds(unittest.TestCase):
         state = world.step(100, joint_targets=world.state.joint_target, stiffness=[0.0] * len(world.description.joints), truth=True)
         self.assertLess(state.truth.torso_position[2], 0.3)
 
+    def test_joint_targets_may_have_gains_of_their_own(self):
+        world = self.simulate(disturbances="none")
+        count = len(world.description.joints)
+        yaw = list(world.description.joints).index("HeadYaw")
+        # Without stiffness the servo does not turn the head; meanwhile the motion core says where it would hold it.
+        state = world.step(50, joint_targets={"HeadYaw": 0.5}, gains=([0.0 if k == yaw else 100.0 for k in range(count)], [1.0] * count))
+        self.assertAlmostEqual(state.joint_position[yaw], 0, delta=0.05)
+        self.assertAlmostEqual(state.joint_target[yaw], 0.5)
+        self.assertAlmostEqual(state.motion_target[yaw], 0, delta=0.01)
+        with self.assertRaises(nao_remote.SimulationError):
+            world.step(1, joint_targets={"HeadYaw": 0.5}, gains=([-1.0] * count, [1.0] * count))
+
     def test_what_is_refused_is_said_and_changes_nothing(self):
         world = self.simulate()
         before = world.state
