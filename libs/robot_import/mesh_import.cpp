@@ -4,13 +4,17 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
+#include <cstring>
+#include <functional>
 
 #include "common/error.h"
 #include "common/rotation.h"
+#include "robot_import/limited_process.h"
 
 namespace nao {
 namespace {
@@ -28,7 +32,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
       file.string(), aiProcess_Triangulate | aiProcess_GenNormals | aiProcess_PreTransformVertices |
                          aiProcess_JoinIdenticalVertices);
   if (scene == nullptr || scene->mNumMeshes == 0) {
-    throw ModelError(file.string() + ": is not a mesh: " + importer.GetErrorString());
+    throw ModelError(std::string("is not a mesh: ") + importer.GetErrorString());
   }
   // Collada files name their upward axis. assimp turns it to y; a link's is z.
   std::string ending = file.extension().string();
@@ -48,37 +52,56 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
                          static_cast<ai_real>(point.y * scale.y()),
                          static_cast<ai_real>(point.z * scale.z()));
       if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
-        throw ModelError(file.string() + ": has a corner that is not finite");
+        throw ModelError("has a corner that is not finite");
       }
     }
   }
   return *scene;
 }
 
+/** Runs a use of a foreign file in a process of its own. @throws ModelError  naming the file. */
+std::string run_with(const std::filesystem::path& file, const std::function<std::string()>& use) {
+  try {
+    return run_limited(use, ProcessLimits());
+  } catch (const ModelError& error) {
+    throw ModelError(file.string() + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> read_mesh_points(const std::filesystem::path& file,
                                               const Eigen::Vector3d& scale) {
-  Assimp::Importer importer;
-  const aiScene& scene = read_scene(importer, file, scale);
-  std::vector<Eigen::Vector3d> points;
-  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-    const aiMesh& mesh = *scene.mMeshes[i];
-    for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
-      points.emplace_back(mesh.mVertices[k].x, mesh.mVertices[k].y, mesh.mVertices[k].z);
+  const std::string bytes = run_with(file, [&] {
+    Assimp::Importer importer;
+    const aiScene& scene = read_scene(importer, file, scale);
+    std::string text;
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+      const aiMesh& mesh = *scene.mMeshes[i];
+      for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
+        const aiVector3D& corner = mesh.mVertices[k];
+        const std::array<double, 3> point = {corner.x, corner.y, corner.z};
+        text.append(reinterpret_cast<const char*>(point.data()), sizeof point);
+      }
     }
-  }
+    return text;
+  });
+  std::vector<Eigen::Vector3d> points(bytes.size() / sizeof(Eigen::Vector3d));
+  if (!points.empty()) std::memcpy(points.front().data(), bytes.data(), bytes.size());
   return points;
 }
 
 void convert_mesh(const std::filesystem::path& source, const Eigen::Vector3d& scale,
                   const std::filesystem::path& target) {
-  Assimp::Importer importer;
-  const aiScene& scene = read_scene(importer, source, scale);
-  Assimp::Exporter exporter;
-  if (exporter.Export(&scene, "glb2", target.string()) != AI_SUCCESS) {
-    throw ModelError(target.string() + ": cannot be written: " + exporter.GetErrorString());
-  }
+  run_with(source, [&] {
+    Assimp::Importer importer;
+    const aiScene& scene = read_scene(importer, source, scale);
+    Assimp::Exporter exporter;
+    if (exporter.Export(&scene, "glb2", target.string()) != AI_SUCCESS) {
+      throw ModelError(target.string() + " cannot be written: " + exporter.GetErrorString());
+    }
+    return std::string();
+  });
 }
 
 // The axis-aligned bounding box in the mesh's own frame, or a capsule along its longest axis where

@@ -125,6 +125,10 @@ class Check {
   void check_walking() {
     try {
       const LegKinematics legs(model_);
+      if (legs.roles(Leg::kLeft).ankle_pitch < 0) {
+        add("standing", "", "no joint pitches the feet: point feet, or feet fixed to the shank",
+            "only steps could keep its balance, which the walk does not begin with");
+      }
     } catch (const ModelError& error) {
       add("walking", "", error.what(), "walking needs such legs");
     }

@@ -71,7 +71,8 @@ def main():
     parser.add_argument("--output", type=Path, help="folder of the imported robots, which stays")
     parser.add_argument("--bin", type=Path, default=BIN_DIR)
     options = parser.parse_args()
-    names = options.robots.split(",") if options.robots else sorted(p.parent.name for p in options.folder.glob("*/robot.urdf"))
+    found = sorted(urdf.parent.name for urdf in options.folder.glob("*/robot.urdf"))
+    names = options.robots.split(",") if options.robots else found
     with tempfile.TemporaryDirectory() as temporary:
         data = options.output or Path(temporary)
         robots = data / "robots"

@@ -60,6 +60,19 @@ TEST(RobotImport, ListsWhatIsMissing) {
   EXPECT_THAT(lines, testing::Not(testing::Contains(testing::HasSubstr("standing:"))));
 }
 
+TEST(RobotImport, TellsWhyARobotWithoutAnklesDoesNotStand) {
+  const TemporaryFolder folder;
+  TestBiped dimensions;
+  dimensions.hip = "xy";
+  dimensions.ankle = "";
+  import(folder.path(), dimensions);
+  std::vector<std::string> lines;
+  for (const Finding& finding : check_robot(folder.path() / "biped")) {
+    lines.push_back(to_line(finding));
+  }
+  EXPECT_THAT(lines, testing::Contains(testing::HasSubstr("no joint pitches the feet")));
+}
+
 /** The ten humanoids, each without and with foot force sensors. */
 std::vector<TestBiped> humanoids() {
   std::mt19937 random(kHumanoidsSeed);

@@ -124,7 +124,6 @@ TEST_F(ImportedStructure, HasALevelSoleWhereTheFootIsNotLevelAtTheAnglesZero) {
   EXPECT_TRUE(stands(model));
 }
 
-// Legs of five joints have no inverse kinematics yet.
 TEST_F(ImportedStructure, StandsWithKneesBentOnLegsOfFiveJoints) {
   for (const std::string side : {"left", "right"}) {
     replace("name=\"" + side + "_ankle_roll\"", "type=\"revolute\"", "type=\"fixed\"");

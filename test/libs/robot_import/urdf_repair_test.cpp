@@ -64,6 +64,14 @@ TEST_F(ImportedUrdf, MayHaveARootWithoutMass) {
   EXPECT_EQ(import().links().front().name, "base");
 }
 
+TEST_F(ImportedUrdf, LeavesOutAMeshThatCannotBeReadAndNamesIt) {
+  write_text(source() / "broken.stl", "no mesh");
+  add_to_link("trunk",
+              "<collision><geometry><mesh filename=\"broken.stl\"/></geometry></collision>");
+  import();
+  EXPECT_THAT(lines_, Contains(AllOf(HasSubstr("broken.stl"), HasSubstr("is not a mesh"))));
+}
+
 TEST_F(ImportedUrdf, FindsMeshesOfAPackageAndScalesThem) {
   std::filesystem::create_directories(source() / "meshes");
   // A tetrahedron of 100 mm.
