@@ -453,9 +453,9 @@ def warn_of_crash(stack, failed, consequence):
 
 
 def wait_until_ready(stack, settings, options, processes):
-    """Waits until the robot can be driven, prints the addresses, and waits a while for the programs that this does not need: what crashes among these, or
-    is not ready then, is left out with a warning. With --only, a program may wait for programs on other hosts: then a
-    shorter timeout applies and is not an error."""
+    """Waits until the robot can be driven, prints the addresses, and waits a while for the programs that this does not
+    need: what crashes among these, or is not ready then, is left out with a warning. With --only, a program may wait for
+    programs on other hosts: then a shorter timeout applies and is not an error."""
     timeout = ONLY_READY_TIMEOUT if options.only else READY_TIMEOUT
     if ROBOT in options.programs:
         timeout += ROBOT_READY_TIME
