@@ -6,8 +6,10 @@ import itertools
 import os
 import re
 import select
+import socket
 import subprocess
 import sys
+import time
 from argparse import ArgumentTypeError
 from pathlib import Path
 
@@ -412,23 +414,36 @@ def failed_process(stack, processes):
                  if log.count(f"exited: {process.name} ") >= MAX_START_FAILURES), None)
 
 
-def wait_for(stack, settings, processes, timeout):
-    """Waits until programs are ready, at most `timeout` s.
-    @return whether they are, the process that crashed instead (None: none), and what the others wait for."""
-    report = stack.logs / "start.log"
-    with open(report, "w", encoding="utf-8") as output:
-        waiter = subprocess.Popen([f"{settings['bin_dir']}/nao", "status", "--wait",
-                                   ",".join(process.program for process in processes), "--this-host",
-                                   "--timeout", str(timeout), "--lcm-url", settings["lcm_url"]], stderr=output)
-    ended = os.pidfd_open(waiter.pid)  # readable when the process has ended
-    failed = None
-    while not failed and not select.select([ended], [], [], POLL_PERIOD)[0]:
-        failed = failed_process(stack, processes)
-    os.close(ended)
-    if failed:
-        waiter.kill()
-    is_ready = waiter.wait() == 0
-    return is_ready, failed, re.sub("^nao: ", "", report.read_text(), flags=re.MULTILINE)
+class Waiter:
+    """Waits from now on until programs are ready."""
+
+    def __init__(self, stack, settings, processes):
+        self.stack = stack
+        self.processes = processes
+        words = ["status", "--this-host", "--timeout", "1000", "--lcm-url", settings["lcm_url"],
+                 "--wait", ",".join(process.program for process in processes)]
+        self.waiter = subprocess.Popen([f"{settings['bin_dir']}/nao", *words], stderr=subprocess.PIPE, text=True)
+
+    def wait(self, timeout):
+        """Waits at most `timeout` s.
+        @return whether they are ready, the process that crashed instead (None: none), and what the others wait for."""
+        ended = os.pidfd_open(self.waiter.pid)  # readable when the process has ended
+        failed, end = None, time.monotonic() + timeout
+        while not failed and not select.select([ended], [], [], POLL_PERIOD)[0] and time.monotonic() < end:
+            failed = failed_process(self.stack, self.processes)
+        os.close(ended)
+        self.waiter.terminate()  # it tells what is missing
+        report = self.waiter.communicate()[1]
+        return self.waiter.returncode == 0, failed, re.sub("^nao: ", "", report, flags=re.MULTILINE)
+
+
+def begin_programs(stack):
+    """Supervisor begins programs when a second has passed, or at a connection."""
+    with socket.socket(socket.AF_UNIX) as connection:
+        try:
+            connection.connect(str(stack.socket))
+        except OSError:
+            pass  # then after the second
 
 
 def warn_of_crash(stack, failed, consequence):
@@ -438,15 +453,21 @@ def warn_of_crash(stack, failed, consequence):
 
 
 def wait_until_ready(stack, settings, options, processes):
-    """Waits until the robot can be driven, and a while for the programs that this does not need: what crashes among these, or
-    is not ready then, is left out with a warning. With --only, a program may wait for programs on other hosts: then a
-    shorter timeout applies and is not an error."""
+    """Waits until the robot can be driven, prints the addresses, and waits a while for the programs that this does not
+    need: what crashes among these, or is not ready then, is left out with a warning. With --only, a program may wait for
+    programs on other hosts: then a shorter timeout applies and is not an error."""
     timeout = ONLY_READY_TIMEOUT if options.only else READY_TIMEOUT
     if ROBOT in options.programs:
         timeout += ROBOT_READY_TIME
     waiting = f"the programs run and wait for the others; {CALL}status shows when they are there"
     needed = [process for process in processes if process.program in TO_DRIVE] or processes
-    is_ready, failed, report = wait_for(stack, settings, needed, timeout)
+    others = [process for process in processes if process not in needed]
+    others.append(Process(WATCHDOG, WATCHDOG, processes[0].robot))  # ready when all others have begun
+    waiter, waiter_for_others = Waiter(stack, settings, needed), Waiter(stack, settings, others)
+    begin_programs(stack)
+    is_ready, failed, report = waiter.wait(timeout)
+    if failed or not is_ready:
+        waiter_for_others.waiter.kill()
     if failed:
         warn_of_crash(stack, failed, "")
         stack.stop()
@@ -455,20 +476,23 @@ def wait_until_ready(stack, settings, options, processes):
         sys.stderr.write(report)
         if options.only:
             warn(waiting)
+            if GATEWAY in options.programs:
+                print_addresses(stack)
             return
         stack.stop()
         raise Failure(f"not everything became ready within {timeout} s, so everything is stopped again; logs: {stack.logs}")
-    others = [process for process in processes if process not in needed]
-    watchdog = [Process(WATCHDOG, WATCHDOG, processes[0].robot)]  # ready when all others have begun
-    while others or watchdog:
-        is_ready, failed, report = wait_for(stack, settings, [*others, *watchdog],
-                                            ONLY_READY_TIMEOUT if options.only else OTHERS_READY_TIMEOUT)
+    if GATEWAY in options.programs:
+        print_addresses(stack)
+    while True:
+        is_ready, failed, report = waiter_for_others.wait(ONLY_READY_TIMEOUT if options.only else OTHERS_READY_TIMEOUT)
         if not failed:
             break
         warn_of_crash(stack, failed, " and is left out; the robot can be driven without it")
-        others = [process for process in others if process is not failed]
-        watchdog = []
-    if (others or watchdog) and not is_ready:
+        others = [process for process in others if process is not failed and process.program != WATCHDOG]
+        if not others:
+            return
+        waiter_for_others = Waiter(stack, settings, others)
+    if not is_ready:
         sys.stderr.write(report)
         warn(waiting if options.only else f"the robot can be driven; {CALL}status shows when the rest is ready")
 
@@ -557,9 +581,7 @@ def main():
     succeed([sys.executable, "-m", "supervisor.supervisord", "--configuration", stack.configuration],
             env={**os.environ, "NAO_REMOTE_STACK": str(stack.run_dir)})
     wait_until_ready(stack, settings, options, processes)
-    if GATEWAY in options.programs:
-        print_addresses(stack)
-    else:
+    if GATEWAY not in options.programs:
         say(f"Running: {settings['programs']}. Watch: {CALL}status. End: {CALL}stop")
     if len(robots) > 1:
         say(f"Robots: {', '.join(robot.words() for robot in robots)}. One of them: nao --robot {robots[-1].name} walk 0.1 0 0")

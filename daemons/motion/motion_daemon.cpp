@@ -157,8 +157,11 @@ void MotionDaemon::step(std::optional<Sensors> sensors, double dt) {
   input.commands = std::exchange(commands_, {});
   input.taught = std::exchange(taught_, {});
   input.ball = ball_;
+  const Mode mode = core_.motion_state().mode;
   const Output output = core_.step(input, dt);
   publish(output);
+  // At once, since scripts/start waits for it.
+  if ((mode == Mode::kNoRobot) != (core_.motion_state().mode == Mode::kNoRobot)) publish_status();
   // Results are sent again, since the bus may lose messages.
   for (const CommandResult& result : reminder_.due(dt)) publish(result);
   for (const CommandResult& result : output.results) {
