@@ -122,7 +122,7 @@ test("a wave is taught in few taps, played, saved, and an action on every phone"
   await closeSheet(phone);
   await tap(phone, ".driver-button");
   const before = await angle(other, "RElbowYaw");
-  await action.tap();
+  await other.choose('.strips [data-name="Big-wave"]');
   await until("the other phone's tap waves", async () => Math.abs(await angle(other, "RElbowYaw") - before) > kMoved);
   await hasEnded(other);
   await tap(other, ".driver-button");
