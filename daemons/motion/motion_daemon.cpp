@@ -96,11 +96,11 @@ void MotionDaemon::subscribe_to_command(const std::string& channel) {
   });
 }
 
-// The answer to the last state, once more: see sensor_state_t.
+// The answer to the last state, once more: see sensor_state_t. By robot time, not by the wall
+// clock, so that a run in lock-step stays the same.
 void MotionDaemon::wake_simulator() {
-  const bool is_seldom = last_interval_ > 1.5 * last_period_ ||
-                         monotonic_seconds() - last_step_time_ > 1.5 * last_period_;
-  if (last_answer_ && is_seldom && core_.motion_state().mode != Mode::kNoRobot) {
+  if (last_answer_ && last_interval_ > 1.5 * last_period_ &&
+      core_.motion_state().mode != Mode::kNoRobot) {
     bus_.publish(channels_.joint_command, *last_answer_);
   }
 }
