@@ -167,7 +167,7 @@ void MotionCore::handle_falls(double dt) {
       arbiter_.start({std::make_unique<FallMotion>(), std::nullopt, "fall"}, context(0), targets_);
       break;
     case FallSupervisor::Action::kGetUp:
-      arbiter_.assign({factory_.make_stand_path(), std::nullopt, "get-up"});
+      arbiter_.assign({factory_.make_get_up(falls_.num_relapses()), std::nullopt, "get-up"});
       break;
     case FallSupervisor::Action::kNone:
       break;

@@ -159,6 +159,11 @@ std::unique_ptr<MotionGenerator> MotionFactory::make_stand_path() const {
   return make_posture_path(*stand_);
 }
 
+std::unique_ptr<MotionGenerator> MotionFactory::make_get_up(int num_tries) const {
+  return std::make_unique<PosturePathMotion>(graph_, *stand_, options_->default_speed, false,
+                                             num_tries);
+}
+
 std::optional<StandingBalance> MotionFactory::make_standing_balance() const {
   if (!gait_) return std::nullopt;
   return StandingBalance(gait_->standing, *legs_);

@@ -58,6 +58,9 @@ class MotionFactory {
   std::unique_ptr<MotionGenerator> make_posture_path(const Posture& posture) const;
   /** Path to the posture in which walks and actions begin. */
   std::unique_ptr<MotionGenerator> make_stand_path() const;
+  /** The same after a fall. @param num_tries  Get-ups before, after which it fell again at once:
+   * another motion is tried. */
+  std::unique_ptr<MotionGenerator> make_get_up(int num_tries) const;
 
   /** Balance of a standing robot with a gait; nothing without. */
   std::optional<StandingBalance> make_standing_balance() const;

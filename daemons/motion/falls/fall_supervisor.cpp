@@ -1,8 +1,24 @@
 #include "daemons/motion/falls/fall_supervisor.h"
 
+#include <utility>
+
 #include "daemons/motion/transitions/body_state.h"
 
 namespace nao::motion {
+namespace {
+
+// Time after a get-up within which a fall is its consequence, s. Chosen: a robot that ends it off
+// its balance falls within 1 s.
+constexpr double kRelapseTime = 2;
+
+}  // namespace
+
+void FallSupervisor::note_new_fall() {
+  // The robot that was seen to fall lies now.
+  if (std::exchange(has_fallen_, true)) return;
+  num_relapses_ = time_since_up_ < kRelapseTime ? num_relapses_ + 1 : 0;
+  time_since_up_ = std::numeric_limits<double>::infinity();
+}
 
 void FallSupervisor::begin(const RobotState& state) {
   was_lying_ = is_lying_now(state);
@@ -10,10 +26,11 @@ void FallSupervisor::begin(const RobotState& state) {
 
 FallSupervisor::Action FallSupervisor::update(const RobotState& state, const Activity& activity,
                                               double dt) {
+  time_since_up_ += dt;
   // Protection comes before everything: the caller aborts what runs.
   if (predict_fall(state, activity, dt)) {
     monitor_.reset();
-    has_fallen_ = true;
+    note_new_fall();
     time_fallen_ = 0;
     return Action::kProtect;
   }
@@ -23,7 +40,7 @@ FallSupervisor::Action FallSupervisor::update(const RobotState& state, const Act
   }
   // No motion runs: a robot that lies now and did not before was knocked over.
   const bool lies = is_lying_now(state);
-  if (lies && !was_lying_) has_fallen_ = true;
+  if (lies && !was_lying_) note_new_fall();
   was_lying_ = lies;
   // Help is needed until a person has put the robot on its feet.
   needs_help_ = needs_help_ && lies;
@@ -48,6 +65,7 @@ void FallSupervisor::note_end(bool is_done, Ended kind, const RobotState& state)
   const bool lies = is_lying_now(state);
   if (kind == Ended::kJointChange && has_fallen_ && lies) return;
   if (is_done && kind != Ended::kFall) {
+    if (has_fallen_ && !lies) time_since_up_ = 0;
     has_fallen_ = false;
     was_lying_ = lies;
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "daemons/motion/falls/fall_monitor.h"
 #include "daemons/motion/motion_options.h"
 #include "daemons/motion/robot_state.h"
@@ -32,7 +34,10 @@ class FallSupervisor {
   enum class Action { kNone, kProtect, kGetUp };
 
   /** Another robot, or the same one placed elsewhere, was taken over. */
-  void reset() { needs_help_ = false; }
+  void reset() {
+    needs_help_ = false;
+    num_relapses_ = 0;
+  }
 
   /** Before the first update(): notes whether the robot lies already. */
   void begin(const RobotState& state);
@@ -55,6 +60,9 @@ class FallSupervisor {
 
   /** Lies after a fall and has not got up yet. */
   bool has_fallen() const { return has_fallen_; }
+  /** Falls in succession that each followed a get-up at once: that motion leaves the robot
+   * unsteady. */
+  int num_relapses() const { return num_relapses_; }
   /** Could not get up. */
   bool needs_help() const { return needs_help_; }
 
@@ -62,6 +70,7 @@ class FallSupervisor {
   /** @return Whether the robot falls in this step. */
   bool predict_fall(const RobotState& state, const Activity& activity, double dt);
   bool is_lying_now(const RobotState& state) const;
+  void note_new_fall();
 
   const RobotModel* model_;
   const MotionOptions* options_;
@@ -73,6 +82,9 @@ class FallSupervisor {
    * is known. */
   bool was_lying_ = false;
   bool needs_help_ = false;
+  /** Since the robot got up after a fall, s. */
+  double time_since_up_ = std::numeric_limits<double>::infinity();
+  int num_relapses_ = 0;
 };
 
 }  // namespace nao::motion

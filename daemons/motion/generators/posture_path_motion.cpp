@@ -33,6 +33,9 @@ constexpr int kMaxFeetTogether = 3;
 constexpr double kOffPosture = 2.5 * kDegree;
 // Deviation from a posture below which no approach transition is needed, rad.
 constexpr double kNearPosture = 0.3;
+// Fraction of the peak torque with which a robot lies that could not get up. Chosen: its limbs do
+// not press against the floor, and yield to a person.
+constexpr double kLyingStiffness = 0.1;
 // Fraction of the progress that a transition counts for: what follows it is not known yet.
 constexpr double kTransitionProgress = 0.5;
 
@@ -101,7 +104,12 @@ MotionGenerator::Phase PosturePathMotion::step_resting(const MotionContext& cont
   // motion replaces it.
   if (is_finishing_) return Phase::kRunning;
   if (time_ < kMaxRestTime && must_rest(context, body_state_in(context))) return Phase::kRunning;
-  return choose_segment(context, targets);
+  const Phase phase = choose_segment(context, targets);
+  // A robot that could not get up lies with soft joints: nothing works against the floor.
+  if (phase == Phase::kFailed && is_lying_state(body_state_in(context))) {
+    std::fill(targets.stiffness.begin(), targets.stiffness.end(), kLyingStiffness);
+  }
+  return phase;
 }
 
 MotionGenerator::Phase PosturePathMotion::step_line(const MotionContext& context,

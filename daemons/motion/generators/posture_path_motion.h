@@ -21,10 +21,11 @@ class PosturePathMotion : public MotionGenerator {
  public:
   /** @param graph, goal  Must outlive this. @param speed  Fraction of the maximum, (0, 1].
    * @param is_exact  Whether feet that keep the joints slightly off a standing goal are brought
-   * together. A robot that only has to stand saves this time. */
+   * together. A robot that only has to stand saves this time.
+   * @param num_tries  Attempts to get up that have ended in a fall soon afterwards. */
   PosturePathMotion(const TransitionGraph& graph, const Posture& goal, double speed,
-                    bool is_exact = false)
-      : graph_(&graph), goal_(&goal), speed_(speed), is_exact_(is_exact) {}
+                    bool is_exact = false, int num_tries = 0)
+      : graph_(&graph), goal_(&goal), speed_(speed), is_exact_(is_exact), num_tries_(num_tries) {}
 
   void start(const MotionContext& context, const JointTargets& targets) override;
   Phase step(const MotionContext& context, JointTargets& targets) override;

@@ -58,7 +58,7 @@ export const kReasonTexts: Readonly<Record<string, readonly [pt: string, de: str
                     "Die Beine sind zu weich: Steifigkeit {0} %, nötig sind mehr als {1} %."],
   "not-upright": ["O robô não está direito.", "Der Roboter steht nicht aufrecht."],
   "orientation-doubtful": ["A inclinação difere {0} graus do acelerómetro e do giroscópio: o robô não anda; verifique a unidade inercial.",
-                           "Die Neigung weicht {0} Grad von Beschleunigungs- und Drehratensensor ab: Der Roboter geht nicht; prüfe den Inertialsensor."],
+                           "Die Neigung weicht {0} Grad von den Inertialsensoren ab: Der Roboter geht nicht; prüfe sie."],
   "no-foot-contact": ["Nenhum pé suporta peso; ponha o robô no chão.",
                       "Kein Fuß trägt Gewicht; stell den Roboter auf den Boden."],
   "balance-lost": ["O robô perdeu o equilíbrio.", "Der Roboter hat das Gleichgewicht verloren."],

@@ -19,11 +19,13 @@ double after(OrientationCheck& check, double degrees, double seconds) {
 
 TEST(OrientationCheck, DoubtsADifferenceOfMoreThanFiveDegreesForASecond) {
   OrientationCheck check;
-  EXPECT_EQ(after(check, 4.9, 10), 0);
-  EXPECT_EQ(after(check, 6, 0.9), 0);
-  EXPECT_EQ(after(check, 4, 0.1), 0);
-  EXPECT_EQ(after(check, 6, 0.9), 0);
-  EXPECT_NEAR(after(check, 6, 0.2), 6 * kDegree, 1e-9);
+  EXPECT_EQ(after(check, 0, 10), 0);
+  EXPECT_EQ(after(check, 8, 0.9), 0);
+  EXPECT_EQ(after(check, 0, 0.1), 0);
+  EXPECT_EQ(after(check, 8, 0.9), 0);
+  EXPECT_GT(after(check, 8, 0.2), 5 * kDegree);
+  // As long as it lasts.
+  EXPECT_GT(after(check, 8, 60), 5 * kDegree);
 }
 
 TEST(OrientationCheck, TrustsAgainAfterASecondOfAgreement) {
@@ -31,6 +33,17 @@ TEST(OrientationCheck, TrustsAgainAfterASecondOfAgreement) {
   EXPECT_GT(after(check, 20, 1.1), 0);
   EXPECT_GT(after(check, 1, 0.9), 0);
   EXPECT_EQ(after(check, 1, 0.2), 0);
+}
+
+TEST(OrientationCheck, IgnoresASlowDrift) {
+  OrientationCheck check;
+  for (double degrees = 0; degrees < 10; degrees += 0.1) EXPECT_EQ(after(check, degrees, 0.3), 0);
+}
+
+TEST(OrientationCheck, StartsAnewAfterAFall) {
+  OrientationCheck check;
+  for (int i = 0; i < 10; ++i) check.update(tilted(90), tilted(75), 0.01);
+  EXPECT_EQ(after(check, 15, 5), 0);
 }
 
 }  // namespace

@@ -55,6 +55,25 @@ TEST_F(FallSupervisorTest, ProtectsAWalkThatFallsAndGetsUpAfterwards) {
   EXPECT_FALSE(falls_.has_fallen());
 }
 
+TEST_F(FallSupervisorTest, CountsFallsThatFollowAGetUpAtOnce) {
+  const auto fall_and_get_up = [&] {
+    EXPECT_EQ(update(pitched_state(0.5), kWalking), Action::kProtect);
+    falls_.note_end(true, Ended::kFall, kLying);
+    EXPECT_EQ(wait_idle(kLying), Action::kGetUp);
+    falls_.note_end(true, Ended::kMotion, kStanding);
+  };
+  fall_and_get_up();
+  EXPECT_EQ(falls_.num_relapses(), 0);
+  fall_and_get_up();
+  EXPECT_EQ(falls_.num_relapses(), 1);
+  fall_and_get_up();
+  EXPECT_EQ(falls_.num_relapses(), 2);
+  // It has stood for 10 s.
+  EXPECT_EQ(wait_idle(kStanding), Action::kNone);
+  fall_and_get_up();
+  EXPECT_EQ(falls_.num_relapses(), 0);
+}
+
 TEST_F(FallSupervisorTest, ATransitionMayLeaveTheFeet) {
   EXPECT_EQ(update(pitched_state(1.2), kPlayingTransition), Action::kNone);
   EXPECT_FALSE(falls_.has_fallen());

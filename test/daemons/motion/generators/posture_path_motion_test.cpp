@@ -1,5 +1,6 @@
 #include "daemons/motion/generators/posture_path_motion.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -141,6 +142,8 @@ TEST_F(PosturePathMotionTest, GivesUpAfterSixTries) {
   start("StandInit");
   EXPECT_EQ(run(60), Phase::kFailed);
   EXPECT_EQ(motion_->reason(), Reason("get-up-failed", {"6"}));
+  // It lies, and its joints are soft.
+  EXPECT_THAT(robot_.targets().stiffness, testing::Each(0.1));
 }
 
 TEST_F(PosturePathMotionTest, FailsWithoutAPath) {
