@@ -55,6 +55,9 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
       ->show_default();
   app.add_option("--bind", network.bind, "Address to listen on; 0.0.0.0: all, also of IPv6")
       ->show_default();
+  app.add_option("--tcp-congestion", network.congestion_control,
+                 "TCP congestion control towards clients, such as bbr, where the system permits "
+                 "it; default: the system's");
   add_robot_option(app, options.robots);
   app.add_option("--model", options.model,
                  "Folder of robots/ that describes the robots whose --robot names none")

@@ -11,9 +11,9 @@ import phone
 from nao_remote import remote_pb2 as pb
 
 WALK_PERIOD = 0.1
-# s. From the last command to the end of the walk: 0.5 s until it is stale in the gateway (or in nao-motion, if the gateway
-# has failed), and the last steps. Measured: 1.1 to 1.4 s in all.
-TIME_TO_STAND = 2.0
+# s. From the last command to the end of the walk: 1 s of the gateway, which lets it step in place from 0.5 s on (0.5 s of nao-motion, if the gateway
+# has failed), and the last steps, 0.6 to 0.9 s (measured).
+TIME_TO_STAND = 2.5
 # s and m. A walking robot moves several times as far in STILL_TIME; the sway of a standing one is smaller.
 STILL_TIME = 2.0
 STILL_DISTANCE = 0.02

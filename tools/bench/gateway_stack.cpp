@@ -39,7 +39,9 @@ naoremote::Request connect_request(const std::string& name) {
   return request;
 }
 
-GatewayStack::GatewayStack(const std::string& lcm_url) : bus_(lcm_url) {
+GatewayStack::GatewayStack(const std::string& lcm_url,
+                           const std::vector<std::string>& gateway_options)
+    : bus_(lcm_url) {
   const std::string folder = program_folder();
   const auto start = [&](const std::string& name, std::vector<std::string> options) {
     std::vector<std::string> command = {folder + "/" + name, "--lcm-url", lcm_url};
@@ -50,7 +52,10 @@ GatewayStack::GatewayStack(const std::string& lcm_url) : bus_(lcm_url) {
   start("nao-sim", {});
   start("nao-motion", {});
   start("nao-head-camera", {});
-  start("nao-phone-gateway", {"--bind", "127.0.0.1", "--http-port", "0", "--tcp-port", "0"});
+  std::vector<std::string> options = {"--bind",     "127.0.0.1", "--http-port", "0",
+                                      "--tcp-port", "0",         "--token",     kToken};
+  if (!gateway_options.empty()) options = gateway_options;
+  start("nao-phone-gateway", options);
   run_until([this] { return ready_.size() == programs_.size(); }, "every program is ready");
   http_port_ = wait_for_port(gateway(), "WebSocket on ");
   tcp_port_ = wait_for_port(gateway(), "TCP on ");

@@ -23,9 +23,14 @@ class GatewayStack {
  public:
   using Handler = std::function<void(const naoremote::ServerMessage&, double)>;
 
-  /** Starts the programs and waits until they are ready. @throws std::runtime_error  if they are
-   * not within a minute. */
-  explicit GatewayStack(const std::string& lcm_url);
+  /** Of the gateway, which clients on other hosts send. */
+  static constexpr const char* kToken = "bench";
+
+  /** Starts the programs and waits until they are ready. @param gateway_options  Of the
+   * gateway; none: one on this host, at free ports.
+   * @throws std::runtime_error  if they are not ready within a minute. */
+  explicit GatewayStack(const std::string& lcm_url,
+                        const std::vector<std::string>& gateway_options = {});
 
   uint16_t http_port() const { return http_port_; }
   uint16_t tcp_port() const { return tcp_port_; }

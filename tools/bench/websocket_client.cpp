@@ -22,7 +22,7 @@ using boost::system::error_code;
 struct WebSocketClient::Impl {
   explicit Impl(const Options& options) {
     error_code error;
-    socket.next_layer().connect({asio::ip::address_v4::loopback(), options.port}, error);
+    socket.next_layer().connect({asio::ip::make_address_v4(options.host), options.port}, error);
     if (error) {
       throw std::runtime_error("no server on port " + std::to_string(options.port) + ": " +
                                error.message());
@@ -33,7 +33,7 @@ struct WebSocketClient::Impl {
         request.set(beast::http::field::sec_websocket_protocol, options.subprotocol);
       }));
     }
-    socket.handshake("localhost", options.target);
+    socket.handshake(options.host, options.target);
     socket.read_message_max(options.max_message_bytes);
     start_reading();
   }

@@ -9,11 +9,13 @@
 
 namespace nao::bench {
 
-/** A WebSocket to a server on this host that does as little as possible, so that a benchmark
+/** A WebSocket to a server that does as little as possible, so that a benchmark
  * measures the server. */
 class WebSocketClient {
  public:
   struct Options {
+    /** IPv4 address. */
+    std::string host = "127.0.0.1";
     uint16_t port = 0;
     std::string target = "/";
     /** Subprotocol that is offered; empty: none. */

@@ -55,8 +55,9 @@ class TcpClient : public WireClient {
 /** A client over a WebSocket: one message is one binary message. */
 class WebSocketWireClient : public WireClient {
  public:
-  explicit WebSocketWireClient(uint16_t port)
-      : socket_({.port = port, .target = "/ws", .max_message_bytes = kMaxMessageBytes}) {}
+  WebSocketWireClient(uint16_t port, const std::string& host)
+      : socket_(
+            {.host = host, .port = port, .target = "/ws", .max_message_bytes = kMaxMessageBytes}) {}
 
   void send(const naoremote::Request& request) override {
     socket_.send_binary(request.SerializeAsString());
@@ -90,8 +91,8 @@ std::unique_ptr<WireClient> connect_tcp(uint16_t port) {
   return std::make_unique<TcpClient>(port);
 }
 
-std::unique_ptr<WireClient> connect_websocket(uint16_t port) {
-  return std::make_unique<WebSocketWireClient>(port);
+std::unique_ptr<WireClient> connect_websocket(uint16_t port, const std::string& host) {
+  return std::make_unique<WebSocketWireClient>(port, host);
 }
 
 }  // namespace nao::bench

@@ -37,9 +37,9 @@ class WireClient {
   std::vector<std::string> messages_;
 };
 
-/** Connections to a gateway on this host, without Connect.
+/** Connections to a gateway, without Connect. @param host  IPv4 address.
  * @throws std::runtime_error  if there is no gateway. */
 std::unique_ptr<WireClient> connect_tcp(uint16_t port);
-std::unique_ptr<WireClient> connect_websocket(uint16_t port);
+std::unique_ptr<WireClient> connect_websocket(uint16_t port, const std::string& host = "127.0.0.1");
 
 }  // namespace nao::bench

@@ -75,6 +75,15 @@ void ControlState::tell(ClientSession& session, const Reason& reason) const {
   session.send(message);
 }
 
+void ControlState::tell_driver(const Reason& reason) const {
+  ClientSession* session = sessions_.find(driver());
+  if (session == nullptr) return;
+  naoremote::ServerMessage message;
+  message.mutable_notice()->set_kind(naoremote::Notice::WALK_ENDED);
+  write_reason(reason, *message.mutable_notice());
+  session->send(message);
+}
+
 void ControlState::tell_all(const Reason& reason) const {
   // Each client gets its own copy: `is_mine` differs.
   sessions_.for_each([&](ClientSession& session) { tell(session, reason); });

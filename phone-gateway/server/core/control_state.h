@@ -47,6 +47,8 @@ class ControlState {
   /** The driver sent a command. */
   void refresh(double now) { lease_.refresh(now); }
 
+  /** Tells the driver why its walk has ended. */
+  void tell_driver(const Reason& reason) const;
   /** Tells one client of the robot, or all of them, who has control. */
   void tell(ClientSession& session, const Reason& reason) const;
   void tell_all(const Reason& reason) const;

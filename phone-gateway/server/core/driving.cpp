@@ -15,6 +15,14 @@ double allowed_speed(const GatewayLimits& limits, double round_trip_time) {
   return std::clamp((limits.max_round_trip - round_trip_time) / range, 0.0, 1.0);
 }
 
+/** A walk at which the robot steps in place: nao-motion ends a walk of all zero. m/s, chosen: no
+ * robot moves by it. */
+constexpr WalkCommand kInPlace{1e-6, 0, 0};
+
+bool is_zero(const WalkCommand& velocity) {
+  return velocity.vx == 0 && velocity.vy == 0 && velocity.wz == 0;
+}
+
 }  // namespace
 
 // ---- Control ------------------------------------------------------------------------------------
@@ -128,12 +136,16 @@ std::optional<Refusal> Driving::check_driver(const ClientSession& session) const
 }
 
 std::optional<Refusal> Driving::walk(const ClientSession& session, uint32_t request_id,
-                                     const WalkCommand& velocity, double now) {
+                                     const WalkCommand& velocity, bool is_held, double now) {
   if (auto refusal = check_driver(session)) return refusal;
   control_.refresh(now);
+  if (is_held && is_zero(velocity)) {
+    step_in_place(now);
+    return std::nullopt;
+  }
   const bool was_released = now - last_walk_turn_ >= limits_.walk_timeout;
   last_walk_turn_ = now;
-  if (velocity.vx == 0 && velocity.vy == 0 && velocity.wz == 0) {
+  if (is_zero(velocity)) {
     is_walk_blocked_ = false;
     end_walk(now);
     return std::nullopt;
@@ -219,6 +231,12 @@ void Driving::end_walk(double now) {
   if (std::exchange(is_walking_, false)) commands_.end_walk(walk_, now);
 }
 
+void Driving::step_in_place(double now) {
+  if (!is_walking_ || std::get<WalkCommand>(walk_.request).vx == kInPlace.vx) return;
+  walk_.request = kInPlace;
+  commands_.update_walk(walk_, now);
+}
+
 void Driving::abandon_walk() {
   is_walking_ = false;
   commands_.abandon_walk(walk_);
@@ -232,7 +250,16 @@ void Driving::end_motion(double now) {
 void Driving::step(double now) {
   // A client whose robot acts by itself drives it.
   if (play_.is_active()) control_.refresh(now);
-  if (now - last_walk_turn_ >= limits_.walk_timeout) end_walk(now);
+  const double silence = now - last_walk_turn_;
+  if (silence >= limits_.walk_end_timeout) {
+    if (is_walking_) {
+      control_.tell_driver(
+          gateway_reason("walk-link-lost", {to_argument(limits_.walk_end_timeout)}));
+    }
+    end_walk(now);
+  } else if (silence >= limits_.walk_timeout) {
+    step_in_place(now);
+  }
 }
 
 }  // namespace nao::gateway

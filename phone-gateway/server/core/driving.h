@@ -35,9 +35,10 @@ class Driving {
 
   // Use cases. Each returns why the request is refused, or nothing.
 
-  /** Starts, continues or (all zero) ends the driver's walk. */
+  /** Starts, continues or (all zero) ends the driver's walk. @param is_held  All zero lets it step
+   * in place for a while instead. */
   [[nodiscard]] std::optional<Refusal> walk(const ClientSession& session, uint32_t request_id,
-                                            const WalkCommand& velocity, double now);
+                                            const WalkCommand& velocity, bool is_held, double now);
   /** Sends a command of the driver. */
   [[nodiscard]] std::optional<Refusal> command(const ClientSession& session, uint32_t request_id,
                                                decltype(Command::request) request, double now);
@@ -82,7 +83,7 @@ class Driving {
   /** Ends walk and behavior now, if there are any. */
   void end_motion(double now);
 
-  /** Ends a walk that the driver does not repeat. */
+  /** Lets a walk that the driver does not repeat step in place, then ends it. */
   void step(double now);
 
  private:
@@ -91,6 +92,7 @@ class Driving {
   void end_walk(double now);
   /** The client no longer waits for control, if it did. */
   void withdraw(const ClientSession& session);
+  void step_in_place(double now);
   /** Another command replaces the walk: nothing more is transmitted. */
   void abandon_walk();
   /** Stops a MoveTo that a client without control has left behind. */

@@ -29,12 +29,25 @@ GatewayCore::GatewayCore(std::vector<RobotSetup> robots, const GatewayLimits& li
 
 // ---- Connections --------------------------------------------------------------------------------
 
+GatewayCore::Sender GatewayCore::find_sender(uint32_t connection) const {
+  Sender sender;
+  sender.connection = sessions_.find(connection);
+  if (sender.connection == nullptr) return sender;
+  sender.client = sessions_.client_of(*sender.connection);
+  if (sender.connection->first != 0) {
+    sender.part = Outbox::Part::kLong;
+  } else if (sender.connection->second != 0) {
+    sender.part = Outbox::Part::kShort;
+  }
+  return sender;
+}
+
 // Handles one message of a client; returns for how long, s, its connection shall not be read.
 double GatewayCore::receive(uint32_t client, std::string_view message, double now) {
-  ClientSession* session = sessions_.find(client);
-  if (session == nullptr || session->is_closing) return 0;
+  const Sender sender = find_sender(client);
+  ClientSession* session = sender.client;
+  if (session == nullptr || session->is_closing || sender.connection->is_closing) return 0;
   session->last_request = now;
-  ++session->num_requests;
 
   naoremote::ServerMessage answer;
   naoremote::Response& response = *answer.mutable_response();
@@ -42,6 +55,11 @@ double GatewayCore::receive(uint32_t client, std::string_view message, double no
   const bool is_request = message.size() <= kMaxRequestBytes &&
                           request.ParseFromArray(message.data(), static_cast<int>(message.size()));
   if (is_request) response.set_request_id(request.request_id());
+  if (is_request && session->copies && !session->copies->take(request.request_id())) {
+    // It has come over the other connection.
+    return sender.connection->budget.take(now) ? 0 : kReadPause;
+  }
+  ++session->num_requests;
   // A stop is carried out even above the request rate.
   const bool has_budget = session->budget.take(now);
   // A request may cause notices to the same client. The answer goes before them.
@@ -58,7 +76,12 @@ double GatewayCore::receive(uint32_t client, std::string_view message, double no
     is_answered = requests_.handle(*session, request, response, now);
   }
   if (response.error() != naoremote::OK) ++session->num_refused;
-  if (is_answered) session->outbox.insert(position, encode(answer));
+  if (is_answered) {
+    const MessageBytes bytes = encode(answer);
+    session->outbox.insert(position, bytes);
+    ClientSession* second = sessions_.find(session->second);
+    if (second != nullptr && session->is_lossy(now)) second->send(bytes);
+  }
   session->wake();
   // Garbage now and then is answered; a client that sends nothing else is closed.
   if (!is_request && ++session->num_malformed > limits_.max_malformed_requests) {
@@ -72,14 +95,22 @@ double GatewayCore::receive(uint32_t client, std::string_view message, double no
   return !has_budget || is_congested ? kReadPause : 0;
 }
 
-void GatewayCore::set_round_trip_time(uint32_t client, double round_trip_time) {
-  if (ClientSession* session = sessions_.find(client)) session->round_trip_time = round_trip_time;
+void GatewayCore::set_round_trip_time(uint32_t client, double round_trip_time, double least) {
+  if (ClientSession* session = sessions_.find(client)) {
+    session->round_trip_time = round_trip_time;
+    session->least_round_trip = least;
+  }
+}
+
+void GatewayCore::set_repeated_packets(uint32_t client, uint32_t number, double now) {
+  if (ClientSession* session = sessions_.find(client)) session->note_repeated_packets(number, now);
 }
 
 void GatewayCore::set_unacknowledged(uint32_t client, size_t bytes, double now) {
-  if (ClientSession* session = sessions_.find(client)) {
-    session->streams.image_pacer.update(bytes, session->round_trip_time, now);
-  }
+  const Sender sender = find_sender(client);
+  // That of the connection which carries the images.
+  if (sender.client == nullptr || sender.part == Outbox::Part::kShort) return;
+  sender.client->streams.image_pacer.update(bytes, sender.connection->round_trip_time, now);
 }
 
 void GatewayCore::note_refusal(const std::string& address, const std::string& why) {
@@ -93,12 +124,19 @@ void GatewayCore::close(uint32_t client, const Reason& reason, double now) {
 // The next message for the client's connection, made at this moment: states and images are encoded
 // when they can be sent, and so are never old.
 MessageBytes GatewayCore::next_message(uint32_t client, double now) {
-  ClientSession* session = sessions_.find(client);
-  if (session == nullptr) return nullptr;
+  const Sender sender = find_sender(client);
+  if (sender.connection == nullptr) return nullptr;
+  // Its own: copies of answers, and the notice with which it closes.
+  if (sender.part == Outbox::Part::kLong && sender.connection->outbox.num_messages() > 0) {
+    return sender.connection->outbox.take_message();
+  }
+  ClientSession* session = sender.client;
+  if (session == nullptr || sender.connection->is_closing != session->is_closing) return nullptr;
   GatewayRobot& robot = robots_.of(*session);
   while (true) {
     MessageBytes message;
-    switch (session->outbox.next(session->streams.image_pacer.may_send())) {
+    bool is_image = false;
+    switch (session->outbox.next(session->streams.image_pacer.may_send(), sender.part)) {
       case Outbox::Next::kNothing:
         return nullptr;
       case Outbox::Next::kMessage:
@@ -122,26 +160,31 @@ MessageBytes GatewayCore::next_message(uint32_t client, double now) {
         break;
       case Outbox::Next::kImage:
         session->outbox.take_image();
+        is_image = true;
         if (!session->is_closing) message = robot.streams().make_image_message(*session, now);
         break;
     }
     // A state or image that was due may no longer exist.
     if (!message) continue;
     ++session->num_sent;
+    if (!is_image && sender.part != Outbox::Part::kShort) {
+      session->streams.image_pacer.note_other(message->size());
+    }
     return message;
   }
 }
 
 bool GatewayCore::is_long_next(uint32_t client) const {
-  const ClientSession* session = sessions_.find(client);
-  if (session == nullptr) return false;
-  const Outbox::Next next = session->outbox.next(session->streams.image_pacer.may_send());
+  const Sender sender = find_sender(client);
+  if (sender.client == nullptr) return false;
+  const Outbox::Next next =
+      sender.client->outbox.next(sender.client->streams.image_pacer.may_send(), sender.part);
   return next == Outbox::Next::kImage || next == Outbox::Next::kAudio;
 }
 
 bool GatewayCore::is_connected(uint32_t client) const {
   const ClientSession* session = sessions_.find(client);
-  return session != nullptr && session->is_connected;
+  return session != nullptr && (session->is_connected || session->first != 0);
 }
 
 bool GatewayCore::is_closing(uint32_t client) const {

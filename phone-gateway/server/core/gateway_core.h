@@ -48,8 +48,11 @@ class GatewayCore {
    *   request rate or does not read its answers. */
   [[nodiscard]] double receive(uint32_t client, std::string_view message, double now);
 
-  /** Sets the round-trip time that the transport has measured, s. */
-  void set_round_trip_time(uint32_t client, double round_trip_time);
+  /** Sets the round-trip time that the transport has measured, s. @param least  In the last
+   * minutes; 0: not known. */
+  void set_round_trip_time(uint32_t client, double round_trip_time, double least = 0);
+  /** Packets that the transport has repeated on this connection until now. */
+  void set_repeated_packets(uint32_t client, uint32_t number, double now);
   /** Bytes that the client has not acknowledged: next_message() gives no image while there are
    * many. */
   void set_unacknowledged(uint32_t client, size_t bytes, double now);
@@ -71,7 +74,7 @@ class GatewayCore {
 
   /** True if that message is long: an image, or a piece of audio. */
   bool is_long_next(uint32_t client) const;
-  /** True from a successful Connect until the client disconnects. */
+  /** True from a successful Connect or Join until the client disconnects. */
   bool is_connected(uint32_t client) const;
   /** True if the connection must close as soon as next_message() returns null. */
   bool is_closing(uint32_t client) const;
@@ -105,6 +108,15 @@ class GatewayCore {
   const Sessions& sessions() const { return sessions_; }
 
  private:
+  /** A connection, the session of its client, and what it sends of that one's outbox. */
+  struct Sender {
+    ClientSession* connection = nullptr;
+    ClientSession* client = nullptr;
+    Outbox::Part part = Outbox::Part::kAll;
+  };
+  /** @return Without a connection if there is none; without a client if that has ended. */
+  Sender find_sender(uint32_t connection) const;
+
   GatewayLimits limits_;
   std::function<void(const AuditEvent&)> audit_;
   Sessions sessions_;

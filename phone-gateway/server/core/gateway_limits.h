@@ -27,8 +27,12 @@ struct GatewayLimits {
   double connect_timeout = 5;
   /** From a client's last request to closing its connection. */
   double silence_timeout = 5;
-  /** From the last WalkTurn to the end of the walk. nao-motion uses the same value. */
+  /** From the last WalkTurn to velocity zero, stepping in place. nao-motion ends a walk after the
+   * same time without commands. */
   double walk_timeout = 0.5;
+  /** From the last WalkTurn to the end of the walk. Chosen: a phone that changes its access point
+   * is silent for 0.8 s, and the robot goes on without the last and first steps of a walk. */
+  double walk_end_timeout = 1.0;
   /** Age of a motion command above which it is not obeyed (RequestAge). Chosen: below walk_timeout,
    * so that nobody walks after the controls were released. */
   double max_command_age = 0.4;

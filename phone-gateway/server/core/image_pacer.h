@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,7 +21,7 @@ class ImagePacer {
   void update(size_t unacknowledged, double round_trip_time, double now) {
     if (round_trip_time > 0) least_round_trip_ = std::min(least_round_trip_, round_trip_time);
     const size_t rest = std::min(kFreeBytes, size_ / 2);
-    is_free_ = unacknowledged <= rest;
+    is_free_ = unacknowledged <= rest + written_since_;
     if (!is_under_way_ || !is_free_) return;
     is_under_way_ = false;
     const double time = now - sent_at_ - (least_round_trip_ < kUnknown ? least_round_trip_ : 0);
@@ -31,10 +32,15 @@ class ImagePacer {
   /** @param size  Bytes of the image. */
   void note_sent(size_t size, double now) {
     size_ = std::max<size_t>(size, 1);
+    written_since_ = 0;
     sent_at_ = now;
     is_under_way_ = true;
     is_free_ = false;
   }
+
+  /** Something else was sent over the same connection: over a long link much of it is under way
+   * when the image has arrived. @param size  Bytes. */
+  void note_other(size_t size) { written_since_ += size; }
 
   /** Whether the last image has arrived. */
   bool may_send() const { return is_free_; }
@@ -43,27 +49,31 @@ class ImagePacer {
 
   /** The images that this link can take, of those that the client wants. */
   ImageSelection reduce(ImageSelection wanted) const {
-    for (int i = 0; i < level_ / 2 && wanted.width / 2 >= kLeastWidth; ++i) wanted.width /= 2;
-    if (level_ % 2 == 1) {
-      wanted.quality = std::min(effective_quality(wanted.quality), kReducedQuality);
+    int level = level_;
+    for (; level >= kNumQualities && wanted.width / 2 >= kLeastWidth; level -= kNumQualities) {
+      wanted.width /= 2;
     }
+    const uint32_t quality = kQualities[std::min(level, kNumQualities - 1)];
+    if (quality < effective_quality(wanted.quality)) wanted.quality = quality;
     return wanted;
   }
 
  private:
-  /** Acknowledgements are sent for every second segment of about 1,460 bytes, and states are on
-   * their way at any time: less than this is an idle link. */
+  /** Acknowledgements are sent for every second segment of about 1,460 bytes: less than this is an
+   * idle link. */
   static constexpr size_t kFreeBytes = 4096;
   /** Times that an image may take, s. Above the first the next one is smaller; if twenty in
-   * succession take less than the second, one is larger. Chosen: a level has about twice the bytes
-   * of the next, an image of 0.1 s leaves a state age of 0.12 s, and the arrival of a small one is
-   * noticed within two of the gateway's steps of 0.02 s. */
+   * succession take less than the second, one is larger. Chosen: a level has at most twice the
+   * bytes of the next, an image of 0.1 s leaves a state age of 0.12 s, and the arrival of a small
+   * one is noticed within two of the gateway's steps of 0.02 s. */
   static constexpr double kLongTime = 0.1;
   static constexpr double kShortTime = 0.05;
   static constexpr int kNumShort = 20;
-  static constexpr uint32_t kReducedQuality = 40;
+  /** Of the levels of one width. */
+  static constexpr int kNumQualities = 3;
+  static constexpr std::array<uint32_t, kNumQualities> kQualities = {95, 50, 30};
   static constexpr uint32_t kLeastWidth = 160;
-  static constexpr int kMaxLevel = 5;
+  static constexpr int kMaxLevel = 3 * kNumQualities - 1;
 
   void adapt(double time) {
     num_short_ = time < kShortTime ? num_short_ + 1 : 0;
@@ -83,8 +93,10 @@ class ImagePacer {
   bool is_under_way_ = false;
   double sent_at_ = 0;
   size_t size_ = 2 * kFreeBytes;
-  /** 0: as the client wants them; each odd level lowers the quality, each even one halves the
-   * width. */
+  /** Bytes sent after the last image. */
+  size_t written_since_ = 0;
+  /** 0: as the client wants them; each of the next two lowers the quality, the one after them
+   * halves the width. */
   int level_ = 0;
   int num_short_ = 0;
 };

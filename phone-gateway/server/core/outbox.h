@@ -16,6 +16,9 @@ namespace nao::gateway {
 class Outbox {
  public:
   enum class Next { kNothing, kMessage, kPlayState, kVision, kState, kAudio, kImage };
+  /** What one connection sends: a client with two receives images and audio over the second one,
+   * and states as request_state() says. */
+  enum class Part { kAll, kShort, kLong };
 
   /** Pieces of audio that wait; of more, the oldest are dropped. Chosen: 4 s of speech. */
   static constexpr size_t kMaxAudio = 16;
@@ -25,7 +28,11 @@ class Outbox {
   void insert(size_t position, MessageBytes message) {
     messages_.insert(messages_.begin() + static_cast<std::ptrdiff_t>(position), std::move(message));
   }
-  void request_state() { num_skipped_ += std::exchange(is_state_due_, true) ? 1 : 0; }
+  /** @param alternates  Of a client with two connections, each takes every other state. */
+  void request_state(bool alternates = false) {
+    num_skipped_ += std::exchange(is_state_due_, true) ? 1 : 0;
+    is_state_for_second_ = alternates && !is_state_for_second_;
+  }
   void request_image() { num_skipped_ += std::exchange(is_image_due_, true) ? 1 : 0; }
 
   void request_play_state() { num_skipped_ += std::exchange(is_play_state_due_, true) ? 1 : 0; }
@@ -44,15 +51,19 @@ class Outbox {
    * times as long, but only one state, and one piece of audio before an image: a slow client
    * receives all streams.
    * @param takes_image  Whether the connection can take an image now. */
-  Next next(bool takes_image) const {
-    const bool has_image = is_image_due_ && takes_image;
-    if (!messages_.empty()) return Next::kMessage;
-    // Short, and at most 5 and 30 a second: they cannot keep a state waiting.
-    if (is_play_state_due_) return Next::kPlayState;
-    if (is_vision_due_) return Next::kVision;
-    const bool has_other = has_image || !audio_.empty();
-    if (is_state_due_ && !(has_other_waited_ && has_other)) return Next::kState;
-    if (!audio_.empty() && !(was_audio_last_ && has_image)) return Next::kAudio;
+  Next next(bool takes_image, Part part = Part::kAll) const {
+    const bool has_image = part != Part::kShort && is_image_due_ && takes_image;
+    const bool has_audio = part != Part::kShort && !audio_.empty();
+    if (part != Part::kLong) {
+      if (!messages_.empty()) return Next::kMessage;
+      // Short, and at most 5 and 30 a second: they cannot keep a state waiting.
+      if (is_play_state_due_) return Next::kPlayState;
+      if (is_vision_due_) return Next::kVision;
+    }
+    const bool takes_state = part == Part::kAll || is_state_for_second_ == (part == Part::kLong);
+    const bool has_other = has_image || has_audio;
+    if (is_state_due_ && takes_state && !(has_other_waited_ && has_other)) return Next::kState;
+    if (has_audio && !(was_audio_last_ && has_image)) return Next::kAudio;
     return has_image ? Next::kImage : Next::kNothing;
   }
 
@@ -92,6 +103,7 @@ class Outbox {
   std::deque<MessageBytes> messages_;
   std::deque<MessageBytes> audio_;
   bool is_state_due_ = false;
+  bool is_state_for_second_ = false;
   bool is_image_due_ = false;
   bool is_play_state_due_ = false;
   bool is_vision_due_ = false;

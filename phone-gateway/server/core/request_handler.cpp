@@ -6,6 +6,7 @@
 
 #include "phone-gateway/protocol/framing.h"
 #include "phone-gateway/server/core/request_check.h"
+#include "phone-gateway/server/core/secret.h"
 
 namespace nao::gateway {
 namespace {
@@ -18,6 +19,11 @@ template <class Checked, class Execute>
 std::optional<Refusal> execute_checked(std::variant<Checked, Refusal> checked, Execute execute) {
   if (auto* refusal = std::get_if<Refusal>(&checked)) return std::move(*refusal);
   return execute(std::get<Checked>(std::move(checked)));
+}
+
+/** Whether the request ends a motion. */
+bool ends_motion(const Request& request) {
+  return request.has_walk_turn() || request.has_stop() || request.has_play();
 }
 
 /** Whether the request sets the robot in motion. Ending a walk or a behavior is always in time. */
@@ -60,12 +66,16 @@ std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Req
                                                Response& response, double now) {
   // The operator's console on the gateway's host needs no token.
   const bool is_console = request.has_operate() && session.endpoint.is_local;
-  if (!session.is_connected && !request.has_connect() && !is_console &&
+  if (!session.is_connected && !request.has_connect() && !request.has_join() && !is_console &&
       request.use_case_case() != Request::USE_CASE_NOT_SET) {
     return Refusal{naoremote::NOT_CONNECTED, gateway_reason("not-connected")};
   }
-  const double age = session.age.take(request.sent_at(), now);
-  if (age > limits_.max_command_age && starts_motion(request)) {
+  // The fastest of the requests took half of the least round trip.
+  const double age = session.age.take(request.sent_at(), now) + session.least_round_trip / 2;
+  const bool is_overtaken = session.copies && (starts_motion(request) || ends_motion(request)) &&
+                            !session.copies->is_newest_motion(request.request_id());
+  const bool is_late = request.sent_at() > 0 && age > limits_.max_command_age;
+  if ((is_late || is_overtaken) && starts_motion(request)) {
     return Refusal{naoremote::TOO_LATE,
                    gateway_reason("command-too-late",
                                   {to_argument(age), to_argument(limits_.max_command_age)})};
@@ -85,14 +95,17 @@ std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Req
   switch (request.use_case_case()) {
     case Request::kConnect:
       return connect(session, request.connect(), response, now);
+    case Request::kJoin:
+      return join(session, request.join(), now);
     case Request::kGetState:
       return get_state(session, request.get_state(), response, now);
     case Request::kSubscribe:
       return subscribe(session, request.subscribe());
     case Request::kWalkTurn:
       return execute_checked(
-          check(request.walk_turn(), description),
-          [&](const WalkCommand& velocity) { return driving.walk(session, id, velocity, now); });
+          check(request.walk_turn(), description), [&](const WalkCommand& velocity) {
+            return driving.walk(session, id, velocity, request.walk_turn().is_held(), now);
+          });
     case Request::kMoveTo:
       return execute_checked(check(request.move_to()), send_command);
     case Request::kGoToPosture:
@@ -275,6 +288,24 @@ std::optional<Refusal> RequestHandler::connect(ClientSession& session,
   return std::nullopt;
 }
 
+// The key is that of one client: nobody else gets its images, or drives with its control.
+std::optional<Refusal> RequestHandler::join(ClientSession& session, const naoremote::Join& request,
+                                            double now) {
+  if (session.is_connected || session.first != 0)
+    return Refusal{naoremote::INVALID_ARGUMENT, gateway_reason("already-connected")};
+  ClientSession* first = sessions_.find(request.client_id());
+  const bool is_known = first != nullptr && first->is_connected && !first->join_key.empty() &&
+                        equals_secret(request.key(), first->join_key);
+  if (!is_known) {
+    Refusal refusal{naoremote::INVALID_ARGUMENT,
+                    gateway_reason("client-unknown", {std::to_string(request.client_id())})};
+    sessions_.refuse(session, {}, refusal.reason, now);
+    return refusal;
+  }
+  sessions_.join(*first, session, now);
+  return std::nullopt;
+}
+
 std::optional<Refusal> RequestHandler::get_state(ClientSession& session,
                                                  const naoremote::GetState& request,
                                                  Response& response, double now) {
@@ -304,7 +335,8 @@ std::optional<Refusal> RequestHandler::subscribe(ClientSession& session,
 void RequestHandler::ping(const ClientSession& session, const naoremote::Ping& request,
                           naoremote::Pong& pong, double now) {
   pong.set_client_utime(request.client_utime());
-  // With the round-trip time a client computes the age of states without a common clock.
+  // With the round-trip time a client computes the age of states and images without a common clock.
+  pong.set_sent_at(now);
   const Streams& streams = robots_.of(session).streams();
   pong.set_robot_utime(static_cast<uint64_t>(streams.calc_robot_utime(now)));
   pong.set_num_clients(static_cast<uint32_t>(sessions_.num_connected()));

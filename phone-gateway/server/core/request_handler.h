@@ -47,6 +47,7 @@ class RequestHandler {
   std::optional<Refusal> drag(ClientSession& session, const naoremote::Drag& request, double now);
   std::optional<Refusal> connect(ClientSession& session, const naoremote::Connect& request,
                                  naoremote::Response& response, double now);
+  std::optional<Refusal> join(ClientSession& session, const naoremote::Join& request, double now);
   std::optional<Refusal> get_state(ClientSession& session, const naoremote::GetState& request,
                                    naoremote::Response& response, double now);
   std::optional<Refusal> subscribe(ClientSession& session, const naoremote::Subscribe& request);

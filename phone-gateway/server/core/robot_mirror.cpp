@@ -21,6 +21,7 @@ int64_t RobotMirror::calc_robot_utime(double now) const {
 void RobotMirror::write(naoremote::State& state, bool is_available, double now) const {
   state.set_utime(static_cast<uint64_t>(robot_.utime));
   state.set_age_ms((now - received_at_) * 1e3);
+  state.set_sent_at(now);
   state.mutable_joint_position()->Reserve(static_cast<int>(robot_.joint_position.size()));
   for (const double position : robot_.joint_position) {
     state.add_joint_position(static_cast<float>(position));

@@ -8,6 +8,9 @@
 namespace nao::gateway {
 namespace {
 
+/** Bytes; see Connect. */
+constexpr size_t kMaxJoinKey = 64;
+
 void add(ClientCounters& sum, const ClientCounters& counters) {
   sum.num_requests += counters.num_requests;
   sum.num_refused += counters.num_refused;
@@ -32,8 +35,20 @@ ClientSession* Sessions::find(uint32_t id) const {
 
 void Sessions::connect(ClientSession& session, const naoremote::Connect& request) {
   session.name = make_unique_name(request.client_name(), session.id);
+  if (request.join_key().size() <= kMaxJoinKey) session.join_key = request.join_key();
   session.is_connected = true;
   audit("connected", session, clean_client_name(request.client_software()));
+}
+
+void Sessions::join(ClientSession& first, ClientSession& second, double now) {
+  if (ClientSession* before = find(first.second)) {
+    close(*before, gateway_reason("connection-replaced"), now);
+    before->first = 0;
+  }
+  second.first = first.id;
+  first.second = second.id;
+  first.wake_second = second.wake_connection;
+  if (!first.copies) first.copies = std::make_unique<RequestCopies>();
 }
 
 void Sessions::refuse(ClientSession& session, const naoremote::Connect& request,
@@ -53,10 +68,13 @@ void Sessions::close(ClientSession& session, const Reason& reason, double now) {
   message.mutable_notice()->set_kind(naoremote::Notice::CLOSING);
   write_reason(reason, *message.mutable_notice());
   session.send(message);
-  if (!session.is_connected && !session.is_refused) audit("refused", session, reason.code);
+  if (!session.is_connected && !session.is_refused && session.first == 0)
+    audit("refused", session, reason.code);
   disconnect(session, reason.code, now);
   session.is_closing = true;
   session.wake();
+  // A client's second connection does not outlive the first one.
+  if (ClientSession* second = find(session.second)) close(*second, reason, now);
 }
 
 void Sessions::remove(uint32_t id, const std::string& why, double now) {
@@ -65,6 +83,16 @@ void Sessions::remove(uint32_t id, const std::string& why, double now) {
   disconnect(*session, why, now);
   // Totals must not fall when a client leaves.
   add(past_counters_, session->calc_counters());
+  if (ClientSession* second = find(session->second)) {
+    close(*second, gateway_reason("connection-ended"), now);
+  }
+  // Images come over the first connection again.
+  ClientSession* first = find(session->first);
+  if (first != nullptr && first->second == id) {
+    first->second = 0;
+    first->wake_second = nullptr;
+    first->streams.image_pacer = {};
+  }
   sessions_.erase(id);
 }
 
@@ -87,7 +115,9 @@ void Sessions::broadcast(const naoremote::ServerMessage& message) const {
 void Sessions::step(double now) {
   for (const auto& [id, session] : sessions_) {
     if (session->is_closing) continue;
-    if (!session->is_connected && now - session->opened_at > limits_.connect_timeout) {
+    const bool is_second = session->first != 0;
+    if (!session->is_connected && !is_second &&
+        now - session->opened_at > limits_.connect_timeout) {
       close(*session, gateway_reason("connect-timeout", {to_argument(limits_.connect_timeout)}),
             now);
     } else if (session->is_connected && now - session->last_request > limits_.silence_timeout) {

@@ -39,6 +39,15 @@ class Sessions {
   void refuse(ClientSession& session, const naoremote::Connect& request, const Reason& reason,
               double now);
 
+  /** Join has been accepted: `second` is the second connection of the client of `first`; one that
+   * it had before closes. */
+  void join(ClientSession& first, ClientSession& second, double now);
+  /** The session of a connection's client: its own, or that of the first connection; nullptr if
+   * that has ended. */
+  ClientSession* client_of(ClientSession& connection) const {
+    return connection.first == 0 ? &connection : find(connection.first);
+  }
+
   /** Closes a session from the gateway's side, with a notice that says why. */
   void close(ClientSession& session, const Reason& reason, double now);
   /** The connection has ended. @param why  For the audit log. */

@@ -42,7 +42,7 @@ void Streams::set_robot(const RobotSnapshot& robot, double now) {
   // The encoding is shared by all clients, and made anew for a new state.
   state_encoding_.reset();
   sessions_.for_each([now](ClientSession& session) {
-    if (session.streams.state_throttle.allow(now)) session.request_state();
+    if (session.streams.state_throttle.allow(now)) session.request_state(now);
   });
 }
 
@@ -171,6 +171,7 @@ void Streams::write_image(const CachedImage& cached, naoremote::Image& image, do
   image.set_width(cached.width);
   image.set_height(cached.height);
   image.set_jpeg(cached.jpeg);
+  image.set_sent_at(now);
 }
 
 // What the head camera is asked for: one request for each camera and width, with the highest rate
@@ -194,8 +195,8 @@ void Streams::step(double now) {
   images_.drop_before(now - kImageLifetime);
   if (components_.is_available(Component::kRobot) || now < next_stale_state_) return;
   next_stale_state_ = now + kStaleStatePeriod;
-  sessions_.for_each([](ClientSession& session) {
-    if (session.streams.subscription.state_rate > 0) session.request_state();
+  sessions_.for_each([now](ClientSession& session) {
+    if (session.streams.subscription.state_rate > 0) session.request_state(now);
   });
 }
 

@@ -43,12 +43,20 @@ void note_eviction(ConnectionContext& context, const std::string& address);
 /** The other end of a socket. */
 Endpoint make_endpoint(const Tcp::socket& socket, const std::string& transport);
 
-/** Sets the options of an accepted socket: no delay, and a small limit of unsent bytes, so that the
- * next image of a slow client is chosen late. */
-void prepare_socket(Tcp::socket& socket);
+/** Sets the options of an accepted socket: no delay, a small limit of unsent bytes, so that the
+ * next image of a slow client is chosen late, and the congestion control (NetworkOptions). */
+void prepare_socket(Tcp::socket& socket, const std::string& congestion_control);
 
-/** Round-trip time as the kernel estimates it, s; 0 if it has no estimate. */
-double measure_round_trip_time(Tcp::socket& socket);
+/** What the kernel knows of a connection; round-trip times in s, 0 if it does not know them. */
+struct LinkMeasurement {
+  double mean = 0;
+  /** In the last five minutes. */
+  double least = 0;
+  /** Packets that were repeated on the connection until now. */
+  uint32_t num_repeated_packets = 0;
+};
+/** Measures it, and bounds the unsent bytes by the measured delivery rate. */
+LinkMeasurement measure_link(Tcp::socket& socket);
 
 /** Bytes that were written and that the other end has not acknowledged. */
 size_t count_unacknowledged(Tcp::socket& socket);

@@ -27,6 +27,9 @@ struct NetworkOptions {
   /** Certificate and its key, PEM; empty: no https. */
   std::string certificate_file;
   std::string key_file;
+  /** TCP congestion control of the clients' connections, as tcp(7) names it; empty: the system's
+   * default, also where the system does not have it or does not permit it. */
+  std::string congestion_control;
 };
 
 /** Counters of the network layer since the start. */

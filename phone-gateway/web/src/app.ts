@@ -113,7 +113,7 @@ export class App {
           vision: (vision) => this.store.set({vision}),
         });
     this.commander = new Commander(this.connection, this.store, this.messages);
-    this.walk = new WalkSender((drive) => this.sendWalk(drive));
+    this.walk = new WalkSender((drive, isLocked) => this.sendWalk(drive, isLocked));
     const canvas = el("canvas", {class: "stage", role: "img", "aria-label": say("drive.stage")});
     const lost = el("div", {class: "lost-context", role: "alert", hidden: true}, el("p", {}, say("drive.lostContext")),
                     reloadButton());
@@ -203,6 +203,7 @@ export class App {
   start(): void {
     exposeAutomation(this.store, this.stage, this.image, this.view, this.perception.objects);
     new MatchEvents(this.store, this.messages, this.sound);
+    this.store.watch((state) => state.imageAgeMs, (ageMs) => this.image.showAge(ageMs));
     this.store.watch(isStale, (isOn) => this.root.classList.toggle("stale", isOn));
     this.held.lockWhileStale(() => {
       vibrate(kRefusalPattern);
@@ -366,11 +367,11 @@ export class App {
   }
 
   /** Scales fractions of the controls' range by the limits of the robot's walk. */
-  private sendWalk({x, y, theta}: Drive): void {
+  private sendWalk({x, y, theta}: Drive, isLocked: boolean): void {
     const {robot} = this.store.get();
     if (!robot) return;
     const vx = x * (x < 0 ? -robot.minVx : robot.maxVx);
-    this.commander.stream(useCases.walkTurn(vx, y * robot.maxVy, theta * robot.maxWz));
+    this.commander.stream(useCases.walkTurn(vx, y * robot.maxVy, theta * robot.maxWz, isLocked));
   }
 
   private stop(): void {

@@ -107,6 +107,7 @@ export class Commander {
       case Notice_Kind.CONTROL_CHANGED: this.controlChanged(notice); break;
       case Notice_Kind.COMPONENT_CHANGED: this.componentChanged(notice); break;
       case Notice_Kind.MOTIONS_CHANGED: this.store.set({savedMotions: notice.motions?.names ?? []}); break;
+      case Notice_Kind.WALK_ENDED:
       case Notice_Kind.CLOSING: this.messages.show("bad", reasonInWords(notice)); break;
     }
   }

@@ -2,7 +2,7 @@ import {create} from "@bufbuild/protobuf";
 import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
 import {FakeTransport} from "../test_support/fake_transport";
 import {Connection, kOpenTimeoutMs, kSilenceMs} from "./connection";
-import {ConnectedSchema, ErrorCode, Mode, PongSchema, StateSchema} from "./protocol/generated/remote_pb";
+import {ConnectedSchema, ErrorCode, ImageSchema, Mode, PongSchema, StateSchema} from "./protocol/generated/remote_pb";
 import type {State} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import {isStale, Store} from "./store";
@@ -97,6 +97,83 @@ describe("Connection", () => {
         ConnectedSchema, {clientId: 8, robot: {name: "NAO"}})});
     await pass(0);
     expect(store.get()).toMatchObject({phase: "connected", clientId: 8});
+  });
+
+  describe("with a second connection", () => {
+    let second: FakeTransport;
+    let images: number;
+    let shown: number[];
+
+    beforeEach(() => {
+      connection.disconnect();
+      second = new FakeTransport();
+      transport.another = () => second;
+      images = 0;
+      shown = [];
+      connection = new Connection(transport, store, {
+        connected: () => {}, state: ({sentAt}) => shown.push(sentAt), image: () => images++, notice: () => {},
+      }, () => Date.now());
+      connection.connect(kIdentity);
+    });
+
+    async function join(error = ErrorCode.OK): Promise<void> {
+      await welcome();
+      second.opened();
+      second.answer("join", error);
+    }
+
+    it("joins as the same client, by a key that only they know", async () => {
+      await join();
+      const connect = transport.sent.find((one) => one.useCase.case === "connect")!.useCase;
+      const key = connect.case === "connect" ? connect.value.joinKey : "";
+      expect(key).toHaveLength(32);
+      expect(second.sent[0]!.useCase.value).toMatchObject({clientId: 7, key});
+    });
+    it("sends copies of short requests, with the same numbers, once it has joined", async () => {
+      await welcome();
+      second.opened();
+      void connection.request(useCases.stop());
+      expect(second.sent.map((one) => one.useCase.case)).toEqual(["join"]);
+      second.answer("join");
+      void connection.request(useCases.stop());
+      void connection.request(useCases.saveMotion({yaml: "x".repeat(2000)}, false));
+      expect(second.sent.at(-1)).toEqual(transport.sent.at(-2));
+      expect(second.sent).toHaveLength(2);
+    });
+    it("takes images from it, and counts their age from the exposure", async () => {
+      await join();
+      const sentAt = Date.now() / 1000 + 60;
+      transport.answer("ping", ErrorCode.OK, "", {case: "pong", value: create(PongSchema, {sentAt})});
+      await pass(50);
+      second.receive({case: "image", value: create(ImageSchema, {ageMs: 20, sentAt})});
+      expect(images).toBe(1);
+      expect(store.get().imageAgeMs).toBeCloseTo(70, 0);
+      await pass(400);
+      expect(store.get().imageAgeMs).toBeGreaterThan(400);
+    });
+    it("shows no state that comes after a newer one over the other connection", async () => {
+      await join();
+      transport.receive({case: "state", value: create(StateSchema, {sentAt: 2})});
+      second.receive({case: "state", value: create(StateSchema, {sentAt: 1})});
+      second.receive({case: "state", value: create(StateSchema, {sentAt: 3})});
+      expect(shown).toEqual([2, 3]);
+    });
+    it("opens it again when it breaks, and goes on without it where it is refused", async () => {
+      await join();
+      second.broken(true);
+      await pass(1000);
+      expect(second.numOpens).toBe(2);
+      second.opened();
+      second.answer("join", ErrorCode.INVALID_ARGUMENT);
+      await pass(3500);
+      expect(second.numOpens).toBe(2);
+      expect(store.get().phase).toBe("connected");
+    });
+    it("closes it with the first one", async () => {
+      await join();
+      connection.disconnect();
+      expect(second.isOpen).toBe(false);
+    });
   });
 
   it("gives up on a wrong token and says so", async () => {

@@ -1,5 +1,6 @@
 /** Connection to the gateway: opens it, sends Connect and pings, reopens it, and reports problems. */
 import {retryDelayMs} from "./backoff";
+import {ClockRelation} from "./clock_relation";
 import {decodeServerMessage, encodeRequest} from "./protocol/codec";
 import type {UseCase} from "./protocol/codec";
 import {ErrorCode, Notice_Kind} from "./protocol/generated/remote_pb";
@@ -7,6 +8,7 @@ import type {
   Audio, Connected, Control, Notice, Image, PlayState, Response, RobotDescription, State, Vision,
 } from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
+import {SecondConnection} from "./second_connection";
 import type {Problem, Store} from "./store";
 import {reasonInWords} from "./text/reasons";
 import {setLabels} from "./text/texts";
@@ -55,6 +57,12 @@ export class Connection {
   private lastReceivedMs = 0;
   /** When the newest state was taken, by the clock of `now`, ms; null: there is none. */
   private stateMs: number | null = null;
+  /** The same of the newest image. */
+  private imageMs: number | null = null;
+  private readonly clocks = new ClockRelation();
+  /** When the newest state was sent, s of the gateway's clock. */
+  private newestSentAt = 0;
+  private readonly second: SecondConnection | null;
   private lastPingMs = 0;
   private lastCheckMs = 0;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
@@ -67,7 +75,10 @@ export class Connection {
   /** @param now  ms on a clock that never jumps. */
   constructor(private readonly transport: Transport, private readonly store: Store,
               private readonly listener: ConnectionListener,
-              private readonly now: () => number = () => performance.now()) {}
+              private readonly now: () => number = () => performance.now()) {
+    const another = transport.another?.();
+    this.second = another ? new SecondConnection(another, (bytes) => this.handle(bytes)) : null;
+  }
 
   /** Connects now and stays connected until disconnect(). */
   connect(identity: Identity): void {
@@ -80,7 +91,7 @@ export class Connection {
   /** Ends the link and every attempt. */
   disconnect(): void {
     this.stopTimers();
-    this.transport.close();
+    this.close();
     this.dropPending();
     this.store.set({phase: "idle", problem: null, problemDetail: "", nextAttemptMs: 0});
   }
@@ -97,7 +108,9 @@ export class Connection {
     return new Promise((resolve) => {
       const id = this.nextRequestId++;
       this.pending.set(id, resolve);
-      this.transport.send(encodeRequest(id, useCase));
+      const bytes = encodeRequest(id, useCase);
+      this.transport.send(bytes);
+      this.second?.copy(bytes);
     });
   }
 
@@ -124,7 +137,8 @@ export class Connection {
     this.lastReceivedMs = this.now();
     const {token, clientName, clientSoftware} = this.identity;
     const robot = this.robotName;
-    const response = await this.request(useCases.connect(token, clientName, clientSoftware, robot));
+    const response = await this.request(useCases.connect(token, clientName, clientSoftware, robot,
+                                                          this.second?.key));
     if (!response || attempt !== this.attempt) return;
     if (response.error === ErrorCode.OK && response.result.case === "connected") {
       this.welcome(response.result.value);
@@ -141,6 +155,8 @@ export class Connection {
   private welcome(connected: Connected): void {
     this.stopTimers();
     this.latencySamples.length = 0;
+    this.clocks.reset();
+    this.newestSentAt = 0;
     const robots = connected.robots?.robots ?? [];
     // After a lost link the person goes on with the same robot.
     const isChoosingRobot = robots.length > 1 && (this.robotName === "" || this.store.get().isChoosingRobot);
@@ -151,6 +167,7 @@ export class Connection {
       match: connected.match ?? null, isChoosingRobot, latencyMs: -1,
     });
     this.ping();
+    this.second?.open(connected.clientId);
     this.lastCheckMs = this.now();
     this.checkTimer = setInterval(() => this.check(), kCheckPeriodMs);
     this.listener.connected(connected);
@@ -160,10 +177,11 @@ export class Connection {
   private adopt(robot: RobotDescription | undefined, control: Control | undefined): void {
     this.robotName = robot?.name ?? "";
     this.stateMs = null;
+    this.imageMs = null;
     setLabels(robot?.labels ?? []);
     this.store.set({
       robot: robot ?? null, control: control ?? null,
-      state: null, stateAgeMs: -1, playState: null, vision: null, unavailableComponents: [],
+      state: null, stateAgeMs: -1, image: null, imageAgeMs: -1, playState: null, vision: null, unavailableComponents: [],
       savedMotions: robot?.savedMotions ?? [], isCheckingMotion: false,
     });
   }
@@ -184,6 +202,13 @@ export class Connection {
 
   private measureAge(): void {
     if (this.stateMs !== null) this.store.set({stateAgeMs: this.now() - this.stateMs});
+    if (this.imageMs !== null) this.store.set({imageAgeMs: this.now() - this.imageMs});
+  }
+
+  /** When a state or image was taken, by the clock of `now`, ms. */
+  private takenMs({ageMs, sentAt}: {ageMs: number; sentAt: number}): number {
+    const now = this.now();
+    return now - ageMs - (this.clocks.transitMs(sentAt, now) ?? Math.max(0, this.store.get().latencyMs) / 2);
   }
 
   private ping(): void {
@@ -191,6 +216,7 @@ export class Connection {
     this.lastPingMs = sentMs;
     void this.request(useCases.ping(Math.round(sentMs * 1000))).then((response) => {
       if (response?.result.case !== "pong") return;
+      this.clocks.add(sentMs, this.now(), response.result.value.sentAt);
       this.latencySamples.push(this.now() - sentMs);
       if (this.latencySamples.length > kNumLatencySamples) this.latencySamples.shift();
       const sorted = [...this.latencySamples].sort((a, b) => a - b);
@@ -201,6 +227,11 @@ export class Connection {
 
   private received(bytes: Uint8Array): void {
     this.lastReceivedMs = this.now();
+    this.handle(bytes);
+  }
+
+  /** A message over either connection. */
+  private handle(bytes: Uint8Array): void {
     const {message} = decodeServerMessage(bytes) ?? {message: {case: undefined}};
     switch (message.case) {
       case "response": {
@@ -210,11 +241,18 @@ export class Connection {
         break;
       }
       case "state":
-        this.stateMs = this.now() - message.value.ageMs - Math.max(0, this.store.get().latencyMs) / 2;
+        // Of two connections one may be late.
+        if (message.value.sentAt > 0 && message.value.sentAt < this.newestSentAt) break;
+        this.newestSentAt = message.value.sentAt;
+        this.stateMs = this.takenMs(message.value);
         this.measureAge();
         this.listener.state(message.value);
         break;
-      case "image": this.listener.image(message.value); break;
+      case "image":
+        this.imageMs = this.takenMs(message.value);
+        this.measureAge();
+        this.listener.image(message.value);
+        break;
       case "notice": this.noticed(message.value); break;
       case "audio": this.listener.audio?.(message.value); break;
       case "playState": this.listener.playState?.(message.value); break;
@@ -258,7 +296,7 @@ export class Connection {
   private failed(problem: Problem, detail = ""): void {
     this.stopTimers();
     this.attempt++;
-    this.transport.close();
+    this.close();
     this.dropPending();
     const attempts = this.store.get().attempts + 1;
     if (kFinalProblems.includes(problem)) {
@@ -269,6 +307,11 @@ export class Connection {
     this.retryTimer = setTimeout(() => this.open(), delay);
     this.store.set({phase: "waiting", problem, problemDetail: detail, attempts,
                     nextAttemptMs: this.now() + delay});
+  }
+
+  private close(): void {
+    this.second?.close();
+    this.transport.close();
   }
 
   private stopTimers(): void {

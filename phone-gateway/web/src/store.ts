@@ -73,6 +73,8 @@ export interface AppState {
   /** Age of that state as the phone sees it, also while nothing comes, ms; negative: there is none. */
   stateAgeMs: number;
   image: Image | null;
+  /** Age of that image as the phone sees it, also while nothing comes, ms; negative: there is none. */
+  imageAgeMs: number;
   loading: Loading;
   /** Newest last. */
   messages: readonly Message[];
@@ -124,6 +126,7 @@ const kInitialState: AppState = {
   state: null,
   stateAgeMs: -1,
   image: null,
+  imageAgeMs: -1,
   loading: {done: 0, total: 0, error: ""},
   messages: [],
   lastResult: null,

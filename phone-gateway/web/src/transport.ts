@@ -9,6 +9,8 @@ export interface Transport {
   close(): void;
   /** Bytes handed to send() that have not left yet. */
   backlogBytes(): number;
+  /** Another connection to the same gateway, for images. */
+  another?(): Transport;
   /** True if something answers at the address at all; asked after a failure, to say why. */
   somethingAnswers(): Promise<boolean>;
 }
@@ -66,6 +68,10 @@ export class WebSocketTransport implements Transport {
 
   backlogBytes(): number {
     return this.socket?.bufferedAmount ?? 0;
+  }
+
+  another(): Transport {
+    return new WebSocketTransport(this.pageUrl);
   }
 
   async somethingAnswers(): Promise<boolean> {

@@ -9,6 +9,7 @@ export class FakeTransport implements Transport {
   readonly sent: pb.Request[] = [];
   answers = false;
   backlog = 0;
+  another?: () => FakeTransport;
   private listener: TransportListener | null = null;
 
   open(listener: TransportListener): void {

@@ -14,7 +14,7 @@ from pathlib import Path
 
 def use_cases(pb):
     return {
-        "connect": dict(connect=pb.Connect(protocol_version=1, token="k", client_name="Ana")),
+        "connect": dict(connect=pb.Connect(protocol_version=1, token="k", client_name="Ana", join_key="j")),
         "get_state": dict(get_state=pb.GetState(with_image=True, image=pb.ImageRequest(camera="top", width=320))),
         "subscribe": dict(subscribe=pb.Subscribe(state_rate=30, image_rate=15)),
         "walk_turn": dict(walk_turn=pb.WalkTurn(vx=0.1, vy=-0.1, wz=1)),
@@ -25,6 +25,7 @@ def use_cases(pb):
         "play": dict(play=pb.Play(behavior=pb.Play.KICK, target_x=1, target_y=0.5)),
         "stop": dict(stop=pb.Stop()),
         "release_control": dict(release_control=pb.ReleaseControl()),
+        "held_walk_turn": dict(walk_turn=pb.WalkTurn(is_held=True)),
         "ping": dict(ping=pb.Ping(client_utime=1)),
         "operate": dict(operate=pb.Operate(operation=pb.Operate.KICK, client_id=1)),
     }
@@ -41,6 +42,9 @@ def seed(folder):
 
     requests = use_cases(pb)
     begin = encode(6, **requests["connect"]) + encode(6, take_control=pb.TakeControl())
+    # The second connection of the first client, and copies of requests over both.
+    copies = b"".join(encode(events, walk_turn=pb.WalkTurn(vx=0.1)) for events in (6, 7, 7, 6))
+    (folder / "join").write_bytes(begin + encode(7, join=pb.Join(client_id=1, key="j")) + copies)
     for name, request in requests.items():
         (folder / name).write_bytes(begin + encode(14, **request) + encode(6, **request))
 

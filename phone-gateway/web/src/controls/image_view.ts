@@ -20,6 +20,11 @@ const kDesk = "(min-width: 1000px) and (min-height: 600px) and (hover: hover) an
 
 const kCameraIcon = "M4 8h3l2-2h6l2 2h3v11H4zM12 16.5a3.5 3.5 0 1 0 0-7 3.5 3.5 0 0 0 0 7z";
 
+/** Ages of the image, ms: above the first it is shown on it, above the second the image is grey. Chosen: twice what a person
+ * perceives as a delay; where nothing is driven by it (store.ts). */
+const kShownAgeMs = 300;
+const kGreyAgeMs = 500;
+
 /** A tap on the image: fractions of its size, and px on the page. */
 export interface ImageTap {
   x: number;
@@ -43,6 +48,7 @@ export class ImageView {
   private readonly canvas = el("canvas", {width: 320, height: 240, "aria-hidden": "true"});
   private readonly empty = el("span", {class: "image-empty"}, say("drive.imageWaiting"));
   private readonly cameraName = el("span");
+  private readonly age = el("span", {class: "image-age", hidden: true});
   private readonly enlarge: HTMLButtonElement;
   private readonly switcher: HTMLButtonElement;
   private isBusy = false;
@@ -64,7 +70,7 @@ export class ImageView {
     this.switcher = el("button", {class: "image-camera", onclick: () => this.switchCamera()},
                        el("span", {class: "image-label"}, icon(kCameraIcon), this.cameraName));
     this.element = el("section", {class: "image", "aria-label": say("drive.image")},
-                      this.enlarge, this.switcher);
+                      this.enlarge, this.switcher, this.age);
     this.relabel();
   }
 
@@ -96,6 +102,13 @@ export class ImageView {
     createImageBitmap(blob).then((bitmap) => this.draw(bitmap), () => {
       // Not a JPEG: the next image may be.
     }).finally(() => this.isBusy = false);
+  }
+
+  /** @param ageMs  of the newest image, ms; negative: there is none. */
+  showAge(ageMs: number): void {
+    this.age.hidden = ageMs < kShownAgeMs;
+    if (!this.age.hidden) this.age.textContent = say("drive.imageAge", {seconds: (ageMs / 1000).toFixed(1)});
+    this.element.classList.toggle("old", ageMs >= kGreyAgeMs);
   }
 
   private draw(bitmap: ImageBitmap): void {

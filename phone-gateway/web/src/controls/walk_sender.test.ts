@@ -8,12 +8,17 @@ const zero = {x: 0, y: 0, theta: 0};
 
 describe("WalkSender", () => {
   let sent: Drive[];
+  let locked: boolean[];
   let sender: WalkSender;
 
   beforeEach(() => {
     vi.useFakeTimers();
     sent = [];
-    sender = new WalkSender((drive) => sent.push(drive), () => Date.now());
+    locked = [];
+    sender = new WalkSender((drive, isLocked) => {
+      sent.push(drive);
+      locked.push(isLocked);
+    }, () => Date.now());
   });
   afterEach(() => {
     vi.useRealTimers();
@@ -30,6 +35,20 @@ describe("WalkSender", () => {
   it("knows the time-out of the gateway", () => {
     const limits = readFileSync(new URL("../../../server/core/gateway_limits.h", import.meta.url), "utf8");
     expect(limits).toContain(`double walk_timeout = ${kWalkTimeoutMs / 1000};`);
+  });
+
+  it("tells a stick that is held while locked from one that is released", () => {
+    sender.set("sticks", ahead);
+    sender.lock(true);
+    expect(sent.at(-1)).toEqual(zero);
+    expect(locked.at(-1)).toBe(true);
+    sender.set("sticks", null);
+    expect(sent.at(-1)).toEqual(zero);
+    expect(locked.at(-1)).toBe(false);
+    const count = sent.length;
+    sender.lock(false);
+    vi.advanceTimersByTime(1000);
+    expect(sent.length).toBe(count);
   });
 
   it("ends the walk at once, and once, when released", () => {

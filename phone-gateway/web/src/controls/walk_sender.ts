@@ -26,8 +26,9 @@ export class WalkSender {
   private lastSentMs = 0;
   private isLocked = false;
 
-  /** @param publish  takes the walk command to the robot. @param now  ms. */
-  constructor(private readonly publish: (drive: Drive) => void,
+  /** @param publish  takes the walk command to the robot. `isLocked`: something is held, but the robot must stand. @param now
+   * ms. */
+  constructor(private readonly publish: (drive: Drive, isLocked: boolean) => void,
               private readonly now: () => number = () => performance.now()) {}
 
   /** Sets the command of a source; null when it is released. A held source at zero keeps the walk alive. A gamepad and a
@@ -36,8 +37,8 @@ export class WalkSender {
     const wasHeld = this.isHeld;
     if (drive) this.drives.set(source, {drive, setMs: this.now()});
     else if (!this.drives.delete(source)) return;
-    if (this.isLocked) return;
     if (!this.isHeld) this.end();
+    else if (this.isLocked) return;
     else if (!wasHeld) this.repeater.start();
     else if (this.now() - this.lastSentMs >= kMinPeriodMs) this.send();
   }
@@ -79,6 +80,6 @@ export class WalkSender {
     }
     if (!this.isHeld) this.repeater.stop();
     this.lastSentMs = now;
-    this.publish(this.drive);
+    this.publish(this.drive, this.isHeld && this.isLocked);
   }
 }

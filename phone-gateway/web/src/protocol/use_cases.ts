@@ -10,11 +10,15 @@ export interface ImageRequest {
   width: number;
 }
 
-/** @param robot  name of the robot to watch; empty: the gateway chooses. */
-export function connect(token: string, clientName: string, clientSoftware: string, robot = ""): UseCase {
+/** @param robot  name of the robot to watch; empty: the gateway chooses. @param joinKey  of a second connection. */
+export function connect(token: string, clientName: string, clientSoftware: string, robot = "", joinKey = ""): UseCase {
   const value = create(pb.ConnectSchema,
-                       {protocolVersion: kProtocolVersion, token, clientName, clientSoftware, robot});
+                       {protocolVersion: kProtocolVersion, token, clientName, clientSoftware, robot, joinKey});
   return {case: "connect", value};
+}
+
+export function join(clientId: number, key: string): UseCase {
+  return {case: "join", value: create(pb.JoinSchema, {clientId, key})};
 }
 
 /** What is streamed beside states and images: what the robot says, does by itself, and sees. */
@@ -31,9 +35,9 @@ export function subscribe(stateRate: number, imageRate: number, request: ImageRe
   return {case: "subscribe", value: create(pb.SubscribeSchema, {stateRate, imageRate, image, ...more})};
 }
 
-/** Commanded velocity: m/s forward, m/s to the left, rad/s to the left. */
-export function walkTurn(vx: number, vy: number, wz: number): UseCase {
-  return {case: "walkTurn", value: create(pb.WalkTurnSchema, {vx, vy, wz})};
+/** Commanded velocity: m/s forward, m/s to the left, rad/s to the left. @param isHeld  with all zero: the robot steps in place. */
+export function walkTurn(vx: number, vy: number, wz: number, isHeld = false): UseCase {
+  return {case: "walkTurn", value: create(pb.WalkTurnSchema, {vx, vy, wz, isHeld})};
 }
 
 /** Goal relative to the robot: m forward, m to the left, rad to the left. */

@@ -36,10 +36,10 @@ export function linkDelay({latencyMs, stateAgeMs}: Readonly<AppState>): number {
 /** Good: the delay is not noticeable; fair: noticeable; poor: drive slowly. */
 export function linkQuality(state: Readonly<AppState>): "good" | "fair" | "poor" {
   if (isStale(state)) return "poor";
-  const worst = Math.max(linkDelay(state), (state.image?.ageMs ?? 0) / 2);
+  const worst = Math.max(linkDelay(state), state.imageAgeMs / 2);
   return worst < 60 ? "good" : worst < 200 ? "fair" : "poor";
 }
 
 export function linkInWords(state: Readonly<AppState>): string {
-  return say("drive.link", {latency: Math.round(linkDelay(state)), image: Math.round(state.image?.ageMs ?? 0)});
+  return say("drive.link", {latency: Math.round(linkDelay(state)), image: Math.round(Math.max(0, state.imageAgeMs))});
 }

@@ -150,6 +150,7 @@ const kTexts = {
   "drive.link": ["Delay {latency} ms, picture {image} ms old",
                  "Atraso {latency} ms, imagem com {image} ms",
                  "Verzögerung {latency} ms, Bild {image} ms alt"],
+  "drive.imageAge": ["{seconds} s old", "há {seconds} s", "{seconds} s alt"],
   "drive.stage": ["The robot, seen from outside. Drag to look around.",
                   "O robô visto de fora. Arraste para rodar a vista.",
                   "Der Roboter von außen. Ziehen, um herumzuschauen."],

@@ -22,9 +22,10 @@ class PacedLink {
       const double queued = std::max(0.0, busy_until_ - now_) * rate_;
       pacer_.update(static_cast<size_t>(queued), round_trip_, now_);
       if (!pacer_.may_send()) continue;
-      // A byte for eight pixels at the usual quality, half of that at the reduced one.
+      // A byte for eight pixels at the usual quality.
       const ImageSelection image = pacer_.reduce({"top", 640, 0});
-      const double size = image.width * image.width * 0.75 / 8 * (image.quality == 40 ? 0.5 : 1);
+      const double factor = image.quality == 50 ? 0.55 : image.quality == 30 ? 0.4 : 1;
+      const double size = image.width * image.width * 0.75 / 8 * factor;
       pacer_.note_sent(static_cast<size_t>(size), now_);
       busy_until_ = now_ + size / rate_ + round_trip_;
       ++num_images_;
@@ -63,6 +64,17 @@ TEST(ImagePacer, ALongRoundTripAloneMakesNoImageSmaller) {
   PacedLink link(5e6, 0.3);
   link.run(20);
   EXPECT_EQ(link.image().width, 640u);
+}
+
+TEST(ImagePacer, StatesThatAreUnderWayHoldUpNoImage) {
+  ImagePacer pacer;
+  pacer.note_sent(10000, 0);
+  // Over a link of 0.2 s more states are under way at any time than a free link has bytes.
+  for (int i = 0; i < 12; ++i) pacer.note_other(400);
+  pacer.update(10000 + 12 * 400, 0.2, 0.19);
+  EXPECT_FALSE(pacer.may_send());
+  pacer.update(12 * 400, 0.2, 0.2);
+  EXPECT_TRUE(pacer.may_send());
 }
 
 TEST(ImagePacer, GoesBackToLargeImagesWhenTheLinkIsGoodAgain) {
