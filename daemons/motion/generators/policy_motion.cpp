@@ -6,6 +6,7 @@
 
 #include "common/smooth_step.h"
 #include "daemons/motion/generators/walk_motion.h"
+#include "daemons/motion/guards/joint_limits.h"
 #include "daemons/motion/standing_rates.h"
 #include "kinematics/pose2.h"
 
