@@ -21,18 +21,30 @@ NeuralNetwork::Shape BallDetector::shape() {
 }
 
 std::vector<BallCandidate> BallDetector::judge(const PatchSampler& sampler,
-                                               const std::vector<Circle>& circles) const {
+                                               const std::vector<Circle>& circles,
+                                               bool with_mirrored) const {
   std::vector<cv::Mat> patches;
   for (const Circle& circle : circles) {
     patches.push_back(sampler.sample(circle.center, kPatchRadii * circle.radius));
   }
-  const cv::Mat_<float> outputs = network_->run(patches);
+  for (size_t i = 0; with_mirrored && i < circles.size(); ++i) {
+    cv::Mat mirrored;
+    cv::flip(patches[i], mirrored, 1);
+    patches.push_back(mirrored);
+  }
+  cv::Mat_<float> outputs = network_->run(patches);
+  const auto count = static_cast<int>(circles.size());
+  if (with_mirrored && count > 0) {
+    cv::Mat_<float> mirrored = outputs.rowRange(count, 2 * count);
+    mirrored.col(1) *= -1;
+    outputs = 0.5f * (outputs.rowRange(0, count) + mirrored);
+  }
   std::vector<BallCandidate> candidates;
-  for (size_t i = 0; i < circles.size(); ++i) {
-    const float* output = outputs[static_cast<int>(i)];
-    const Circle& circle = circles[i];
+  for (int i = 0; i < count; ++i) {
+    const float* output = outputs[i];
+    const Circle& circle = circles[static_cast<size_t>(i)];
     BallCandidate candidate;
-    candidate.probability = 1 / (1 + std::exp(-output[0]));
+    candidate.log_odds = output[0];
     candidate.circle.center = circle.center + circle.radius * cv::Point2f(output[1], output[2]);
     candidate.circle.radius = circle.radius * std::exp(std::clamp(output[3], -1.0f, 1.0f));
     candidates.push_back(candidate);
@@ -44,28 +56,30 @@ std::optional<Detection> BallDetector::detect(const PatchSampler& sampler,
                                               const CameraGeometry& geometry,
                                               const std::vector<Circle>& places) const {
   std::vector<BallCandidate> first = judge(sampler, places);
-  std::sort(first.begin(), first.end(), [](const BallCandidate& a, const BallCandidate& b) {
-    return a.probability > b.probability;
-  });
+  std::sort(first.begin(), first.end(),
+            [](const BallCandidate& a, const BallCandidate& b) { return a.log_odds > b.log_odds; });
   std::vector<Circle> circles;
   for (const BallCandidate& candidate : first) {
-    if (circles.size() == kMostSecond || candidate.probability < kLeastSecond) break;
+    if (circles.size() == kMostSecond || candidate.probability() < kLeastSecond) break;
     circles.push_back(candidate.circle);
   }
   std::optional<BallCandidate> best;
-  for (const BallCandidate& candidate : judge(sampler, circles)) {
+  const std::vector<BallCandidate> second = judge(sampler, circles, true);
+  for (size_t i = 0; i < second.size(); ++i) {
+    BallCandidate candidate = second[i];
+    candidate.log_odds = (first[i].log_odds + 2 * candidate.log_odds) / 3;
     const auto expected = geometry.sphere_radius_px(candidate.circle.center, radius_);
     if (geometry.has_pose() &&
         (!expected ||
          std::abs(std::log(*expected / candidate.circle.radius)) > std::log(kRadiusRange))) {
       continue;
     }
-    if (!best || candidate.probability > best->probability) best = candidate;
+    if (!best || candidate.log_odds > best->log_odds) best = candidate;
   }
   if (!best) return std::nullopt;
   const auto& [center, r] = best->circle;
   const bool is_cut = center.y + r > static_cast<float>(2 * sampler.half().rows);
-  if (best->probability < (is_cut ? kAcceptCut : kAccept)) return std::nullopt;
+  if (best->probability() < (is_cut ? kAcceptCut : kAccept)) return std::nullopt;
   Detection detection;
   detection.kind = Kind::kBall;
   detection.box_px = {center.x - r, center.y - r, center.x + r, center.y + r};
@@ -73,7 +87,7 @@ std::optional<Detection> BallDetector::detect(const PatchSampler& sampler,
     detection.position = ground->position;
     detection.covariance = ground->covariance;
   }
-  detection.confidence = best->probability;
+  detection.confidence = best->probability();
   return detection;
 }
 

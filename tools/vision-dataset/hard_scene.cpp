@@ -87,6 +87,29 @@ void look_at(RandomScene& scene, const Eigen::Vector2d& target, double nearest, 
   scene.pose_camera_in_world.translation() << eye.x(), eye.y(), height;
 }
 
+/** Turns the camera so that a border of the image cuts the ball: in most images the lower one, as
+ * when the ball lies before the robot's feet. */
+void turn_to_border(RandomScene& scene, const CameraModel& camera, const Eigen::Vector2d& ball,
+                    double radius, Random& random) {
+  const Eigen::Vector3d eye = scene.pose_camera_in_world.translation();
+  const Eigen::Vector2d way = ball - eye.head<2>();
+  const double elevation = std::atan2(eye.z() - radius, way.norm());
+  const double size = std::asin(radius / std::hypot(way.norm(), eye.z() - radius));
+  const double beyond = random.uniform(-0.8, 0.3) * size;
+  double pitch = elevation - 0.5 * camera.vertical_fov - beyond;
+  double yaw = std::atan2(way.y(), way.x()) + random.uniform(-24, 24) * kDegree;
+  if (random.uniform() < 0.25) {
+    pitch = elevation + random.uniform(-17, 17) * kDegree;
+    yaw = std::atan2(way.y(), way.x()) + (random.uniform() < 0.5 ? -1 : 1) *
+                                             (0.5 * camera.horizontal_fov + beyond) /
+                                             std::cos(pitch);
+  }
+  scene.camera = pitch < 25 * kDegree ? "top" : "bottom";
+  scene.pose_camera_in_world.linear() = (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+                                         Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()))
+                                            .matrix();
+}
+
 /** A point beyond a place, seen from the camera: up to a distance behind it and beside it, m. */
 Eigen::Vector2d behind(const RandomScene& scene, const Eigen::Vector2d& place, double nearest,
                        double farthest, Random& random) {
@@ -119,7 +142,7 @@ Eigen::Vector3f light_color(Random& random) {
 void add_checkerboard(RandomScene& scene, const Eigen::Vector2d& place, Random& random) {
   const int columns = 3 + static_cast<int>(random.uniform(0, 9));
   const int rows = 3 + static_cast<int>(random.uniform(0, 6));
-  const double cell = std::exp(random.uniform(std::log(0.02), std::log(0.12)));
+  const double cell = std::exp(random.uniform(std::log(0.02), std::log(0.18)));
   Eigen::Isometry3d board = Eigen::Isometry3d::Identity();
   double tilt = 0;
   double height = 0.004;
@@ -199,8 +222,8 @@ void add_striped_person(RandomScene& scene, const Eigen::Vector2d& place, Random
 const std::vector<std::string>& scene_kind_names() {
   static const std::vector<std::string> names = {
       "mixed",         "ball-on-line",  "ball-on-mark",     "ball-at-shoe",      "ball-at-post",
-      "ball-at-robot", "ball-in-glare", "ball-overexposed", "ball-underexposed", "checkerboard",
-      "stripes",       "goal-foot",     "crossing",         "robot-feet"};
+      "ball-at-robot", "ball-in-glare", "ball-overexposed", "ball-underexposed", "ball-at-border",
+      "checkerboard",  "stripes",       "goal-foot",        "crossing",          "robot-feet"};
   return names;
 }
 
@@ -213,8 +236,15 @@ void add_hard_objects(RandomScene& scene, const RobotModel& model, const SceneFi
   const FieldDimensions& field = *file.field;
   const Eigen::Vector2d target = draw_target(file, kind, random);
   const bool is_person = kind == SceneKind::kStripes;
-  look_at(scene, target, is_person ? 0.8 : 0.35, 4.5, field, random);
+  const bool is_at_border = kind == SceneKind::kBallAtBorder;
+  look_at(scene, target,
+          is_person      ? 0.8
+          : is_at_border ? 0.2
+                         : 0.35,
+          is_at_border ? 1.5 : 4.5, field, random);
   if (has_ball(kind)) place_ball(scene, target, file.ball->radius, random);
+  if (is_at_border)
+    turn_to_border(scene, model.cameras().front(), target, file.ball->radius, random);
   switch (kind) {
     case SceneKind::kBallAtShoe:
       if (random.uniform() < 0.5) {

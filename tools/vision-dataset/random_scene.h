@@ -66,6 +66,7 @@ enum class SceneKind {
   kBallInGlare,
   kBallOverexposed,
   kBallUnderexposed,
+  kBallAtBorder,
   kCheckerboard,
   kStripes,
   kGoalFoot,

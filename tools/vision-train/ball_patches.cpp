@@ -12,6 +12,8 @@ namespace {
 /** Less visible balls are neither ball nor something else. Below what nao-vision-eval requires,
  * 0.6, since a ball that is half hidden should be found too. */
 constexpr double kLeastVisible = 0.35;
+/** The same for a ball that a border of the image cuts. */
+constexpr double kLeastVisibleCut = 0.25;
 /** A circle shows the ball within the nearer limits: offset in radii, ratio of the radii. Beyond
  * the farther ones it does not; between them it is not used. */
 constexpr float kNear = 0.8f;
@@ -40,7 +42,7 @@ void BallPatches::add_circle(const PatchSampler& sampler, const Circle& circle, 
     const float factor = std::max(ratio, 1 / ratio);
     const bool is_near = distance < kNear * std::max(1.0f, ratio) && factor < kNearRatio;
     const bool is_far = distance > kFar * std::max(1.0f, ratio) || factor > kFarRatio;
-    if (!is_far && (!is_near || visible_ < kLeastVisible)) return;
+    if (!is_far && (!is_near || visible_ < least_visible_)) return;
     if (is_near) {
       numbers[0] = 1;
       numbers[1] = offset.x;
@@ -67,7 +69,13 @@ void BallPatches::add(const LabelledImage& image, const cv::Mat& bgr) {
     visible_ = label.visible;
     distance = label.object.position.norm();
   }
-  const CameraGeometry geometry(*image.calibration, image.pose_camera_in_heading);
+  const bool is_cut = ball_.radius > 0 &&
+                      (ball_.center.x < ball_.radius || ball_.center.x + ball_.radius > bgr.cols ||
+                       ball_.center.y + ball_.radius > bgr.rows);
+  least_visible_ = is_cut ? kLeastVisibleCut : kLeastVisible;
+  // In every second image the pose is unknown: then there are places of all sizes.
+  const CameraGeometry geometry(*image.calibration,
+                                image_ % 2 == 0 ? image.pose_camera_in_heading : std::nullopt);
   std::vector<Circle> places = objects_.detect(sampler.half(), bgr.cols, bgr.rows, geometry).balls;
   const FieldView view = FieldDetector().detect(bgr, geometry);
   const std::vector<Circle> more = find_ball_hints(view, geometry, kBallRadius);
@@ -99,7 +107,7 @@ void BallPatches::add(const LabelledImage& image, const cv::Mat& bgr) {
   }
   if (!ball_network_) return;
   for (const BallCandidate& candidate : BallDetector(ball_network_).judge(sampler, places)) {
-    if (candidate.probability > kLeastSecond) {
+    if (candidate.probability() > kLeastSecond) {
       add_circle(sampler, candidate.circle, Source::kSecond);
     }
   }

@@ -51,6 +51,8 @@ class BallPatches {
   /** Ball of the current image; radius 0 if there is none. */
   Circle ball_;
   double visible_ = 0;
+  /** Least visible fraction of the current image's ball, with which it is learnt. */
+  double least_visible_ = 0;
 };
 
 }  // namespace nao::vision

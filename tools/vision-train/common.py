@@ -1,6 +1,7 @@
 """What the trainings of both networks share."""
 
 import argparse
+import copy
 import io
 import sys
 import time
@@ -110,6 +111,7 @@ def parse_options(description, inputs, inputs_help, epochs, batch, rate):
     parser.add_argument(inputs, nargs="+", help=inputs_help)
     parser.add_argument("--check", nargs="*", help="the same, which are reported and not learnt from")
     parser.add_argument("--start", help="network (.onnx) of an earlier training to start from")
+    parser.add_argument("--keep", type=float, default=0, help="fraction of --start in the mean of both networks' weights, 0 to 1")
     parser.add_argument("--epochs", type=int, default=epochs)
     parser.add_argument("--batch", type=int, default=batch)
     parser.add_argument("--rate", type=float, default=rate, help="greatest learning rate")
@@ -134,6 +136,19 @@ def load(network, file):
         for name, part in module.named_children():
             if isinstance(part, nn.BatchNorm2d):
                 setattr(module, name, nn.Identity())
+
+
+def keep_start(network, options):
+    """Mixes in the weights of --start: what it could do is kept, and less learnt anew.
+
+    Source: Wortsman and others, Robust fine-tuning of zero-shot models, CVPR 2022."""
+    if not options.start or options.keep == 0:
+        return
+    start = copy.deepcopy(network)
+    load(start, options.start)
+    with torch.no_grad():
+        for weights, others in zip(network.parameters(), start.parameters()):
+            weights.lerp_(others, options.keep)
 
 
 def begin(network, options):

@@ -47,27 +47,86 @@ def mirrored(patches, numbers, generator):
     return patches, numbers
 
 
-def faded(patches, numbers, generator):
-    """Of a half of the balls the dark faces become lighter, as on worn balls; a half of all patches is blurred."""
-    count = len(patches)
+def distances(numbers):
+    """Of each pixel from the ball's center, in radii of the ball, N x 1 x 32 x 32; without a ball far away."""
     position = (torch.arange(SIZE) + 0.5) * (2 * PATCH_RADII / SIZE) - PATCH_RADII
-    radius = numbers[:, 3].exp()[:, None, None]
     dx = position[None, None, :] - numbers[:, 1, None, None]
     dy = position[None, :, None] - numbers[:, 2, None, None]
-    is_inside = ((dx**2 + dy**2 < (0.95 * radius) ** 2) & (numbers[:, 0, None, None] > 0.5))[:, None]
-    light = (patches * is_inside).amax(dim=(2, 3), keepdim=True)
-    strength = 1.6 * torch.rand(count, 1, 1, 1, generator=generator) - 0.8
-    patches = patches + strength.clamp(min=0) * is_inside * (light - patches)
+    distance = (dx**2 + dy**2).sqrt() / numbers[:, 3].exp()[:, None, None]
+    return torch.where(numbers[:, 0, None, None] > 0.5, distance, 100.0)[:, None]
+
+
+def pasted(patches, numbers, generator):
+    """A third of the whole balls is cut out and put into other patches: on lines, crossings, robots, boards."""
+    count = len(patches)
+    other = torch.randperm(count, generator=generator)
+    chosen = (numbers[:, 0] > 0.5) & (numbers[:, 4] > 0.97) & (numbers[other, 0] < 0.5)
+    chosen &= torch.rand(count, generator=generator) < 1 / 3
+    edge = SIZE / (2 * PATCH_RADII) * numbers[:, 3].exp()[:, None, None, None]
+    alpha = (edge * (1.02 - distances(numbers)) + 0.5).clamp(0, 1)
+    # As light as the lightest of the other patch, or as before.
+    light = patches.amax(dim=(1, 2, 3), keepdim=True)
+    gain = (light[other] / light.clamp(min=1)).clamp(0.3, 3)
+    gain = gain ** torch.rand(count, 1, 1, 1, generator=generator)
+    mixed = patches[other] + alpha * (gain * patches - patches[other])
+    return torch.where(chosen[:, None, None, None], mixed, patches)
+
+
+def faded(patches, numbers, generator):
+    """Of a half of the balls the dark faces become lighter, as on worn balls."""
+    inside = (distances(numbers) < 0.95).float()
+    light = (patches * inside).amax(dim=(2, 3), keepdim=True)
+    strength = 1.7 * torch.rand(len(patches), 1, 1, 1, generator=generator) - 0.85
+    return patches + strength.clamp(min=0) * inside * (light - patches)
+
+
+def blurred(patches, generator):
+    """A half of them by motion, up to 5 pixels of the patch, and a half by the lens."""
+    kernels = torch.zeros(16, 1, 5, 5)
+    for i, kernel in enumerate(kernels[:, 0]):
+        angle = torch.rand((), generator=generator) * torch.pi
+        length = 2 * torch.rand((), generator=generator)
+        for at in torch.linspace(-1, 1, 9):
+            x, y = 2 + at * length * angle.cos(), 2 + at * length * angle.sin()
+            kernel[int(y.round()), int(x.round())] += 1 / 9
+    moved = []
+    for part, kernel in zip(patches.chunk(16), kernels):
+        smooth = nn.functional.pad(part, (2, 2, 2, 2), mode="replicate")
+        moved.append(nn.functional.conv2d(smooth, kernel.expand(3, 1, 5, 5), groups=3))
+    is_moved = torch.rand(len(patches), 1, 1, 1, generator=generator) < 0.5
+    patches = torch.where(is_moved, torch.cat(moved), patches)
     smooth = nn.functional.avg_pool2d(patches, 3, 1, 1, count_include_pad=False)
-    strength = 2 * torch.rand(count, 1, 1, 1, generator=generator) - 1
-    return patches + strength.clamp(min=0) * (smooth - patches)
+    # Negative strengths sharpen, as cameras do.
+    strength = 2 * torch.rand(len(patches), 1, 1, 1, generator=generator) - 1
+    strength = torch.where(strength > -0.6, strength.clamp(min=0), 1.5 * strength + 0.9)
+    return (patches + strength * (smooth - patches)).clamp(0, 255)
+
+
+def in_glare(patches, generator):
+    """A quarter of them becomes lighter towards one side."""
+    count = len(patches)
+    angle = 2 * torch.pi * torch.rand(count, 1, 1, generator=generator)
+    position = torch.linspace(-1, 1, SIZE)
+    slope = position[None, None, :] * angle.cos() + position[None, :, None] * angle.sin()
+    strength = 150 * torch.rand(count, 1, 1, generator=generator)
+    strength[torch.rand(count, generator=generator) > 0.25] = 0
+    return patches + (strength * (0.5 + slope).clamp(0, 1.5))[:, None]
 
 
 def cut(patches, numbers, generator):
-    """A sixth of them loses its lower part, as at the lower border of an image; at most the lower half of a ball."""
-    border = SIZE * (0.5 + numbers[:, 2] / (2 * PATCH_RADII) + 0.5 * torch.rand(len(patches), generator=generator))
-    border[torch.rand(len(patches), generator=generator) > 1 / 6] = SIZE
-    return patches * (torch.arange(SIZE) < border[:, None])[:, None, :, None]
+    """A sixth of them loses a part, as at the borders of an image; most lose the lower one, at most 0.6 of a ball."""
+    count = len(patches)
+    radius = numbers[:, 3].exp() * (numbers[:, 0] > 0.5)
+    shift = torch.rand(count, generator=generator) * 1.3 - 0.25
+    at = torch.arange(SIZE)[None] + 0.5
+    lower = SIZE * (0.5 + (numbers[:, 2] + shift * radius) / (2 * PATCH_RADII))
+    right = SIZE * (0.5 + (numbers[:, 1] + (0.15 + shift.abs()) * radius) / (2 * PATCH_RADII))
+    kind = torch.rand(count, generator=generator)
+    lower[kind > 0.13] = SIZE
+    right[(kind < 0.13) | (kind > 0.17)] = SIZE
+    patches = patches * (at < lower[:, None])[:, None, :, None]
+    # Patches are mirrored: also at the left border.
+    return patches * (at < right[:, None])[:, None, None, :]
 
 
 def read(files):
@@ -126,19 +185,22 @@ def train(options):
     step = 0
     epoch = 0
     while step < num_steps:
-        if epoch % 3 == 1:
+        # A network to start from judges already before the first epoch.
+        if epoch % 3 == (0 if options.start else 1):
             odds = predict(network, patches)[:, 0]
             is_hard = (odds.sigmoid() > HARD_PROBABILITY) | (numbers[:, 0] > 0.5)
         is_used = torch.rand(len(patches), generator=generator) < EASY_FRACTION
-        order = (is_used | is_hard | (epoch == 0)).nonzero().flatten()
+        order = (is_used | is_hard | (epoch == 0 and not options.start)).nonzero().flatten()
         order = order[torch.randperm(len(order), generator=generator)]
         network.train()
         total = 0.0
         num_batches = min(len(order) // options.batch, num_steps - step)
         for batch in order.split(options.batch)[:num_batches]:
-            some, targets = mirrored(patches[batch].float(), numbers[batch], generator)
-            some = faded(some, targets, generator)
+            some, targets = patches[batch].float(), numbers[batch]
+            some = faded(pasted(some, targets, generator), targets, generator)
+            some = in_glare(blurred(some, generator), generator)
             some = cut(common.recolored(some, generator), targets, generator)
+            some, targets = mirrored(some, targets, generator)
             loss = loss_of(network(common.normalized(some)).flatten(1), targets)
             schedule.step(loss)
             total += float(loss)
@@ -151,6 +213,7 @@ def train(options):
         )
         if checked and (epoch % 5 == 0 or step == num_steps):
             report(network, *checked, "check")
+    common.keep_start(network, options)
     common.export(network, options.network, SIZE, SIZE)
 
 

@@ -348,6 +348,7 @@ def train(options):
         if checked and (epoch % 5 == 4 or epoch + 1 == options.epochs):
             report(network, *checked)
             common.export(network, options.network, ROWS, COLUMNS)
+    common.keep_start(network, options)
     common.export(network, options.network, ROWS, COLUMNS)
 
 

@@ -39,6 +39,43 @@ class VisionRecall : public testing::Test {
     return input;
   }
 
+  Detections balls(const VisionInput& input) const {
+    Detections found = VisionCore(networks_).process(input).detections;
+    found.erase(std::remove_if(found.begin(), found.end(),
+                               [](const Detection& d) { return d.kind != Kind::kBall; }),
+                found.end());
+    return found;
+  }
+
+  /** Fraction of the balls of hard scenes that are found, those visible at least to this fraction.
+   */
+  double recall(const std::vector<SceneKind>& kinds, double least_visible) {
+    int num_balls = 0;
+    int num_found = 0;
+    for (const SceneKind kind : kinds) {
+      SceneOptions options;
+      options.kind = kind;
+      render(kNumPlaces, options, [&](const cv::Mat& bgr, const LabelledImage& image) {
+        const auto label =
+            std::find_if(image.labels->begin(), image.labels->end(), [&](const Label& l) {
+              return l.object.kind == Kind::kBall && l.visible >= least_visible;
+            });
+        if (label == image.labels->end()) return;
+        const Eigen::Vector4d& box = label->object.box_px;
+        ++num_balls;
+        for (const Detection& ball : balls(input_of(bgr, image))) {
+          const double offset =
+              (ball.box_px.head<2>() + ball.box_px.tail<2>() - box.head<2>() - box.tail<2>())
+                  .norm() /
+              2;
+          num_found += offset < 0.4 * (box[2] - box[0]);
+        }
+      });
+    }
+    EXPECT_GT(num_balls, 20);
+    return static_cast<double>(num_found) / num_balls;
+  }
+
   RobotModel model_ = RobotModel::load(data_path() / "robots" / "nao");
   SceneFile field_ = SceneFile::find("soccer");
   DatasetRenderer renderer_{model_, field_};
@@ -65,12 +102,31 @@ TEST_F(VisionRecall, FindsNoBallWhereNoneIs) {
   options.ball_fraction = 0;
   int num_false = 0;
   render(100, options, [&](const cv::Mat& bgr, const LabelledImage& image) {
-    for (const Detection& detection :
-         VisionCore(networks_).process(input_of(bgr, image)).detections) {
-      num_false += detection.kind == Kind::kBall;
-    }
+    num_false += static_cast<int>(balls(input_of(bgr, image)).size());
   });
   EXPECT_LE(num_false, 1);
+}
+
+TEST_F(VisionRecall, FindsBallsOnLinesAndBeforeShoesAndRobots) {
+  EXPECT_GE(recall({SceneKind::kBallOnLine, SceneKind::kBallAtShoe, SceneKind::kBallAtRobot}, 0.6),
+            0.85);
+}
+
+TEST_F(VisionRecall, FindsBallsThatTheBorderCuts) {
+  EXPECT_GE(recall({SceneKind::kBallAtBorder}, 0.3), 0.85);
+}
+
+TEST_F(VisionRecall, TakesNoCheckerboardForABall) {
+  SceneOptions options;
+  options.kind = SceneKind::kCheckerboard;
+  int num_false = 0;
+  render(60, options, [&](const cv::Mat& bgr, const LabelledImage& image) {
+    VisionInput input = input_of(bgr, image);
+    // Without the pose, the size of a ball is not known.
+    input.pose_camera_in_heading.reset();
+    num_false += static_cast<int>(balls(input).size());
+  });
+  EXPECT_LE(num_false, 2);
 }
 
 TEST_F(VisionRecall, JudgesThePlacesOfAlmostAllBalls) {
