@@ -37,16 +37,18 @@ JointDrives::JointDrives(const RobotModel& model, const Tree& tree, const RobotO
     drive.motor = model.motor(i);
     drive.motor.peak_torque *= options.torque_scale;
     drive.motor.continuous_torque *= options.torque_scale;
-    drive.own_stiffness_gain = drive.motor.stiffness_gain;
-    drive.own_damping_gain = drive.motor.damping_gain;
     const Joint& joint = model.motor_joint(i);
     drive.lower = joint.lower;
     drive.upper = joint.upper;
     drive.max_velocity = joint.max_velocity;
     const RobotErrors& errors = options.errors;
     if (errors.joint_zero.size() > 0) drive.zero = errors.joint_zero[i];
-    if (errors.servo_stiffness.size() > 0) drive.motor.stiffness_gain *= errors.servo_stiffness[i];
-    if (errors.servo_damping.size() > 0) drive.motor.damping_gain *= errors.servo_damping[i];
+    if (errors.servo_stiffness.size() > 0) drive.stiffness_ratio = errors.servo_stiffness[i];
+    if (errors.servo_damping.size() > 0) drive.damping_ratio = errors.servo_damping[i];
+    drive.motor.stiffness_gain *= drive.stiffness_ratio;
+    drive.motor.damping_gain *= drive.damping_ratio;
+    drive.own_stiffness_gain = drive.motor.stiffness_gain;
+    drive.own_damping_gain = drive.motor.damping_gain;
     if (errors.backlash.size() > 0) drive.gear.half_play = errors.backlash[i] / 2;
     // The joint's degree of freedom. A motor that no body of the tree belongs to opens a hand, and
     // keeps dof -1.
@@ -127,8 +129,9 @@ void JointDrives::set_gains(const MotorTargets& targets) {
     drive.motor.damping_gain = drive.own_damping_gain;
     if (!has_commanded_gains_) continue;
     const auto k = static_cast<long>(i);
-    if (!std::isnan(targets.kp[k])) drive.motor.stiffness_gain = targets.kp[k];
-    if (!std::isnan(targets.kd[k])) drive.motor.damping_gain = targets.kd[k];
+    if (!std::isnan(targets.kp[k]))
+      drive.motor.stiffness_gain = drive.stiffness_ratio * targets.kp[k];
+    if (!std::isnan(targets.kd[k])) drive.motor.damping_gain = drive.damping_ratio * targets.kd[k];
   }
 }
 

@@ -29,6 +29,9 @@ struct Drive {
   /** The servo's own gains; those of `motor` are these or the commanded ones. */
   double own_stiffness_gain = 0;
   double own_damping_gain = 0;
+  /** What the servo makes of a gain, own or commanded: 1 as in the model. */
+  double stiffness_ratio = 1;
+  double damping_ratio = 1;
   /** Degree of freedom of the joint, or -1 for an opening (of a hand), which moves no body. */
   int dof = -1;
   /** Range of the joint, rad, and its largest speed, rad/s. */

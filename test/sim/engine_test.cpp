@@ -87,7 +87,7 @@ TEST_P(EngineTest, GivesAPushedRobotTheMomentum) {
 
 TEST_P(EngineTest, ServosOfOtherGainsMoveAJointOtherwise) {
   // Angle of the head 40 ms after a new target of 0.1 rad, without friction of a contact.
-  const auto moved = [&](double stiffness, double damping) {
+  const auto moved = [&](double stiffness, double damping, bool is_commanded = false) {
     World world(SceneFile{}, options());
     RobotOptions robot = ideal();
     robot.is_on_stand = true;
@@ -98,6 +98,10 @@ TEST_P(EngineTest, ServosOfOtherGainsMoveAJointOtherwise) {
     MotorTargets targets = world.targets(0);
     const double start = world.sensors(0).position[head];
     targets.position[head] = start + 0.1;
+    if (is_commanded) {
+      targets.kp.setConstant(nao_model()->num_motors(), nao_model()->motor(head).stiffness_gain);
+      targets.kd.setConstant(nao_model()->num_motors(), nao_model()->motor(head).damping_gain);
+    }
     world.set_targets(0, targets);
     for (int i = 0; i < 4; ++i) world.step_tick();
     return world.sensors(0).position[head] - start;
@@ -108,6 +112,8 @@ TEST_P(EngineTest, ServosOfOtherGainsMoveAJointOtherwise) {
   EXPECT_LT(moved(0.7, 1), 0.95 * nominal);
   EXPECT_LT(moved(1, 1.3), 0.95 * nominal);
   EXPECT_GT(moved(1, 0.7), 1.05 * nominal);
+  // A servo errs in the same way with gains that a command states.
+  EXPECT_NEAR(moved(0.7, 1.3, true), moved(0.7, 1.3), 1e-9);
 }
 
 TEST_P(EngineTest, RollsABallThatSlowsDown) {
