@@ -13,7 +13,8 @@ namespace nao::sim {
  * @param options  The other options, and what is not disturbed; its step must divide the tick. */
 void draw_world(const DisturbanceSet& set, uint64_t seed, WorldOptions& options);
 
-/** Draws what disturbs one robot: joints, servos, sensors, masses, torques, friction, latency, losses.
+/** Draws what disturbs one robot: joints, servos, sensors, masses, torques, friction, latency,
+ * losses.
  *
  * Each disturbance has its own stream of random numbers: it does not depend on the robot's other
  * disturbances. Without any disturbance (DisturbanceSet::is_none()) sensors are ideal and motors

@@ -180,11 +180,13 @@ MotionPlan MotionFactory::plan_request(const WalkCommand& walk, const Situation&
     if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
     return make_policy_motion(policy, walk);
   }
+  if (!gait_) return Reason("no-gait", {model_->name()});
   if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
   return std::make_unique<WalkMotion>(*model_, *gait_, make_stand_path(), walk);
 }
 
 MotionPlan MotionFactory::plan_request(const MoveToCommand& move_to, const Situation& situation) {
+  if (!gait_) return Reason("no-gait", {model_->name()});
   if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
   return std::make_unique<MoveToMotion>(*model_, *gait_, make_stand_path(), move_to);
 }
@@ -256,6 +258,7 @@ MotionPlan MotionFactory::plan_policy(const Policy& policy, const Situation& sit
 MotionPlan MotionFactory::plan_kick(const ActionCommand& action, const Situation& situation,
                                     bool is_left) const {
   if (!kick_) return Reason("no-kick", {model_->name()});
+  if (!gait_) return Reason("no-gait", {model_->name()});
   if (const auto obstacle = find_walk_obstacle(situation)) return *obstacle;
   const Eigen::Vector2d ball(action.ball_x, action.ball_y);
   if (const auto obstacle = KickMotion::find_obstacle(*kick_, is_left, ball)) return *obstacle;
@@ -265,6 +268,7 @@ MotionPlan MotionFactory::plan_kick(const ActionCommand& action, const Situation
 
 MotionPlan MotionFactory::plan_script(const ActionScript& script,
                                       const Situation& situation) const {
+  if (!gait_) return Reason("no-gait", {model_->name()});
   if (const auto obstacle = find_walk_obstacle(situation)) return *obstacle;
   return std::make_unique<ScriptMotion>(*model_, script, *gait_, make_stand_path(),
                                         make_stand_path());

@@ -53,7 +53,7 @@ class Bench(unittest.TestCase):
     def test_a_part_that_is_not_there_is_refused(self):
         result = self.bench("--only", "buss")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("there are: bus, camera, stack, viewer, vision, match, build", result.stderr)
+        self.assertIn("there are: bus, camera, stack, small, viewer, vision, match, build", result.stderr)
 
     def test_a_part_that_fails_is_named(self):
         (self.root / "bin/nao-bench-bus").write_text("#!/bin/sh\nexit 3\n")

@@ -56,6 +56,10 @@ class RecordReplay(unittest.TestCase):
     def test_a_recorder_that_is_held_up_loses_nothing(self):
         with Stack() as stack:
             stack.start_or_fail("--only", "sim,motion")
+            # At rest the simulator would send one state in ten ticks.
+            walk = subprocess.Popen([BIN_DIR / "nao", "--lcm-url", stack.lcm_url, "walk", "0", "0", "0.2", "--for", "20"],
+                                    stdout=subprocess.DEVNULL)
+            self.addCleanup(walk.kill)
             log = stack.run_dir / "run.lcmlog"
             recorder = subprocess.Popen([ROOT / "scripts/record", "--run-dir", stack.run_dir, log],
                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

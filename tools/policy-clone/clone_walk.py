@@ -20,9 +20,11 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "build/dev/python"))
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
 import nao_remote  # noqa: E402
 from onnx_writer import write_mlp  # noqa: E402
+from output_file import replace_file  # noqa: E402
 
 # Layout of unitree_rl_gym (deploy_real.py and configs/g1.yaml): scales of the observation, scale of the action.
 ANGULAR_VELOCITY_SCALE = 0.25
@@ -207,7 +209,7 @@ def write_manifest(file: Path, default: np.ndarray, command: str) -> None:
     """Describes the network in nao-motion's words (docs/policies.md)."""
     joints = "\n".join(f"  - {{name: {name}, default: {angle:g}}}" for name, angle in zip(LEG_JOINTS, default))
     limits = ", ".join(f"{name}: [{low:g}, {high:g}]" for name, low, high in zip(("vx", "vy", "wz"), LOW, HIGH))
-    file.write_text(f"""# Imitates the model-based walk, in the layout of unitree_rl_gym. Made by
+    replace_file(file, f"""# Imitates the model-based walk, in the layout of unitree_rl_gym. Made by
 #   {command}
 kind: walk
 network: policy.onnx

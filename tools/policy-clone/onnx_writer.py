@@ -6,10 +6,14 @@ type (0: integer, 2: bytes) and a value.
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Iterable, Sequence
 
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+from output_file import replace_file  # noqa: E402
 
 # TensorProto.FLOAT, AttributeProto.FLOAT and INT.
 FLOAT, ATTRIBUTE_FLOAT, ATTRIBUTE_INT = 1, 1, 2
@@ -63,4 +67,4 @@ def write_mlp(file: Path, layers: Sequence[tuple[np.ndarray, np.ndarray]]) -> No
         name = output
     graph += data(2, "main_graph") + tensors
     graph += data(11, value_info("obs", layers[0][0].shape[1])) + data(12, value_info("actions", layers[-1][0].shape[0]))
-    file.write_bytes(number(1, 7) + data(2, "clone_walk") + data(7, graph) + data(8, data(1, "") + number(2, OPSET)))
+    replace_file(file, number(1, 7) + data(2, "clone_walk") + data(7, graph) + data(8, data(1, "") + number(2, OPSET)))

@@ -34,6 +34,7 @@ TEST(WalkScenario, GivesTheReasonOfAWalkThatDidNotBegin) {
   std::filesystem::copy(data_path() / "robots" / "t1", robot,
                         std::filesystem::copy_options::recursive);
   std::filesystem::remove(robot / "gait.yaml");
+  // Also not with a policy that it does not use.
   EXPECT_THAT(walk(robot, 0.2).failure, testing::HasSubstr("has no gait"));
 }
 
