@@ -4,12 +4,13 @@ const kCache = "nao-remote-2";
 
 self.addEventListener("install", (event) => event.waitUntil(keepShell().then(() => self.skipWaiting())));
 
-/** The page and all that it names; the browser has most of it already. */
+/** The page and what it names, without the image that a home screen keeps itself; the browser has most of it already. */
 async function keepShell() {
-  const page = await (await fetch("/")).text();
-  const named = [...page.matchAll(/(?:src|href)="([^"]+)"/g)].map(([, path]) => path);
+  const page = await fetch("/");
   const cache = await caches.open(kCache);
-  await cache.addAll(["/", ...named]);
+  await cache.put("/", page.clone());
+  const named = [...(await page.text()).matchAll(/(?:src|href)="([^"]+)"/g)].map(([, path]) => path);
+  await cache.addAll(named.filter((path) => !path.endsWith(".png")));
 }
 
 self.addEventListener("activate", (event) => {
