@@ -54,7 +54,7 @@ std::optional<std::string> PolicyRunner::step(const PolicyInput& input, double d
   inference_time_ = network_->run(observation_, action);
   ++num_steps_;
   action_ = std::move(action);
-  if (const auto fault = find_fault()) return fault;
+  if (auto fault = find_fault()) return fault;
   last_targets_ = targets_;
   return std::nullopt;
 }

@@ -107,7 +107,7 @@ class ClosedLoop {
   /** Returns the same results and clears them. */
   std::vector<CommandResult> take_results() { return std::exchange(results_, {}); }
   /** The ball that the core knows from the next tick on; nothing: none. */
-  void set_ball(std::optional<motion::SeenBall> ball) { ball_ = ball; }
+  void set_ball(const std::optional<motion::SeenBall>& ball) { ball_ = ball; }
   /** Called with what the core receives of the sensors, in every tick from the next one on: a
    * fault. */
   void on_sensors(std::function<void(motion::Sensors&)> fault) { fault_ = std::move(fault); }

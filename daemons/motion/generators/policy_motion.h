@@ -57,7 +57,6 @@ class PolicyMotion : public MotionGenerator {
   void record();
   PolicyInput input_of(const MotionContext& context) const;
 
-  const RobotModel* model_;
   const Policy* policy_;
   PolicyRunner runner_;
   std::unique_ptr<MotionGenerator> stand_up_;

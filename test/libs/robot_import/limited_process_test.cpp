@@ -23,7 +23,7 @@ std::string error_of(const std::function<std::string()>& task, const ProcessLimi
 TEST(LimitedProcess, ReturnsWhatTheTaskReturned) {
   // More than a pipe holds.
   const std::string large(1'000'000, 'a');
-  EXPECT_EQ(run_limited([&] { return large; }, {}), large);
+  EXPECT_EQ(run_limited([&]() -> std::string { return std::string(large); }, {}), large);
   EXPECT_EQ(run_limited([] { return std::string(); }, {}), "");
 }
 
