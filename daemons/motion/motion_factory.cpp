@@ -177,16 +177,14 @@ MotionPlan MotionFactory::plan_request(const WalkCommand& walk, const Situation&
       walk_policy_ = nullptr;
       return Reason("policy-unusable", {policy.name, fault});
     }
-    if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
+    if (const auto obstacle = find_policy_obstacle(situation)) return *obstacle;
     return make_policy_motion(policy, walk);
   }
-  if (!gait_) return Reason("no-gait", {model_->name()});
   if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
   return std::make_unique<WalkMotion>(*model_, *gait_, make_stand_path(), walk);
 }
 
 MotionPlan MotionFactory::plan_request(const MoveToCommand& move_to, const Situation& situation) {
-  if (!gait_) return Reason("no-gait", {model_->name()});
   if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
   return std::make_unique<MoveToMotion>(*model_, *gait_, make_stand_path(), move_to);
 }
@@ -247,7 +245,7 @@ MotionPlan MotionFactory::plan_policy(const Policy& policy, const Situation& sit
       // A walk ends, and the next one is by the policy.
       return std::make_unique<StopMotion>();
     case PolicyManifest::Kind::kAction:
-      if (const auto obstacle = find_obstacle_after_standing_up(situation)) return *obstacle;
+      if (const auto obstacle = find_policy_obstacle(situation)) return *obstacle;
       break;
     case PolicyManifest::Kind::kGetUp:
       break;
@@ -258,7 +256,6 @@ MotionPlan MotionFactory::plan_policy(const Policy& policy, const Situation& sit
 MotionPlan MotionFactory::plan_kick(const ActionCommand& action, const Situation& situation,
                                     bool is_left) const {
   if (!kick_) return Reason("no-kick", {model_->name()});
-  if (!gait_) return Reason("no-gait", {model_->name()});
   if (const auto obstacle = find_walk_obstacle(situation)) return *obstacle;
   const Eigen::Vector2d ball(action.ball_x, action.ball_y);
   if (const auto obstacle = KickMotion::find_obstacle(*kick_, is_left, ball)) return *obstacle;
@@ -268,7 +265,6 @@ MotionPlan MotionFactory::plan_kick(const ActionCommand& action, const Situation
 
 MotionPlan MotionFactory::plan_script(const ActionScript& script,
                                       const Situation& situation) const {
-  if (!gait_) return Reason("no-gait", {model_->name()});
   if (const auto obstacle = find_walk_obstacle(situation)) return *obstacle;
   return std::make_unique<ScriptMotion>(*model_, script, *gait_, make_stand_path(),
                                         make_stand_path());
@@ -318,21 +314,30 @@ std::optional<Reason> MotionFactory::find_relaxed_support(const JointChangeComma
   return std::nullopt;
 }
 
-std::optional<Reason> MotionFactory::find_walk_obstacle(const Situation& situation) const {
+std::optional<Reason> MotionFactory::find_leg_obstacle(const Situation& situation) const {
   const RobotState& state = situation.context.state;
-  if (!legs_) return Reason("no-gait", {model_->name()});
   if (is_lying(state, options_->lying_tilt)) return Reason("robot-fallen");
   return motion::find_walk_obstacle(*legs_, state, situation.targets.stiffness);
 }
 
-std::optional<Reason> MotionFactory::find_obstacle_after_standing_up(
-    const Situation& situation) const {
+std::optional<Reason> MotionFactory::find_walk_obstacle(const Situation& situation) const {
+  if (!gait_) return Reason("no-gait", {model_->name()});
+  return find_leg_obstacle(situation);
+}
+
+std::optional<Reason> MotionFactory::find_policy_obstacle(const Situation& situation) const {
   // A robot that sits stands up before it walks, so that contact and tilt do not count yet; soft
   // legs do.
   const RobotState& state = situation.context.state;
   const bool sits = is_sitting(*model_, find_body_state(*model_, state, options_->lying_tilt));
-  if (!legs_ || !sits) return find_walk_obstacle(situation);
+  if (!sits) return find_leg_obstacle(situation);
   return find_soft_leg(*legs_, situation.targets.stiffness);
+}
+
+std::optional<Reason> MotionFactory::find_obstacle_after_standing_up(
+    const Situation& situation) const {
+  if (!gait_) return Reason("no-gait", {model_->name()});
+  return find_policy_obstacle(situation);
 }
 
 }  // namespace nao::motion

@@ -108,10 +108,13 @@ class MotionFactory {
   /** The joint that a change would relax although it carries the robot. */
   std::optional<Reason> find_relaxed_support(const JointChangeCommand& change,
                                              const Situation& situation) const;
-  /** Why the robot must not walk; nothing if it may. */
+  /** Why the robot must not walk by its gait; nothing if it may. */
   std::optional<Reason> find_walk_obstacle(const Situation& situation) const;
   /** The same for a walk that goes to its stand first: it may start from a seat. */
   std::optional<Reason> find_obstacle_after_standing_up(const Situation& situation) const;
+  /** The same for a policy, which needs no gait; and without standing up, of the legs alone. */
+  std::optional<Reason> find_policy_obstacle(const Situation& situation) const;
+  std::optional<Reason> find_leg_obstacle(const Situation& situation) const;
 
   const RobotModel* model_;
   const MotionOptions* options_;

@@ -16,10 +16,6 @@ constexpr double kHeadPeriod = 0.12;
 /** Fraction of the joints' maximum speed. Chosen: 1 rad in 0.4 s, without shaking the walk. */
 constexpr double kHeadSpeed = 0.3;
 
-bool is_zero(const WalkCommand& velocity) {
-  return velocity.vx == 0 && velocity.vy == 0 && velocity.wz == 0;
-}
-
 }  // namespace
 
 int64_t MotionDriver::send(decltype(Command::request) request, double time,

@@ -18,6 +18,11 @@ struct WalkCommand {
   double wz = 0;
 };
 
+/** Whether the command ends a walk. */
+inline bool is_zero(const WalkCommand& velocity) {
+  return velocity.vx == 0 && velocity.vy == 0 && velocity.wz == 0;
+}
+
 /** Goal on the ground relative to the robot's present pose: m forward, m to the left, rad. */
 struct MoveToCommand {
   double x = 0;

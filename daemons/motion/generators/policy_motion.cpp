@@ -158,12 +158,13 @@ bool PolicyMotion::run(const MotionContext& context, JointTargets& targets) {
     return false;
   }
   const double share = smooth_step(std::min(1.0, time_ / kBlendTime));
-  std::vector<double> goal = policy_->manifest->default_position;
+  targets.position = policy_->manifest->default_position;
   for (size_t i = 0; i < runner_.targets().size(); ++i) {
-    goal[static_cast<size_t>(policy_->manifest->joints[i].motor)] = runner_.targets()[i];
+    targets.position[static_cast<size_t>(policy_->manifest->joints[i].motor)] =
+        runner_.targets()[i];
   }
-  for (size_t i = 0; i < goal.size(); ++i) {
-    targets.position[i] = begin_[i] + share * (goal[i] - begin_[i]);
+  for (size_t i = 0; i < begin_.size(); ++i) {
+    targets.position[i] = begin_[i] + share * (targets.position[i] - begin_[i]);
   }
   return !is_over(context);
 }

@@ -245,8 +245,7 @@ void WalkMotion::steer(const MotionContext& context) {
 }
 
 bool WalkMotion::wants_to_go_on() const {
-  const bool is_moving = command_.vx != 0 || command_.vy != 0 || command_.wz != 0;
-  return is_moving && age_ <= kCommandLifetime;
+  return !is_zero(command_) && age_ <= kCommandLifetime;
 }
 
 bool WalkMotion::conclude(const MotionContext& /*context*/, Reason& reason) {

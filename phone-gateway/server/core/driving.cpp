@@ -19,10 +19,6 @@ double allowed_speed(const GatewayLimits& limits, double round_trip_time) {
  * robot moves by it. */
 constexpr WalkCommand kInPlace{1e-6, 0, 0};
 
-bool is_zero(const WalkCommand& velocity) {
-  return velocity.vx == 0 && velocity.vy == 0 && velocity.wz == 0;
-}
-
 }  // namespace
 
 // ---- Control ------------------------------------------------------------------------------------
