@@ -6,11 +6,11 @@
 
 namespace nao::sim {
 
-/** Whether a world is at rest: nothing in it moves, and nobody has changed a target, commanded
+/** Whether a world is at rest: nothing in it moves, and no program has changed a target, commanded
  * anything or requested images for kRestDelay. */
 class RestDetector {
  public:
-  /** Somebody acts in the world, or watches it. */
+  /** A program acts in the world, or watches it. */
   void note_activity() { num_quiet_ticks_ = 0; }
 
   /** A tick was run. @return Whether nothing moves. */

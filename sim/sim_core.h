@@ -26,7 +26,7 @@ class SimCore {
   /** Loads scene and robots. In a match, that is if robots have teams, the ball is at the center.
    * @throws ConfigError, ModelError */
   explicit SimCore(const SimOptions& options);
-  /** Somebody watches: the world does not rest in the next RestDetector::kRestDelay, and if it
+  /** A program watches: the world does not rest in the next RestDetector::kRestDelay, and if it
    * does, what is due is run at once. */
   void wake(double now) {
     rest_.note_activity();

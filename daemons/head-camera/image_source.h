@@ -24,7 +24,7 @@ class ImageSource {
   /** Registers with the loop what the source waits for. @param on_image  Called with a camera's
    * name whenever its image can be taken. */
   virtual void attach(EventLoop& loop, std::function<void(const std::string&)> on_image) = 0;
-  /** Whether somebody needs images: a source may sleep meanwhile. */
+  /** Whether a client needs images: a source may sleep meanwhile. */
   virtual void set_needed(bool /*is_needed*/) {}
   /** Names and fields of view of the cameras that it has images of. */
   virtual std::vector<CameraModel> cameras() const = 0;

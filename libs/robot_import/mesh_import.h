@@ -8,7 +8,7 @@
 namespace nao {
 
 /** Corners of a mesh file (STL, OBJ, DAE, GLB and what else assimp reads), all parts in one frame.
- * A child process reads it, see run_limited(): files of strangers can make assimp crash.
+ * A child process reads it, see run_limited(): a file from elsewhere can make assimp crash.
  * @param scale  Factors along x, y, z. @return m.
  * @throws ModelError  if the file cannot be read or has no triangle. */
 std::vector<Eigen::Vector3d> read_mesh_points(const std::filesystem::path& file,

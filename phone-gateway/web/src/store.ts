@@ -87,8 +87,8 @@ export interface AppState {
   numClients: number;
   /** What is known of the robot's postures, and a drawing of each. */
   postures: Postures;
-  pictures: ReadonlyMap<string, HTMLCanvasElement>;
-  /** The form for address and code is asked for, over the picture of before. */
+  drawings: ReadonlyMap<string, HTMLCanvasElement>;
+  /** The form for address and code is asked for, over the view of before. */
   isFormOpen: boolean;
   /** True in joints mode, false in drive mode. */
   isJointsMode: boolean;
@@ -134,7 +134,7 @@ const kInitialState: AppState = {
   latencyMs: -1,
   numClients: 0,
   postures: new Map(),
-  pictures: new Map(),
+  drawings: new Map(),
   isFormOpen: false,
   isJointsMode: false,
   selectedGroup: "",

@@ -1,5 +1,5 @@
 // Every screen in every state: laid out and accessible. With NAO_PICTURES=FOLDER at five sizes, in light and dark and in
-// three languages, and a picture of each is left there: scripts/pictures app.
+// three languages, and an image of each is left there: scripts/pictures app.
 import assert from "node:assert/strict";
 import {mkdtempSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -115,7 +115,7 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
     await ben.sees("controller");
     await click(ben, ".driver-button");
     await ana.page.locator('.cause [data-remedy="hand-over"]').waitFor();
-    await look(ana, "wish");
+    await look(ana, "asked");
     await look(ben, "next");
     await click(ana, '.cause [data-remedy="hand-over"]');
     await until("Ben drives", () => ben.look("state.control.isMine"));

@@ -37,7 +37,7 @@ function look() {
       faults.push(`${name(element)} leaves the screen: ${JSON.stringify(box)}`);
     }
   }
-  // The large picture is what things lie on.
+  // The large view is what things lie on.
   const apart = boxes.filter(({element}) => !element.matches(".camera-large .image-main"));
   for (const [i, a] of apart.entries()) {
     for (const b of apart.slice(i + 1)) {

@@ -69,10 +69,10 @@ test("anybody may stop the robot, spectators too", async () => {
   assert.equal(await ben.page.locator(".message.bad").count(), 0);
 });
 
-test("a killed gateway is told over the last picture, with a button, and the app comes back by itself with it", async () => {
+test("a killed gateway is told over the last view, with a button, and the app comes back by itself with it", async () => {
   await stack.end("nao-phone-gateway", "SIGKILL");
   await ana.page.locator('.cause [data-remedy="retry"]').waitFor();
-  assert.ok(await ana.page.locator(".stage").isVisible(), "the picture has gone");
+  assert.ok(await ana.page.locator(".stage").isVisible(), "the view has gone");
   await stack.startGateway();
   await ana.page.locator(".cause").waitFor({state: "hidden"});
   await until("images go on", async () => {

@@ -12,7 +12,7 @@ export interface Choice {
 export class ChoiceStrip {
   readonly element: HTMLElement;
   private readonly buttons = new Map<string, HTMLButtonElement>();
-  private pictures: ReadonlyMap<string, HTMLCanvasElement> = new Map();
+  private drawings: ReadonlyMap<string, HTMLCanvasElement> = new Map();
 
   constructor(label: string, private readonly choose: (name: string) => void) {
     this.element = el("div", {class: "strip", role: "group", "aria-label": label});
@@ -26,18 +26,18 @@ export class ChoiceStrip {
       this.buttons.set(name, button);
     }
     this.element.replaceChildren(...this.buttons.values());
-    this.setPictures(this.pictures);
+    this.setDrawings(this.drawings);
   }
 
-  /** Puts a drawing over each label. @param pictures  by name. */
-  setPictures(pictures: ReadonlyMap<string, HTMLCanvasElement>): void {
-    this.pictures = pictures;
+  /** Puts a drawing over each label. @param drawings  by name. */
+  setDrawings(drawings: ReadonlyMap<string, HTMLCanvasElement>): void {
+    this.drawings = drawings;
     for (const [name, button] of this.buttons) {
       button.querySelector("canvas")?.remove();
-      const picture = pictures.get(name);
-      if (!picture) continue;
-      picture.setAttribute("aria-hidden", "true");
-      button.prepend(picture);
+      const drawing = drawings.get(name);
+      if (!drawing) continue;
+      drawing.setAttribute("aria-hidden", "true");
+      button.prepend(drawing);
     }
   }
 

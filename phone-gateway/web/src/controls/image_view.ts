@@ -37,7 +37,7 @@ export class ImageView {
   readonly element: HTMLElement;
   /** A tap that this handles does not change the image's size. */
   onTap: (tap: ImageTap) => boolean = () => false;
-  /** Called when it has become the large picture, or the small one. */
+  /** Called when it has become the large view, or the small one. */
   onSwap: (isLarge: boolean) => void = () => {};
   /** Images drawn so far. */
   numImages = 0;
@@ -159,7 +159,7 @@ export class ImageView {
     if (event.detail === 0) this.swap(); // by keyboard
   }
 
-  /** The large picture becomes the small one, and the other way round. */
+  /** The large view becomes the small one, and the other way round. */
   swap(): void {
     this.isLarge = !this.isLarge;
     this.element.classList.toggle("large", this.isLarge);

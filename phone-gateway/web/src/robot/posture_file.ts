@@ -21,7 +21,7 @@ export function parsePostures(text: string): Postures {
   }));
 }
 
-/** @param urdfUrl  beside which the postures lie. Empty where there are none: they are offered without pictures. */
+/** @param urdfUrl  beside which the postures lie. Empty where there are none: they are offered without drawings. */
 export async function loadPostures(urdfUrl: URL): Promise<Postures> {
   const response = await fetch(new URL("postures.yaml", urdfUrl)).catch(() => null);
   return parsePostures(response?.ok ? await response.text() : "");

@@ -92,7 +92,7 @@ export class RobotView {
     const postures = await loadPostures(urdfUrl);
     if (figure.tree.urdf !== this.tree?.urdf) return;
     this.figure?.standAt(null, this.tree.torso, 0);
-    this.store.set({postures, pictures: await this.stage.drawPostures(figure, postures)});
+    this.store.set({postures, drawings: await this.stage.drawPostures(figure, postures)});
     figure.becomeGhost(this.stage.robotAxes);
     this.figure = figure;
   }

@@ -32,7 +32,7 @@ describe("a cause", () => {
     const robots = ["A", "B"].map((name) => create(RobotList_RobotSchema, {name}));
     expect(cause({unavailableComponents, robots})).toMatchObject({remedy: "robots"});
   });
-  it("is also that somebody waits, for the driver alone", () => {
+  it("is also that another client waits, for the driver alone", () => {
     const control = (isMine: boolean) => create(pb.ControlSchema, {isMine, driverId: 7, nextId: 8, nextName: "Ben"});
     expect(cause({control: control(true)})).toMatchObject({remedy: "hand-over", button: "Hand over to Ben"});
     expect(cause({control: control(false)})).toBeNull();

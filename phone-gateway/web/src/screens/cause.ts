@@ -31,7 +31,7 @@ const kRemedies: Record<Problem, readonly [Remedy, TextKey]> = {
 export function causeOf(state: Readonly<AppState>): Cause | null {
   const {phase, problem, robot, unavailableComponents, robots, control} = state;
   if (phase !== "connected") {
-    // Before the first picture the connection screen says why.
+    // Before the first state the connection screen says why.
     if (!problem || !robot) return null;
     const [remedy, key] = kRemedies[problem];
     return {text: say(`problem.${problem}`), remedy, button: say(key)};
@@ -42,7 +42,7 @@ export function causeOf(state: Readonly<AppState>): Cause | null {
     return {text: say(`component.${name}`), remedy, button: remedy ? say("lobby.open") : ""};
   }
   if (control?.isMine && control.nextId !== 0) {
-    return {text: say("control.wish", {name: control.nextName}), remedy: "hand-over",
+    return {text: say("control.asks", {name: control.nextName}), remedy: "hand-over",
             button: say("control.handOverTo", {name: control.nextName})};
   }
   return null;

@@ -1,4 +1,4 @@
-/** The remote control: one picture of the robot and one by its camera, what lies on them, and the controls. Where each
+/** The remote control: a view of the robot and its camera's image, what lies on them, and the controls. Where each
  * part is, says the grid of controller.css. */
 import type {Commander} from "../commander";
 import type {ImageView} from "../controls/image_view";
@@ -28,13 +28,13 @@ export interface ControllerActions {
   stop(): void;
   /** Explains the link sign. */
   explainLink(): void;
-  /** Somebody has walked the robot: the hint has served. */
+  /** The robot has walked: the hint has served. */
   walked(): void;
 }
 
 export class ControllerScreen {
   readonly element: HTMLElement;
-  /** Where the robot is drawn in the midst, when it is the large picture. */
+  /** Where the robot is drawn in the midst, when it is the large view. */
   private readonly free = el("div", {class: "free"});
   private readonly hint = el("p", {class: "hint", hidden: true}, el("span", {class: "by-touch"}, say("hint.walk")),
                              el("span", {class: "by-keys"}, say("hint.keys")));
@@ -88,12 +88,12 @@ export class ControllerScreen {
     this.hint.hidden = false;
   }
 
-  /** True: the camera's image is the large picture. */
+  /** True: the camera's image is the large view. */
   showCameraLarge(isLarge: boolean): void {
     this.element.classList.toggle("camera-large", isLarge);
   }
 
-  /** Calls `changed` with the part of the 3D picture where the robot is to be, px, now and whenever it is another; null: all. */
+  /** Calls `changed` with the part of the 3D view where the robot is to be, px, now and whenever it is another; null: all. */
   observeFreeArea(changed: (area: FreeArea | null) => void): void {
     const measure = (): void => {
       const view = this.view.getBoundingClientRect();

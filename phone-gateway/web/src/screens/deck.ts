@@ -35,7 +35,7 @@ export class Deck {
     this.element = el("div", {class: "strips"}, play.element, this.postures.element, this.actions.element, map);
     store.watch((state) => state.robot, (robot) => this.postures.setChoices(
         (robot?.postures ?? []).map((name) => ({name, label: sayName("posture", name)}))));
-    store.watch((state) => state.pictures, (pictures) => this.postures.setPictures(pictures));
+    store.watch((state) => state.drawings, (drawings) => this.postures.setDrawings(drawings));
     store.watch((state) => state.robot, () => this.showActions());
     store.watch((state) => state.savedMotions, () => this.showActions());
     store.watch((state) => state.state?.posture ?? "", (posture) => this.postures.mark(posture));

@@ -1,4 +1,4 @@
-/** What lies on the picture: what the robot does, and who drives it. */
+/** What lies on the views: what the robot does, and who drives it. */
 import type {Commander} from "../commander";
 import {onPress} from "../controls/press";
 import {el, setText} from "../dom";
@@ -65,7 +65,7 @@ export class Status {
     const isNext = this.isNext;
     const next = !control?.nextId ? "" : isNext ? say("control.youNext") : say("control.next", {name: control.nextName});
     setText(this.driver, next ? `${driver}, ${next}` : driver);
-    // While somebody else waits there is nothing to ask for, and the wish has its own button.
+    // While another client waits there is nothing to ask for, and its request has its own button.
     this.ask.hidden = who === "free" || (control?.isMuted ?? false) || (next !== "" && !isNext);
     setText(this.ask, say(who === "mine" ? "control.release" : isNext ? "control.withdraw" : "control.ask"));
   }

@@ -100,7 +100,7 @@ const kTexts = {
   "control.next": ["{name} is next", "a seguir {name}", "danach {name}"],
   "control.youNext": ["you are next", "a seguir é você", "danach du"],
   "control.withdraw": ["Do not wait", "Não esperar", "Nicht warten"],
-  "control.wish": ["{name} would like to drive.", "{name} gostaria de conduzir.", "{name} möchte steuern."],
+  "control.asks": ["{name} would like to drive.", "{name} gostaria de conduzir.", "{name} möchte steuern."],
   "control.handOverTo": ["Hand over to {name}", "Passar a vez a {name}", "An {name} abgeben"],
   "control.release": ["Hand over", "Passar a vez", "Abgeben"],
   "control.taken": ["You drive now.", "Agora é você que conduz.", "Du steuerst jetzt."],

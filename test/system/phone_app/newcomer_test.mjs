@@ -1,4 +1,4 @@
-// A stranger has scanned the address: how many touches, or keys, until the robot walks, kicks and bends a joint. How long it
+// A newcomer has scanned the address: how many touches, or keys, until the robot walks, kicks and bends a joint. How long it
 // takes is told, not asserted: the machine may be busy.
 import assert from "node:assert/strict";
 import {test} from "node:test";
@@ -9,7 +9,7 @@ const kMoved = 0.05;
 const {stack, openPhone} = setUp({hasPhone: false});
 
 /** Does what a person finds on the screen, and counts. */
-class Stranger {
+class Newcomer {
   count = 0;
 
   constructor(phone) {
@@ -59,54 +59,54 @@ const isBent = async (phone, joint) => {
 
 test("by touch: walking in 3, a kick in 3 more, a bent joint in 4", async (t) => {
   const begin = Date.now();
-  const phone = await openPhone(stack.url, undefined, {isStranger: true});
-  const stranger = new Stranger(phone);
+  const phone = await openPhone(stack.url, undefined, {isNewcomer: true});
+  const newcomer = new Newcomer(phone);
   await phone.sees("controller");
   assert.ok(await phone.page.locator(".hint").isVisible(), "nothing says how to walk");
-  await stranger.push(".joystick-walk", 0, "the robot walks", walks(phone));
+  await newcomer.push(".joystick-walk", 0, "the robot walks", walks(phone));
   t.diagnostic(`walks ${((Date.now() - begin) / 1000).toFixed(1)} s after the address was opened`);
-  assert.ok(stranger.take() <= 3);
+  assert.ok(newcomer.take() <= 3);
   assert.ok(await phone.page.locator(".hint").isHidden(), "the hint stays");
   await stands(phone);
-  await stranger.touch(".more-button");
-  await stranger.touch('[data-name="kick-left"]');
+  await newcomer.touch(".more-button");
+  await newcomer.touch('[data-name="kick-left"]');
   await kicks(phone);
-  assert.ok(stranger.take() <= 3);
+  assert.ok(newcomer.take() <= 3);
   await stands(phone);
   // A touch on the arm itself: its ball is there, though not shown yet.
   const [x, y] = (await phone.look("ballPlaces()"))["right elbow"];
-  stranger.count++;
+  newcomer.count++;
   await phone.page.touchscreen.tap(x, y);
   await until("joints mode, with the arm chosen", async () => (await phone.look("state.isJointsMode")) && (await phone.look("state.selectedGroup")) !== "");
   const group = await phone.look("state.selectedGroup");
   const joint = (await phone.look("state.robot.jointGroups")).find(({name}) => name === group);
   const bent = await isBent(phone, joint.pitchJoint || joint.yawJoint);
-  await stranger.push(".joystick-joint", 0.6, `${group} is bent`, bent);
-  assert.ok(stranger.take() <= 4);
+  await newcomer.push(".joystick-joint", 0.6, `${group} is bent`, bent);
+  assert.ok(newcomer.take() <= 4);
   assert.deepEqual(phone.errors, []);
   await phone.close();
 });
 
 test("by keys: the same", async (t) => {
   const begin = Date.now();
-  const phone = await openPhone(stack.url, {width: 1280, height: 800}, {isStranger: true, isMobile: false, hasTouch: false});
-  const stranger = new Stranger(phone);
+  const phone = await openPhone(stack.url, {width: 1280, height: 800}, {isNewcomer: true, isMobile: false, hasTouch: false});
+  const newcomer = new Newcomer(phone);
   await phone.sees("controller");
   assert.match(await phone.page.locator(".hint").innerText(), /W A S D/);
-  await stranger.hold("w", "the robot walks", walks(phone));
+  await newcomer.hold("w", "the robot walks", walks(phone));
   t.diagnostic(`walks ${((Date.now() - begin) / 1000).toFixed(1)} s after the address was opened`);
-  assert.ok(stranger.take() <= 3);
+  assert.ok(newcomer.take() <= 3);
   await stands(phone);
-  await stranger.press("1");
+  await newcomer.press("1");
   await kicks(phone);
-  assert.ok(stranger.take() <= 3);
+  assert.ok(newcomer.take() <= 3);
   await stands(phone);
-  await stranger.press("l");
-  await stranger.press(".");
+  await newcomer.press("l");
+  await newcomer.press(".");
   const group = await phone.look("state.selectedGroup");
   const joint = (await phone.look("state.robot.jointGroups")).find(({name}) => name === group);
-  await stranger.hold("w", `${group} is bent`, await isBent(phone, joint.pitchJoint));
-  assert.ok(stranger.take() <= 4);
+  await newcomer.hold("w", `${group} is bent`, await isBent(phone, joint.pitchJoint));
+  assert.ok(newcomer.take() <= 4);
   assert.deepEqual(phone.errors, []);
   await phone.close();
 });
