@@ -124,15 +124,16 @@ double YamlEntry::not_negative() const {
   return value;
 }
 
-std::vector<double> YamlEntry::numbers(size_t count) const {
+std::vector<double> YamlEntry::numbers() const {
   std::vector<double> numbers;
-  for (const YamlEntry& item : items()) {
-    numbers.push_back(item.number());
-  }
-  if (numbers.size() != count) {
-    fail("must be " + std::to_string(count) + " numbers");
-  }
+  for (const YamlEntry& item : items()) numbers.push_back(item.number());
   return numbers;
+}
+
+std::vector<double> YamlEntry::numbers(size_t count) const {
+  std::vector<double> all = numbers();
+  if (all.size() != count) fail("must be " + std::to_string(count) + " numbers");
+  return all;
 }
 
 void YamlEntry::fail(const std::string& what) const {

@@ -48,6 +48,8 @@ class YamlEntry {
   double positive() const;
   /** A finite number, 0 or above. */
   double not_negative() const;
+  /** A list of finite numbers. */
+  std::vector<double> numbers() const;
   /** A list of exactly `count` finite numbers. */
   std::vector<double> numbers(size_t count) const;
 

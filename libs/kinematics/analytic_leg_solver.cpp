@@ -43,7 +43,7 @@ bool are_perpendicular(const Vector3d& a, const Vector3d& b) {
 std::optional<AnalyticLegSolver> AnalyticLegSolver::make(const LegChain& chain) {
   // Three hip axes that are perpendicular to one another and meet (a ball joint), and a knee
   // parallel to the ankle's pitch: then position and orientation separate (Pieper's condition).
-  if (chain.num_joints != 6) return std::nullopt;
+  if (chain.num_joints() != 6) return std::nullopt;
   const auto& axis = chain.axis;
   const bool is_hip = are_perpendicular(axis[0], axis[1]) && are_perpendicular(axis[1], axis[2]) &&
                       are_perpendicular(axis[0], axis[2]);

@@ -65,7 +65,7 @@ std::string find_roles(LegChain& chain) {
   LegRoles& roles = chain.roles;
   std::array<int, kMaxLegJoints> direction{};
   std::vector<int> pitches;
-  for (int i = 0; i < chain.num_joints; ++i) {
+  for (int i = 0; i < chain.num_joints(); ++i) {
     direction[i] = direction_of(chain.axis[i]);
     if (direction[i] == 1) pitches.push_back(i);
   }
@@ -75,7 +75,7 @@ std::string find_roles(LegChain& chain) {
   if (roles.knee < 0) return "knee";
   if (pitches.back() != roles.knee) roles.ankle_pitch = pitches.back();
   // Order along the chain matters: rolls before the knee are the hip's, those after it the ankle's.
-  for (int i = 0; i < chain.num_joints; ++i) {
+  for (int i = 0; i < chain.num_joints(); ++i) {
     int& roll = i < roles.knee ? roles.hip_roll : roles.ankle_roll;
     if (direction[i] == 0 && roll < 0) roll = i;
     if (direction[i] == 2 && roles.hip_yaw < 0) roles.hip_yaw = i;
@@ -86,7 +86,7 @@ std::string find_roles(LegChain& chain) {
     roles.hip_roll = i;
     direction[i] = 0;
   }
-  for (int i = 0; i < chain.num_joints; ++i) {
+  for (int i = 0; i < chain.num_joints(); ++i) {
     roles.sign[i] = chain.axis[i][direction[i]] < 0 ? -1 : 1;
   }
   return roles.hip_roll < 0 ? "roll of the hip" : "";
@@ -129,7 +129,6 @@ LegChain LegChain::read(const RobotModel& model, Leg leg) {
     fail("it has " + std::to_string(joints.size()) + " joints of its own instead of 3 to " +
          std::to_string(kMaxLegJoints));
   }
-  chain.num_joints = static_cast<int>(joints.size());
   // All joints at 0: axes and points of the product of exponentials, in T.
   const std::vector<Eigen::Isometry3d> poses =
       model.link_poses(std::vector<double>(model.num_motors(), 0.0));
@@ -159,7 +158,7 @@ LegAngles LegChain::calc_bent(double bend) const {
     if (role >= 0) angles[role] = -0.5 * knee * roles.sign[roles.knee] * roles.sign[role];
   }
   angles[roles.knee] = knee;
-  for (int i = 0; i < num_joints; ++i) angles[i] = std::clamp(angles[i], lower[i], upper[i]);
+  for (int i = 0; i < num_joints(); ++i) angles[i] = std::clamp(angles[i], lower[i], upper[i]);
   return angles;
 }
 
@@ -167,7 +166,7 @@ Eigen::Isometry3d LegChain::calc_sole(const LegAngles& angles) const {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   // Product of exponentials: sole(q) = exp(S_1 q_1) ... exp(S_n q_n) sole(0).
-  for (int i = 0; i < num_joints; ++i) {
+  for (int i = 0; i < num_joints(); ++i) {
     // exp(S q): a rotation about the axis through the point.
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(angles[i], axis[i]).toRotationMatrix();
     translation += rotation * (point[i] - turn * point[i]);

@@ -46,7 +46,6 @@ struct LegRoles {
  *
  * Source: K. Lynch, F. Park, "Modern Robotics", Cambridge 2017, chapter 4. */
 struct LegChain {
-  int num_joints = 0;
   std::vector<int> motors;
   std::array<Eigen::Vector3d, kMaxLegJoints> axis;
   std::array<Eigen::Vector3d, kMaxLegJoints> point;
@@ -62,6 +61,7 @@ struct LegChain {
    * roll and pitch and the knee. */
   static LegChain read(const RobotModel& model, Leg leg);
 
+  int num_joints() const { return static_cast<int>(motors.size()); }
   /** Angles within the limits with a bent knee, hip and ankle half as much the other way, so that
    * the sole stays level. @param bend  rad, 0 or more. */
   LegAngles calc_bent(double bend) const;

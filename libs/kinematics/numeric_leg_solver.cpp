@@ -41,13 +41,13 @@ Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation) {
 
 NumericLegSolver::NumericLegSolver(const LegChain& chain, const LegAngles& start)
     : chain_(chain), start_(start), length_((chain.sole.translation() - chain.point[0]).norm()) {
-  for (int i = 0; i < chain.num_joints; ++i) {
+  for (int i = 0; i < chain.num_joints(); ++i) {
     start_[i] = std::clamp(start_[i], chain.lower[i], chain.upper[i]);
   }
   if (chain.roles.ankle_roll < 0) weights_[0] = kFreeWeight;
   if (chain.roles.ankle_pitch < 0) weights_[1] = kFreeWeight;
   if (chain.roles.hip_yaw < 0) weights_[2] = kFreeWeight;
-  is_exact_ = chain.num_joints == 6 && weights_.minCoeff() == 1;
+  is_exact_ = chain.num_joints() == 6 && weights_.minCoeff() == 1;
 }
 
 template <typename Rows>
@@ -70,8 +70,8 @@ NumericLegSolver::Vector6d NumericLegSolver::calc_error(const Eigen::Isometry3d&
 }
 
 NumericLegSolver::Change NumericLegSolver::calc_rest(const LegAngles& angles) const {
-  Change rest(chain_.num_joints);
-  for (int i = 0; i < chain_.num_joints; ++i) rest[i] = kRestWeight * (start_[i] - angles[i]);
+  Change rest(chain_.num_joints());
+  for (int i = 0; i < chain_.num_joints(); ++i) rest[i] = kRestWeight * (start_[i] - angles[i]);
   return rest;
 }
 
@@ -87,8 +87,8 @@ NumericLegSolver::Jacobian NumericLegSolver::calc_jacobian(const Eigen::Isometry
   const Eigen::Vector3d sole = chain_.calc_sole(angles).translation();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  Jacobian jacobian(6, chain_.num_joints);
-  for (int i = 0; i < chain_.num_joints; ++i) {
+  Jacobian jacobian(6, chain_.num_joints());
+  for (int i = 0; i < chain_.num_joints(); ++i) {
     const Eigen::Vector3d axis = rotation * chain_.axis[i];
     const Eigen::Vector3d point = rotation * chain_.point[i] + translation;
     jacobian.col(i) << axis, axis.cross(sole - point) / length_;
@@ -102,7 +102,7 @@ NumericLegSolver::Jacobian NumericLegSolver::calc_jacobian(const Eigen::Isometry
 
 // Levenberg-Marquardt with box constraints by projection: (J^T J + damping I) change = J^T error.
 double NumericLegSolver::descend(const Eigen::Isometry3d& goal, LegAngles& angles) const {
-  const int count = chain_.num_joints;
+  const int count = chain_.num_joints();
   Vector6d error = calc_error(goal, angles);
   double squared = squared_error(goal, angles);
   double damping = kFirstDamping;

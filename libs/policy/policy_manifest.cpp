@@ -57,8 +57,7 @@ int read_steps(const YamlEntry& entry, int otherwise) {
 }
 
 std::vector<double> read_list(const YamlEntry& entry) {
-  std::vector<double> numbers;
-  for (const YamlEntry& item : entry.items()) numbers.push_back(item.number());
+  std::vector<double> numbers = entry.numbers();
   if (numbers.empty() || numbers.size() > kMaxConstants) {
     entry.fail("must have 1 to " + std::to_string(kMaxConstants) + " numbers");
   }

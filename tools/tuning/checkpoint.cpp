@@ -7,15 +7,6 @@
 #include "common/yaml_entry.h"
 
 namespace nao {
-namespace {
-
-std::vector<double> read_numbers(const YamlEntry& list) {
-  std::vector<double> numbers;
-  for (const YamlEntry& item : list.items()) numbers.push_back(item.number());
-  return numbers;
-}
-
-}  // namespace
 
 // The costs of all generations, with which the search is repeated on resume (see replay());
 // candidates need not be stored.
@@ -45,13 +36,13 @@ Checkpoint Checkpoint::parse(const std::string& text, const std::string& name) {
     checkpoint.settings[key] = value.text();
   }
   for (const YamlEntry& generation : whole.at("costs").items()) {
-    checkpoint.costs.push_back(read_numbers(generation));
+    checkpoint.costs.push_back(generation.numbers());
     // A damaged file must not silently lead to another search.
     if (checkpoint.costs.back().size() != checkpoint.costs.front().size()) {
       generation.fail("must have as many costs as the first generation");
     }
   }
-  checkpoint.mean = read_numbers(whole.at("mean"));
+  checkpoint.mean = whole.at("mean").numbers();
   return checkpoint;
 }
 

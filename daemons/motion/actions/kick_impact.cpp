@@ -8,12 +8,6 @@ namespace {
 
 constexpr const char* kSignals[] = {"hip_velocity", "knee_velocity", "hip_torque", "knee_torque"};
 
-std::vector<double> numbers_of(const YamlEntry& entry) {
-  std::vector<double> numbers;
-  for (const YamlEntry& item : entry.items()) numbers.push_back(item.number());
-  return numbers;
-}
-
 // Linear interpolation; `after` is the first sample after the time.
 double interpolate(const KickImpact::Sample& before, const KickImpact::Sample& after, double time,
                    int signal) {
@@ -28,12 +22,12 @@ KickImpact KickImpact::read(const YamlEntry& entry) {
                     "bias", "believed"});
   KickImpact impact;
   impact.foot = entry.at("foot").number();
-  impact.times = numbers_of(entry.at("times"));
+  impact.times = entry.at("times").numbers();
   if (impact.times.empty() || !std::is_sorted(impact.times.begin(), impact.times.end())) {
     entry.at("times").fail("must be one or more increasing times");
   }
   for (int i = 0; i < kNumSignals; ++i) {
-    impact.weights[i] = numbers_of(entry.at(kSignals[i]));
+    impact.weights[i] = entry.at(kSignals[i]).numbers();
     if (impact.weights[i].size() != impact.times.size()) {
       entry.at(kSignals[i]).fail("must be as long as times");
     }

@@ -16,7 +16,7 @@ namespace {
 /** Random angles of a leg, a tenth of each range away from its limits, with a bent knee. */
 LegAngles random_angles(const LegChain& chain, std::mt19937& random) {
   LegAngles angles{};
-  for (int i = 0; i < chain.num_joints; ++i) {
+  for (int i = 0; i < chain.num_joints(); ++i) {
     const double margin = 0.1 * (chain.upper[i] - chain.lower[i]);
     angles[i] = std::uniform_real_distribution<double>(chain.lower[i] + margin,
                                                        chain.upper[i] - margin)(random);
@@ -226,7 +226,7 @@ TEST_P(EveryOddLeg, MovesWithoutJumpsAndTakesNoMemory) {
     const size_t before = allocation_count();
     const LegAngles angles = legs.solve(Leg::kRight, goal).angles;
     EXPECT_EQ(allocation_count(), before);
-    for (int i = 0; tick > 0 && i < chain.num_joints; ++i) {
+    for (int i = 0; tick > 0 && i < chain.num_joints(); ++i) {
       EXPECT_NEAR(angles[i], last[i], 0.03) << "joint " << i << " tick " << tick;
     }
     last = angles;

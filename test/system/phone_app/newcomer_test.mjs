@@ -62,7 +62,7 @@ test("by touch: walking in 3, a kick in 3 more, a bent joint in 4", async (t) =>
   const phone = await openPhone(stack.url, undefined, {isNewcomer: true});
   const newcomer = new Newcomer(phone);
   await phone.sees("controller");
-  assert.ok(await phone.page.locator(".hint").isVisible(), "nothing says how to walk");
+  await phone.page.locator(".hint").waitFor();  // Tells how to walk, as soon as the robot is known.
   await newcomer.push(".joystick-walk", 0, "the robot walks", walks(phone));
   t.diagnostic(`walks ${((Date.now() - begin) / 1000).toFixed(1)} s after the address was opened`);
   assert.ok(newcomer.take() <= 3);
@@ -92,7 +92,7 @@ test("by keys: the same", async (t) => {
   const phone = await openPhone(stack.url, {width: 1280, height: 800}, {isNewcomer: true, isMobile: false, hasTouch: false});
   const newcomer = new Newcomer(phone);
   await phone.sees("controller");
-  assert.match(await phone.page.locator(".hint").innerText(), /W A S D/);
+  await phone.page.locator(".hint", {hasText: "W A S D"}).waitFor();
   await newcomer.hold("w", "the robot walks", walks(phone));
   t.diagnostic(`walks ${((Date.now() - begin) / 1000).toFixed(1)} s after the address was opened`);
   assert.ok(newcomer.take() <= 3);

@@ -43,12 +43,12 @@ class Mark {
   }
 }
 
-/** Where the parts of a robot that is seen are, m over the ground and to its left: legs, trunk with arms, head. */
-const kParts = [{radius: 0.045, length: 0.17, z: 0.13, y: 0.06}, {radius: 0.045, length: 0.17, z: 0.13, y: -0.06},
-                {radius: 0.085, length: 0.09, z: 0.34, y: 0}, {radius: 0.03, length: 0.13, z: 0.33, y: 0.125},
-                {radius: 0.03, length: 0.13, z: 0.33, y: -0.125}, {radius: 0.062, length: 0.01, z: 0.5, y: 0}];
+/** Parts of a robot that is seen, as fractions of its height, over the ground and to its left: legs, trunk with arms, head. */
+const kParts = [{radius: 0.08, length: 0.3, z: 0.23, y: 0.105}, {radius: 0.08, length: 0.3, z: 0.23, y: -0.105},
+                {radius: 0.15, length: 0.16, z: 0.6, y: 0}, {radius: 0.053, length: 0.23, z: 0.58, y: 0.22},
+                {radius: 0.053, length: 0.23, z: 0.58, y: -0.22}, {radius: 0.11, length: 0.02, z: 0.88, y: 0}];
 
-/** A robot in outline, of one mesh: which one it is, and how it stands, is not known. */
+/** A robot in outline, of one mesh and the height 1: which one it is, and how it stands, is not known. */
 function figure(material: Material): Mesh {
   const mesh = new Mesh(mergeGeometries(kParts.map(({radius, length, z, y}) =>
       new CapsuleGeometry(radius, length, 4, 12).rotateX(Math.PI / 2).translate(0, y, z))), material);
@@ -67,6 +67,8 @@ export class SeenObjects {
   private readonly group = new Group();
   private readonly ball: Mark;
   private readonly robots: Mark[] = [];
+  /** The robots' meshes. */
+  private readonly figures: Mesh[] = [];
   private readonly posts: Mark[] = [];
   private readonly lines: LineSegments;
   private readonly ends = new Float32Array(kMaxLines * 6);
@@ -78,7 +80,8 @@ export class SeenObjects {
     const red = new MeshLambertMaterial({color: 0xd8595c});
     const white = new MeshLambertMaterial({color: 0xf4f7f9});
     for (let i = 0; i < kMaxThings; i++) {
-      this.robots.push(new Mark(figure(red), 0xff6a6a));
+      this.figures.push(figure(red));
+      this.robots.push(new Mark(this.figures[i]!, 0xff6a6a));
       this.posts.push(new Mark(column(0.05, 0.8, white), 0xf4f7f9));
     }
     const geometry = new BufferGeometry();
@@ -100,6 +103,8 @@ export class SeenObjects {
     const ball = ballOf(vision);
     this.ball.object.visible = ball !== null;
     if (ball) this.ball.show(ball, ball.covariance);
+    // Robots that play with this one are as tall.
+    for (const mesh of this.figures) mesh.scale.setScalar(this.stage.robotHeight);
     this.showThings(this.robots, Vision_Detection_Kind.ROBOT, vision, state);
     this.showThings(this.posts, Vision_Detection_Kind.GOAL_POST, vision, state);
     this.showLines(vision, state);

@@ -2,8 +2,8 @@
 import {Box3} from "three";
 import type {Object3D} from "three";
 
-/** Assumed height of a robot without shells, m. */
-const kUnknownHeight = 0.6;
+/** Assumed height of a robot without shells, and until one has been loaded, m. */
+export const kUnknownHeight = 0.6;
 
 /** From the lowest to the highest point of its shells in the pose that it has, m.
  * @param torso  Upright, in the robot's own axes (Z up): not yet part of a scene. */

@@ -11,7 +11,7 @@ import {makeRobotAxes, robotToScene} from "./frames";
 import {Orbit} from "./orbit";
 import type {View} from "./orbit";
 import {PixelBudget} from "./pixel_budget";
-import {calcHeight} from "./robot_height";
+import {calcHeight, kUnknownHeight} from "./robot_height";
 import {groupAt} from "./link_at";
 import type {PostureFigure} from "./posture_figure";
 import type {Postures} from "./posture_file";
@@ -51,8 +51,6 @@ const kSunLeft = 1.9;
 const kSunAbove = 3.8;
 const kShadowReach = 1.2;
 const kShadowDepth = 7;
-/** Until a robot has been loaded, m. */
-const kUnknownHeight = 0.6;
 
 /** A part of the canvas, px from its top left. */
 export interface FreeArea {
@@ -81,8 +79,8 @@ export class Stage {
   private readonly budget: PixelBudget;
   private readonly framePeriodMs: number;
   private robot: RobotTree | null = null;
-  /** m. */
-  private robotHeight = kUnknownHeight;
+  /** Of the robot that is drawn, m; only read by others. */
+  robotHeight = kUnknownHeight;
   private lastFrameMs = 0;
   private isRunning = false;
   private drawnMs = -Infinity;
