@@ -39,11 +39,11 @@ export class Phone {
   }
 
   /** @param size  CSS pixels: {width, height}.
-   * @param options  of Playwright's context; isStranger: the person has not walked a robot yet; name: what others see. */
-  async open(browser, url, size = {width: 412, height: 915}, {isStranger = false, name = "", ...options} = {}) {
+   * @param options  of Playwright's context; isNewcomer: the person has not walked a robot yet; name: what others see. */
+  async open(browser, url, size = {width: 412, height: 915}, {isNewcomer = false, name = "", ...options} = {}) {
     this.context = await browser.newContext({
       viewport: size, deviceScaleFactor: 1, isMobile: true, hasTouch: true, locale: "en-US", ...options});
-    if (!isStranger) await this.context.addInitScript(remember, {hasWalked: true});
+    if (!isNewcomer) await this.context.addInitScript(remember, {hasWalked: true});
     if (name) await this.context.addInitScript(remember, {clientName: name});
     this.page = await this.context.newPage();
     this.page.on("pageerror", (error) => this.errors.push(error.message));
