@@ -74,7 +74,8 @@ WalkCommand Fence::limit(const WalkCommand& velocity, const GroundPose& robot) c
       }
       if (!is_inside || distance < 1e-9) continue;
       const GroundPoint out{(border.x - place.x) / distance, (border.y - place.y) / distance};
-      const double allowed = std::max(0.0, distance - kStopDistance) / kBrakeTime;
+      // Within the stop distance the robot is led back.
+      const double allowed = (distance - kStopDistance) / kBrakeTime;
       const double excess = v.x * out.x + v.y * out.y - allowed;
       if (excess <= 1e-9) continue;
       v = {v.x - excess * out.x, v.y - excess * out.y};

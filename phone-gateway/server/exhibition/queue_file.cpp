@@ -100,6 +100,8 @@ std::string write_queue_state(const QueueState& state) {
   json.add("version", kVersion);
   if (state.driver) write("driver", *state.driver, json);
   json.add("turn_left", state.turn_left);
+  json.add("turn_time", state.turn_time);
+  json.add("challenge_time", state.challenge_time);
   json.add("idle_time", state.idle_time);
   json.add("changeover_left", state.changeover_left);
   write("waiting", state.waiting, json);
@@ -109,6 +111,10 @@ std::string write_queue_state(const QueueState& state) {
   json.add("num_nicknames", static_cast<int64_t>(state.num_nicknames));
   json.add("best_time", state.best_time);
   json.add("best_nickname", state.best_nickname);
+  json.add("forbids_kicks", state.choices.forbids_kicks);
+  json.add("forbids_falls", state.choices.forbids_falls);
+  json.add("speed", state.choices.speed);
+  json.add("volume", state.choices.volume);
   json.add("driven", state.counts.driven);
   for (const CountField& field : kCountFields) json.add(field.name, state.counts.*field.value);
   json.end();
@@ -123,6 +129,8 @@ QueueState read_queue_state(std::string_view text) {
   std::set<std::string> keys;
   if (json->contains("driver")) state.driver = read_visitor(at(*json, "driver"), keys);
   state.turn_left = read_number(*json, "turn_left", kMaxStateTime);
+  state.turn_time = read_number(*json, "turn_time", kMaxStateTime);
+  state.challenge_time = read_number(*json, "challenge_time", kMaxStateTime);
   state.idle_time = read_number(*json, "idle_time", kMaxStateTime);
   state.changeover_left = read_number(*json, "changeover_left", kMaxStateTime);
   state.waiting = read_visitors(*json, "waiting", keys);
@@ -132,6 +140,10 @@ QueueState read_queue_state(std::string_view text) {
   state.num_nicknames = static_cast<size_t>(read_number(*json, "num_nicknames", 1e9));
   state.best_time = read_number(*json, "best_time", kMaxStateTime);
   state.best_nickname = read_text(*json, "best_nickname");
+  state.choices.forbids_kicks = read_flag(*json, "forbids_kicks");
+  state.choices.forbids_falls = read_flag(*json, "forbids_falls");
+  state.choices.speed = read_number(*json, "speed", 1);
+  state.choices.volume = read_number(*json, "volume", 1);
   state.counts.driven = read_number(*json, "driven", kMaxStateTime);
   for (const CountField& field : kCountFields) {
     state.counts.*field.value = static_cast<int>(read_number(*json, field.name, 1e9));

@@ -91,6 +91,7 @@ void VisitorQueue::step(double dt) {
   if (is_halted()) return;
   if (state_.driver) {
     state_.turn_left -= dt;
+    state_.turn_time += dt;
     state_.idle_time += dt;
     state_.counts.driven += dt;
     if (state_.turn_left <= 0) return end_turn(End::kTime);
@@ -108,6 +109,8 @@ void VisitorQueue::begin_turn(std::deque<Visitor>::iterator next) {
   state_.driver = std::move(*next);
   state_.waiting.erase(next);
   state_.turn_left = rules_.turn;
+  state_.turn_time = 0;
+  state_.challenge_time = 0;
   state_.idle_time = 0;
   ++state_.counts.turns;
 }
@@ -168,11 +171,12 @@ VisitorView VisitorQueue::view(const std::string& key) const {
   return {Phase::kServed, served->nickname};
 }
 
-bool VisitorQueue::note_time(double time) {
-  if (!state_.driver || (state_.best_time > 0 && time >= state_.best_time)) return false;
-  state_.best_time = time;
+void VisitorQueue::note_challenge() {
+  if (driver() == nullptr || state_.challenge_time > 0) return;
+  state_.challenge_time = state_.turn_time;
+  if (state_.best_time > 0 && state_.turn_time >= state_.best_time) return;
+  state_.best_time = state_.turn_time;
   state_.best_nickname = state_.driver->nickname;
-  return true;
 }
 
 }  // namespace nao::gateway

@@ -48,10 +48,23 @@ struct ExhibitionCounts {
   int faults = 0;
 };
 
+/** What the operator of an exhibition has set. */
+struct OperatorChoices {
+  bool forbids_kicks = false;
+  bool forbids_falls = false;
+  /** Fraction of the robot's highest velocities. */
+  double speed = 1;
+  /** 0 to 1. */
+  double volume = 1;
+};
+
 /** Everything that survives a restart of the gateway. Times are durations, s: no clock is in it. */
 struct QueueState {
   std::optional<Visitor> driver;
   double turn_left = 0;
+  /** Driven in this turn, and when in it the challenge was done; 0: not yet. */
+  double turn_time = 0;
+  double challenge_time = 0;
   /** Since the driver's last command. */
   double idle_time = 0;
   double changeover_left = 0;
@@ -64,6 +77,7 @@ struct QueueState {
   /** Best time of the challenge, s, and whose it is; 0: none. */
   double best_time = 0;
   std::string best_nickname;
+  OperatorChoices choices;
   ExhibitionCounts counts;
 };
 
@@ -122,8 +136,9 @@ class VisitorQueue {
   const TurnRules& rules() const { return rules_; }
   const QueueState& state() const { return state_; }
   ExhibitionCounts& counts() { return state_.counts; }
-  /** A time of the challenge, s. @return true if it is the best one. */
-  bool note_time(double time);
+  OperatorChoices& choices() { return state_.choices; }
+  /** The driver has done the challenge; the first time in a turn counts. */
+  void note_challenge();
 
  private:
   enum class End { kTime, kLeft, kIdle, kSkipped, kRest };

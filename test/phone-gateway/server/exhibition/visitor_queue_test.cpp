@@ -153,10 +153,20 @@ TEST_F(VisitorQueueTest, LetsADriverThatARestCutShortBeTheNext) {
 
 TEST_F(VisitorQueueTest, RemembersTheBestTime) {
   for (const char* key : {"a", "b"}) queue_.attend(key, false);
-  EXPECT_FALSE(queue_.note_time(1)) << "nobody drives";
+  queue_.note_challenge();
+  EXPECT_EQ(queue_.state().best_time, 0) << "nobody drives";
   pass(0.1);
-  EXPECT_TRUE(queue_.note_time(20));
-  EXPECT_FALSE(queue_.note_time(30));
+  drive(20);
+  queue_.note_challenge();
+  drive(10);
+  queue_.note_challenge();
+  EXPECT_NEAR(queue_.state().challenge_time, 20, 0.2) << "the first time counts";
+  queue_.leave("a");
+  pass(5.2);
+  drive(30);
+  queue_.note_challenge();
+  EXPECT_NEAR(queue_.state().challenge_time, 30, 0.3);
+  EXPECT_NEAR(queue_.state().best_time, 20, 0.2);
   EXPECT_EQ(queue_.state().best_nickname, "Vega");
 }
 
@@ -331,14 +341,14 @@ TEST(QueueFile, KeepsEverything) {
   VisitorQueue queue(TurnRules{}, {"Vega", "Rigel"});
   for (const char* key : {"a", "b", "c"}) queue.attend(key, false);
   for (int i = 0; i < 100; ++i) queue.step(0.1);
-  queue.note_time(12.5);
+  queue.note_challenge();
   queue.skip();
   for (int i = 0; i < 60; ++i) queue.step(0.1);
   queue.set_paused(true);
   queue.counts().falls = 3;
   const std::string text = write_queue_state(queue.state());
   EXPECT_EQ(write_queue_state(read_queue_state(text)), text);
-  EXPECT_NE(write_exhibition_report(queue.state()).find("Best time: 12.5 s, Vega"),
+  EXPECT_NE(write_exhibition_report(queue.state()).find("Best time: 9.9 s, Vega"),
             std::string::npos);
 }
 
