@@ -25,7 +25,7 @@ class Screen {
       el("section", {class: "big-screen"},
          el("div", {class: "screen-view"}, live.canvas, live.image, this.link),
          el("header", {class: "screen-head"}, this.driver, this.time),
-         el("aside", {class: "screen-side"}, this.scan, el("img", {class: "screen-code", src: "/qr.png", alt: ""}),
+         el("div", {class: "screen-side"}, this.scan, el("img", {class: "screen-code", src: "/qr.png", alt: ""}),
             this.title, this.queue, this.rest),
          el("footer", {class: "screen-foot"}, this.challenge, this.best)));
     store.watch((state) => state.exhibition, (exhibition) => this.show(exhibition));
