@@ -262,7 +262,7 @@ naoremote::Exhibition ExhibitionDesk::describe(const ClientSession& session) con
   result.set_challenge_time(state.challenge_time);
   result.set_best_time(state.best_time);
   result.set_best_nickname(state.best_nickname);
-  result.set_num_turns(static_cast<uint32_t>(state.counts.turns));
+  result.set_num_turns(static_cast<uint32_t>(state.counts.turns - (state.driver ? 1 : 0)));
   result.set_language(settings_.language);
   return result;
 }

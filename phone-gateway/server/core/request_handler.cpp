@@ -154,7 +154,7 @@ std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Req
       return drag(session, request.drag(), now);
     case Request::kAttend:
     case Request::kRunExhibition:
-      return execute_exhibition_request(session, request, now);
+      return execute_exhibition_request(session, request, response, now);
     case Request::USE_CASE_NOT_SET:
       break;
   }
@@ -183,11 +183,15 @@ std::optional<Refusal> RequestHandler::execute_control_request(ClientSession& se
 
 std::optional<Refusal> RequestHandler::execute_exhibition_request(ClientSession& session,
                                                                   const Request& request,
-                                                                  double now) {
+                                                                  Response& response, double now) {
   if (exhibition_ == nullptr) {
     return Refusal{naoremote::INVALID_ARGUMENT, gateway_reason("exhibition-none")};
   }
-  if (request.has_attend()) return exhibition_->attend(session, request.attend());
+  if (request.has_attend()) {
+    auto refusal = exhibition_->attend(session, request.attend());
+    *response.mutable_exhibition() = exhibition_->describe(session);
+    return refusal;
+  }
   return exhibition_->run(session, request.run_exhibition(), now);
 }
 

@@ -63,7 +63,8 @@ class RequestHandler {
                                       naoremote::Response& response, double now);
   /** Requests about the exhibition. */
   std::optional<Refusal> execute_exhibition_request(ClientSession& session,
-                                                    const naoremote::Request& request, double now);
+                                                    const naoremote::Request& request,
+                                                    naoremote::Response& response, double now);
   void ping(const ClientSession& session, const naoremote::Ping& request, naoremote::Pong& pong,
             double now);
 

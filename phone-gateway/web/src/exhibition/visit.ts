@@ -35,7 +35,7 @@ export class Visit {
   private readonly detail = el("p", {class: "visit-detail"});
   private readonly note = el("p", {class: "quiet"});
   private readonly act = el("button", {class: "button wide", onclick: () => this.pressed()});
-  private readonly sheet = el("section", {class: "visit", role: "status"},
+  private readonly sheet = el("section", {class: "visit", role: "status", hidden: true},
       el("div", {class: "visit-card"}, this.title, this.big, this.detail, this.note, this.act));
   private readonly time = el("strong");
   private readonly challenge = el("span");
@@ -44,9 +44,11 @@ export class Visit {
   private phase = Phase.NONE;
   private wasWarned = false;
   private isFull = false;
+  /** The gateway knows whose phone this is. */
+  private isKnown = false;
 
   /** @param notes  where messages to the driver are. @param letGo  releases what is held. */
-  constructor(private readonly store: Store, private readonly commander: Commander, root: HTMLElement, notes: HTMLElement,
+  constructor(private readonly store: Store, private readonly commander: Commander, private readonly root: HTMLElement, notes: HTMLElement,
               memory: Storage | null, private readonly letGo: () => void) {
     const sheet = new CSSStyleSheet();
     sheet.replaceSync(css);
@@ -56,10 +58,11 @@ export class Visit {
     notes.prepend(this.chip);
     // After each connection: the gateway knows by it whose phone this is.
     store.watch((state) => state.phase, (phase) => {
+      this.isKnown = false;
       if (phase === "connected") void this.attend({});
     });
     store.watch((state) => state.exhibition, (exhibition) => {
-      if (exhibition) this.show(exhibition);
+      if (exhibition && this.isKnown) this.show(exhibition);
     });
   }
 
@@ -67,9 +70,10 @@ export class Visit {
     if (wish.leaves) this.letGo();
     const value = create(AttendSchema, {visitorKey: this.key, ...wish});
     const response = await this.commander.fetch({case: "attend", value});
-    this.isFull = response?.error === ErrorCode.TOO_MANY_CLIENTS;
-    const {exhibition} = this.store.get();
-    if (exhibition) this.show(exhibition);
+    if (response?.result.case !== "exhibition") return;
+    this.isFull = response.error === ErrorCode.TOO_MANY_CLIENTS;
+    this.isKnown = true;
+    this.store.set({exhibition: response.result.value});
   }
 
   private pressed(): void {
@@ -87,7 +91,7 @@ export class Visit {
     this.phase = phase;
     this.wasWarned = exhibition.isWarned;
     this.sheet.hidden = mayDrive;
-    this.sheet.dataset["phase"] = Phase[phase];
+    this.root.dataset["visit"] = mayDrive ? "driving" : "waiting";
     this.chip.hidden = !mayDrive;
     this.chip.classList.toggle("warned", exhibition.isWarned);
     setText(this.time, tell("warned", {time: clock(exhibition.turnLeft)}));
