@@ -114,7 +114,7 @@ class OperatorPage {
     setText(this.time, exhibition.driver ? clock(exhibition.turnLeft) : "");
     this.time.classList.toggle("warned", exhibition.isWarned);
     const names = exhibition.waiting.join(", ");
-    setText(this.queue, `${tell("waiting", {number: exhibition.numWaiting})}${names ? `: ${names}` : ""} · ` +
+    setText(this.queue, `${tell("waiting", {number: exhibition.numWaiting})}${names ? ` (${names})` : ""} · ` +
                         tell("turns", {number: exhibition.numTurns}));
     for (const mark of this.marks) mark(exhibition);
   }
