@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "phone-gateway/server/core/endpoint.h"
 #include "phone-gateway/server/core/image_pacer.h"
 #include "phone-gateway/server/core/outbox.h"
 #include "phone-gateway/server/core/request_age.h"
@@ -15,16 +16,6 @@
 #include "phone-gateway/server/core/stream_throttle.h"
 
 namespace nao::gateway {
-
-/** The other end of a connection. */
-struct Endpoint {
-  /** IP address without port. */
-  std::string address;
-  /** "websocket" or "tcp". */
-  std::string transport;
-  /** On the gateway's own host. */
-  bool is_local = false;
-};
 
 /** The states and images that a client receives. */
 struct ClientStreams {

@@ -1,4 +1,4 @@
-#include "phone-gateway/server/network/websocket_connection.h"
+#include "phone-gateway/server/network/http_server.h"
 //
 #include <boost/beast/core/detect_ssl.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -33,8 +33,7 @@ std::string_view view(beast::string_view text) {
 /** An entry of the handshake limiter, for as long as this lives. */
 class HandshakeGuard {
  public:
-  HandshakeGuard(ConnectionContext& context, const std::string& address,
-                 std::function<void()> evict)
+  HandshakeGuard(HttpContext& context, const std::string& address, std::function<void()> evict)
       : context_(context) {
     if (context_.handshakes.add(address, std::move(evict), entry_)) {
       note_eviction(context_, address);
@@ -45,14 +44,14 @@ class HandshakeGuard {
   HandshakeGuard& operator=(const HandshakeGuard&) = delete;
 
  private:
-  ConnectionContext& context_;
+  HttpContext& context_;
   HandshakeLimiter::Entry entry_;
 };
 
 /** An HTTP connection: answers one request after the other, until one asks for a WebSocket. */
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(ConnectionContext& context, WebStream stream, beast::flat_buffer buffer)
+  HttpConnection(HttpContext& context, WebStream stream, beast::flat_buffer buffer)
       : context_(context), stream_(std::move(stream)), buffer_(std::move(buffer)) {}
 
   // The first request, or TLS handshake, must come within kRequestTimeout: connections that send
@@ -120,7 +119,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     keeps_alive_ = request.keep_alive();
     is_head_ = request.method() == http::verb::head;
     const std::string_view host = view(request[http::field::host]);
-    if (!context_.rules.is_known_host(host)) {
+    if (context_.rules && !context_.rules->is_known_host(host)) {
       ++context_.counters.num_refused_hosts;
       note_refusal("Host header: unknown name.");
       send(refusal(421,
@@ -131,6 +130,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const std::string_view target = view(request.target());
     if (target == "/ws" || target.substr(0, 4) == "/ws?") {
       on_websocket_request(host);
+      return;
+    }
+    if (context_.is_https_only && !stream_.is_secure()) {
+      PageResponse response = refusal(308, "This server speaks https.");
+      response.headers.emplace_back("Location",
+                                    "https://" + std::string(host) + std::string(target));
+      send(std::move(response));
       return;
     }
     PageRequest page;
@@ -154,18 +160,18 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
       send(std::move(response));
       return;
     }
-    if (!context_.rules.is_known_origin(view(request[http::field::origin]), host,
-                                        stream_.is_secure())) {
+    if (context_.rules && !context_.rules->is_known_origin(view(request[http::field::origin]), host,
+                                                           stream_.is_secure())) {
       ++context_.counters.num_refused_origins;
       note_refusal("Origin header: another site.");
       send(refusal(403, "Pages of other sites may not connect."));
       return;
     }
     handshake_.reset();
-    serve_websocket(context_, std::move(stream_), std::move(request));
+    context_.serve_websocket(std::move(stream_), std::move(request));
   }
 
-  void note_refusal(const std::string& why) { context_.core.note_refusal(endpoint_.address, why); }
+  void note_refusal(const std::string& why) { context_.note_refusal(endpoint_.address, why); }
 
   static PageResponse refusal(int status, const std::string& text) {
     PageResponse response;
@@ -179,7 +185,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     // Kept until it is sent: the response refers to its body.
     page_ = std::move(page);
     response_.emplace(static_cast<http::status>(page_.status), kHttpVersion);
-    response_->set(http::field::server, std::string("nao-phone-gateway/") + version());
+    response_->set(http::field::server, context_.name + "/" + version());
     response_->set("X-Content-Type-Options", "nosniff");
     // The address of the page may contain the pairing token.
     response_->set("Referrer-Policy", "no-referrer");
@@ -213,7 +219,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   using Response = http::response<http::span_body<const char>>;
 
-  ConnectionContext& context_;
+  HttpContext& context_;
   WebStream stream_;
   beast::flat_buffer buffer_;
   Endpoint endpoint_;
@@ -230,7 +236,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 /** Detects from a connection's first bytes whether it uses TLS or plain HTTP. */
 class TlsDetector : public std::enable_shared_from_this<TlsDetector> {
  public:
-  TlsDetector(ConnectionContext& context, Tcp::socket socket)
+  TlsDetector(HttpContext& context, Tcp::socket socket)
       : context_(context), stream_(std::move(socket)) {}
 
   void start() {
@@ -244,7 +250,7 @@ class TlsDetector : public std::enable_shared_from_this<TlsDetector> {
                             [self = shared_from_this()](const error_code& error, bool is_tls) {
                               if (!error) self->serve(is_tls);
                               if (error == beast::error::timeout) {
-                                self->context_.core.note_refusal(self->address_, kNoRequest);
+                                self->context_.note_refusal(self->address_, kNoRequest);
                               }
                             });
   }
@@ -257,7 +263,7 @@ class TlsDetector : public std::enable_shared_from_this<TlsDetector> {
     std::make_shared<HttpConnection>(context_, std::move(stream), std::move(buffer_))->start();
   }
 
-  ConnectionContext& context_;
+  HttpContext& context_;
   std::string address_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
@@ -266,7 +272,12 @@ class TlsDetector : public std::enable_shared_from_this<TlsDetector> {
 
 }  // namespace
 
-void serve_http(ConnectionContext& context, Tcp::socket socket) {
+void note_eviction(HttpContext& context, const std::string& address) {
+  ++context.counters.num_evicted;
+  context.note_refusal(address, "Too many connections without Connect.");
+}
+
+void serve_http(HttpContext& context, Tcp::socket socket) {
   if (context.tls) {
     std::make_shared<TlsDetector>(context, std::move(socket))->start();
   } else {

@@ -9,6 +9,7 @@
 #include "phone-gateway/server/core/gateway_core.h"
 #include "phone-gateway/server/core/metric.h"
 #include "phone-gateway/server/http/web_pages.h"
+#include "phone-gateway/server/network/network_counters.h"
 #include "phone-gateway/web_stream/access_rules.h"
 
 namespace nao {
@@ -30,18 +31,6 @@ struct NetworkOptions {
   /** TCP congestion control of the clients' connections, as tcp(7) names it; empty: the system's
    * default, also where the system does not have it or does not permit it. */
   std::string congestion_control;
-};
-
-/** Counters of the network layer since the start. */
-struct NetworkCounters {
-  int64_t num_accepted = 0;
-  int64_t num_http_requests = 0;
-  int64_t num_refused_hosts = 0;
-  int64_t num_refused_origins = 0;
-  /** Connections that the handshake limiter has closed. */
-  int64_t num_evicted = 0;
-  /** Connections closed because they violated HTTP, WebSocket or the framing. */
-  int64_t num_violations = 0;
 };
 
 /** The gateway's sockets and their loop: HTTP and WebSocket on one port, raw TCP on another. */
