@@ -2,6 +2,7 @@
 
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace nao::gateway {
 
@@ -9,13 +10,16 @@ namespace nao::gateway {
  * (https://prometheus.io/docs/instrumenting/exposition_formats). */
 class PrometheusText {
  public:
-  // Counters stay exact up to 1e15.
-  PrometheusText() { text_.precision(15); }
+  /** @param prefix  Of all names. */
+  explicit PrometheusText(std::string prefix = "nao_gateway_") : prefix_(std::move(prefix)) {
+    // Counters stay exact up to 1e15.
+    text_.precision(15);
+  }
 
   /** Begins a metric; the samples that follow belong to it.
    * @param name  Snake case with its unit; a counter ends in _total. */
   void begin(const std::string& name, const std::string& help) {
-    name_ = "nao_gateway_" + name;
+    name_ = prefix_ + name;
     text_ << "# HELP " << name_ << " " << help << "\n"
           << "# TYPE " << name_ << " " << (name.ends_with("_total") ? "counter" : "gauge") << "\n";
   }
@@ -29,6 +33,7 @@ class PrometheusText {
   std::string text() const { return text_.str(); }
 
  private:
+  std::string prefix_;
   std::string name_;
   std::ostringstream text_;
 };
