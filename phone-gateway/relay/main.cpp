@@ -1,4 +1,6 @@
 // nao-relay: connects phones with robots' gateways over the internet. docs/anywhere.md
+#include <sys/resource.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -76,7 +78,16 @@ void prepare_tls(ProgramOptions& options) {
                gateway::certificate_fingerprint(relay.certificate_file));
 }
 
+/** Each phone takes two file descriptors, and the usual limit of a process is 1,024. */
+void raise_descriptor_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  if (setrlimit(RLIMIT_NOFILE, &limit) != 0) logger::warn("cannot raise the number of open files");
+}
+
 void run(ProgramOptions options) {
+  raise_descriptor_limit();
   prepare_tls(options);
   RelayServer server(options.relay);
   logger::info("version {}, listens on port {} of {}", version(), server.port(),

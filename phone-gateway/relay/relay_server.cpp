@@ -70,8 +70,9 @@ struct RelayServer::Impl {
                    gateway::prepare_socket(socket, "");
                    gateway::serve_http(context, std::move(socket));
                  }) {
-    // A thousand sessions in memory would serve nobody: TLS 1.3 keeps them at the client.
+    // No sessions are kept, which would serve phones for one handshake.
     SSL_CTX_set_session_cache_mode(context.tls->native_handle(), SSL_SESS_CACHE_OFF);
+    SSL_CTX_set_num_tickets(context.tls->native_handle(), 0);
     loop->every(kStepPeriod, [this] { close_late_phones(); });
     pages.add_page("/metrics", {"text/plain; charset=utf-8", true, [this] { return metrics(); }});
   }

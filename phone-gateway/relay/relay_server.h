@@ -25,7 +25,7 @@ struct RelayOptions {
 };
 
 /** The relay's socket: the app's files, and phones connected with the gateways of their robots. It
- * passes bytes on, and keeps at most 4 kB of them in each direction: who does not read stops the
+ * passes bytes on, and keeps at most 2 kB of them in each direction: who does not read stops the
  * other end. */
 class RelayServer {
  public:

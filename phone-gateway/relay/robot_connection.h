@@ -27,6 +27,8 @@ class RobotConnection : public std::enable_shared_from_this<RobotConnection> {
     socket_.async_accept(request_, [self = shared_from_this()](const error_code& error) {
       if (error) return;
       self->is_open_ = true;
+      // Tells that the relay has accepted the robot.
+      self->tickets_.emplace_front("connected");
       self->read();
       self->write();
     });

@@ -11,8 +11,8 @@ namespace nao::relay {
 
 /** A phone pings, and the gateway answers, once a second: who is silent for this time has gone. */
 inline constexpr std::chrono::seconds kSilence{15};
-/** Bytes that are read at once. Chosen: a state in one piece; 1,000 phones need 8 MB. */
-inline constexpr size_t kPieceBytes = 4096;
+/** Bytes that are read at once. Chosen: a state in one piece; 1,000 phones need 4 MB. */
+inline constexpr size_t kPieceBytes = 2048;
 /** Bytes that the kernel keeps of what a gateway sends. Chosen: two images; the older ones wait at
  * the gateway, which then sends fewer. */
 inline constexpr int kReceivedBytes = 32768;

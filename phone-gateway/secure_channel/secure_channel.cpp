@@ -158,6 +158,7 @@ SecureChannel::SecureChannel(Side side, std::string_view shared, std::string_vie
 
 SecureChannel::~SecureChannel() = default;
 SecureChannel::SecureChannel(SecureChannel&&) noexcept = default;
+SecureChannel& SecureChannel::operator=(SecureChannel&&) noexcept = default;
 
 std::string SecureChannel::seal(std::string_view text) {
   std::string frame;

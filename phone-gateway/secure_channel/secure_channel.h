@@ -82,6 +82,7 @@ class SecureChannel {
                 std::string_view gateway_public_key);
   ~SecureChannel();
   SecureChannel(SecureChannel&&) noexcept;
+  SecureChannel& operator=(SecureChannel&&) noexcept;
 
   /** The next frame of this side. */
   std::string seal(std::string_view text);

@@ -15,6 +15,7 @@
 #include "common/wall_clock.h"
 #include "phone-gateway/discovery/gateway_list.h"
 #include "phone-gateway/discovery/service_discovery.h"
+#include "phone-gateway/secure_channel/invitations.h"
 #include "phone-gateway/server/bus/exhibition_files.h"
 #include "phone-gateway/server/bus/gateway_daemon.h"
 #include "phone-gateway/server/bus/robot_description.h"
@@ -95,6 +96,12 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
       ->needs("--tls")
       ->needs("--key")
       ->existing_file();
+  app.add_option("--relay", network.relay,
+                 "HOST[:PORT] of a nao-relay, over which invited phones connect from anywhere: "
+                 "docs/anywhere.md");
+  app.add_option("--relay-file", network.relay_file,
+                 "File of the robot's key at --relay and of the invitations of nao invite; "
+                 "default: ~/.local/state/nao-remote/relay.json");
   app.add_option("--exhibition", options.exhibition_file,
                  "Visitors drive in turn, by the settings in this file: docs/exhibition.md")
       ->existing_file();
@@ -283,6 +290,9 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
     return;
   }
   prepare_tls(options);
+  if (options.network.relay_file.empty() && !options.network.relay.empty()) {
+    options.network.relay_file = default_relay_file();
+  }
   const std::vector<RobotOption> robots = parse_robot_options(options.robots, options.model);
   if (request_realtime_scheduling(RealtimePriority::kServing))
     logger::info("uses real-time scheduling (SCHED_RR)");

@@ -35,6 +35,11 @@ void WebStream::handshake(asio::const_buffer received, Completion completion) {
   secure_->stream.async_handshake(asio::ssl::stream_base::server, received, std::move(completion));
 }
 
+void WebStream::connect(const std::string& host, Completion completion) {
+  SSL_set_tlsext_host_name(secure_->stream.native_handle(), host.c_str());
+  secure_->stream.async_handshake(asio::ssl::stream_base::client, std::move(completion));
+}
+
 void WebStream::read_some(const BufferList<asio::mutable_buffer>& buffers, Completion completion) {
   if (secure_) {
     secure_->stream.async_read_some(buffers, std::move(completion));

@@ -11,6 +11,7 @@
 #include <boost/beast/core/role.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <memory>
+#include <string>
 #include <type_traits>
 
 namespace nao {
@@ -104,6 +105,10 @@ class WebStream {
   /** The TLS handshake of a server. @param received  Bytes of it that have been read already; the
    * handler's second argument is how many of them it took. */
   void handshake(boost::asio::const_buffer received, Completion completion);
+
+  /** The TLS handshake of a client, which does not check the server's certificate. @param host  Of
+   * the server, sent to it (RFC 6066, section 3). */
+  void connect(const std::string& host, Completion completion);
 
   template <class Buffers, class Handler>
   void async_read_some(const Buffers& buffers, Handler&& handler) {

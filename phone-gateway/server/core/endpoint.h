@@ -8,10 +8,14 @@ namespace nao::gateway {
 struct Endpoint {
   /** IP address without port. */
   std::string address;
-  /** "websocket" or "tcp". */
+  /** "websocket", "tcp" or "relay". */
   std::string transport;
   /** On the gateway's own host. */
   bool is_local = false;
+  /** By an invitation, which has been checked: it needs no token, and its address is that. */
+  bool is_invited = false;
+  /** The invitation is for watching only. */
+  bool is_watcher = false;
 };
 
 }  // namespace nao::gateway

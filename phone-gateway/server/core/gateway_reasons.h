@@ -100,6 +100,8 @@ inline constexpr auto kGatewayReasons = std::to_array<ReasonEntry>({
     {"message-too-long", "bytes", "A message is longer than {0} bytes."},
     {"connection-replaced", "", "The client has opened another second connection."},
     {"connection-ended", "", "The client's first connection has ended."},
+    {"invitation-ended", "", "This invitation has expired or was withdrawn."},
+    {"relay-message-refused", "fault", "A message was refused: {0}"},
     {"text-message", "", "Messages must be sent as binary messages."},
     {"closed-by-operator", "", "The operator closed this connection."},
     {"gateway-stopping", "", "The gateway stops."},

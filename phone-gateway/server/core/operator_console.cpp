@@ -68,7 +68,8 @@ std::optional<Refusal> OperatorConsole::assign(ClientSession& client, const std:
 }
 
 void OperatorConsole::mute(ClientSession& client, bool is_muted, double now) {
-  if (client.is_muted == is_muted) return;
+  // An invitation for watching stays one.
+  if (client.is_muted == is_muted || client.endpoint.is_watcher) return;
   Driving& driving = robots_.of(client).driving();
   sessions_.audit("operator", client,
                   is_muted ? "lets this client watch only" : "lets this client drive again");

@@ -37,6 +37,7 @@ void Sessions::connect(ClientSession& session, const naoremote::Connect& request
   session.name = make_unique_name(request.client_name(), session.id);
   if (request.join_key().size() <= kMaxJoinKey) session.join_key = request.join_key();
   session.is_connected = true;
+  session.is_muted = session.endpoint.is_watcher;
   audit("connected", session, clean_client_name(request.client_software()));
 }
 

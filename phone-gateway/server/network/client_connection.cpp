@@ -52,7 +52,7 @@ void ClientConnection::open(const Endpoint& endpoint) {
 
 bool ClientConnection::receive(std::string_view message) {
   const double pause = context_.core.receive(id_, message, monotonic_seconds());
-  const LinkMeasurement link = measure_link(socket());
+  const LinkMeasurement link = measure();
   context_.core.set_round_trip_time(id_, link.mean, link.least);
   context_.core.set_repeated_packets(id_, link.num_repeated_packets, monotonic_seconds());
   if (is_in_handshake_ && context_.core.is_connected(id_)) end_handshake();

@@ -43,6 +43,8 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
   virtual void resume_reading() = 0;
   /** Everything has been sent: closes the sending direction. */
   virtual void shut_down() = 0;
+  /** What is known of the connection with the client. */
+  virtual LinkMeasurement measure() { return measure_link(socket()); }
   /** The TCP socket. */
   virtual Tcp::socket& socket() = 0;
   /** Closes the socket; operations in progress end with an error. */

@@ -1,4 +1,5 @@
 #include "phone-gateway/server/network/connection_context.h"
+#include "phone-gateway/server/network/relay_client.h"
 #include "phone-gateway/server/network/websocket_connection.h"
 //
 #include <utility>
@@ -12,6 +13,8 @@ namespace {
 /** See PROTOCOL.md. Chosen: four times the clients that may connect, well below the usual limit of
  * 1024 file descriptors. */
 constexpr size_t kMaxHandshakes = 128;
+/** Period, s, of looking for invitations that have ended. */
+constexpr double kInvitationPeriod = 0.5;
 }  // namespace
 
 struct Network::Impl {
@@ -36,7 +39,11 @@ struct Network::Impl {
              accepting([this](Tcp::socket socket) { serve_http(context, std::move(socket)); })),
         tcp(loop->io(), options.bind, options.tcp_port, "--tcp-port",
             accepting([this](Tcp::socket socket) { serve_tcp(context, std::move(socket)); })),
-        congestion_control(options.congestion_control) {}
+        congestion_control(options.congestion_control) {
+    if (options.relay.empty()) return;
+    relay = std::make_unique<RelayClient>(context, options.relay, options.relay_file);
+    loop->every(kInvitationPeriod, [this] { relay->step(); });
+  }
 
   std::function<void(Tcp::socket)> accepting(std::function<void(Tcp::socket)> serve) {
     return [this, serve = std::move(serve)](Tcp::socket socket) {
@@ -54,6 +61,7 @@ struct Network::Impl {
   TcpListener tcp;
   std::function<void()> on_accepted;
   std::string congestion_control;
+  std::unique_ptr<RelayClient> relay;
 };
 
 Network::Network(const NetworkOptions& options, AccessRules rules, GatewayCore& core,
@@ -62,6 +70,7 @@ Network::Network(const NetworkOptions& options, AccessRules rules, GatewayCore& 
                                    pages)) {}
 
 Network::~Network() {
+  impl_->relay.reset();
   impl_->context.is_shutting_down = true;
 }
 
@@ -106,6 +115,7 @@ AsioLoop& Network::loop() {
 void Network::drain(double time) {
   impl_->http.close();
   impl_->tcp.close();
+  impl_->relay.reset();
   impl_->loop->run_for(time);
 }
 

@@ -31,6 +31,9 @@ struct NetworkOptions {
   /** TCP congestion control of the clients' connections, as tcp(7) names it; empty: the system's
    * default, also where the system does not have it or does not permit it. */
   std::string congestion_control;
+  /** HOST[:PORT] of the relay to dial, and the file of its invitations; empty: none. */
+  std::string relay;
+  std::string relay_file;
 };
 
 /** The gateway's sockets and their loop: HTTP and WebSocket on one port, raw TCP on another. */

@@ -6,16 +6,13 @@
 
 #include "common/error.h"
 #include "common/json_text.h"
+#include "phone-gateway/secure_channel/hexadecimal.h"
 
 namespace nao {
 namespace {
 
-std::string from_hex(const std::string& hex) {
-  std::string bytes;
-  for (size_t i = 0; i + 1 < hex.size(); i += 2) {
-    bytes.push_back(static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  }
-  return bytes;
+std::string from_hex(const std::string& digits) {
+  return nao::from_hex(digits, digits.size() / 2).value();
 }
 
 /** The vectors that the app's tests read too; made with Node's crypto module, not with this code.

@@ -278,6 +278,8 @@ export const kReasonTexts: Readonly<Record<string, readonly [pt: string, de: str
   "message-too-long": ["Uma mensagem tem mais de {0} bytes.", "Eine Nachricht ist länger als {0} Bytes."],
   "connection-replaced": ["O telefone abriu outra segunda ligação.", "Das Telefon hat eine andere zweite Verbindung geöffnet."],
   "connection-ended": ["A primeira ligação do telefone terminou.", "Die erste Verbindung des Telefons ist zu Ende."],
+  "invitation-ended": ["Este convite terminou.", "Diese Einladung gilt nicht mehr."],
+  "relay-message-refused": ["Mensagem recusada: {0}", "Nachricht abgelehnt: {0}"],
   "text-message": ["As mensagens têm de ser binárias.", "Nachrichten müssen binär sein."],
   "closed-by-operator": ["O operador fechou esta ligação.", "Der Bediener hat diese Verbindung getrennt."],
   "gateway-stopping": ["O robô está a ser desligado.", "Der Roboter wird beendet."],

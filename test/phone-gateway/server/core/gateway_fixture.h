@@ -94,6 +94,14 @@ class GatewayFixture : public testing::Test {
     return client;
   }
 
+  /** A client with an invitation, over the relay. */
+  Client invite(bool is_watcher) {
+    Client client;
+    client.id = core_->open(
+        {"invitation 0123", "relay", false, true, is_watcher}, [] {}, now_);
+    return client;
+  }
+
   Client connect(const std::string& name) {
     Client client = open();
     naoremote::Request request;

@@ -366,6 +366,24 @@ TEST_F(GatewayRobots, AreOnlyWatchedByMutedClients) {
   EXPECT_EQ(take_control(ana).error(), naoremote::OK);
 }
 
+TEST_F(GatewayRobots, AreDrivenWithAnInvitationForDriving) {
+  Client ana = invite(false);
+  EXPECT_FALSE(ask(ana, make_connect("")).connected().control().is_muted()) << "needs no token";
+  EXPECT_EQ(take_control(ana).error(), naoremote::OK);
+  EXPECT_EQ(walk(ana, 0.1).error(), naoremote::OK);
+  EXPECT_EQ(operate(ana, Operate::LIST).error(), naoremote::NOT_ALLOWED);
+}
+
+TEST_F(GatewayRobots, AreOnlyWatchedWithAnInvitationForWatching) {
+  Client ben = invite(true);
+  EXPECT_TRUE(ask(ben, make_connect("")).connected().control().is_muted());
+  EXPECT_EQ(take_control(ben).error(), naoremote::NOT_ALLOWED);
+  EXPECT_EQ(walk(ben, 0.1).error(), naoremote::NOT_ALLOWED);
+  Client console = open();
+  EXPECT_EQ(operate(console, Operate::UNMUTE, ben.id).error(), naoremote::OK);
+  EXPECT_EQ(take_control(ben).error(), naoremote::NOT_ALLOWED) << "it stays one for watching";
+}
+
 class GatewayOverview : public GatewayRobots {
  protected:
   GatewayOverview() {
