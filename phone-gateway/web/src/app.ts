@@ -46,7 +46,7 @@ import {bodyInWords} from "./text/body";
 import {findGateways} from "./nearby";
 import {say} from "./text/texts";
 import type {Language} from "./text/texts";
-import {WebSocketTransport} from "./transport";
+import {GatewayTransport} from "./transport";
 import {WakeLock} from "./wake_lock";
 
 const kSoftware = "nao-phone-app 0.1.0";
@@ -94,7 +94,7 @@ export class App {
 
   constructor(private readonly root: HTMLElement, private settings: Settings) {
     this.connection = new Connection(
-        new WebSocketTransport(new URL(location.href)), this.store, {
+        new GatewayTransport(new URL(location.href)), this.store, {
           connected: () => void this.connected(),
           robotChanged: () => {
             this.lobby.robotChanged();

@@ -2,7 +2,7 @@ import {create} from "@bufbuild/protobuf";
 import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
 import {FakeTransport} from "../test_support/fake_transport";
 import {Connection, kOpenTimeoutMs, kSilenceMs} from "./connection";
-import {ConnectedSchema, ErrorCode, ImageSchema, Mode, PongSchema, StateSchema} from "./protocol/generated/remote_pb";
+import {ConnectedSchema, ErrorCode, ImageSchema, Mode, Notice_Kind, NoticeSchema, PongSchema, StateSchema} from "./protocol/generated/remote_pb";
 import type {State} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import {isStale, Store} from "./store";
@@ -201,6 +201,15 @@ describe("Connection", () => {
     expect(store.get()).toMatchObject({phase: "waiting", problem: "too-many"});
     await pass(600);
     expect(transport.numOpens).toBe(2);
+  });
+
+  it("says why the gateway has closed, also before it was connected", async () => {
+    transport.opened();
+    transport.receive({case: "notice", value: create(NoticeSchema, {
+      kind: Notice_Kind.CLOSING, message: "This invitation has expired or was withdrawn.", reasonCode: "invitation-ended"})});
+    transport.broken(true);
+    await pass(0);
+    expect(store.get()).toMatchObject({problem: "not-a-robot", problemDetail: "This invitation has expired or was withdrawn."});
   });
 
   it("distinguishes an absent host from one that refuses", async () => {

@@ -130,7 +130,7 @@ export class Connection {
       opened: () => void this.greet(attempt),
       received: (bytes) => this.received(bytes),
       closed: (wasOpen) => void this.closed(wasOpen, attempt),
-    });
+    }, this.identity.token);
   }
 
   private async greet(attempt: number): Promise<void> {
@@ -167,7 +167,7 @@ export class Connection {
       match: connected.match ?? null, exhibition: connected.exhibition ?? null, isChoosingRobot, latencyMs: -1,
     });
     this.ping();
-    this.second?.open(connected.clientId);
+    if (!this.transport.isSingle) this.second?.open(connected.clientId);
     this.lastCheckMs = this.now();
     this.checkTimer = setInterval(() => this.check(), kCheckPeriodMs);
     this.listener.connected(connected);
@@ -276,13 +276,11 @@ export class Connection {
       case Notice_Kind.EXHIBITION_CHANGED:
         this.store.set({exhibition: notice.exhibition ?? null});
         break;
-      default: this.listener.notice(notice);
+      default:
+        // The gateway's own words, for the moment when it closes.
+        if (notice.kind === Notice_Kind.CLOSING) this.closingReason = reasonInWords(notice);
+        this.listener.notice(notice);
     }
-  }
-
-  /** Keeps the gateway's own words for the moment when it closes. */
-  noteClosing(reason: string): void {
-    this.closingReason = reason;
   }
 
   private async closed(wasOpen: boolean, attempt: number): Promise<void> {

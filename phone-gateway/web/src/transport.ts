@@ -1,14 +1,16 @@
 /** How messages reach the gateway. WebSocket today; another transport (WebRTC, Bluetooth) implements
  * the same interface and is chosen in main.ts. */
 export interface Transport {
-  /** Starts to connect; exactly one of the listener's calls follows in time. */
-  open(listener: TransportListener): void;
+  /** Starts to connect, by a token or an invitation; exactly one of the listener's calls follows in time. */
+  open(listener: TransportListener, token?: string): void;
   /** Sends one message. Ignored unless open. */
   send(bytes: Uint8Array): void;
   /** Ends the connection; the listener hears nothing more. */
   close(): void;
   /** Bytes handed to send() that have not left yet. */
   backlogBytes(): number;
+  /** Images come over this connection too. */
+  readonly isSingle?: boolean;
   /** Another connection to the same gateway, for images. */
   another?(): Transport;
   /** True if something answers at the address at all; asked after a failure, to say why. */
@@ -22,15 +24,62 @@ export interface TransportListener {
   closed(wasOpen: boolean): void;
 }
 
+/** The gateway, or where the token is an invitation ("ROBOT.ID.SECRET"), the relay that has served the page. */
+export class GatewayTransport implements Transport {
+  isSingle = false;
+  private inner: Transport | null = null;
+  private attempt = 0;
+
+  constructor(private readonly pageUrl: URL) {}
+
+  open(listener: TransportListener, token = ""): void {
+    this.close();
+    const start = (transport: Transport | null) => {
+      this.inner = transport ?? new WebSocketTransport(this.pageUrl);
+      this.inner.open(listener);
+    };
+    this.isSingle = token.includes(".");
+    if (!this.isSingle) return start(null);
+    const attempt = this.attempt;
+    import("./relay/sealed_transport").then(({openInvitation}) => {
+      if (attempt === this.attempt) start(openInvitation(token, (path) => new WebSocketTransport(this.pageUrl, path)));
+    }, () => {
+      if (attempt === this.attempt) listener.closed(false);
+    });
+  }
+
+  send(bytes: Uint8Array): void {
+    this.inner?.send(bytes);
+  }
+
+  close(): void {
+    this.attempt++;
+    this.inner?.close();
+    this.inner = null;
+  }
+
+  backlogBytes(): number {
+    return this.inner?.backlogBytes() ?? 0;
+  }
+
+  another(): Transport {
+    return new WebSocketTransport(this.pageUrl);
+  }
+
+  somethingAnswers(): Promise<boolean> {
+    return new WebSocketTransport(this.pageUrl).somethingAnswers();
+  }
+}
+
 export class WebSocketTransport implements Transport {
   private socket: WebSocket | null = null;
 
   /** @param pageUrl URL of the gateway's page; the WebSocket lies beside it at /ws. */
-  constructor(private readonly pageUrl: URL) {}
+  constructor(private readonly pageUrl: URL, private readonly path = "/ws") {}
 
   open(listener: TransportListener): void {
     this.close();
-    const url = new URL("/ws", this.pageUrl);
+    const url = new URL(this.path, this.pageUrl);
     url.protocol = this.pageUrl.protocol === "https:" ? "wss:" : "ws:";
     const socket = new WebSocket(url);
     socket.binaryType = "arraybuffer";
@@ -68,10 +117,6 @@ export class WebSocketTransport implements Transport {
 
   backlogBytes(): number {
     return this.socket?.bufferedAmount ?? 0;
-  }
-
-  another(): Transport {
-    return new WebSocketTransport(this.pageUrl);
   }
 
   async somethingAnswers(): Promise<boolean> {
