@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   nao::add_world_commands(app, invocation);
   nao::add_status_command(app, invocation);
   nao::add_driver_commands(app, invocation);
+  nao::add_invite_command(app, invocation);
   nao::add_bus_command(app, invocation);
   nao::add_motion_command(app, invocation);
   nao::add_play_command(app, invocation);

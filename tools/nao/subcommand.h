@@ -81,6 +81,9 @@ void add_motion_command(CommandLine& app, Invocation& invocation);
 /** Executes an action and waits for its end. @return The exit status. */
 int run_action(const CommonOptions& common, const std::string& action);
 
+/** Adds invite. */
+void add_invite_command(CommandLine& app, Invocation& invocation);
+
 /** Adds bus. */
 void add_bus_command(CommandLine& app, Invocation& invocation);
 
