@@ -10,6 +10,7 @@ install(FILES scripts/output_file.py scripts/start.py scripts/stack.py scripts/r
 install(PROGRAMS packaging/nao-remote DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES packaging/nao-remote@.service packaging/nao-remote.target
         DESTINATION lib/systemd/user)
+install(FILES packaging/nao-relay.service DESTINATION lib/systemd/system)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/nao-remote RENAME copyright)
 install(FILES ${NAO_DATA_DIR}/lcmtypes.jar DESTINATION ${CMAKE_INSTALL_DATADIR}/nao-remote OPTIONAL)
 

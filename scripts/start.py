@@ -167,6 +167,9 @@ def parse_options(arguments=None):
     line.option("--tls", action="store_true",
                 help="also https on the same port, with a self-signed certificate: phones give their tilt sensors only to "
                      "secure pages, after the user has accepted a warning")
+    line.option("--relay", metavar="HOST[:PORT]",
+                help="a public server with nao-relay, over which phones that nao invite lets in drive or watch from anywhere: "
+                     "docs/anywhere.md")
     line.option("--token", metavar="TOKEN", help="access token for phones (default: a new random one)")
     line.option("--bin", metavar="DIR", default=os.environ.get("NAO_REMOTE_BIN") or None,
                 help="folder of built programs (default: NAO_REMOTE_BIN, or build them)")
@@ -383,6 +386,7 @@ def command_of(process, processes, stack, settings, options, robots):
         words += [*gateway_options(stack, settings), "--tcp-port", settings["tcp_port"], "--scene", settings["scene"],
                   "--audit-log", stack.logs / "phones.jsonl"]
         words += exhibition_options(stack, options.exhibition) if options.exhibition else []
+        words += ["--relay", options.relay] if options.relay else []
         # A camera program may run on another host.
         words += ["--overview"] if options.backend != "robot" and (CAMERA in options.programs or options.only) else []
     elif program == VISION:
@@ -535,6 +539,8 @@ def print_addresses(stack):
         secret = operator_secret_file(stack).read_text().strip()
         say(f"Big display: {urls[0].replace('/#', '/screen#')}\nOperator, for nobody else's eyes: "
             f"{urls[0].replace('/#', '/operator#')}&secret={secret}")
+    if settings.get("relay"):
+        say(f"From anywhere, over {settings['relay']}: {settings['bin_dir']}/nao invite makes a link for a phone")
     say(f"Clients in other languages: TCP port {settings['tcp_port']}. Watch: {CALL}status. End: {CALL}stop")
 
 
@@ -559,6 +565,7 @@ def choose_settings(options, bin_dir, robots, processes):
         "foxglove_port": choose_port(None, "", FOXGLOVE_PORT) if options.foxglove else "",
         "bind": options.bind,
         "exhibition": options.exhibition or "",
+        "relay": options.relay or "",
         "host_names": " ".join(options.host_name),
         "scheme": "https" if options.tls else "http",
     }
