@@ -30,6 +30,9 @@ export async function until(what, ask, ms = kReadyMs) {
 
 const robotOption = ({name, model, team, number}) => ["--robot", `${name}:${model}:${team}:${number}`];
 
+/** Words before a command that run it in a network namespace. */
+const inSpace = (space) => (space ? ["ip", "netns", "exec", space] : []);
+
 export class Stack {
   token = "system-test";
   httpPort = 0;
@@ -43,6 +46,10 @@ export class Stack {
   #motions = "";
   /** More options of the gateway. */
   gatewayOptions = [];
+  /** Address that the gateway listens on. */
+  bind = "127.0.0.1";
+  /** Name of the network namespace of the programs; empty: that of the test. */
+  space = "";
 
   /** @param binDir  folder of the programs. */
   constructor(binDir) {
@@ -88,10 +95,10 @@ export class Stack {
   /** Starts the gateway, on the same port as before if it ran already. */
   async startGateway() {
     const program = this.run("nao-phone-gateway", [
-      ...this.#model, ...this.#robots, ...(this.#robots.length > 0 ? ["--overview"] : []), "--bind", "127.0.0.1",
+      ...this.#model, ...this.#robots, ...(this.#robots.length > 0 ? ["--overview"] : []), "--bind", this.bind,
       "--http-port", String(this.httpPort), "--tcp-port", "0", "--token", this.token, ...this.gatewayOptions]);
     [this.httpPort, this.tcpPort] = await until("the gateway listens", () => {
-      const ports = /HTTP and WebSocket on 127\.0\.0\.1:(\d+), TCP on 127\.0\.0\.1:(\d+)/.exec(program.log);
+      const ports = /HTTP and WebSocket on [\d.]+:(\d+), TCP on [\d.]+:(\d+)/.exec(program.log);
       if (ports) return ports.slice(1).map(Number);
       if (program.exited) throw new Error(program.log);
       return undefined;
@@ -105,8 +112,14 @@ export class Stack {
 
   /** Starts a program. @param label  Name for program() and end(), where two of one name run. */
   run(name, options = [], label = name) {
-    const child = spawn(join(this.#binDir, name), ["--lcm-url", this.lcmUrl, ...options],
-                        {stdio: ["ignore", "ignore", "pipe"]});
+    return this.runIn(this.space, join(this.#binDir, name), ["--lcm-url", this.lcmUrl, ...options], label);
+  }
+
+  /** Starts a command in a network namespace. @param file  Its program; a name alone is one of the project's. */
+  runIn(space, file, options, label = file) {
+    const path = file.includes("/") ? file : join(this.#binDir, file);
+    const [command, ...words] = [...inSpace(space), path, ...options];
+    const child = spawn(command, words, {stdio: ["ignore", "ignore", "pipe"]});
     const program = {child, log: "", exited: false};
     child.stderr.on("data", (text) => program.log += text);
     child.on("exit", () => program.exited = true);
@@ -143,7 +156,8 @@ export class Stack {
   /** Runs the client `nao` on this bus. @return what it prints; throws its error text. */
   nao(...words) {
     return new Promise((resolve, reject) => {
-      execFile(join(this.#binDir, "nao"), [...words, "--lcm-url", this.lcmUrl], (error, stdout, stderr) =>
+      const [command, ...rest] = [...inSpace(this.space), join(this.#binDir, "nao"), ...words, "--lcm-url", this.lcmUrl];
+      execFile(command, rest, (error, stdout, stderr) =>
           error ? reject(new Error(`nao ${words.join(" ")}: ${stderr}`)) : resolve(stdout));
     });
   }
