@@ -50,13 +50,21 @@ VisionNetworks VisionNetworks::load() {
           std::make_shared<NeuralNetwork>(folder / "ball.onnx", BallDetector::shape())};
 }
 
-VisionCore::VisionCore(const VisionNetworks& networks)
-    : objects_(networks.objects), ball_(networks.ball) {}
+VisionCore::VisionCore(const VisionNetworks& networks, const VisionParameters& parameters)
+    : parameters_(parameters),
+      status_(parameters.image_status),
+      field_(parameters.field_detector),
+      lines_(parameters.line_detector),
+      crossings_(parameters.crossing_detector),
+      circle_(parameters.center_circle),
+      objects_(networks.objects),
+      ball_(networks.ball),
+      ball_filter_(parameters.ball_filter) {}
 
 // The center circle is found first: its points then do not become lines.
 void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometry,
                             const Detections& obstacles, VisionResult& result) {
-  std::vector<LinePoint> points = find_line_points(view);
+  std::vector<LinePoint> points = find_line_points(view, parameters_.line_points);
   // Bars of robots' legs and the ball look like pieces of lines.
   points.erase(std::remove_if(points.begin(), points.end(),
                               [&](const LinePoint& point) {
@@ -90,7 +98,8 @@ void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometr
 void VisionCore::localize(const VisionInput& input, VisionResult& result) {
   if (!localizer_ || !input.heading_in_odometry || !input.pose_camera_in_heading) return;
   const CameraPlace place{input.pose_camera_in_heading->translation(), 1 / input.calibration.fx};
-  localizer_->observe(observe_field(result.detections, place, *input.heading_in_odometry));
+  localizer_->observe(observe_field(result.detections, place, *input.heading_in_odometry,
+                                    parameters_.field_observation));
   result.field_pose = localizer_->estimate();
   // The lines show how the camera is tilted, and so how far the ball is.
   correct_by_tilt(place, localizer_->tilt(), result.detections);
