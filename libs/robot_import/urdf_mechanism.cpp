@@ -115,7 +115,7 @@ class MechanismRepair {
       }
       if (leader == nullptr || leader->FirstChildElement("mimic") != nullptr) {
         followers_.push_back(
-            {joint, nullptr, 0, 0, "mimics \"" + first + "\", which is no joint with a motor"});
+            {joint, nullptr, 0, 0, "mimics \"" + first + "\", which is not a joint with a motor"});
       } else if (is_fixed(*leader)) {
         followers_.push_back({joint, nullptr, 0, offset, "mimics " + first + ", which is fixed"});
       } else if (body_of(link_of(*leader, "parent")) != body_of(link_of(*joint, "parent"))) {

@@ -140,7 +140,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     page.if_none_match = std::string(view(request[http::field::if_none_match]));
     page.is_local = endpoint_.is_local;
     PageResponse response = context_.pages.respond(page);
-    if (response.status == 400) note_refusal("HTTP: the target is no path.");
+    if (response.status == 400) note_refusal("HTTP: the target is not a path.");
     if (response.status == 403) note_refusal("HTTP: the page is for this host only.");
     send(std::move(response));
   }

@@ -115,7 +115,7 @@ test("a tap on the image enlarges it, another makes it small; the other camera i
   const small = await phone.middleOf(".image-main");
   await phone.tap(".image-main");
   await until("a large image comes", async () => (await phone.look("state.image.width")) === 640);
-  assert.ok((await phone.middleOf(".image-main")).radius > 1.5 * small.radius, "it is no larger");
+  assert.ok((await phone.middleOf(".image-main")).radius > 1.5 * small.radius, "it is not larger");
   await phone.tap(".image-camera");
   await until("the bottom camera's image comes", async () => (await phone.look("state.image.camera")) === "bottom");
   await phone.tap(".image-camera");
