@@ -6,6 +6,7 @@ import itertools
 import os
 import re
 import select
+import shutil
 import socket
 import subprocess
 import sys
@@ -450,6 +451,8 @@ def warn_of_crash(stack, failed, consequence):
     log = stack.logs / f"{failed.name}.log"
     warn(f"{failed.name} does not start{consequence}. Its last words ({log}):")
     print("\n".join(log.read_text(errors="replace").splitlines()[-5:]), file=sys.stderr)
+    if shutil.disk_usage(log).free == 0:
+        warn(f"the disk of {stack.run_dir} is full; free some space, or take another folder: --run-dir DIR")
 
 
 def wait_until_ready(stack, settings, options, processes):

@@ -84,6 +84,7 @@ const ParameterTable<PlayParameters>& all_parameters() {
       NAO_PLAY_PARAMETER(auto_player, forget_ball),
       NAO_PLAY_PARAMETER(auto_player, ball_moved),
       NAO_PLAY_PARAMETER(auto_player, kick_off_wait),
+      NAO_PLAY_PARAMETER(auto_player, free_kick_room),
       NAO_PLAY_PARAMETER(auto_player, behind_ball),
       NAO_PLAY_PARAMETER(auto_player, beside_ball),
       NAO_PLAY_PARAMETER(auto_player, ball_return),

@@ -134,10 +134,14 @@ VisionResult VisionCore::process(const VisionInput& input) {
   const PatchSampler sampler(input.bgr);
   FoundObjects objects = objects_.detect(sampler.half(), input.bgr.cols, input.bgr.rows, geometry);
   finish_stage("objects");
-  const std::vector<Circle> more = find_ball_hints(view, geometry, kBallRadius);
-  objects.balls.insert(objects.balls.end(), more.begin(), more.end());
+  std::vector<Circle>& places = objects.balls;
+  for (const Circle& hint : find_ball_hints(view, geometry, kBallRadius)) {
+    const bool is_new = std::none_of(places.begin(), places.end(),
+                                     [&](const Circle& place) { return is_same(place, hint); });
+    if (is_new) places.push_back(hint);
+  }
   finish_stage("ball places");
-  const auto ball = ball_.detect(sampler, geometry, objects.balls);
+  const auto ball = ball_.detect(sampler, geometry, places);
   if (ball) result.detections.push_back(*ball);
   finish_stage("ball");
   Detections obstacles = objects.robots;

@@ -123,6 +123,8 @@ class Security(unittest.TestCase):
                 head = f"GET {target} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n{WEBSOCKET}"
                 self.assertEqual(self.http(head), 421, host)
         self.assert_refused_and_audited_once("Host")
+        for twice in ("Host: evil.example", "Origin: http://localhost\r\nOrigin: http://evil.example"):
+            self.assertEqual(self.http(f"GET /ws HTTP/1.1\r\nHost: localhost\r\n{twice}\r\n{WEBSOCKET}"), 400, twice)
 
     def test_paths_outside_the_served_folders(self):
         for target in ("/../etc/passwd", "/robots/../../../etc/passwd", "/%2e%2e/etc/passwd", "/robots/%2e%2e%2f%2e%2e/x",

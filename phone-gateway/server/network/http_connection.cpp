@@ -128,6 +128,12 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
                    "--host-name."));
       return;
     }
+    // RFC 9112, 3.2. Which of them a proxy before us has looked at is not known.
+    if (request.count(http::field::host) > 1 || request.count(http::field::origin) > 1) {
+      note_refusal("HTTP: several Host or Origin headers.");
+      send(refusal(400, "A request has one Host header and at most one Origin header."));
+      return;
+    }
     const std::string_view target = view(request.target());
     if (target == "/ws" || target.substr(0, 4) == "/ws?") {
       on_websocket_request(host);

@@ -1,5 +1,6 @@
-import {describe, expect, it} from "vitest";
-import {parseGateways} from "./nearby";
+import {afterEach, describe, expect, it, vi} from "vitest";
+import {findGateways, parseGateways} from "./nearby";
+import {WebSocketTransport} from "./transport";
 
 describe("parseGateways", () => {
   it("takes name and address", () => {
@@ -12,5 +13,28 @@ describe("parseGateways", () => {
                                                                {name: "x", address: "10.0.0.1", http_port: "1"}]}]) {
       expect(parseGateways(data)).toEqual([]);
     }
+  });
+});
+
+describe("on a phone without AbortSignal.timeout()", () => {
+  const pageUrl = new URL("http://10.0.0.2/");
+  afterEach(() => vi.unstubAllGlobals());
+
+  it("finds gateways, and knows whether the host answers", async () => {
+    vi.stubGlobal("AbortSignal", class {});
+    const gateways = {gateways: [{name: "x", address: "10.0.0.1", http_port: 1}]};
+    vi.stubGlobal("fetch", vi.fn(() => Promise.resolve({ok: true, json: () => Promise.resolve(gateways)})));
+    expect(await findGateways(pageUrl.href)).toEqual([{name: "x", address: "10.0.0.1:1"}]);
+    expect(await new WebSocketTransport(pageUrl).somethingAnswers()).toBe(true);
+  });
+
+  it("gives up what does not answer", async () => {
+    vi.useFakeTimers();
+    vi.stubGlobal("fetch", (_: URL, {signal}: RequestInit) =>
+      new Promise((_, reject) => signal!.addEventListener("abort", () => reject(new Error("aborted")))));
+    const answers = new WebSocketTransport(pageUrl).somethingAnswers();
+    await vi.advanceTimersByTimeAsync(2000);
+    expect(await answers).toBe(false);
+    vi.useRealTimers();
   });
 });

@@ -487,6 +487,14 @@ class Walking(WithGateway):
         time.sleep(0.3)
         self.assertEqual(len(self.gateway.received("walk_turn")), count)
 
+    def test_a_walk_whose_robot_nobody_references_ends(self):
+        robot = nao_remote.connect(self.gateway.address)
+        states = robot.states()
+        self.addCleanup(states.close)
+        robot.walk(0.2)
+        del robot
+        wait_until(lambda: self.gateway.received("walk_turn")[-1] == pb.WalkTurn(), "the end of the walk")
+
     def test_joints_move_during_a_walk(self):
         robot = self.connect()
         robot.walk(0.2, 0, 0)
