@@ -118,9 +118,6 @@ class MechanismRepair {
             {joint, nullptr, 0, 0, "mimics \"" + first + "\", which is no joint with a motor"});
       } else if (is_fixed(*leader)) {
         followers_.push_back({joint, nullptr, 0, offset, "mimics " + first + ", which is fixed"});
-      } else if (body_of(link_of(*leader, "parent")) != body_of(link_of(*joint, "parent"))) {
-        followers_.push_back({joint, nullptr, 0, ratio * rest_angle(*leader) + offset,
-                              "mimics " + first + ", which another body carries"});
       } else {
         followers_.push_back({joint, leader, ratio, offset, ""});
       }
@@ -190,14 +187,6 @@ class MechanismRepair {
   static std::string element_of(const TiXmlElement& joint) {
     return std::string("joint ") + joint.Attribute("name");
   }
-  // 0, or the limit that is nearest to it.
-  static double rest_angle(const TiXmlElement& joint) {
-    const TiXmlElement* limit = joint.FirstChildElement("limit");
-    if (limit == nullptr) return 0;
-    return std::min(std::max(0.0, read_number(*limit, "lower", 0)),
-                    read_number(*limit, "upper", 0));
-  }
-
   struct Follower {
     TiXmlElement* joint;
     /** nullptr: it is held at `offset`. */

@@ -175,16 +175,19 @@ TEST_F(ImportedMimics, FollowTheMotorThatAMimicFollows) {
   EXPECT_NEAR(shoulder.mimic_offset, 0.5, 1e-12);
 }
 
-TEST_F(ImportedMimics, AreHeldWhereNoMotorOfTheirBodyLeads) {
+TEST_F(ImportedMimics, FollowJointsOfOtherBodiesAndAreHeldWhereNoMotorLeads) {
   couple("left_elbow", "left_shoulder_roll", "multiplier=\"1\" offset=\"-0.4\"");
   couple("right_elbow", "nothing", "");
+  couple("right_shoulder_roll", "left_sole_mount", "offset=\"-0.3\"");
   const RobotModel model = import();
+  const Joint& elbow = model.joints()[model.find_joint("left_elbow")];
+  EXPECT_EQ(elbow.mimic_joint, model.find_joint("left_shoulder_roll"));
   EXPECT_LT(model.find_motor("left_elbow"), 0);
-  EXPECT_THAT(lines_, Contains(HasSubstr("left_elbow: mimics left_shoulder_roll, which another "
-                                         "body carries; it is held at -0.4")));
   EXPECT_THAT(lines_, Contains(HasSubstr("mimics \"nothing\"")));
-  const Eigen::Isometry3d held = model.joints()[model.find_joint("left_elbow")].pose_in_parent;
-  EXPECT_NEAR(Eigen::AngleAxisd(held.linear()).angle(), 0.4, 1e-9);
+  EXPECT_THAT(lines_, Contains(HasSubstr("mimics left_sole_mount, which is fixed; it is held at "
+                                         "-0.3")));
+  const Joint& held = model.joints()[model.find_joint("right_shoulder_roll")];
+  EXPECT_NEAR(Eigen::AngleAxisd(held.pose_in_parent.linear()).angle(), 0.3, 1e-9);
   // The physics takes it.
   EXPECT_NO_THROW(sim::Tree{model});
 }
