@@ -1,5 +1,7 @@
 #include "robot_import/description_text.h"
 
+#include <tinyxml.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +14,7 @@
 #include "kinematics/kinematics.h"
 #include "kinematics/leg_kinematics.h"
 #include "robot_import/level_stance.h"
-#include "robot_import/quoted.h"
+#include "robot_import/yaml_name.h"
 
 namespace nao {
 namespace {
@@ -20,6 +22,8 @@ namespace {
 // How far the hips are below those of stretched legs, fraction of the leg's length.
 constexpr double kReadyBend = 0.05;
 constexpr double kCrouchBend = 0.2;
+// Tilt of a sole in a stance, rad.
+constexpr double kStanceTilt = 0.05;
 // Fraction of the ankles' greatest torque that holds the center of mass while the robot stands:
 // half of what a motor holds without a time limit.
 constexpr double kAnkleLoad = 0.25;
@@ -70,11 +74,11 @@ std::string make_group(const RobotModel& model, const std::string& name,
     (poses[joint.child_link].linear() * joint.axis).cwiseAbs().maxCoeff(&direction);
     if (of_direction[direction] < 0) of_direction[direction] = motor;
   }
-  std::string text = "  - {name: " + quoted(name);
+  std::string text = "  - {name: " + in_yaml(name);
   const std::array<const char*, 3> keys = {"roll", "pitch", "yaw"};
   for (size_t i = 0; i < keys.size(); ++i) {
     if (of_direction[i] < 0) continue;
-    text += std::string(", ") + keys[i] + ": " + quoted(model.motor_joint(of_direction[i]).name);
+    text += std::string(", ") + keys[i] + ": " + in_yaml(model.motor_joint(of_direction[i]).name);
   }
   return text + "}\n";
 }
@@ -179,6 +183,10 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
     // them.
     ahead += kinematics.center_of_mass().x() - (kinematics.left_sole().translation().x() + center);
   }
+  // Legs without an ankle reach the place, not the pose.
+  for (const Eigen::Isometry3d& sole : {kinematics.left_sole(), kinematics.right_sole()}) {
+    if (sole.linear().row(2).head<2>().norm() > kStanceTilt) return std::nullopt;
+  }
   // A solution beyond a joint's limits is not accepted.
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     if (model.clip_to_limits(motor, position[motor], position) != position[motor]) {
@@ -188,12 +196,17 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
   return position;
 }
 
+std::optional<std::vector<double>> find_any_stance(const RobotModel& model, double bend) {
+  const auto stance = find_stance(model, bend);
+  return stance ? stance : find_level_stance(model, bend);
+}
+
 void add_posture(const RobotModel& model, const std::string& name, const std::string& family,
                  const std::vector<double>& position, std::ostringstream& text) {
   text << "  - name: " << name << "\n    family: " << family
        << "\n    source: found by nao robot import\n    joints:\n";
   for (int motor = 0; motor < model.num_motors(); ++motor) {
-    text << "      " << quoted(model.motor_joint(motor).name) << ": " << position[motor] << "\n";
+    text << "      " << in_yaml(model.motor_joint(motor).name) << ": " << position[motor] << "\n";
   }
 }
 
@@ -205,7 +218,7 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
   // Writes the form that RobotModelReader reads.
   const bool has_frame = !structure.frame.matrix().isIdentity(0);
   const std::string root =
-      quoted(has_frame ? make_free_name(model, "robot_frame") : model.links().front().name);
+      in_yaml(has_frame ? make_free_name(model, "robot_frame") : model.links().front().name);
   text << "urdf: " << urdf << "\n\n"
        << "# Frames of the inertial unit.\n"
        << "inertial_unit: {accelerometer: " << root << ", gyroscope: " << root << "}\n\n"
@@ -222,7 +235,7 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
   std::string sensors;
   for (const FoundSole& sole : structure.soles) {
     for (const int sensor : sole.sensors) {
-      sensors += (sensors.empty() ? "" : ", ") + quoted(model.links()[sensor].name);
+      sensors += (sensors.empty() ? "" : ", ") + in_yaml(model.links()[sensor].name);
     }
   }
   if (!sensors.empty()) {
@@ -230,8 +243,8 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
   }
   if (!structure.hands.empty()) {
     text << "\n# Links of the hands; the arms are the joints from the root to them.\nhands: {left: "
-         << quoted(model.links()[structure.hands[0]].name)
-         << ", right: " << quoted(model.links()[structure.hands[1]].name) << "}\n";
+         << in_yaml(model.links()[structure.hands[0]].name)
+         << ", right: " << in_yaml(model.links()[structure.hands[1]].name) << "}\n";
   }
   return text.str();
 }
@@ -244,8 +257,11 @@ std::string make_sole_links(const RobotModel& model, const RobotStructure& struc
     const Eigen::Vector3d xyz = pose.translation();
     // Roll, pitch and yaw of R = Rz(yaw) Ry(pitch) Rx(roll), URDF's order.
     const Eigen::Matrix3d& r = pose.linear();
-    text << "<joint name=\"" << name << "\" type=\"fixed\">\n  <parent link=\"" << parent
-         << "\"/>\n  <child link=\"" << child << "\"/>\n  <origin xyz=\"" << xyz.x() << " "
+    std::string in_xml[2];
+    TiXmlBase::EncodeString(parent, &in_xml[0]);
+    TiXmlBase::EncodeString(child, &in_xml[1]);
+    text << "<joint name=\"" << name << "\" type=\"fixed\">\n  <parent link=\"" << in_xml[0]
+         << "\"/>\n  <child link=\"" << in_xml[1] << "\"/>\n  <origin xyz=\"" << xyz.x() << " "
          << xyz.y() << " " << xyz.z() << "\" rpy=\"" << std::atan2(r(2, 1), r(2, 2)) << " "
          << std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))) << " "
          << std::atan2(r(1, 0), r(0, 0)) << "\"/>\n</joint>\n";
@@ -290,9 +306,9 @@ std::string make_description_text(const RobotModel& model) {
           "`name`.\n"
        << "mirrored_joints:\n";
   for (const JointPair& pair : symmetry.pairs) {
-    text << "  - {name: " << quoted(pair.name)
-         << ", left: " << quoted(model.motor_joint(pair.left).name);
-    if (pair.right >= 0) text << ", right: " << quoted(model.motor_joint(pair.right).name);
+    text << "  - {name: " << in_yaml(pair.name)
+         << ", left: " << in_yaml(model.motor_joint(pair.left).name);
+    if (pair.right >= 0) text << ", right: " << in_yaml(model.motor_joint(pair.right).name);
     text << ", sign: " << symmetry.mirrors[pair.left].sign << "}\n";
   }
   text << "\n# Joints as people name them.\n" << make_groups(model);
@@ -323,6 +339,10 @@ std::string make_description_text(const RobotModel& model) {
   return text.str();
 }
 
+std::optional<std::vector<double>> find_ready_stance(const RobotModel& model) {
+  return find_any_stance(model, kReadyBend);
+}
+
 std::string make_postures_text(const RobotModel& model, Findings& findings) {
   std::ostringstream text = make_stream();
   text.precision(12);
@@ -332,8 +352,7 @@ std::string make_postures_text(const RobotModel& model, Findings& findings) {
   }
   text << "# Angles of the motors, rad.\npostures:\n";
   const auto add = [&](const std::string& name, const std::string& family, double bend) {
-    auto stance = find_stance(model, bend);
-    if (!stance) stance = find_level_stance(model, bend);
+    auto stance = find_any_stance(model, bend);
     // A robot without legs has one stance.
     if (model.legs()[0].joints.empty()) stance = zero;
     if (!stance) {

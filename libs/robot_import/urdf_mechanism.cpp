@@ -164,17 +164,7 @@ class MechanismRepair {
 
   void add_mass(TiXmlElement& link) {
     const double mass = kLeastMassFraction * total_mass_;
-    TiXmlElement inertial("inertial");
-    TiXmlElement value("mass");
-    value.SetAttribute("value", to_text(mass).c_str());
-    inertial.InsertEndChild(value);
-    TiXmlElement inertia("inertia");
-    for (const char* name : {"ixx", "iyy", "izz"}) {
-      inertia.SetAttribute(name, to_text(ball_moment(mass)).c_str());
-    }
-    for (const char* name : {"ixy", "ixz", "iyz"}) inertia.SetAttribute(name, "0");
-    inertial.InsertEndChild(inertia);
-    link.InsertEndChild(inertial);
+    link.InsertEndChild(make_inertial(mass));
     log_.note(Severity::kRepaired, link, std::string("link ") + link.Attribute("name"),
               "is moved by a joint, but has no mass",
               to_text(mass) + " kg are assumed: write <inertial>");

@@ -148,5 +148,21 @@ TEST_F(ImportedStructure, StandsOnAPlateWithoutLegs) {
   EXPECT_TRUE(stands(model));
 }
 
+TEST_F(ImportedStructure, StandsOnAssumedPlatesWhereTheFeetArePoints) {
+  TestBiped dimensions;
+  dimensions.hip = "xy";
+  dimensions.ankle = "";
+  urdf_ = make_biped_urdf(dimensions);
+  for (const char* side : {"left", "right"}) {
+    const size_t at =
+        urdf_.find("<box", urdf_.find("<link name=\"" + std::string(side) + "_foot\""));
+    urdf_.replace(at, urdf_.find("/>", at) + 2 - at, "<sphere radius=\"0.01\"/>");
+  }
+  const RobotModel model = import();
+  EXPECT_THAT(lines_, Contains(HasSubstr("left_shank: the feet are points that no joint pitches")));
+  EXPECT_GT(size_of(model.left_sole_outline()).x(), 0.08);
+  EXPECT_TRUE(stands(model));
+}
+
 }  // namespace
 }  // namespace nao
