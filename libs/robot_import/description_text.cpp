@@ -61,26 +61,36 @@ std::optional<LegKinematics> find_leg_kinematics(const RobotModel& model) {
   }
 }
 
-/** Writes the axes of a group of joints; a group that has two joints of one direction leaves out
- * the second. */
-std::string make_group(const RobotModel& model, const std::string& name,
-                       const std::vector<int>& motors) {
+/** Writes the axes of a group of joints; of joints with one direction each further one gets a group
+ * of its own, "head 2". */
+std::string make_group(const RobotModel& model, const std::string& name, std::vector<int> motors) {
   const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
-  std::array<int, 3> of_direction = {-1, -1, -1};
-  for (const int motor : motors) {
-    const Joint& joint = model.motor_joint(motor);
-    Eigen::Index direction = 0;
-    // At the angles 0 in the root's axes: the largest component names the direction.
-    (poses[joint.child_link].linear() * joint.axis).cwiseAbs().maxCoeff(&direction);
-    if (of_direction[direction] < 0) of_direction[direction] = motor;
+  std::string text;
+  for (int number = 1; !motors.empty(); ++number) {
+    std::array<int, 3> of_direction = {-1, -1, -1};
+    std::vector<int> others;
+    for (const int motor : motors) {
+      const Joint& joint = model.motor_joint(motor);
+      Eigen::Index direction = 0;
+      // At the angles 0 in the root's axes: the largest component names the direction.
+      (poses[joint.child_link].linear() * joint.axis).cwiseAbs().maxCoeff(&direction);
+      if (of_direction[direction] < 0) {
+        of_direction[direction] = motor;
+      } else {
+        others.push_back(motor);
+      }
+    }
+    const std::string number_text = number == 1 ? "" : " " + std::to_string(number);
+    text += "  - {name: " + in_yaml(name + number_text);
+    const std::array<const char*, 3> keys = {"roll", "pitch", "yaw"};
+    for (size_t i = 0; i < keys.size(); ++i) {
+      if (of_direction[i] < 0) continue;
+      text += std::string(", ") + keys[i] + ": " + in_yaml(model.motor_joint(of_direction[i]).name);
+    }
+    text += "}\n";
+    motors = others;
   }
-  std::string text = "  - {name: " + in_yaml(name);
-  const std::array<const char*, 3> keys = {"roll", "pitch", "yaw"};
-  for (size_t i = 0; i < keys.size(); ++i) {
-    if (of_direction[i] < 0) continue;
-    text += std::string(", ") + keys[i] + ": " + in_yaml(model.motor_joint(of_direction[i]).name);
-  }
-  return text + "}\n";
+  return text;
 }
 
 /** Motors of a chain of joints, without the ones that are known. */
@@ -94,12 +104,15 @@ std::vector<int> new_motors(const RobotModel& model, const std::vector<int>& joi
   return motors;
 }
 
-/** Splits an arm or a leg into groups of at most `sizes` joints, with these names. */
-void add_limb_groups(const RobotModel& model, const std::string& side, std::vector<int> motors,
+/** Splits an arm or a leg into groups of at most `sizes` joints, with these names; the last one has
+ * the rest. */
+void add_limb_groups(const RobotModel& model, const std::string& side,
+                     const std::vector<int>& motors,
                      const std::vector<std::pair<std::string, size_t>>& parts, std::string& text) {
   size_t first = 0;
   for (const auto& [name, size] : parts) {
-    const size_t end = std::min(motors.size(), first + size);
+    const bool is_last = name == parts.back().first;
+    const size_t end = is_last ? motors.size() : std::min(motors.size(), first + size);
     if (first >= end) return;
     text += make_group(
         model, side + " " + name,
@@ -108,34 +121,67 @@ void add_limb_groups(const RobotModel& model, const std::string& side, std::vect
   }
 }
 
+/** Joints that lead to both limbs. */
+std::vector<int> find_shared(const std::vector<int>& left, const std::vector<int>& right) {
+  std::vector<int> shared;
+  for (const int joint : left) {
+    if (std::find(right.begin(), right.end(), joint) != right.end()) shared.push_back(joint);
+  }
+  return shared;
+}
+
 std::string make_groups(const RobotModel& model) {
   std::string text = "joint_groups:\n";
   std::set<int> known;
-  // Joints that lead to both legs are the waist.
-  std::vector<int> waist;
-  for (const int joint : model.legs()[0].joints) {
-    const auto& right = model.legs()[1].joints;
-    if (std::find(right.begin(), right.end(), joint) != right.end()) waist.push_back(joint);
+  std::vector<int> waist = find_shared(model.legs()[0].joints, model.legs()[1].joints);
+  if (!model.arms().empty()) {
+    const auto arms = find_shared(model.arms()[0].joints, model.arms()[1].joints);
+    waist.insert(waist.end(), arms.begin(), arms.end());
   }
   const std::vector<int> waist_motors = new_motors(model, waist, known);
   std::string limbs;
   for (int side = 0; side < 2; ++side) {
     const std::string name = side == 0 ? "left" : "right";
     if (!model.arms().empty()) {
-      add_limb_groups(model, name, new_motors(model, model.arms()[side].joints, known),
+      const std::vector<int>& arm = model.arms()[side].joints;
+      add_limb_groups(model, name, new_motors(model, arm, known),
                       {{"shoulder", 2}, {"elbow", 2}, {"wrist", 3}}, limbs);
+      // What the end of the arm carries.
+      std::vector<int> hand;
+      for (const int joint : model.motors()) {
+        const std::vector<int> chain = model.find_chain(model.joints()[joint].child_link);
+        if (!arm.empty() && std::find(chain.begin(), chain.end(), arm.back()) != chain.end()) {
+          hand.push_back(joint);
+        }
+      }
+      limbs += make_group(model, name + " hand", new_motors(model, hand, known));
     }
-    add_limb_groups(model, name, new_motors(model, model.legs()[side].joints, known),
-                    {{"hip", 3}, {"knee", 1}, {"ankle", 2}}, limbs);
+    // Both legs name a motor that they share.
+    std::set<int> others(waist_motors.begin(), waist_motors.end());
+    const std::vector<int> leg = new_motors(model, model.legs()[side].joints, others);
+    add_limb_groups(model, name, leg, {{"hip", 3}, {"knee", 1}, {"ankle", 2}}, limbs);
+    known.insert(leg.begin(), leg.end());
   }
-  // Joints that are in no arm, leg or waist belong to the head.
+  // The other joints belong to the head, or to linkages where a limb carries them.
+  std::set<int> limb_joints;
+  for (const LegDescription& leg : model.legs()) {
+    limb_joints.insert(leg.joints.begin(), leg.joints.end());
+  }
+  for (const ArmDescription& arm : model.arms()) {
+    limb_joints.insert(arm.joints.begin(), arm.joints.end());
+  }
+  for (const int joint : waist) limb_joints.erase(joint);
   std::vector<int> head;
+  std::vector<int> linkages;
   for (int motor = 0; motor < model.num_motors(); ++motor) {
-    if (known.count(motor) == 0) head.push_back(motor);
+    if (known.count(motor) > 0) continue;
+    const std::vector<int> chain = model.find_chain(model.motor_joint(motor).child_link);
+    const bool is_on_limb = std::any_of(chain.begin(), chain.end(),
+                                        [&](int joint) { return limb_joints.count(joint) > 0; });
+    (is_on_limb ? linkages : head).push_back(motor);
   }
-  if (!head.empty()) text += make_group(model, "head", head);
-  if (!waist_motors.empty()) text += make_group(model, "waist", waist_motors);
-  return text + limbs;
+  return text + make_group(model, "head", head) + make_group(model, "waist", waist_motors) + limbs +
+         make_group(model, "linkage", linkages);
 }
 
 /** Angles that bend the knees and put the center of mass over the soles; nothing if the legs do not

@@ -15,6 +15,7 @@
 #include "kinematics/support_polygon.h"
 #include "robot_import/description_text.h"
 #include "robot_import/gait_text.h"
+#include "robot_import/hands.h"
 #include "robot_import/leg_numbers.h"
 #include "robot_import/plausible_numbers.h"
 #include "robot_import/robot_structure.h"
@@ -72,10 +73,14 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
                                           ", gyroscope: " + root + "}\nsoles: {left: " + sole +
                                           ", right: " + sole + "}\n");
   replace_file(folder / "postures.yaml", "postures: []\n");
-  const RobotModel tree = RobotModel::load(folder);
-  const RobotStructure structure = find_structure(tree, repaired.mesh_points, findings);
+  RobotModel tree = RobotModel::load(folder);
+  RobotStructure structure = find_structure(tree, repaired.mesh_points, findings);
 
   const size_t num_found = findings.size();
+  repaired.text =
+      with_hands_of_one_motor(repaired.text, tree, urdf.filename().string(), structure, findings);
+  replace_file(folder / name, repaired.text);
+  tree = RobotModel::load(folder);
   repaired.text = with_plausible_numbers(repaired.text, tree, calc_leg_height(tree, structure),
                                          urdf.filename().string(), findings);
   const size_t end = repaired.text.rfind("</robot>");
