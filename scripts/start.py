@@ -14,6 +14,7 @@ import time
 from argparse import ArgumentTypeError
 from pathlib import Path
 
+from imported_model import data_folder, import_model
 from output_file import replace_file
 from robots import (MAX_ROBOTS, Process, choose_autonomous, choose_processes, choose_robots, choose_served_robots,
                     number_of_robots, place_robots, team_sizes)
@@ -124,7 +125,8 @@ def parse_options(arguments=None):
                 help="with --match: robots that play by themselves by what they see, such as NAO2,NAO4, or all; anybody may "
                      "take them over")
     line.option("--model", metavar="NAME", default="nao",
-                help="folder of robots/ that describes robots without a model: nao, a V5, or nao_v6 (default: nao)")
+                help="folder of robots/ that describes robots without a model: nao, a V5, or nao_v6 (default: nao); or a URDF, "
+                     "which is imported: docs/your-robot.md")
     line.option("--only", metavar="LIST",
                 help="only these programs; the others run on other hosts: "
                      "sim,motion,motion-files,head-camera,speaker,phone-gateway, and what other options add: referee,vision,play")
@@ -236,8 +238,12 @@ def install_and_build(options):
 
 
 def needed_programs(options):
-    """Programs that this script calls: with several robots it asks the simulator for their places."""
-    return ["nao", *([SIM] if len(options.robot_words) > 1 else [])]
+    """Programs that this script calls: with several robots it asks the simulator for their places; one imports a URDF."""
+    return ["nao", *([SIM] if len(options.robot_words) > 1 else []), *(["nao-tools"] if is_urdf(options.model) else [])]
+
+
+def is_urdf(model):
+    return model.lower().endswith(".urdf")
 
 
 def camera_devices(model):
@@ -251,7 +257,7 @@ def camera_devices(model):
 
 def check_models(options, robots, bin_dir):
     """Checks that the files of all robots are there, and that a real robot is seated."""
-    folder = Path(os.environ.get("NAO_REMOTE_DATA") or bin_dir.parent / "share/nao-remote") / "robots"
+    folder = data_folder(bin_dir) / "robots"
     for robot in robots:
         model = folder / robot.model
         if not (model / "robot.yaml").exists():
@@ -567,6 +573,8 @@ def main():
     stack.stop()  # orphans of a killed supervisor
 
     bin_dir = install_and_build(options)
+    if is_urdf(options.model):
+        options.model = import_model(options.model, bin_dir)
     robots = place_robots(options, bin_dir)
     # Before any program of this system runs, and while the rest is prepared.
     bus_check = begin_bus_check(bin_dir, options.lcm_url, own_channels(choose_processes(options, robots)))

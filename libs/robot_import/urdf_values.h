@@ -1,12 +1,12 @@
 #pragma once
 
+#include <tinyxml.h>
+
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
-
-class TiXmlElement;
 
 namespace nao {
 
@@ -23,6 +23,9 @@ void write_origin(TiXmlElement& parent, const Eigen::Isometry3d& pose);
  * m^2.
  * @param mass  kg. */
 double ball_moment(double mass);
+
+/** <inertial> of such a link. @param mass  kg. */
+TiXmlElement make_inertial(double mass);
 
 /** Twelve digits. */
 std::string to_text(double number);
