@@ -7,10 +7,10 @@ namespace nao::gateway {
 namespace {
 
 /** Distance of the torso from the border at which a walk towards it stops, m: half of the sway and
- * of the last step. Found with fence_trial.py. */
+ * of the last step. Chosen; exhibition_test.mjs walks against it. */
 constexpr double kStopDistance = 0.10;
 /** Distance from there over the highest velocity towards the border, s: a walk needs two steps of
- * about 0.5 s to follow a slower command. Found with fence_trial.py. */
+ * about 0.5 s to follow a slower command. Chosen. */
 constexpr double kBrakeTime = 1.5;
 /** Corrections of a velocity in a corner, where one edge's may turn it towards the other. Chosen.
  */
