@@ -42,7 +42,7 @@ PLAY = "nao-play"
 PER_ROBOT = ("nao-motion", "nao-motion-files", CAMERA, "nao-speaker", VISION, PLAY)
 
 # Targets that scripts/start builds beside them.
-COMPANIONS = ("nao", "nao_robot_files", "scenes", "nao_phone_app")
+COMPANIONS = ("nao", "nao_robot_files", "scenes", "exhibition", "nao_phone_app")
 
 # Columns of help texts, as in the comments that the shell scripts print as theirs.
 HELP_WIDTH = 106

@@ -109,6 +109,9 @@ def start_pose(text):
 def parse_options(arguments=None):
     """@param arguments  Instead of the command line."""
     line = CommandLine("[OPTION]...", __doc__)
+    line.option("--exhibition", metavar="FILE", type=lambda text: Path(text).resolve(),
+                help="visitors drive one after the other, by the settings in this file, of which data/exhibition/example.yaml is "
+                     "an example; prints the addresses of a big display and of the operator's page: docs/exhibition.md")
     line.option("--scene", metavar="NAME", default="soccer", help="empty, soccer, or a field of the league of 2026: hsl_small, hsl_middle, hsl_large "
                      "(default: soccer)")
     line.option("--robot", metavar="NAME[:MODEL]", action="append",
@@ -178,6 +181,8 @@ def parse_options(arguments=None):
     options.served_robots = choose_served_robots(line, options)
     if len(options.robot_words) > 1 and options.start_pose != DEFAULT_START_POSE:
         line.error("--start-pose is for one robot; several start where the simulator places them")
+    if options.exhibition and (len(options.robot_words) > 1 or not options.exhibition.is_file()):
+        line.error("--exhibition is for one robot" if options.exhibition.is_file() else f"there is no file {options.exhibition}")
     return options
 
 
@@ -339,6 +344,17 @@ def gateway_options(stack, settings):
     return [*options, "--tls"] if settings["scheme"] == "https" else options
 
 
+def exhibition_options(stack, file):
+    """Options of the gateway. Queue and best time of a day go on after scripts/stop."""
+    day = time.strftime("%Y-%m-%d")
+    return ["--exhibition", file, "--exhibition-state", stack.run_dir / f"exhibition-{day}.json",
+            "--exhibition-report", stack.logs / f"exhibition-{day}.txt", "--operator-secret-file", operator_secret_file(stack)]
+
+
+def operator_secret_file(stack):
+    return stack.run_dir / "operator-secret"
+
+
 def host_name_options(settings):
     return [word for name in settings.get("host_names", "").split() for word in ("--host-name", name)]
 
@@ -373,6 +389,7 @@ def command_of(process, processes, stack, settings, options, robots):
     elif program == GATEWAY:
         words += [*gateway_options(stack, settings), "--tcp-port", settings["tcp_port"], "--scene", settings["scene"],
                   "--audit-log", stack.logs / "phones.jsonl"]
+        words += exhibition_options(stack, options.exhibition) if options.exhibition else []
         # A camera program may run on another host.
         words += ["--overview"] if options.backend != "robot" and (CAMERA in options.programs or options.only) else []
     elif program == VISION:
@@ -523,6 +540,10 @@ def print_addresses(stack):
         say(f"or on this machine: http://127.0.0.1:{settings['http_port']}/")
         # Colors, black and white, only for a terminal.
         say(qr_code if sys.stdout.isatty() else re.sub(r"\x1b\[[0-9;]*m", "", qr_code))
+    if settings.get("exhibition"):
+        secret = operator_secret_file(stack).read_text().strip()
+        say(f"Big display: {urls[0].replace('/#', '/screen#')}\nOperator, for nobody else's eyes: "
+            f"{urls[0].replace('/#', '/operator#')}&secret={secret}")
     say(f"Clients in other languages: TCP port {settings['tcp_port']}. Watch: {CALL}status. End: {CALL}stop")
 
 
@@ -546,6 +567,7 @@ def choose_settings(options, bin_dir, robots, processes):
         "tcp_port": choose_port(options.tcp_port, "--tcp-port", TCP_PORT) if has_gateway else "",
         "foxglove_port": choose_port(None, "", FOXGLOVE_PORT) if options.foxglove else "",
         "bind": options.bind,
+        "exhibition": options.exhibition or "",
         "host_names": " ".join(options.host_name),
         "scheme": "https" if options.tls else "http",
     }
@@ -582,7 +604,8 @@ def main():
     processes = choose_processes(options, robots)
     settings = choose_settings(options, bin_dir, robots, processes)
     (stack.run_dir / "match.json").unlink(missing_ok=True)  # a new stack plays a new match
-    stack.token_file.unlink(missing_ok=True)  # the gateway creates a new one
+    for file in (stack.token_file, operator_secret_file(stack)):
+        file.unlink(missing_ok=True)  # the gateway creates a new one
     if options.token:
         replace_file(stack.token_file, options.token + "\n")
     write_configuration(stack, settings, options, processes, robots)

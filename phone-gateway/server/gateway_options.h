@@ -45,6 +45,12 @@ struct GatewayOptions {
   bool announces = true;
   /** Host name, without ".local", that leads to the announced gateway; empty: none. */
   std::string mdns_name = "nao";
+  /** Settings of an exhibition; empty: none. */
+  std::string exhibition_file;
+  /** Files of the exhibition: its state, the operator's secret, the report; empty: none. */
+  std::string exhibition_state_file;
+  std::string operator_secret_file;
+  std::string exhibition_report_file;
   GatewayLimits limits;
 };
 

@@ -15,6 +15,7 @@
 #include "common/wall_clock.h"
 #include "phone-gateway/discovery/gateway_list.h"
 #include "phone-gateway/discovery/service_discovery.h"
+#include "phone-gateway/server/bus/exhibition_files.h"
 #include "phone-gateway/server/bus/gateway_daemon.h"
 #include "phone-gateway/server/bus/robot_description.h"
 #include "phone-gateway/server/core/secret.h"
@@ -94,6 +95,17 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
       ->needs("--tls")
       ->needs("--key")
       ->existing_file();
+  app.add_option("--exhibition", options.exhibition_file,
+                 "Visitors drive in turn, by the settings in this file: docs/exhibition.md")
+      ->existing_file();
+  app.add_option("--exhibition-state", options.exhibition_state_file,
+                 "File with which the queue of --exhibition survives a restart");
+  app.add_option("--exhibition-report", options.exhibition_report_file,
+                 "File for the report of --exhibition: visitors, minutes, falls, stops, faults");
+  app.add_option(
+      "--operator-secret-file", options.operator_secret_file,
+      "File of the secret of the page /operator of --exhibition; created with a new one if "
+      "it does not exist");
   app.add_option("--audit-log", options.audit_file,
                  "File to which connections, drivers and refusals are appended as JSON lines");
   app.add_flag("--print-qr", options.prints_qr, "Print the address for phones as a QR code");
@@ -196,6 +208,18 @@ std::optional<Announcement> make_announcement(const GatewayOptions& options,
   return announcement;
 }
 
+/** @return Nothing without --exhibition. */
+std::optional<ExhibitionSetup> make_exhibition(const GatewayOptions& options,
+                                               const ExhibitionFiles& files) {
+  if (options.exhibition_file.empty()) return std::nullopt;
+  if (options.robots.size() > 1) throw ConfigError("--exhibition is for one robot, not several");
+  return ExhibitionSetup{load_exhibition(options.exhibition_file, data_path()),
+                         options.operator_secret_file.empty()
+                             ? make_token()
+                             : token_from_file(options.operator_secret_file),
+                         files.read()};
+}
+
 /** Logs what has changed since the last call. */
 class DiscoveryLog {
  public:
@@ -264,8 +288,11 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
     logger::info("uses real-time scheduling (SCHED_RR)");
   Bus bus(common.lcm_url);
   logger::info("version {}, bus {}", version(), common.lcm_url);
+  ExhibitionFiles exhibition_files(options.exhibition_state_file, options.exhibition_report_file);
   GatewayDaemon daemon(bus, describe_robots(robots, options.has_overview), options.limits,
-                       options.token, options.audit_file);
+                       options.token, options.audit_file,
+                       make_exhibition(options, exhibition_files));
+  const ExhibitionDesk* exhibition = daemon.core().exhibition();
   daemon.core().set_players(label_players(robots));
   WebPages pages(data_path());
   add_scene_page(pages, options.scene);
@@ -288,7 +315,10 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
     bus.handle();
     set_busy(true);
   });
-  loop.every_aligned(kStatusPeriod, [&daemon] { daemon.publish_status(monotonic_seconds()); });
+  loop.every_aligned(kStatusPeriod, [&] {
+    daemon.publish_status(monotonic_seconds());
+    if (exhibition != nullptr) exhibition_files.write(exhibition->state(), monotonic_seconds());
+  });
   logger::info("HTTP and WebSocket on {}:{}, TCP on {}:{}", options.network.bind,
                network.http_port(), options.network.bind, network.tcp_port());
   const std::vector<std::string> urls = addresses_for_phones(options, network.http_port());
@@ -297,7 +327,8 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
   pages.add_page("/metrics", {"text/plain; version=0.0.4", true, [&daemon, &network] {
                                 return daemon.metrics_text(network.metrics());
                               }});
-  pages.add_page("/qr.png", {"image/png", true, [url = urls.front()] {
+  // The code of an exhibition hangs where everybody sees it.
+  pages.add_page("/qr.png", {"image/png", exhibition == nullptr, [url = urls.front()] {
                                return draw_as_png(make_qr_code(url), kQrScale);
                              }});
   const std::optional<Announcement> announcement = make_announcement(options, robots, network);
@@ -315,6 +346,8 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
 
   // First the last messages of the core, then time to send them.
   const std::string reason = network.loop().run();
+  // Before the phones are gone.
+  if (exhibition != nullptr) exhibition_files.write_all(exhibition->state());
   daemon.shut_down(monotonic_seconds());
   network.drain(kDrainTime);
   const NetworkCounters& counters = network.counters();

@@ -16,7 +16,8 @@ const kImages = [
 export function iconImages(): Plugin {
   return {
     name: "icon-images",
-    apply: "build",
+    // Once: with the page that public/ belongs to.
+    apply: ({publicDir}, {command}) => command === "build" && publicDir !== false,
     async generateBundle() {
       await initWasm(readFileSync(createRequire(import.meta.url).resolve("@resvg/resvg-wasm/index_bg.wasm")));
       for (const {name, drawing, size} of kImages) {

@@ -9,7 +9,6 @@ export default defineConfig({
   plugins: [iconImages()],
   build: {
     target: "es2022",
-    emptyOutDir: true,
     // One chunk: on a LAN a second round trip costs more than the bytes.
     chunkSizeWarningLimit: 1200,
     modulePreload: false,

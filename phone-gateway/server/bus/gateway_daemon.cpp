@@ -53,17 +53,20 @@ std::vector<std::unique_ptr<RobotLink>> make_links(
 
 GatewayDaemon::GatewayDaemon(Bus& bus, const std::vector<naoremote::RobotDescription>& robots,
                              const GatewayLimits& limits, const std::string& token,
-                             const std::string& audit_file)
+                             const std::string& audit_file,
+                             std::optional<ExhibitionSetup> exhibition)
     : bus_(bus),
       source_("phone." + std::to_string(getpid())),
       status_(bus, kProgram),
       audit_log_(audit_file),
       links_(make_links(bus, robots, source_)),
       // The clock makes command ids that no earlier gateway with the same process id has used.
-      core_(make_setups(), limits, {version(), token, source_, wall_utime()},
-            [this](const AuditEvent& event) {
-              audit_log_.write(event, monotonic_seconds(), wall_utime());
-            }) {
+      core_(
+          make_setups(), limits, {version(), token, source_, wall_utime()},
+          [this](const AuditEvent& event) {
+            audit_log_.write(event, monotonic_seconds(), wall_utime());
+          },
+          std::move(exhibition)) {
   for (size_t i = 0; i < links_.size(); ++i) {
     links_[i]->subscribe(core_.robot(i), [this, i](const CachedImage& image) {
       core_.add_image(i, image, monotonic_seconds());

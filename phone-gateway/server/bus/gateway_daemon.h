@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,10 +26,12 @@ class GatewayDaemon {
   /** @param robots      At least one. Their names are the prefixes of their channels.
    * @param token       Pairing token of the clients.
    * @param audit_file  File of the audit log; empty: none.
+   * @param exhibition  As of GatewayCore.
    * The bus must outlive this. */
   GatewayDaemon(Bus& bus, const std::vector<naoremote::RobotDescription>& robots,
                 const GatewayLimits& limits, const std::string& token,
-                const std::string& audit_file = "");
+                const std::string& audit_file = "",
+                std::optional<ExhibitionSetup> exhibition = std::nullopt);
 
   GatewayCore& core() { return core_; }
 

@@ -1,6 +1,7 @@
 #include "phone-gateway/server/core/driving.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "phone-gateway/server/core/client_name.h"
@@ -18,6 +19,9 @@ double allowed_speed(const GatewayLimits& limits, double round_trip_time) {
 /** A walk at which the robot steps in place: nao-motion ends a walk of all zero. m/s, chosen: no
  * robot moves by it. */
 constexpr WalkCommand kInPlace{1e-6, 0, 0};
+
+/** A walk that the limit changes by less is not sent again, m/s and rad/s. Chosen: not seen. */
+constexpr double kSmallChange = 0.005;
 
 }  // namespace
 
@@ -136,6 +140,7 @@ std::optional<Refusal> Driving::walk(const ClientSession& session, uint32_t requ
   if (auto refusal = check_driver(session)) return refusal;
   control_.refresh(now);
   if (is_held && is_zero(velocity)) {
+    requested_walk_ = {};
     step_in_place(now);
     return std::nullopt;
   }
@@ -156,7 +161,12 @@ std::optional<Refusal> Driving::walk(const ClientSession& session, uint32_t requ
     return Refusal{naoremote::TOO_LATE,
                    gateway_reason("link-too-slow", {to_argument(session.round_trip_time)})};
   }
-  const WalkCommand allowed{fraction * velocity.vx, fraction * velocity.vy, fraction * velocity.wz};
+  requested_walk_ = {fraction * velocity.vx, fraction * velocity.vy, fraction * velocity.wz};
+  const WalkCommand allowed = calc_allowed_walk();
+  if (is_zero(allowed)) {
+    step_in_place(now);
+    return std::nullopt;
+  }
   if (is_walking_) {
     walk_.request = allowed;
     commands_.update_walk(walk_, now);
@@ -223,6 +233,24 @@ void Driving::handle_result(const CommandResult& result) {
   if (is_final && is_of_walk) is_walking_ = false;
 }
 
+void Driving::command_by_itself(decltype(Command::request) request, double now) {
+  abandon_walk();
+  play_.abandon();
+  commands_.send({}, commands_.make(0, std::move(request)), now);
+}
+
+void Driving::follow_limit(double now) {
+  if (!limit_walk_ || !is_walking_ || is_zero(requested_walk_)) return;
+  const WalkCommand allowed = calc_allowed_walk();
+  if (is_zero(allowed)) return step_in_place(now);
+  const WalkCommand& sent = std::get<WalkCommand>(walk_.request);
+  const double change = std::max({std::abs(allowed.vx - sent.vx), std::abs(allowed.vy - sent.vy),
+                                  std::abs(allowed.wz - sent.wz)});
+  if (change < kSmallChange) return;
+  walk_.request = allowed;
+  commands_.update_walk(walk_, now);
+}
+
 void Driving::end_walk(double now) {
   if (std::exchange(is_walking_, false)) commands_.end_walk(walk_, now);
 }
@@ -255,6 +283,8 @@ void Driving::step(double now) {
     end_walk(now);
   } else if (silence >= limits_.walk_timeout) {
     step_in_place(now);
+  } else {
+    follow_limit(now);
   }
 }
 

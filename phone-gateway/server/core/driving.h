@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "messages/command.h"
 #include "phone-gateway/server/core/client_commands.h"
@@ -65,6 +67,15 @@ class Driving {
   /** The same for what moves the robot, too, without being a command of nao-motion. */
   [[nodiscard]] std::optional<Refusal> check_driving(const ClientSession& session, double now);
 
+  /** A command of the gateway itself. It replaces the walk and the motion of a client, whose result
+   * nobody receives. */
+  void command_by_itself(decltype(Command::request) request, double now);
+  /** Every velocity of a walk passes this from now on, each time that it is sent and 50 times a
+   * second. */
+  void limit_walks(std::function<WalkCommand(const WalkCommand&)> limit) {
+    limit_walk_ = std::move(limit);
+  }
+
   // Events.
 
   /** A client has disconnected: its walk ends, its control is released. */
@@ -93,6 +104,12 @@ class Driving {
   /** The client no longer waits for control, if it did. */
   void withdraw(const ClientSession& session);
   void step_in_place(double now);
+  /** Sends another velocity where the robot has come nearer to what limits it. */
+  void follow_limit(double now);
+  /** What the driver's walk may be now. */
+  WalkCommand calc_allowed_walk() const {
+    return limit_walk_ ? limit_walk_(requested_walk_) : requested_walk_;
+  }
   /** Another command replaces the walk: nothing more is transmitted. */
   void abandon_walk();
   /** Stops a MoveTo that a client without control has left behind. */
@@ -106,6 +123,9 @@ class Driving {
   /** The driver's last walk, which is repeated, and whether it goes on. */
   Command walk_;
   bool is_walking_ = false;
+  /** Its velocity, as it was before the limit. */
+  WalkCommand requested_walk_;
+  std::function<WalkCommand(const WalkCommand&)> limit_walk_;
   /** Stop was sent during a walk: no new walk until the driver releases the joystick. */
   bool is_walk_blocked_ = false;
   /** s. The walk ends as long after it as nao-motion would end it. */

@@ -15,7 +15,8 @@ constexpr double kReadPause = 0.02;
 
 GatewayCore::GatewayCore(std::vector<RobotSetup> robots, const GatewayLimits& limits,
                          const GatewayIdentity& identity,
-                         std::function<void(const AuditEvent&)> audit)
+                         std::function<void(const AuditEvent&)> audit,
+                         std::optional<ExhibitionSetup> exhibition)
     : limits_(limits),
       audit_(audit),
       sessions_(limits, std::move(audit)),
@@ -24,7 +25,11 @@ GatewayCore::GatewayCore(std::vector<RobotSetup> robots, const GatewayLimits& li
       requests_(limits, identity.server_version, identity.token, sessions_, robots_, match_) {
   sessions_.on_disconnect([this](const ClientSession& session, double now) {
     robots_.of(session).driving().handle_disconnect(session, now);
+    if (exhibition_) exhibition_->handle_disconnect(session);
   });
+  if (!exhibition) return;
+  exhibition_ = std::make_unique<ExhibitionDesk>(std::move(*exhibition), sessions_, robots_.at(0));
+  requests_.set_exhibition(exhibition_.get());
 }
 
 // ---- Connections --------------------------------------------------------------------------------
@@ -196,6 +201,7 @@ bool GatewayCore::is_closing(uint32_t client) const {
 
 void GatewayCore::step(double now) {
   robots_.step(now);
+  if (exhibition_) exhibition_->step(now);
   match_.step(now);
   sessions_.step(now);
   // Whether the last image has arrived: its time is measured, and the next one may wait for it.

@@ -2,12 +2,15 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "phone-gateway/server/core/audit_event.h"
+#include "phone-gateway/server/core/exhibition_desk.h"
 #include "phone-gateway/server/core/gateway_identity.h"
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/match_board.h"
@@ -26,9 +29,11 @@ namespace nao::gateway {
 class GatewayCore {
  public:
   /** @param robots  At least one, with different names.
-   * @param audit   Receives the events for the audit log. */
+   * @param audit   Receives the events for the audit log.
+   * @param exhibition  Visitors drive the first robot in turn; none: clients take control. */
   GatewayCore(std::vector<RobotSetup> robots, const GatewayLimits& limits,
-              const GatewayIdentity& identity, std::function<void(const AuditEvent&)> audit);
+              const GatewayIdentity& identity, std::function<void(const AuditEvent&)> audit,
+              std::optional<ExhibitionSetup> exhibition = std::nullopt);
   // The members refer to one another.
   GatewayCore(const GatewayCore&) = delete;
   GatewayCore& operator=(const GatewayCore&) = delete;
@@ -106,6 +111,8 @@ class GatewayCore {
   // ---- State ----
 
   const Sessions& sessions() const { return sessions_; }
+  /** nullptr: there is no exhibition. */
+  const ExhibitionDesk* exhibition() const { return exhibition_.get(); }
 
  private:
   /** A connection, the session of its client, and what it sends of that one's outbox. */
@@ -123,6 +130,7 @@ class GatewayCore {
   Robots robots_;
   MatchBoard match_;
   RequestHandler requests_;
+  std::unique_ptr<ExhibitionDesk> exhibition_;
 };
 
 }  // namespace nao::gateway

@@ -69,6 +69,15 @@ inline constexpr auto kGatewayReasons = std::to_array<ReasonEntry>({
     {"muted-by-operator", "", "The operator lets this client watch only."},
     {"unmuted-by-operator", "", "The operator lets this client drive again."},
     {"robot-changed", "robot", "This client watches {0} now."},
+    // Exhibition.
+    {"exhibition-none", "", "There is no exhibition here."},
+    {"exhibition-queue", "", "Visitors drive in turn: wait in the queue."},
+    {"exhibition-full", "", "The queue is full; try again later."},
+    {"exhibition-forbidden", "what", "{0} is not allowed here."},
+    {"exhibition-fence", "", "The goal is outside the fence."},
+    {"exhibition-key-invalid", "", "The visitor's key must have 16 to 64 bytes."},
+    {"exhibition-secret-wrong", "", "The operator's secret is wrong; open the address that scripts/start printed."},
+    {"exhibition-value-invalid", "value", "{0} is out of range."},
     // Components.
     {"motion-unavailable", "", "The robot's motion program does not answer."},
     {"motion-available", "", "The robot's motion program answers again."},

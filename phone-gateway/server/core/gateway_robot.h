@@ -84,6 +84,7 @@ class GatewayRobot {
   Driving& driving() { return driving_; }
   ServiceCommands& services() { return services_; }
   PerceptionStream& perception() { return perception_; }
+  const PerceptionStream& perception() const { return perception_; }
   void set_play_state(naoremote::PlayState state);
   MotionLibrary& motions() { return motions_; }
 

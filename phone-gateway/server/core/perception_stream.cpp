@@ -10,6 +10,7 @@ void PerceptionStream::set(naoremote::Vision vision) {
   naoremote::ServerMessage message;
   *message.mutable_vision() = std::move(vision);
   vision_ = encode(message);
+  newest_vision_ = message.vision();
   sessions_.for_each([](ClientSession& session) {
     if (session.streams.subscription.has_vision) session.request_vision();
   });

@@ -20,11 +20,14 @@ class PerceptionStream {
   /** The newest one as a message; null if there is none. */
   MessageBytes make_vision_message() const { return vision_; }
   MessageBytes make_play_state_message() const { return play_state_; }
+  /** The newest one; empty before the first. */
+  const naoremote::Vision& vision() const { return newest_vision_; }
 
  private:
   const RobotSessions& sessions_;
   /** Encoded once for all clients. */
   MessageBytes vision_;
+  naoremote::Vision newest_vision_;
   MessageBytes play_state_;
 };
 

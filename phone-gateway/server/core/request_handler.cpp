@@ -80,6 +80,9 @@ std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Req
                    gateway_reason("command-too-late",
                                   {to_argument(age), to_argument(limits_.max_command_age)})};
   }
+  if (exhibition_ != nullptr) {
+    if (auto refusal = exhibition_->check(session, request, starts_motion(request))) return refusal;
+  }
   GatewayRobot& robot = robots_.of(session);
   Driving& driving = robot.driving();
   const naoremote::RobotDescription& description = robot.description();
@@ -120,7 +123,10 @@ std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Req
       }
       return execute_checked(check(request.do_action(), description), send_command);
     case Request::kSay:
-      return execute_checked(check(request.say()), send_service);
+      return execute_checked(check(request.say()), [&](SpeechCommand speech) {
+        if (exhibition_ != nullptr) speech.volume *= exhibition_->volume();
+        return send_service(std::move(speech));
+      });
     case Request::kSetLights:
       return execute_checked(check(request.set_lights(), description), send_service);
     case Request::kPlay:
@@ -146,6 +152,9 @@ std::optional<Refusal> RequestHandler::execute(ClientSession& session, const Req
       return execute_motion_request(session, request, response, now);
     case Request::kDrag:
       return drag(session, request.drag(), now);
+    case Request::kAttend:
+    case Request::kRunExhibition:
+      return execute_exhibition_request(session, request, response, now);
     case Request::USE_CASE_NOT_SET:
       break;
   }
@@ -162,12 +171,28 @@ std::optional<Refusal> RequestHandler::execute_control_request(ClientSession& se
     const auto index = robots_.find(request.watch_robot().robot());
     if (!index) return robots_.refuse_unknown(request.watch_robot().robot());
     robots_.change(session, *index, now);
+  } else if (exhibition_ != nullptr) {
+    exhibition_->release(session);
   } else {
     const uint32_t successor = request.release_control().successor_id();
     robots_.of(session).driving().release_control(session, successor, now);
   }
   *response.mutable_control() = robots_.of(session).driving().control().describe(session);
   return std::nullopt;
+}
+
+std::optional<Refusal> RequestHandler::execute_exhibition_request(ClientSession& session,
+                                                                  const Request& request,
+                                                                  Response& response, double now) {
+  if (exhibition_ == nullptr) {
+    return Refusal{naoremote::INVALID_ARGUMENT, gateway_reason("exhibition-none")};
+  }
+  if (request.has_attend()) {
+    auto refusal = exhibition_->attend(session, request.attend());
+    *response.mutable_exhibition() = exhibition_->describe(session);
+    return refusal;
+  }
+  return exhibition_->run(session, request.run_exhibition(), now);
 }
 
 std::optional<Refusal> RequestHandler::take_control(ClientSession& session,
@@ -283,6 +308,7 @@ std::optional<Refusal> RequestHandler::connect(ClientSession& session,
   *connected.mutable_control() = robot.driving().control().describe(session);
   if (robots_.size() > 1) *connected.mutable_robots() = robots_.list();
   if (match_.match() != nullptr) *connected.mutable_match() = *match_.match();
+  if (exhibition_ != nullptr) *connected.mutable_exhibition() = exhibition_->describe(session);
   // A new client learns once what is unavailable; later changes come as notices to all.
   robot.report_missing_components(session);
   return std::nullopt;

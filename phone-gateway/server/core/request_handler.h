@@ -5,6 +5,7 @@
 #include <string>
 
 #include "phone-gateway/server/core/admission.h"
+#include "phone-gateway/server/core/exhibition_desk.h"
 #include "phone-gateway/server/core/gateway_limits.h"
 #include "phone-gateway/server/core/gateway_reasons.h"
 #include "phone-gateway/server/core/match_board.h"
@@ -27,6 +28,9 @@ class RequestHandler {
         match_(match),
         console_(sessions, robots),
         admission_(limits, token) {}
+
+  /** Visitors drive in turn from now on. `exhibition` must outlive this. */
+  void set_exhibition(ExhibitionDesk* exhibition) { exhibition_ = exhibition; }
 
   /** Executes a request. @param response  Gets the answer; its request_id is set already.
    * @return Whether it is answered now; otherwise MotionLibrary answers later. */
@@ -57,6 +61,10 @@ class RequestHandler {
                                                  naoremote::Response& response, double now);
   std::optional<Refusal> take_control(ClientSession& session, const naoremote::TakeControl& request,
                                       naoremote::Response& response, double now);
+  /** Requests about the exhibition. */
+  std::optional<Refusal> execute_exhibition_request(ClientSession& session,
+                                                    const naoremote::Request& request,
+                                                    naoremote::Response& response, double now);
   void ping(const ClientSession& session, const naoremote::Ping& request, naoremote::Pong& pong,
             double now);
 
@@ -67,6 +75,8 @@ class RequestHandler {
   const MatchBoard& match_;
   OperatorConsole console_;
   Admission admission_;
+  /** nullptr: there is none. */
+  ExhibitionDesk* exhibition_ = nullptr;
   bool is_answered_later_ = false;
 };
 

@@ -54,6 +54,10 @@ class RobotMirror {
   /** False until the first state of the robot has been received. */
   bool has_state() const { return has_state_; }
 
+  const RobotSnapshot& robot() const { return robot_; }
+  const MotionSnapshot& motion() const { return motion_; }
+  const std::optional<naoremote::Body>& body() const { return body_; }
+
   /** Robot time at `now`, microseconds: that of the newest state plus the time since; 0 if unknown.
    */
   int64_t calc_robot_utime(double now) const;

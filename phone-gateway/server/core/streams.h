@@ -86,6 +86,9 @@ class Streams {
   /** Robot time at `now`, microseconds; 0 if unknown. */
   int64_t calc_robot_utime(double now) const { return mirror_.calc_robot_utime(now); }
 
+  /** The newest states. */
+  const RobotMirror& mirror() const { return mirror_; }
+
   /** Sends the last state once a second while the robot is unavailable, and drops old images. */
   void step(double now);
 

@@ -189,6 +189,8 @@ std::optional<fs::path> WebPages::find_file(const std::string& path) const {
   fs::path file = folder / fs::path(path).relative_path();
   std::error_code error;
   if (path.back() == '/') file /= "index.html";
+  // /screen is the page screen.html.
+  if (file.extension().empty()) file += ".html";
   // canonical() also fails for files that do not exist.
   const fs::path real_file = fs::canonical(file, error);
   if (error || !fs::is_regular_file(real_file, error)) return std::nullopt;

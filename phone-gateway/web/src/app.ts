@@ -90,6 +90,7 @@ export class App {
   private readonly controllerScreen: ControllerScreen;
   private token = "";
   private isShown = false;
+  private isVisiting = false;
 
   constructor(private readonly root: HTMLElement, private settings: Settings) {
     this.connection = new Connection(
@@ -209,6 +210,9 @@ export class App {
       vibrate(kRefusalPattern);
       this.messages.show("bad", say("drive.linkLost"));
     });
+    this.store.watch((state) => state.exhibition !== null, (isOn) => {
+      if (isOn) void this.visit();
+    });
     const scheme = matchMedia("(prefers-color-scheme: light)");
     scheme.addEventListener("change", () => this.takeColors());
     this.takeColors();
@@ -245,6 +249,15 @@ export class App {
       }
       if (phase === "idle" || phase === "waiting") void this.showNearby();
     });
+  }
+
+  /** The person stands in an exhibition's queue, once. */
+  private async visit(): Promise<void> {
+    if (this.isVisiting) return;
+    this.isVisiting = true;
+    const {Visit} = await import("./exhibition/visit");
+    new Visit(this.store, this.commander, this.root, this.root.querySelector<HTMLElement>(".notes")!, storage(),
+              () => this.leaveControls());
   }
 
   /** The stage has the colors of the style sheet. */

@@ -164,7 +164,7 @@ export class Connection {
     this.store.set({
       phase: "connected", problem: null, problemDetail: "", attempts: 0,
       clientId: connected.clientId, clientName: connected.clientName, robots,
-      match: connected.match ?? null, isChoosingRobot, latencyMs: -1,
+      match: connected.match ?? null, exhibition: connected.exhibition ?? null, isChoosingRobot, latencyMs: -1,
     });
     this.ping();
     this.second?.open(connected.clientId);
@@ -272,6 +272,9 @@ export class Connection {
         break;
       case Notice_Kind.MATCH_CHANGED:
         this.store.set({match: notice.match ?? null});
+        break;
+      case Notice_Kind.EXHIBITION_CHANGED:
+        this.store.set({exhibition: notice.exhibition ?? null});
         break;
       default: this.listener.notice(notice);
     }

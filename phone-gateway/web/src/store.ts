@@ -1,6 +1,6 @@
 /** The state of the app; everything on screen is drawn from it. */
 import type {
-  Control, Joint, Match, Motion, Notice, Notice_Component, Image, PlayState, RobotDescription, RobotList_Robot, State, Vision,
+  Control, Exhibition, Joint, Match, Motion, Notice, Notice_Component, Image, PlayState, RobotDescription, RobotList_Robot, State, Vision,
 } from "./protocol/generated/remote_pb";
 import type {Postures} from "./robot/posture_file";
 import {kEmptyDraft} from "./teach/motion_draft";
@@ -67,6 +67,8 @@ export interface AppState {
   robots: readonly RobotList_Robot[];
   /** The match that is played; null: none. */
   match: Match | null;
+  /** The exhibition whose visitors drive in turn; null: none. */
+  exhibition: Exhibition | null;
   /** True while the person chooses one of them. */
   isChoosingRobot: boolean;
   state: State | null;
@@ -122,6 +124,7 @@ const kInitialState: AppState = {
   control: null,
   robots: [],
   match: null,
+  exhibition: null,
   isChoosingRobot: false,
   state: null,
   stateAgeMs: -1,

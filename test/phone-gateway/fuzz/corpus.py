@@ -27,6 +27,8 @@ def use_cases(pb):
         "release_control": dict(release_control=pb.ReleaseControl()),
         "held_walk_turn": dict(walk_turn=pb.WalkTurn(is_held=True)),
         "ping": dict(ping=pb.Ping(client_utime=1)),
+        "attend": dict(attend=pb.Attend(visitor_key="0123456789abcdef", again=True)),
+        "run_exhibition": dict(run_exhibition=pb.RunExhibition(secret="k", speed=0.5)),
         "operate": dict(operate=pb.Operate(operation=pb.Operate.KICK, client_id=1)),
     }
 

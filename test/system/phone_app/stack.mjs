@@ -41,6 +41,8 @@ export class Stack {
   #robots = [];
   /** Folder of the taught motions. */
   #motions = "";
+  /** More options of the gateway. */
+  gatewayOptions = [];
 
   /** @param binDir  folder of the programs. */
   constructor(binDir) {
@@ -87,7 +89,7 @@ export class Stack {
   async startGateway() {
     const program = this.run("nao-phone-gateway", [
       ...this.#model, ...this.#robots, ...(this.#robots.length > 0 ? ["--overview"] : []), "--bind", "127.0.0.1",
-      "--http-port", String(this.httpPort), "--tcp-port", "0", "--token", this.token]);
+      "--http-port", String(this.httpPort), "--tcp-port", "0", "--token", this.token, ...this.gatewayOptions]);
     [this.httpPort, this.tcpPort] = await until("the gateway listens", () => {
       const ports = /HTTP and WebSocket on 127\.0\.0\.1:(\d+), TCP on 127\.0\.0\.1:(\d+)/.exec(program.log);
       if (ports) return ports.slice(1).map(Number);

@@ -249,6 +249,15 @@ export const kReasonTexts: Readonly<Record<string, readonly [pt: string, de: str
                         "Du darfst gerade nur zusehen; das wurde am Roboter so eingestellt."],
   "unmuted-by-operator": ["Pode conduzir outra vez.", "Du darfst wieder steuern."],
   "robot-changed": ["Agora vê {0}.", "Du siehst jetzt {0}."],
+  // Exhibition.
+  "exhibition-none": ["Não há exposição.", "Es gibt keine Ausstellung."],
+  "exhibition-queue": ["Conduz-se por ordem: espere na fila.", "Gefahren wird der Reihe nach: bitte warten."],
+  "exhibition-full": ["A fila está cheia.", "Die Reihe ist voll."],
+  "exhibition-forbidden": ["{0} não é permitido.", "{0} ist nicht erlaubt."],
+  "exhibition-fence": ["O destino fica fora da vedação.", "Das Ziel liegt außerhalb des Zauns."],
+  "exhibition-key-invalid": ["Chave inválida.", "Schlüssel ungültig."],
+  "exhibition-secret-wrong": ["O segredo do operador está errado.", "Das Geheimnis des Bedieners stimmt nicht."],
+  "exhibition-value-invalid": ["{0} é inválido.", "{0} ist ungültig."],
   // Components.
   "motion-unavailable": ["O programa de movimento não responde.", "Das Bewegungsprogramm antwortet nicht."],
   "motion-available": ["O programa de movimento está de volta.", "Das Bewegungsprogramm ist wieder da."],

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -53,7 +54,7 @@ class GatewayFixture : public testing::Test {
   void start(std::vector<RobotSetup> robots, const GatewayLimits& limits) {
     core_ = std::make_unique<GatewayCore>(
         std::move(robots), limits, GatewayIdentity{"0.1.0", "secret", "phone.1", 1000},
-        [this](const AuditEvent& event) { audit_.push_back(event); });
+        [this](const AuditEvent& event) { audit_.push_back(event); }, exhibition_);
     pass(0.1);
   }
 
@@ -80,6 +81,7 @@ class GatewayFixture : public testing::Test {
       RobotSnapshot state;
       state.utime = static_cast<int64_t>(now_ * 1e6);
       state.joint_position = {0.1, 0.2, 0.3, 0.4};
+      state.torso_position = {torso_x_, 0, 0.3};
       robot.set_state(state, now_);
     }
     if (has_camera_) robot.components().handle_camera_status(now_);
@@ -255,6 +257,10 @@ class GatewayFixture : public testing::Test {
   }
 
   double now_ = 100;
+  /** Of the next core. */
+  std::optional<ExhibitionSetup> exhibition_;
+  /** Where the robot is in its odometry frame, m. */
+  double torso_x_ = 0;
   /** Which components send messages. */
   bool has_motion_ = true;
   bool has_robot_ = true;

@@ -42,7 +42,7 @@ class GatewayFuzz : public GatewayFixture {
   naoremote::Request odd_request() {
     naoremote::Request request;
     request.set_request_id(random_());
-    switch (random_() % 17) {
+    switch (random_() % 19) {
       case 0:
         request.mutable_connect()->set_protocol_version(random_() % 3);
         request.mutable_connect()->set_client_name(random_() % 2 ? odd_name() : "");
@@ -119,11 +119,31 @@ class GatewayFuzz : public GatewayFixture {
       case 15:
         request.mutable_watch_robot()->set_robot(random_() % 2 ? "NAO" : odd_name());
         break;
+      case 16:
+        request.mutable_attend()->set_visitor_key(
+            random_() % 4 ? "key-of-visitor-" + std::to_string(random_() % 9) : odd_name());
+        request.mutable_attend()->set_leaves(random_() % 4 == 0);
+        request.mutable_attend()->set_again(random_() % 2);
+        break;
+      case 17: {
+        naoremote::RunExhibition& run = *request.mutable_run_exhibition();
+        run.set_secret(random_() % 4 ? "operators" : odd_name());
+        if (random_() % 4 == 0) run.set_is_paused(random_() % 2);
+        if (random_() % 4 == 0) run.set_is_resting(random_() % 2);
+        if (random_() % 4 == 0) run.set_speed(odd_double());
+        if (random_() % 4 == 0) run.set_volume(odd_double());
+        if (random_() % 4 == 0) run.set_light_rgb(random_());
+        run.set_skips(random_() % 4 == 0);
+        run.set_more_time(odd_double());
+        break;
+      }
       default:
         break;
     }
     return request;
   }
+
+  void expect_valid_commands_of_random_requests();
 
   /** Every command that was sent must be valid, whatever was received. */
   void expect_valid_commands() {
@@ -196,7 +216,21 @@ TEST_F(GatewayFuzz, DamagedFramesNeverYieldOversizedMessages) {
   }
 }
 
+// At an exhibition, too.
 TEST_F(GatewayFuzz, RandomRequestsYieldValidCommandsOnly) {
+  expect_valid_commands_of_random_requests();
+  exhibition_ = ExhibitionSetup{
+      parse_exhibition("{may_speak: true, fence: {frame: start, corners: [[-1, -1], [1, -1], [0, "
+                       "1]]}, attract: {period: 3, actions: [wave]}}",
+                       "fair.yaml", {"Vega"}),
+      "operators",
+      {}};
+  restart(GatewayLimits{});
+  expect_valid_commands_of_random_requests();
+  EXPECT_GT(core_->exhibition()->state().counts.turns, 0);
+}
+
+void GatewayFuzz::expect_valid_commands_of_random_requests() {
   std::vector<Client> clients;
   for (int i = 0; i < 5; ++i) clients.push_back(open());
   for (int round = 0; round < 20000; ++round) {

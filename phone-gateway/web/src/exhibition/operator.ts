@@ -1,0 +1,124 @@
+/** The operator's page of an exhibition, for a tablet in one hand. */
+import "../styles/app.css";
+import "./operator.css";
+import {create} from "@bufbuild/protobuf";
+import type {MessageInitShape} from "@bufbuild/protobuf";
+import {Connection} from "../connection";
+import {el, setText} from "../dom";
+import {ErrorCode, RunExhibitionSchema} from "../protocol/generated/remote_pb";
+import type {Exhibition} from "../protocol/generated/remote_pb";
+import * as useCases from "../protocol/use_cases";
+import {Store} from "../store";
+import {reasonInWords} from "../text/reasons";
+import {WebSocketTransport} from "../transport";
+import {tell} from "./exhibition_texts";
+import type {ExhibitionKey} from "./exhibition_texts";
+import {fromAddress, pairingToken, takeLanguage} from "./page";
+import {clock, driverInWords} from "./words";
+
+type Wish = MessageInitShape<typeof RunExhibitionSchema>;
+
+const kMoreTime = 30;
+const kSpeeds = [0.25, 0.5, 0.75, 1];
+const kVolumes = [0, 0.3, 0.6, 1];
+/** White, red, yellow, green, blue, off: 0xRRGGBB. */
+const kColors = [0xffffff, 0xff2020, 0xffc000, 0x20d060, 0x2060ff, 0x000000];
+
+class OperatorPage {
+  private readonly driver = el("h1");
+  private readonly time = el("strong", {class: "operator-time"});
+  private readonly queue = el("p", {class: "quiet"});
+  private readonly fault = el("p", {class: "operator-fault", role: "alert"});
+  private readonly body = el("div", {class: "operator-body"});
+  private readonly secret = fromAddress("secret");
+  private readonly connection: Connection;
+  /** Mark what is set, for what the gateway tells. */
+  private marks: ((exhibition: Exhibition) => void)[] = [];
+
+  constructor(root: HTMLElement, store: Store) {
+    this.connection = new Connection(new WebSocketTransport(new URL(location.href)), store, {
+      connected: () => void this.run({}), state: () => {}, image: () => {}, notice: () => {},
+    });
+    root.append(el("section", {class: "operator"},
+      el("header", {}, el("div", {}, this.driver, this.queue), this.time), this.fault, this.body));
+    this.fill();
+    store.watch((state) => state.exhibition, (exhibition) => this.show(exhibition));
+    store.watch((state) => state.phase, (phase) => setText(this.fault, phase === "connected" ? "" : tell("noLink")));
+    this.connection.connect({token: pairingToken(), clientName: "operator", clientSoftware: "nao-phone-app operator"});
+  }
+
+  private async run(wish: Wish): Promise<void> {
+    if (!this.secret) return setText(this.fault, tell("secret"));
+    const value = create(RunExhibitionSchema, {...wish, secret: this.secret});
+    const response = await this.connection.request({case: "runExhibition", value});
+    if (!response) return;
+    // A wrong secret closes the connection: another attempt would not help.
+    if (response.error === ErrorCode.NOT_ALLOWED) this.connection.disconnect();
+    setText(this.fault, response.error === ErrorCode.OK ? "" : reasonInWords(response));
+  }
+
+  private fill(): void {
+    this.marks = [];
+    this.body.replaceChildren(
+      el("button", {class: "stop", onclick: () => void this.connection.request(useCases.stop())}, tell("stop")),
+      this.toggle(({isPaused}) => isPaused, (isPaused) => ({isPaused}), (isOn) => tell(isOn ? "resume" : "pause")),
+      this.button("skip", {skips: true}),
+      this.button("moreTime", {moreTime: kMoreTime}),
+      this.toggle(({isResting}) => isResting, (isResting) => ({isResting}), (isOn) => tell(isOn ? "wake" : "rest")),
+      this.toggle(({forbidsKicks}) => forbidsKicks, (forbidsKicks) => ({forbidsKicks}), (isOn) => this.permission("kicks", isOn)),
+      this.toggle(({forbidsFalls}) => forbidsFalls, (forbidsFalls) => ({forbidsFalls}), (isOn) => this.permission("falls", isOn)),
+      this.choice("speed", kSpeeds, ({speed}) => speed, (speed) => ({speed})),
+      this.choice("volume", kVolumes, ({volume}) => volume, (volume) => ({volume})),
+      el("fieldset", {}, el("legend", {}, tell("lights")),
+         ...kColors.map((lightRgb) => el("button", {
+           class: "button color", style: `--color: #${lightRgb.toString(16).padStart(6, "0")}`,
+           "aria-label": `${tell("lights")} #${lightRgb.toString(16).padStart(6, "0")}`, onclick: () => void this.run({lightRgb})}))));
+  }
+
+  private permission(key: "kicks" | "falls", isForbidden: boolean): string {
+    return `${tell(key)}: ${tell(isForbidden ? "forbidden" : "allowed")}`;
+  }
+
+  private button(key: ExhibitionKey, wish: Wish): HTMLButtonElement {
+    return el("button", {class: "button", "data-act": key, onclick: () => void this.run(wish)}, tell(key));
+  }
+
+  private toggle(read: (exhibition: Exhibition) => boolean, write: (isOn: boolean) => Wish,
+                 words: (isOn: boolean) => string): HTMLButtonElement {
+    let isOn = false;
+    const button = el("button", {class: "button", onclick: () => void this.run(write(!isOn))}, words(false));
+    this.marks.push((exhibition) => {
+      isOn = read(exhibition);
+      button.setAttribute("aria-pressed", String(isOn));
+      setText(button, words(isOn));
+    });
+    return button;
+  }
+
+  private choice(key: ExhibitionKey, values: readonly number[], read: (exhibition: Exhibition) => number,
+                 write: (value: number) => Wish): HTMLElement {
+    const buttons = values.map((value) =>
+        el("button", {class: "button", onclick: () => void this.run(write(value))}, `${Math.round(value * 100)} %`));
+    this.marks.push((exhibition) => {
+      for (const [i, button] of buttons.entries()) {
+        button.setAttribute("aria-pressed", String(Math.abs(values[i]! - read(exhibition)) < 0.01));
+      }
+    });
+    return el("fieldset", {"data-choice": key}, el("legend", {}, tell(key)), ...buttons);
+  }
+
+  private show(exhibition: Exhibition | null): void {
+    if (!exhibition) return;
+    if (takeLanguage(exhibition.language)) this.fill();
+    setText(this.driver, driverInWords(exhibition));
+    setText(this.time, exhibition.driver ? clock(exhibition.turnLeft) : "");
+    this.time.classList.toggle("warned", exhibition.isWarned);
+    const names = exhibition.waiting.join(", ");
+    setText(this.queue, `${tell("waiting", {number: exhibition.numWaiting})}${names ? ` (${names})` : ""} · ` +
+                        tell("turns", {number: exhibition.numTurns}));
+    for (const mark of this.marks) mark(exhibition);
+  }
+}
+
+takeLanguage("en");
+new OperatorPage(document.getElementById("app")!, new Store());
