@@ -365,7 +365,8 @@ std::string make_description_text(const RobotModel& model) {
   const auto legs = find_leg_kinematics(model);
   const double length = legs ? legs->reach() : height;
   // 0 for a robot that cannot walk.
-  const double speed = legs ? kFroudeVelocity * std::sqrt(kGravity * length) : 0;
+  const bool walks = legs && legs->roles(Leg::kLeft).ankle_pitch >= 0;
+  const double speed = walks ? kFroudeVelocity * std::sqrt(kGravity * length) : 0;
   Kinematics kinematics(model);
   kinematics.update(std::vector<double>(model.num_motors(), 0.0));
   const double center_height =
@@ -380,8 +381,11 @@ std::string make_description_text(const RobotModel& model) {
        << "\n# Slow: v / sqrt(g * leg length) = " << kFroudeVelocity
        << ". nao-walk-tuner finds what the robot sustains.\nwalk_limits: {forward: " << speed
        << ", backward: " << 0.6 * speed << ", sideways: " << 0.5 * speed
-       << ", turning: " << (legs ? 0.5 : 0) << "}\n"
-       << "\nactions:\n  - {name: get-up, does: stand-up}\n  - {name: rest, does: rest}\n";
+       << ", turning: " << (walks ? 0.5 : 0) << "}\n"
+       << "\nactions:"
+       << (model.legs()[0].joints.empty()
+               ? " []\n"
+               : "\n  - {name: get-up, does: stand-up}\n  - {name: rest, does: rest}\n");
   return text.str();
 }
 

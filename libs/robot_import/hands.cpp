@@ -47,6 +47,19 @@ class Hands {
     return chain.empty() ? std::vector<int>() : motors_below(chain.back());
   }
 
+  /** The first motor with a range of at least half of the widest: small ratios. @param motors  Not
+   * empty. */
+  int find_leader(const std::vector<int>& motors) const {
+    const auto range = [&](int motor) {
+      const Joint& joint = model_.motor_joint(motor);
+      return std::abs(bent(joint) - straight(joint));
+    };
+    double widest = 0;
+    for (const int motor : motors) widest = std::max(widest, range(motor));
+    return *std::find_if(motors.begin(), motors.end(),
+                         [&](int motor) { return range(motor) >= 0.5 * widest; });
+  }
+
   /** Fingers bend from the angle next to 0 to their farther limits, all in the same time. */
   Follower follow(int motor, int leader) const {
     const Joint& joint = model_.motor_joint(motor);
@@ -121,8 +134,10 @@ std::string with_hands_of_one_motor(const std::string& text, const RobotModel& m
   std::map<int, Follower> followers;
   for (const int palm : palms) {
     const std::vector<int> motors = hands.motors_on(palm);
+    if (motors.empty()) continue;
+    const int leader = hands.find_leader(motors);
     for (const int motor : motors) {
-      if (motor != motors.front()) followers[motor] = hands.follow(motor, motors.front());
+      if (motor != leader) followers[motor] = hands.follow(motor, leader);
     }
   }
   if (followers.empty()) return text;

@@ -157,8 +157,8 @@ class Check {
     try {
       const LegKinematics legs(model_);
       if (legs.roles(Leg::kLeft).ankle_pitch < 0) {
-        add("standing", "", "no joint pitches the feet: point feet, or feet fixed to the shank",
-            "only steps could keep its balance, which the walk does not begin with");
+        add("walking", "", "no joint pitches the feet: point feet, or feet fixed to the shank",
+            "only steps could keep its balance, and the walk begins with a stand");
       }
     } catch (const ModelError& error) {
       add("walking", "", error.what(), "walking needs such legs");

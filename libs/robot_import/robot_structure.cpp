@@ -423,6 +423,8 @@ int find_plane(const Body& body, double& offset) {
         const double at = 0.5 * (screws[i].point[normal] + screws[k].point[normal]);
         if (!is_image(screws[i], screws[k], normal, at)) continue;
         size_t count = 0;
+        // Axes along the normal do not say where the plane is.
+        size_t across = 0;
         double sum = 0;
         for (size_t a = 0; a < screws.size(); ++a) {
           for (size_t b = a + 1; b < screws.size(); ++b) {
@@ -431,13 +433,15 @@ int find_plane(const Body& body, double& offset) {
               continue;
             }
             ++count;
+            if (std::abs(screws[a].axis[normal]) > 0.7) continue;
+            ++across;
             sum += 0.5 * (screws[a].point[normal] + screws[b].point[normal]);
           }
         }
         if (count <= most) continue;
         most = count;
         best = normal;
-        offset = sum / static_cast<double>(count);
+        offset = across > 0 ? sum / static_cast<double>(across) : at;
       }
     }
   }

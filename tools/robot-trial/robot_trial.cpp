@@ -274,7 +274,9 @@ RobotCard try_robot(const std::filesystem::path& folder, double minutes, double 
   }
   const RobotModel& model = trial.model();
   card.name = folder.filename().string();
-  card.mass = model.total_mass();
+  // Without the plates that hold a robot without legs.
+  card.mass = model.total_mass() - model.links()[model.left_sole()].mass -
+              model.links()[model.right_sole()].mass;
   card.height = measure_height(model);
   card.motors = model.num_motors();
   Eigen::AlignedBox2d sole;

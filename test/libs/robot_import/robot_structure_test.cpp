@@ -165,6 +165,9 @@ TEST_F(ImportedStructure, StandsOnAssumedPlatesWhereTheFeetArePoints) {
   EXPECT_THAT(lines_, Contains(HasSubstr("left_shank: the feet are points that no joint pitches")));
   EXPECT_GT(size_of(model.left_sole_outline()).x(), 0.08);
   EXPECT_TRUE(stands(model));
+  // The app shows no walk.
+  EXPECT_EQ(model.walk_limits().forward, 0);
+  EXPECT_FALSE(std::filesystem::exists(robot() / "gait.yaml"));
 }
 
 TEST_F(ImportedStructure, OpensAHandByOneMotor) {
