@@ -16,8 +16,8 @@ const kMinPeriodMs = 30;
 export const kSilenceMs = 1000;
 
 /** A page that was held up for so long, as in a computer that slept, has not heard of what was released meanwhile; ms.
- * Chosen: the robot ends a walk after half of it, and no page that draws is held up as long. */
-const kHeldUpMs = 2000;
+ * Chosen: the robot has ended the walk after a third of it, and no page that draws is held up as long. */
+const kHeldUpMs = 3000;
 
 export type DriveSource = "sticks" | "keys" | "gamepad" | "tilt";
 
