@@ -524,6 +524,15 @@ class Walking(WithGateway):
         time.sleep(0.3)
         self.assertLessEqual(len(self.gateway.received("walk_turn")), count + 1)
 
+    def test_a_walk_of_a_duration_that_the_robot_ended_earlier_has_not_been_done(self):
+        def answer(request):
+            return [pb.ServerMessage(response=pb.Response(request_id=request.request_id)),
+                    result(request.request_id, pb.Notice.ACCEPTED), result(request.request_id, pb.Notice.DONE)]
+        robot = self.connect()
+        self.gateway.answers["walk_turn"] = answer
+        with self.assertRaisesRegex(nao_remote.CommandInterrupted, "before its time"):
+            robot.walk(0.2, duration=DEADLINE)
+
     def test_a_refused_repetition_ends_the_walk(self):
         robot = self.connect()
         walk = robot.walk(0.2, 0, 0)
