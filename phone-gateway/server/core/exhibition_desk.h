@@ -79,7 +79,7 @@ class ExhibitionDesk {
   double next_tell_ = 0;
   GroundPoint last_place_;
   bool was_down_ = false;
-  bool was_available_ = true;
+  bool was_available_ = false;
   /** Heat or battery has ended the turn. */
   bool is_body_resting_ = false;
 };

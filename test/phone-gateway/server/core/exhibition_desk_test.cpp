@@ -277,6 +277,14 @@ TEST_F(ExhibitionDeskTest, RestsARobotWhoseMotorsAreHot) {
   EXPECT_EQ(told(ana).phase(), Exhibition::DRIVING);
 }
 
+TEST_F(ExhibitionDeskTest, CountsARobotThatFailsButNotItsStart) {
+  pass(1);
+  EXPECT_EQ(core_->exhibition()->state().counts.faults, 0);
+  has_robot_ = false;
+  pass(3);
+  EXPECT_EQ(core_->exhibition()->state().counts.faults, 1);
+}
+
 TEST_F(ExhibitionDeskTest, AttractsWhileNobodyIsThere) {
   open_exhibition("attract: {period: 10, actions: [wave], greetings: {en: Hello, de: Hallo}}");
   pass(10.2);
