@@ -134,7 +134,7 @@ class Security(unittest.TestCase):
             self.assertEqual(self.http(f"GET {target} HTTP/1.1\r\nHost: localhost\r\n"), 400, target)
         for target in ("/etc/passwd", "/robots/etc/passwd", "/robots/nao"):
             self.assertEqual(self.http(f"GET {target} HTTP/1.1\r\nHost: localhost\r\n"), 404, target)
-        self.assert_refused_and_audited_once("no path")
+        self.assert_refused_and_audited_once("not a path")
 
     def test_a_lease_that_is_replayed(self):
         def record(connection):
