@@ -84,7 +84,7 @@ class ExhibitionDeskTest : public GatewayFixture {
     return walk(client, vx);
   }
   /** All clients ping, as phones do. */
-  void wait(double time, std::vector<Client*> clients) {
+  void wait(double time, const std::vector<Client*>& clients) {
     for (double t = 0; t < time; t += 1) {
       pass(1);
       for (Client* client : clients) ping(*client);
