@@ -34,8 +34,10 @@ struct BallHint {
   float score = 0;
 };
 
-/** The nearest integer from 0 to a limit. std::lround takes a call for each. */
+/** The nearest integer from 0 to a limit. std::lround takes a call for each; the sum is exact for
+ * pixels. */
 int round_within(float value, int limit) {
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
   return std::min(static_cast<int>(std::max(value, 0.0f) + 0.5f), limit);
 }
 
