@@ -149,8 +149,7 @@ std::string make_groups(const RobotModel& model) {
       // What the end of the arm carries.
       std::vector<int> hand;
       for (const int joint : model.motors()) {
-        const std::vector<int> chain = model.find_chain(model.joints()[joint].child_link);
-        if (!arm.empty() && std::find(chain.begin(), chain.end(), arm.back()) != chain.end()) {
+        if (!arm.empty() && model.moves(arm.back(), model.joints()[joint].child_link)) {
           hand.push_back(joint);
         }
       }

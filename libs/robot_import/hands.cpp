@@ -74,18 +74,13 @@ class Hands {
     return std::abs(joint.lower) > std::abs(joint.upper) ? joint.lower : joint.upper;
   }
 
-  bool is_below(int link, int joint) const {
-    const std::vector<int> chain = model_.find_chain(link);
-    return std::find(chain.begin(), chain.end(), joint) != chain.end();
-  }
-
   /** Joints below this one. */
   std::vector<int> joints_below(int joint) const {
     std::vector<int> below;
     for (int i = 0; i < static_cast<int>(model_.joints().size()); ++i) {
       const Joint& other = model_.joints()[i];
-      const bool moves = other.kind == Joint::Kind::kRevolute;
-      if (moves && i != joint && is_below(other.child_link, joint)) below.push_back(i);
+      const bool is_revolute = other.kind == Joint::Kind::kRevolute;
+      if (is_revolute && i != joint && model_.moves(joint, other.child_link)) below.push_back(i);
     }
     return below;
   }
@@ -94,7 +89,7 @@ class Hands {
     const std::vector<int> below = joints_below(joint);
     return static_cast<int>(std::count_if(below.begin(), below.end(), [&](int tip) {
       return std::none_of(below.begin(), below.end(), [&](int other) {
-        return other != tip && is_below(model_.joints()[other].child_link, tip);
+        return other != tip && model_.moves(tip, model_.joints()[other].child_link);
       });
     }));
   }
@@ -162,9 +157,7 @@ std::string with_hands_of_one_motor(const std::string& text, const RobotModel& m
              "it follows " + name + ", which opens and closes the hand");
   }
   findings.insert(findings.end(), log.findings.begin(), log.findings.end());
-  TiXmlPrinter printer;
-  document.Accept(&printer);
-  return printer.Str();
+  return to_text(document);
 }
 
 }  // namespace nao

@@ -134,7 +134,7 @@ class LegNumbers {
       double mass = 0;
       Eigen::Vector3d moment = Eigen::Vector3d::Zero();
       for (size_t link = 0; link < poses.size(); ++link) {
-        if (!moves(model_.motors()[motor], static_cast<int>(link))) continue;
+        if (!model_.moves(model_.motors()[motor], static_cast<int>(link))) continue;
         const Link& part = model_.links()[link];
         mass += part.mass;
         moment += part.mass * (poses[link] * part.center_of_mass - pose.translation());
@@ -175,7 +175,7 @@ class LegNumbers {
         Eigen::Vector3d moment =
             (support - pose.translation()).cross(-0.5 * model_.total_mass() * weight);
         for (size_t link = 0; link < model_.links().size(); ++link) {
-          if (!moves(index, static_cast<int>(link))) continue;
+          if (!model_.moves(index, static_cast<int>(link))) continue;
           const Link& part = model_.links()[link];
           const Eigen::Vector3d center =
               kinematics.link_pose(static_cast<int>(link)) * part.center_of_mass;
@@ -192,11 +192,6 @@ class LegNumbers {
                       " N m are assumed: write the motor's into <limit effort=>");
       }
     }
-  }
-
-  bool moves(int joint, int link) const {
-    const std::vector<int> chain = model_.find_chain(link);
-    return std::find(chain.begin(), chain.end(), joint) != chain.end();
   }
 
   /** Range of a knee, or of a joint beside it: of the two mirror images the more one-sided one,
@@ -253,9 +248,7 @@ std::string with_plausible_legs(const std::string& text, const RobotModel& model
   const Findings found = LegNumbers(model, file, *robot).repair();
   if (found.empty()) return text;
   findings.insert(findings.end(), found.begin(), found.end());
-  TiXmlPrinter printer;
-  document.Accept(&printer);
-  return printer.Str();
+  return to_text(document);
 }
 
 }  // namespace nao

@@ -321,9 +321,8 @@ double find_rest(const Body& body, const Legs& legs, Vector3d& com) {
   com.setZero();
   for (size_t link = 0; link < body.model.links().size(); ++link) {
     const Link& part = body.model.links()[link];
-    const std::vector<int> chain = body.model.find_chain(static_cast<int>(link));
     const bool is_leg = std::any_of(legs.begin(), legs.end(), [&](const Chain* leg) {
-      return std::find(chain.begin(), chain.end(), leg->joints.front()) != chain.end();
+      return body.model.moves(leg->joints.front(), static_cast<int>(link));
     });
     if (is_leg) continue;
     mass += part.mass;
@@ -345,9 +344,8 @@ bool are_legs(const Body& body, const Legs& legs) {
   // They reach lower than everything else.
   const double sole = body.lowest(legs[0]->end);
   for (size_t link = 0; link < body.model.links().size(); ++link) {
-    const std::vector<int> chain = body.model.find_chain(static_cast<int>(link));
     const bool is_leg = std::any_of(legs.begin(), legs.end(), [&](const Chain* leg) {
-      return std::find(chain.begin(), chain.end(), leg->joints.front()) != chain.end();
+      return body.model.moves(leg->joints.front(), static_cast<int>(link));
     });
     if (!is_leg && body.lowest(static_cast<int>(link)) < sole - 0.02 * drop) return false;
   }

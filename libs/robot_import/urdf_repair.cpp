@@ -485,9 +485,7 @@ RepairedUrdf UrdfRepair::run() {
     has_motor = has_motor || std::string(joint->Attribute("type")) != "fixed";
   }
   if (!has_motor) fail(robot_, "no joint can move", "import a robot with revolute joints");
-  TiXmlPrinter printer;
-  document_.Accept(&printer);
-  result_.text = printer.CStr();
+  result_.text = to_text(document_);
   result_.findings = std::move(log_.findings);
   return result_;
 }

@@ -50,6 +50,12 @@ TiXmlElement make_inertial(double mass) {
   return inertial;
 }
 
+std::string to_text(const TiXmlDocument& document) {
+  TiXmlPrinter printer;
+  document.Accept(&printer);
+  return printer.Str();
+}
+
 std::string to_text(double number) {
   std::ostringstream text;
   text.imbue(std::locale::classic());

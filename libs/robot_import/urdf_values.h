@@ -27,6 +27,7 @@ double ball_moment(double mass);
 /** <inertial> of such a link. @param mass  kg. */
 TiXmlElement make_inertial(double mass);
 
+std::string to_text(const TiXmlDocument& document);
 /** Twelve digits. */
 std::string to_text(double number);
 std::string to_text(const Eigen::Vector3d& vector);
