@@ -77,7 +77,7 @@ class ExhibitionDesk {
   std::map<uint32_t, std::string> told_;
   double last_step_ = -1;
   double next_tell_ = 0;
-  GroundPoint last_place_;
+  Eigen::Vector2d last_place_ = Eigen::Vector2d::Zero();
   bool was_down_ = false;
   bool was_available_ = false;
   /** Heat or battery has ended the turn. */

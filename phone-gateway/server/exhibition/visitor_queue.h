@@ -129,7 +129,7 @@ class VisitorQueue {
     return state_.driver && !is_halted() ? &*state_.driver : nullptr;
   }
   bool is_warned() const { return state_.driver && state_.turn_left <= rules_.warning; }
-  /** Whether somebody drives, or waits and is there. */
+  /** Whether a visitor drives, or waits with a phone that is connected. */
   bool has_visitors() const;
   VisitorView view(const std::string& key) const;
 
