@@ -128,7 +128,7 @@ def parse_options(arguments=None):
                 help="with --match: robots that play by themselves by what they see, such as NAO2,NAO4, or all; anybody may "
                      "take them over")
     line.option("--model", metavar="NAME", default="nao",
-                help="folder of robots/ that describes robots without a model: nao, a V5, or nao_v6 (default: nao); or a URDF, "
+                help="folder of robots/ that describes robots without a model: nao, a V5, nao_v6, t1, g1, k1 (default: nao); or a URDF, "
                      "which is imported: docs/your-robot.md")
     line.option("--only", metavar="LIST",
                 help="only these programs; the others run on other hosts: "
@@ -542,7 +542,7 @@ def print_addresses(stack):
         say(qr_code if sys.stdout.isatty() else re.sub(r"\x1b\[[0-9;]*m", "", qr_code))
     if settings.get("exhibition"):
         secret = operator_secret_file(stack).read_text().strip()
-        say(f"Big display: {urls[0].replace('/#', '/screen#')}\nOperator, for nobody else's eyes: "
+        say(f"Big display: {urls[0].replace('/#', '/screen#')}\nOperator only: "
             f"{urls[0].replace('/#', '/operator#')}&secret={secret}")
     say(f"Clients in other languages: TCP port {settings['tcp_port']}. Watch: {CALL}status. End: {CALL}stop")
 

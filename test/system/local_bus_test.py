@@ -55,10 +55,10 @@ class LocalBus(unittest.TestCase):
 
     def test_the_check_names_a_multicast_route_on_another_interface_than_the_hosts(self):
         for name, address in (("wifi1", "192.168.8.2/24"), ("cable1", "10.9.8.2/24")):
-            ip("link", "add", name, "type", "veth", "peer", "name", f"{name}-peer")
+            ip("link", "add", name, "type", "veth", "peer", "name", f"{name}-end")
             self.addCleanup(ip, "link", "delete", name)
             ip("address", "add", address, "dev", name)
-            for end in (name, f"{name}-peer"):
+            for end in (name, f"{name}-end"):
                 ip("link", "set", end, "up")
         ip("route", "replace", "default", "via", "192.168.8.1")
         bus = [BIN_DIR / "nao", "--lcm-url", "udpm://239.255.76.67:17667?ttl=1", "bus"]

@@ -139,9 +139,9 @@ test("a gateway that is killed goes on where it was", async () => {
 });
 
 test("the operator's page refuses a wrong secret, and the report is written", async () => {
-  const stranger = await openPhone(`${page("operator")}&secret=guess`, {width: 800, height: 1280});
-  await says(stranger, ".operator-fault", /secret is wrong/);
-  await stranger.close();
+  const other = await openPhone(`${page("operator")}&secret=guess`, {width: 800, height: 1280});
+  await says(other, ".operator-fault", /secret is wrong/);
+  await other.close();
   await until("the report has both", async () => /drove: 2,/.test(await readFile(join(folder, "report.txt"), "utf8")));
   for (const phone of [ana, ben, screen, tablet]) {
     // While the gateway was gone, requests failed, those by the copy of the app too.
