@@ -20,7 +20,8 @@ namespace nao::referee {
  * it, or when the time for the kick is over. */
 class FreeKick {
  public:
-  /** @param team  That has the kick. @param ball  Where the ball lies, m, in the field frame. */
+  /** @param team  The team that has the kick. @param ball  Where the ball lies, m, in the field
+   * frame. */
   FreeKick(KickKind kind, int team, const Eigen::Vector2d& ball)
       : kind_(kind), team_(team), ball_(ball) {}
 

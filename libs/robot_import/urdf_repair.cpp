@@ -123,7 +123,7 @@ std::multimap<std::string, TiXmlElement*> joints_by_parent(TiXmlElement& robot) 
   return joints;
 }
 
-// Of several trees the one with the most links is the robot.
+// The tree with the most links is the robot.
 void UrdfRepair::find_root() {
   std::map<std::string, TiXmlElement*> links;
   for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;

@@ -55,7 +55,8 @@ double quality_of(const RunResult& walk) {
   return 0.9 * std::min(1.0, metric(walk, "upright_s", kWalkDuration) / kWalkDuration);
 }
 
-/** Of all threads, s: a search finds the same on a machine that does other work, only later. */
+/** Processor time of all threads, s: a search finds the same on a machine that does other work,
+ * only later. */
 double processor_time() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }

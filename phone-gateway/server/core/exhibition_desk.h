@@ -18,9 +18,9 @@ namespace nao::gateway {
 /** An exhibition, as it is set up. */
 struct ExhibitionSetup {
   ExhibitionSettings settings;
-  /** Of the operator's page. */
+  /** Secret of the operator's page. */
   std::string secret;
-  /** From the run before. */
+  /** State of the run before. */
   QueueState state;
 };
 

@@ -28,7 +28,7 @@ export class WalkSender {
   private readonly drives = new Map<DriveSource, {drive: Drive; setMs: number}>();
   private readonly repeater = new Repeater(() => this.repeat(), kWalkPeriodMs);
   private lastSentMs = 0;
-  /** Of the repeater; NaN before its first one. */
+  /** Time of the repeater's last call, ms; NaN before the first one. */
   private lastRepeatMs = NaN;
   /** Called when the page was held up while something was held. */
   onHeldUp: () => void = () => this.release();

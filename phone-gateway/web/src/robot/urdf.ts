@@ -44,7 +44,7 @@ export type Triple = [number, number, number];
 /** @throws Error that says what is wrong with the file. */
 export function parseUrdf(document: Document): Urdf {
   const robot = document.documentElement;
-  if (robot?.tagName !== "robot") throw new Error("the robot's description is not a URDF");
+  if (robot?.tagName !== "robot") throw new Error("the robot's description is no URDF");
   const links = children(robot, "link").map(parseLink);
   const joints = children(robot, "joint").map(parseJoint);
   const names = new Set(links.map((link) => link.name));
