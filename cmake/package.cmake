@@ -5,7 +5,7 @@ set(SCRIPTS_DIR ${CMAKE_INSTALL_DATADIR}/nao-remote/scripts)
 install(PROGRAMS scripts/start scripts/stop scripts/status scripts/spy scripts/record scripts/replay
                  scripts/setup
         DESTINATION ${SCRIPTS_DIR})
-install(FILES scripts/output_file.py scripts/start.py scripts/stack.py scripts/robots.py scripts/seat.py scripts/lib.sh scripts/stack.sh scripts/packages
+install(FILES scripts/imported_model.py scripts/output_file.py scripts/start.py scripts/stack.py scripts/robots.py scripts/seat.py scripts/lib.sh scripts/stack.sh scripts/packages
         DESTINATION ${SCRIPTS_DIR})
 install(PROGRAMS packaging/nao-remote DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES packaging/nao-remote@.service packaging/nao-remote.target

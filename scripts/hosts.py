@@ -55,7 +55,7 @@ def words_of(file, value, name):
 
 def text_of(file, value, name):
     if not isinstance(value, str) or not value:
-        fail(file, f"{name} is no text")
+        fail(file, f"{name} is not text")
     return value
 
 
@@ -116,7 +116,7 @@ class Deployment:
         robots = [words.partition(":")[0] for words in options.robot_words]
         entries = content.get("hosts")
         if not isinstance(entries, list) or not entries:
-            fail(file, "hosts is no list of hosts")
+            fail(file, "hosts is not a list of hosts")
         self.hosts = [read_host(file, entry, number, robots) for number, entry in enumerate(entries, 1)]
         names = [host.name for host in self.hosts]
         for name in names:

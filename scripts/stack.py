@@ -68,10 +68,16 @@ def warn(text):
 
 
 def run_script(main):
-    """Calls main() and ends the script: with the status that it returns, or 1 after a Failure."""
+    """Calls main() and ends the script: with the status that it returns, or 1 after a Failure or where a file cannot be
+    read or written, as on a full disk."""
+    # What started it may have closed them; a file that is opened must not become one of them.
+    while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(descriptor, True)
+    os.close(descriptor)
     try:
         status = main()
-        sys.stdout.flush()
+        if sys.stdout:
+            sys.stdout.flush()
         sys.exit(status)
     except BrokenPipeError:
         # The reader, such as head, has ended. Python's own flush at the exit must not fail again.
@@ -79,6 +85,9 @@ def run_script(main):
         sys.exit(128 + signal.SIGPIPE)
     except Failure as failure:
         warn(failure)
+        sys.exit(1)
+    except OSError as error:
+        warn(f"{error.filename}: {error.strerror}" if error.filename else error)
         sys.exit(1)
     except KeyboardInterrupt:
         sys.exit(128 + signal.SIGINT)

@@ -6,6 +6,7 @@ import itertools
 import os
 import re
 import select
+import shutil
 import socket
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import time
 from argparse import ArgumentTypeError
 from pathlib import Path
 
+from imported_model import data_folder, import_model
 from output_file import replace_file
 from robots import (MAX_ROBOTS, Process, choose_autonomous, choose_processes, choose_robots, choose_served_robots,
                     number_of_robots, place_robots, team_sizes)
@@ -126,7 +128,8 @@ def parse_options(arguments=None):
                 help="with --match: robots that play by themselves by what they see, such as NAO2,NAO4, or all; anybody may "
                      "take them over")
     line.option("--model", metavar="NAME", default="nao",
-                help="folder of robots/ that describes robots without a model: nao, a V5, or nao_v6 (default: nao)")
+                help="folder of robots/ that describes robots without a model: nao, a V5, nao_v6, t1, g1, k1 (default: nao); or a URDF, "
+                     "which is imported: docs/your-robot.md")
     line.option("--only", metavar="LIST",
                 help="only these programs; the others run on other hosts: "
                      "sim,motion,motion-files,head-camera,speaker,phone-gateway, and what other options add: referee,vision,play")
@@ -243,8 +246,12 @@ def install_and_build(options):
 
 
 def needed_programs(options):
-    """Programs that this script calls: with several robots it asks the simulator for their places."""
-    return ["nao", *([SIM] if len(options.robot_words) > 1 else [])]
+    """Programs that this script calls: with several robots it asks the simulator for their places; one imports a URDF."""
+    return ["nao", *([SIM] if len(options.robot_words) > 1 else []), *(["nao-tools"] if is_urdf(options.model) else [])]
+
+
+def is_urdf(model):
+    return model.lower().endswith(".urdf")
 
 
 def camera_devices(model):
@@ -258,7 +265,7 @@ def camera_devices(model):
 
 def check_models(options, robots, bin_dir):
     """Checks that the files of all robots are there, and that a real robot is seated."""
-    folder = Path(os.environ.get("NAO_REMOTE_DATA") or bin_dir.parent / "share/nao-remote") / "robots"
+    folder = data_folder(bin_dir) / "robots"
     for robot in robots:
         model = folder / robot.model
         if not (model / "robot.yaml").exists():
@@ -471,6 +478,8 @@ def warn_of_crash(stack, failed, consequence):
     log = stack.logs / f"{failed.name}.log"
     warn(f"{failed.name} does not start{consequence}. Its last words ({log}):")
     print("\n".join(log.read_text(errors="replace").splitlines()[-5:]), file=sys.stderr)
+    if shutil.disk_usage(log).free == 0:
+        warn(f"the disk of {stack.run_dir} is full; free some space, or take another folder: --run-dir DIR")
 
 
 def wait_until_ready(stack, settings, options, processes):
@@ -537,7 +546,7 @@ def print_addresses(stack):
         say(qr_code if sys.stdout.isatty() else re.sub(r"\x1b\[[0-9;]*m", "", qr_code))
     if settings.get("exhibition"):
         secret = operator_secret_file(stack).read_text().strip()
-        say(f"Big display: {urls[0].replace('/#', '/screen#')}\nOperator, for nobody else's eyes: "
+        say(f"Big display: {urls[0].replace('/#', '/screen#')}\nOperator only: "
             f"{urls[0].replace('/#', '/operator#')}&secret={secret}")
     if settings.get("relay"):
         say(f"From anywhere, over {settings['relay']}: {settings['bin_dir']}/nao invite makes a link for a phone")
@@ -593,6 +602,8 @@ def main():
     stack.stop()  # orphans of a killed supervisor
 
     bin_dir = install_and_build(options)
+    if is_urdf(options.model):
+        options.model = import_model(options.model, bin_dir)
     robots = place_robots(options, bin_dir)
     # Before any program of this system runs, and while the rest is prepared.
     bus_check = begin_bus_check(bin_dir, options.lcm_url, own_channels(choose_processes(options, robots)))

@@ -7,7 +7,7 @@ namespace {
  * stands with sensor noise, a hundredth of a walking one's. */
 constexpr double kMaxSpeed = 0.01;
 constexpr double kMaxRate = 0.05;
-/** Of a joint, rad/s. */
+/** Greatest speed of a joint at rest, rad/s. */
 constexpr double kMaxJointSpeed = 0.1;
 
 }  // namespace

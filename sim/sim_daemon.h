@@ -74,7 +74,7 @@ class SimDaemon {
   double real_time_factor_ = 0;
   /** Descriptor of the timer of the next tick. */
   int timer_ = -1;
-  /** Of repeat_while_waiting(). */
+  /** Timer that calls repeat_while_waiting(). */
   int idle_timer_ = -1;
   double last_publish_time_ = 0;
   int64_t num_bad_states_ = 0;

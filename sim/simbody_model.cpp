@@ -54,11 +54,6 @@ SimbodyModel::SimbodyModel(const RobotModel& model, double mass_scale,
     const Joint& joint = robot_.joints()[body.joint];
     if (joint.mimic_joint < 0) continue;
     const Joint& leader = robot_.joints()[joint.mimic_joint];
-    if (link_body_[leader.parent_link] != link_body_[joint.parent_link]) {
-      throw ModelError("joint " + joint.name + " mimics " + leader.name +
-                       ", which another body carries; only joints of one parent body can be "
-                       "coupled");
-    }
     const int leader_body = link_body_[leader.child_link];
     // 0 = ratio * q_leader + offset - q_follower
     SimTK::Vector coefficients(3);

@@ -42,8 +42,7 @@ class SimbodyModel {
 
   /** @param model  Must outlive this. @param mass_scale  Factor on every mass and inertia, above 0.
    * @param torso_com  Displacement of the root link's center of mass, m, in its frame.
-   * @throws ModelError  if a mimic joint and the joint it follows have different parent links, or a
-   * body has no mass. */
+   * @throws ModelError  if a body has no mass. */
   explicit SimbodyModel(const RobotModel& model, double mass_scale = 1,
                         const Eigen::Vector3d& torso_com = Eigen::Vector3d::Zero());
   SimbodyModel(const SimbodyModel&) = delete;

@@ -1,6 +1,9 @@
 #include "sim/tree.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
+#include <set>
 
 #include "sim/simbody_model.h"
 
@@ -44,13 +47,7 @@ Tree::Tree(const SimbodyModel& model) {
   std::map<int, int> dof_of_joint;
   const std::vector<Joint>& joints = model.robot().joints();
 
-  // Root: dofs 0..5 belong to body 0, each with the ones before it as ancestors, as if six joints
-  // were in series. The triangular factorization needs such an order.
   dof_body_.assign(6, 0);
-  for (int dof = 0; dof < 6; ++dof) {
-    dof_ancestors_.emplace_back();
-    for (int above = 0; above < dof; ++above) dof_ancestors_[dof].push_back(above);
-  }
   for (const SimbodyModel::Body& from : model.bodies()) {
     const int index = num_bodies();
     const SimTK::MobilizedBody& mobilized = model.mobilized(index);
@@ -84,19 +81,51 @@ Tree::Tree(const SimbodyModel& model) {
         body.offset = joint.mimic_offset;
       }
       // A follower takes the leader's dof, whichever of both comes first in the list.
-      const std::vector<int>& parent_chain = bodies_[body.parent].chain;
-      const auto [entry, is_new] = dof_of_joint.try_emplace(leader, num_dofs());
+      const auto [entry, is_new] =
+          dof_of_joint.try_emplace(leader, static_cast<int>(dof_body_.size()));
       body.dof = entry->second;
-      if (is_new) {
-        dof_ancestors_.push_back(parent_chain);
-        dof_body_.push_back(index);
-      }
+      if (is_new) dof_body_.push_back(index);
       // body_of_dof() means the leader's body, even if the follower was found first.
       if (joint.mimic_joint < 0) dof_body_[body.dof] = index;
-      body.chain = parent_chain;
-      body.chain.push_back(body.dof);
+      body.chain = bodies_[body.parent].chain;
+      const auto place = std::lower_bound(body.chain.begin(), body.chain.end(), body.dof);
+      if (place == body.chain.end() || *place != body.dof) body.chain.insert(place, body.dof);
     }
     bodies_.push_back(std::move(body));
+  }
+  find_ancestors();
+}
+
+// The mass matrix couples all dofs of a body's chain. From the last dof to the first, eliminating
+// one couples all that it is coupled with, of which the last becomes its parent. Without mimic
+// joints these are the joints above it, and the root's six dofs are in series.
+void Tree::find_ancestors() {
+  const int count = static_cast<int>(dof_body_.size());
+  std::vector<std::set<int>> coupled(count);
+  for (const TreeBody& body : bodies_) {
+    for (auto dof = body.chain.begin(); dof != body.chain.end(); ++dof) {
+      coupled[*dof].insert(body.chain.begin(), dof);
+    }
+  }
+  std::vector<int> parent(count, -1);
+  for (int dof = count - 1; dof > 0; --dof) {
+    parent[dof] = *coupled[dof].rbegin();
+    coupled[parent[dof]].insert(coupled[dof].begin(), std::prev(coupled[dof].end()));
+  }
+  dof_ancestors_.resize(count);
+  for (int dof = 1; dof < count; ++dof) {
+    dof_ancestors_[dof] = dof_ancestors_[parent[dof]];
+    dof_ancestors_[dof].push_back(parent[dof]);
+  }
+  for (TreeBody& body : bodies_) {
+    const int last = body.chain.back();
+    body.chain = dof_ancestors_[last];
+    body.chain.push_back(last);
+    auto place = body.chain.rbegin();
+    for (const TreeBody* above = &body; above->parent >= 0; above = &bodies_[above->parent]) {
+      if (place == body.chain.rend() || *place++ != above->dof) body.is_in_series = false;
+    }
+    if (body.is_in_series) body.is_in_series = std::distance(place, body.chain.rend()) == 6;
   }
 }
 

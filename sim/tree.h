@@ -32,18 +32,23 @@ struct TreeBody {
   double mass = 0;
   Eigen::Vector3d center_of_mass = Eigen::Vector3d::Zero();
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  /** Degrees of freedom that move the body, rising, the root's six first. */
+  /** Degrees of freedom that move the body, rising, the root's six first; where a mimic joint is
+   * between the body and the root, perhaps others as well, so that it ends with a dof and all its
+   * ancestors. */
   std::vector<int> chain;
+  /** Whether the chain has one dof for each body on the way from the root, in this order. */
+  bool is_in_series = true;
 };
 
 /** A robot's bodies and joints as constants, as plain arrays for a physics step.
  *
  * **Generalized velocity.** Degrees of freedom (dofs) 0..2 are the root's angular velocity and 3..5
  * the velocity of its origin, both in the world, W; then one for each joint that is not a mimic
- * joint, in the order of the bodies. A mimic joint shares the dof of the joint that it follows. The
- * dofs form a tree (`dof_ancestors`): entry (i, j) of the mass matrix is 0 unless one of the two is
- * an ancestor of the other (branch-induced sparsity; Featherstone, Rigid Body Dynamics Algorithms,
- * 2008, 6.4). */
+ * joint, in the order of the bodies. A mimic joint shares the dof of the joint that it follows,
+ * wherever in the tree the two are. The dofs form a tree (`dof_ancestors`): entry (i, j) of the
+ * mass matrix is 0 unless one of the two is an ancestor of the other (branch-induced sparsity;
+ * Featherstone, Rigid Body Dynamics Algorithms, 2008, 6.4). With mimic joints it is the elimination
+ * tree of the mass matrix (Davis, Direct Methods for Sparse Linear Systems, 2006, 4.1). */
 class Tree {
  public:
   /** Builds the robot's Simbody system and reads frames, axes and mass properties from it.
@@ -66,6 +71,8 @@ class Tree {
   const Eigen::Isometry3d& pose_in_body(int link) const { return link_pose_[link]; }
 
  private:
+  void find_ancestors();
+
   std::vector<TreeBody> bodies_;
   std::vector<std::vector<int>> dof_ancestors_;
   std::vector<int> dof_body_;

@@ -149,11 +149,15 @@ void TreeDynamics::update_mass_matrix() {
     // Force for a unit acceleration of this joint.
     const SpatialVector force = multiply(now.composite, now.motion);
     double* row = row_of(mass_, body.dof);
-    // The body's chain: the root's six, then a joint for each body on the way.
-    auto place = body.chain.size() - 1;
-    row[place] += dot(now.motion, force);
-    for (int above = body.parent; above > 0; above = tree_.bodies()[above].parent) {
-      row[--place] += dot(bodies_[above].motion, force);
+    if (body.is_in_series) {
+      // The body's chain: the root's six, then a joint for each body on the way.
+      auto place = body.chain.size() - 1;
+      row[place] += dot(now.motion, force);
+      for (int above = body.parent; above > 0; above = tree_.bodies()[above].parent) {
+        row[--place] += dot(bodies_[above].motion, force);
+      }
+    } else {
+      add_coupled_body(index, force);
     }
     if (is_root_fixed_) continue;
     // Row of the joint, columns of the root: for the root S is the unit matrix, so that the entries
@@ -179,6 +183,21 @@ void TreeDynamics::update_mass_matrix() {
       row_of(mass_, 3 + i)[3 + j] = i == j ? whole.mass : 0;
     }
     for (int j = 0; j < 3; ++j) row_of(mass_, 3 + i)[j] = linear_angular[i][j];
+  }
+}
+
+// A dof may move several bodies of one chain, and a body's dof may come before those of the bodies
+// above it.
+void TreeDynamics::add_coupled_body(int index, const SpatialVector& force) {
+  const int dof = tree_.bodies()[index].dof;
+  for (int above = index; above > 0; above = tree_.bodies()[above].parent) {
+    const int other = tree_.bodies()[above].dof;
+    const double entry = dot(bodies_[above].motion, force);
+    const std::vector<int>& ancestors = tree_.dof_ancestors(std::max(dof, other));
+    const auto place = std::lower_bound(ancestors.begin(), ancestors.end(), std::min(dof, other));
+    // Off the diagonal of the bodies' matrix there are two entries, which one dof adds up.
+    const bool is_twice = dof == other && above != index;
+    row_of(mass_, std::max(dof, other))[place - ancestors.begin()] += is_twice ? 2 * entry : entry;
   }
 }
 

@@ -133,6 +133,9 @@ class TreeDynamics {
   };
 
   void invert_factor();
+  /** Adds to the mass matrix what a body contributes that is not in series. @param force  For a
+   * unit acceleration of its joint. */
+  void add_coupled_body(int body, const SpatialVector& force);
   /** A row of one of the matrices below. */
   double* row_of(std::vector<EntryPair>& matrix, int dof) const {
     return matrix[static_cast<size_t>(dof) * pairs_of_row_].data();

@@ -50,7 +50,7 @@ class MotionFilesDaemon {
 
   Bus& bus_;
   EventLoop& loop_;
-  /** Of step(). */
+  /** Timer that calls step(). */
   int step_timer_ = -1;
   RobotChannels channels_;
   StatusReporter status_;

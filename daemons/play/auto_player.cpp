@@ -122,6 +122,26 @@ bool AutoPlayer::must_wait_for_kick_off(const Situation& situation,
   return !ball || ball->norm() < parameters_.ball_moved;
 }
 
+std::optional<Vector2d> AutoPlayer::place_off_free_kick(const Vector2d& ball,
+                                                        const Vector2d& position) const {
+  const Field& field = constants_.field;
+  const double radius = field.circle_radius + parameters_.free_kick_room;
+  Vector2d away = position - ball;
+  const double distance = away.norm();
+  const Vector2d half(0.5 * field.length, 0.5 * field.width);
+  // A goal kick, taken from the corner of the goal area: its area is the penalty area.
+  const double border = half.x() - field.penalty_area_length - parameters_.free_kick_room;
+  const bool is_goal_kick = ball.x() > half.x() - field.goal_area.x() - parameters_.ball_moved &&
+                            std::abs(ball.y()) < 0.5 * field.goal_area.y() + parameters_.ball_moved;
+  if (is_goal_kick && position.x() > border) return Vector2d(border - 0.1, position.y());
+  if (distance > radius) return std::nullopt;
+  // Towards the own goal, if the robot stands on the ball.
+  if (distance < 0.1) away = Vector2d(-half.x(), 0) - ball;
+  Vector2d place = ball + (radius + 0.1) * away.normalized();
+  if (place.cwiseAbs().y() > half.y()) place = ball - (radius + 0.1) * Vector2d(1, 0);
+  return place;
+}
+
 Decision AutoPlayer::play(const Situation& situation) {
   if (!situation.match) {
     return role_ == PlayRole::kKeeper ? keeper_.step(situation) : strike(situation);
@@ -139,6 +159,9 @@ Decision AutoPlayer::play(const Situation& situation) {
     decision = keeper_.step(situation);
   } else if (!is_busy && must_wait_for_kick_off(situation, ball)) {
     decision = stand(situation, {});
+  } else if (!is_busy && ball && situation.match->ball_out && !situation.match->ball_out->is_own &&
+             situation.time > restart_time_) {
+    decision = keep_away(situation, *ball, position);
   } else if (role_ == PlayRole::kSupporter && ball) {
     decision = support(situation, *ball);
   } else if (!is_busy && ball && !sees_ball(situation) &&
@@ -186,6 +209,16 @@ Decision AutoPlayer::go_where_told(const Situation& situation, const Vector2d& b
   decision.gaze.point = place;
   decision.walk = plan_walk_to({place, std::atan2(way.y(), way.x())}, feet, constants_);
   return decision;
+}
+
+Decision AutoPlayer::keep_away(const Situation& situation, const Vector2d& ball,
+                               const Vector2d& position) {
+  striker_.reset();
+  const auto place = place_off_free_kick(ball, position);
+  if (!place) return stand(situation, {});
+  const Vector2d way = ball - *place;
+  return positioner_.step(situation.field_in_odometry * Pose2{*place, std::atan2(way.y(), way.x())},
+                          situation.field_in_odometry * ball, situation);
 }
 
 Decision AutoPlayer::support(const Situation& situation, const Vector2d& ball) {

@@ -33,10 +33,17 @@ class AutoPlayer : public BehaviorMachine {
   Decision strike(const Situation& situation);
   /** Walks to a ball that only teammates see. */
   Decision go_where_told(const Situation& situation, const Eigen::Vector2d& ball);
+  /** While the others have a free kick. */
+  Decision keep_away(const Situation& situation, const Eigen::Vector2d& ball,
+                     const Eigen::Vector2d& position);
   Decision support(const Situation& situation, const Eigen::Vector2d& ball);
   /** Whether the keeper leaves its place to kick away a ball in front of it. */
   bool is_to_be_cleared(const Situation& situation, const std::optional<Eigen::Vector2d>& ball,
                         const Eigen::Vector2d& position) const;
+  /** Where the robot goes while the others have a free kick, m, on the field; nothing: it is far
+   * enough from the ball. */
+  std::optional<Eigen::Vector2d> place_off_free_kick(const Eigen::Vector2d& ball,
+                                                     const Eigen::Vector2d& position) const;
   bool must_wait_for_kick_off(const Situation& situation,
                               const std::optional<Eigen::Vector2d>& ball) const;
 

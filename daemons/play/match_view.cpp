@@ -7,9 +7,9 @@ namespace {
 
 /** Validity of teammates' messages, s. Chosen: their images come 5 to 15 times a second. */
 constexpr double kSeenTimeout = 2;
-/** Validity of the referee's last message about the ball, s. Chosen: a robot walks 9 m in that
- * time. */
-constexpr double kBallOutTimeout = 30;
+/** Validity of the referee's last message about the ball, s: the time that a team has for its
+ * kick (HSL: 45 s). */
+constexpr double kBallOutTimeout = 45;
 /** Advantage of the present striker, m. Chosen: more than the ball's error at 3 m. */
 constexpr double kRoleHysteresis = 0.5;
 

@@ -84,6 +84,7 @@ const ParameterTable<PlayParameters>& all_parameters() {
       NAO_PLAY_PARAMETER(auto_player, forget_ball),
       NAO_PLAY_PARAMETER(auto_player, ball_moved),
       NAO_PLAY_PARAMETER(auto_player, kick_off_wait),
+      NAO_PLAY_PARAMETER(auto_player, free_kick_room),
       NAO_PLAY_PARAMETER(auto_player, behind_ball),
       NAO_PLAY_PARAMETER(auto_player, beside_ball),
       NAO_PLAY_PARAMETER(auto_player, ball_return),
@@ -125,18 +126,7 @@ const ParameterTable<PlayParameters>& all_parameters() {
 }  // namespace
 
 PlayParameters PlayParameters::load(const std::filesystem::path& robot_file) {
-  PlayParameters parameters;
-  const auto read = [&](const YamlEntry& root) {
-    read_parameters(root, all_parameters(),
-                    [&](const NamedParameter<PlayParameters>& known, const YamlEntry& entry) {
-                      known.in(parameters) = entry.not_negative();
-                    });
-  };
-  const YamlEntry common = YamlEntry::load(data_path() / "play" / "parameters.yaml");
-  read(common);
-  for (const auto& parameter : all_parameters()) (void)parameter.entry(common);
-  if (std::filesystem::exists(robot_file)) read(YamlEntry::load(robot_file));
-  return parameters;
+  return load_parameters(data_path() / "play" / "parameters.yaml", robot_file, all_parameters());
 }
 
 }  // namespace nao::play

@@ -112,6 +112,7 @@ struct PlayParameters {
     double forget_ball = 0;
     double ball_moved = 0;
     double kick_off_wait = 0;
+    double free_kick_room = 0;
     double behind_ball = 0;
     double beside_ball = 0;
     double ball_return = 0;

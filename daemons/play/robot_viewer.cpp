@@ -75,7 +75,9 @@ PlayConstants load_constants(const RobotModel& model, const std::string& scene) 
                      file.field->width,
                      file.goals->post_distance - file.goals->post_diameter,
                      file.goals->post_offset + file.goals->depth,
-                     {file.field->goal_area_length, file.field->goal_area_width}};
+                     {file.field->goal_area_length, file.field->goal_area_width},
+                     0.5 * file.field->centre_circle_diameter,
+                     file.field->penalty_area_length};
   constants.walk_limits = model.walk_limits();
   constants.actions = {name_of_action(model, Action::Kind::kKick, Side::kLeft),
                        name_of_action(model, Action::Kind::kKick, Side::kRight),

@@ -73,6 +73,10 @@ struct Field {
   double goal_depth = 0;
   /** Length and width of a goal area. */
   Eigen::Vector2d goal_area = Eigen::Vector2d::Zero();
+  /** Radius of the center circle: opponents of a free kick keep away as far. */
+  double circle_radius = 0;
+  /** Length of a penalty area. */
+  double penalty_area_length = 0;
 };
 
 /** Best place of the ball for the robot's kick, m, in F: ahead, and to the side of the kicking

@@ -26,6 +26,7 @@ std::optional<BallExit> judge_ball(const Eigen::Vector3d& ball, std::optional<in
     if (std::abs(ball.y()) < opening && ball.z() < height) return BallExit{attacker};
     BallExit exit;
     const bool is_goal_kick = last_team.value_or(attacker) == attacker;
+    exit.kind = is_goal_kick ? KickKind::kGoalKick : KickKind::kCornerKick;
     exit.restart_team = is_goal_kick ? 1 - attacker : attacker;
     exit.restart = is_goal_kick ? Eigen::Vector2d(end * (half_length - field.goal_area_length),
                                                   side * 0.5 * field.goal_area_width)

@@ -7,6 +7,9 @@
 
 namespace nao::referee {
 
+/** Kicks that one team has for itself. */
+enum class KickKind { kKickOff, kKickIn, kGoalKick, kCornerKick };
+
 /** The ball has passed a line of the field as a whole. */
 struct BallExit {
   /** The team that has scored; nothing: no goal. */
@@ -14,6 +17,7 @@ struct BallExit {
   /** Without a goal: the team that restarts, and from where, m, in the field frame. */
   int restart_team = 0;
   Eigen::Vector2d restart = Eigen::Vector2d::Zero();
+  KickKind kind = KickKind::kKickIn;
 };
 
 /** Judges whether the ball is in the field.

@@ -165,6 +165,7 @@ void GameControllerReferee::follow_penalties() {
 void GameControllerReferee::follow_set_play(const RefereeInput& input) {
   const SetPlay set_play = data_->set_play;
   if (set_play == set_play_) return;
+  if (set_play == SetPlay::kNone) add_event(MatchEventKind::kBallFree, -1);
   set_play_ = set_play;
   const auto team = team_of(data_->kicking_team);
   if (!team || set_play == SetPlay::kNone) return;

@@ -69,6 +69,7 @@ void RefereeCore::begin_kick_off(int team) {
   state_.kickoff_team = team;
   last_team_.reset();
   exit_.reset();
+  free_kick_.reset();
   untouched_time_ = 0;
   enter(MatchPhase::kReady);
 }
@@ -93,6 +94,7 @@ void RefereeCore::end_half() {
 }
 
 void RefereeCore::finish() {
+  free_kick_.reset();
   add_event(MatchEventKind::kMatchEnd, -1);
   enter(MatchPhase::kFinished);
 }
@@ -187,6 +189,26 @@ void RefereeCore::wait_for_robots(const RefereeInput& input) {
   enter(MatchPhase::kSet);
 }
 
+void RefereeCore::watch_free_kick(double dt, const RefereeInput& input) {
+  if (!free_kick_) return;
+  const FreeKick::Judgement judgement = free_kick_->step(dt, input, state_.players, scene_);
+  for (size_t i = 0; i < state_.players.size(); ++i) {
+    const auto& offenders = judgement.offenders;
+    const bool is_offender =
+        std::find(offenders.begin(), offenders.end(), state_.players[i].robot) != offenders.end();
+    if (is_offender) penalize(i, Penalty::kOperator);
+  }
+  if (judgement.is_retaken) {
+    output_.placements.push_back({"", {free_kick_->ball(), 0}});
+  } else if (judgement.is_over) {
+    // After a kick-off it is told by the time since then.
+    if (free_kick_->kind() != KickKind::kKickOff) {
+      add_event(MatchEventKind::kBallFree, free_kick_->team());
+    }
+    free_kick_.reset();
+  }
+}
+
 void RefereeCore::watch_play(double dt, const RefereeInput& input) {
   untouched_time_ += dt;
   for (const RobotSighting& robot : input.robots) {
@@ -196,10 +218,12 @@ void RefereeCore::watch_play(double dt, const RefereeInput& input) {
     untouched_time_ = 0;
   }
   watch_robots(dt, input);
+  watch_free_kick(dt, input);
   if (exit_) {
     return_in_ -= dt;
     if (return_in_ <= 0) {
       output_.placements.push_back({"", {exit_->restart, 0}});
+      free_kick_.emplace(exit_->kind, exit_->restart_team, exit_->restart);
       exit_.reset();
     }
   } else if (const auto exit = judge_ball(input.ball, last_team_, scene_)) {
@@ -209,6 +233,7 @@ void RefereeCore::watch_play(double dt, const RefereeInput& input) {
     }
     add_event(MatchEventKind::kBallOut, exit->restart_team);
     exit_ = exit;
+    free_kick_.reset();
     return_in_ = rules_.ball_return_delay;
   }
   if (untouched_time_ > rules_.max_untouched_duration) {
@@ -236,6 +261,7 @@ RefereeOutput RefereeCore::step(const RefereeInput& input) {
       if (phase_time_ < rules_.set_duration) break;
       enter(MatchPhase::kPlaying);
       add_event(MatchEventKind::kKickOff, state_.kickoff_team);
+      free_kick_.emplace(KickKind::kKickOff, state_.kickoff_team, Vector2d::Zero());
       break;
     case MatchPhase::kPlaying:
       watch_play(dt, input);

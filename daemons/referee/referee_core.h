@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemons/referee/ball_judge.h"
+#include "daemons/referee/free_kick.h"
 #include "daemons/referee/referee.h"
 #include "robot_model/scene_file.h"
 
@@ -41,9 +42,9 @@ struct Rules {
   double max_untouched_duration = 60;
 };
 
-/** Our own rules: kick-offs, goals, ball out, time, penalties. The clock of a half runs from its
- * first whistle on, penalties run except in the phase set and end with the half (HSL). Teams do not
- * change sides. */
+/** Our own rules: kick-offs, free kicks, goals, ball out, time, penalties. The clock of a half runs
+ * from its first whistle on, penalties run except in the phase set and end with the half (HSL).
+ * Teams do not change sides. */
 class RefereeCore : public Referee {
  public:
   /** @param players  Robots, teams and numbers. @param scene  With field, goals and ball.
@@ -77,6 +78,7 @@ class RefereeCore : public Referee {
   void watch_robots(double dt, const RefereeInput& input);
   void wait_for_robots(const RefereeInput& input);
   void watch_play(double dt, const RefereeInput& input);
+  void watch_free_kick(double dt, const RefereeInput& input);
   bool is_in_place(const MatchPlayer& player, const RobotSighting& robot) const;
   int team_size(int team) const;
 
@@ -97,6 +99,8 @@ class RefereeCore : public Referee {
   /** Where the ball will be put back, and the time until then, s. */
   std::optional<BallExit> exit_{};
   double return_in_ = 0;
+  /** The kick that a team has for itself now. */
+  std::optional<FreeKick> free_kick_{};
 };
 
 }  // namespace nao::referee

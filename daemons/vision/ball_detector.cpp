@@ -59,15 +59,21 @@ std::optional<Detection> BallDetector::detect(const PatchSampler& sampler,
   std::sort(first.begin(), first.end(),
             [](const BallCandidate& a, const BallCandidate& b) { return a.log_odds > b.log_odds; });
   std::vector<Circle> circles;
+  std::vector<float> odds;
   for (const BallCandidate& candidate : first) {
     if (circles.size() == kMostSecond || candidate.probability() < kLeastSecond) break;
+    const bool is_new = std::none_of(circles.begin(), circles.end(), [&](const Circle& circle) {
+      return is_same(circle, candidate.circle);
+    });
+    if (!is_new) continue;
     circles.push_back(candidate.circle);
+    odds.push_back(candidate.log_odds);
   }
   std::optional<BallCandidate> best;
   const std::vector<BallCandidate> second = judge(sampler, circles, true);
   for (size_t i = 0; i < second.size(); ++i) {
     BallCandidate candidate = second[i];
-    candidate.log_odds = (first[i].log_odds + 2 * candidate.log_odds) / 3;
+    candidate.log_odds = (odds[i] + 2 * candidate.log_odds) / 3;
     const auto expected = geometry.sphere_radius_px(candidate.circle.center, radius_);
     if (geometry.has_pose() &&
         (!expected ||

@@ -9,27 +9,9 @@
 namespace nao::vision {
 namespace {
 
-/** Spectral density of random acceleration, m^2/s^3: 0.3 m/s after 1 s. Chosen: kicks restart the
- * filter, so that only the carpet's unevenness and the odometry's drift remain. */
-constexpr double kAccelerationDensity = 0.09;
-/** Standard deviation of a new ball's velocity, m/s: kicks reach 2 m/s. */
-constexpr double kVelocitySigma = 1.0;
-/** 99.9 % of the chi-square distribution with two degrees of freedom. */
-constexpr double kGate = 13.8;
-/** 95 % of the same distribution. Two measurements in succession beyond this, on the same side,
- * show a kick at the time of the last one before them, but at most kKickTime, s, ago. */
-constexpr double kSurprise = 6.0;
-constexpr double kKickTime = 0.5;
 /** Number of measurements in succession that restart the filter if they do not fit and agree within
  * this distance, m. */
 constexpr int kRestart = 3;
-constexpr double kAgreement = 0.4;
-/** Time without a sighting after which the ball is unknown, microseconds. */
-constexpr int64_t kForgetTime = 5000000;
-/** A ball rolls if it is faster than this, m/s, and by this many standard deviations. It is at rest
- * again below half of the speed. */
-constexpr double kRollingSpeed = 0.15;
-constexpr double kRollingSigmas = 2.5;
 
 }  // namespace
 
@@ -40,7 +22,7 @@ void BallFilter::predict(int64_t utime) {
   utime_ = utime;
   if (!estimate_.is_known) return;
   // Time runs backwards if the simulation was restarted.
-  if (elapsed < 0 || utime - estimate_.seen_utime > kForgetTime) {
+  if (elapsed < 0 || utime - estimate_.seen_utime > std::llround(1e6 * parameters_.forget_time)) {
     estimate_ = {};
     num_rejected_ = 0;
     return;
@@ -61,10 +43,10 @@ void BallFilter::predict(int64_t utime) {
   P = (transition * P * transition.transpose()).eval();
   // White acceleration noise, integrated over the step.
   for (int axis = 0; axis < 2; ++axis) {
-    P(axis, axis) += kAccelerationDensity * dt * dt * dt / 3;
-    P(axis, axis + 2) += kAccelerationDensity * dt * dt / 2;
-    P(axis + 2, axis) += kAccelerationDensity * dt * dt / 2;
-    P(axis + 2, axis + 2) += kAccelerationDensity * dt;
+    P(axis, axis) += parameters_.acceleration_density * dt * dt * dt / 3;
+    P(axis, axis + 2) += parameters_.acceleration_density * dt * dt / 2;
+    P(axis + 2, axis) += parameters_.acceleration_density * dt * dt / 2;
+    P(axis + 2, axis + 2) += parameters_.acceleration_density * dt;
   }
 }
 
@@ -75,16 +57,18 @@ void BallFilter::start(const Eigen::Vector2d& position, const Eigen::Matrix2d& c
   estimate_.state << position, 0, 0;
   estimate_.covariance.topLeftCorner<2, 2>() = covariance;
   estimate_.covariance.bottomRightCorner<2, 2>() =
-      Eigen::Matrix2d::Identity() * kVelocitySigma * kVelocitySigma;
+      Eigen::Matrix2d::Identity() * parameters_.velocity_sigma * parameters_.velocity_sigma;
   num_rejected_ = 0;
   surprise_.setZero();
 }
 
-// The velocity may have changed by kVelocitySigma at the kick; position and velocity after it are
+// The velocity may have changed by `velocity_sigma` at the kick; position and velocity after it are
 // correlated by the time since then.
 void BallFilter::expect_kick() {
-  const double dt = std::min(1e-6 * static_cast<double>(utime_ - kick_utime_), kKickTime);
-  const Eigen::Matrix2d variance = Eigen::Matrix2d::Identity() * kVelocitySigma * kVelocitySigma;
+  const double dt =
+      std::min(1e-6 * static_cast<double>(utime_ - kick_utime_), parameters_.kick_time);
+  const Eigen::Matrix2d variance =
+      Eigen::Matrix2d::Identity() * parameters_.velocity_sigma * parameters_.velocity_sigma;
   Eigen::Matrix4d& P = estimate_.covariance;
   P.topLeftCorner<2, 2>() += dt * dt * variance;
   P.topRightCorner<2, 2>() += dt * variance;
@@ -102,7 +86,7 @@ void BallFilter::update(const Eigen::Vector2d& position, const Eigen::Matrix2d& 
   Eigen::Matrix2d S = estimate_.covariance.topLeftCorner<2, 2>() + covariance;
   const Eigen::Vector2d innovation = position - estimate_.state.head<2>();
   const bool was_surprised = surprise_.dot(innovation) > 0;
-  const bool is_surprised = innovation.dot(S.inverse() * innovation) > kSurprise;
+  const bool is_surprised = innovation.dot(S.inverse() * innovation) > parameters_.surprise;
   if (is_surprised && was_surprised) {
     expect_kick();
     S = estimate_.covariance.topLeftCorner<2, 2>() + covariance;
@@ -113,8 +97,8 @@ void BallFilter::update(const Eigen::Vector2d& position, const Eigen::Matrix2d& 
   const Eigen::Matrix4d P = estimate_.covariance;
   // Mahalanobis distance beyond the gate: an outlier, or the ball was moved. Several outliers in
   // agreement restart the filter at their place.
-  if (innovation.dot(S.inverse() * innovation) > kGate) {
-    const bool agrees = num_rejected_ > 0 && (position - rejected_).norm() < kAgreement;
+  if (innovation.dot(S.inverse() * innovation) > parameters_.gate) {
+    const bool agrees = num_rejected_ > 0 && (position - rejected_).norm() < parameters_.agreement;
     num_rejected_ = agrees ? num_rejected_ + 1 : 1;
     rejected_ = position;
     if (num_rejected_ >= kRestart) start(position, covariance);
@@ -134,9 +118,10 @@ void BallFilter::update(const Eigen::Vector2d& position, const Eigen::Matrix2d& 
   const double sigma = std::sqrt(std::max(estimate_.covariance(2, 2), estimate_.covariance(3, 3)));
   // Hysteresis, so that a slow ball does not alternate.
   if (estimate_.is_rolling) {
-    estimate_.is_rolling = speed > 0.5 * kRollingSpeed;
+    estimate_.is_rolling = speed > 0.5 * parameters_.rolling_speed;
   } else {
-    estimate_.is_rolling = speed > kRollingSpeed && speed > kRollingSigmas * sigma;
+    estimate_.is_rolling =
+        speed > parameters_.rolling_speed && speed > parameters_.rolling_sigmas * sigma;
   }
 }
 

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "daemons/vision/vision_parameters.h"
+
 namespace nao::vision {
 
 /** Radius of the ball, m: 10 cm across, by the rules of the Standard Platform League. */
@@ -27,7 +29,11 @@ struct BallEstimate {
  * in succession agree with each other: then the ball was moved, and the filter restarts. */
 class BallFilter {
  public:
-  /** Advances the estimate to a time. A step back in time, or one longer than 5 s, resets it.
+  explicit BallFilter(
+      const VisionParameters::BallFilter& parameters = VisionParameters::load().ball_filter)
+      : parameters_(parameters) {}
+
+  /** Advances the estimate to a time. A step back in time, or long without a sighting, resets it.
    * @param utime  Microseconds. */
   void predict(int64_t utime);
 
@@ -36,12 +42,13 @@ class BallFilter {
   void update(const Eigen::Vector2d& position, const Eigen::Matrix2d& covariance);
 
   const BallEstimate& estimate() const { return estimate_; }
-  void reset() { *this = {}; }
+  void reset() { *this = BallFilter(parameters_); }
 
  private:
   void expect_kick();
   void start(const Eigen::Vector2d& position, const Eigen::Matrix2d& covariance);
 
+  VisionParameters::BallFilter parameters_;
   BallEstimate estimate_;
   int64_t utime_ = 0;
   int num_rejected_ = 0;

@@ -11,12 +11,6 @@ namespace {
 /** Pairs of points that are tried. If a fifth of the points lie on the circle, both of one pair do
  * with the probability 1 - (1 - 0.2^2)^150 = 0.998. */
 constexpr int kNumCircleSamples = 150;
-/** Distance from the circle within which points are on it: m, and its increase per m of their
- * distance. */
-constexpr double kCircleTolerance = 0.03;
-constexpr double kCircleToleranceOfDistance = 0.015;
-/** Points farther away are too uncertain to be on a circle, m. */
-constexpr double kCircleReach = 5.0;
 /** Least number of points, and of sectors of 10 degrees that have one. Tuned on rendered images:
  * rectangles of lines reach 9 sectors. */
 constexpr size_t kLeastPoints = 16;
@@ -24,11 +18,11 @@ constexpr size_t kLeastSectors = 12;
 /** Least number of such sectors in succession, and greatest root mean square of the residuals, as a
  * fraction of the tolerance: rectangles touch a circle in separate places. */
 constexpr int kLeastRun = 9;
-constexpr double kMostResidual = 0.45;
 constexpr int kNumSectors = 36;
 
-double tolerance(const Eigen::Vector2d& point) {
-  return kCircleTolerance + kCircleToleranceOfDistance * point.norm();
+double tolerance_at(const Eigen::Vector2d& point,
+                    const VisionParameters::CenterCircle& parameters) {
+  return parameters.tolerance + parameters.tolerance_of_distance * point.norm();
 }
 
 /** Longest succession of sectors, around the circle. */
@@ -49,11 +43,14 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
                                                       std::vector<cv::Point2f>& ideal,
                                                       const CameraGeometry& geometry) const {
   if (!geometry.has_pose()) return std::nullopt;
+  const auto tolerance = [&](const Eigen::Vector2d& point) {
+    return tolerance_at(point, parameters_);
+  };
   std::vector<Eigen::Vector2d> ground;
   std::vector<size_t> index;
   for (size_t i = 0; i < ideal.size(); ++i) {
     const auto point = geometry.at_height(ideal[i], 0);
-    if (!point || point->norm() > kCircleReach) continue;
+    if (!point || point->norm() > parameters_.reach) continue;
     ground.push_back(*point);
     index.push_back(i);
   }
@@ -121,7 +118,7 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
     residual += std::pow((d.norm() - radius_) / tolerance(ground[i]), 2);
   }
   residual = std::sqrt(residual / static_cast<double>(best.size()));
-  if (longest_run(sectors) < kLeastRun || residual > kMostResidual) return std::nullopt;
+  if (longest_run(sectors) < kLeastRun || residual > parameters_.most_residual) return std::nullopt;
 
   Detection detection;
   detection.kind = Kind::kCenterCircle;

@@ -6,17 +6,6 @@
 namespace nao::vision {
 namespace {
 
-/** Least angle between two lines that cross, rad; on the ground, where they cross at a right angle,
- * and in the image, where perspective changes it. */
-constexpr double kLeastGroundAngle = 1.1;
-constexpr double kLeastImageAngle = 0.35;
-
-/** Greatest distance of a crossing beyond a segment's end, and inside of it for the crossing to
- * count as that end, pixels; in line widths if that is more. */
-constexpr float kCrossingReach = 22;
-constexpr float kInsideSegment = 14;
-constexpr float kReachInWidths = 1.6f;
-
 struct Meeting {
   /** Pixels beyond the nearer end (positive) or inside of it (negative). */
   float beyond = 0;
@@ -27,12 +16,15 @@ struct Meeting {
 };
 
 // Where the crossing lies relative to the ends of one of the two segments.
-Meeting meeting_of(const LineSegment& segment, const cv::Point2f& point, float other_width) {
+Meeting meeting_of(const LineSegment& segment, const cv::Point2f& point, float other_width,
+                   const VisionParameters::CrossingDetector& parameters) {
   const cv::Point2f direction = (segment.to - segment.from) * (1 / segment.length());
   const float along = (point - segment.from).dot(direction);
-  const float width = kReachInWidths * std::max(other_width, segment.width);
-  return {std::max(-along, along - segment.length()), std::max(kCrossingReach, width),
-          std::max(kInsideSegment, width)};
+  const float width =
+      static_cast<float>(parameters.reach_in_widths) * std::max(other_width, segment.width);
+  return {std::max(-along, along - segment.length()),
+          std::max(static_cast<float>(parameters.reach), width),
+          std::max(static_cast<float>(parameters.inside), width)};
 }
 
 double ground_angle(const LineSegment& a, const LineSegment& b, const CameraGeometry& geometry) {
@@ -60,8 +52,10 @@ Detections CrossingDetector::detect(const std::vector<LineSegment>& segments, co
       const cv::Point2f e = b.to - b.from;
       // Cross product of the directions: |d| |e| sin(angle).
       const float cross = d.x * e.y - d.y * e.x;
-      if (std::abs(cross) < std::sin(kLeastImageAngle) * a.length() * b.length()) continue;
-      if (geometry.has_pose() && ground_angle(a, b, geometry) < kLeastGroundAngle) continue;
+      if (std::abs(cross) < std::sin(parameters_.least_image_angle) * a.length() * b.length())
+        continue;
+      if (geometry.has_pose() && ground_angle(a, b, geometry) < parameters_.least_ground_angle)
+        continue;
       const cv::Point2f f = b.from - a.from;
       // Intersection of both lines: a.from + t d with t = (f x e) / (d x e).
       const cv::Point2f point = a.from + d * ((f.x * e.y - f.y * e.x) / cross);
@@ -70,8 +64,8 @@ Detections CrossingDetector::detect(const std::vector<LineSegment>& segments, co
           pixel.y >= static_cast<float>(view.smooth.rows)) {
         continue;
       }
-      const Meeting on_a = meeting_of(a, point, b.width);
-      const Meeting on_b = meeting_of(b, point, a.width);
+      const Meeting on_a = meeting_of(a, point, b.width, parameters_);
+      const Meeting on_b = meeting_of(b, point, a.width, parameters_);
       if (!on_a.is_reached() || !on_b.is_reached()) continue;
       // Both lines end in an L, one of them in a T, none in an X.
       const int num_ends = (on_a.is_end() ? 1 : 0) + (on_b.is_end() ? 1 : 0);

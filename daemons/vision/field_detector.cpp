@@ -11,13 +11,6 @@ namespace {
 constexpr float kLow = -0.1f;
 constexpr float kHigh = 0.6f;
 constexpr int kNumBins = 70;
-/** Limits of the threshold. Tuned on rendered and real images: a pale carpet has 0.15, a saturated
- * one in full light 0.35 while it has 1 in the shadow beside; grey noise reaches 0.05. */
-constexpr float kLeastThreshold = 0.06f;
-constexpr float kGreatestThreshold = 0.22f;
-/** The threshold is below this fraction of the field's median. Tuned on real images: an
- * overexposed part has 0.4 of the median, a blurred line in it 0.1. */
-constexpr float kGreatestFraction = 0.38f;
 /** A column of the field ends upwards where this many pixels of `other` in succession are not
  * green: more near the camera, where lines are thick, by this fraction of the row. Tuned on real
  * images: a line 0.4 m ahead is 27 pixels thick, banners behind the field are 25 high. */
@@ -65,12 +58,15 @@ int otsu(const Histogram& histogram) {
   return threshold;
 }
 
-void find_color(const cv::Mat_<cv::Vec3b>& half, FieldView& view) {
+void find_color(const cv::Mat_<cv::Vec3b>& half, const VisionParameters::FieldDetector& parameters,
+                FieldView& view) {
+  const auto least = static_cast<float>(parameters.least_threshold);
+  const auto greatest = static_cast<float>(parameters.greatest_threshold);
   Histogram histogram{};
   for (int y = 0; y < half.rows; y += 2) {
     for (int x = 0; x < half.cols; x += 2) ++histogram[bin_of(green_index(half(y, x)))];
   }
-  view.threshold = std::clamp(value_of(otsu(histogram)), kLeastThreshold, kGreatestThreshold);
+  view.threshold = std::clamp(value_of(otsu(histogram)), least, greatest);
   // Median green index of the pixels above the threshold: the field's own green. Every second pixel
   // was counted.
   const int first = bin_of(view.threshold);
@@ -81,7 +77,8 @@ void find_color(const cv::Mat_<cv::Vec3b>& half, FieldView& view) {
   while (bin < kNumBins - 1 && 2 * (count += histogram[bin]) < above) ++bin;
   view.index = std::max(value_of(bin), 1.3f * view.threshold);
   // If only field is in view, Otsu's method divides the field itself.
-  view.threshold = std::clamp(view.threshold, kLeastThreshold, kGreatestFraction * view.index);
+  view.threshold = std::clamp(view.threshold, least,
+                              static_cast<float>(parameters.greatest_fraction) * view.index);
 }
 
 /** Upper convex hull of the points (column, row), rows counting downwards; interpolated. */
@@ -138,7 +135,7 @@ FieldView FieldDetector::detect(const cv::Mat& bgr, const CameraGeometry& geomet
   cv::blur(bgr, view.smooth, {3, 3});
   cv::Mat_<cv::Vec3b> half;
   cv::resize(view.smooth, half, {bgr.cols / 2, bgr.rows / 2}, 0, 0, cv::INTER_AREA);
-  find_color(half, view);
+  find_color(half, parameters_, view);
   view.other.create(half.rows, half.cols);
   // Linear between the field's index (0) and that of grey (255); 128 at the threshold.
   const float slope = 127.0f / (view.index - view.threshold);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "daemons/vision/camera_geometry.h"
+#include "daemons/vision/vision_parameters.h"
 
 namespace nao::vision {
 
@@ -51,7 +52,14 @@ struct FieldView {
  * objects on it hide parts of its border. */
 class FieldDetector {
  public:
+  explicit FieldDetector(
+      const VisionParameters::FieldDetector& parameters = VisionParameters::load().field_detector)
+      : parameters_(parameters) {}
+
   FieldView detect(const cv::Mat& bgr, const CameraGeometry& geometry) const;
+
+ private:
+  VisionParameters::FieldDetector parameters_;
 };
 
 }  // namespace nao::vision

@@ -8,14 +8,6 @@
 namespace nao::vision {
 namespace {
 
-/** Distance beyond which parts of lines are not used, m: one degree of tilt moves them by a meter.
- */
-constexpr double kObservedReach = 5.0;
-/** Least length of a line, m: many shorter ones are parts of robots. */
-constexpr double kLeastObservedLength = 0.25;
-/** Posts are located by their feet, whose distance is uncertain far away, m. */
-constexpr double kPostReach = 4.0;
-
 /** The part of a line within a distance of the camera's ground point. */
 std::optional<FieldLine> clipped(const FieldLine& line, const Eigen::Vector2d& center,
                                  double radius) {
@@ -71,7 +63,8 @@ FieldObservation FieldObservation::moved_to(const Pose2& target) const {
 }
 
 FieldObservation observe_field(const Detections& detections, const CameraPlace& camera,
-                               const Pose2& heading_in_odometry) {
+                               const Pose2& heading_in_odometry,
+                               const VisionParameters::FieldObservation& parameters) {
   FieldObservation observation;
   observation.heading_in_odometry = heading_in_odometry;
   observation.camera = camera;
@@ -80,13 +73,13 @@ FieldObservation observe_field(const Detections& detections, const CameraPlace& 
     if (!detection.has_position()) continue;
     const double distance = (detection.position - center).norm();
     if (detection.kind == Kind::kLine && detection.end.allFinite()) {
-      const auto line = clipped({detection.position, detection.end}, center, kObservedReach);
-      if (line && (line->to - line->from).norm() >= kLeastObservedLength) {
+      const auto line = clipped({detection.position, detection.end}, center, parameters.reach);
+      if (line && (line->to - line->from).norm() >= parameters.least_length) {
         observation.lines.push_back(*line);
       }
-    } else if (detection.kind == Kind::kCenterCircle && distance < kObservedReach) {
+    } else if (detection.kind == Kind::kCenterCircle && distance < parameters.reach) {
       observation.circle = detection.position;
-    } else if (detection.kind == Kind::kGoalPost && distance < kPostReach) {
+    } else if (detection.kind == Kind::kGoalPost && distance < parameters.post_reach) {
       observation.posts.push_back(detection.position);
     }
   }

@@ -7,6 +7,7 @@
 
 #include "daemons/vision/detection.h"
 #include "daemons/vision/field_model.h"
+#include "daemons/vision/vision_parameters.h"
 #include "kinematics/pose2.h"
 
 namespace nao::vision {
@@ -44,7 +45,8 @@ struct FieldObservation {
 /** The detections of an image that serve localisation: lines, circle and posts that are near
  * enough. Crossings are made of lines, and would count them twice. */
 FieldObservation observe_field(const Detections& detections, const CameraPlace& camera,
-                               const Pose2& heading_in_odometry);
+                               const Pose2& heading_in_odometry,
+                               const VisionParameters::FieldObservation& parameters);
 
 /** Derivative of a ground point (m, in H) by small rotations (rad) of the camera about the x and y
  * axes of H.

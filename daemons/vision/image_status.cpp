@@ -1,5 +1,6 @@
 #include "daemons/vision/image_status.h"
 
+#include <cmath>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 
@@ -11,20 +12,6 @@ namespace {
 /** Side by which the image is reduced: the statistics need no more. */
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
-/** Levels of 255. A covered lens shows a gradient at most; a hall in the dark has mean 20 and more.
- * Chosen on rendered images. */
-constexpr double kUniformDeviation = 9;
-constexpr double kDarkMean = 12;
-constexpr double kWhiteLevel = 250;
-constexpr double kWhiteFraction = 0.6;
-/** Green index of a field, below that of the palest carpet. */
-constexpr float kGreen = 0.08f;
-/** Time after which equal images are frozen, microseconds: five images at 15 images a second. */
-constexpr int64_t kFrozenTime = 300000;
-/** Movement, m and rad, of which a camera's image shows something. Chosen: six pixels of an image
- * 640 pixels wide; a robot that walks tilts by two degrees, one that stands sways by a tenth. */
-constexpr double kFrozenDistance = 0.01;
-constexpr double kFrozenAngle = 0.01;
 
 bool are_equal(const cv::Mat& a, const cv::Mat& b) {
   if (a.size() != b.size() || a.type() != b.type()) return false;
@@ -35,11 +22,11 @@ bool are_equal(const cv::Mat& a, const cv::Mat& b) {
   return true;
 }
 
-/** Fraction of the rows from `first` to `last` that is green. */
-double green_fraction(const cv::Mat_<cv::Vec3b>& image, int first, int last) {
+/** Fraction of the rows from `first` to `last` whose green index is above `least`. */
+double green_fraction(const cv::Mat_<cv::Vec3b>& image, int first, int last, double least) {
   int num_green = 0;
   for (int y = first; y < last; ++y) {
-    for (int x = 0; x < image.cols; ++x) num_green += green_index(image(y, x)) > kGreen;
+    for (int x = 0; x < image.cols; ++x) num_green += green_index(image(y, x)) > least;
   }
   return static_cast<double>(num_green) / ((last - first) * image.cols);
 }
@@ -74,9 +61,9 @@ bool ImageStatusMonitor::is_frozen(const cv::Mat& bgr, const std::string& camera
   }
   const Eigen::Isometry3d movement =
       first.pose_camera_in_heading->inverse() * *pose_camera_in_heading;
-  return utime - first.utime >= kFrozenTime &&
-         (movement.translation().norm() > kFrozenDistance ||
-          Eigen::AngleAxisd(movement.linear()).angle() > kFrozenAngle);
+  return utime - first.utime >= std::llround(1e6 * parameters_.frozen_time) &&
+         (movement.translation().norm() > parameters_.frozen_distance ||
+          Eigen::AngleAxisd(movement.linear()).angle() > parameters_.frozen_angle);
 }
 
 // The first state that holds: overexposed, covered, frozen, inverted; otherwise ok. Detectors run
@@ -95,21 +82,22 @@ ImageStatus ImageStatusMonitor::check(
   const double brightness = (mean[0] + mean[1] + mean[2]) / 3;
   cv::Mat_<uint8_t> grey;
   cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
-  const int num_white = cv::countNonZero(grey >= kWhiteLevel);
-  if (num_white > kWhiteFraction * static_cast<double>(grey.total())) {
+  const int num_white = cv::countNonZero(grey >= parameters_.white_level);
+  if (num_white > parameters_.white_fraction * static_cast<double>(grey.total())) {
     return ImageStatus::kOverexposed;
   }
-  const double green = green_fraction(small, 0, kHeight);
+  const double green = green_fraction(small, 0, kHeight, parameters_.green);
   const double spread = std::max({deviation[0], deviation[1], deviation[2]});
   // An image that is uniformly green is a field seen from near, not a covered lens.
-  if (brightness < kDarkMean || (spread < kUniformDeviation && green < 0.5)) {
+  if (brightness < parameters_.dark_mean ||
+      (spread < parameters_.uniform_deviation && green < 0.5)) {
     return ImageStatus::kCovered;
   }
-  if (may_be_frozen && spread >= kUniformDeviation) return ImageStatus::kFrozen;
+  if (may_be_frozen && spread >= parameters_.uniform_deviation) return ImageStatus::kFrozen;
   // There is field above and none below: the camera hangs upside down.
   if (horizon && *horizon < bgr.rows / 3.0) return ImageStatus::kOk;
-  const double upper = green_fraction(small, 0, kHeight / 3);
-  const double lower = green_fraction(small, kHeight - kHeight / 3, kHeight);
+  const double upper = green_fraction(small, 0, kHeight / 3, parameters_.green);
+  const double lower = green_fraction(small, kHeight - kHeight / 3, kHeight, parameters_.green);
   if (upper > 0.7 && lower < 0.15) return ImageStatus::kInverted;
   return ImageStatus::kOk;
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "daemons/vision/camera_geometry.h"
+#include "daemons/vision/vision_parameters.h"
 
 namespace nao::vision {
 
@@ -30,6 +31,10 @@ const char* image_status_name(ImageStatus status);
  *   robot's body or another robot below, from which nothing can be concluded. */
 class ImageStatusMonitor {
  public:
+  explicit ImageStatusMonitor(
+      const VisionParameters::ImageStatus& parameters = VisionParameters::load().image_status)
+      : parameters_(parameters) {}
+
   /** @param camera  Name; each has its own history. @param utime  Microseconds.
    * @param pose_camera_in_heading  See VisionInput; nothing: unknown, and no image is frozen.
    * @param horizon  Its row in the middle of the image, pixels, for a camera that hangs as it
@@ -50,6 +55,7 @@ class ImageStatusMonitor {
   bool is_frozen(const cv::Mat& bgr, const std::string& camera, int64_t utime,
                  const std::optional<Eigen::Isometry3d>& pose_camera_in_heading);
 
+  VisionParameters::ImageStatus parameters_;
   std::map<std::string, History> history_;
 };
 

@@ -13,20 +13,11 @@ constexpr int kNumSamples = 400;
 /** Distance of the two points of a sample, pixels. */
 constexpr float kLeastBase = 12;
 constexpr float kMostBase = 140;
-/** Points this near to the line belong to it, pixels; wider lines have noisier points. */
-constexpr float kTolerance = 1.6f;
-constexpr float kToleranceOfWidth = 0.06f;
 /** Largest gap between neighboring points of a segment, pixels: three scan lines. */
-constexpr float kLargestGap = 34;
 constexpr int kLeastLinePoints = 5;
-constexpr float kLeastLength = 26;
 /** Least fraction of the scan lines across a segment that found it: few unrelated points lie in a
  * row. Tuned on real and rendered images: 0.7 loses blurred lines, less keeps more false ones. */
-constexpr float kLeastDensity = 0.6f;
 constexpr int kMostSegments = 24;
-/** Limits of a line's width on the ground, m; lines are 0.05 wide. */
-constexpr double kLeastGroundWidth = 0.018;
-constexpr double kMostGroundWidth = 0.11;
 
 struct Line {
   cv::Point2f origin;
@@ -46,10 +37,14 @@ float extent(const LinePoint& point) {
 /** Indices of the longest run of inliers without a gap, in order along the line. */
 // Inliers of a line, sorted along it; the longest stretch without a gap is one segment.
 std::vector<int> longest_run(const Line& line, const std::vector<LinePoint>& points,
-                             const std::vector<cv::Point2f>& ideal) {
+                             const std::vector<cv::Point2f>& ideal,
+                             const VisionParameters::LineDetector& parameters) {
+  const auto least = static_cast<float>(parameters.tolerance);
+  const auto of_width = static_cast<float>(parameters.tolerance_of_width);
+  const auto largest_gap = static_cast<float>(parameters.largest_gap);
   std::vector<std::pair<float, int>> inliers;
   for (size_t i = 0; i < ideal.size(); ++i) {
-    const float tolerance = kTolerance + kToleranceOfWidth * std::min(extent(points[i]), 40.0f);
+    const float tolerance = least + of_width * std::min(extent(points[i]), 40.0f);
     if (line.distance(ideal[i]) > tolerance) continue;
     inliers.push_back({line.along(ideal[i]), static_cast<int>(i)});
   }
@@ -58,7 +53,7 @@ std::vector<int> longest_run(const Line& line, const std::vector<LinePoint>& poi
   size_t best_count = 0;
   size_t first = 0;
   for (size_t i = 0; i < inliers.size(); ++i) {
-    if (i > 0 && inliers[i].first - inliers[i - 1].first > kLargestGap) first = i;
+    if (i > 0 && inliers[i].first - inliers[i - 1].first > largest_gap) first = i;
     if (i + 1 - first > best_count) {
       best_count = i + 1 - first;
       best_first = first;
@@ -101,8 +96,8 @@ float median_width(const std::vector<int>& run, const Line& line,
 }
 
 /** Whether the width fits a field line, if that is known. */
-bool has_fitting_width(const LineSegment& segment, const Line& line,
-                       const CameraGeometry& geometry) {
+bool has_fitting_width(const LineSegment& segment, const Line& line, const CameraGeometry& geometry,
+                       const VisionParameters::LineDetector& parameters) {
   // A segment must be longer than it is wide.
   if (segment.length() < 1.3f * segment.width) return false;
   const cv::Point2f middle = 0.5f * (segment.from + segment.to);
@@ -120,14 +115,15 @@ bool has_fitting_width(const LineSegment& segment, const Line& line,
   const double width = std::abs(step.x() * along.y() - step.y() * along.x());
   // One pixel may be more than a line's width far away.
   const double pixel = width / std::max(1.0f, segment.width);
-  return width > kLeastGroundWidth - pixel && width < kMostGroundWidth + 2 * pixel;
+  return width > parameters.least_ground_width - pixel &&
+         width < parameters.most_ground_width + 2 * pixel;
 }
 
 /** Most of the scan lines that it crosses found it. */
-bool is_dense(const LineSegment& segment) {
+bool is_dense(const LineSegment& segment, double least_density) {
   const cv::Point2f d = segment.to - segment.from;
   const float crossed = std::max(std::abs(d.x), std::abs(d.y)) / kScanSpacing;
-  return static_cast<float>(segment.num_points) >= kLeastDensity * crossed;
+  return static_cast<float>(segment.num_points) >= static_cast<float>(least_density) * crossed;
 }
 
 }  // namespace
@@ -149,21 +145,22 @@ std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
       const auto base = static_cast<float>(cv::norm(step));
       // Two near points give no direction, and two distant ones rarely belong to one line.
       if (base < kLeastBase || base > kMostBase) continue;
-      std::vector<int> run = longest_run({ideal[i], step * (1 / base)}, points, ideal);
+      std::vector<int> run = longest_run({ideal[i], step * (1 / base)}, points, ideal, parameters_);
       if (run.size() > best.size()) best = std::move(run);
     }
     if (best.size() < kLeastLinePoints) break;
     const Line line = fit(best, ideal);
     // The inliers of the fitted line are kept only if no points were lost.
-    std::vector<int> run = longest_run(line, points, ideal);
+    std::vector<int> run = longest_run(line, points, ideal, parameters_);
     if (run.size() < best.size()) run = best;
     const float first = line.along(ideal[run.front()]);
     const float last = line.along(ideal[run.back()]);
     LineSegment segment{line.origin + std::min(first, last) * line.direction,
                         line.origin + std::max(first, last) * line.direction,
                         static_cast<int>(run.size()), median_width(run, line, points)};
-    const bool is_accepted = segment.length() >= kLeastLength && is_dense(segment) &&
-                             has_fitting_width(segment, line, geometry);
+    const bool is_accepted = segment.length() >= parameters_.least_length &&
+                             is_dense(segment, parameters_.least_density) &&
+                             has_fitting_width(segment, line, geometry, parameters_);
     if (is_accepted) segments.push_back(segment);
     // They are removed even if the segment was rejected, since the next round must find another.
     // Such points may still continue another segment.

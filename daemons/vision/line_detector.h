@@ -6,6 +6,7 @@
 #include "daemons/vision/camera_geometry.h"
 #include "daemons/vision/detection.h"
 #include "daemons/vision/line_points.h"
+#include "daemons/vision/vision_parameters.h"
 
 namespace nao::vision {
 
@@ -26,10 +27,17 @@ struct LineSegment {
  * points, and with a fixed sequence of samples, so that equal images give equal results. */
 class LineDetector {
  public:
+  explicit LineDetector(
+      const VisionParameters::LineDetector& parameters = VisionParameters::load().line_detector)
+      : parameters_(parameters) {}
+
   /** @param points  Points that are used up are removed; the others are in another order then.
    * @param ideal  Their ideal pixels, of the same length; likewise. */
   std::vector<LineSegment> detect(std::vector<LinePoint>& points, std::vector<cv::Point2f>& ideal,
                                   const CameraGeometry& geometry) const;
+
+ private:
+  VisionParameters::LineDetector parameters_;
 };
 
 /** Detection of a segment, with its ends on the ground where the pose is known. */

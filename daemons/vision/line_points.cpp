@@ -7,12 +7,6 @@ namespace {
 
 /** Widest crossing, pixels: a line one foot length ahead of the robot seen at a flat angle. */
 constexpr int kMostLineWidth = 110;
-/** A line is brighter than the field beside it by this many levels at least. Tuned on real images:
- * carpet texture stays below after smoothing, distant lines reach 15. */
-constexpr float kContrast = 13;
-/** A line's green index is below this fraction of the field's. Tuned on real images: 0.45 for a
- * line in green light, 0.75 where a distant line fills half a pixel. */
-constexpr float kIndexFraction = 0.78f;
 /** Green pixels before and after a crossing. */
 constexpr int kMargin = 3;
 /** Mixed pixels, neither line nor field, that may lie at the edges of a crossing. */
@@ -20,11 +14,6 @@ constexpr int kMixed = 8;
 /** Pixels in succession that look like field and end a crossing: single ones in a blurred, green
  * tinted line are noise. Tuned on real images. */
 constexpr int kEnd = 3;
-/** Drop from a crossing's greatest brightness after which green pixels are field in another light,
- * as a fraction of what the line is brighter than the field before it. From a line at least twice
- * as bright as the field in the same light: the drop is then 0.5 at least. Blurred and worn
- * lines drop by less within themselves. */
-constexpr float kDrop = 0.4f;
 /** Weight of a new pixel in the mean of the field's level; small, so that the blurred edge of a
  * line does not raise it. */
 constexpr float kWeight = 0.08f;
@@ -32,9 +21,16 @@ constexpr float kWeight = 0.08f;
 /** One scan line. */
 class Scan {
  public:
-  Scan(const FieldView& view, cv::Point start, cv::Point step, int length,
-       std::vector<LinePoint>& points)
-      : view_(view), start_(start), step_(step), length_(length), points_(points) {}
+  Scan(const FieldView& view, const VisionParameters::LinePoints& parameters, cv::Point start,
+       cv::Point step, int length, std::vector<LinePoint>& points)
+      : view_(view),
+        contrast_(static_cast<float>(parameters.contrast)),
+        index_fraction_(static_cast<float>(parameters.index_fraction)),
+        drop_(static_cast<float>(parameters.drop)),
+        start_(start),
+        step_(step),
+        length_(length),
+        points_(points) {}
 
   // State machine along the scan line: field (levels are learnt), crossing (first_ >= 0), and what
   // is neither. A crossing counts only between two stretches of field.
@@ -43,8 +39,8 @@ class Scan {
       const cv::Vec3b& color = at(i);
       const float index = green_index(color);
       const float white = whiteness(color);
-      const bool is_line = num_green_ >= kMargin && white > level_ + kContrast &&
-                           index < kIndexFraction * level_index_;
+      const bool is_line = num_green_ >= kMargin && white > level_ + contrast_ &&
+                           index < index_fraction_ * level_index_;
       if (first_ >= 0) {
         // As bright as before the field may be in another light than that before the line.
         const bool is_green = index > view_.threshold;
@@ -71,7 +67,7 @@ class Scan {
  private:
   const cv::Vec3b& at(int i) const { return view_.smooth(start_ + i * step_); }
 
-  float least_drop() const { return std::max(kContrast, kDrop * (peak_ - level_)); }
+  float least_drop() const { return std::max(contrast_, drop_ * (peak_ - level_)); }
 
   void follow(int i, bool is_line, bool is_green) {
     if (is_line) {
@@ -107,7 +103,7 @@ class Scan {
     float peak = 0;
     for (int i = first_; i < end; ++i) peak = std::max(peak, whiteness(at(i)));
     const float base = std::max(level_, after);
-    if (peak < base + kContrast) return;
+    if (peak < base + contrast_) return;
     // Centroid of the brightness above the field.
     float sum = 0;
     float moment = 0;
@@ -127,6 +123,9 @@ class Scan {
   }
 
   const FieldView& view_;
+  float contrast_;
+  float index_fraction_;
+  float drop_;
   cv::Point start_;
   cv::Point step_;
   int length_;
@@ -147,17 +146,18 @@ class Scan {
 }  // namespace
 
 // Horizontal scan lines find lines that lead away from the robot, vertical ones those across.
-std::vector<LinePoint> find_line_points(const FieldView& view) {
+std::vector<LinePoint> find_line_points(const FieldView& view,
+                                        const VisionParameters::LinePoints& parameters) {
   std::vector<LinePoint> points;
   const int width = view.smooth.cols;
   const int height = view.smooth.rows;
   for (int y = kScanSpacing / 2; y < height; y += kScanSpacing) {
-    Scan(view, {0, y}, {1, 0}, width, points).run();
+    Scan(view, parameters, {0, y}, {1, 0}, width, points).run();
   }
   for (int x = kScanSpacing / 2; x < width; x += kScanSpacing) {
     // From a little above the field's border downwards.
     const int top = std::max(0, 2 * view.top[std::min(x / 2, view.other.cols - 1)] - kScanSpacing);
-    if (top < height) Scan(view, {x, top}, {0, 1}, height - top, points).run();
+    if (top < height) Scan(view, parameters, {x, top}, {0, 1}, height - top, points).run();
   }
   return points;
 }

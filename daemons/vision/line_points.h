@@ -24,6 +24,8 @@ struct LinePoint {
  * A crossing begins where a pixel is brighter and less green than the field before it on the scan
  * line, and ends where the field begins again. Comparing with the field just before makes it
  * independent of shadows and of the exposure. */
-std::vector<LinePoint> find_line_points(const FieldView& view);
+std::vector<LinePoint> find_line_points(
+    const FieldView& view,
+    const VisionParameters::LinePoints& parameters = VisionParameters::load().line_points);
 
 }  // namespace nao::vision

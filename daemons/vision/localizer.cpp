@@ -6,47 +6,23 @@
 namespace nao::vision {
 namespace {
 
-/** Standard deviations of the start pose, m and rad. Chosen: placed by hand. */
-constexpr double kStartPosition = 0.1;
-constexpr double kStartHeading = 0.09;
-/** More than this between two images, m and m/s, was not walked. Chosen: twice the fastest walk. */
-constexpr double kJumpDistance = 0.3;
-constexpr double kJumpSpeed = 0.7;
-/** Standard deviations after such a jump, m and rad: the robot may have moved in the meantime. */
-constexpr double kJumpPosition = 0.15;
-constexpr double kJumpHeading = 0.2;
-/** Standard deviations after a fall, m and rad. Chosen: half of the robot's height. */
-constexpr double kFallPosition = 0.3;
-constexpr double kFallHeading = 0.25;
-/** Standard deviations of a found pose, m and rad. */
-constexpr double kFoundPosition = 0.2;
-constexpr double kFoundHeading = 0.1;
-
 /** Observations are kept this far apart, microseconds, and so many of them. */
-constexpr int64_t kKeepPeriod = 200000;
 constexpr size_t kKeep = 40;
 /** The newest so many decide whether the pose fits, if they have this much to see, m. */
 constexpr size_t kRecent = 8;
-constexpr double kLeastUsedLength = 3.0;
 /** Score below which the pose does not fit; and the number of times in succession after which it is
  * lost. */
-constexpr double kMisfitScore = 0.35;
 constexpr int kMostMisfits = 4;
-/** Score above which no other pose is searched. */
-constexpr double kGoodScore = 0.6;
-/** Least gain of the mean tilt with each observation: 10 s. Chosen: much longer than a misfit lasts
- * before the pose is given up. */
-constexpr double kTiltGain = 0.02;
-/** Another pose replaces a tracked one if its score is better by this. */
-constexpr double kBetter = 0.25;
-/** Time between two searches, microseconds: each takes about as long as an image. */
-constexpr int64_t kLostSearchPeriod = 600000;
-constexpr int64_t kSearchPeriod = 2000000;
 
 }  // namespace
 
-Localizer::Localizer(const FieldModel& field, const Pose2& start)
-    : field_(field), start_(start), filter_(field_), search_(field_) {}
+Localizer::Localizer(const FieldModel& field, const Pose2& start,
+                     const VisionParameters& parameters)
+    : parameters_(parameters.localizer),
+      field_(field),
+      start_(start),
+      filter_(field_, parameters.pose_filter),
+      search_(field_, parameters.pose_search) {}
 
 void Localizer::restart(const Pose2& heading_in_odometry) {
   is_started_ = true;
@@ -56,7 +32,7 @@ void Localizer::restart(const Pose2& heading_in_odometry) {
   usual_tilt_.setZero();
   num_fits_ = 0;
   remembered_utime_ = searched_utime_ = 0;
-  filter_.start(start_, kStartPosition, kStartHeading);
+  filter_.start(start_, parameters_.start_position, parameters_.start_heading);
   // The walk before this program started adds its uncertainty.
   filter_.predict(heading_in_odometry, 0);
 }
@@ -67,14 +43,14 @@ void Localizer::predict(int64_t utime, const Pose2& heading_in_odometry, bool is
   } else {
     const double dt = 1e-6 * static_cast<double>(utime - utime_);
     const Pose2 step = odometry_.inverse() * heading_in_odometry;
-    if (step.position.norm() > kJumpDistance + kJumpSpeed * dt) {
-      filter_.spread(kJumpPosition, kJumpHeading);
+    if (step.position.norm() > parameters_.jump_distance + parameters_.jump_speed * dt) {
+      filter_.spread(parameters_.jump_position, parameters_.jump_heading);
       window_.clear();
     } else {
       filter_.predict(step, dt);
     }
     if (is_upright && !is_upright_) {
-      filter_.spread(kFallPosition, kFallHeading);
+      filter_.spread(parameters_.fall_position, parameters_.fall_heading);
       window_.clear();
     }
   }
@@ -95,7 +71,7 @@ Eigen::Vector2d Localizer::tilt() const {
 void Localizer::observe(const FieldObservation& observation) {
   if (!is_started_ || !is_upright_) return;
   if (!is_lost_) filter_.update(observation);
-  if (utime_ - remembered_utime_ < kKeepPeriod) return;
+  if (utime_ - remembered_utime_ < std::llround(1e6 * parameters_.keep_period)) return;
   if (observation.lines.empty() && !observation.circle) return;
   remembered_utime_ = utime_;
   remember(observation);
@@ -121,7 +97,7 @@ void Localizer::give_up() {
   is_lost_ = true;
   // Carrying the robot does not change the errors of its joints and of the torso's orientation, but
   // what was taken for lines of the wrong place spoiled the estimated tilt.
-  filter_.start(filter_.pose(), kFoundPosition, kFoundHeading, usual_tilt_);
+  filter_.start(filter_.pose(), parameters_.found_position, parameters_.found_heading, usual_tilt_);
   // Earlier observations belong to the robot's earlier place.
   if (window_.size() > kRecent) {
     window_.erase(window_.begin(), window_.end() - static_cast<std::ptrdiff_t>(kRecent));
@@ -132,24 +108,27 @@ void Localizer::check() {
   const std::vector<FieldObservation> recent = newest(kRecent);
   double length = 0;
   for (const FieldObservation& observation : recent) length += observation.length();
-  if (length < kLeastUsedLength) return;
+  if (length < parameters_.least_used_length) return;
   const double score = search_.score(filter_.pose(), recent);
   if (!is_lost_) {
-    num_misfits_ = score < kMisfitScore ? num_misfits_ + 1 : 0;
+    num_misfits_ = score < parameters_.misfit_score ? num_misfits_ + 1 : 0;
     if (num_misfits_ >= kMostMisfits) give_up();
-    if (!is_lost_ && score > kGoodScore) {
+    if (!is_lost_ && score > parameters_.good_score) {
       ++num_fits_;
-      usual_tilt_ += std::max(kTiltGain, 1.0 / num_fits_) * (filter_.tilt() - usual_tilt_);
+      usual_tilt_ +=
+          std::max(parameters_.tilt_gain, 1.0 / num_fits_) * (filter_.tilt() - usual_tilt_);
       return;
     }
   }
-  if (utime_ - searched_utime_ < (is_lost_ ? kLostSearchPeriod : kSearchPeriod)) return;
+  const double period = is_lost_ ? parameters_.lost_search_period : parameters_.search_period;
+  if (utime_ - searched_utime_ < std::llround(1e6 * period)) return;
   searched_utime_ = utime_;
   const std::vector<FieldObservation> all = newest(kKeep);
   const auto found = search_.find(all, filter_.pose().heading);
   if (!found) return;
-  if (!is_lost_ && found->score < search_.score(filter_.pose(), all) + kBetter) return;
-  filter_.start(found->pose, kFoundPosition, kFoundHeading, filter_.tilt() + found->tilt);
+  if (!is_lost_ && found->score < search_.score(filter_.pose(), all) + parameters_.better) return;
+  filter_.start(found->pose, parameters_.found_position, parameters_.found_heading,
+                filter_.tilt() + found->tilt);
   is_lost_ = false;
   num_misfits_ = 0;
 }

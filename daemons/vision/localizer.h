@@ -8,6 +8,7 @@
 #include "daemons/vision/field_observation.h"
 #include "daemons/vision/pose_filter.h"
 #include "daemons/vision/pose_search.h"
+#include "daemons/vision/vision_parameters.h"
 #include "kinematics/pose2.h"
 
 namespace nao::vision {
@@ -32,7 +33,8 @@ class Localizer {
  public:
   /** The odometry frame begins where the robot stands when nao-motion starts.
    * @param start  Pose of the odometry frame on the field, m, rad. */
-  Localizer(const FieldModel& field, const Pose2& start);
+  Localizer(const FieldModel& field, const Pose2& start,
+            const VisionParameters& parameters = VisionParameters::load());
   Localizer(const Localizer&) = delete;
   Localizer& operator=(const Localizer&) = delete;
 
@@ -60,6 +62,7 @@ class Localizer {
    * tilt as it is known now. */
   std::vector<FieldObservation> newest(size_t count) const;
 
+  VisionParameters::Localizer parameters_;
   FieldModel field_;
   Pose2 start_;
   PoseFilter filter_;

@@ -1,5 +1,6 @@
 #include "daemons/vision/patch_sampler.h"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 namespace nao::vision {
@@ -7,8 +8,18 @@ namespace {
 
 /** Levels of the pyramid: a patch as wide as the image has pixels of 20 pixels. */
 constexpr int kNumLevels = 5;
+/** Distance of the centers, radii, and ratio of the radii, below which circles are the same.
+ * Chosen: a third of what BallDetector's network corrects. */
+constexpr float kSameCenter = 0.25f;
+constexpr float kSameRadius = 1.25f;
 
 }  // namespace
+
+bool is_same(const Circle& a, const Circle& b) {
+  const float lower = std::min(a.radius, b.radius);
+  const float upper = std::max(a.radius, b.radius);
+  return cv::norm(a.center - b.center) < kSameCenter * lower && upper < kSameRadius * lower;
+}
 
 PatchSampler::PatchSampler(const cv::Mat& bgr) {
   levels_ = {bgr};

@@ -11,6 +11,9 @@ struct Circle {
   float radius = 0;
 };
 
+/** Whether two circles are so near and so equal in size that their patches show the same. */
+bool is_same(const Circle& a, const Circle& b);
+
 /** Cuts square patches of any size out of an image, as input of a NeuralNetwork.
  *
  * The image is halved several times; a patch comes from the level whose pixels are the largest that

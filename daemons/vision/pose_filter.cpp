@@ -12,50 +12,6 @@
 namespace nao::vision {
 namespace {
 
-/** Random walk of the odometry's error: m and rad for each root of a meter, rad for each root of a
- * radian and of a second. The distance error of a walk is 1 to 2 % of its length, and the drift to
- * the side 60 to 200 mm in 5 m (docs/performance.md); a gyroscope's offset is 0.5 degrees/s under
- * `moderate`. Chosen larger, since errors of successive steps are correlated. */
-constexpr double kPositionPerWay = 0.04;
-constexpr double kPositionPerTurn = 0.01;
-constexpr double kHeadingPerWay = 0.04;
-constexpr double kHeadingPerTurn = 0.05;
-constexpr double kHeadingPerTime = 0.01;
-constexpr double kPositionPerTime = 0.004;
-
-/** Standard deviation, rad, and correlation time, s, of the tilt's error. Measured under `moderate`
- * (12 robots, 100 to 700 s each): a part that stays, 0.002 to 0.028 rad about an axis, and one that
- * changes by 0.007 to 0.013 rad in 5 s; by 0.0075 rad in this process. */
-constexpr double kTiltSigma = 0.015;
-constexpr double kTiltTime = 40;
-/** Standard deviation of the tilt's noise in an image, rad; walking sways. Measured: 0.003 to 0.005
- * from one image to the next; larger, since images in succession see the same phase of a step. */
-constexpr double kTiltNoise = 0.008;
-/** Standard deviation of a line's ends across it: pixels, and m on the ground. */
-constexpr double kPixelSigma = 1.2;
-constexpr double kLineSigma = 0.010;
-/** Deviation of the circle's center, m, and its increase for each m of distance. Measured in
- * rendered images: a median error of 0.04 m; a tenth are above 0.25 m, most of which do not pass
- * the gate. */
-constexpr double kCircleSigma = 0.04;
-constexpr double kCircleSigmaPerDistance = 0.02;
-/** Deviation of a post's foot: as a fraction of the distance, and m across the view. */
-constexpr double kPostDistanceSigma = 0.12;
-constexpr double kPostSideSigma = 0.06;
-
-/** 99 % of the chi-square distribution with two degrees of freedom. */
-constexpr double kGate = 9.2;
-/** Least advantage over the next best field line for an observed line to be used. */
-constexpr double kUnique = 6.0;
-/** Largest angle between an observed line and its field line, rad, before the gate. */
-constexpr double kMostAngle = 0.45;
-/** An observed line may reach beyond the ends of its field line by this, m, more far away. */
-constexpr double kBeyond = 0.25;
-constexpr double kBeyondPerDistance = 0.05;
-/** Longest line that can be an arc of the center circle, as a fraction of its diameter: detected
- * lines are straight within pixels. */
-constexpr double kMostChord = 0.9;
-
 double square(double x) {
   return x * x;
 }
@@ -64,7 +20,8 @@ const Eigen::Matrix2d kQuarterTurn = (Eigen::Matrix2d() << 0, -1, 1, 0).finished
 
 }  // namespace
 
-PoseFilter::PoseFilter(const FieldModel& field) : field_(&field) {
+PoseFilter::PoseFilter(const FieldModel& field, const VisionParameters::PoseFilter& parameters)
+    : field_(&field), parameters_(parameters) {
   start(Pose2{}, 1, 1);
 }
 
@@ -73,7 +30,8 @@ void PoseFilter::start(const Pose2& pose, double position_sigma, double heading_
   state_ << pose.position, wrapped(pose.heading), tilt, 0, 0;
   State variances;
   variances << square(position_sigma), square(position_sigma), square(heading_sigma),
-      square(kTiltSigma), square(kTiltSigma), square(kTiltNoise), square(kTiltNoise);
+      square(parameters_.tilt_sigma), square(parameters_.tilt_sigma),
+      square(parameters_.tilt_noise), square(parameters_.tilt_noise);
   covariance_ = variances.asDiagonal();
 }
 
@@ -85,7 +43,7 @@ void PoseFilter::predict(const Pose2& step, double dt) {
   Covariance transition = Covariance::Identity();
   transition(0, 2) = -way.y();
   transition(1, 2) = way.x();
-  const double decay = std::exp(-dt / kTiltTime);
+  const double decay = std::exp(-dt / parameters_.tilt_time);
   transition(3, 3) = transition(4, 4) = decay;
   state_.segment<2>(3) *= decay;
   // The noise of the last image says nothing about the next one.
@@ -94,13 +52,16 @@ void PoseFilter::predict(const Pose2& step, double dt) {
   covariance_ = (transition * covariance_ * transition.transpose()).eval();
   const double distance = way.norm();
   const double turn = std::abs(wrapped(step.heading));
-  const double position = square(kPositionPerWay) * distance + square(kPositionPerTurn) * turn +
-                          square(kPositionPerTime) * dt;
-  const double heading = square(kHeadingPerWay) * distance + square(kHeadingPerTurn) * turn +
-                         square(kHeadingPerTime) * dt;
-  const double tilt = square(kTiltSigma) * (1 - decay * decay);
+  const double position = square(parameters_.position_per_way) * distance +
+                          square(parameters_.position_per_turn) * turn +
+                          square(parameters_.position_per_time) * dt;
+  const double heading = square(parameters_.heading_per_way) * distance +
+                         square(parameters_.heading_per_turn) * turn +
+                         square(parameters_.heading_per_time) * dt;
+  const double tilt = square(parameters_.tilt_sigma) * (1 - decay * decay);
   State added;
-  added << position, position, heading, tilt, tilt, square(kTiltNoise), square(kTiltNoise);
+  added << position, position, heading, tilt, tilt, square(parameters_.tilt_noise),
+      square(parameters_.tilt_noise);
   covariance_.diagonal() += added;
 }
 
@@ -131,7 +92,7 @@ PoseFilter::Row PoseFilter::make_row(const CameraPlace& camera, const Eigen::Vec
   const Eigen::Vector2d P = point - camera.position.head<2>();
   const double h = camera.position.z();
   const double square_range = P.squaredNorm() + h * h;
-  const double angle = kPixelSigma * camera.pixel_angle;
+  const double angle = parameters_.pixel_sigma * camera.pixel_angle;
   const Eigen::Vector2d in_heading = R.transpose() * direction;
   const Eigen::Vector2d view =
       P.norm() > 1e-6 ? Eigen::Vector2d(P.normalized()) : Eigen::Vector2d::UnitX();
@@ -161,9 +122,9 @@ double PoseFilter::distance(const Measurement& measurement) const {
 PoseFilter::Match PoseFilter::match_chord(const CameraPlace& camera, const FieldLine& line) const {
   const double radius = field_->circle_radius();
   const double chord = (line.to - line.from).norm();
-  if (chord > 2 * radius * kMostChord) return {};
+  if (chord > 2 * radius * parameters_.most_chord) return {};
   const double sagitta = radius - std::sqrt(square(radius) - square(chord / 2));
-  const double variance = square(kLineSigma) + square(sagitta / 3);
+  const double variance = square(parameters_.line_sigma) + square(sagitta / 3);
   const Eigen::Vector2d from = on_field(camera, line.from);
   const Eigen::Vector2d to = on_field(camera, line.to);
   if (std::min(from.norm(), to.norm()) < 1e-3) return {};
@@ -191,21 +152,22 @@ PoseFilter::Match PoseFilter::match_line(const CameraPlace& camera, const FieldL
   if (const Match chord = match_chord(camera, line)) add(*chord);
   for (const FieldLine& candidate : field_->lines()) {
     const Eigen::Vector2d along = (candidate.to - candidate.from).normalized();
-    if (std::abs(along.dot(direction)) < std::cos(kMostAngle)) continue;
+    if (std::abs(along.dot(direction)) < std::cos(parameters_.most_angle)) continue;
     const double length = (candidate.to - candidate.from).norm();
     const double position_sigma = std::sqrt(std::max(covariance_(0, 0), covariance_(1, 1)));
-    const double beyond = kBeyond + 2 * position_sigma +
-                          kBeyondPerDistance * std::max(line.from.norm(), line.to.norm());
+    const double beyond =
+        parameters_.beyond + 2 * position_sigma +
+        parameters_.beyond_per_distance * std::max(line.from.norm(), line.to.norm());
     const double s = (from - candidate.from).dot(along);
     const double t = (to - candidate.from).dot(along);
     if (std::min(s, t) < -beyond || std::max(s, t) > length + beyond) continue;
     const Eigen::Vector2d normal = kQuarterTurn * along;
     const double offset = normal.dot(candidate.from);
-    const double variance = square(kLineSigma);
+    const double variance = square(parameters_.line_sigma);
     add(Measurement(make_row(camera, line.from, normal, offset, variance),
                     make_row(camera, line.to, normal, offset, variance)));
   }
-  if (best > kGate || second < best + kUnique) return {};
+  if (best > parameters_.gate || second < best + parameters_.unique) return {};
   return best_match;
 }
 
@@ -218,14 +180,15 @@ PoseFilter::Match PoseFilter::match_point(const CameraPlace& camera, const Eigen
   const Measurement measurement(
       make_row(camera, point, view, view.dot(target), radial_variance),
       make_row(camera, point, side, side.dot(target), tangential_variance));
-  if (distance(measurement) > kGate) return {};
+  if (distance(measurement) > parameters_.gate) return {};
   return measurement;
 }
 
 PoseFilter::Match PoseFilter::match_circle(const CameraPlace& camera,
                                            const Eigen::Vector2d& circle) const {
   const double range = (circle - camera.position.head<2>()).norm();
-  const double variance = square(kCircleSigma + kCircleSigmaPerDistance * range);
+  const double variance =
+      square(parameters_.circle_sigma + parameters_.circle_sigma_per_distance * range);
   return match_point(camera, circle, Eigen::Vector2d::Zero(), variance, variance);
 }
 
@@ -238,8 +201,8 @@ PoseFilter::Match PoseFilter::match_post(const CameraPlace& camera,
                                         });
   if (nearest == field_->goal_posts().end()) return {};
   const double range = (post - camera.position.head<2>()).norm();
-  return match_point(camera, post, *nearest, square(kPostDistanceSigma * range),
-                     square(kPostSideSigma));
+  return match_point(camera, post, *nearest, square(parameters_.post_distance_sigma * range),
+                     square(parameters_.post_side_sigma));
 }
 
 // The lines are used one after the other: a line that fits the field only with a tilt that the

@@ -5,6 +5,7 @@
 
 #include "daemons/vision/field_model.h"
 #include "daemons/vision/field_observation.h"
+#include "daemons/vision/vision_parameters.h"
 #include "kinematics/pose2.h"
 
 namespace nao::vision {
@@ -24,7 +25,7 @@ class PoseFilter {
   using Covariance = Eigen::Matrix<double, 7, 7>;
 
   /** @param field  Must outlive this. */
-  explicit PoseFilter(const FieldModel& field);
+  PoseFilter(const FieldModel& field, const VisionParameters::PoseFilter& parameters);
 
   /** Starts at a pose. @param position_sigma  m. @param heading_sigma  rad.
    * @param tilt  Slow errors of the camera's tilt, as far as they are known, rad. */
@@ -88,6 +89,7 @@ class PoseFilter {
   void apply(const Measurement& measurement);
 
   const FieldModel* field_;
+  VisionParameters::PoseFilter parameters_;
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
 };

@@ -8,20 +8,6 @@
 namespace nao::vision {
 namespace {
 
-/** Distance from a line beyond which it explains nothing: m, and its increase for each m from the
- * camera (one degree of tilt at 3 m is 0.3 m). */
-constexpr double kSearchTolerance = 0.10;
-constexpr double kSearchToleranceOfDistance = 0.06;
-/** Greatest angle at which two lines may be the same, rad. */
-constexpr double kMostLineAngle = 0.3;
-/** An observed line may reach beyond its field line by this, m. */
-constexpr double kBeyondEnd = 0.3;
-/** Weight of a circle in the score, and greatest of a line, m. */
-constexpr double kCircleWeight = 1.5;
-constexpr double kMostLength = 2.0;
-/** Least angle between two lines of a hypothesis, rad, and their least length, m. */
-constexpr double kLeastCrossing = 1.2;
-constexpr double kLeastPairLength = 0.4;
 /** Number of newest observations from which hypotheses come, and of pairs of lines of each. */
 constexpr int kNumSources = 4;
 constexpr int kNumPairs = 3;
@@ -29,17 +15,6 @@ constexpr int kNumPairs = 3;
  * different places, m and rad. */
 constexpr size_t kNumRefined = 12;
 constexpr int kNumIterations = 4;
-constexpr double kSamePosition = 0.5;
-constexpr double kSameHeading = 0.35;
-/** Standard deviation of the observations' common tilt error, rad, in addition to the tilt by which
- * they are corrected. */
-constexpr double kCommonTiltSigma = 0.02;
-/** Least score of the result, and its margin over others. Chosen; checked on synthetic
- * observations. */
-constexpr double kLeastPoseScore = 0.55;
-constexpr double kPoseMargin = 0.10;
-/** Greatest difference from the known heading, rad: 100 degrees. */
-constexpr double kMostTurn = 1.75;
 
 Eigen::Vector2d quarter_turn(const Eigen::Vector2d& v) {
   return {-v.y(), v.x()};
@@ -56,14 +31,10 @@ FieldLine moved(const Pose2& pose, const FieldLine& line) {
   return {pose * line.from, pose * line.to};
 }
 
-bool is_same_place(const Pose2& a, const Pose2& b) {
-  return (a.position - b.position).norm() < kSamePosition &&
-         std::abs(wrapped(a.heading - b.heading)) < kSameHeading;
-}
-
 }  // namespace
 
-PoseSearch::PoseSearch(const FieldModel& field) : field_(&field) {
+PoseSearch::PoseSearch(const FieldModel& field, const VisionParameters::PoseSearch& parameters)
+    : field_(&field), parameters_(parameters) {
   for (const FieldLine& line : field.lines()) {
     const bool is_along_x =
         std::abs(line.to.x() - line.from.x()) > std::abs(line.to.y() - line.from.y());
@@ -75,6 +46,11 @@ PoseSearch::PoseSearch(const FieldModel& field) : field_(&field) {
   }
 }
 
+bool PoseSearch::is_same_place(const Pose2& a, const Pose2& b) const {
+  return (a.position - b.position).norm() < parameters_.same_position &&
+         std::abs(wrapped(a.heading - b.heading)) < parameters_.same_heading;
+}
+
 // The field line with the least distance of both ends, among those with its direction.
 PoseSearch::Match PoseSearch::match(const FieldLine& line) const {
   const Eigen::Vector2d direction = (line.to - line.from).normalized();
@@ -83,10 +59,12 @@ PoseSearch::Match PoseSearch::match(const FieldLine& line) const {
     const Eigen::Vector2d step = candidate.to - candidate.from;
     const double length = step.norm();
     const Eigen::Vector2d along = step / length;
-    if (std::abs(along.dot(direction)) < std::cos(kMostLineAngle)) continue;
+    if (std::abs(along.dot(direction)) < std::cos(parameters_.most_line_angle)) continue;
     const double s = (line.from - candidate.from).dot(along);
     const double t = (line.to - candidate.from).dot(along);
-    if (std::min(s, t) < -kBeyondEnd || std::max(s, t) > length + kBeyondEnd) continue;
+    if (std::min(s, t) < -parameters_.beyond_end ||
+        std::max(s, t) > length + parameters_.beyond_end)
+      continue;
     const Eigen::Vector2d normal = quarter_turn(along);
     const double distance = std::max(std::abs(normal.dot(line.from - candidate.from)),
                                      std::abs(normal.dot(line.to - candidate.from)));
@@ -97,7 +75,7 @@ PoseSearch::Match PoseSearch::match(const FieldLine& line) const {
 
 double PoseSearch::line_score(const FieldLine& line, const Eigen::Vector2d& camera) const {
   const double range = (0.5 * (line.from + line.to) - camera).norm();
-  const double tolerance = kSearchTolerance + kSearchToleranceOfDistance * range;
+  const double tolerance = parameters_.tolerance + parameters_.tolerance_of_distance * range;
   double distance = match(line).distance;
   // A chord of the circle lies within a few centimeters of it.
   if ((line.to - line.from).norm() < 1) {
@@ -116,16 +94,17 @@ double PoseSearch::score(const Pose2& pose,
   for (const FieldObservation& observation : observations) {
     const Eigen::Vector2d camera = pose * Eigen::Vector2d(observation.camera.position.head<2>());
     for (const FieldLine& line : observation.lines) {
-      const double weight = std::min(kMostLength, (line.to - line.from).norm());
+      const double weight = std::min(parameters_.most_length, (line.to - line.from).norm());
       weights += weight;
       sum += weight * line_score(moved(pose, line), camera);
     }
     if (observation.circle) {
       const Eigen::Vector2d center = pose * *observation.circle;
-      const double tolerance =
-          2 * (kSearchTolerance + kSearchToleranceOfDistance * (center - camera).norm());
-      weights += kCircleWeight;
-      sum += kCircleWeight * std::max(0.0, 1 - center.squaredNorm() / (tolerance * tolerance));
+      const double tolerance = 2 * (parameters_.tolerance +
+                                    parameters_.tolerance_of_distance * (center - camera).norm());
+      weights += parameters_.circle_weight;
+      sum += parameters_.circle_weight *
+             std::max(0.0, 1 - center.squaredNorm() / (tolerance * tolerance));
     }
   }
   return weights > 0 ? sum / weights : 0;
@@ -135,7 +114,7 @@ void PoseSearch::add_hypotheses(const FieldObservation& observation, double head
                                 std::vector<Pose2>& hypotheses) const {
   std::vector<FieldLine> lines;
   for (const FieldLine& line : observation.lines) {
-    if ((line.to - line.from).norm() >= kLeastPairLength) lines.push_back(line);
+    if ((line.to - line.from).norm() >= parameters_.least_pair_length) lines.push_back(line);
   }
   const auto length = [](const FieldLine& line) { return (line.to - line.from).norm(); };
   std::sort(lines.begin(), lines.end(),
@@ -144,7 +123,8 @@ void PoseSearch::add_hypotheses(const FieldObservation& observation, double head
     const Pose2 pose{position, wrapped(angle)};
     // Poses may be at most half a meter beyond the carpet.
     const bool is_near = (position.cwiseAbs() - field_->half_carpet()).maxCoeff() < 0.5;
-    if (is_near && std::abs(wrapped(angle - heading)) < kMostTurn) hypotheses.push_back(pose);
+    if (is_near && std::abs(wrapped(angle - heading)) < parameters_.most_turn)
+      hypotheses.push_back(pose);
   };
   int num_pairs = 0;
   for (size_t i = 0; i < lines.size() && num_pairs < kNumPairs; ++i) {
@@ -159,7 +139,7 @@ void PoseSearch::add_hypotheses(const FieldObservation& observation, double head
     for (size_t j = i + 1; j < lines.size() && num_pairs < kNumPairs; ++j) {
       const Eigen::Vector2d b = lines[j].to - lines[j].from;
       const double cosine = std::abs(a.dot(b)) / (a.norm() * b.norm());
-      if (cosine > std::cos(kLeastCrossing)) continue;
+      if (cosine > std::cos(parameters_.least_crossing)) continue;
       ++num_pairs;
       const Eigen::Vector2d on_a = 0.5 * (lines[i].from + lines[i].to);
       const Eigen::Vector2d on_b = 0.5 * (lines[j].from + lines[j].to);
@@ -188,8 +168,8 @@ PoseSearch::Result PoseSearch::refined(const Pose2& start,
   for (int iteration = 0; iteration < kNumIterations; ++iteration) {
     Matrix normal = Matrix::Identity() * 1e-3;
     Vector right = Vector::Zero();
-    const double prior =
-        static_cast<double>(observations.size()) / (kCommonTiltSigma * kCommonTiltSigma);
+    const double prior = static_cast<double>(observations.size()) /
+                         (parameters_.common_tilt_sigma * parameters_.common_tilt_sigma);
     normal.diagonal().tail<2>().array() += prior;
     right.tail<2>() -= prior * tilt;
     const auto add = [&](const FieldObservation& observation, const Eigen::Vector2d& point,
@@ -206,7 +186,7 @@ PoseSearch::Result PoseSearch::refined(const Pose2& start,
     for (const FieldObservation& observation : corrected) {
       const Eigen::Vector2d camera = observation.camera.position.head<2>();
       const auto tolerance = [&](const Eigen::Vector2d& point) {
-        return kSearchTolerance + kSearchToleranceOfDistance * (point - camera).norm();
+        return parameters_.tolerance + parameters_.tolerance_of_distance * (point - camera).norm();
       };
       for (const FieldLine& line : observation.lines) {
         const Match found = match(moved(pose, line));
@@ -262,8 +242,9 @@ std::optional<PoseSearch::Result> PoseSearch::find(
   scored = thinned(std::move(scored), kNumRefined);
   for (Result& result : scored) result = refined(result.pose, observations);
   scored = thinned(std::move(scored), 2);
-  if (scored.empty() || scored[0].score < kLeastPoseScore) return std::nullopt;
-  if (scored.size() > 1 && scored[1].score > scored[0].score - kPoseMargin) return std::nullopt;
+  if (scored.empty() || scored[0].score < parameters_.least_score) return std::nullopt;
+  if (scored.size() > 1 && scored[1].score > scored[0].score - parameters_.margin)
+    return std::nullopt;
   return scored[0];
 }
 

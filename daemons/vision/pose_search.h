@@ -5,6 +5,7 @@
 
 #include "daemons/vision/field_model.h"
 #include "daemons/vision/field_observation.h"
+#include "daemons/vision/vision_parameters.h"
 #include "kinematics/pose2.h"
 
 namespace nao::vision {
@@ -27,7 +28,7 @@ class PoseSearch {
   };
 
   /** @param field  Must outlive this. */
-  explicit PoseSearch(const FieldModel& field);
+  PoseSearch(const FieldModel& field, const VisionParameters::PoseSearch& parameters);
 
   /** How well a pose explains observations: the fraction of the observed lines and circles that lie
    * where the field has them, 0 to 1.
@@ -47,6 +48,7 @@ class PoseSearch {
     double distance = 0;
   };
 
+  bool is_same_place(const Pose2& a, const Pose2& b) const;
   Match match(const FieldLine& line) const;
   double line_score(const FieldLine& line, const Eigen::Vector2d& camera) const;
   void add_hypotheses(const FieldObservation& observation, double heading,
@@ -55,6 +57,7 @@ class PoseSearch {
   Result refined(const Pose2& pose, const std::vector<FieldObservation>& observations) const;
 
   const FieldModel* field_;
+  VisionParameters::PoseSearch parameters_;
   /** y of the lines along x, and x of the lines along y, each once, m. */
   std::vector<double> along_x_;
   std::vector<double> along_y_;

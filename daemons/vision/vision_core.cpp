@@ -50,13 +50,21 @@ VisionNetworks VisionNetworks::load() {
           std::make_shared<NeuralNetwork>(folder / "ball.onnx", BallDetector::shape())};
 }
 
-VisionCore::VisionCore(const VisionNetworks& networks)
-    : objects_(networks.objects), ball_(networks.ball) {}
+VisionCore::VisionCore(const VisionNetworks& networks, const VisionParameters& parameters)
+    : parameters_(parameters),
+      status_(parameters.image_status),
+      field_(parameters.field_detector),
+      lines_(parameters.line_detector),
+      crossings_(parameters.crossing_detector),
+      circle_(parameters.center_circle),
+      objects_(networks.objects),
+      ball_(networks.ball),
+      ball_filter_(parameters.ball_filter) {}
 
 // The center circle is found first: its points then do not become lines.
 void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometry,
                             const Detections& obstacles, VisionResult& result) {
-  std::vector<LinePoint> points = find_line_points(view);
+  std::vector<LinePoint> points = find_line_points(view, parameters_.line_points);
   // Bars of robots' legs and the ball look like pieces of lines.
   points.erase(std::remove_if(points.begin(), points.end(),
                               [&](const LinePoint& point) {
@@ -90,7 +98,8 @@ void VisionCore::find_lines(const FieldView& view, const CameraGeometry& geometr
 void VisionCore::localize(const VisionInput& input, VisionResult& result) {
   if (!localizer_ || !input.heading_in_odometry || !input.pose_camera_in_heading) return;
   const CameraPlace place{input.pose_camera_in_heading->translation(), 1 / input.calibration.fx};
-  localizer_->observe(observe_field(result.detections, place, *input.heading_in_odometry));
+  localizer_->observe(observe_field(result.detections, place, *input.heading_in_odometry,
+                                    parameters_.field_observation));
   result.field_pose = localizer_->estimate();
   // The lines show how the camera is tilted, and so how far the ball is.
   correct_by_tilt(place, localizer_->tilt(), result.detections);
@@ -125,10 +134,14 @@ VisionResult VisionCore::process(const VisionInput& input) {
   const PatchSampler sampler(input.bgr);
   FoundObjects objects = objects_.detect(sampler.half(), input.bgr.cols, input.bgr.rows, geometry);
   finish_stage("objects");
-  const std::vector<Circle> more = find_ball_hints(view, geometry, kBallRadius);
-  objects.balls.insert(objects.balls.end(), more.begin(), more.end());
+  std::vector<Circle>& places = objects.balls;
+  for (const Circle& hint : find_ball_hints(view, geometry, kBallRadius)) {
+    const bool is_new = std::none_of(places.begin(), places.end(),
+                                     [&](const Circle& place) { return is_same(place, hint); });
+    if (is_new) places.push_back(hint);
+  }
   finish_stage("ball places");
-  const auto ball = ball_.detect(sampler, geometry, objects.balls);
+  const auto ball = ball_.detect(sampler, geometry, places);
   if (ball) result.detections.push_back(*ball);
   finish_stage("ball");
   Detections obstacles = objects.robots;

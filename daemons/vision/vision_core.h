@@ -17,6 +17,7 @@
 #include "daemons/vision/landmarks.h"
 #include "daemons/vision/localizer.h"
 #include "daemons/vision/object_detector.h"
+#include "daemons/vision/vision_parameters.h"
 #include "kinematics/pose2.h"
 
 namespace nao::vision {
@@ -62,13 +63,16 @@ struct VisionNetworks {
 class VisionCore {
  public:
   /** @throws Error  if a network cannot be read. */
-  explicit VisionCore(const VisionNetworks& networks = VisionNetworks::load());
+  explicit VisionCore(const VisionNetworks& networks = VisionNetworks::load(),
+                      const VisionParameters& parameters = VisionParameters::load());
 
   /** @throws MessageError  if the image has another format or is too small. */
   VisionResult process(const VisionInput& input);
 
   /** From now on the pose on the field is estimated; see Localizer. */
-  void localize(const FieldModel& field, const Pose2& start) { localizer_.emplace(field, start); }
+  void localize(const FieldModel& field, const Pose2& start) {
+    localizer_.emplace(field, start, parameters_);
+  }
 
   /** Called with the stage's name after each stage; for measuring them. */
   void on_stage(std::function<void(const char*)> callback) { on_stage_ = std::move(callback); }
@@ -82,6 +86,7 @@ class VisionCore {
   void find_lines(const FieldView& view, const CameraGeometry& geometry,
                   const Detections& obstacles, VisionResult& result);
 
+  VisionParameters parameters_;
   ImageStatusMonitor status_;
   FieldDetector field_;
   LineDetector lines_;

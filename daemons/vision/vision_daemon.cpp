@@ -44,7 +44,8 @@ VisionDaemon::VisionDaemon(Bus& bus, const RobotModel& model, const VisionOption
       channels_(options.robot),
       status_(bus, kProgram, options.robot),
       commands_(bus, channels_),
-      poses_(model) {
+      poses_(model),
+      core_(VisionNetworks::load(), VisionParameters::load(model.folder() / "vision.yaml")) {
   if (options_.field_start) {
     core_.localize(options_.field_start->first, options_.field_start->second);
   }

@@ -16,7 +16,7 @@ class Option;
 
 namespace nao {
 
-/** Thrown by a callback for an invalid argument: "theta", "'x' is no angle". */
+/** Thrown by a callback for an invalid argument: "theta", "'x' is not an angle". */
 struct UsageError : std::runtime_error {
   UsageError(std::string option_name, const std::string& what)
       : std::runtime_error(what), option(std::move(option_name)) {}

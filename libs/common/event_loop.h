@@ -57,7 +57,7 @@ class EventLoop {
   struct Source {
     /** -1: forgotten. */
     int descriptor;
-    /** Of a timer, s; 0: none. */
+    /** Period of a timer, s; 0: not a timer. */
     double period;
     /** Shared with the call that is running, during which the source may be forgotten. */
     std::shared_ptr<const std::function<void()>> handler;

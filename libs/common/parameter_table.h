@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,25 @@ void read_parameters(const YamlEntry& root, const ParameterTable<Parameters>& ta
       read(*known, entry);
     }
   }
+}
+
+/** The numbers of a file that states all of them; `robot_file`, if it exists, replaces single ones.
+ * @throws ModelError  if the first lacks a number, or one is unknown, negative or not finite. */
+template <class Parameters>
+Parameters load_parameters(const std::filesystem::path& file,
+                           const std::filesystem::path& robot_file,
+                           const ParameterTable<Parameters>& table) {
+  Parameters parameters;
+  const auto read = [&](const YamlEntry& root) {
+    read_parameters(root, table, [&](const auto& known, const YamlEntry& entry) {
+      known.in(parameters) = entry.not_negative();
+    });
+  };
+  const YamlEntry common = YamlEntry::load(file);
+  read(common);
+  for (const auto& parameter : table) (void)parameter.entry(common);
+  if (std::filesystem::exists(robot_file)) read(YamlEntry::load(robot_file));
+  return parameters;
 }
 
 }  // namespace nao

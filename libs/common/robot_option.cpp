@@ -27,8 +27,8 @@ int parse_number(const std::string& text, int least, int greatest, const std::st
   const char* end = text.data() + text.size();
   const auto [last, error] = std::from_chars(text.data(), end, number);
   if (error != std::errc() || last != end || number < least || number > greatest) {
-    throw ConfigError(what + " '" + text + "' is no number from " + std::to_string(least) + " to " +
-                      std::to_string(greatest));
+    throw ConfigError(what + " '" + text + "' is not a number from " + std::to_string(least) +
+                      " to " + std::to_string(greatest));
   }
   return number;
 }

@@ -96,6 +96,12 @@ std::string YamlEntry::text() const {
   return node_.Scalar();
 }
 
+bool YamlEntry::flag() const {
+  const std::string value = text();
+  if (value != "true" && value != "false") fail("is neither true nor false");
+  return value == "true";
+}
+
 double YamlEntry::number() const {
   double value = 0;
   if (!node_.IsScalar() || !YAML::convert<double>::decode(node_, value)) {

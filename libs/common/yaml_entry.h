@@ -42,6 +42,8 @@ class YamlEntry {
   std::vector<YamlEntry> items() const;
   bool is_list() const { return node_.IsSequence(); }
   std::string text() const;
+  /** "true" or "false". */
+  bool flag() const;
   /** A finite number. */
   double number() const;
   /** A finite number above 0. */

@@ -128,7 +128,7 @@ class StructEncoder {
     const int64_t length = std::max<int64_t>(0, fixed.value_or(lengths_[field.dimensions[depth]]));
     if (length > 0 && field.kind == FieldKind::kByte)
       throw Fault(path, "cannot be given: it is bytes.");
-    if (value != nullptr && !value->is_array()) throw Fault(path, "is no list.");
+    if (value != nullptr && !value->is_array()) throw Fault(path, "is not a list.");
     const bool is_filled = value == nullptr && fixed && length <= kMaxFixedLength;
     if (!is_filled && (value == nullptr ? 0 : static_cast<int64_t>(value->size())) != length) {
       throw Fault(path, "needs " + std::to_string(length) + " entries.");
@@ -154,7 +154,7 @@ class StructEncoder {
       case FieldKind::kString:
         return encode_text(value, path);
       case FieldKind::kStruct:
-        if (value != nullptr && !value->is_object()) throw Fault(path, "is no object.");
+        if (value != nullptr && !value->is_object()) throw Fault(path, "is not an object.");
         return StructEncoder(*find_message_layout(field.type), value, path + ".", writer_).encode();
       default:
         return write_integer(field, integer(field, value, path), path);
@@ -164,12 +164,12 @@ class StructEncoder {
   static double number(const Json* value, const std::string& path) {
     if (value == nullptr) return 0;
     if (value->is_null()) return std::numeric_limits<double>::quiet_NaN();
-    if (!value->is_number()) throw Fault(path, "is no number.");
+    if (!value->is_number()) throw Fault(path, "is not a number.");
     return value->get<double>();
   }
 
   void encode_text(const Json* value, const std::string& path) {
-    if (value != nullptr && !value->is_string()) throw Fault(path, "is no text.");
+    if (value != nullptr && !value->is_string()) throw Fault(path, "is not text.");
     const std::string text = value == nullptr ? "" : value->get<std::string>();
     // LCM ends texts with a zero.
     if (text.find('\0') != std::string::npos) throw Fault(path, "contains a zero character.");
@@ -184,7 +184,7 @@ class StructEncoder {
       }
       throw Fault(path, "has no constant of this name.");
     }
-    if (!value->is_number_integer()) throw Fault(path, "is no integer.");
+    if (!value->is_number_integer()) throw Fault(path, "is not an integer.");
     if (value->is_number_unsigned() &&
         value->get<uint64_t>() > static_cast<uint64_t>(std::numeric_limits<int64_t>::max())) {
       throw Fault(path, "is out of range.");

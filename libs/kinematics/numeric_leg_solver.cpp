@@ -150,7 +150,7 @@ double NumericLegSolver::descend(const Eigen::Isometry3d& goal, LegAngles& angle
     if (!is_better) break;
     error = calc_error(goal, angles);
   }
-  // Of what the leg can keep only.
+  // Only the rows that the leg can keep.
   return (weights_.array() == 1).select(error, Vector6d::Zero()).norm();
 }
 

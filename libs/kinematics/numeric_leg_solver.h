@@ -12,7 +12,7 @@ namespace nao {
  *
  * A leg that lacks a joint (yaw of the hip, pitch or roll of the ankle) keeps the sole's position
  * and the angles that it has joints for; the other ones follow, by low weights of their rows of J.
- * Of the solutions of a leg with more than six joints the one nearest to the start is taken: rows
+ * A leg with more than six joints takes the solution that is nearest to the start: rows
  * of low weight draw the angles there.
  *
  * Source: C. Wampler, "Manipulator inverse kinematic solutions based on vector formulations and

@@ -67,10 +67,10 @@ class FieldReader {
   template <class Message>
   LolaDecoding read_map(Message& message) {
     const Token map = reader_.next();
-    if (map.kind != Kind::kMap) return fault(map.kind, "it is no map");
+    if (map.kind != Kind::kMap) return fault(map.kind, "it is not a map");
     for (uint32_t i = 0; i < map.size; ++i) {
       const Token key = reader_.next();
-      if (key.kind != Kind::kText) return fault(key.kind, "a key is no text");
+      if (key.kind != Kind::kText) return fault(key.kind, "a key is not text");
       bool is_known = false;
       size_t field = 0;
       // Linear search over the fields: there are a dozen. `field` is the bit of the field in
@@ -114,7 +114,7 @@ class FieldReader {
     found_ |= bit;
     const Token array = reader_.next();
     if (array.kind != Kind::kArray) {
-      fault(array.kind, fmt::format("{} is no list", name));
+      fault(array.kind, fmt::format("{} is not a list", name));
       return;
     }
     if (array.size != N) {

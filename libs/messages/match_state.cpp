@@ -14,7 +14,7 @@ using naolcm::player_t;
 
 static_assert(match_state_t::PHASE_FINISHED == static_cast<int>(MatchPhase::kFinished));
 static_assert(match_state_t::EVENT_GOAL == static_cast<int>(MatchEventKind::kGoal));
-static_assert(match_state_t::EVENT_MATCH_END == static_cast<int>(MatchEventKind::kMatchEnd));
+static_assert(match_state_t::EVENT_BALL_FREE == static_cast<int>(MatchEventKind::kBallFree));
 static_assert(player_t::PENALTY_OPERATOR == static_cast<int>(Penalty::kOperator));
 static_assert(player_t::ROLE_KEEPER == static_cast<int>(PlayRole::kKeeper));
 
@@ -82,7 +82,7 @@ MatchState to_match_state(const match_state_t& message) {
   }
   for (const player_t& player : message.players) state.players.push_back(read_player(player));
   state.event.id = message.event_id;
-  state.event.kind = read_enum(message.event, MatchEventKind::kMatchEnd, "the event of the match");
+  state.event.kind = read_enum(message.event, MatchEventKind::kBallFree, "the event of the match");
   state.event.team = within<int>(message.event_team, -1, 1, "the team of an event");
   state.event.robot = message.event_robot;
   state.event.time = 1e-6 * static_cast<double>(message.event_utime);

@@ -24,6 +24,7 @@ enum class MatchEventKind {
   kPenaltyEnd,
   kHalfEnd,
   kMatchEnd,
+  kBallFree,
 };
 
 /** The values are those of player_t::PENALTY_*. */
@@ -32,8 +33,9 @@ enum class Penalty { kNone, kLeftField, kNotGettingUp, kPushing, kOperator };
 /** Names for users, in the order of the enumerations. */
 inline constexpr std::array<std::string_view, 5> kMatchPhaseNames = {"initial", "ready", "set",
                                                                      "playing", "finished"};
-inline constexpr std::array<std::string_view, 8> kMatchEventNames = {
-    "none", "kick-off", "goal", "ball-out", "penalty", "penalty-end", "half-end", "match-end"};
+inline constexpr std::array<std::string_view, 9> kMatchEventNames = {
+    "none",        "kick-off", "goal",      "ball-out", "penalty",
+    "penalty-end", "half-end", "match-end", "ball-free"};
 inline constexpr std::array<std::string_view, 5> kPenaltyNames = {
     "none", "left-field", "not-getting-up", "pushing", "operator"};
 

@@ -34,7 +34,7 @@ struct Reason {
   /** True if there is no reason to give, as for an accepted command. */
   bool empty() const { return code.empty(); }
 
-  /** Of kReasons; from a newer program's message also another one. */
+  /** One of kReasons, or another one from a newer program. */
   std::string code;
   /** In the order of the entry in kReasons. */
   std::vector<std::string> arguments;

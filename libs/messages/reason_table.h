@@ -76,7 +76,7 @@ inline constexpr auto kReasons = std::to_array<ReasonEntry>({
     {"action-without-motion", "action", "The robot has no motion for the action {0}."},
     {"action-needs-state", "action, needed state, present state", "The action {0} starts from {1}; the robot is in the state {2}."},
     // Taught motions.
-    {"motion-name-invalid", "name", "{0} is no name of a motion; use 1 to 40 letters, digits, - and _."},
+    {"motion-name-invalid", "name", "{0} is not a name of a motion; use 1 to 40 letters, digits, - and _."},
     {"motion-name-in-use", "name", "A motion {0} is saved already."},
     {"action-name-in-use", "name", "{0} is an action of the robot's own."},
     {"motion-unknown", "name", "No motion {0} is saved."},
@@ -102,7 +102,7 @@ inline constexpr auto kReasons = std::to_array<ReasonEntry>({
     {"speech-operation-unknown", "operation", "The speech operation {0} is none of 0 (say), 1 (stop) and 2 (say after)."},
     {"text-missing", "", "There is no text to speak."},
     {"text-too-long", "bytes, limit", "The text has {0} bytes; at most {1} are allowed."},
-    {"text-not-unicode", "byte", "The text is no valid UTF-8, from byte {0} on."},
+    {"text-not-unicode", "byte", "The text is not valid UTF-8, from byte {0} on."},
     {"text-control-character", "character", "The text has the control character {0}; remove it."},
     {"text-not-speakable", "language", "Nothing of the text can be spoken in the language {0}."},
     {"language-unknown", "language, known languages", "The language {0} cannot be spoken; there are {1}."},

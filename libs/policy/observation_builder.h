@@ -41,7 +41,7 @@ class ObservationBuilder {
                                const std::vector<float>& last_action) const;
 
   const PolicyManifest* manifest_;
-  /** Of each term: its steps, the oldest first. */
+  /** Steps of each term, the oldest first. */
   std::vector<std::deque<std::vector<float>>> steps_;
   std::vector<float> observation_;
 };

@@ -14,7 +14,7 @@ namespace nao {
 
 /** A policy of a robot: manifest and network, or why it cannot be used. */
 struct Policy {
-  /** Of its folder. */
+  /** Name of its folder. */
   std::string name;
   /** The manifest's file; the network lies beside it. */
   std::filesystem::path manifest_file;

@@ -104,7 +104,7 @@ class Reader {
   int read_motor(const YamlEntry& entry) {
     const std::string name = entry.text();
     const int motor = model_.find_motor(name);
-    if (motor < 0) entry.fail("is no joint with a motor of the robot " + model_.name());
+    if (motor < 0) entry.fail("is not a joint with a motor of the robot " + model_.name());
     return motor;
   }
 

@@ -41,7 +41,7 @@ struct PolicyTerm {
   double clip = 0;
   /** Steps of this term that the network sees, the newest included. */
   int num_steps = 1;
-  /** Of a phase: lead of each foot, cycles. Of a constant: the numbers. */
+  /** Lead of each foot, cycles, of a phase; the numbers of a constant. */
   std::vector<double> values;
 };
 
@@ -77,7 +77,7 @@ struct PolicyManifest {
   /** Time of one step, s. */
   double period = 0.02;
   std::vector<PolicyTerm> terms;
-  /** Of stacked steps: the newest first; whole steps one after the other instead of terms. */
+  /** The newest of stacked steps comes first; whole steps follow one another instead of terms. */
   bool is_newest_first = false;
   bool is_by_step = false;
   /** Before the first step, the history is that step; otherwise zeros. */

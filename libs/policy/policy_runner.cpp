@@ -11,7 +11,8 @@ namespace {
 // Steps one after the other in which a target may move faster than the joint's motor. Chosen: noise
 // of a trained policy exceeds it in one or two.
 constexpr int kMaxFastSteps = 5;
-// Distance of a target from the default angle, rad, beyond which the output is no angle: a turn.
+// Distance of a target from the default angle, rad, beyond which the output is not an angle: a
+// turn.
 constexpr double kMaxDistance = 2 * M_PI;
 // Processor time of an inference after which the policy ends at once, s, and inferences one after
 // the other that may take longer than a step. Chosen: a walking robot that holds its targets for

@@ -48,7 +48,7 @@ class PolicyRunner {
   std::vector<float> action_;
   std::vector<double> targets_;
   std::vector<double> last_targets_;
-  /** Of each joint: steps one after the other in which its target moved faster than its motor. */
+  /** Successive steps in which the target of each joint moved faster than its motor. */
   std::vector<int> num_fast_steps_;
   int num_slow_inferences_ = 0;
   double inference_time_ = 0;

@@ -1,5 +1,7 @@
 #include "robot_import/description_text.h"
 
+#include <tinyxml.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +14,7 @@
 #include "kinematics/kinematics.h"
 #include "kinematics/leg_kinematics.h"
 #include "robot_import/level_stance.h"
-#include "robot_import/quoted.h"
+#include "robot_import/yaml_name.h"
 
 namespace nao {
 namespace {
@@ -20,6 +22,8 @@ namespace {
 // How far the hips are below those of stretched legs, fraction of the leg's length.
 constexpr double kReadyBend = 0.05;
 constexpr double kCrouchBend = 0.2;
+// Tilt of a sole in a stance, rad.
+constexpr double kStanceTilt = 0.05;
 // Fraction of the ankles' greatest torque that holds the center of mass while the robot stands:
 // half of what a motor holds without a time limit.
 constexpr double kAnkleLoad = 0.25;
@@ -57,26 +61,36 @@ std::optional<LegKinematics> find_leg_kinematics(const RobotModel& model) {
   }
 }
 
-/** Writes the axes of a group of joints; a group that has two joints of one direction leaves out
- * the second. */
-std::string make_group(const RobotModel& model, const std::string& name,
-                       const std::vector<int>& motors) {
+/** Writes the axes of a group of joints; of joints with one direction each further one gets a group
+ * of its own, "head 2". */
+std::string make_group(const RobotModel& model, const std::string& name, std::vector<int> motors) {
   const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
-  std::array<int, 3> of_direction = {-1, -1, -1};
-  for (const int motor : motors) {
-    const Joint& joint = model.motor_joint(motor);
-    Eigen::Index direction = 0;
-    // At the angles 0 in the root's axes: the largest component names the direction.
-    (poses[joint.child_link].linear() * joint.axis).cwiseAbs().maxCoeff(&direction);
-    if (of_direction[direction] < 0) of_direction[direction] = motor;
+  std::string text;
+  for (int number = 1; !motors.empty(); ++number) {
+    std::array<int, 3> of_direction = {-1, -1, -1};
+    std::vector<int> others;
+    for (const int motor : motors) {
+      const Joint& joint = model.motor_joint(motor);
+      Eigen::Index direction = 0;
+      // At the angles 0 in the root's axes: the largest component names the direction.
+      (poses[joint.child_link].linear() * joint.axis).cwiseAbs().maxCoeff(&direction);
+      if (of_direction[direction] < 0) {
+        of_direction[direction] = motor;
+      } else {
+        others.push_back(motor);
+      }
+    }
+    const std::string number_text = number == 1 ? "" : " " + std::to_string(number);
+    text += "  - {name: " + in_yaml(name + number_text);
+    const std::array<const char*, 3> keys = {"roll", "pitch", "yaw"};
+    for (size_t i = 0; i < keys.size(); ++i) {
+      if (of_direction[i] < 0) continue;
+      text += std::string(", ") + keys[i] + ": " + in_yaml(model.motor_joint(of_direction[i]).name);
+    }
+    text += "}\n";
+    motors = others;
   }
-  std::string text = "  - {name: " + quoted(name);
-  const std::array<const char*, 3> keys = {"roll", "pitch", "yaw"};
-  for (size_t i = 0; i < keys.size(); ++i) {
-    if (of_direction[i] < 0) continue;
-    text += std::string(", ") + keys[i] + ": " + quoted(model.motor_joint(of_direction[i]).name);
-  }
-  return text + "}\n";
+  return text;
 }
 
 /** Motors of a chain of joints, without the ones that are known. */
@@ -90,12 +104,15 @@ std::vector<int> new_motors(const RobotModel& model, const std::vector<int>& joi
   return motors;
 }
 
-/** Splits an arm or a leg into groups of at most `sizes` joints, with these names. */
-void add_limb_groups(const RobotModel& model, const std::string& side, std::vector<int> motors,
+/** Splits an arm or a leg into groups of at most `sizes` joints, with these names; the last one has
+ * the rest. */
+void add_limb_groups(const RobotModel& model, const std::string& side,
+                     const std::vector<int>& motors,
                      const std::vector<std::pair<std::string, size_t>>& parts, std::string& text) {
   size_t first = 0;
   for (const auto& [name, size] : parts) {
-    const size_t end = std::min(motors.size(), first + size);
+    const bool is_last = name == parts.back().first;
+    const size_t end = is_last ? motors.size() : std::min(motors.size(), first + size);
     if (first >= end) return;
     text += make_group(
         model, side + " " + name,
@@ -104,34 +121,66 @@ void add_limb_groups(const RobotModel& model, const std::string& side, std::vect
   }
 }
 
+/** Joints that lead to both limbs. */
+std::vector<int> find_shared(const std::vector<int>& left, const std::vector<int>& right) {
+  std::vector<int> shared;
+  for (const int joint : left) {
+    if (std::find(right.begin(), right.end(), joint) != right.end()) shared.push_back(joint);
+  }
+  return shared;
+}
+
 std::string make_groups(const RobotModel& model) {
   std::string text = "joint_groups:\n";
   std::set<int> known;
-  // Joints that lead to both legs are the waist.
-  std::vector<int> waist;
-  for (const int joint : model.legs()[0].joints) {
-    const auto& right = model.legs()[1].joints;
-    if (std::find(right.begin(), right.end(), joint) != right.end()) waist.push_back(joint);
+  std::vector<int> waist = find_shared(model.legs()[0].joints, model.legs()[1].joints);
+  if (!model.arms().empty()) {
+    const auto arms = find_shared(model.arms()[0].joints, model.arms()[1].joints);
+    waist.insert(waist.end(), arms.begin(), arms.end());
   }
   const std::vector<int> waist_motors = new_motors(model, waist, known);
   std::string limbs;
   for (int side = 0; side < 2; ++side) {
     const std::string name = side == 0 ? "left" : "right";
     if (!model.arms().empty()) {
-      add_limb_groups(model, name, new_motors(model, model.arms()[side].joints, known),
+      const std::vector<int>& arm = model.arms()[side].joints;
+      add_limb_groups(model, name, new_motors(model, arm, known),
                       {{"shoulder", 2}, {"elbow", 2}, {"wrist", 3}}, limbs);
+      // What the end of the arm carries.
+      std::vector<int> hand;
+      for (const int joint : model.motors()) {
+        if (!arm.empty() && model.moves(arm.back(), model.joints()[joint].child_link)) {
+          hand.push_back(joint);
+        }
+      }
+      limbs += make_group(model, name + " hand", new_motors(model, hand, known));
     }
-    add_limb_groups(model, name, new_motors(model, model.legs()[side].joints, known),
-                    {{"hip", 3}, {"knee", 1}, {"ankle", 2}}, limbs);
+    // Both legs name a motor that they share.
+    std::set<int> others(waist_motors.begin(), waist_motors.end());
+    const std::vector<int> leg = new_motors(model, model.legs()[side].joints, others);
+    add_limb_groups(model, name, leg, {{"hip", 3}, {"knee", 1}, {"ankle", 2}}, limbs);
+    known.insert(leg.begin(), leg.end());
   }
-  // Joints that are in no arm, leg or waist belong to the head.
+  // The other joints belong to the head, or to linkages where a limb carries them.
+  std::set<int> limb_joints;
+  for (const LegDescription& leg : model.legs()) {
+    limb_joints.insert(leg.joints.begin(), leg.joints.end());
+  }
+  for (const ArmDescription& arm : model.arms()) {
+    limb_joints.insert(arm.joints.begin(), arm.joints.end());
+  }
+  for (const int joint : waist) limb_joints.erase(joint);
   std::vector<int> head;
+  std::vector<int> linkages;
   for (int motor = 0; motor < model.num_motors(); ++motor) {
-    if (known.count(motor) == 0) head.push_back(motor);
+    if (known.count(motor) > 0) continue;
+    const std::vector<int> chain = model.find_chain(model.motor_joint(motor).child_link);
+    const bool is_on_limb = std::any_of(chain.begin(), chain.end(),
+                                        [&](int joint) { return limb_joints.count(joint) > 0; });
+    (is_on_limb ? linkages : head).push_back(motor);
   }
-  if (!head.empty()) text += make_group(model, "head", head);
-  if (!waist_motors.empty()) text += make_group(model, "waist", waist_motors);
-  return text + limbs;
+  return text + make_group(model, "head", head) + make_group(model, "waist", waist_motors) + limbs +
+         make_group(model, "linkage", linkages);
 }
 
 /** Angles that bend the knees and put the center of mass over the soles; nothing if the legs do not
@@ -179,6 +228,10 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
     // them.
     ahead += kinematics.center_of_mass().x() - (kinematics.left_sole().translation().x() + center);
   }
+  // Legs without an ankle reach the place, not the pose.
+  for (const Eigen::Isometry3d& sole : {kinematics.left_sole(), kinematics.right_sole()}) {
+    if (sole.linear().row(2).head<2>().norm() > kStanceTilt) return std::nullopt;
+  }
   // A solution beyond a joint's limits is not accepted.
   for (int motor = 0; motor < model.num_motors(); ++motor) {
     if (model.clip_to_limits(motor, position[motor], position) != position[motor]) {
@@ -188,12 +241,17 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
   return position;
 }
 
+std::optional<std::vector<double>> find_any_stance(const RobotModel& model, double bend) {
+  const auto stance = find_stance(model, bend);
+  return stance ? stance : find_level_stance(model, bend);
+}
+
 void add_posture(const RobotModel& model, const std::string& name, const std::string& family,
                  const std::vector<double>& position, std::ostringstream& text) {
   text << "  - name: " << name << "\n    family: " << family
        << "\n    source: found by nao robot import\n    joints:\n";
   for (int motor = 0; motor < model.num_motors(); ++motor) {
-    text << "      " << quoted(model.motor_joint(motor).name) << ": " << position[motor] << "\n";
+    text << "      " << in_yaml(model.motor_joint(motor).name) << ": " << position[motor] << "\n";
   }
 }
 
@@ -205,7 +263,7 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
   // Writes the form that RobotModelReader reads.
   const bool has_frame = !structure.frame.matrix().isIdentity(0);
   const std::string root =
-      quoted(has_frame ? make_free_name(model, "robot_frame") : model.links().front().name);
+      in_yaml(has_frame ? make_free_name(model, "robot_frame") : model.links().front().name);
   text << "urdf: " << urdf << "\n\n"
        << "# Frames of the inertial unit.\n"
        << "inertial_unit: {accelerometer: " << root << ", gyroscope: " << root << "}\n\n"
@@ -222,7 +280,7 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
   std::string sensors;
   for (const FoundSole& sole : structure.soles) {
     for (const int sensor : sole.sensors) {
-      sensors += (sensors.empty() ? "" : ", ") + quoted(model.links()[sensor].name);
+      sensors += (sensors.empty() ? "" : ", ") + in_yaml(model.links()[sensor].name);
     }
   }
   if (!sensors.empty()) {
@@ -230,8 +288,8 @@ std::string make_structure_text(const RobotModel& model, const RobotStructure& s
   }
   if (!structure.hands.empty()) {
     text << "\n# Links of the hands; the arms are the joints from the root to them.\nhands: {left: "
-         << quoted(model.links()[structure.hands[0]].name)
-         << ", right: " << quoted(model.links()[structure.hands[1]].name) << "}\n";
+         << in_yaml(model.links()[structure.hands[0]].name)
+         << ", right: " << in_yaml(model.links()[structure.hands[1]].name) << "}\n";
   }
   return text.str();
 }
@@ -244,8 +302,11 @@ std::string make_sole_links(const RobotModel& model, const RobotStructure& struc
     const Eigen::Vector3d xyz = pose.translation();
     // Roll, pitch and yaw of R = Rz(yaw) Ry(pitch) Rx(roll), URDF's order.
     const Eigen::Matrix3d& r = pose.linear();
-    text << "<joint name=\"" << name << "\" type=\"fixed\">\n  <parent link=\"" << parent
-         << "\"/>\n  <child link=\"" << child << "\"/>\n  <origin xyz=\"" << xyz.x() << " "
+    std::string in_xml[2];
+    TiXmlBase::EncodeString(parent, &in_xml[0]);
+    TiXmlBase::EncodeString(child, &in_xml[1]);
+    text << "<joint name=\"" << name << "\" type=\"fixed\">\n  <parent link=\"" << in_xml[0]
+         << "\"/>\n  <child link=\"" << in_xml[1] << "\"/>\n  <origin xyz=\"" << xyz.x() << " "
          << xyz.y() << " " << xyz.z() << "\" rpy=\"" << std::atan2(r(2, 1), r(2, 2)) << " "
          << std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))) << " "
          << std::atan2(r(1, 0), r(0, 0)) << "\"/>\n</joint>\n";
@@ -290,9 +351,9 @@ std::string make_description_text(const RobotModel& model) {
           "`name`.\n"
        << "mirrored_joints:\n";
   for (const JointPair& pair : symmetry.pairs) {
-    text << "  - {name: " << quoted(pair.name)
-         << ", left: " << quoted(model.motor_joint(pair.left).name);
-    if (pair.right >= 0) text << ", right: " << quoted(model.motor_joint(pair.right).name);
+    text << "  - {name: " << in_yaml(pair.name)
+         << ", left: " << in_yaml(model.motor_joint(pair.left).name);
+    if (pair.right >= 0) text << ", right: " << in_yaml(model.motor_joint(pair.right).name);
     text << ", sign: " << symmetry.mirrors[pair.left].sign << "}\n";
   }
   text << "\n# Joints as people name them.\n" << make_groups(model);
@@ -303,7 +364,8 @@ std::string make_description_text(const RobotModel& model) {
   const auto legs = find_leg_kinematics(model);
   const double length = legs ? legs->reach() : height;
   // 0 for a robot that cannot walk.
-  const double speed = legs ? kFroudeVelocity * std::sqrt(kGravity * length) : 0;
+  const bool walks = legs && legs->roles(Leg::kLeft).ankle_pitch >= 0;
+  const double speed = walks ? kFroudeVelocity * std::sqrt(kGravity * length) : 0;
   Kinematics kinematics(model);
   kinematics.update(std::vector<double>(model.num_motors(), 0.0));
   const double center_height =
@@ -318,9 +380,16 @@ std::string make_description_text(const RobotModel& model) {
        << "\n# Slow: v / sqrt(g * leg length) = " << kFroudeVelocity
        << ". nao-walk-tuner finds what the robot sustains.\nwalk_limits: {forward: " << speed
        << ", backward: " << 0.6 * speed << ", sideways: " << 0.5 * speed
-       << ", turning: " << (legs ? 0.5 : 0) << "}\n"
-       << "\nactions:\n  - {name: get-up, does: stand-up}\n  - {name: rest, does: rest}\n";
+       << ", turning: " << (walks ? 0.5 : 0) << "}\n"
+       << "\nactions:"
+       << (model.legs()[0].joints.empty()
+               ? " []\n"
+               : "\n  - {name: get-up, does: stand-up}\n  - {name: rest, does: rest}\n");
   return text.str();
+}
+
+std::optional<std::vector<double>> find_ready_stance(const RobotModel& model) {
+  return find_any_stance(model, kReadyBend);
 }
 
 std::string make_postures_text(const RobotModel& model, Findings& findings) {
@@ -332,8 +401,7 @@ std::string make_postures_text(const RobotModel& model, Findings& findings) {
   }
   text << "# Angles of the motors, rad.\npostures:\n";
   const auto add = [&](const std::string& name, const std::string& family, double bend) {
-    auto stance = find_stance(model, bend);
-    if (!stance) stance = find_level_stance(model, bend);
+    auto stance = find_any_stance(model, bend);
     // A robot without legs has one stance.
     if (model.legs()[0].joints.empty()) stance = zero;
     if (!stance) {

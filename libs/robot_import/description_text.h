@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "robot_import/finding.h"
 #include "robot_import/robot_structure.h"
@@ -20,6 +22,10 @@ std::string make_sole_links(const RobotModel& model, const RobotStructure& struc
  * references.
  * @param model  With legs and arms. */
 std::string make_description_text(const RobotModel& model);
+
+/** Angles of a stance with level soles, bent knees and the center of mass over the soles, rad;
+ * nothing if the legs do not reach one. */
+std::optional<std::vector<double>> find_ready_stance(const RobotModel& model);
 
 /** postures.yaml: zero; ready, with bent knees and the center of mass over the soles; crouch.
  * @param findings  Receives which postures are beyond the legs' reach. */

@@ -174,8 +174,7 @@ struct Sizes {
   double hip_height;
   double least_distance;
   Eigen::AlignedBox2d sole;
-  /** Ankles that move the zero moment point along and across the sole. */
-  bool has_ankle_pitch = true;
+  /** Ankles that move the zero moment point across the sole. */
   bool has_ankle_roll = true;
 
   double unit(Scale scale) const {
@@ -229,7 +228,6 @@ Sizes measure(const RobotModel& model, const LegKinematics& legs) {
               stretched * std::clamp(height, kBentHeight, kStretchedHeight),
               0,
               {},
-              legs.roles(Leg::kLeft).ankle_pitch >= 0,
               legs.roles(Leg::kLeft).ankle_roll >= 0};
   for (const Eigen::Vector2d& corner : model.left_sole_outline()) sizes.sole.extend(corner);
   Eigen::AlignedBox2d right_sole;
@@ -245,9 +243,7 @@ Sizes measure(const RobotModel& model, const LegKinematics& legs) {
 double ankle_factor(const Sizes& sizes, const std::string& name) {
   const bool is_across =
       name == "zmp_inward" || name == "reach_sideways" || name == "gyro_hip_roll";
-  const bool is_along = name == "zmp_forward" || name == "reach_forward" ||
-                        name == "reach_backward" || name == "max_bias";
-  if ((is_across && !sizes.has_ankle_roll) || (is_along && !sizes.has_ankle_pitch)) return 0;
+  if (is_across && !sizes.has_ankle_roll) return 0;
   return name == "footstep_gain" && !sizes.has_ankle_roll ? kFootstepsAlone : 1;
 }
 
@@ -271,6 +267,8 @@ std::string make_gait_text(const RobotModel& model, const GaitFactors& factors) 
           "parameters.\n";
   try {
     const LegKinematics legs(model);
+    // A walk begins with a stand, which needs an ankle.
+    if (legs.roles(Leg::kLeft).ankle_pitch < 0) return "";
     const Sizes sizes = measure(model, legs);
     std::string group;
     for (const Row& row : kRows) {

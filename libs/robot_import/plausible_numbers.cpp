@@ -154,9 +154,7 @@ std::string with_plausible_numbers(const std::string& text, const RobotModel& mo
   const Findings found = Numbers(model, leg, file, *robot).repair();
   if (found.empty()) return text;
   findings.insert(findings.end(), found.begin(), found.end());
-  TiXmlPrinter printer;
-  document.Accept(&printer);
-  return printer.Str();
+  return to_text(document);
 }
 
 }  // namespace nao

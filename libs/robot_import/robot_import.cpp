@@ -1,8 +1,11 @@
 #include "robot_import/robot_import.h"
 
+#include <tinyxml.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "common/error.h"
@@ -12,6 +15,8 @@
 #include "kinematics/support_polygon.h"
 #include "robot_import/description_text.h"
 #include "robot_import/gait_text.h"
+#include "robot_import/hands.h"
+#include "robot_import/leg_numbers.h"
 #include "robot_import/plausible_numbers.h"
 #include "robot_import/robot_structure.h"
 #include "robot_import/touching_bodies.h"
@@ -37,6 +42,23 @@ double calc_leg_height(const RobotModel& model, const RobotStructure& structure)
   return (poses[hip].translation() - poses[sole.foot] * sole.pose_in_foot.translation()).norm();
 }
 
+/** Gives findings about joints and links their lines in the file: they were found in a text that
+ * repairs had changed. */
+void find_lines(const fs::path& urdf, size_t first, Findings& findings) {
+  TiXmlDocument document;
+  if (!document.LoadFile(urdf.string())) return;
+  std::map<std::string, int> lines;
+  for (const TiXmlElement* element = document.RootElement()->FirstChildElement();
+       element != nullptr; element = element->NextSiblingElement()) {
+    if (element->Attribute("name") == nullptr) continue;
+    lines[element->ValueStr() + " " + element->Attribute("name")] = element->Row();
+  }
+  for (size_t i = first; i < findings.size(); ++i) {
+    const auto line = lines.find(findings[i].element);
+    if (findings[i].line > 0) findings[i].line = line == lines.end() ? 0 : line->second;
+  }
+}
+
 // The steps need one another's results: the model is loaded several times, each time with more of
 // its description.
 void import_into(const fs::path& urdf, const fs::path& folder, Findings& findings) {
@@ -51,9 +73,14 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
                                           ", gyroscope: " + root + "}\nsoles: {left: " + sole +
                                           ", right: " + sole + "}\n");
   replace_file(folder / "postures.yaml", "postures: []\n");
-  const RobotModel tree = RobotModel::load(folder);
-  const RobotStructure structure = find_structure(tree, repaired.mesh_points, findings);
+  RobotModel tree = RobotModel::load(folder);
+  RobotStructure structure = find_structure(tree, repaired.mesh_points, findings);
 
+  const size_t num_found = findings.size();
+  repaired.text =
+      with_hands_of_one_motor(repaired.text, tree, urdf.filename().string(), structure, findings);
+  replace_file(folder / name, repaired.text);
+  tree = RobotModel::load(folder);
   repaired.text = with_plausible_numbers(repaired.text, tree, calc_leg_height(tree, structure),
                                          urdf.filename().string(), findings);
   const size_t end = repaired.text.rfind("</robot>");
@@ -62,6 +89,10 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
   replace_file(folder / name, repaired.text.insert(end, make_sole_links(tree, structure)));
   const std::string text = make_structure_text(tree, structure, name);
   replace_file(folder / "robot.yaml", text);
+  repaired.text = with_plausible_legs(repaired.text, RobotModel::load(folder),
+                                      urdf.filename().string(), findings);
+  find_lines(urdf, num_found, findings);
+  replace_file(folder / name, repaired.text);
   const RobotModel limbs = RobotModel::load(folder);
   replace_file(folder / "postures.yaml", make_postures_text(limbs, findings));
   replace_file(folder / "transitions.yaml", "transitions: []\n");
@@ -126,8 +157,8 @@ class Check {
     try {
       const LegKinematics legs(model_);
       if (legs.roles(Leg::kLeft).ankle_pitch < 0) {
-        add("standing", "", "no joint pitches the feet: point feet, or feet fixed to the shank",
-            "only steps could keep its balance, which the walk does not begin with");
+        add("walking", "", "no joint pitches the feet: point feet, or feet fixed to the shank",
+            "only steps could keep its balance, and the walk begins with a stand");
       }
     } catch (const ModelError& error) {
       add("walking", "", error.what(), "walking needs such legs");

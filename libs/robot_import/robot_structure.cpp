@@ -33,6 +33,10 @@ constexpr double kTiltStep = 0.02;
 // Sole of a foot without shapes, fractions of the leg's height. Chosen: a NAO's.
 constexpr double kSoleLength = 0.45;
 constexpr double kSoleWidth = 0.25;
+// Its greatest width, fraction of the distance of the feet.
+constexpr double kSoleWidthOfStance = 0.7;
+// Length of a foot that is a point, fraction of the leg's height.
+constexpr double kPointLength = 0.12;
 // Least distance of a sole's frame from its heel and toe, fraction of the sole's length.
 constexpr double kLeastHeel = 0.15;
 // A corner of an outline nearer to the line of its neighbors is left out, fraction of the outline's
@@ -199,6 +203,18 @@ void simplify(std::vector<Vector2d>& outline) {
   }
 }
 
+/** Fewer joints pitch the leg than hip, knee and ankle have. */
+bool lacks_ankle_pitch(const Body& body, const Chain& leg) {
+  return std::count_if(leg.joints.begin(), leg.joints.end(), [&](int index) {
+           const Joint& joint = body.model.joints()[index];
+           return std::abs((body.poses[joint.child_link].linear() * joint.axis).y()) > 0.7;
+         }) < 3;
+}
+
+std::vector<Vector2d> make_rectangle(double back, double front, double side) {
+  return {{-back, -side}, {front, -side}, {front, side}, {-back, side}};
+}
+
 FoundSole find_sole(const Body& body, const Chain& leg) {
   const RobotModel& model = body.model;
   FoundSole sole;
@@ -215,8 +231,13 @@ FoundSole find_sole(const Body& body, const Chain& leg) {
   Matrix3d level = Matrix3d::Identity();
   double lowest = 0;
   sole.outline = find_outline(points, level, kSoleDepth * height, lowest);
+  Eigen::AlignedBox2d extent;
+  for (const Vector2d& corner : sole.outline) extent.extend(corner);
+  sole.is_point =
+      !points.empty() && lacks_ankle_pitch(body, leg) && extent.sizes().x() < kPointLength * height;
   double largest = 2 * area_of(sole.outline);
-  for (double tilt = -kGreatestTilt; tilt <= kGreatestTilt && !points.empty(); tilt += kTiltStep) {
+  const bool is_searched = !points.empty() && !sole.is_point;
+  for (double tilt = -kGreatestTilt; is_searched && tilt <= kGreatestTilt; tilt += kTiltStep) {
     for (int axis = 0; axis < 2; ++axis) {
       const Matrix3d turn = Eigen::AngleAxisd(tilt, Vector3d::Unit(axis)).toRotationMatrix();
       double at = 0;
@@ -229,7 +250,11 @@ FoundSole find_sole(const Body& body, const Chain& leg) {
     }
   }
   simplify(sole.outline);
-  sole.has_shape = !points.empty();
+  sole.has_shape = !points.empty() && !sole.is_point;
+  if (sole.is_point) {
+    const double half = 0.5 * kSoleLength * height;
+    sole.outline = make_rectangle(half, half, 0.5 * kSoleWidth * height);
+  }
   // The foot has no shape, or one that touches the ground only along a line.
   if (sole.outline.size() < 3 ||
       area_of(sole.outline) < 1e-3 * kSoleLength * kSoleWidth * height * height) {
@@ -260,11 +285,14 @@ void make_alike(std::array<FoundSole, 2>& soles, const Body& body, double height
                 Findings& findings) {
   const std::array<double, 2> area = {area_of(soles[0].outline), area_of(soles[1].outline)};
   if (area[0] <= 0 && area[1] <= 0) {
-    const double back = 0.35 * kSoleLength * height;
-    const double front = 0.65 * kSoleLength * height;
-    const double side = 0.5 * kSoleWidth * height;
+    // Feet that touch never stand side by side.
+    const auto y = [&](const FoundSole& sole) {
+      return (body.poses[sole.foot] * sole.pose_in_foot.translation()).y();
+    };
+    const double side =
+        std::min(0.5 * kSoleWidth * height, kSoleWidthOfStance * 0.5 * (y(soles[0]) - y(soles[1])));
     for (FoundSole& sole : soles) {
-      sole.outline = {{-back, -side}, {front, -side}, {front, side}, {-back, side}};
+      sole.outline = make_rectangle(0.35 * kSoleLength * height, 0.65 * kSoleLength * height, side);
       findings.push_back({Finding::Severity::kMissing, "robot.yaml", 0,
                           "link " + body.model.links()[sole.foot].name,
                           "the foot has no collision shape with a flat lower side",
@@ -293,9 +321,8 @@ double find_rest(const Body& body, const Legs& legs, Vector3d& com) {
   com.setZero();
   for (size_t link = 0; link < body.model.links().size(); ++link) {
     const Link& part = body.model.links()[link];
-    const std::vector<int> chain = body.model.find_chain(static_cast<int>(link));
     const bool is_leg = std::any_of(legs.begin(), legs.end(), [&](const Chain* leg) {
-      return std::find(chain.begin(), chain.end(), leg->joints.front()) != chain.end();
+      return body.model.moves(leg->joints.front(), static_cast<int>(link));
     });
     if (is_leg) continue;
     mass += part.mass;
@@ -317,9 +344,8 @@ bool are_legs(const Body& body, const Legs& legs) {
   // They reach lower than everything else.
   const double sole = body.lowest(legs[0]->end);
   for (size_t link = 0; link < body.model.links().size(); ++link) {
-    const std::vector<int> chain = body.model.find_chain(static_cast<int>(link));
     const bool is_leg = std::any_of(legs.begin(), legs.end(), [&](const Chain* leg) {
-      return std::find(chain.begin(), chain.end(), leg->joints.front()) != chain.end();
+      return body.model.moves(leg->joints.front(), static_cast<int>(link));
     });
     if (!is_leg && body.lowest(static_cast<int>(link)) < sole - 0.02 * drop) return false;
   }
@@ -395,6 +421,8 @@ int find_plane(const Body& body, double& offset) {
         const double at = 0.5 * (screws[i].point[normal] + screws[k].point[normal]);
         if (!is_image(screws[i], screws[k], normal, at)) continue;
         size_t count = 0;
+        // Axes along the normal do not say where the plane is.
+        size_t across = 0;
         double sum = 0;
         for (size_t a = 0; a < screws.size(); ++a) {
           for (size_t b = a + 1; b < screws.size(); ++b) {
@@ -403,13 +431,15 @@ int find_plane(const Body& body, double& offset) {
               continue;
             }
             ++count;
+            if (std::abs(screws[a].axis[normal]) > 0.7) continue;
+            ++across;
             sum += 0.5 * (screws[a].point[normal] + screws[b].point[normal]);
           }
         }
         if (count <= most) continue;
         most = count;
         best = normal;
-        offset = sum / static_cast<double>(count);
+        offset = across > 0 ? sum / static_cast<double>(across) : at;
       }
     }
   }
@@ -503,7 +533,19 @@ std::array<FoundSole, 2> find_feet(const Body& body, const std::vector<Chain>& l
                                    Findings& findings) {
   std::array<FoundSole, 2> soles = {find_sole(body, legs[0]), find_sole(body, legs[1])};
   const int hip = body.model.joints()[legs[0].joints.front()].child_link;
-  make_alike(soles, body, body.poses[hip].translation().z() - legs[0].point.z(), findings);
+  const double height = body.poses[hip].translation().z() - legs[0].point.z();
+  make_alike(soles, body, height, findings);
+  for (const FoundSole& sole : soles) {
+    if (!sole.is_point) continue;
+    std::ostringstream text;
+    text << "it stands on plates of " << kSoleLength * height << " x " << kSoleWidth * height
+         << " m that are assumed below them";
+    findings.push_back({Finding::Severity::kMissing, "robot.yaml", 0,
+                        "link " + body.model.links()[sole.foot].name,
+                        "the feet are points that no joint pitches, on which only steps keep the "
+                        "balance",
+                        text.str()});
+  }
   return soles;
 }
 

@@ -20,6 +20,8 @@ struct FoundSole {
   Eigen::Isometry3d pose_in_foot = Eigen::Isometry3d::Identity();
   /** Convex, counter-clockwise, m, in the sole's frame. */
   std::vector<Eigen::Vector2d> outline;
+  /** Whether the foot is a point that no joint pitches: its outline is that of an assumed plate. */
+  bool is_point = false;
   /** Whether a shape of the foot is above it; otherwise it needs one to stand on. */
   bool has_shape = true;
   /** Mass of the plate that is added there, kg: what holds a robot without legs. */

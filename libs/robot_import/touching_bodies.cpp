@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "robot_import/quoted.h"
+#include "robot_import/yaml_name.h"
 #include "robot_model/collision_shape.h"
 
 namespace nao {
@@ -112,7 +112,8 @@ std::string make_allowed_contacts_text(const RobotModel& model) {
 
   std::string text;
   for (const auto& [a, b] : found) {
-    text += "  - [" + quoted(model.links()[a].name) + ", " + quoted(model.links()[b].name) + "]\n";
+    text +=
+        "  - [" + in_yaml(model.links()[a].name) + ", " + in_yaml(model.links()[b].name) + "]\n";
   }
   if (text.empty()) return text;
   return "\n# Bodies whose collision shapes overlap by construction: their contact does not "

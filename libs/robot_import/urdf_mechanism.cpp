@@ -115,12 +115,9 @@ class MechanismRepair {
       }
       if (leader == nullptr || leader->FirstChildElement("mimic") != nullptr) {
         followers_.push_back(
-            {joint, nullptr, 0, 0, "mimics \"" + first + "\", which is no joint with a motor"});
+            {joint, nullptr, 0, 0, "mimics \"" + first + "\", which is not a joint with a motor"});
       } else if (is_fixed(*leader)) {
         followers_.push_back({joint, nullptr, 0, offset, "mimics " + first + ", which is fixed"});
-      } else if (body_of(link_of(*leader, "parent")) != body_of(link_of(*joint, "parent"))) {
-        followers_.push_back({joint, nullptr, 0, ratio * rest_angle(*leader) + offset,
-                              "mimics " + first + ", which another body carries"});
       } else {
         followers_.push_back({joint, leader, ratio, offset, ""});
       }
@@ -167,17 +164,7 @@ class MechanismRepair {
 
   void add_mass(TiXmlElement& link) {
     const double mass = kLeastMassFraction * total_mass_;
-    TiXmlElement inertial("inertial");
-    TiXmlElement value("mass");
-    value.SetAttribute("value", to_text(mass).c_str());
-    inertial.InsertEndChild(value);
-    TiXmlElement inertia("inertia");
-    for (const char* name : {"ixx", "iyy", "izz"}) {
-      inertia.SetAttribute(name, to_text(ball_moment(mass)).c_str());
-    }
-    for (const char* name : {"ixy", "ixz", "iyz"}) inertia.SetAttribute(name, "0");
-    inertial.InsertEndChild(inertia);
-    link.InsertEndChild(inertial);
+    link.InsertEndChild(make_inertial(mass));
     log_.note(Severity::kRepaired, link, std::string("link ") + link.Attribute("name"),
               "is moved by a joint, but has no mass",
               to_text(mass) + " kg are assumed: write <inertial>");
@@ -190,14 +177,6 @@ class MechanismRepair {
   static std::string element_of(const TiXmlElement& joint) {
     return std::string("joint ") + joint.Attribute("name");
   }
-  // 0, or the limit that is nearest to it.
-  static double rest_angle(const TiXmlElement& joint) {
-    const TiXmlElement* limit = joint.FirstChildElement("limit");
-    if (limit == nullptr) return 0;
-    return std::min(std::max(0.0, read_number(*limit, "lower", 0)),
-                    read_number(*limit, "upper", 0));
-  }
-
   struct Follower {
     TiXmlElement* joint;
     /** nullptr: it is held at `offset`. */

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <set>
 #include <sstream>
+#include <vector>
 
 #include "robot_import/mesh_import.h"
 #include "robot_import/urdf_dialect.h"
@@ -24,6 +26,8 @@ namespace fs = std::filesystem;
 constexpr double kRange = 3.14;
 constexpr double kVelocity = 6;
 constexpr double kTorquePerMass = 1.5;
+// Mass of each link of a robot without masses, kg.
+constexpr double kAssumedMass = 1;
 
 class UrdfRepair {
  public:
@@ -47,6 +51,7 @@ class UrdfRepair {
   }
 
   void load();
+  void open_loops();
   void find_root();
   void measure_mass();
   void repair_joint(TiXmlElement& joint);
@@ -82,32 +87,92 @@ void UrdfRepair::load() {
         file_.filename().string() + ":" + std::to_string(document_.ErrorRow()) +
         ": is not a URDF: " + (document_.Error() ? document_.ErrorDesc() : "no <robot> element"));
   }
+  // The reader of the result wants a name, and knows one version.
+  if (robot_->Attribute("name") == nullptr) robot_->SetAttribute("name", "robot");
+  robot_->RemoveAttribute("version");
   repair_dialect(*robot_, log_);
 }
 
-void UrdfRepair::find_root() {
-  // The root is the only link that is not a child of a joint.
+// A link has one joint above it: the first one counts.
+void UrdfRepair::open_loops() {
   std::set<std::string> children;
-  for (const TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
+  for (TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;) {
+    TiXmlElement* next = joint->NextSiblingElement("joint");
     const TiXmlElement* child = joint->FirstChildElement("child");
-    if (child != nullptr && child->Attribute("link") != nullptr) {
-      children.insert(child->Attribute("link"));
+    const char* link = child == nullptr ? nullptr : child->Attribute("link");
+    if (link != nullptr && !children.insert(link).second) {
+      const char* name = joint->Attribute("name");
+      note(Severity::kRepaired, *joint, std::string("joint ") + (name == nullptr ? "" : name),
+           std::string("closes a loop: another joint moves its child ") + link + " already",
+           "the loop is left open");
+      robot_->RemoveChild(joint);
     }
+    joint = next;
   }
-  for (const TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
+}
+
+/** Joints by the links above them. */
+std::multimap<std::string, TiXmlElement*> joints_by_parent(TiXmlElement& robot) {
+  std::multimap<std::string, TiXmlElement*> joints;
+  for (TiXmlElement* joint = robot.FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    const TiXmlElement* parent = joint->FirstChildElement("parent");
+    const char* link = parent == nullptr ? nullptr : parent->Attribute("link");
+    if (link != nullptr) joints.emplace(link, joint);
+  }
+  return joints;
+}
+
+// The tree with the most links is the robot.
+void UrdfRepair::find_root() {
+  std::map<std::string, TiXmlElement*> links;
+  for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
     if (link->Attribute("name") == nullptr) fail(link, "a link has no name", "give it one");
-    if (children.count(link->Attribute("name")) > 0) continue;
-    if (!result_.root.empty()) {
-      fail(link,
-           "\"" + std::string(link->Attribute("name")) + "\" is a second root besides \"" +
-               result_.root + "\"",
-           "connect the two by a joint");
-    }
-    result_.root = link->Attribute("name");
+    links[link->Attribute("name")] = link;
   }
-  if (result_.root.empty()) fail(robot_, "has no root link", "remove the cycle of joints");
+  if (links.empty()) fail(robot_, "has no <link>", "export the robot with its links");
+  const auto joints = joints_by_parent(*robot_);
+  // The root is the only link that is not a child of a joint.
+  std::set<std::string> roots;
+  for (const auto& [name, link] : links) roots.insert(name);
+  for (const auto& [parent, joint] : joints) {
+    const TiXmlElement* child = joint->FirstChildElement("child");
+    if (child != nullptr && child->Attribute("link") != nullptr) {
+      roots.erase(child->Attribute("link"));
+    }
+  }
+  if (roots.empty()) fail(robot_, "has no root link", "remove the cycle of joints");
+  std::vector<std::string> largest;
+  std::map<std::string, std::vector<std::string>> trees;
+  for (const std::string& root : roots) {
+    std::vector<std::string>& tree = trees[root] = {root};
+    for (size_t i = 0; i < tree.size() && tree.size() <= links.size(); ++i) {
+      const auto [first, last] = joints.equal_range(tree[i]);
+      for (auto joint = first; joint != last; ++joint) {
+        const TiXmlElement* child = joint->second->FirstChildElement("child");
+        if (child != nullptr && child->Attribute("link") != nullptr) {
+          tree.emplace_back(child->Attribute("link"));
+        }
+      }
+    }
+    if (tree.size() <= largest.size()) continue;
+    largest = tree;
+    result_.root = root;
+  }
+  for (const auto& [root, tree] : trees) {
+    if (root == result_.root) continue;
+    note(Severity::kRepaired, *links.at(root), "link " + root,
+         "is a second root besides " + result_.root,
+         "it is left out with all that it carries: connect the two by a joint if it is a part of "
+         "the robot");
+    for (const std::string& name : tree) {
+      const auto [first, last] = joints.equal_range(name);
+      for (auto joint = first; joint != last; ++joint) robot_->RemoveChild(joint->second);
+      const auto link = links.find(name);
+      if (link != links.end()) robot_->RemoveChild(link->second);
+    }
+  }
 }
 
 // The robot's mass, for the assumed torque limits.
@@ -118,9 +183,25 @@ void UrdfRepair::measure_mass() {
     const TiXmlElement* mass = inertial ? inertial->FirstChildElement("mass") : nullptr;
     if (mass != nullptr) mass_ += std::max(0.0, read_number(*mass, "value", 0));
   }
-  if (mass_ <= 0) {
-    fail(robot_, "no link has a mass",
-         "export the URDF with <inertial> elements, or write them by hand");
+  if (mass_ > 0) return;
+  note(
+      Severity::kMissing, *robot_, "robot", "no link has a mass",
+      to_text(kAssumedMass) + " kg are assumed for each: export the URDF with <inertial> elements");
+  // Every body gets one: the root and what joints move. Frames stay without mass.
+  std::set<std::string> bodies = {result_.root};
+  for (const TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    const TiXmlElement* child = joint->FirstChildElement("child");
+    const char* type = joint->Attribute("type");
+    if (child == nullptr || child->Attribute("link") == nullptr || type == nullptr) continue;
+    if (std::string(type) != "fixed") bodies.insert(child->Attribute("link"));
+  }
+  for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    if (TiXmlElement* empty = link->FirstChildElement("inertial")) link->RemoveChild(empty);
+    if (bodies.count(link->Attribute("name")) == 0) continue;
+    link->InsertEndChild(make_inertial(kAssumedMass));
+    mass_ += kAssumedMass;
   }
 }
 
@@ -133,6 +214,8 @@ void UrdfRepair::repair_limit(TiXmlElement& joint, const std::string& element, b
   const double none = std::numeric_limits<double>::quiet_NaN();
   double lower = read_number(*limit, "lower", none);
   double upper = read_number(*limit, "upper", none);
+  // Some files write a range although the type says that there is none.
+  if (is_continuous && lower < upper && lower >= -kRange && upper <= kRange) is_continuous = false;
   if (!is_continuous && lower > upper) {
     std::swap(lower, upper);
     limit->SetAttribute("lower", to_text(lower).c_str());
@@ -164,18 +247,15 @@ void UrdfRepair::repair_limit(TiXmlElement& joint, const std::string& element, b
 void UrdfRepair::repair_joint(TiXmlElement& joint) {
   const char* name = joint.Attribute("name");
   const char* type = joint.Attribute("type");
-  if (name == nullptr || type == nullptr) {
-    fail(&joint, "a joint has no name or no type", "give it both");
-  }
+  if (name == nullptr) fail(&joint, "a joint has no name", "give it one");
   const std::string element = std::string("joint ") + name;
-  const std::string kind = type;
+  const std::string kind = type == nullptr ? "" : type;
   if (kind == "fixed") return;
   if (kind == "prismatic" || kind == "floating" || kind == "planar") {
     return hold_joint(joint, 0, "is " + kind, log_);
   }
   if (kind != "revolute" && kind != "continuous") {
-    fail(&joint, element + " has the unknown type \"" + kind + "\"",
-         "use revolute, continuous, prismatic or fixed");
+    return hold_joint(joint, 0, "has the unknown type \"" + kind + "\"", log_);
   }
   const TiXmlElement* axis = joint.FirstChildElement("axis");
   const auto xyz = axis == nullptr ? std::nullopt : read_numbers(*axis, "xyz", 3);
@@ -381,6 +461,7 @@ void UrdfRepair::repair_shapes(TiXmlElement& link, const char* kind, const std::
 
 RepairedUrdf UrdfRepair::run() {
   load();
+  open_loops();
   find_root();
   measure_mass();
   for (TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
@@ -398,9 +479,13 @@ RepairedUrdf UrdfRepair::run() {
     repair_shapes(*link, "visual", element);
     repair_shapes(*link, "collision", element);
   }
-  TiXmlPrinter printer;
-  document_.Accept(&printer);
-  result_.text = printer.CStr();
+  bool has_motor = false;
+  for (const TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    has_motor = has_motor || std::string(joint->Attribute("type")) != "fixed";
+  }
+  if (!has_motor) fail(robot_, "no joint can move", "import a robot with revolute joints");
+  result_.text = to_text(document_);
   result_.findings = std::move(log_.findings);
   return result_;
 }

@@ -36,6 +36,26 @@ double ball_moment(double mass) {
   return 0.4 * mass * radius * radius;
 }
 
+TiXmlElement make_inertial(double mass) {
+  TiXmlElement inertial("inertial");
+  TiXmlElement value("mass");
+  value.SetAttribute("value", to_text(mass).c_str());
+  inertial.InsertEndChild(value);
+  TiXmlElement inertia("inertia");
+  for (const char* name : {"ixx", "iyy", "izz"}) {
+    inertia.SetAttribute(name, to_text(ball_moment(mass)).c_str());
+  }
+  for (const char* name : {"ixy", "ixz", "iyz"}) inertia.SetAttribute(name, "0");
+  inertial.InsertEndChild(inertia);
+  return inertial;
+}
+
+std::string to_text(const TiXmlDocument& document) {
+  TiXmlPrinter printer;
+  document.Accept(&printer);
+  return printer.Str();
+}
+
 std::string to_text(double number) {
   std::ostringstream text;
   text.imbue(std::locale::classic());

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <tinyxml.h>
+
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
-
-class TiXmlElement;
 
 namespace nao {
 
@@ -24,6 +24,10 @@ void write_origin(TiXmlElement& parent, const Eigen::Isometry3d& pose);
  * @param mass  kg. */
 double ball_moment(double mass);
 
+/** <inertial> of such a link. @param mass  kg. */
+TiXmlElement make_inertial(double mass);
+
+std::string to_text(const TiXmlDocument& document);
 /** Twelve digits. */
 std::string to_text(double number);
 std::string to_text(const Eigen::Vector3d& vector);

@@ -45,11 +45,7 @@ RobotLight read_light(const RobotModel& model, const YamlEntry& entry) {
   }
   light.link = model.find_link(entry.at("link").text());
   if (light.link < 0) entry.at("link").fail("is not a link in the URDF");
-  if (entry.has("eye")) {
-    const std::string text = entry.at("eye").text();
-    if (text != "true" && text != "false") entry.at("eye").fail("must be true or false");
-    light.is_eye = text == "true";
-  }
+  if (entry.has("eye")) light.is_eye = entry.at("eye").flag();
   for (const YamlEntry& disc : entry.at("discs").items()) light.discs.push_back(read_disc(disc));
   return light;
 }

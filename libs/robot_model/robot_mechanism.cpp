@@ -63,6 +63,11 @@ std::vector<int> RobotMechanism::find_chain(int link) const {
   return chain;
 }
 
+bool RobotMechanism::moves(int joint, int link) const {
+  const std::vector<int> chain = find_chain(link);
+  return std::find(chain.begin(), chain.end(), joint) != chain.end();
+}
+
 // The first link above which is not fixed to its parent: rigidly connected links are one body.
 int RobotMechanism::find_body(int link) const {
   int joint = links_[link].parent_joint;

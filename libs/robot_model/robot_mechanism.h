@@ -39,6 +39,8 @@ class RobotMechanism {
 
   /** The joints that move from the root to a link, root first: revolute ones, mimics included. */
   std::vector<int> find_chain(int link) const;
+  /** Whether a revolute joint is on the way from the root to a link. */
+  bool moves(int joint, int link) const;
   /** The first link of the rigid body that a link belongs to. */
   int find_body(int link) const;
 

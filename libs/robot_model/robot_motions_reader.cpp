@@ -183,7 +183,7 @@ void RobotModelReader::read_actions(const YamlEntry& list) {
   }
 }
 
-// Their files are read by what runs them: one that is wrong is no fault of the robot.
+// Their files are read by what runs them: one that is wrong is not a fault of the robot.
 void RobotModelReader::find_policies() {
   std::set<std::string> names;
   const std::filesystem::path folder = model_.folder_ / kPolicyFolder;

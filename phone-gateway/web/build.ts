@@ -6,6 +6,9 @@ import type {LogLevel} from "vite";
 
 const {values} = parseArgs({options: {outDir: {type: "string", default: "dist"}, logLevel: {type: "string", default: "info"}}});
 
+// vite-node says "development".
+process.env["NODE_ENV"] = "production";
+
 for (const page of ["index", "screen", "operator"]) {
   await build({
     logLevel: values.logLevel as LogLevel,

@@ -94,7 +94,7 @@ class Host:
     def stop(self, name):
         process = self.processes.pop(name)
         process.terminate()
-        process.wait()
+        return process.wait()
 
     def stop_all(self):
         for name in reversed(list(self.processes)):
@@ -188,7 +188,7 @@ class Discovery(unittest.TestCase):
 
     def test_what_ends_disappears_and_what_starts_again_is_found(self):
         a, b = self.hosts
-        b.stop("gateway")
+        self.assertEqual(b.stop("gateway"), 0, "an announced gateway ends well")
         wait_for(lambda: a.names() == [], a, b)
         b.start_gateway()
         wait_for(lambda: a.names() == ["PEPE on lab-b"], a, b)

@@ -3,6 +3,7 @@
 time."""
 
 import math
+import signal
 import subprocess
 import sys
 import unittest
@@ -37,6 +38,22 @@ class LinkLoss(WalkingTest):
             wait_until(lambda: math.dist(start[:2], self.world()[1][:2]) > 2 * STILL_DISTANCE, "the robot walks")
             process.kill()
         self.assert_stands_soon()
+
+    def test_a_phone_program_that_was_suspended_walks_no_more(self):
+        command = [str(BIN_DIR / "nao-phone"), "--port", str(self.robot.gateway.tcp_port), "walk", "0.18",
+                   "--duration", "60"]
+        _, start = self.world()
+        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+            try:
+                wait_until(lambda: math.dist(start[:2], self.world()[1][:2]) > 2 * STILL_DISTANCE, "the robot walks")
+                process.send_signal(signal.SIGSTOP)
+                self.assert_stands_soon()
+                process.send_signal(signal.SIGCONT)
+                _, said = process.communicate(timeout=DEADLINE)
+            finally:
+                process.kill()
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("held up", said)
 
     def test_the_phone_is_out_of_reach(self):
         with FaultyLink(self.robot.gateway.tcp_port) as link:

@@ -123,6 +123,8 @@ class Security(unittest.TestCase):
                 head = f"GET {target} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n{WEBSOCKET}"
                 self.assertEqual(self.http(head), 421, host)
         self.assert_refused_and_audited_once("Host")
+        for twice in ("Host: evil.example", "Origin: http://localhost\r\nOrigin: http://evil.example"):
+            self.assertEqual(self.http(f"GET /ws HTTP/1.1\r\nHost: localhost\r\n{twice}\r\n{WEBSOCKET}"), 400, twice)
 
     def test_paths_outside_the_served_folders(self):
         for target in ("/../etc/passwd", "/robots/../../../etc/passwd", "/%2e%2e/etc/passwd", "/robots/%2e%2e%2f%2e%2e/x",
@@ -132,7 +134,7 @@ class Security(unittest.TestCase):
             self.assertEqual(self.http(f"GET {target} HTTP/1.1\r\nHost: localhost\r\n"), 400, target)
         for target in ("/etc/passwd", "/robots/etc/passwd", "/robots/nao"):
             self.assertEqual(self.http(f"GET {target} HTTP/1.1\r\nHost: localhost\r\n"), 404, target)
-        self.assert_refused_and_audited_once("no path")
+        self.assert_refused_and_audited_once("not a path")
 
     def test_a_lease_that_is_replayed(self):
         def record(connection):

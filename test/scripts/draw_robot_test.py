@@ -50,12 +50,18 @@ class DrawRobot(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def test_each_link_with_a_visual_of_the_t1_gets_its_mesh(self):
-        draw(ROBOTS / "t1" / "t1.urdf", self.folder)
-        visuals = ET.parse(ROBOTS / "t1" / "t1.urdf").findall("link/visual/geometry/mesh")
-        self.assertGreater(len(visuals), 20)
-        self.assertEqual({mesh.get("filename") for mesh in visuals},
-                         {f"meshes/{file.name}" for file in self.folder.glob("*.glb")})
+    def test_each_link_with_a_visual_gets_its_mesh(self):
+        drawn = [path.parent for path in ROBOTS.glob("*/robot.yaml") if not (path.parent / "generate_meshes.py").exists()
+                 and "extends: " not in path.read_text()]
+        self.assertGreater(len(drawn), 1)
+        for robot in drawn:
+            with self.subTest(robot=robot.name):
+                urdf, folder = robot / f"{robot.name}.urdf", self.folder / robot.name
+                draw(urdf, folder)
+                visuals = ET.parse(urdf).findall("link/visual/geometry/mesh")
+                self.assertGreater(len(visuals), 20)
+                self.assertEqual({mesh.get("filename") for mesh in visuals},
+                                 {f"meshes/{file.name}" for file in folder.glob("*.glb")})
 
     def test_shells_have_the_size_of_the_robot(self):
         for size in (0.05, 0.4):

@@ -37,6 +37,15 @@ class OutputFile(unittest.TestCase):
         self.assertEqual(self.file.read_text(), "old")
         self.assertEqual(os.listdir(self.folder), ["result"])
 
+    def test_an_error_while_writing_names_the_file(self):
+        file = self.folder / "file"
+        code = f"import sys; sys.path.insert(0, {str(ROOT / 'scripts')!r}); import stack, output_file; " \
+               f"stack.run_script(lambda: output_file.replace_file({str(file)!r}, 'x' * 1000))"
+        ended = subprocess.run(["prlimit", "--fsize=100", "sh", "-c", "trap '' XFSZ; exec \"$@\"", "sh", sys.executable, "-B", "-c", code],
+                               capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn(f"{file}: File too large", ended.stderr)
+
     def test_links_and_permissions_stay(self):
         replace_file(self.file, b"old", 0o600)
         link = self.folder / "link"

@@ -177,7 +177,7 @@ TEST(Disturbances, RealIsWithinItsRanges) {
     for (const auto& factor : {robot.errors.servo_stiffness, robot.errors.servo_damping}) {
       EXPECT_GE(factor.minCoeff(), 0.7);
       EXPECT_LE(factor.maxCoeff(), 1.3);
-      // Of one joint group; of another one.
+      // Two joints of one joint group, and one of another.
       EXPECT_EQ(factor[nao_model()->find_motor("LHipPitch")],
                 factor[nao_model()->find_motor("LHipRoll")]);
       EXPECT_NE(factor[nao_model()->find_motor("LHipPitch")],

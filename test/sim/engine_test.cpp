@@ -11,6 +11,7 @@
 #include "sim/floor.h"
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"
+#include "test/support/test_biped.h"
 
 namespace nao::sim {
 namespace {
@@ -114,6 +115,29 @@ TEST_P(EngineTest, ServosOfOtherGainsMoveAJointOtherwise) {
   EXPECT_GT(moved(1, 0.7), 1.05 * nominal);
   // A servo errs in the same way with gains that a command states.
   EXPECT_NEAR(moved(0.7, 1.3, true), moved(0.7, 1.3), 1e-9);
+}
+
+// In the air the root turns against what the joints move: followers that did not follow would show.
+TEST_P(EngineTest, CouplesJointsOfAnyBodies) {
+  const auto model = std::make_shared<const RobotModel>(make_coupled_biped());
+  const auto fall = [&](const WorldOptions& world_options) {
+    World world(SceneFile{}, world_options);
+    RobotOptions robot = ideal();
+    robot.height = 10;
+    world.add_robot(model, robot);
+    MotorTargets targets = world.targets(0);
+    targets.position[model->find_motor("left_knee")] = 1;
+    targets.position[model->find_motor("left_shoulder_pitch")] = -1;
+    targets.position[model->find_motor("left_shoulder_roll")] = 0.8;
+    world.set_targets(0, targets);
+    for (int i = 0; i < 100; ++i) world.step_tick();
+    return world.robot(0).state();
+  };
+  const TreeState state = fall(options());
+  const TreeState expected = fall(WorldOptions());
+  EXPECT_LT((state.coordinate - expected.coordinate).cwiseAbs().maxCoeff(), 0.02);
+  EXPECT_GT(expected.orientation.angularDistance(Eigen::Quaterniond::Identity()), 0.1);
+  EXPECT_LT(state.orientation.angularDistance(expected.orientation), 0.02);
 }
 
 TEST_P(EngineTest, RollsABallThatSlowsDown) {

@@ -10,6 +10,7 @@
 #include "common/constants.h"
 #include "sim/simbody_model.h"
 #include "test/sim/sim_fixture.h"
+#include "test/support/test_biped.h"
 
 namespace nao::sim {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 /** A robot in a random state, in both representations. */
 class TreeDynamicsTest : public testing::Test {
  protected:
-  TreeDynamicsTest()
-      : simbody_(*nao_model()),
+  explicit TreeDynamicsTest(const RobotModel& model = *nao_model())
+      : simbody_(model),
         tree_(simbody_),
         dynamics_(tree_),
         state_(tree_.num_dofs()),
@@ -51,6 +52,9 @@ class TreeDynamicsTest : public testing::Test {
     }
     return forces;
   }
+
+  void expect_simbodys_accelerations();
+  void expect_rows_of_the_inverse_factor();
 
   SimbodyModel simbody_;
   Tree tree_;
@@ -86,6 +90,30 @@ TEST_F(TreeDynamicsTest, PlacesEveryBodyWhereSimbodyDoes) {
 }
 
 TEST_F(TreeDynamicsTest, AcceleratesAsSimbodysOrderNAlgorithmDoes) {
+  expect_simbodys_accelerations();
+}
+
+const RobotModel& coupled_model() {
+  static const RobotModel model = make_coupled_biped();
+  return model;
+}
+
+/** Joints that follow others on other bodies. */
+class CoupledTreeTest : public TreeDynamicsTest {
+ protected:
+  CoupledTreeTest() : TreeDynamicsTest(coupled_model()) {}
+};
+
+TEST_F(CoupledTreeTest, AcceleratesAsSimbodysConstraintsDemand) {
+  EXPECT_EQ(tree_.num_dofs(), 6 + tree_.num_bodies() - 1 - 3);
+  expect_simbodys_accelerations();
+}
+
+TEST_F(CoupledTreeTest, RowsOfTheInverseSolveForUnitImpulses) {
+  expect_rows_of_the_inverse_factor();
+}
+
+void TreeDynamicsTest::expect_simbodys_accelerations() {
   double worst = 0;
   Eigen::VectorXd bias = Eigen::VectorXd::Zero(tree_.num_dofs());
   for (int trial = 0; trial < 200; ++trial) {
@@ -192,6 +220,10 @@ TEST_F(TreeDynamicsTest, HasSimbodysMassMatrixAndBiasForces) {
 
 /** The rows of L^-1 that constraints use. */
 TEST_F(TreeDynamicsTest, RowsOfTheInverseSolveForUnitImpulses) {
+  expect_rows_of_the_inverse_factor();
+}
+
+void TreeDynamicsTest::expect_rows_of_the_inverse_factor() {
   randomize();
   dynamics_.update_mass_matrix();
   dynamics_.factorize(Eigen::VectorXd::Constant(tree_.num_dofs(), 0.01));
@@ -224,7 +256,7 @@ TEST_F(TreeDynamicsTest, RowsOfTheInverseSolveForUnitImpulses) {
       column[axis] = 1;
       for (int above = body; above > 0; above = tree_.bodies()[above].parent) {
         const SpatialVector& motion = dynamics_.motion(above);
-        column[tree_.bodies()[above].dof] =
+        column[tree_.bodies()[above].dof] +=
             axis < 3 ? motion.angular[axis] : motion.linear[axis - 3];
       }
       expect_row(&rows[axis * count], chain, column);

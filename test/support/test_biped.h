@@ -167,10 +167,12 @@ inline std::string make_biped_urdf(const TestBiped& dimensions) {
   return text.str();
 }
 
-/** Reads the humanoid from files with no more than a robot needs. */
-inline RobotModel make_biped(const TestBiped& dimensions) {
+/** Reads the humanoid from files with no more than a robot needs. @param urdf  As it may have been
+ * changed. @param postures  The content of postures.yaml. */
+inline RobotModel make_biped(const TestBiped& dimensions, const std::string& urdf,
+                             const std::string& postures = "postures: []\n") {
   const TemporaryFolder folder;
-  write_text(folder.path() / "biped.urdf", make_biped_urdf(dimensions));
+  write_text(folder.path() / "biped.urdf", urdf);
   std::ostringstream outline;
   const double ahead = 0.4 * dimensions.thigh;
   const double aside = 0.15 * dimensions.thigh;
@@ -183,8 +185,34 @@ inline RobotModel make_biped(const TestBiped& dimensions) {
                  "}\n"
                  "  right: {link: right_sole, outline: " +
                  outline.str() + "}\n");
-  write_text(folder.path() / "postures.yaml", "postures: []\n");
+  write_text(folder.path() / "postures.yaml", postures);
   return RobotModel::load(folder.path());
+}
+
+inline RobotModel make_biped(const TestBiped& dimensions) {
+  return make_biped(dimensions, make_biped_urdf(dimensions));
+}
+
+/** Humanoid with joints that follow others: in its own limb, with another joint between the two; in
+ * the other arm; an ankle that follows the other leg's knee. */
+inline RobotModel make_coupled_biped() {
+  const TestBiped dimensions;
+  std::string urdf = make_biped_urdf(dimensions);
+  const auto couple = [&](const std::string& joint, const std::string& mimic) {
+    const size_t at = urdf.find("</joint>", urdf.find("joint name=\"" + joint + "\""));
+    urdf.insert(at, "<mimic joint=" + mimic + "/>");
+  };
+  couple("left_elbow", "\"left_shoulder_pitch\" multiplier=\"-0.7\" offset=\"-0.5\"");
+  couple("right_elbow", "\"left_shoulder_roll\" multiplier=\"0.4\" offset=\"-0.6\"");
+  couple("right_ankle_pitch", "\"left_knee\" multiplier=\"-0.5\"");
+  const RobotModel model = make_biped(dimensions, urdf);
+  std::string joints;
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    joints += (joints.empty() ? "" : ", ") + model.motor_joint(motor).name + ": 0";
+  }
+  return make_biped(
+      dimensions, urdf,
+      "postures: [{name: zero, family: standing, source: test, joints: {" + joints + "}}]\n");
 }
 
 /** The ten humanoids that are imported, stand and walk: seed of random_biped(). */

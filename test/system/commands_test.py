@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The robot executes commands of the command-line client and rejects invalid ones with a reason."""
 
+import signal
 import subprocess
 import time
 import unittest
@@ -65,6 +66,26 @@ class Commands(unittest.TestCase):
         self.assertLess(self.joint("HeadYaw"), 2.1)
         self.assertGreater(self.joint("HeadYaw"), 1.8)
         self.obeyed("joint", "HeadYaw", "=0")
+
+    def test_a_walk_whose_program_was_held_up_has_not_been_done(self):
+        walk = subprocess.Popen([BIN_DIR / "nao", "--lcm-url", self.stack.lcm_url, "walk", "0.1", "0", "0", "--for", "100"],
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        try:
+            self.wait_for_mode("walking")
+            walk.send_signal(signal.SIGSTOP)
+            self.wait_for_mode("holding")
+            walk.send_signal(signal.SIGCONT)
+            _, said = walk.communicate(timeout=DEADLINE)
+        finally:
+            walk.kill()
+        self.assertEqual(walk.returncode, 1)
+        self.assertIn("ended before its time", said)
+
+    def wait_for_mode(self, mode):
+        deadline = time.monotonic() + DEADLINE
+        while self.stack.state()["motion_state"]["mode"] != mode:
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.05)
 
     def test_refuses_nonsense_in_words_and_does_not_move(self):
         before = self.stack.torso_height()

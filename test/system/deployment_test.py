@@ -29,10 +29,10 @@ class Files(unittest.TestCase):
         here = "hosts:\n  - name: a\n    programs: sim motion-files speaker phone-gateway head-camera"
         for text, said in (
                 ("", "has no keys"),
-                ("hosts: 3", "hosts is no list"),
+                ("hosts: 3", "hosts is not a list"),
                 ("host: []", "unknown key 'host'"),
                 ("hosts:\n  - {name: a, programs: [sim], where: b}", "host 1 has the unknown key 'where'"),
-                ("hosts: [{programs: sim}]", "name of host 1 is no text"),
+                ("hosts: [{programs: sim}]", "name of host 1 is not text"),
                 (here, "nao-motion runs on no host"),
                 (here + " motion\n  - name: b\n    programs: motion", "nao-motion runs on a and b"),
                 (here + " motion toaster", "unknown program 'nao-toaster'"),

@@ -2,6 +2,7 @@
 """An installed copy does not depend on the build tree."""
 
 import os
+import shlex
 import shutil
 import tempfile
 import unittest
@@ -52,6 +53,18 @@ class Installation(unittest.TestCase):
                      env={**os.environ, "XDG_RUNTIME_DIR": str(self.prefix)})
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stderr, "")
+
+    def test_the_units_say_when_they_end_at_log_out(self):
+        unit = (self.prefix / "lib/systemd/user/nao-remote@.service").read_text()
+        command, = (line.removeprefix("ExecStartPre=-") for line in unit.splitlines() if line.startswith("ExecStartPre="))
+        folder = self.prefix / "linger"
+        folder.mkdir()
+        (folder / "stays").touch()
+        command = command.replace("/var/lib/systemd/linger", str(folder))
+        for user, said in (("stays", ""), ("leaves", "ends when you log out; as root, run loginctl enable-linger leaves\n")):
+            with self.subTest(user=user):
+                result = run(shlex.split(command.replace("%u", user)))
+                self.assertEqual((result.returncode, result.stdout), (0, said))
 
     def test_the_robot_moves_and_the_app_is_served(self):
         with Stack() as stack:

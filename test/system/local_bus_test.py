@@ -53,6 +53,24 @@ class LocalBus(unittest.TestCase):
             stack.start_or_fail("--only", "sim,motion")
             self.obeys(stack)
 
+    def test_the_check_names_a_multicast_route_on_another_interface_than_the_hosts(self):
+        for name, address in (("wifi1", "192.168.8.2/24"), ("cable1", "10.9.8.2/24")):
+            ip("link", "add", name, "type", "veth", "peer", "name", f"{name}-end")
+            self.addCleanup(ip, "link", "delete", name)
+            ip("address", "add", address, "dev", name)
+            for end in (name, f"{name}-end"):
+                ip("link", "set", end, "up")
+        ip("route", "replace", "default", "via", "192.168.8.1")
+        bus = [BIN_DIR / "nao", "--lcm-url", "udpm://239.255.76.67:17667?ttl=1", "bus"]
+        for route, status, words in (("cable1", 1, "FAIL  no program of another host is heard; messages to other hosts leave by cable1 only, and the "
+                                                   "default route goes by wifi1"),
+                                     ("wifi1", 0, "note  no program of another host is heard; messages to other hosts leave by wifi1 only. If")):
+            with self.subTest(route=route):
+                ip("route", "replace", "239.255.76.0/24", "dev", route)
+                said = subprocess.run(bus, check=False, capture_output=True, text=True, timeout=DEADLINE)
+                self.assertIn(words, said.stdout)
+                self.assertEqual(said.returncode, status, said.stdout)
+
     def obeys(self, stack):
         for posture in ("Crouch", "StandInit"):
             result = stack.nao("posture", posture)

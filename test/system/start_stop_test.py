@@ -12,7 +12,7 @@ import urllib.request
 from pathlib import Path
 from unittest import mock
 
-from stack import DEADLINE, ROOT, Program, Stack, run
+from stack import BIN_DIR, DEADLINE, ROOT, Program, Stack, run
 
 PROGRAMS = {"nao-sim", "nao-motion", "nao-motion-files", "nao-head-camera", "nao-speaker", "nao-phone-gateway"}
 
@@ -69,6 +69,23 @@ class Start(unittest.TestCase):
             for posture in ("Crouch", "StandInit"):
                 result = stack.nao("posture", posture)
                 self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_needs_nothing_of_its_environment(self):
+        with Stack() as stack:
+            poor = {name: value for name, value in os.environ.items() if name not in ("HOME", "USER", "LOGNAME", "XDG_RUNTIME_DIR")}
+            poor |= {"LC_ALL": "xx_YY.UTF-8", "PYTHONIOENCODING": "ascii", "TMPDIR": "/nonexistent"}
+            switch = Path("/proc/sys/net/ipv6/conf/all/disable_ipv6")
+            # A host without IPv6, where this test has a network of its own.
+            if switch.exists() and os.access(switch, os.W_OK) and len(os.listdir("/sys/class/net")) == 1:
+                switch.write_text("1")
+                self.addCleanup(switch.write_text, "0")
+            # Of a process that has ended, or is another one's.
+            (stack.run_dir / "supervisord.pid").write_text(str(os.getpid()))
+            started = run([ROOT / "scripts/start", "--bin", BIN_DIR, "--run-dir", stack.run_dir, "--lcm-url", stack.lcm_url, "--token", "t",
+                           "--http-port", stack.http_port, "--tcp-port", stack.tcp_port, "--only", "sim,motion,phone-gateway"], env=poor)
+            self.assertEqual(started.returncode, 0, started.stderr)
+            obeyed = run([BIN_DIR / "nao", "--lcm-url", stack.lcm_url, "posture", "Crouch"], env=poor)
+            self.assertEqual(obeyed.returncode, 0, obeyed.stderr)
 
     def test_status_says_when_nothing_runs(self):
         with Stack() as stack:

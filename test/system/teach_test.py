@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """A motion is taught from a terminal: checked, saved, played, and still there after every program was restarted."""
 
+import time
 import unittest
 from pathlib import Path
 
-from stack import Stack
+from stack import DEADLINE, Stack
 
 BOW = """\
 actions:
@@ -53,6 +54,10 @@ class Teaching(unittest.TestCase):
         self.stack.stop()
         self.start()
         self.assertEqual(self.obeyed("motion", "list"), "bow\n")
+        # nao-motion is told of a saved motion each half a second.
+        deadline = time.monotonic() + DEADLINE
+        while "has no action" in self.stack.nao("motion", "play", "bow").stderr and time.monotonic() < deadline:
+            time.sleep(0.1)
         self.obeyed("motion", "play", "bow")
         copy = Path(self.stack.run_dir / "copy.yaml")
         copy.write_text(self.obeyed("motion", "get", "bow"))

@@ -89,7 +89,7 @@ TEST_F(LogFileTest, SkipsATruncatedEnd) {
   LogBytes log = some_log();
   log.bytes().resize(log.bytes().size() - 1);
   EXPECT_EQ(open(log.bytes()).num_events(), 10u);
-  EXPECT_EQ(open(some_log().bytes() + "garbage that is no event header").num_events(), 11u);
+  EXPECT_EQ(open(some_log().bytes() + "garbage that is not an event header").num_events(), 11u);
 }
 
 TEST_F(LogFileTest, RejectsAFileThatIsNotALog) {

@@ -23,7 +23,7 @@ class GatewayStack {
  public:
   using Handler = std::function<void(const naoremote::ServerMessage&, double)>;
 
-  /** Of the gateway, which clients on other hosts send. */
+  /** Token of the gateway, which clients on other hosts send. */
   static constexpr const char* kToken = "bench";
 
   /** Starts the programs and waits until they are ready. @param gateway_options  Of the

@@ -21,7 +21,7 @@ constexpr double kImageRate = 15;
 constexpr double kWalkPeriod = 0.1;
 constexpr double kPingPeriod = 1;
 constexpr double kStaleAge = 0.5;
-/** Of another command of the driver, s. Chosen. */
+/** Period of another command of the driver, s. Chosen. */
 constexpr double kTurnPeriod = 2;
 /** Age above which no command may be obeyed, s; see PROTOCOL.md. */
 constexpr double kMaxCommandAge = 0.4;

@@ -188,6 +188,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
       return refuse(http::status::misdirected_request, "the name", view(request[http::field::host]),
                     "--host-name");
     }
+    // RFC 9112, 3.2. Which of them a proxy before us has looked at is not known.
+    if (request.count(http::field::host) > 1 || request.count(http::field::origin) > 1) {
+      return respond(http::status::bad_request, "text/plain", "One Host, at most one Origin.\n");
+    }
     if (websocket::is_upgrade(request)) return on_upgrade(request);
     const std::string_view target = view(request.target());
     const bool is_get = request.method() == http::verb::get;

@@ -149,7 +149,7 @@ ClientRequest parse_client_text(std::string_view text) {
 
 std::variant<ClientMessage, Refused> parse_client_binary(std::string_view bytes) {
   if (bytes.size() < kClientMessageHead || bytes[0] != kClientMessageData) {
-    return Refused{"The binary message is no message of a channel."};
+    return Refused{"The binary message is not a message of a channel."};
   }
   uint32_t channel = 0;
   for (size_t i = kClientMessageHead - 1; i > 0; --i) {

@@ -1,22 +1,21 @@
 #include "tools/nao-trial/fall_warning.h"
 
-#include <string>
-
 namespace nao::trial {
 namespace {
 
-// Any part of the robot except its feet.
+/** Any part of the robot except its feet touches the floor. */
 bool touches_floor_with_body(ClosedLoop& trial) {
   const RobotModel& model = trial.model();
+  const int left_foot = model.find_body(model.left_sole());
+  const int right_foot = model.find_body(model.right_sole());
   for (const sim::Contact& contact : trial.world().contacts()) {
     if (contact.a.kind != sim::Surface::Kind::kFloor &&
         contact.b.kind != sim::Surface::Kind::kFloor) {
       continue;
     }
     const sim::Surface& body = contact.a.kind == sim::Surface::Kind::kRobot ? contact.a : contact.b;
-    const std::string& name = model.links()[body.link].name;
-    if (name.find("Foot") == std::string::npos && name.find("Sole") == std::string::npos)
-      return true;
+    const int touching = model.find_body(body.link);
+    if (touching != left_foot && touching != right_foot) return true;
   }
   return false;
 }

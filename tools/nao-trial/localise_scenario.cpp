@@ -123,8 +123,9 @@ class ModelledLocalisation : public Localisation {
  public:
   ModelledLocalisation(ClosedLoop& trial, const SceneFile& scene, const Pose2& start, uint64_t seed)
       : Localisation(trial, scene),
+        parameters_(vision::VisionParameters::load(trial.model().folder() / "vision.yaml")),
         poses_(trial.model()),
-        localizer_(field_, start),
+        localizer_(field_, start, parameters_),
         errors_(field_, calibration_, pinhole_.width, pinhole_.height, seed) {}
 
  private:
@@ -144,10 +145,11 @@ class ModelledLocalisation : public Localisation {
     detections_ = errors_.detect(truth, pose->pose_camera_in_heading);
     localizer_.observe(vision::observe_field(
         detections_, {pose->pose_camera_in_heading.translation(), 1 / calibration_.fx},
-        pose->heading_in_odometry));
+        pose->heading_in_odometry, parameters_.field_observation));
     return localizer_.estimate();
   }
 
+  vision::VisionParameters parameters_;
   vision::PoseHistory poses_;
   vision::Localizer localizer_;
   FieldErrorModel errors_;

@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
     nao::CommandLine* command = app.add_subcommand(scenario->name(), scenario->summary());
     command->add_option("--seeds", seeds, "First and last seed, one run each")->show_default();
     command->add_option("--json", json_file, "Write the summary to this file too");
-    command->add_option("--plot", plot_file, "Draw the results to this SVG file (push)");
+    command->add_option("--plot", plot_file, "Draw the results to this SVG file (push-course)");
     nao::add_model_option(*command, model_name);
     command
         ->add_option("--duration", options.duration,

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""Draws how the robot walks, as nao-trial measures it: docs/images/walk-odometry.svg and walk-push.svg.
+"""Draws how the robot walks, as nao-trial measures it: docs/images/walk-odometry.svg.
 
-Usage: tools/nao-trial/plot_walk.py [--bin DIR] [--out DIR] [--seeds A-B]
+Usage: tools/nao-trial/plot_walk.py [--bin DIR] [--out DIR]
 """
 
 import argparse
 import csv
 import math
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
@@ -19,7 +18,7 @@ from output_file import replace_file  # noqa: E402
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIZE = 460  # pixels
 MARGIN = 46
-INK, GRID, TRUTH, ODOMETRY, FALLEN = "#333333", "#dddddd", "#1f6fb4", "#d9822b", "#c0392b"
+INK, GRID, TRUTH, ODOMETRY = "#333333", "#dddddd", "#1f6fb4", "#d9822b"
 
 
 class Plot:
@@ -65,15 +64,6 @@ class Plot:
     def curve(self, data, color):
         self.line([self.at(x, y) for x, y in data], color)
 
-    def dot(self, x, y, color):
-        px, py = self.at(x, y)
-        self.parts.append(f'<circle cx="{px:.1f}" cy="{py:.1f}" r="4" fill="{color}"/>')
-
-    def circle(self, radius, color):
-        px, py = self.at(0, 0)
-        self.parts.append(f'<circle cx="{px:.1f}" cy="{py:.1f}" r="{radius * self.scale:.1f}" '
-                          f'fill="none" stroke="{color}" stroke-dasharray="5 4"/>')
-
     def legend(self, entries):
         for i, (text, color) in enumerate(entries):
             self.text(MARGIN + 6, MARGIN + 14 + 16 * i, text, color=color, size=12)
@@ -118,33 +108,16 @@ def plot_odometry(trial, out):
     plot.write(out / "walk-odometry.svg")
 
 
-def plot_pushes(trial, out, seeds):
-    text = run(trial, "walk-push", "--seeds", seeds, "--verbose")
-    points = re.findall(r"impulse_Ns (\S+)\s+direction_deg (\S+)", text)
-    if not points:
-        sys.exit("walk-push reported no push")
-    plot = Plot((-3.2, -3.2), (3.2, 3.2), "Greatest push survived at 0.15 m/s (ahead is up)", "N s")
-    plot.circle(0.6, FALLEN)
-    for impulse, direction in points:
-        size, angle = float(impulse), math.radians(float(direction))
-        # Ahead is up, left is left.
-        plot.dot(-size * math.sin(angle), size * math.cos(angle), TRUTH)
-    plot.legend([(f"{len(points)} robots, directions, moments", TRUTH), ("asked: 0.6 N s", FALLEN)])
-    plot.write(out / "walk-push.svg")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/dev/bin")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "docs/images")
-    parser.add_argument("--seeds", default="1-100", help="of the pushes (default: %(default)s)")
     options = parser.parse_args()
     trial = options.bin / "nao-trial"
     if not trial.exists():
         sys.exit(f"{trial} is missing: build it first (cmake --build --preset dev)")
     plot_odometry(str(trial), options.out)
-    plot_pushes(str(trial), options.out, options.seeds)
 
 
 if __name__ == "__main__":

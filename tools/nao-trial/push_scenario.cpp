@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinematics/pose2.h"
 #include "tools/nao-trial/fall_warning.h"
 #include "tools/nao-trial/scenarios.h"
 #include "tools/nao-trial/statistics.h"
@@ -15,73 +16,85 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kLeast = 0.2;      // N s
-constexpr double kGreatest = 4.0;   // N s
-constexpr int kNumHalvings = 8;     // bisection: to (4.0 - 0.2) / 2^8 = 0.015 N s
-constexpr int kNumDirections = 24;  // in the plot
-constexpr double kWatch = 2.5;      // s after the push
+// Impulses are N s for each kg of the robot, so that robots of any size compare: such a push
+// changes the velocity of the center of mass by as many m/s.
+constexpr double kGreatest = 2.0;
+constexpr int kNumHalvings = 7;  // bisection: to 2.0 / 2^7 = 0.016
+/** Asked in every direction. Source: published humanoids withstand 0.2 to 0.3 standing and walking
+ * by a model, 1.1 by a learned policy. */
+constexpr double kAskedOfMass = 0.2;
+constexpr int kNumDirections = 8;
+constexpr int kNumPlotDirections = 24;
+/** A walking robot is pushed at so many times, s apart: two steps of a NAO, one of a large robot.
+ */
+constexpr int kNumTimes = 6;
+constexpr double kBetweenTimes = 0.1;
+constexpr double kBefore = 0.5;  // s before the push, or the walk
+constexpr double kWalk = 3;      // s before the first of the times
+constexpr double kWatch = 4;     // s after the push
 
-struct Outcome {
-  bool stands = false;
-  /** Time from the motion core's fall prediction to the first contact of a link other than a foot,
-   * s; nullopt if the robot stood, negative if the prediction came too late. */
-  std::optional<double> warning;
+class PushCourse {
+ public:
+  PushCourse(const ScenarioOptions& options, uint64_t seed) : options_(options), seed_(seed) {
+    // The robot must not get up, so that a fall remains one.
+    options_.trial.motion.gets_up = false;
+  }
+
+  /** Greatest impulse withstood at every time, N s/kg. @param direction  rad, from straight ahead.
+   * @param result  Takes the times of warning of the falls. */
+  double find_boundary(double direction, RunResult& result) const {
+    double withstood = 0;
+    double lost = kGreatest;
+    for (int i = 0; i < kNumHalvings; ++i) {
+      const double impulse = (withstood + lost) / 2;
+      (withstands(direction, impulse, result) ? withstood : lost) = impulse;
+    }
+    return withstood;
+  }
+
+ private:
+  bool withstands(double direction, double impulse, RunResult& result) const {
+    const int num_times = options_.velocity.isZero(0) ? 1 : kNumTimes;
+    for (int i = 0; i < num_times; ++i) {
+      if (!withstands(direction, impulse, i * kBetweenTimes, result)) return false;
+    }
+    return true;
+  }
+
+  bool withstands(double direction, double impulse, double time, RunResult& result) const {
+    ClosedLoop trial(options_.trial, seed_);
+    trial.run(kBefore);
+    if (!options_.velocity.isZero(0)) {
+      trial.hold_walk(options_.velocity);
+      trial.run(kWalk + time);
+    }
+    const double heading = Pose2::from(trial.torso_in_world()).heading + direction;
+    const double size = impulse * trial.model().total_mass();
+    trial.world().push(0, 0, {size * std::cos(heading), size * std::sin(heading), 0});
+    FallWarning fall;
+    trial.on_tick([&] { fall.look(trial); });
+    trial.run(kWatch);
+    if (fall.warning()) result.metrics.emplace_back("warning_ms", *fall.warning() * 1e3);
+    return !fall.has_touched() && trial.torso_tilt() < 0.3 &&
+           trial.torso_height() > 0.875 * trial.model().references().heights.standing;
+  }
+
+  ScenarioOptions options_;
+  uint64_t seed_;
 };
 
-Outcome push(const ScenarioOptions& options, uint64_t seed, double direction, double impulse) {
-  ClosedLoopOptions trial_options = options.trial;
-  // The robot must not get up, so that a fall remains one.
-  trial_options.motion.gets_up = false;
-  ClosedLoop trial(trial_options, seed);
-  trial.run(0.5);
-  trial.world().push(0, 0, {impulse * std::cos(direction), impulse * std::sin(direction), 0});
-  FallWarning fall;
-  trial.on_tick([&] { fall.look(trial); });
-  trial.run(kWatch);
-  Outcome outcome;
-  outcome.stands = !fall.has_touched() && trial.torso_tilt() < 0.3 &&
-                   trial.torso_height() > 0.875 * trial.model().references().heights.standing;
-  outcome.warning = fall.warning();
-  return outcome;
+std::string boundary_name(int direction, int num_directions) {
+  return fmt::format("withstood_{:03}_Ns_per_kg", direction * 360 / num_directions);
 }
 
-/** Bisection of the greatest impulse survived, to 0.015 N s. */
-double find_boundary(const ScenarioOptions& options, uint64_t seed, double direction,
-                     RunResult& result) {
-  // Invariant: the robot survived `survived` (or it is the lower bound) and fell at `lost`.
-  double survived = kLeast;
-  double lost = kGreatest;
-  for (int i = 0; i < kNumHalvings; ++i) {
-    const double impulse = (survived + lost) / 2;
-    const Outcome outcome = push(options, seed, direction, impulse);
-    (outcome.stands ? survived : lost) = impulse;
-    if (outcome.warning) result.metrics.emplace_back("warning_ms", *outcome.warning * 1e3);
-  }
-  return survived;
-}
-
-std::string boundary_name(int direction) {
-  return fmt::format("boundary_{:03}_Ns", direction * 360 / kNumDirections);
-}
-
-std::vector<RunResult> measure_all_directions(const ScenarioOptions& options, uint64_t seed) {
-  RunResult result;
-  for (int i = 0; i < kNumDirections; ++i) {
-    const double direction = 2 * M_PI * i / kNumDirections;
-    result.metrics.emplace_back(boundary_name(i), find_boundary(options, seed, direction, result));
-  }
-  result.is_success = true;
-  return {result};
-}
-
-constexpr double kPlotScale = 90;    // pixels per N s
+constexpr double kPlotScale = 450;   // pixels per N s/kg
 constexpr double kPlotCenter = 340;  // pixels
 
 /** Forward is up, left is left. */
 std::string polygon(const std::vector<double>& impulses, const std::string& style) {
   std::string points;
   for (size_t i = 0; i < impulses.size(); ++i) {
-    const double direction = 2 * M_PI * static_cast<double>(i) / kNumDirections;
+    const double direction = 2 * M_PI * static_cast<double>(i) / kNumPlotDirections;
     points +=
         fmt::format("{:.1f},{:.1f} ", kPlotCenter - kPlotScale * impulses[i] * std::sin(direction),
                     kPlotCenter - kPlotScale * impulses[i] * std::cos(direction));
@@ -95,40 +108,41 @@ std::string text(double x, double y, const std::string& words) {
 
 }  // namespace
 
-std::vector<RunResult> PushScenario::run(const ScenarioOptions& options, uint64_t seed) const {
-  if (options.is_for_plot) return measure_all_directions(options, seed);
-  // Directions of the impulse, rad, and the required impulse, N s.
-  const struct {
-    const char* name;
-    double direction;
-    double least;
-  } cases[] = {{"forward", 0, 1.2},
-               {"backward", M_PI, 0.9},
-               {"left", M_PI / 2, 1.2},
-               {"right", -M_PI / 2, 1.2}};
-  std::vector<RunResult> results;
-  for (const auto& one : cases) {
-    RunResult result;
-    result.label = one.name;
-    const double survived = find_boundary(options, seed, one.direction, result);
-    result.metrics.emplace_back(std::string(one.name) + "_impulse_Ns", survived);
-    result.metrics.emplace_back("impulse_Ns", survived);
-    result.is_success = survived >= one.least;
-    if (!result.is_success) result.failure = "fell below the required impulse";
-    results.push_back(std::move(result));
+std::map<std::string, std::string> PushCourseScenario::units() const {
+  std::map<std::string, std::string> units{{"withstood_Ns_per_kg", "N s/kg"}, {"warning_ms", "ms"}};
+  for (const int count : {kNumDirections, kNumPlotDirections}) {
+    for (int i = 0; i < count; ++i) units[boundary_name(i, count)] = "N s/kg";
   }
-  return results;
+  return units;
 }
 
-std::string PushScenario::plot(const Summary& summary) const {
+std::vector<RunResult> PushCourseScenario::run(const ScenarioOptions& options,
+                                               uint64_t seed) const {
+  const PushCourse course(options, seed);
+  const int num_directions = options.is_for_plot ? kNumPlotDirections : kNumDirections;
+  RunResult result;
+  double least = kGreatest;
+  for (int i = 0; i < num_directions; ++i) {
+    const double withstood = course.find_boundary(2 * M_PI * i / num_directions, result);
+    result.metrics.emplace_back(boundary_name(i, num_directions), withstood);
+    least = std::min(least, withstood);
+  }
+  result.metrics.emplace_back("withstood_Ns_per_kg", least);
+  result.is_success = least >= kAskedOfMass;
+  if (!result.is_success) result.failure = "fell below the required impulse";
+  return {result};
+}
+
+std::string PushCourseScenario::plot(const Summary& summary) const {
   std::map<std::string, std::vector<double>> values;
   for (const RunResult& run : summary.runs) {
     for (const auto& [name, value] : run.metrics) values[name].push_back(value);
   }
   std::vector<double> medians;
   std::vector<double> leasts;
-  for (int i = 0; i < kNumDirections; ++i) {
-    const MetricStatistics impulse = calc_statistics(boundary_name(i), values[boundary_name(i)]);
+  for (int i = 0; i < kNumPlotDirections; ++i) {
+    const MetricStatistics impulse = calc_statistics(boundary_name(i, kNumPlotDirections),
+                                                     values[boundary_name(i, kNumPlotDirections)]);
     medians.push_back(impulse.median);
     leasts.push_back(impulse.worst);
   }
@@ -137,15 +151,15 @@ std::string PushScenario::plot(const Summary& summary) const {
       "font-family=\"sans-serif\" font-size=\"14\">\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
       2 * kPlotCenter);
-  for (int impulse = 1; impulse <= 3; ++impulse) {
+  for (const double impulse : {0.2, 0.4, 0.6}) {
     svg += fmt::format("<circle cx=\"{0}\" cy=\"{0}\" r=\"{1}\" fill=\"none\" stroke=\"#bbb\"/>\n",
                        kPlotCenter, impulse * kPlotScale);
     svg += text(kPlotCenter + 4, kPlotCenter - impulse * kPlotScale - 4,
-                fmt::format("{} N s", impulse));
+                fmt::format("{} N s/kg", impulse));
   }
   svg += polygon(medians, "fill=\"#36c\" fill-opacity=\"0.2\" stroke=\"#36c\" stroke-width=\"2\"");
   svg += polygon(leasts, "fill=\"none\" stroke=\"#d33\" stroke-width=\"2\"");
-  svg += text(10, 20, "Greatest impulse at the torso survived without a step");
+  svg += text(10, 20, "Greatest impulse withstood, for each kg of the robot");
   svg += text(10, 40, fmt::format("blue: median, red: minimum of {} seeds", summary.runs.size()));
   svg += text(kPlotCenter - 25, 2 * kPlotCenter - 10, "backward");
   svg += text(10, kPlotCenter, "left");

@@ -23,6 +23,8 @@ RenderedVision::RenderedVision(ClosedLoop& trial, const SceneFile& scene, const 
     : trial_(trial),
       scene_(scene.name),
       poses_(trial.model()),
+      core_(vision::VisionNetworks::load(),
+            vision::VisionParameters::load(trial.model().folder() / "vision.yaml")),
       renderer_(trial.model(), camera_options()) {
   core_.localize(vision::FieldModel(scene), start);
 }

@@ -19,12 +19,11 @@ std::vector<std::unique_ptr<Scenario>>& all_scenarios() {
     list.push_back(std::make_unique<SprintScenario>());
     list.push_back(std::make_unique<JoystickScenario>());
     list.push_back(std::make_unique<MoveToScenario>());
-    list.push_back(std::make_unique<WalkPushScenario>());
     list.push_back(std::make_unique<KickScenario>());
     list.push_back(std::make_unique<WalkKickScenario>());
     list.push_back(std::make_unique<BlockScenario>());
     list.push_back(std::make_unique<JointsScenario>());
-    list.push_back(std::make_unique<PushScenario>());
+    list.push_back(std::make_unique<PushCourseScenario>());
     list.push_back(std::make_unique<GetUpScenario>());
     list.push_back(std::make_unique<CommandsScenario>());
     list.push_back(std::make_unique<AlarmsScenario>());

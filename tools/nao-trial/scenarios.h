@@ -42,20 +42,18 @@ class GetUpScenario : public Scenario {
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 
-/** Withstands pushes, and searches for the greatest impulse survived. */
-class PushScenario : public Scenario {
+/** Pushes the torso in eight directions: the greatest impulse that the robot withstands standing
+ * or, if a velocity is commanded, walking, at the time that is worst for it. */
+class PushCourseScenario : public Scenario {
  public:
-  const char* name() const override { return "push"; }
+  const char* name() const override { return "push-course"; }
   const char* summary() const override {
-    return "Withstand pushes of increasing impulse at the torso in four directions";
+    return "Withstand pushes at the torso in eight directions, standing or at --vx --vy --wz";
   }
-  std::map<std::string, std::string> units() const override {
-    return {{"impulse_Ns", "N s"},          {"forward_impulse_Ns", "N s"},
-            {"backward_impulse_Ns", "N s"}, {"left_impulse_Ns", "N s"},
-            {"right_impulse_Ns", "N s"},    {"warning_ms", "ms"}};
-  }
+  /** Directions are degrees to the left of straight ahead. */
+  std::map<std::string, std::string> units() const override;
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
-  /** Greatest impulse survived in every direction: median and minimum of the seeds. */
+  /** Greatest impulse withstood in every direction: median and minimum of the seeds. */
   std::string plot(const Summary& summary) const override;
 };
 

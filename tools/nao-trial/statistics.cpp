@@ -45,8 +45,8 @@ MetricStatistics calc_statistics(const std::string& name, std::vector<double> va
   // the others, such as errors, less.
   std::sort(values.begin(), values.end());
   const bool is_error = name.find("error") != std::string::npos;
-  if (!is_error && (ends_with(name, "_mps") || ends_with(name, "_Ns") || ends_with(name, "_m") ||
-                    name.rfind("warning", 0) == 0)) {
+  if (!is_error && (ends_with(name, "_mps") || ends_with(name, "_Ns_per_kg") ||
+                    ends_with(name, "_m") || name.rfind("warning", 0) == 0)) {
     std::reverse(values.begin(), values.end());
   }
   const auto at_fraction = [&](double fraction) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/random.h"
+#include "common/yaml_entry.h"
 #include "daemons/motion/actions/taught_script.h"
 #include "daemons/motion/guards/joint_limits.h"
 #include "daemons/motion/transitions/keyframes.h"
@@ -116,6 +117,22 @@ ActionScript between(const RobotModel& model, const std::string& a, const std::s
   return script;
 }
 
+Pose read_pose(const RobotModel& model, const YamlEntry& entry) {
+  Pose pose;
+  for (const auto& [name, angle] : entry.entries()) {
+    if (model.find_motor(name) < 0 && model.symmetry().find_pair(name) == nullptr) {
+      angle.fail("is not a joint of the robot");
+    }
+    pose[name] = angle.number();
+  }
+  return pose;
+}
+
+std::string known_posture(const RobotModel& model, const YamlEntry& entry) {
+  if (model.find_posture(entry.text()) == nullptr) entry.fail("is not a posture of the robot");
+  return entry.text();
+}
+
 /** The same pose nearer to a posture. @param amount  0: the posture; 1: the pose. */
 Pose scaled(const Pose& change, const RobotModel& model, const std::string& posture,
             double amount) {
@@ -170,64 +187,28 @@ ActionScript draw_taught_motion(const RobotModel& model, uint64_t seed) {
   return script;
 }
 
-ActionScript make_good_motion(const RobotModel& model, int number) {
-  const std::string ready = model.references().ready;
+std::vector<ActionScript> make_good_motions(const RobotModel& model) {
+  std::vector<ActionScript> motions;
   // The variants of a motion differ in speed, size and repetitions.
-  const int kind = number % 10;
-  const int variant = number / 10;
-  const double slowness = 2.5 + 0.8 * variant;
-  const double amount = 1 - 0.15 * variant;
-  const int repetitions = 1 + variant % 3;
-  const auto poses = [&](const std::string& posture, const std::vector<Pose>& list) {
-    std::vector<Pose> result;
-    for (const Pose& pose : list) result.push_back(scaled(pose, model, posture, amount));
-    return through(model, posture, result, slowness, repetitions);
-  };
-  switch (kind) {
-    case 0:  // A wave with the right arm, and with the left one.
-      return variant % 2 == 0
-                 ? poses(ready,
-                         {{{"RShoulderPitch", -0.9}, {"RShoulderRoll", -0.5}, {"RElbowRoll", 1.2}},
-                          {{"RShoulderPitch", -0.9}, {"RShoulderRoll", -0.5}, {"RElbowRoll", 0.6}},
-                          {{"RShoulderPitch", -0.9}, {"RShoulderRoll", -0.5}, {"RElbowRoll", 1.4}},
-                          {}})
-                 : poses(ready,
-                         {{{"LShoulderPitch", -0.9}, {"LShoulderRoll", 0.5}, {"LElbowRoll", -1.2}},
-                          {{"LShoulderPitch", -0.9}, {"LShoulderRoll", 0.5}, {"LElbowRoll", -0.6}},
-                          {}});
-    case 1:  // Both arms up, to the front and down.
-      return poses(ready, {{{"ShoulderPitch", 0}, {"ShoulderRoll", 0.3}},
-                           {{"ShoulderPitch", -1.2}, {"ShoulderRoll", 0.4}},
-                           {}});
-    case 2:  // Arms to the sides.
-      return poses(ready, {{{"ShoulderPitch", 1.3}, {"ShoulderRoll", 1.1}, {"ElbowRoll", -0.3}},
-                           {{"ShoulderPitch", 0.5}, {"ShoulderRoll", 0.9}},
-                           {}});
-    case 3:  // A look around.
-      return poses(
-          ready,
-          {{{"HeadYaw", 1.0}, {"HeadPitch", -0.2}}, {{"HeadYaw", -1.0}, {"HeadPitch", 0.1}}, {}});
-    case 4:  // A bow: the hips bend and the ankles keep the weight over the feet.
-      return poses(ready, {{{"HipPitch", -0.7}, {"AnklePitch", -0.22}, {"HeadPitch", 0.3}}, {}});
-    case 5:  // A squat.
-      return between(model, ready, "Crouch", 1.0 + 0.4 * variant, repetitions);
-    case 6:  // To stretched legs and back.
-      return between(model, ready, "StandZero", 1.0 + 0.4 * variant, repetitions);
-    case 7:  // A weight shift from side to side.
-      return poses(
-          ready,
-          {{{"LHipRoll", 0.08}, {"RHipRoll", 0.08}, {"LAnkleRoll", -0.08}, {"RAnkleRoll", -0.08}},
-           {{"LHipRoll", -0.08}, {"RHipRoll", -0.08}, {"LAnkleRoll", 0.08}, {"RAnkleRoll", 0.08}},
-           {}});
-    case 8:  // Sitting: a wave, and a look.
-      return poses("Sit", {{{"RShoulderPitch", -0.6}, {"RShoulderRoll", -0.4}, {"HeadYaw", -0.3}},
-                           {{"RShoulderPitch", -0.6}, {"RShoulderRoll", -0.7}, {"HeadYaw", 0.3}},
-                           {}});
-    default:  // Crouching: arms to the front, hands open.
-      return poses("Crouch", {{{"ShoulderPitch", 0.4}, {"ShoulderRoll", 0.25}, {"Hand", 1}},
-                              {{"ShoulderPitch", 0.9}, {"ShoulderRoll", 0.35}, {"Hand", 0}},
-                              {}});
+  constexpr int kNumVariants = 5;
+  const YamlEntry file = YamlEntry::load(model.folder() / "good_motions.yaml");
+  for (int variant = 0; variant < kNumVariants; ++variant) {
+    const int repetitions = 1 + variant % 3;
+    for (const YamlEntry& entry : file.items()) {
+      const std::string posture = known_posture(model, entry.at("posture"));
+      if (entry.has("to")) {
+        motions.push_back(between(model, posture, known_posture(model, entry.at("to")),
+                                  1.0 + 0.4 * variant, repetitions));
+        continue;
+      }
+      std::vector<Pose> poses;
+      for (const YamlEntry& pose : entry.at("poses").items()) {
+        poses.push_back(scaled(read_pose(model, pose), model, posture, 1 - 0.15 * variant));
+      }
+      motions.push_back(through(model, posture, poses, 2.5 + 0.8 * variant, repetitions));
+    }
   }
+  return motions;
 }
 
 }  // namespace nao::trial

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "daemons/motion/actions/action_script.h"
 #include "robot_model/robot_model.h"
@@ -11,12 +12,8 @@ namespace nao::trial {
  * seeds: keyframes near one posture, as a person makes them. */
 motion::ActionScript draw_taught_motion(const RobotModel& model, uint64_t seed);
 
-/** Number of hand-made motions. */
-inline constexpr int kNumGoodMotions = 50;
-
-/** A motion as a careful person makes it, 0 to kNumGoodMotions - 1: waves, arm poses, looks, bows,
- * squats and weight shifts, standing and sitting. Each must be accepted. The names of the joints
- * are those of a NAO; joints that another robot does not have are left out. */
-motion::ActionScript make_good_motion(const RobotModel& model, int number);
+/** Motions as a careful person makes them, each of which must be accepted: variants of those in the
+ * robot's good_motions.yaml. @throws ModelError  if the robot has none, or the file is damaged. */
+std::vector<motion::ActionScript> make_good_motions(const RobotModel& model);
 
 }  // namespace nao::trial

@@ -70,8 +70,9 @@ std::vector<RunResult> TeachScenario::run(const ScenarioOptions& options, uint64
 }
 
 std::vector<RunResult> TeachGoodScenario::run(const ScenarioOptions& options, uint64_t seed) const {
-  const int number = static_cast<int>(seed % kNumGoodMotions);
-  RunResult result = check_and_play(options, make_good_motion(*options.trial.model, number), seed);
+  const auto motions = make_good_motions(*options.trial.model);
+  const uint64_t number = seed % motions.size();
+  RunResult result = check_and_play(options, motions[number], seed);
   if (result.is_success && result.label != "accepted") {
     result.is_success = false;
     result.failure =

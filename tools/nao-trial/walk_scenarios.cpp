@@ -372,46 +372,4 @@ std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint6
   return {result};
 }
 
-std::map<std::string, std::string> WalkPushScenario::units() const {
-  return {{"impulse_Ns", "N s"}, {"direction_deg", "degrees"}, {"warning_ms", "ms"}};
-}
-
-std::vector<RunResult> WalkPushScenario::run(const ScenarioOptions& options, uint64_t seed) const {
-  constexpr double kAsked = 0.6;     // N s
-  constexpr double kGreatest = 3.2;  // N s: more than any NAO stands
-  const Vector3d velocity = options.velocity.isZero(0) ? Vector3d(0.15, 0, 0) : options.velocity;
-  constexpr double kFallTime = 3;  // s until a robot that falls lies
-  double direction = 0;
-  RunResult result;
-  // The same robot, time and direction in each run.
-  const auto survives = [&](double impulse) {
-    ClosedLoop trial(options.trial, seed);
-    direction = trial.random(-M_PI, M_PI);
-    const double when = trial.random(3, 4);
-    trial.run(kStand);
-    trial.hold_walk(velocity);
-    if (!run_upright(trial, when)) return false;
-    const double heading = true_pose(trial).heading + direction;
-    trial.world().push(0, 0, impulse * Vector3d(std::cos(heading), std::sin(heading), 0));
-    FallWarning fall;
-    trial.on_tick([&] { fall.look(trial); });
-    const bool is_upright = run_upright(trial, 4);
-    if (!is_upright) trial.run_until([&] { return fall.has_touched(); }, kFallTime);
-    if (fall.warning()) result.metrics.emplace_back("warning_ms", *fall.warning() * 1e3);
-    return is_upright && trial.core().motion_state().mode == Mode::kWalking;
-  };
-  // Bisection, as in PushScenario.
-  double low = 0;
-  double high = kGreatest;
-  for (int i = 0; i < 5; ++i) {
-    const double middle = (low + high) / 2;
-    (survives(middle) ? low : high) = middle;
-  }
-  result.is_success = survives(kAsked);
-  if (!result.is_success) result.failure = "fell";
-  result.metrics.emplace_back("impulse_Ns", low);
-  result.metrics.emplace_back("direction_deg", direction / kDegree);
-  return {result};
-}
-
 }  // namespace nao::trial

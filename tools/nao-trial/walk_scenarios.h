@@ -46,15 +46,4 @@ class MoveToScenario : public Scenario {
   std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
 };
 
-/** Is pushed during a walk. */
-class WalkPushScenario : public Scenario {
- public:
-  const char* name() const override { return "walk-push"; }
-  const char* summary() const override {
-    return "Push the torso by 0.6 N s in a random direction while it walks at --vx (0.15 m/s)";
-  }
-  std::map<std::string, std::string> units() const override;
-  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
-};
-
 }  // namespace nao::trial

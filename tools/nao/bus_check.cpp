@@ -194,19 +194,20 @@ bool check_silence(BusListener& listener, const std::vector<std::string>& channe
   return false;
 }
 
-/** Other hosts are reached by one interface. */
-void report_reach(const std::string& url, const std::string& interface, bool has_other_host) {
-  if (is_local_bus(url) || has_other_host) return;
+/** Other hosts are reached by one interface.
+ * @return false if it is not that of the default route, and nobody is heard there. */
+bool report_reach(const std::string& url, const std::string& interface, bool has_other_host) {
+  if (is_local_bus(url) || has_other_host) return true;
   // An address of no host (RFC 5737): the interface of the default route.
   const auto usual = local_address_towards({"192.0.2.1", 7667});
   const std::string usual_interface = usual ? interface_with(*usual) : interface;
+  const bool is_usual = usual_interface == interface;
   std::printf(
       "%s  no program of another host is heard; messages to other hosts leave by %s only%s. If "
       "they are in another network: ip route replace 239.255.76.0/24 dev INTERFACE\n",
-      usual_interface == interface ? "note" : "FAIL", interface.c_str(),
-      usual_interface == interface ? ""
-                                   : (", and the default route goes by " + usual_interface)
-                                         .c_str());
+      is_usual ? "note" : "FAIL", interface.c_str(),
+      is_usual ? "" : (", and the default route goes by " + usual_interface).c_str());
+  return is_usual;
 }
 
 /** @return false if something is wrong. */
@@ -274,8 +275,8 @@ int run_bus_check(const std::string& url, const BusCheck& check) {
   const auto hosts = listen_for_hosts(bus, listener, owners);
   report_buffer();
   const bool are_clocks_fine = report_hosts(hosts);
-  report_reach(url, interface, hosts.size() > hosts.count(own_name()));
-  return report_owners(owners) && are_clocks_fine ? 0 : 1;
+  const bool is_reach_fine = report_reach(url, interface, hosts.size() > hosts.count(own_name()));
+  return report_owners(owners) && are_clocks_fine && is_reach_fine ? 0 : 1;
 }
 
 }  // namespace

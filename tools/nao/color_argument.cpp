@@ -38,7 +38,7 @@ LightColor parse_color(const std::string& text) {
       std::from_chars(text.data() + 1, end, rgb, 16).ptr == end) {
     return to_color(static_cast<int>(rgb));
   }
-  throw ConfigError("'" + text + "' is no color; there are " + names + "and such as #ff8000");
+  throw ConfigError("'" + text + "' is not a color; there are " + names + "and such as #ff8000");
 }
 
 }  // namespace nao

@@ -55,6 +55,13 @@ int Conversation::run_walk(naolcm::walk_command_t command, double duration) {
   };
   loop_.every(0.02, step);
   std::string why = loop_.run();
+  const auto outcome = exchange_.outcome(monotonic_seconds());
+  if (why == "end" && outcome && outcome->is_success && monotonic_seconds() < end) {
+    std::fprintf(stderr,
+                 "nao: walk: ended before its time: this program was held up, and a robot that "
+                 "hears nothing stands\n");
+    return 1;
+  }
   if (why != "end" && exchange_.is_accepted()) {
     // First Ctrl-C: command zero velocity and wait until the robot stands. A second one ends the
     // waiting.

@@ -28,7 +28,7 @@ struct RobotCard {
   int walks = 0;
   /** Why it did not stand or walk; empty: it did. */
   std::string failure;
-  /** Of check_robot(). */
+  /** Findings of check_robot(). */
   Findings missing;
 };
 

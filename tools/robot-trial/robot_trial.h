@@ -10,7 +10,8 @@ namespace nao {
 
 /** Simulates an imported robot, writes the settings that it stands and walks with into its folder,
  * and its card as card.json.
- * @param minutes       Time of the search for settings; the last one may end later.
+ * @param minutes       Time of the search for settings on two free cores; the last one may end
+ *                      later.
  * @param tune_minutes  Time of the search for a better gait that follows; 0: none.
  * @param progress      Receives a line after each settings.
  * @throws Error  if a file cannot be written or the robot cannot be simulated. */

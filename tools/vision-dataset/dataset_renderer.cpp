@@ -65,12 +65,13 @@ cv::Mat DatasetRenderer::draw(const RandomScene& scene, const camera::Lens& lens
   append_distractors(scene, has_named_colors);
   if (scene.pose_ball_in_world) {
     const auto radius = static_cast<float>(field_.ball->radius);
-    if (has_named_colors) {
+    if (has_named_colors || scene.is_ball_plain) {
       MeshInstance ball;
       ball.mesh = shapes_[2];
       ball.pose_in_world = scene.pose_ball_in_world->cast<float>();
       ball.scale.setConstant(2 * radius);
-      ball.tint = ball_name_color();
+      ball.tint << scene.ball_hexagons, 1;
+      if (has_named_colors) ball.tint = ball_name_color();
       scene_.instances.push_back(ball);
     } else {
       scene_.ball = SceneBall{scene.pose_ball_in_world->cast<float>(), radius, scene.ball_hexagons,

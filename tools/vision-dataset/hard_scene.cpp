@@ -137,6 +137,20 @@ Eigen::Vector3f light_color(Random& random) {
                                 : random_color(random, 0.4, 0.9);
 }
 
+/** A ball as toys and other leagues have them: orange, yellow, red, pink or blue, a half with dark
+ * faces. The rules of 2026 name no color. */
+void color_ball(RandomScene& scene, Random& random) {
+  scene.is_ball_plain = random.uniform() < 0.5;
+  const auto strong = static_cast<float>(random.uniform(0.5, 0.9));
+  const auto middle = static_cast<float>(random.uniform(0.02, 0.8));
+  const auto weak = static_cast<float>(random.uniform(0.01, 0.12));
+  const double hue = random.uniform();
+  // From red by orange to yellow; pink; blue.
+  scene.ball_hexagons = Eigen::Vector3f(strong, middle * strong, weak);
+  if (hue > 0.7) scene.ball_hexagons = Eigen::Vector3f(strong, weak, middle * strong);
+  if (hue > 0.85) scene.ball_hexagons = Eigen::Vector3f(weak, middle * strong, strong);
+}
+
 /** A board with dark squares, or dots, on a light ground: a half lies on the floor, others stand or
  * are held. */
 void add_checkerboard(RandomScene& scene, const Eigen::Vector2d& place, Random& random) {
@@ -223,12 +237,13 @@ const std::vector<std::string>& scene_kind_names() {
   static const std::vector<std::string> names = {
       "mixed",         "ball-on-line",  "ball-on-mark",     "ball-at-shoe",      "ball-at-post",
       "ball-at-robot", "ball-in-glare", "ball-overexposed", "ball-underexposed", "ball-at-border",
-      "checkerboard",  "stripes",       "goal-foot",        "crossing",          "robot-feet"};
+      "checkerboard",  "stripes",       "goal-foot",        "crossing",          "robot-feet",
+      "ball-colored"};
   return names;
 }
 
 bool has_ball(SceneKind kind) {
-  return kind < SceneKind::kCheckerboard;
+  return kind < SceneKind::kCheckerboard || kind == SceneKind::kBallColored;
 }
 
 void add_hard_objects(RandomScene& scene, const RobotModel& model, const SceneFile& file,
@@ -243,6 +258,7 @@ void add_hard_objects(RandomScene& scene, const RobotModel& model, const SceneFi
                          : 0.35,
           is_at_border ? 1.5 : 4.5, field, random);
   if (has_ball(kind)) place_ball(scene, target, file.ball->radius, random);
+  if (kind == SceneKind::kBallColored) color_ball(scene, random);
   if (is_at_border)
     turn_to_border(scene, model.cameras().front(), target, file.ball->radius, random);
   switch (kind) {

@@ -46,7 +46,8 @@ struct RandomScene {
   camera::Distortion distortion;
   SceneAppearance appearance;
   std::optional<Eigen::Isometry3d> pose_ball_in_world;
-  /** As in SceneBall. */
+  /** Whether the ball has one color, that of its hexagons; otherwise as in SceneBall. */
+  bool is_ball_plain = false;
   Eigen::Vector3f ball_hexagons = Eigen::Vector3f::Constant(0.86f);
   float ball_pentagons = 0.012f;
   std::vector<PlacedRobot> robots;
@@ -71,7 +72,8 @@ enum class SceneKind {
   kStripes,
   kGoalFoot,
   kCrossing,
-  kRobotFeet
+  kRobotFeet,
+  kBallColored
 };
 /** Names of the kinds, in their order: ball-on-line. */
 const std::vector<std::string>& scene_kind_names();

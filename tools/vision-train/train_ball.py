@@ -48,7 +48,7 @@ def mirrored(patches, numbers, generator):
 
 
 def distances(numbers):
-    """Of each pixel from the ball's center, in radii of the ball, N x 1 x 32 x 32; without a ball far away."""
+    """Distance of each pixel from the ball's center, in radii of the ball, N x 1 x 32 x 32; without a ball far away."""
     position = (torch.arange(SIZE) + 0.5) * (2 * PATCH_RADII / SIZE) - PATCH_RADII
     dx = position[None, None, :] - numbers[:, 1, None, None]
     dy = position[None, :, None] - numbers[:, 2, None, None]
@@ -73,7 +73,7 @@ def pasted(patches, numbers, generator):
 
 
 def faded(patches, numbers, generator):
-    """Of a half of the balls the dark faces become lighter, as on worn balls."""
+    """Makes the dark faces of half of the balls lighter, as on worn balls."""
     inside = (distances(numbers) < 0.95).float()
     light = (patches * inside).amax(dim=(2, 3), keepdim=True)
     strength = 1.7 * torch.rand(len(patches), 1, 1, 1, generator=generator) - 0.85

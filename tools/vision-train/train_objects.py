@@ -308,7 +308,7 @@ def report(network, images, objects):
 
 
 def stacked(examples):
-    """Of each kind one tensor of all examples."""
+    """One tensor of all examples for each kind."""
     return [torch.from_numpy(np.stack(values)) for values in zip(*examples)]
 
 

@@ -21,7 +21,7 @@ struct KickImpact {
   double foot = 0;
   /** s after the foot has passed it. */
   std::vector<double> times;
-  /** Of one signal at each of the times. */
+  /** Weights of each signal, one for each of the times. */
   std::array<std::vector<double>, kNumSignals> weights;
   double bias = 0;
   /** Least and greatest size of a score that is believed: positive scores are hits, negative ones

@@ -14,7 +14,7 @@ namespace {
 constexpr double kMinHeight = 0.1;
 // Margin of the capture point to the edge of the support polygon, m, and the time for which it must
 // be below this, s. Pushes from which the ankles recover bring it a centimeter outside for one or
-// two steps (measured: nao-trial push).
+// two steps (measured: nao-trial push-course).
 constexpr double kFallMargin = -0.025;
 constexpr double kFallTime = 0.03;
 // Least tilt of the flatter sole, rad: a body that tips over the edge of its soles tilts them, but
@@ -23,7 +23,7 @@ constexpr double kFallTime = 0.03;
 constexpr double kMinSoleTilt = 0.12;
 // Torso tilt at which a walk falls, rad. Walks that recovered from a push tilted by 0.34 rad at
 // most; of those that fell, 98 of 100 tilted by this much 150 ms or more before the impact
-// (measured: nao-trial walk-push).
+// (measured: nao-trial push-course).
 constexpr double kWalkingTilt = 0.38;
 // Slack of a sum of time steps, s.
 constexpr double kRounding = 1e-9;

@@ -30,6 +30,8 @@ constexpr double kResultTimeout = 60;
 constexpr double kPlayTimeout = 600;
 /** s; see WalkTurn and GetState in PROTOCOL.md. */
 constexpr double kWalkPeriod = 0.1;
+/** Without commands for so long a walk ends, s; see PROTOCOL.md, "Driving". */
+constexpr double kWalkSilence = 1;
 constexpr double kPollPeriod = 0.1;
 /** Polls until an image must have arrived: 5 s. */
 constexpr int kMaxImagePolls = 50;
@@ -139,11 +141,19 @@ int play(PhoneClient& client, const PhoneOptions& options) {
 // The command is repeated all the time, as from a joystick: a walk ends by itself without it.
 int walk(PhoneClient& client, const PhoneOptions& options) {
   if (const int status = report(client.take_control()); status != 0) return status;
-  const int num_commands = static_cast<int>(options.duration / kWalkPeriod);
-  for (int i = 0; i < num_commands; ++i) {
+  const double start = monotonic_seconds();
+  double last = start;
+  while (last - start < options.duration) {
     const Response response = client.walk_turn(options.vx, options.vy, options.wz);
     if (const int status = report(response); status != 0) return status;
     client.run_for(kWalkPeriod);
+    const double now = monotonic_seconds();
+    // After a suspension the robot stands, and must not begin to walk again by itself.
+    if (now - last > kWalkSilence) {
+      std::fprintf(stderr, "nao-phone: the walk has ended: this program was held up\n");
+      return 1;
+    }
+    last = now;
   }
   // Zero velocity ends the walk at once.
   return report(client.walk_turn(0, 0, 0));

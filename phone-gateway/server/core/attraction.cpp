@@ -62,18 +62,16 @@ void Attraction::look_at_ball(double now) {
   const naoremote::Vision& vision = robot_.perception().vision();
   if (!vision.has_ball() || vision.ball().age() > kMaxBallAge) return;
   const RobotSnapshot& robot = robot_.streams().mirror().robot();
-  const auto& [w, x, y, z] = robot.torso_orientation;
-  const double heading = std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
-  const double dx = vision.ball().x() - robot.torso_position[0];
-  const double dy = vision.ball().y() - robot.torso_position[1];
+  const Eigen::Vector2d ball =
+      robot.torso_on_ground().inverse() * Eigen::Vector2d(vision.ball().x(), vision.ball().y());
   JointChangeCommand look;
   look.speed = kLookSpeed;
   for (const naoremote::JointGroup& group : description.joint_groups()) {
     if (group.name() != description.camera_group()) continue;
     // Pitch: down to the ball from about the height of the torso, which is below the camera.
     look.joint_names = {group.yaw_joint(), group.pitch_joint()};
-    look.joint_position = {std::remainder(std::atan2(dy, dx) - heading, 2 * M_PI),
-                           std::atan2(robot.torso_position[2], std::hypot(dx, dy))};
+    look.joint_position = {std::atan2(ball.y(), ball.x()),
+                           std::atan2(robot.torso_position[2], ball.norm())};
   }
   for (size_t i = 0; i < look.joint_names.size(); ++i) {
     for (const naoremote::Joint& joint : description.joints()) {

@@ -28,7 +28,6 @@ class Attraction {
   GatewayRobot& robot_;
   bool is_active_ = false;
   size_t num_begun_ = 0;
-  size_t num_greetings_ = 0;
   double next_ = 0;
 };
 

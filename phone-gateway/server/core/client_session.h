@@ -109,7 +109,7 @@ struct ClientSession {
   Endpoint endpoint;
   std::function<void()> wake_connection;
   std::string name;
-  /** Of this client's second connection: the key that it must know, its session, 0: there is none,
+  /** This client's second connection: the key that it must know, its session, 0: there is none,
    * and its wake_connection. */
   std::string join_key;
   uint32_t second = 0;

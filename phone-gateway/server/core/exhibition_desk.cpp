@@ -224,9 +224,8 @@ void ExhibitionDesk::watch_robot(double now) {
 }
 
 void ExhibitionDesk::watch_challenge() {
-  const GroundPose pose = rules_.place().pose();
-  const GroundPoint place{pose.x, pose.y};
-  const GroundPoint before = std::exchange(last_place_, place);
+  const Eigen::Vector2d place = rules_.place().pose().position;
+  const Eigen::Vector2d before = std::exchange(last_place_, place);
   if (settings_.gate.size() != 2) return;
   if (do_cross(before, place, settings_.gate[0], settings_.gate[1])) queue_.note_challenge();
 }

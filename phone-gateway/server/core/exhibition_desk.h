@@ -18,9 +18,9 @@ namespace nao::gateway {
 /** An exhibition, as it is set up. */
 struct ExhibitionSetup {
   ExhibitionSettings settings;
-  /** Of the operator's page. */
+  /** Secret of the operator's page. */
   std::string secret;
-  /** From the run before. */
+  /** State of the run before. */
   QueueState state;
 };
 
@@ -77,9 +77,9 @@ class ExhibitionDesk {
   std::map<uint32_t, std::string> told_;
   double last_step_ = -1;
   double next_tell_ = 0;
-  GroundPoint last_place_;
+  Eigen::Vector2d last_place_ = Eigen::Vector2d::Zero();
   bool was_down_ = false;
-  bool was_available_ = true;
+  bool was_available_ = false;
   /** Heat or battery has ended the turn. */
   bool is_body_resting_ = false;
 };

@@ -69,7 +69,7 @@ class ImagePacer {
   static constexpr double kLongTime = 0.1;
   static constexpr double kShortTime = 0.05;
   static constexpr int kNumShort = 20;
-  /** Of the levels of one width. */
+  /** JPEG qualities of the levels of one width. */
   static constexpr int kNumQualities = 3;
   static constexpr std::array<uint32_t, kNumQualities> kQualities = {95, 50, 30};
   static constexpr uint32_t kLeastWidth = 160;

@@ -12,6 +12,12 @@ static_assert(kNumModes == naoremote::Mode_ARRAYSIZE);
 
 }  // namespace
 
+Pose2 RobotSnapshot::torso_on_ground() const {
+  const auto& [w, x, y, z] = torso_orientation;
+  return {{torso_position[0], torso_position[1]},
+          heading_of(Eigen::Quaterniond(w, x, y, z).toRotationMatrix())};
+}
+
 // The robot's clock now, from its last state and the time since.
 int64_t RobotMirror::calc_robot_utime(double now) const {
   if (!has_state_) return 0;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinematics/pose2.h"
 #include "messages/command.h"
 #include "messages/mode.h"
 #include "remote.pb.h"
@@ -22,6 +23,9 @@ struct RobotSnapshot {
   /** Unit quaternion (w, x, y, z) and position, m, of the torso in the odometry frame. */
   std::array<double, 4> torso_orientation{1, 0, 0, 0};
   std::array<double, 3> torso_position{};
+
+  /** Ground projection of the torso's pose. */
+  Pose2 torso_on_ground() const;
 };
 
 /** The part of motion_state_t that clients receive; see there. */

@@ -1,7 +1,6 @@
 #include "phone-gateway/server/core/visitor_rules.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "messages/command.h"
 
@@ -12,12 +11,6 @@ using naoremote::Request;
 
 Refusal forbid(const std::string& what) {
   return {naoremote::NOT_ALLOWED, gateway_reason("exhibition-forbidden", {what})};
-}
-
-GroundPose odometry_of(const RobotSnapshot& robot) {
-  const auto& [w, x, y, z] = robot.torso_orientation;
-  return {robot.torso_position[0], robot.torso_position[1],
-          std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))};
 }
 
 }  // namespace
@@ -34,12 +27,9 @@ bool VisitorRules::is_forbidden(const std::string& action) const {
 }
 
 bool VisitorRules::is_inside(const naoremote::MoveTo& move) const {
-  const GroundPose robot = place_.pose();
-  const double c = std::cos(robot.theta);
-  const double s = std::sin(robot.theta);
+  const Pose2 robot = place_.pose();
   return place_.is_known() &&
-         fence_.allows_way({robot.x, robot.y}, {robot.x + c * move.x() - s * move.y(),
-                                                robot.y + s * move.x() + c * move.y()});
+         fence_.allows_way(robot.position, robot * Eigen::Vector2d(move.x(), move.y()));
 }
 
 std::optional<Refusal> VisitorRules::check(const Request& request) const {
@@ -90,13 +80,13 @@ WalkCommand VisitorRules::limit(const WalkCommand& velocity) const {
 void VisitorRules::step() {
   const RobotMirror& mirror = robot_.streams().mirror();
   if (!mirror.has_state()) return;
-  place_.update(mirror.robot().utime, odometry_of(mirror.robot()));
+  place_.update(mirror.robot().utime, mirror.robot().torso_on_ground());
   if (!settings_.is_fence_on_field) return;
   const naoremote::Vision& vision = robot_.perception().vision();
   if (!vision.has_field_pose() || vision.utime() == vision_utime_) return;
   vision_utime_ = vision.utime();
   const naoremote::Vision::FieldPose& pose = vision.field_pose();
-  place_.correct({pose.x(), pose.y(), pose.theta()});
+  place_.correct({{pose.x(), pose.y()}, pose.theta()});
 }
 
 }  // namespace nao::gateway

@@ -36,7 +36,7 @@ class VisitorRules {
   const GatewayRobot& robot_;
   Fence fence_;
   RobotPlace place_;
-  /** Of the last pose on the field, robot time, microseconds. */
+  /** Robot time of the last pose on the field, microseconds. */
   uint64_t vision_utime_ = 0;
 };
 

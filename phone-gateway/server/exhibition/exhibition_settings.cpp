@@ -25,23 +25,14 @@ double read_time(const YamlEntry& root, const char* key, double value) {
   return time;
 }
 
-/** "true" or "false". */
-bool read_flag(const YamlEntry& root, const char* key, bool value) {
-  if (!root.has(key)) return value;
-  const YamlEntry entry = root.at(key);
-  const std::string text = entry.text();
-  if (text != "true" && text != "false") entry.fail("is neither true nor false");
-  return text == "true";
-}
-
 std::vector<std::string> read_names(const YamlEntry& entry) {
   std::vector<std::string> names;
   for (const YamlEntry& item : entry.items()) names.push_back(item.text());
   return names;
 }
 
-std::vector<GroundPoint> read_points(const YamlEntry& entry, size_t least, size_t most) {
-  std::vector<GroundPoint> points;
+std::vector<Eigen::Vector2d> read_points(const YamlEntry& entry, size_t least, size_t most) {
+  std::vector<Eigen::Vector2d> points;
   for (const YamlEntry& item : entry.items()) {
     const std::vector<double> numbers = item.numbers(2);
     if (std::max(std::abs(numbers[0]), std::abs(numbers[1])) > kMaxLength) {
@@ -78,8 +69,8 @@ void read_attract(const YamlEntry& entry, ExhibitionSettings& settings) {
   entry.allow_only({"period", "actions", "motions", "look_at_ball", "greetings"});
   settings.attract_period = read_time(entry, "period", 25);
   if (entry.has("actions")) settings.attract_actions = read_names(entry.at("actions"));
-  settings.attracts_with_motions = read_flag(entry, "motions", false);
-  settings.looks_at_ball = read_flag(entry, "look_at_ball", false);
+  if (entry.has("motions")) settings.attracts_with_motions = entry.at("motions").flag();
+  if (entry.has("look_at_ball")) settings.looks_at_ball = entry.at("look_at_ball").flag();
   if (!entry.has("greetings")) return;
   for (const auto& [language, text] : entry.at("greetings").entries()) {
     settings.greetings.emplace_back(language, text.text());
@@ -117,8 +108,8 @@ ExhibitionSettings parse_exhibition(const std::string& text, const std::string& 
     if (settings.speed > 1) root.at("speed").fail("is above 1");
   }
   if (root.has("forbidden")) settings.forbidden = read_names(root.at("forbidden"));
-  settings.may_speak = read_flag(root, "may_speak", false);
-  settings.may_play = read_flag(root, "may_play", false);
+  if (root.has("may_speak")) settings.may_speak = root.at("may_speak").flag();
+  if (root.has("may_play")) settings.may_play = root.at("may_play").flag();
   if (root.has("fence")) read_fence(root.at("fence"), settings);
   if (settings.may_play && !settings.fence.empty()) {
     root.at("may_play").fail("is not possible with a fence: behaviors walk where the ball is");

@@ -20,10 +20,10 @@ struct ExhibitionSettings {
   bool may_speak = false;
   bool may_play = false;
   /** Empty: none. In the field's frame (true), or where the robot's odometry began. */
-  std::vector<GroundPoint> fence;
+  std::vector<Eigen::Vector2d> fence;
   bool is_fence_on_field = false;
   /** Posts of the challenge's gate, in the fence's frame; empty: no challenge. */
-  std::vector<GroundPoint> gate;
+  std::vector<Eigen::Vector2d> gate;
   /** Between what the robot does while nobody is there, s; 0: nothing. */
   double attract_period = 0;
   std::vector<std::string> attract_actions;

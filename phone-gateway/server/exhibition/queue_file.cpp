@@ -55,7 +55,7 @@ const nlohmann::json& at(const nlohmann::json& json, const std::string& key) {
 
 double read_number(const nlohmann::json& json, const std::string& key, double most) {
   const nlohmann::json& value = at(json, key);
-  if (!value.is_number()) fail(key, "is no number");
+  if (!value.is_number()) fail(key, "is not a number");
   const double number = value.get<double>();
   if (!(number >= 0 && number <= most)) fail(key, "is out of range");
   return number;
@@ -63,7 +63,7 @@ double read_number(const nlohmann::json& json, const std::string& key, double mo
 
 std::string read_text(const nlohmann::json& json, const std::string& key) {
   const nlohmann::json& value = at(json, key);
-  if (!value.is_string()) fail(key, "is no text");
+  if (!value.is_string()) fail(key, "is not text");
   std::string text = value.get<std::string>();
   if (text.size() > kMaxStateText) fail(key, "is too long");
   return text;
@@ -85,7 +85,7 @@ Visitor read_visitor(const nlohmann::json& json, std::set<std::string>& keys) {
 std::deque<Visitor> read_visitors(const nlohmann::json& json, const std::string& key,
                                   std::set<std::string>& keys) {
   const nlohmann::json& list = at(json, key);
-  if (!list.is_array()) fail(key, "is no list");
+  if (!list.is_array()) fail(key, "is not a list");
   if (list.size() > kMaxVisitors) fail(key, "is too long");
   std::deque<Visitor> visitors;
   for (const nlohmann::json& item : list) visitors.push_back(read_visitor(item, keys));

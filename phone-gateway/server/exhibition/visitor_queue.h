@@ -65,7 +65,7 @@ struct QueueState {
   /** Driven in this turn, and when in it the challenge was done; 0: not yet. */
   double turn_time = 0;
   double challenge_time = 0;
-  /** Since the driver's last command. */
+  /** Time since the driver's last command. */
   double idle_time = 0;
   double changeover_left = 0;
   std::deque<Visitor> waiting;
@@ -112,7 +112,7 @@ class VisitorQueue {
   /** Time passes: turns begin and end. @param dt  s, not negative. */
   void step(double dt);
 
-  // The operator's.
+  // Requests of the operator.
 
   /** The clock of the turn stands, and nobody drives. */
   void set_paused(bool is_paused) { state_.is_paused = is_paused; }
@@ -129,7 +129,7 @@ class VisitorQueue {
     return state_.driver && !is_halted() ? &*state_.driver : nullptr;
   }
   bool is_warned() const { return state_.driver && state_.turn_left <= rules_.warning; }
-  /** Whether somebody drives, or waits and is there. */
+  /** Whether a visitor drives, or waits with a phone that is connected. */
   bool has_visitors() const;
   VisitorView view(const std::string& key) const;
 

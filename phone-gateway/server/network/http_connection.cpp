@@ -127,6 +127,12 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
                    "--host-name."));
       return;
     }
+    // RFC 9112, 3.2. Which of them a proxy before us has looked at is not known.
+    if (request.count(http::field::host) > 1 || request.count(http::field::origin) > 1) {
+      note_refusal("HTTP: several Host or Origin headers.");
+      send(refusal(400, "A request has one Host header and at most one Origin header."));
+      return;
+    }
     const std::string_view target = view(request.target());
     if (target == "/ws" || target.substr(0, 4) == "/ws?") {
       on_websocket_request(host);
@@ -146,7 +152,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     page.if_none_match = std::string(view(request[http::field::if_none_match]));
     page.is_local = endpoint_.is_local;
     PageResponse response = context_.pages.respond(page);
-    if (response.status == 400) note_refusal("HTTP: the target is no path.");
+    if (response.status == 400) note_refusal("HTTP: the target is not a path.");
     if (response.status == 403) note_refusal("HTTP: the page is for this host only.");
     send(std::move(response));
   }

@@ -327,7 +327,7 @@ describe("Connection", () => {
     expect(store.get().problem).toBe("closed");
   });
 
-  it("survives bytes that are no message", async () => {
+  it("survives bytes that are not a message", async () => {
     await welcome();
     transport.receive({case: undefined});
     expect(store.get().phase).toBe("connected");

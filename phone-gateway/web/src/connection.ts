@@ -241,7 +241,7 @@ export class Connection {
         break;
       }
       case "state":
-        // Of two connections one may be late.
+        // One of the two connections may be late.
         if (message.value.sentAt > 0 && message.value.sentAt < this.newestSentAt) break;
         this.newestSentAt = message.value.sentAt;
         this.stateMs = this.takenMs(message.value);

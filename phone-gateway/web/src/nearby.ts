@@ -1,5 +1,7 @@
 /** Other robots in the network, as the gateway of this page has found them (its page "gateways"). */
 
+import {timeLimit} from "./time_limit";
+
 export interface Gateway {
   name: string;
   /** As a person types it: "192.168.1.20:8080". */
@@ -21,7 +23,7 @@ export function parseGateways(data: unknown): Gateway[] {
 /** @return none if the gateway does not answer. */
 export async function findGateways(pageUrl: string): Promise<Gateway[]> {
   try {
-    const answer = await fetch(new URL("gateways", pageUrl), {cache: "no-store", signal: AbortSignal.timeout(2000)});
+    const answer = await fetch(new URL("gateways", pageUrl), {cache: "no-store", signal: timeLimit(2000)});
     return answer.ok ? parseGateways(await answer.json()) : [];
   } catch {
     return [];

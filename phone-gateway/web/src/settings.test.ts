@@ -22,7 +22,7 @@ describe("the connection form", () => {
     // What it reads, it connects to.
     expect(pageUrl(form.address, "")!.origin).toBe(new URL(/^http/i.test(pasted) ? pasted : `http://${address}`).origin);
   });
-  it("keeps a token beside an address without one, and what is no address", () => {
+  it("keeps a token beside an address without one, and what is not an address", () => {
     expect(readForm({address: "http://10.0.0.1:8080/", token: " K7MQ 3XPA ", clientName: "Ana"}))
         .toEqual({address: "10.0.0.1:8080", token: "K7MQ 3XPA", clientName: "Ana"});
     expect(readForm({address: "nao.local", token: "k7", clientName: "http://"}))

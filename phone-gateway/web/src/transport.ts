@@ -1,3 +1,5 @@
+import {timeLimit} from "./time_limit";
+
 /** How messages reach the gateway. WebSocket today; another transport (WebRTC, Bluetooth) implements
  * the same interface and is chosen in main.ts. */
 export interface Transport {
@@ -123,7 +125,7 @@ export class WebSocketTransport implements Transport {
     try {
       // The query keeps the service worker's offline copy out of the answer.
       const url = new URL(`/manifest.webmanifest?probe=${Date.now()}`, this.pageUrl);
-      await fetch(url, {cache: "no-store", signal: AbortSignal.timeout(2000)});
+      await fetch(url, {cache: "no-store", signal: timeLimit(2000)});
       return true;
     } catch {
       return false;

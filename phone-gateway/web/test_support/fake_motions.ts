@@ -38,7 +38,7 @@ export class FakeMotions {
                     reasonArguments: string[] = []): CheckResult =>
         ({error, message, reasonCode, reasonArguments, report: {...report, isSafe: false}});
     const motion = motionOf(file);
-    if (!motion) return refuse(pb.ErrorCode.INVALID_ARGUMENT, "motion-malformed", "The file is no motion.");
+    if (!motion) return refuse(pb.ErrorCode.INVALID_ARGUMENT, "motion-malformed", "The file is not a motion.");
     const {name} = motion;
     if (this.saved.has(name) && !replace && !name.startsWith("_")) {
       return refuse(pb.ErrorCode.NAME_IN_USE, "motion-name-in-use", `A motion ${name} is saved.`);

@@ -235,6 +235,22 @@ TEST_F(AutoPlayerTest, GoesToWhereTheRulesPutABallThatWasOut) {
   EXPECT_LT((world.feet.position - Vector2d(4.5, 3)).norm(), 1.3);
 }
 
+TEST_F(AutoPlayerTest, KeepsAwayFromTheOthersFreeKickUntilTheBallIsFree) {
+  world.match->phase = MatchPhase::kPlaying;
+  world.match->kicks_off = true;
+  world.feet = {{0.8, 2.6}, 0.5};
+  world.ball = {1, 3};
+  for (int i = 0; i < 400; ++i) {
+    world.match->ball_out = {2 + i * ToyWorld::kPeriod, false};
+    world.step();
+  }
+  EXPECT_GT((world.feet.position - world.ball).norm(), 0.75);
+  EXPECT_THAT(world.actions, IsEmpty());
+  world.match->ball_out.reset();
+  run(20);
+  EXPECT_FALSE(world.actions.empty());
+}
+
 TEST_F(AutoPlayerTest, WithoutAMatchItStands) {
   world.match.reset();
   run(3);

@@ -42,7 +42,7 @@ TEST(MatchView, TellsThatTheBallIsOutForAWhile) {
   EXPECT_NEAR(view_match(state, "A1", 100, {})->ball_out->age, 1, 1e-9);
   EXPECT_FALSE(view_match(state, "A1", 100, {})->ball_out->is_own);
   EXPECT_TRUE(view_match(state, "B1", 100, {})->ball_out->is_own);
-  EXPECT_FALSE(view_match(state, "A1", 140, {})->ball_out);
+  EXPECT_FALSE(view_match(state, "A1", 145, {})->ball_out);
 }
 
 TEST(MatchView, TheBallIsTheOwnOneOrTheNewestOfATeammate) {

@@ -13,7 +13,7 @@ constexpr double kDeceleration = 0.3;
 
 PlayConstants make_toy_constants() {
   PlayConstants constants;
-  constants.field = {9, 6, 1.5, 0.5, {0.6, 2.2}};
+  constants.field = {9, 6, 1.5, 0.5, {0.6, 2.2}, 0.75, 1.65};
   constants.walk_limits = {0.3, 0.2, 0.2, 2};
   constants.kick = KickPlace{{0.18, 0.05}, {0.05, 0.025}};
   constants.parameters = PlayParameters::load("");

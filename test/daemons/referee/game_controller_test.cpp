@@ -261,6 +261,8 @@ TEST_F(GameControllerRefereeTest, PutsTheBallForSetPlays) {
       Eigen::Vector2d(x - field.goal_area_length, 0.5 * field.goal_area_width)));
   EXPECT_TRUE(ball_at(5, 12).isApprox(Eigen::Vector2d(-x + field.penalty_mark_distance, 0)));
   EXPECT_EQ(ball_at(2, 5).x(), 99) << "a free kick is taken where the ball is";
+  packet_.set_play = 0;
+  EXPECT_THAT(kinds(say(packet_)), ElementsAre(MatchEventKind::kBallFree));
 }
 
 TEST_F(GameControllerRefereeTest, RobotsStandWhilePlayIsStopped) {

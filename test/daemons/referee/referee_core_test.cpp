@@ -199,6 +199,30 @@ TEST_F(RefereeCoreTest, PutsABallBackThatLeftTheField) {
   EXPECT_EQ(core.state().phase, MatchPhase::kPlaying);
 }
 
+TEST_F(RefereeCoreTest, KeepsTheOthersAwayFromAKickInUntilTheBallIsFree) {
+  start();
+  find("A1").touches_ball = true;
+  run(0.1);
+  find("A1").touches_ball = false;
+  input.ball = {2, -3.3, 0.05};
+  run(1.5);
+  find("A2").position = {2, -2.6};
+  run(5.2);
+  EXPECT_THAT(kinds(), ElementsAre(MatchEventKind::kBallOut, MatchEventKind::kPenalty));
+  EXPECT_EQ(events.back().robot, "A2");
+  // Team 0 moves the ball: it is put back.
+  find("A1").touches_ball = true;
+  input.ball = {2.5, -2.8, 0.05};
+  run(0.1);
+  find("A1").touches_ball = false;
+  EXPECT_TRUE(input.ball.head<2>().isApprox(Eigen::Vector2d(2, -3)));
+  EXPECT_EQ(find_player(core.state(), "A1")->penalty, Penalty::kOperator);
+  find("B1").touches_ball = true;
+  input.ball = {1.8, -2.9, 0.05};
+  run(0.1);
+  EXPECT_EQ(events.back().kind, MatchEventKind::kBallFree);
+}
+
 TEST_F(RefereeCoreTest, PenalisesRobotsThatLeaveOrDoNotGetUp) {
   start();
   find("A1").position = {0, 4};

@@ -275,7 +275,7 @@ TEST(PoseFilter, TakesNoArcOfTheCenterCircleForALine) {
     observation.lines.push_back({to_robot * line.from, to_robot * line.to});
   }
   observation.circle = to_robot * Eigen::Vector2d(0.11, -0.08);
-  PoseFilter filter(soccer_field());
+  PoseFilter filter(soccer_field(), VisionParameters::load().pose_filter);
   filter.start({{-2.09, 1.29}, -0.338}, 0.1, 0.044);
   filter.update(observation);
   EXPECT_LT((filter.pose().position - truth.position).norm(), 0.15);

@@ -180,11 +180,11 @@ TEST(LolaCodec, EveryBeginningOfAMessageIsIncomplete) {
 }
 
 TEST(LolaCodec, NamesWhatIsWrong) {
-  EXPECT_EQ(error_of<LolaCommand>(Bytes().add({0x93, 1, 2, 3})), "it is no map");
-  EXPECT_EQ(error_of<LolaCommand>(Bytes().add({0xc1})), "it is no map");
-  EXPECT_EQ(error_of<LolaCommand>(Bytes().add({0x81, 7, 7})), "a key is no text");
+  EXPECT_EQ(error_of<LolaCommand>(Bytes().add({0x93, 1, 2, 3})), "it is not a map");
+  EXPECT_EQ(error_of<LolaCommand>(Bytes().add({0xc1})), "it is not a map");
+  EXPECT_EQ(error_of<LolaCommand>(Bytes().add({0x81, 7, 7})), "a key is not text");
   EXPECT_EQ(error_of<LolaCommand>(Bytes().add({0x81}).text("Chest").add({0xa1, 'x'})),
-            "Chest is no list");
+            "Chest is not a list");
   EXPECT_EQ(error_of<LolaCommand>(Bytes().add({0x81}).text("Chest").add({0x92, 0, 0})),
             "Chest has 2 values and must have 3");
   EXPECT_EQ(error_of<LolaCommand>(Bytes().add({0x81}).text("Chest").add({0x93, 0, 0xa0, 0})),
@@ -279,7 +279,7 @@ TEST(LolaStream, GivesNothingAfterAnError) {
   bytes.insert(bytes.end(), good.begin(), good.end());
   LolaStream<LolaCommand> stream;
   EXPECT_EQ(num_messages(bytes, 100, stream), 0);
-  EXPECT_EQ(stream.error(), "it is no map");
+  EXPECT_EQ(stream.error(), "it is not a map");
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST_F(LolaSocket, AnUnreadableMessageEndsTheConnection) {
   robot.receive();
   LolaCommand command;
   EXPECT_FALSE(robot.next(command));
-  EXPECT_EQ(robot.end(), "unreadable message: it is no map");
+  EXPECT_EQ(robot.end(), "unreadable message: it is not a map");
 }
 
 TEST_F(LolaSocket, ListensOnceAtAPath) {

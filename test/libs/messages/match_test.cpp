@@ -65,7 +65,7 @@ TEST(MatchState, ValuesOutsideTheirRangeAreErrors) {
   fails([](auto& message) { message.players[0].number = 0; });
   fails([](auto& message) { message.players[0].role = 4; });
   fails([](auto& message) { message.players[0].penalty = -1; });
-  fails([](auto& message) { message.event = 8; });
+  fails([](auto& message) { message.event = 9; });
   fails([](auto& message) { message.event_team = -2; });
 }
 

@@ -50,7 +50,7 @@ TEST(PolicyManifest, NamesFileLineAndKeyOfWhatIsWrong) {
       {"rate: 50", "rat: 50", "rat is unknown"},
       {"rate: 50\n", "", "lacks \"rate\""},
       {"policy.onnx", "../policy.onnx", "must be the name of a file"},
-      {"Left_Knee_Pitch", "Left_Knee", "is no joint with a motor of the robot t1"},
+      {"Left_Knee_Pitch", "Left_Knee", "is not a joint with a motor of the robot t1"},
       {"Right_Knee_Pitch", "Left_Knee_Pitch", "is listed twice"},
       {"default: 0.4, stiffness", "default: 40, stiffness", "default must lie between"},
       {"stiffness: 200", "stiffness: -1", "stiffness must lie between"},

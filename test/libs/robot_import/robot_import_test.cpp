@@ -60,7 +60,7 @@ TEST(RobotImport, ListsWhatIsMissing) {
   EXPECT_THAT(lines, testing::Not(testing::Contains(testing::HasSubstr("standing:"))));
 }
 
-TEST(RobotImport, TellsWhyARobotWithoutAnklesDoesNotStand) {
+TEST(RobotImport, TellsWhyARobotWithoutAnklesDoesNotWalk) {
   const TemporaryFolder folder;
   TestBiped dimensions;
   dimensions.hip = "xy";

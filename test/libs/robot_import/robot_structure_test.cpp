@@ -2,6 +2,9 @@
 
 #include "robot_import/robot_structure.h"
 
+#include <algorithm>
+#include <numeric>
+
 #include "kinematics/leg_kinematics.h"
 #include "sim/closed_loop/closed_loop.h"
 #include "test/libs/robot_import/imported_urdf.h"
@@ -146,6 +149,78 @@ TEST_F(ImportedStructure, StandsOnAPlateWithoutLegs) {
   EXPECT_EQ(model.walk_limits().forward, 0);
   EXPECT_THAT(lines_, Contains(HasSubstr("no two legs")));
   EXPECT_TRUE(stands(model));
+}
+
+TEST_F(ImportedStructure, StandsOnAssumedPlatesWhereTheFeetArePoints) {
+  TestBiped dimensions;
+  dimensions.hip = "xy";
+  dimensions.ankle = "";
+  urdf_ = make_biped_urdf(dimensions);
+  for (const char* side : {"left", "right"}) {
+    const size_t at =
+        urdf_.find("<box", urdf_.find("<link name=\"" + std::string(side) + "_foot\""));
+    urdf_.replace(at, urdf_.find("/>", at) + 2 - at, "<sphere radius=\"0.01\"/>");
+  }
+  const RobotModel model = import();
+  EXPECT_THAT(lines_, Contains(HasSubstr("left_shank: the feet are points that no joint pitches")));
+  EXPECT_GT(size_of(model.left_sole_outline()).x(), 0.08);
+  EXPECT_TRUE(stands(model));
+  // The app shows no walk.
+  EXPECT_EQ(model.walk_limits().forward, 0);
+  EXPECT_FALSE(std::filesystem::exists(robot() / "gait.yaml"));
+}
+
+TEST_F(ImportedStructure, OpensAHandByOneMotor) {
+  std::string fingers;
+  for (const std::string side : {"left", "right"}) {
+    for (int finger = 0; finger < 3; ++finger) {
+      const std::string name = side + "_finger_" + std::to_string(finger);
+      fingers += biped::joint(name, side + "_hand", name + "_link",
+                              {0, (side == "left" ? 0.01 : -0.01) * finger, 0}, 'y',
+                              finger == 0 ? -0.2 : 0, finger == 0 ? 1 : 1.5, 1) +
+                 biped::link(name + "_link", 0.01, -0.01, 0.02) +
+                 biped::joint(name + "_tip", name + "_link", name + "_tip_link", {0, 0, -0.03}, 'y',
+                              0, 1, 1) +
+                 biped::link(name + "_tip_link", 0.01, -0.01, 0.02);
+    }
+  }
+  urdf_.insert(urdf_.rfind("</robot>"), fingers);
+  // A tip that follows its finger in the file follows the motor of the hand.
+  replace("joint name=\"left_finger_2_tip\"", "</joint>",
+          "<mimic joint=\"left_finger_2\" multiplier=\"0.5\" offset=\"0.1\"/></joint>");
+  const RobotModel model = import();
+  EXPECT_EQ(model.num_motors(), 12 + 6 + 2);
+  const Joint& tip = model.joints()[model.find_joint("left_finger_2_tip")];
+  EXPECT_EQ(tip.mimic_joint, model.find_joint("left_finger_0"));
+  // Finger 2 turns 1.5 rad while the first turns 1.
+  EXPECT_NEAR(tip.mimic_multiplier, 0.75, 1e-9);
+  EXPECT_NEAR(tip.mimic_offset, 0.1, 1e-9);
+  const auto& groups = model.joint_groups();
+  const auto hand = std::find_if(groups.begin(), groups.end(),
+                                 [](const JointGroup& group) { return group.name == "left hand"; });
+  ASSERT_NE(hand, groups.end());
+  EXPECT_EQ(hand->pitch_motor, model.find_motor("left_finger_0"));
+  EXPECT_THAT(lines_, Contains(HasSubstr("left_finger_1: is one of a hand's fingers; it follows "
+                                         "left_finger_0")));
+  EXPECT_TRUE(stands(model));
+}
+
+TEST_F(ImportedStructure, GroupsEachJointOnce) {
+  TestBiped dimensions;
+  dimensions.has_waist = true;
+  urdf_ = make_biped_urdf(dimensions);
+  const RobotModel model = import();
+  std::vector<int> motors;
+  for (const JointGroup& group : model.joint_groups()) {
+    for (const int motor : {group.yaw_motor, group.pitch_motor, group.roll_motor}) {
+      if (motor >= 0) motors.push_back(motor);
+    }
+    EXPECT_EQ(group.name == "waist", group.yaw_motor == model.find_motor("waist")) << group.name;
+  }
+  std::sort(motors.begin(), motors.end());
+  std::vector<int> all(model.num_motors());
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_EQ(motors, all);
 }
 
 }  // namespace

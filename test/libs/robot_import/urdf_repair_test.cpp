@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <random>
+#include <regex>
 
 #include "robot_import/mesh_import.h"
 #include "sim/tree.h"
@@ -35,7 +36,11 @@ TEST_F(ImportedUrdf, GetsLimitsThatAreMissing) {
 TEST_F(ImportedUrdf, HoldsAJointThatSlidesAndTurnsOneWithoutEnd) {
   replace("name=\"left_elbow\"", "revolute", "prismatic");
   replace("name=\"right_elbow\"", "revolute", "continuous");
+  replace("name=\"right_elbow\"", "lower=\"-2\"", "lower=\"-1e16\"");
+  replace("name=\"left_knee\"", "revolute", "continuous");
   const RobotModel model = import();
+  // A range that a file states although the type says that there is none.
+  EXPECT_EQ(model.motor_joint(model.find_motor("left_knee")).lower, 0);
   EXPECT_LT(model.find_motor("left_elbow"), 0);
   EXPECT_GE(model.find_motor("right_elbow"), 0);
   EXPECT_THAT(lines_, Contains(HasSubstr("is prismatic; it is held")));
@@ -175,16 +180,19 @@ TEST_F(ImportedMimics, FollowTheMotorThatAMimicFollows) {
   EXPECT_NEAR(shoulder.mimic_offset, 0.5, 1e-12);
 }
 
-TEST_F(ImportedMimics, AreHeldWhereNoMotorOfTheirBodyLeads) {
+TEST_F(ImportedMimics, FollowJointsOfOtherBodiesAndAreHeldWhereNoMotorLeads) {
   couple("left_elbow", "left_shoulder_roll", "multiplier=\"1\" offset=\"-0.4\"");
   couple("right_elbow", "nothing", "");
+  couple("right_shoulder_roll", "left_sole_mount", "offset=\"-0.3\"");
   const RobotModel model = import();
+  const Joint& elbow = model.joints()[model.find_joint("left_elbow")];
+  EXPECT_EQ(elbow.mimic_joint, model.find_joint("left_shoulder_roll"));
   EXPECT_LT(model.find_motor("left_elbow"), 0);
-  EXPECT_THAT(lines_, Contains(HasSubstr("left_elbow: mimics left_shoulder_roll, which another "
-                                         "body carries; it is held at -0.4")));
   EXPECT_THAT(lines_, Contains(HasSubstr("mimics \"nothing\"")));
-  const Eigen::Isometry3d held = model.joints()[model.find_joint("left_elbow")].pose_in_parent;
-  EXPECT_NEAR(Eigen::AngleAxisd(held.linear()).angle(), 0.4, 1e-9);
+  EXPECT_THAT(lines_, Contains(HasSubstr("mimics left_sole_mount, which is fixed; it is held at "
+                                         "-0.3")));
+  const Joint& held = model.joints()[model.find_joint("right_shoulder_roll")];
+  EXPECT_NEAR(Eigen::AngleAxisd(held.pose_in_parent.linear()).angle(), 0.3, 1e-9);
   // The physics takes it.
   EXPECT_NO_THROW(sim::Tree{model});
 }
@@ -266,15 +274,46 @@ TEST_F(ImportedUrdf, SaysWhichMeshIsMissing) {
               Contains(testing::AllOf(HasSubstr("none.stl"), HasSubstr("put the file there"))));
 }
 
+TEST_F(ImportedUrdf, IsTheLargestTreeWithoutLoopsAndUnknownJoints) {
+  replace("</robot>", "</robot>",
+          "<link name=\"ball\"><inertial><mass value=\"0.1\"/></inertial></link><link "
+          "name=\"spot\"/><joint name=\"spot\" type=\"fixed\"><parent link=\"ball\"/><child "
+          "link=\"spot\"/></joint><joint name=\"bar\" type=\"revolute\"><parent "
+          "link=\"left_hand\"/><child link=\"right_hand\"/></joint></robot>");
+  replace("name=\"left_elbow\"", "revolute", "ball");
+  replace("<robot name=\"biped\"", "name=\"biped\"", "version=\"2.0\"");
+  const RobotModel model = import();
+  EXPECT_LT(model.find_link("ball"), 0);
+  EXPECT_EQ(model.num_motors(), 12 + 5);
+  EXPECT_THAT(lines_, Contains(HasSubstr("link ball: is a second root besides trunk")));
+  EXPECT_THAT(lines_, Contains(HasSubstr("joint bar: closes a loop")));
+  EXPECT_THAT(lines_, Contains(HasSubstr("left_elbow: has the unknown type \"ball\"")));
+}
+
+TEST_F(ImportedUrdf, GetsMassesWhereNoLinkHasOne) {
+  urdf_ = std::regex_replace(urdf_, std::regex("<inertial>.*?</inertial>"), "");
+  const RobotModel model = import();
+  EXPECT_EQ(model.num_motors(), 12 + 6);
+  EXPECT_NEAR(model.total_mass(), 1 + 12 + 6, 1e-9);
+  EXPECT_THAT(lines_, Contains(HasSubstr("no link has a mass; 1 kg are assumed for each")));
+}
+
+TEST_F(ImportedUrdf, MayHaveNamesOfAnyLettersAndLength) {
+  urdf_ =
+      std::regex_replace(urdf_, std::regex("left_"), "\xe5\xb7\xa6&quot; [" + std::string(60, 'x'));
+  urdf_ = std::regex_replace(urdf_, std::regex("right_"), "1: {#");
+  EXPECT_EQ(import().num_motors(), 12 + 6);
+}
+
 TEST_F(ImportedUrdf, IsRefusedWithLineAndRemedy) {
   urdf_ = "<robot name=\"x\">\n<xacro:macro/>\n</robot>";
   EXPECT_THAT(error_of_import(), HasSubstr("run `xacro"));
   urdf_ = "<robot name=\"x\">\n<link";
   EXPECT_THAT(error_of_import(), HasSubstr("biped.urdf:"));
-  urdf_ = "<robot name=\"x\"><link name=\"a\"/><link name=\"b\"/></robot>";
-  EXPECT_THAT(error_of_import(), HasSubstr("second root"));
+  urdf_ = "<robot/>";
+  EXPECT_THAT(error_of_import(), HasSubstr("has no <link>"));
   urdf_ = "<robot name=\"x\"><link name=\"a\"/></robot>";
-  EXPECT_THAT(error_of_import(), HasSubstr("no link has a mass"));
+  EXPECT_THAT(error_of_import(), HasSubstr("no joint can move"));
   EXPECT_FALSE(std::filesystem::exists(robot())) << "nothing half done stays";
 }
 

@@ -5,8 +5,10 @@
 #include <array>
 #include <clocale>
 #include <cstdlib>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "robot_model/robot_model.h"
 #include "robot_model/scene_file.h"
@@ -32,6 +34,31 @@ TEST(RobotFiles, HaveTheMeshesThatTheyName) {
         if (shape.kind != Shape::Kind::kMesh) continue;
         EXPECT_TRUE(fs::is_regular_file(shape.mesh)) << link.name << ": " << shape.mesh;
       }
+    }
+  }
+}
+
+/** But for kicks, which have buttons of their own, and policies, which are shown by their names. */
+TEST(RobotFiles, HaveTheirNamesInEachLanguageOfTheApp) {
+  for (const fs::directory_entry& robot : fs::directory_iterator(data_path() / "robots")) {
+    if (!fs::exists(robot.path() / "robot.yaml")) continue;
+    const RobotModel model = RobotModel::load(robot.path());
+    std::set<std::pair<std::string, std::string>> missing;
+    for (const Posture& posture : model.postures()) missing.emplace("posture", posture.name);
+    for (const JointGroup& group : model.joint_groups()) missing.emplace("group", group.name);
+    for (const auto& camera : model.cameras()) missing.emplace("camera", camera.name);
+    for (const Action& action : model.actions()) {
+      using enum Action::Kind;
+      if (action.kind == kKick || action.kind == kPolicy || action.kind == kOwnGait) continue;
+      missing.emplace("action", action.name);
+    }
+    for (const Label& label : model.labels()) {
+      bool is_complete = true;
+      for (const char* language : {"en", "pt", "de"}) is_complete &= label.texts.contains(language);
+      if (is_complete) missing.erase({label.kind, label.name});
+    }
+    for (const auto& [kind, name] : missing) {
+      ADD_FAILURE() << robot.path() << ": labels.yaml has no words for the " << kind << ' ' << name;
     }
   }
 }

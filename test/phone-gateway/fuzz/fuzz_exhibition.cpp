@@ -19,7 +19,7 @@ void read_settings(const std::string& text) {
     const ExhibitionSettings settings = parse_exhibition(text, "fair.yaml", {"Vega"});
     require(settings.rules.turn > 0 && settings.rules.warning < settings.rules.turn);
     require(settings.speed > 0 && settings.speed <= 1);
-    (void)Fence(settings.fence).limit({0.3, 0.1, 0.2}, {0.1, 0.2, 0.3});
+    (void)Fence(settings.fence).limit({0.3, 0.1, 0.2}, {{0.1, 0.2}, 0.3});
   } catch (const ConfigError&) {
   }
 }

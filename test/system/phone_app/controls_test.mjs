@@ -78,21 +78,25 @@ test("a gamepad's sticks walk and its buttons command; unplugging releases it", 
 const tilt = (beta) => phone.page.evaluate((beta) => window.dispatchEvent(
     new DeviceOrientationEvent("deviceorientation", {alpha: 0, beta, gamma: 0})), beta);
 
+// A sensor reports many times a second.
+const keepTilting = (beta) => phone.page.evaluate((beta) => window.tilting = setInterval(() => window.dispatchEvent(
+    new DeviceOrientationEvent("deviceorientation", {alpha: 0, beta, gamma: 0})), 50), beta);
+const endTilting = () => phone.page.evaluate(() => clearInterval(window.tilting));
+
 test("tilting the phone walks, only while the pad is touched", async () => {
+  await keepTilting(40);
   await phone.page.locator(".menu-button").tap();
   await phone.page.locator(".menu[open] [role=switch]").first().tap();
   await phone.page.locator(".menu[open] header .round").tap();
-  await tilt(40);
+  await endTilting();
   await tilt(15);
   assert.deepEqual(await executedWalk(), [0, 0, 0], "it walks without a touch");
   await tilt(40);
   const pad = await phone.middleOf(".joystick-walk");
   await phone.fingers("touchStart", [{id: 1, x: pad.x, y: pad.y}]);
-  // A sensor reports many times a second.
-  await phone.page.evaluate(() => window.tilting = setInterval(() => window.dispatchEvent(
-      new DeviceOrientationEvent("deviceorientation", {alpha: 0, beta: 15, gamma: 0})), 50));
+  await keepTilting(15);
   await walks("a tilt walks ahead", (vx) => vx > 0.01);
-  await phone.page.evaluate(() => clearInterval(window.tilting));
+  await endTilting();
   await stops();
   await phone.fingers("touchEnd", []);
   await phone.page.locator(".menu-button").tap();
@@ -115,7 +119,7 @@ test("a tap on the image enlarges it, another makes it small; the other camera i
   const small = await phone.middleOf(".image-main");
   await phone.tap(".image-main");
   await until("a large image comes", async () => (await phone.look("state.image.width")) === 640);
-  assert.ok((await phone.middleOf(".image-main")).radius > 1.5 * small.radius, "it is no larger");
+  assert.ok((await phone.middleOf(".image-main")).radius > 1.5 * small.radius, "it is not larger");
   await phone.tap(".image-camera");
   await until("the bottom camera's image comes", async () => (await phone.look("state.image.camera")) === "bottom");
   await phone.tap(".image-camera");

@@ -40,7 +40,9 @@ test("a tap on Score puts the ball into the goal", {skip: !hasVision && "nao-vis
     await stack.nao("world", "place-ball", "1.2", "0.25");
     await until("nothing is played", async () => (await behavior(phone)) === kNone);
     await phone.choose('.play-strip [data-name="score"]');
-    await until("the robot plays", async () => (await behavior(phone)) === kScore);
+    await until("the robot plays", async () => (await behavior(phone)) === kScore).catch(async (error) => {
+      throw new Error(`${error.message}; the phone shows: ${await phone.page.locator("body").innerText()}\n${stack.logs}`);
+    });
     place = await until("the ball is in the goal, or the robot has given up", async () => {
       phases.add(await phone.page.locator(".activity").textContent());
       const [x, y] = await ball();

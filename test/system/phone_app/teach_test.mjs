@@ -210,7 +210,7 @@ test("a motion is downloaded, deleted, brought back by undo, uploaded, and repla
   await until("it is gone", async () => (await saved(phone)).length === 0);
   await upload();
   await until("the file is listed", async () => (await saved(phone)).includes("wave-2"), kCheckMs);
-  await writeFile(file, "this: [is no motion");
+  await writeFile(file, "this: [is not a motion");
   await upload();
   await phone.page.locator(".saved .note.bad, .message.bad").first().waitFor({state: "attached", timeout: kCheckMs});
   phone.errors.length = 0;

@@ -87,10 +87,10 @@ TEST_F(ClientPublisherTest, SaysWhichFieldIsWrong) {
   EXPECT_EQ(fault("NAO_WALK_COMMAND", "{"), "The message is no JSON object.");
   EXPECT_EQ(fault("NAO_WALK_COMMAND", R"({"vz":1})"),
             "Field \"vz\" does not exist in walk_command_t.");
-  EXPECT_EQ(fault("NAO_WALK_COMMAND", R"({"vx":"fast"})"), "Field \"vx\" is no number.");
-  EXPECT_EQ(fault("NAO_POSTURE_COMMAND", R"({"posture":1})"), "Field \"posture\" is no text.");
+  EXPECT_EQ(fault("NAO_WALK_COMMAND", R"({"vx":"fast"})"), "Field \"vx\" is not a number.");
+  EXPECT_EQ(fault("NAO_POSTURE_COMMAND", R"({"posture":1})"), "Field \"posture\" is not text.");
   EXPECT_EQ(fault("NAO_POSTURE_COMMAND", R"({"command_id":1.5})"),
-            "Field \"command_id\" is no integer.");
+            "Field \"command_id\" is not an integer.");
   EXPECT_EQ(fault("NAO_POSTURE_COMMAND", R"({"command_id":18446744073709551615})"),
             "Field \"command_id\" is out of range.");
   EXPECT_EQ(fault("WORLD_COMMAND", R"({"position_in_world":[1,2]})"),

@@ -224,6 +224,7 @@ describe("nao-foxglove", () => {
     }
     assert.equal(await statusOfPage(port, {Host: "localhost"}), 101);
     assert.equal(await statusOfPage(port, {Host: "evil.example"}), 421);
+    assert.equal(await statusOfPage(port, {Origin: ["http://localhost:8080", "https://evil.example"]}), 400);
   });
 
   test("with --allow-commands only pages of named sites may connect", async () => {

@@ -28,6 +28,15 @@ TEST(WalkScenario, FailsBelowHalfOfTheCommandedVelocity) {
   EXPECT_THAT(result.failure, testing::HasSubstr("too slow"));
 }
 
+TEST(WalkScenario, SucceedsWithEachRobotOfTheData) {
+  for (const auto& robot : std::filesystem::directory_iterator(data_path() / "robots")) {
+    if (!std::filesystem::exists(robot.path() / "robot.yaml")) continue;
+    const double limit = RobotModel::load(robot.path()).walk_limits().forward;
+    const RunResult result = walk(robot.path(), 0.5 * limit);
+    EXPECT_TRUE(result.is_success) << robot.path() << ": " << result.failure;
+  }
+}
+
 TEST(WalkScenario, GivesTheReasonOfAWalkThatDidNotBegin) {
   const TemporaryFolder folder;
   const std::filesystem::path robot = folder.path() / "t1";

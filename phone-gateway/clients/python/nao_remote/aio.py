@@ -18,7 +18,7 @@ from nao_remote.lights import LIGHT_TIMEOUT, Color, Lights, make_request
 from nao_remote.messages import CommandResult, CommandStatus, Image, State
 from nao_remote.operator import Operator
 from nao_remote.streams import Stream
-from nao_remote.walking import Walk
+from nao_remote.walking import Walk, despite_failure
 
 # Period of asking for an image while the camera begins to render, s. PROTOCOL.md: ten times a second is usual.
 IMAGE_POLL_PERIOD = 0.1
@@ -208,6 +208,11 @@ class Robot(RobotCore):
         if walk is not None:
             walk.abandon()
         await self._connection.request(stop=pb.Stop())
+
+    def _end_walk_soon(self) -> None:
+        """Begins to end a walk, without waiting."""
+        if self._walk is not None and self._walk.is_running:
+            asyncio.ensure_future(despite_failure(self._walk.end()))
 
     async def _end_walk(self, walk: Walk | None) -> Command:
         self._walk = None

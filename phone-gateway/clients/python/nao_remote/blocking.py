@@ -340,6 +340,10 @@ class Robot:
     def __exit__(self, *_: object) -> None:
         self.close()
 
+    def __del__(self) -> None:
+        # Nobody could end its walk any more. The connection stays, for streams.
+        self._loop.post(self._robot._end_walk_soon)
+
     def close(self) -> None:
         """Ends the connection. A walk of this client ends, too."""
         try:

@@ -21,7 +21,7 @@ def to_rgb(color: Color) -> int:
     if isinstance(color, str):
         digits = color.removeprefix("#")
         if len(digits) != 6 or any(digit not in "0123456789abcdefABCDEF" for digit in digits):
-            raise ValueError(f"{color!r} is no color such as '#ff8000'")
+            raise ValueError(f"{color!r} is not a color such as '#ff8000'")
         return int(digits, 16)
     parts = tuple(color)
     if len(parts) != 3 or any(not 0 <= part <= 1 for part in parts):

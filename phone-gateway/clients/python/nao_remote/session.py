@@ -26,7 +26,7 @@ class Session:
 
     def __init__(self, transport: Transport, request_ids: Iterator[int], handle: Callable[[pb.ServerMessage], None]) -> None:
         """@param request_ids  Numbers of requests, the same for all connections of a client.
-        @param handle  Called with every message that is no response."""
+        @param handle  Called with every message that is not a response."""
         self._transport = transport
         self._request_ids = request_ids
         self._handle = handle
@@ -141,5 +141,5 @@ def _parse(received: bytes) -> pb.ServerMessage:
     except DecodeError:
         is_whole = False
     if not is_whole:
-        raise ConnectionLost("the other end sent bytes that are no message; is this port the gateway's?")
+        raise ConnectionLost("the other end sent bytes that are not a message; is this port the gateway's?")
     return message

@@ -8,7 +8,7 @@ from typing import Any, Awaitable, Callable, Coroutine
 
 from nao_remote import remote_pb2 as pb
 from nao_remote.command import Command
-from nao_remote.errors import NaoError, Timeout, TooLate
+from nao_remote.errors import CommandInterrupted, NaoError, Timeout, TooLate
 
 # Interval of WalkTurn, s. PROTOCOL.md wants 0.2 s or less; half of it leaves one request that may be late.
 PERIOD = 0.1
@@ -59,8 +59,14 @@ class Walk:
 
     async def end_after(self, duration: float) -> None:
         """Ends it after a time, s, and returns when the robot stands. @raise CommandFailed  if it ends earlier."""
-        with suppress(Timeout):
+        try:
             await self.command.wait(duration)
+        except Timeout:
+            pass
+        else:
+            # The robot has heard nothing for a second.
+            if not self._is_abandoned:
+                raise CommandInterrupted("the walk ended before its time: this program was held up")
         if self.is_running:
             await self.end()
         await self.command.wait()

@@ -24,6 +24,7 @@ export class HeldControls {
   constructor(private readonly store: Store, private readonly walk: WalkSender, private readonly joints: JointDriver,
               private readonly listener: PadListener, now?: () => number) {
     this.gamepads = new Gamepads(listener, now);
+    walk.onHeldUp = () => void this.release();
   }
 
   /** @param isActive  whether keys count at the moment. */

@@ -68,9 +68,10 @@ describe("tilt", () => {
     vi.stubGlobal("DeviceOrientationEvent", class {});
     vi.stubGlobal("screen", {orientation: {angle: 0}});
     const sensor = new TiltSensor();
-    await sensor.switchOn();
     const tilt = () => page.dispatchEvent(Object.assign(new Event("deviceorientation"), {beta: 40, gamma: 0}));
+    const isOn = sensor.switchOn();
     tilt();
+    expect(await isOn).toBe(true);
     const told: string[] = [];
     sensor.onTurn = () => told.push("turned");
     sensor.onChange = () => told.push("tilt");
@@ -78,6 +79,24 @@ describe("tilt", () => {
     vi.stubGlobal("screen", {orientation: {angle: 90}});
     tilt();
     expect(told).toEqual(["tilt", "turned", "tilt"]);
+    vi.unstubAllGlobals();
+  });
+  it("is refused where the browser refuses, and where no tilt comes", async () => {
+    vi.useFakeTimers();
+    const page = new EventTarget();
+    const sensorOf = (permission: object) => {
+      vi.stubGlobal("window", Object.assign(page, {isSecureContext: true, DeviceOrientationEvent: permission}));
+      vi.stubGlobal("DeviceOrientationEvent", permission);
+      return new TiltSensor();
+    };
+    expect(await sensorOf({requestPermission: () => Promise.resolve("denied")}).switchOn()).toBe(false);
+    expect(await sensorOf({requestPermission: () => Promise.reject(new Error("no tap"))}).switchOn()).toBe(false);
+    const isOn = sensorOf({}).switchOn();
+    // What computers without a sensor send.
+    page.dispatchEvent(Object.assign(new Event("deviceorientation"), {beta: null, gamma: null}));
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(await isOn).toBe(false);
+    vi.useRealTimers();
     vi.unstubAllGlobals();
   });
   it("never asks for more than full speed", () => {

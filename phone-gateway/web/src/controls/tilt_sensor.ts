@@ -4,6 +4,9 @@ import type {Tilt} from "./tilt";
 
 type WithPermission = typeof DeviceOrientationEvent & {requestPermission?: () => Promise<string>};
 
+/** Within this time the first tilt comes, ms, or the device has no sensor, as most computers: chosen, phones take 0.1 s. */
+const kFirstTiltMs = 1000;
+
 export class TiltSensor {
   /** Newest tilt; null before the first and while off. */
   tilt: Tilt | null = null;
@@ -13,6 +16,7 @@ export class TiltSensor {
   onTurn: () => void = () => {};
   private angle = NaN;
   private isOn = false;
+  private heard: () => void = () => {};
 
   static isAvailable(): boolean {
     return window.isSecureContext && "DeviceOrientationEvent" in window;
@@ -25,7 +29,11 @@ export class TiltSensor {
     if (ask && (await ask.call(DeviceOrientationEvent).catch(() => "denied")) !== "granted") return false;
     if (!this.isOn) window.addEventListener("deviceorientation", this.changed);
     this.isOn = true;
-    return true;
+    if (this.tilt) return true;
+    return new Promise((resolve) => {
+      this.heard = () => resolve(true);
+      setTimeout(() => resolve(false), kFirstTiltMs);
+    });
   }
 
   switchOff(): void {
@@ -40,6 +48,7 @@ export class TiltSensor {
     if (angle !== this.angle) this.onTurn();
     this.angle = angle;
     this.tilt = tiltFromAngles(beta, gamma, angle);
+    this.heard();
     this.onChange(this.tilt);
   };
 }

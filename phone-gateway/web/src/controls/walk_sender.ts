@@ -15,6 +15,10 @@ const kMinPeriodMs = 30;
  * every axis within a fraction of it. */
 export const kSilenceMs = 1000;
 
+/** A page that was held up for so long, as in a computer that slept, has not heard of what was released meanwhile; ms.
+ * Chosen: the robot has ended the walk after a third of it, and no page that draws is held up as long. */
+const kHeldUpMs = 3000;
+
 export type DriveSource = "sticks" | "keys" | "gamepad" | "tilt";
 
 /** Sources of which the browser tells no end, when they go out of range or stop. */
@@ -22,8 +26,12 @@ const kMustShowLife: readonly DriveSource[] = ["gamepad", "tilt"];
 
 export class WalkSender {
   private readonly drives = new Map<DriveSource, {drive: Drive; setMs: number}>();
-  private readonly repeater = new Repeater(() => this.send(), kWalkPeriodMs);
+  private readonly repeater = new Repeater(() => this.repeat(), kWalkPeriodMs);
   private lastSentMs = 0;
+  /** Time of the repeater's last call, ms; NaN before the first one. */
+  private lastRepeatMs = NaN;
+  /** Called when the page was held up while something was held. */
+  onHeldUp: () => void = () => this.release();
   private isLocked = false;
 
   /** @param publish  takes the walk command to the robot. `isLocked`: something is held, but the robot must stand. @param now
@@ -68,8 +76,16 @@ export class WalkSender {
     return addDrives(this.isLocked ? [] : [...this.drives.values()].map(({drive}) => drive));
   }
 
+  private repeat(): void {
+    const isHeldUp = this.now() - this.lastRepeatMs > kHeldUpMs;
+    this.lastRepeatMs = this.now();
+    if (isHeldUp) this.onHeldUp();
+    else this.send();
+  }
+
   private end(): void {
     this.repeater.stop();
+    this.lastRepeatMs = NaN;
     this.send();
   }
 
@@ -78,7 +94,10 @@ export class WalkSender {
     for (const source of kMustShowLife) {
       if (now - (this.drives.get(source)?.setMs ?? now) > kSilenceMs) this.drives.delete(source);
     }
-    if (!this.isHeld) this.repeater.stop();
+    if (!this.isHeld) {
+      this.repeater.stop();
+      this.lastRepeatMs = NaN;
+    }
     this.lastSentMs = now;
     this.publish(this.drive, this.isHeld && this.isLocked);
   }

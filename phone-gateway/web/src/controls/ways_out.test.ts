@@ -162,6 +162,16 @@ describe("ways out of a walk", () => {
       expect(sent.at(-1)).toEqual(zero);
     });
 
+    it("ends when the page was held up, and begins anew only with a new touch", () => {
+      // As in a computer that slept: no timer and no frame.
+      vi.setSystemTime(Date.now() + 30_000);
+      vi.advanceTimersByTime(kFrameMs * 10);
+      expect(sent.at(-1)).toEqual(zero);
+      const count = sent.length;
+      frames(3 * kSilenceMs, name === "tilt" ? () => {} : hold);
+      expect(sent.slice(count).filter(({x}) => x !== 0)).toEqual([]);
+    });
+
     it("gives way to a button, which is sent after the end of the walk, and says so", () => {
       const numSent = sent.length;
       void commander.command(useCases.doAction("kick-left"));

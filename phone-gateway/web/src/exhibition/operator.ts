@@ -16,7 +16,7 @@ import type {ExhibitionKey} from "./exhibition_texts";
 import {fromAddress, pairingToken, takeLanguage} from "./page";
 import {clock, driverInWords} from "./words";
 
-type Wish = MessageInitShape<typeof RunExhibitionSchema>;
+type Change = MessageInitShape<typeof RunExhibitionSchema>;
 
 const kMoreTime = 30;
 const kSpeeds = [0.25, 0.5, 0.75, 1];
@@ -47,9 +47,9 @@ class OperatorPage {
     this.connection.connect({token: pairingToken(), clientName: "operator", clientSoftware: "nao-phone-app operator"});
   }
 
-  private async run(wish: Wish): Promise<void> {
+  private async run(change: Change): Promise<void> {
     if (!this.secret) return setText(this.fault, tell("secret"));
-    const value = create(RunExhibitionSchema, {...wish, secret: this.secret});
+    const value = create(RunExhibitionSchema, {...change, secret: this.secret});
     const response = await this.connection.request({case: "runExhibition", value});
     if (!response) return;
     // A wrong secret closes the connection: another attempt would not help.
@@ -79,11 +79,11 @@ class OperatorPage {
     return `${tell(key)}: ${tell(isForbidden ? "forbidden" : "allowed")}`;
   }
 
-  private button(key: ExhibitionKey, wish: Wish): HTMLButtonElement {
-    return el("button", {class: "button", "data-act": key, onclick: () => void this.run(wish)}, tell(key));
+  private button(key: ExhibitionKey, change: Change): HTMLButtonElement {
+    return el("button", {class: "button", "data-act": key, onclick: () => void this.run(change)}, tell(key));
   }
 
-  private toggle(read: (exhibition: Exhibition) => boolean, write: (isOn: boolean) => Wish,
+  private toggle(read: (exhibition: Exhibition) => boolean, write: (isOn: boolean) => Change,
                  words: (isOn: boolean) => string): HTMLButtonElement {
     let isOn = false;
     const button = el("button", {class: "button", onclick: () => void this.run(write(!isOn))}, words(false));
@@ -96,7 +96,7 @@ class OperatorPage {
   }
 
   private choice(key: ExhibitionKey, values: readonly number[], read: (exhibition: Exhibition) => number,
-                 write: (value: number) => Wish): HTMLElement {
+                 write: (value: number) => Change): HTMLElement {
     const buttons = values.map((value) =>
         el("button", {class: "button", onclick: () => void this.run(write(value))}, `${Math.round(value * 100)} %`));
     this.marks.push((exhibition) => {

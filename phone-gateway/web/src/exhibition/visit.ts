@@ -66,9 +66,9 @@ export class Visit {
     });
   }
 
-  private async attend(wish: {leaves?: boolean; again?: boolean}): Promise<void> {
-    if (wish.leaves) this.letGo();
-    const value = create(AttendSchema, {visitorKey: this.key, ...wish});
+  private async attend(options: {leaves?: boolean; again?: boolean}): Promise<void> {
+    if (options.leaves) this.letGo();
+    const value = create(AttendSchema, {visitorKey: this.key, ...options});
     const response = await this.commander.fetch({case: "attend", value});
     if (response?.result.case !== "exhibition") return;
     this.isFull = response.error === ErrorCode.TOO_MANY_CLIENTS;

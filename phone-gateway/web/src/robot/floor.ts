@@ -17,9 +17,9 @@ export interface FieldLines {
 
 /** Beyond this distance from the robot the ground has faded out, m. */
 const kVisibleRadius = 4.5;
-/** Of the line to a spot that was tapped, m. Chosen. */
+/** Width of the line to a spot that was tapped, m. Chosen. */
 const kPathWidth = 0.018;
-/** Of the darkness around the feet, m: a little wider than they stand. Chosen. */
+/** Radius of the shadow around the feet, m: a little wider than they stand. Chosen. */
 const kContactWidth = 0.17;
 
 const kVertexShader = `

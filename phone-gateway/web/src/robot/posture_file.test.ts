@@ -1,12 +1,13 @@
-import {readFileSync} from "node:fs";
+import {existsSync, readdirSync, readFileSync} from "node:fs";
 import {describe, expect, it} from "vitest";
 import {parsePostures} from "./posture_file";
 
-const read = (robot: string) =>
-    parsePostures(readFileSync(new URL(`../../../../data/robots/${robot}/postures.yaml`, import.meta.url), "utf8"));
+const kRobots = new URL("../../../../data/robots/", import.meta.url);
+const fileOf = (robot: string) => new URL(`${robot}/postures.yaml`, kRobots);
+const read = (robot: string) => parsePostures(readFileSync(fileOf(robot), "utf8"));
 
 describe("a robot's postures", () => {
-  it.each(["nao", "t1"])("of %s have families, and one number of joints each", (robot) => {
+  it.each(readdirSync(kRobots).filter((robot) => existsSync(fileOf(robot))))("of %s have families, and one number of joints each", (robot) => {
     const postures = [...read(robot).values()];
     expect(postures.length).toBeGreaterThan(1);
     expect(postures.map(({family}) => family)).toContain("standing");

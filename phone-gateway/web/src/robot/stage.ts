@@ -79,7 +79,7 @@ export class Stage {
   private readonly budget: PixelBudget;
   private readonly framePeriodMs: number;
   private robot: RobotTree | null = null;
-  /** Of the robot that is drawn, m; only read by others. */
+  /** Height of the robot that is drawn, m; only read by others. */
   robotHeight = kUnknownHeight;
   private lastFrameMs = 0;
   private isRunning = false;

@@ -211,11 +211,11 @@ const kTexts = {
   "menu.tiltMissing": ["Needs https: only secure pages get the sensors, and keep the screen on.",
                        "Precisa de https: só páginas seguras recebem os sensores e mantêm o ecrã ligado.",
                        "Braucht https: Nur sichere Seiten bekommen die Sensoren und halten den Bildschirm an."],
-  "menu.tiltRefused": ["The phone refuses its motion sensors to this page. Close all its tabs, allow motion in the browser's " +
+  "menu.tiltRefused": ["The phone gives this page no motion sensors. Close all its tabs, allow motion in the browser's " +
                        "settings of this page, and open it again.",
-                       "O telefone recusa os sensores de movimento a esta página. Feche os separadores dela, permita o " +
+                       "O telefone não dá sensores de movimento a esta página. Feche os separadores dela, permita o " +
                        "movimento nas definições do navegador para esta página e abra-a de novo.",
-                       "Das Telefon verweigert dieser Seite die Bewegungssensoren. Schließe ihre Tabs, erlaube Bewegung in den " +
+                       "Das Telefon gibt dieser Seite keine Bewegungssensoren. Schließe ihre Tabs, erlaube Bewegung in den " +
                        "Einstellungen des Browsers für diese Seite, und öffne sie neu."],
   "menu.swap": ["Swap the two pads", "Trocar os dois comandos", "Beide Felder tauschen"],
   "menu.language": ["Language", "Idioma", "Sprache"],

@@ -95,7 +95,7 @@ TEST_P(GroundReactionTest, KeepsTheCenterOfPressureOnTheSole) {
   EXPECT_NEAR(in_sole.x(), toe, 1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, GroundReactionTest, testing::Values("nao", "t1"));
+INSTANTIATE_TEST_SUITE_P(Robots, GroundReactionTest, testing::Values("nao", "t1", "g1"));
 
 }  // namespace
 }  // namespace nao::motion

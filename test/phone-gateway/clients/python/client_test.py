@@ -25,8 +25,9 @@ from nao_remote import aio, connection, session, walking
 from nao_remote import remote_pb2 as pb
 from programs import DEADLINE, wait_until
 
-# This client has no second connection, which would join the first.
-USE_CASES = {field.name for field in pb.Request.DESCRIPTOR.oneofs_by_name["use_case"].fields} - {"join"}
+# This client has no second connection, which would join the first; visitors of an exhibition and its operator have pages.
+USE_CASES = ({field.name for field in pb.Request.DESCRIPTOR.oneofs_by_name["use_case"].fields}
+             - {"join", "attend", "run_exhibition"})
 
 
 class WithGateway(unittest.TestCase):
@@ -487,6 +488,14 @@ class Walking(WithGateway):
         time.sleep(0.3)
         self.assertEqual(len(self.gateway.received("walk_turn")), count)
 
+    def test_a_walk_whose_robot_nobody_references_ends(self):
+        robot = nao_remote.connect(self.gateway.address)
+        states = robot.states()
+        self.addCleanup(states.close)
+        robot.walk(0.2)
+        del robot
+        wait_until(lambda: self.gateway.received("walk_turn")[-1] == pb.WalkTurn(), "the end of the walk")
+
     def test_joints_move_during_a_walk(self):
         robot = self.connect()
         robot.walk(0.2, 0, 0)
@@ -515,6 +524,15 @@ class Walking(WithGateway):
         count = len(self.gateway.received("walk_turn"))
         time.sleep(0.3)
         self.assertLessEqual(len(self.gateway.received("walk_turn")), count + 1)
+
+    def test_a_walk_of_a_duration_that_the_robot_ended_earlier_has_not_been_done(self):
+        def answer(request):
+            return [pb.ServerMessage(response=pb.Response(request_id=request.request_id)),
+                    result(request.request_id, pb.Notice.ACCEPTED), result(request.request_id, pb.Notice.DONE)]
+        robot = self.connect()
+        self.gateway.answers["walk_turn"] = answer
+        with self.assertRaisesRegex(nao_remote.CommandInterrupted, "before its time"):
+            robot.walk(0.2, duration=DEADLINE)
 
     def test_a_refused_repetition_ends_the_walk(self):
         robot = self.connect()

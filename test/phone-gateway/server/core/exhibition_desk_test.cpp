@@ -84,7 +84,7 @@ class ExhibitionDeskTest : public GatewayFixture {
     return walk(client, vx);
   }
   /** All clients ping, as phones do. */
-  void wait(double time, std::vector<Client*> clients) {
+  void wait(double time, const std::vector<Client*>& clients) {
     for (double t = 0; t < time; t += 1) {
       pass(1);
       for (Client* client : clients) ping(*client);
@@ -275,6 +275,14 @@ TEST_F(ExhibitionDeskTest, RestsARobotWhoseMotorsAreHot) {
   core_->robot().streams().set_body(naoremote::Body{});
   wait(6, {&ana});
   EXPECT_EQ(told(ana).phase(), Exhibition::DRIVING);
+}
+
+TEST_F(ExhibitionDeskTest, CountsARobotThatFailsButNotItsStart) {
+  pass(1);
+  EXPECT_EQ(core_->exhibition()->state().counts.faults, 0);
+  has_robot_ = false;
+  pass(3);
+  EXPECT_EQ(core_->exhibition()->state().counts.faults, 1);
 }
 
 TEST_F(ExhibitionDeskTest, AttractsWhileNobodyIsThere) {

@@ -265,7 +265,7 @@ class GatewayFixture : public testing::Test {
   }
 
   double now_ = 100;
-  /** Of the next core. */
+  /** Exhibition of the next core. */
   std::optional<ExhibitionSetup> exhibition_;
   /** Where the robot is in its odometry frame, m. */
   double torso_x_ = 0;

@@ -218,7 +218,7 @@ class Simulation:
         try:
             response.ParseFromString(self._pipe.receive())
         except DecodeError as error:
-            raise SimulationError("the server sent bytes that are no Response message") from error
+            raise SimulationError("the server sent bytes that are not a Response message") from error
         if response.HasField("error"):
             raise SimulationError(response.error)
         return response

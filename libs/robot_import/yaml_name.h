@@ -5,7 +5,7 @@
 namespace nao {
 
 /** A name in YAML: quoted, for names may contain anything. */
-inline std::string quoted(const std::string& name) {
+inline std::string in_yaml(const std::string& name) {
   std::string text = "\"";
   for (const char c : name) {
     if (c == '"' || c == '\\') text += '\\';
