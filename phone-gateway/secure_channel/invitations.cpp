@@ -44,13 +44,21 @@ const Invitation* RelayAccess::find(std::string_view id, double now) const {
 }
 
 std::string role_name(Invitation::Role role) {
-  return role == Invitation::Role::kDrive ? "drive" : "watch";
+  switch (role) {
+    case Invitation::Role::kDrive:
+      return "drive";
+    case Invitation::Role::kOperate:
+      return "operate";
+    default:
+      return "watch";
+  }
 }
 
 Invitation::Role role_of_name(const std::string& name) {
   if (name == "drive") return Invitation::Role::kDrive;
   if (name == "watch") return Invitation::Role::kWatch;
-  throw ConfigError("there is no role " + name + ": use drive or watch");
+  if (name == "operate") return Invitation::Role::kOperate;
+  throw ConfigError("there is no role " + name + ": use drive, watch or operate");
 }
 
 RelayAccess parse_relay_access(const std::string& text, const std::string& where) {

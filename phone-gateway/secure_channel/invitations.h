@@ -9,7 +9,7 @@ namespace nao {
 
 /** Lets who has it drive or watch a robot over nao-relay, until a time. */
 struct Invitation {
-  enum class Role { kDrive, kWatch };
+  enum class Role { kDrive, kWatch, kOperate };
 
   /** kInvitationIdBytes and kInvitationSecretBytes. */
   std::string id;
@@ -32,7 +32,7 @@ struct RelayAccess {
   const Invitation* find(std::string_view id, double now) const;
 };
 
-/** "drive" or "watch". */
+/** "drive", "watch" or "operate". */
 std::string role_name(Invitation::Role role);
 /** @throws ConfigError  It is no role's name. */
 Invitation::Role role_of_name(const std::string& name);

@@ -51,6 +51,7 @@ bool ControlState::release(uint32_t client) {
 
 std::optional<Refusal> ControlState::check_taking(const ClientSession& session, double now) const {
   if (session.is_muted) return refuse_muted();
+  if (session.endpoint.is_operator && driver() != kOperatorId) return std::nullopt;
   if (!lease_.can_take(session.id, now)) return refuse();
   return std::nullopt;
 }

@@ -7,7 +7,7 @@ using naoremote::Operate;
 std::optional<Refusal> OperatorConsole::execute(const ClientSession& console,
                                                 const Operate& request,
                                                 naoremote::Response& response, double now) {
-  if (!console.endpoint.is_local) {
+  if (!console.endpoint.is_local && !console.endpoint.is_operator) {
     return Refusal{naoremote::NOT_ALLOWED, gateway_reason("operator-only")};
   }
   switch (request.operation()) {

@@ -123,7 +123,12 @@ struct RelayClient::Impl : std::enable_shared_from_this<RelayClient::Impl> {
     phones.push_back(serve_relayed_phone(
         context, relay, address.host, ticket, [weak = weak_from_this()](std::string_view id) {
           const auto self = weak.lock();
-          return self ? self->access.find(id, unix_seconds()) : nullptr;
+          if (!self) return static_cast<const Invitation*>(nullptr);
+          const Invitation* known = self->access.find(id, unix_seconds());
+          if (known != nullptr) return known;
+          // It may be newer than the last look at the file.
+          self->read_changed_file();
+          return self->access.find(id, unix_seconds());
         }));
   }
 
@@ -144,7 +149,7 @@ struct RelayClient::Impl : std::enable_shared_from_this<RelayClient::Impl> {
     });
   }
 
-  void step() {
+  void read_changed_file() {
     std::error_code error;
     const auto time = std::filesystem::last_write_time(file, error);
     if (!error && time != changed) {
@@ -157,6 +162,10 @@ struct RelayClient::Impl : std::enable_shared_from_this<RelayClient::Impl> {
         logger::error("{}", fault.what());
       }
     }
+  }
+
+  void step() {
+    read_changed_file();
     for (const auto& weak : phones) {
       if (const auto phone = weak.lock()) phone->check_invitation();
     }

@@ -136,7 +136,7 @@ class RelayedConnection : public ClientConnection, public RelayedPhone {
       return;
     }
     invitation_ = *id;
-    is_watcher_ = invitation->role == Invitation::Role::kWatch;
+    role_ = invitation->role;
     channel_.emplace(std::move(answered->channel));
     round_trip_.sent(0, monotonic_seconds());
     frame_ = std::move(answered->answer);
@@ -151,7 +151,8 @@ class RelayedConnection : public ClientConnection, public RelayedPhone {
       // Only now it is known that the phone has the secret.
       if (opened.fault != FrameFault::kNone) return refuse_first(describe(opened.fault));
       is_open_ = true;
-      open({"invitation " + to_hex(invitation_), "relay", false, true, is_watcher_});
+      open({"invitation " + to_hex(invitation_), "relay", false, true,
+            role_ == Invitation::Role::kWatch, role_ == Invitation::Role::kOperate});
     }
     bool may_read = true;
     if (!is_closing()) {
@@ -204,7 +205,7 @@ class RelayedConnection : public ClientConnection, public RelayedPhone {
   beast::flat_buffer buffer_;
   std::optional<SecureChannel> channel_;
   std::string invitation_;
-  bool is_watcher_ = false;
+  Invitation::Role role_ = Invitation::Role::kWatch;
   /** The phone has proved that it has the secret. */
   bool is_open_ = false;
   RoundTrip round_trip_;

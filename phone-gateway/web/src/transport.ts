@@ -26,7 +26,10 @@ export interface TransportListener {
   closed(wasOpen: boolean): void;
 }
 
-/** The gateway, or where the token is an invitation ("ROBOT.ID.SECRET"), the relay that has served the page. */
+/** An invitation over the relay is "ROBOT.ID.SECRET"; a pairing token has no dot. */
+export const isInvitation = (token: string): boolean => token.includes(".");
+
+/** The gateway, or where the token is an invitation, the relay that has served the page. */
 export class GatewayTransport implements Transport {
   isSingle = false;
   private inner: Transport | null = null;
@@ -40,7 +43,7 @@ export class GatewayTransport implements Transport {
       this.inner = transport ?? new WebSocketTransport(this.pageUrl);
       this.inner.open(listener);
     };
-    this.isSingle = token.includes(".");
+    this.isSingle = isInvitation(token);
     if (!this.isSingle) return start(null);
     const attempt = this.attempt;
     import("./relay/sealed_transport").then(({openInvitation}) => {

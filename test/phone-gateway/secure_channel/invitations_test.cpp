@@ -29,11 +29,13 @@ TEST(Invitations, AreReadAsTheyWereWritten) {
   access.relay = "relay.example:443";
   access.key = kKey;
   access.invitations = {make_invitation(Invitation::Role::kDrive, 1.5e9),
-                        make_invitation(Invitation::Role::kWatch, 1.6e9)};
+                        make_invitation(Invitation::Role::kWatch, 1.6e9),
+                        make_invitation(Invitation::Role::kOperate, 1.6e9)};
   const std::string text = write_relay_access(access);
   const RelayAccess read = parse_relay_access(text, "file");
   EXPECT_EQ(write_relay_access(read), text);
   EXPECT_EQ(read.invitations[1].role, Invitation::Role::kWatch);
+  EXPECT_EQ(read.invitations[2].role, Invitation::Role::kOperate);
   for (const char* bad : {"", "{}", "[1]", "{\"relay\":\"\",\"key\":\"12\",\"invitations\":[]}"}) {
     EXPECT_THROW(parse_relay_access(bad, "file"), ConfigError) << bad;
   }

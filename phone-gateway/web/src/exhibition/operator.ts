@@ -10,7 +10,7 @@ import type {Exhibition} from "../protocol/generated/remote_pb";
 import * as useCases from "../protocol/use_cases";
 import {Store} from "../store";
 import {reasonInWords} from "../text/reasons";
-import {WebSocketTransport} from "../transport";
+import {GatewayTransport, isInvitation} from "../transport";
 import {tell} from "./exhibition_texts";
 import type {ExhibitionKey} from "./exhibition_texts";
 import {fromAddress, pairingToken, takeLanguage} from "./page";
@@ -30,13 +30,15 @@ class OperatorPage {
   private readonly queue = el("p", {class: "quiet"});
   private readonly fault = el("p", {class: "operator-fault", role: "alert"});
   private readonly body = el("div", {class: "operator-body"});
-  private readonly secret = fromAddress("secret");
+  private readonly token = pairingToken();
+  /** An invitation for operating needs none. */
+  private readonly secret = isInvitation(this.token) ? "" : fromAddress("secret");
   private readonly connection: Connection;
   /** Mark what is set, for what the gateway tells. */
   private marks: ((exhibition: Exhibition) => void)[] = [];
 
   constructor(root: HTMLElement, store: Store) {
-    this.connection = new Connection(new WebSocketTransport(new URL(location.href)), store, {
+    this.connection = new Connection(new GatewayTransport(new URL(location.href)), store, {
       connected: () => void this.run({}), state: () => {}, image: () => {}, notice: () => {},
     });
     root.append(el("section", {class: "operator"},
@@ -44,11 +46,11 @@ class OperatorPage {
     this.fill();
     store.watch((state) => state.exhibition, (exhibition) => this.show(exhibition));
     store.watch((state) => state.phase, (phase) => setText(this.fault, phase === "connected" ? "" : tell("noLink")));
-    this.connection.connect({token: pairingToken(), clientName: "operator", clientSoftware: "nao-phone-app operator"});
+    this.connection.connect({token: this.token, clientName: "operator", clientSoftware: "nao-phone-app operator"});
   }
 
   private async run(change: Change): Promise<void> {
-    if (!this.secret) return setText(this.fault, tell("secret"));
+    if (!this.secret && !isInvitation(this.token)) return setText(this.fault, tell("secret"));
     const value = create(RunExhibitionSchema, {...change, secret: this.secret});
     const response = await this.connection.request({case: "runExhibition", value});
     if (!response) return;

@@ -95,10 +95,10 @@ class GatewayFixture : public testing::Test {
   }
 
   /** A client with an invitation, over the relay. */
-  Client invite(bool is_watcher) {
+  Client invite(bool is_watcher, bool is_operator = false) {
     Client client;
     client.id = core_->open(
-        {"invitation 0123", "relay", false, true, is_watcher}, [] {}, now_);
+        {"invitation 0123", "relay", false, true, is_watcher, is_operator}, [] {}, now_);
     return client;
   }
 

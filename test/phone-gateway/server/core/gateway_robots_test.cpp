@@ -384,6 +384,23 @@ TEST_F(GatewayRobots, AreOnlyWatchedWithAnInvitationForWatching) {
   EXPECT_EQ(take_control(ben).error(), naoremote::NOT_ALLOWED) << "it stays one for watching";
 }
 
+TEST_F(GatewayRobots, AreOperatedWithAnInvitationForOperating) {
+  Client ben = connect_to("NAO1");
+  take_control(ben);
+  walk(ben, 0.1);
+  Client ana = invite(false, true);
+  EXPECT_EQ(operate(ana, Operate::LIST).error(), naoremote::NOT_CONNECTED);
+  ask(ana, make_connect(""));
+  EXPECT_EQ(take(ana, "NAO1").error(), naoremote::OK) << "without asking the driver";
+  EXPECT_EQ(driver(0), ana.id);
+  EXPECT_EQ(last_walk_of(0).vx, 0);
+  EXPECT_EQ(take_control(ben).error(), naoremote::CONTROL_TAKEN);
+  EXPECT_EQ(operate(ana, Operate::MUTE, ben.id).error(), naoremote::OK);
+  Client console = open();
+  operate(console, Operate::TAKE);
+  EXPECT_EQ(take_control(ana).error(), naoremote::CONTROL_TAKEN) << "the console overrides all";
+}
+
 class GatewayOverview : public GatewayRobots {
  protected:
   GatewayOverview() {
