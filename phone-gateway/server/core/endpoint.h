@@ -16,7 +16,8 @@ struct Endpoint {
   bool is_invited = false;
   /** The invitation is for watching only. */
   bool is_watcher = false;
-  /** The invitation is for operating: as the operator's console, and it need not ask for control. */
+  /** The invitation is for operating: as the operator's console, and it need not ask for control.
+   */
   bool is_operator = false;
 };
 

@@ -2,7 +2,7 @@
 // each, which translates addresses; they reach the relay only, and nobody reaches them. A proxy changes messages on their way.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
-import {mkdtemp, readFile, rm} from "node:fs/promises";
+import {mkdtemp, readFile, rm, writeFile} from "node:fs/promises";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 import {after, before, test} from "node:test";
@@ -196,4 +196,21 @@ test("who is no longer invited is told so", {skip}, async () => {
   await late.page.getByText("This invitation has expired or was withdrawn.").filter({visible: true}).first().waitFor();
   assert.notEqual(await late.look("state.phase"), "connected");
   await late.close();
+});
+
+test("an exhibition's visitor and operator come over the relay", {skip}, async () => {
+  const settings = join(folder, "exhibition.yaml");
+  await writeFile(settings, "turn: 60\n");
+  await stack.end("nao-phone-gateway");
+  stack.gatewayOptions.push("--exhibition", settings);
+  await stack.startGateway();
+  const visitor = await open((await invite("--role", "drive")).link, "Visitor");
+  await visitor.sees("controller");
+  await until("it is the visitor's turn", async () => (await visitor.look("state.exhibition?.phase")) === 2);
+  const {link} = await invite("--role", "operate");
+  const tablet = await open(link.replace("/#", "/operator#"), "");
+  await tablet.page.getByRole("button", {name: "Pause", exact: true}).tap();
+  await until("the exhibition pauses", async () => (await visitor.look("state.exhibition.isPaused")) === true);
+  await visitor.close();
+  await tablet.close();
 });

@@ -6,7 +6,7 @@ import {loadFieldLines} from "../robot/load_field";
 import {RobotView} from "../robot/robot_view";
 import {kJointsView, Stage} from "../robot/stage";
 import type {Store} from "../store";
-import {GatewayTransport} from "../transport";
+import {WebSocketTransport} from "../transport";
 
 const kStateRateHz = 30;
 const kImageRateHz = 10;
@@ -24,7 +24,7 @@ export class LiveView {
     this.view = new RobotView(store, this.stage, () => {});
     this.stage.onFrame = (dt) => this.view.step(dt);
     this.stage.orbit.setView(kJointsView);
-    this.connection = new Connection(new GatewayTransport(new URL(location.href)), store, {
+    this.connection = new Connection(new WebSocketTransport(new URL(location.href)), store, {
       connected: () => void this.connected(),
       state: (state) => {
         this.view.setTarget(state);
