@@ -52,6 +52,7 @@ ExhibitionDesk::ExhibitionDesk(ExhibitionSetup setup, Sessions& sessions, Gatewa
       robot_(robot),
       queue_(settings_.rules, settings_.nicknames, std::move(setup.state)),
       rules_(settings_, queue_.choices(), robot),
+      challenge_(settings_.challenge),
       attraction_(settings_, robot) {
   robot_.driving().limit_walks(
       [this](const WalkCommand& velocity) { return rules_.limit(velocity); });
@@ -168,8 +169,9 @@ void ExhibitionDesk::step(double now) {
   last_step_ = now;
   rules_.step();
   watch_robot(now);
-  // The operator at the gateway's own console drives: the clock stands, as in a pause.
-  if (robot_.driving().driver() != kOperatorId) queue_.step(dt);
+  // The operator at the gateway's own console drives, or the robot's programs are gone: the clock
+  // stands, as in a pause.
+  if (robot_.driving().driver() != kOperatorId && was_available_) queue_.step(dt);
   let_drive(now);
   watch_challenge();
   const bool is_free = !queue_.has_visitors() && !queue_.is_halted() && robot_.is_free();
@@ -224,10 +226,8 @@ void ExhibitionDesk::watch_robot(double now) {
 }
 
 void ExhibitionDesk::watch_challenge() {
-  const Eigen::Vector2d place = rules_.place().pose().position;
-  const Eigen::Vector2d before = std::exchange(last_place_, place);
-  if (settings_.gate.size() != 2) return;
-  if (do_cross(before, place, settings_.gate[0], settings_.gate[1])) queue_.note_challenge();
+  const bool is_goal = challenge_.settings().is_goal;
+  if (challenge_.step(is_goal ? rules_.ball() : rules_.robot())) queue_.note_challenge();
 }
 
 naoremote::Exhibition ExhibitionDesk::describe(const ClientSession& session) const {
@@ -257,10 +257,12 @@ naoremote::Exhibition ExhibitionDesk::describe(const ClientSession& session) con
   result.set_forbids_falls(state.choices.forbids_falls);
   result.set_speed(state.choices.speed);
   result.set_volume(state.choices.volume);
-  result.set_has_challenge(!settings_.gate.empty());
+  result.set_has_challenge(!settings_.challenge.posts.empty());
+  result.set_challenge_is_goal(settings_.challenge.is_goal);
   result.set_challenge_time(state.challenge_time);
   result.set_best_time(state.best_time);
   result.set_best_nickname(state.best_nickname);
+  result.set_is_robot_away(!was_available_);
   result.set_num_turns(static_cast<uint32_t>(state.counts.turns - (state.driver ? 1 : 0)));
   result.set_language(settings_.language);
   return result;

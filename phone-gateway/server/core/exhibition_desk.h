@@ -70,6 +70,7 @@ class ExhibitionDesk {
   GatewayRobot& robot_;
   VisitorQueue queue_;
   VisitorRules rules_;
+  Challenge challenge_;
   Attraction attraction_;
   /** Newest session of each phone. */
   std::map<std::string, uint32_t> phones_;
@@ -77,7 +78,6 @@ class ExhibitionDesk {
   std::map<uint32_t, std::string> told_;
   double last_step_ = -1;
   double next_tell_ = 0;
-  Eigen::Vector2d last_place_ = Eigen::Vector2d::Zero();
   bool was_down_ = false;
   bool was_available_ = false;
   /** Heat or battery has ended the turn. */

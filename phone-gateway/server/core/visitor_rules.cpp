@@ -9,6 +9,10 @@ namespace {
 
 using naoremote::Request;
 
+/** A ball that was not seen for longer, s, may be anywhere. Chosen: some images in which the
+ * robot's own foot hides it. */
+constexpr double kMaxBallUnseen = 0.5;
+
 Refusal forbid(const std::string& what) {
   return {naoremote::NOT_ALLOWED, gateway_reason("exhibition-forbidden", {what})};
 }
@@ -28,7 +32,7 @@ bool VisitorRules::is_forbidden(const std::string& action) const {
 
 bool VisitorRules::is_inside(const naoremote::MoveTo& move) const {
   const Pose2 robot = place_.pose();
-  return place_.is_known() &&
+  return is_place_known() &&
          fence_.allows_way(robot.position, robot * Eigen::Vector2d(move.x(), move.y()));
 }
 
@@ -74,7 +78,27 @@ WalkCommand VisitorRules::limit(const WalkCommand& velocity) const {
   const WalkCommand slower{factor * velocity.vx, factor * velocity.vy, factor * velocity.wz};
   if (!fence_.is_set()) return slower;
   // Without a place nobody knows where the border is.
-  return place_.is_known() ? fence_.limit(slower, place_.pose()) : WalkCommand{};
+  return is_place_known() ? fence_.limit(slower, place_.pose()) : WalkCommand{};
+}
+
+// On the field nobody knows where odometry began, until the robot has seen where it is.
+bool VisitorRules::is_place_known() const {
+  return place_.is_known() && (!settings_.is_fence_on_field || vision_utime_ != 0);
+}
+
+std::optional<Eigen::Vector2d> VisitorRules::robot() const {
+  if (!is_place_known()) return std::nullopt;
+  return place_.pose().position;
+}
+
+std::optional<Eigen::Vector2d> VisitorRules::ball() const {
+  const naoremote::Vision& vision = robot_.perception().vision();
+  if (!is_place_known() || !vision.has_ball() || vision.ball().age() > kMaxBallUnseen) {
+    return std::nullopt;
+  }
+  const Pose2 odometry = robot_.streams().mirror().robot().torso_on_ground();
+  return place_.pose() *
+         (odometry.inverse() * Eigen::Vector2d(vision.ball().x(), vision.ball().y()));
 }
 
 void VisitorRules::step() {

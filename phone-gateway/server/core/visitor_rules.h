@@ -1,11 +1,13 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 
 #include "phone-gateway/server/core/gateway_reasons.h"
 #include "phone-gateway/server/core/gateway_robot.h"
 #include "phone-gateway/server/exhibition/exhibition_settings.h"
+#include "phone-gateway/server/exhibition/fence.h"
 #include "phone-gateway/server/exhibition/robot_place.h"
 
 namespace nao::gateway {
@@ -25,11 +27,14 @@ class VisitorRules {
   WalkCommand limit(const WalkCommand& velocity) const;
   /** Takes the robot's newest state. */
   void step();
-  const RobotPlace& place() const { return place_; }
+  /** Where robot and ball are, m, in the fence's frame; empty: not known. */
+  std::optional<Eigen::Vector2d> robot() const;
+  std::optional<Eigen::Vector2d> ball() const;
 
  private:
   bool is_forbidden(const std::string& action) const;
   bool is_inside(const naoremote::MoveTo& move) const;
+  bool is_place_known() const;
 
   const ExhibitionSettings settings_;
   const OperatorChoices& choices_;

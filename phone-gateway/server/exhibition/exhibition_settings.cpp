@@ -6,6 +6,7 @@
 
 #include "common/text_file.h"
 #include "common/yaml_entry.h"
+#include "phone-gateway/server/exhibition/fence.h"
 
 namespace nao::gateway {
 namespace {
@@ -65,6 +66,13 @@ void read_fence(const YamlEntry& entry, ExhibitionSettings& settings) {
   }
 }
 
+void read_challenge(const YamlEntry& entry, ChallengeSettings& challenge) {
+  entry.allow_only({"gate", "goal"});
+  challenge.is_goal = entry.has("goal");
+  if (challenge.is_goal && entry.has("gate")) entry.fail("has both a gate and a goal");
+  challenge.posts = read_points(entry.at(challenge.is_goal ? "goal" : "gate"), 2, 2);
+}
+
 void read_attract(const YamlEntry& entry, ExhibitionSettings& settings) {
   entry.allow_only({"period", "actions", "motions", "look_at_ball", "greetings"});
   settings.attract_period = read_time(entry, "period", 25);
@@ -115,8 +123,7 @@ ExhibitionSettings parse_exhibition(const std::string& text, const std::string& 
     root.at("may_play").fail("is not possible with a fence: behaviors walk where the ball is");
   }
   if (root.has("challenge")) {
-    root.at("challenge").allow_only({"gate"});
-    settings.gate = read_points(root.at("challenge").at("gate"), 2, 2);
+    read_challenge(root.at("challenge"), settings.challenge);
   }
   if (root.has("attract")) read_attract(root.at("attract"), settings);
   if (root.has("language")) {

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "phone-gateway/server/exhibition/fence.h"
+#include "phone-gateway/server/exhibition/challenge.h"
 #include "phone-gateway/server/exhibition/visitor_queue.h"
 
 namespace nao::gateway {
@@ -22,8 +23,7 @@ struct ExhibitionSettings {
   /** Empty: none. In the field's frame (true), or where the robot's odometry began. */
   std::vector<Eigen::Vector2d> fence;
   bool is_fence_on_field = false;
-  /** Posts of the challenge's gate, in the fence's frame; empty: no challenge. */
-  std::vector<Eigen::Vector2d> gate;
+  ChallengeSettings challenge;
   /** Between what the robot does while nobody is there, s; 0: nothing. */
   double attract_period = 0;
   std::vector<std::string> attract_actions;

@@ -25,15 +25,15 @@ Vector2d closest_on_segment(const Vector2d& point, const Vector2d& a, const Vect
   return a + std::clamp((point - a).dot(along) / length2, 0.0, 1.0) * along;
 }
 
-/** On which side of the line through a and b a point is: its sign. */
-double side(const Vector2d& a, const Vector2d& b, const Vector2d& point) {
+}  // namespace
+
+double side_of_line(const Vector2d& a, const Vector2d& b, const Vector2d& point) {
   return (b.x() - a.x()) * (point.y() - a.y()) - (b.y() - a.y()) * (point.x() - a.x());
 }
 
-}  // namespace
-
 bool do_cross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
-  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+  return side_of_line(a, b, c) * side_of_line(a, b, d) < 0 &&
+         side_of_line(c, d, a) * side_of_line(c, d, b) < 0;
 }
 
 // Ray casting: https://wrfranklin.org/Research/Short_Notes/pnpoly.html

@@ -26,6 +26,10 @@ class Fence {
   std::vector<Eigen::Vector2d> corners_;
 };
 
+/** On which side of the line through a and b a point is: by its sign. */
+double side_of_line(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                    const Eigen::Vector2d& point);
+
 /** Whether two line segments cross: a gate is passed. */
 bool do_cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
               const Eigen::Vector2d& d);

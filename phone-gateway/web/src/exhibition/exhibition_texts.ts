@@ -24,6 +24,7 @@ export const kExhibitionTexts = {
   "full": ["The queue is full. Try again in some minutes.", "A fila está cheia. Tente daqui a uns minutos.",
            "Die Reihe ist voll. Versuch es in einigen Minuten wieder."],
   "paused": ["A short pause", "Uma pausa curta", "Kurze Pause"],
+  "away": ["The robot is away for a moment", "O robô não está por um momento", "Der Roboter ist kurz nicht da"],
   "resting": ["The robot rests", "O robô descansa", "Der Roboter ruht sich aus"],
   // The big display.
   "scan": ["Scan and drive", "Leia e conduza", "Scannen und steuern"],
@@ -32,6 +33,7 @@ export const kExhibitionTexts = {
   "nobody": ["Nobody waits: it is your turn.", "Ninguém espera: é a sua vez.", "Niemand wartet: du bist dran."],
   "more": ["and {number} more", "e mais {number}", "und {number} weitere"],
   "challenge": ["Walk through the gate", "Passe pelo portão", "Geh durch das Tor"],
+  "goal": ["Kick the ball into the goal", "Chute a bola para a baliza", "Schieß den Ball ins Tor"],
   "time": ["{time} s", "{time} s", "{time} s"],
   "best": ["Best today: {time} s, {name}", "O melhor de hoje: {time} s, {name}", "Beste Zeit heute: {time} s, {name}"],
   "turns": ["Turns until now: {number}", "Vezes até agora: {number}", "Fahrten bisher: {number}"],

@@ -7,7 +7,7 @@ import {Store} from "../store";
 import {tell} from "./exhibition_texts";
 import {LiveView} from "./live_view";
 import {pairingToken, takeLanguage} from "./page";
-import {challengeTime, clock, driverInWords} from "./words";
+import {challengeInWords, challengeTime, clock, driverInWords} from "./words";
 
 class Screen {
   private readonly driver = el("h1");
@@ -39,7 +39,7 @@ class Screen {
     takeLanguage(exhibition?.language ?? "en");
     setText(this.scan, tell("scan"));
     if (!exhibition) return;
-    const {driver, waiting, numWaiting, hasChallenge, bestTime, bestNickname} = exhibition;
+    const {driver, waiting, numWaiting, bestTime, bestNickname} = exhibition;
     setText(this.driver, driverInWords(exhibition));
     setText(this.time, driver ? clock(exhibition.turnLeft) : "");
     this.time.classList.toggle("warned", exhibition.isWarned);
@@ -48,8 +48,7 @@ class Screen {
     const hidden = numWaiting - waiting.length;
     setText(this.rest, hidden > 0 ? tell("more", {number: hidden}) : !driver && numWaiting === 0 ? tell("nobody") :
             exhibition.numTurns > 0 ? tell("turns", {number: exhibition.numTurns}) : "");
-    const time = exhibition.challengeTime;
-    setText(this.challenge, !hasChallenge ? "" : time > 0 && driver ? tell("time", {time: challengeTime(time)}) : tell("challenge"));
+    setText(this.challenge, challengeInWords(exhibition));
     setText(this.best, bestTime > 0 ? tell("best", {time: challengeTime(bestTime), name: bestNickname}) : "");
   }
 }

@@ -7,7 +7,7 @@ import {AttendSchema, ErrorCode, Exhibition_Phase as Phase} from "../protocol/ge
 import type {Exhibition} from "../protocol/generated/remote_pb";
 import type {Store} from "../store";
 import {tell} from "./exhibition_texts";
-import {challengeTime, clock, driverInWords, waitInWords} from "./words";
+import {challengeInWords, challengeTime, clock, driverInWords, waitInWords} from "./words";
 import css from "./visit.css?inline";
 
 const kKey = "nao-remote-visitor";
@@ -95,8 +95,7 @@ export class Visit {
     this.chip.hidden = !mayDrive;
     this.chip.classList.toggle("warned", exhibition.isWarned);
     setText(this.time, tell("warned", {time: clock(exhibition.turnLeft)}));
-    setText(this.challenge, !exhibition.hasChallenge ? "" :
-        exhibition.challengeTime > 0 ? tell("time", {time: challengeTime(exhibition.challengeTime)}) : tell("challenge"));
+    setText(this.challenge, challengeInWords(exhibition));
     this.showCard(exhibition);
   }
 
@@ -104,7 +103,7 @@ export class Visit {
     const {phase, nickname, place, driver, bestTime, bestNickname} = exhibition;
     const isWaiting = phase === Phase.WAITING;
     const isServed = phase === Phase.SERVED;
-    const isHalted = exhibition.isPaused || exhibition.isResting;
+    const isHalted = exhibition.isPaused || exhibition.isResting || exhibition.isRobotAway;
     setText(this.title, this.isFull ? tell("full") : isServed ? tell("thanks") : nickname ? tell("you", {name: nickname}) : tell("left"));
     setText(this.big, !isWaiting ? "" : place === 1 ? tell("next") : tell("place", {place}));
     setText(this.detail, isHalted ? driverInWords(exhibition) : isWaiting ? waitInWords(exhibition) : "");

@@ -3,7 +3,7 @@ import {describe, expect, it} from "vitest";
 import {ExhibitionSchema} from "../protocol/generated/remote_pb";
 import {kLanguages, setLanguage} from "../text/texts";
 import {kExhibitionTexts} from "./exhibition_texts";
-import {clock, driverInWords, waitInWords} from "./words";
+import {challengeInWords, clock, driverInWords, waitInWords} from "./words";
 
 describe("words of an exhibition", () => {
   it.each(Object.entries(kExhibitionTexts))("%s is said in every language, with the same values", (_, row) => {
@@ -23,11 +23,20 @@ describe("words of an exhibition", () => {
     expect(waitInWords(create(ExhibitionSchema, {wait: 200}))).toBe("in about 3 min");
   });
 
+  it("tell the challenge, then its time", () => {
+    setLanguage("en");
+    const exhibition = {driver: "Vega", hasChallenge: true, challengeIsGoal: true};
+    expect(challengeInWords(create(ExhibitionSchema, {}))).toBe("");
+    expect(challengeInWords(create(ExhibitionSchema, exhibition))).toBe("Kick the ball into the goal");
+    expect(challengeInWords(create(ExhibitionSchema, {...exhibition, challengeTime: 12.34}))).toBe("12.3 s");
+  });
+
   it("tell why nobody drives", () => {
     setLanguage("en");
     const exhibition = {driver: "Vega", isPaused: true, isResting: true};
     expect(driverInWords(create(ExhibitionSchema, exhibition))).toBe("The robot rests");
     expect(driverInWords(create(ExhibitionSchema, {...exhibition, isResting: false}))).toBe("A short pause");
     expect(driverInWords(create(ExhibitionSchema, {driver: "Vega"}))).toBe("Vega drives");
+    expect(driverInWords(create(ExhibitionSchema, {driver: "Vega", isRobotAway: true}))).toBe("The robot is away for a moment");
   });
 });

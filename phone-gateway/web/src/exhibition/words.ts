@@ -13,8 +13,13 @@ export function waitInWords({wait}: Exhibition): string {
 }
 
 /** Who drives, or why nobody does. */
-export function driverInWords({driver, isPaused, isResting}: Exhibition): string {
-  return isResting ? tell("resting") : isPaused ? tell("paused") : driver ? tell("drives", {name: driver}) : tell("free");
+export function driverInWords({driver, isPaused, isResting, isRobotAway}: Exhibition): string {
+  return isRobotAway ? tell("away") : isResting ? tell("resting") : isPaused ? tell("paused") : driver ? tell("drives", {name: driver}) : tell("free");
+}
+
+/** What the driver is to try, or the time in which it was done; nothing where there is no challenge. */
+export function challengeInWords({hasChallenge, challengeIsGoal, challengeTime: time, driver}: Exhibition): string {
+  return !hasChallenge ? "" : time > 0 && driver ? tell("time", {time: challengeTime(time)}) : tell(challengeIsGoal ? "goal" : "challenge");
 }
 
 /** A time of the challenge, s. */

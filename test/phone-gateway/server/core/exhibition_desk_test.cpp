@@ -262,6 +262,68 @@ TEST_F(ExhibitionDeskTest, TimesTheWayThroughTheGate) {
   EXPECT_EQ(told(ana).best_nickname(), "Vega");
 }
 
+TEST_F(ExhibitionDeskTest, TimesTheBallsWayIntoTheGoal) {
+  open_exhibition("{challenge: {goal: [[4.5, -0.8], [4.5, 0.8]]}}");
+  Client ana = visit("Ana");
+  const auto see_ball = [&](double x, double age = 0) {
+    naoremote::Vision vision;
+    vision.mutable_ball()->set_x(static_cast<float>(x));
+    vision.mutable_ball()->set_age(static_cast<float>(age));
+    core_->robot().perception().set(vision);
+    walk(ana, 0.1);
+    pass(0.1);
+  };
+  see_ball(4.4, 3);
+  see_ball(4.6, 3);
+  EXPECT_EQ(told(ana).challenge_time(), 0) << "not seen for 3 s";
+  see_ball(4.7);
+  see_ball(4.4);
+  EXPECT_EQ(told(ana).challenge_time(), 0) << "taken back";
+  see_ball(4.9);
+  EXPECT_EQ(told(ana).challenge_time(), 0) << "carried";
+  see_ball(4.3);
+  see_ball(4.6);
+  pass(0.3);
+  EXPECT_GT(told(ana).challenge_time(), 0.5);
+  EXPECT_TRUE(told(ana).challenge_is_goal());
+}
+
+TEST_F(ExhibitionDeskTest, DoesNotWalkOnAFieldWhereItIsNotLocalised) {
+  open_exhibition(
+      "{speed: 1, fence: {frame: field, corners: [[-1, -1], [1, -1], [1, 1], [-1, 1]]}}");
+  Client ana = visit("Ana");
+  pass(0.2);
+  begin_walk(ana, 0.2);
+  EXPECT_EQ(num_commands<WalkCommand>(), 0u);
+  naoremote::Vision vision;
+  vision.set_utime(1);
+  vision.mutable_field_pose()->set_x(-0.5);
+  core_->robot().perception().set(vision);
+  pass(0.2);
+  begin_walk(ana, 0.2);
+  EXPECT_DOUBLE_EQ(last_walk().vx, 0.2);
+  vision.set_utime(2);
+  vision.mutable_field_pose()->set_x(0.9F);
+  core_->robot().perception().set(vision);
+  pass(0.2);
+  EXPECT_NEAR(last_walk().vx, 0, 1e-3) << "what it sees counts, not its odometry";
+}
+
+TEST_F(ExhibitionDeskTest, StopsTheClockWhileTheRobotIsAway) {
+  Client ana = visit("Ana");
+  walk(ana, 0.1);
+  pass(1);
+  const double left = told(ana).turn_left();
+  has_robot_ = false;
+  wait(30, {&ana});
+  EXPECT_TRUE(told(ana).is_robot_away());
+  EXPECT_NEAR(told(ana).turn_left(), left, 2);
+  has_robot_ = true;
+  pass(1);
+  EXPECT_FALSE(told(ana).is_robot_away());
+  EXPECT_EQ(told(ana).phase(), Exhibition::DRIVING);
+}
+
 TEST_F(ExhibitionDeskTest, RestsARobotWhoseMotorsAreHot) {
   Client ana = visit("Ana");
   pass(0.2);

@@ -42,7 +42,8 @@ TEST(ExhibitionSettings, NameFileLineAndKeyOfAFault) {
       {"fence: {frame: start, corners: [[0,0],[1,0]]}", "has 2 points"},
       {"fence: {frame: start, corners: [[0,0],[1,1],[1,0],[0,1]]}", "edges that cross"},
       {"fence: {frame: start, corners: [[0,0],[1,0],[1,1]]}\nmay_play: true", "not possible"},
-      {"challenge: {gate: [[0,0]]}", "has 1 points"}};
+      {"challenge: {gate: [[0,0]]}", "has 1 points"},
+      {"challenge: {gate: [[0,0],[1,0]], goal: [[0,0],[1,0]]}", "both a gate and a goal"}};
   for (const auto& [text, expected] : faults) {
     try {
       parse(text);
