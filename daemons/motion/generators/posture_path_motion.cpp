@@ -164,7 +164,11 @@ bool PosturePathMotion::must_rest(const MotionContext& context, const std::strin
 void PosturePathMotion::play(const MotionContext& context, const KeyframeSequence& sequence,
                              const JointTargets& targets) {
   segment_ = Segment::kTransition;
-  transition_ = {&sequence, KeyframePlayer(context.model, sequence, targets.position, 1.0), 0};
+  transition_ = {&sequence, KeyframePlayer(context.model, sequence, targets.position, 1.0)};
+  const bool is_damped =
+      std::any_of(sequence.keyframes.begin(), sequence.keyframes.end(),
+                  [](const Keyframe& keyframe) { return keyframe.ankle_damping > 0; });
+  if (is_damped) transition_.damping.emplace(context.model);
 }
 
 MotionGenerator::Phase PosturePathMotion::choose_segment(const MotionContext& context,
@@ -254,11 +258,15 @@ bool PosturePathMotion::approach_again(const MotionContext& context, const Joint
 MotionGenerator::Phase PosturePathMotion::step_transition(const MotionContext& context,
                                                           JointTargets& targets) {
   transition_.player.sample(time_, targets.position, targets.stiffness);
+  const int stage = transition_.player.stage_at(time_);
+  if (transition_.damping) {
+    const double gain = transition_.sequence->keyframes[static_cast<size_t>(stage)].ankle_damping;
+    transition_.damping->add_to(context.state, gain, context.dt, targets.position);
+  }
   const auto is_there = [&] { return body_state_in(context) == transition_.sequence->to; };
   // The last pause ends as soon as the body is in the state to which the transition leads.
   const bool is_over = time_ >= transition_.player.duration() ||
                        (time_ >= transition_.player.last_arrival() && is_there());
-  const int stage = transition_.player.stage_at(time_);
   bool has_failed = false;
   if (stage != transition_.stage || is_over) {
     // At the end of each keyframe the direction of up must be in the keyframe's range: a roll that

@@ -6,6 +6,7 @@
 
 #include "daemons/motion/generators/motion_generator.h"
 #include "daemons/motion/generators/posture_motion.h"
+#include "daemons/motion/transitions/ankle_damping.h"
 #include "daemons/motion/transitions/keyframes.h"
 #include "daemons/motion/transitions/transition_graph.h"
 
@@ -54,6 +55,8 @@ class PosturePathMotion : public MotionGenerator {
   struct Transition {
     const KeyframeSequence* sequence = nullptr;
     KeyframePlayer player;
+    /** Of a transition with keyframes that damp. */
+    std::optional<AnkleDamping> damping{};
     int stage = 0;
   };
 
