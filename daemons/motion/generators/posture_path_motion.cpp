@@ -224,11 +224,20 @@ MotionGenerator::Phase PosturePathMotion::choose_transition(const MotionContext&
     reason_ = Reason("get-up-failed", {std::to_string(kMaxTries)});
     return Phase::kFailed;
   }
-  // The alternatives of a transition are tried in turn: a surface on which one fails may suit
-  // another.
-  const int num_failed = is_from_lying ? num_tries_ - 1 : 0;
+  // The alternatives of a transition that failed are tried in turn: a surface on which one fails
+  // may suit another. A roll that failed says nothing about the get-up motion after it.
+  const int num_failed = is_from_lying ? count_failures(*path.front()) : 0;
   play(context, graph_->find_alternative(*path.front(), num_failed), targets);
   return Phase::kRunning;
+}
+
+int PosturePathMotion::count_failures(const KeyframeSequence& sequence) const {
+  // What fell after it had got up fell by its last transition, which leads to the feet.
+  const int num_relapses = sequence.to == kOnFeet ? num_relapses_ : 0;
+  return num_relapses + static_cast<int>(std::count_if(
+                            all_failed_.begin(), all_failed_.end(), [&](const auto* failed) {
+                              return failed->from == sequence.from && failed->to == sequence.to;
+                            }));
 }
 
 bool PosturePathMotion::bring_feet_together(const MotionContext& context,
@@ -278,7 +287,10 @@ MotionGenerator::Phase PosturePathMotion::step_transition(const MotionContext& c
   }
   if (!is_over && !has_failed) return Phase::kRunning;
   is_on_path_ = !has_failed && is_there();
-  if (!is_on_path_) failed_.push_back(transition_.sequence);
+  if (!is_on_path_) {
+    failed_.push_back(transition_.sequence);
+    all_failed_.push_back(transition_.sequence);
+  }
   // The next segment is chosen from the measured state, whether the transition succeeded or not.
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
   rest(context);
