@@ -164,6 +164,7 @@ bool PosturePathMotion::must_rest(const MotionContext& context, const std::strin
 void PosturePathMotion::play(const MotionContext& context, const KeyframeSequence& sequence,
                              const JointTargets& targets) {
   segment_ = Segment::kTransition;
+  is_at_keyframe_ = false;
   transition_ = {&sequence, KeyframePlayer(context.model, sequence, targets.position, 1.0)};
   const bool is_damped =
       std::any_of(sequence.keyframes.begin(), sequence.keyframes.end(),
@@ -199,7 +200,13 @@ MotionGenerator::Phase PosturePathMotion::choose_segment_in_goal_state(
   }
   segment_ = Segment::kLine;
   line_.emplace(*goal_, speed_);
-  line_->start(context, targets);
+  JointTargets start = targets;
+  // The velocity of the last step is that of the spline before it comes to rest: a line that starts
+  // with it would swing beyond the posture that has been reached.
+  if (is_at_keyframe_ && is_standing_line_) {
+    std::fill(start.velocity.begin(), start.velocity.end(), 0.0);
+  }
+  line_->start(context, start);
   return Phase::kRunning;
 }
 
@@ -286,6 +293,7 @@ MotionGenerator::Phase PosturePathMotion::step_transition(const MotionContext& c
     transition_.stage = stage;
   }
   if (!is_over && !has_failed) return Phase::kRunning;
+  is_at_keyframe_ = is_over;
   is_on_path_ = !has_failed && is_there();
   if (!is_on_path_) {
     failed_.push_back(transition_.sequence);

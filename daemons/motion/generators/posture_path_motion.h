@@ -119,6 +119,8 @@ class PosturePathMotion : public MotionGenerator {
   bool is_getting_up_ = false;
   /** The last transition ended where it should. */
   bool is_on_path_ = false;
+  /** The targets rest at the last keyframe of a transition. */
+  bool is_at_keyframe_ = false;
   bool has_approached_ = false;
   bool has_approached_again_ = false;
   /** The segment is a line between two postures on the feet. */

@@ -98,6 +98,28 @@ TEST_F(PosturePathMotionTest, GetsUpAlongATransitionAndContinuesOnALine) {
 }
 
 // Commands that the mode refuses would otherwise end it while it rests.
+TEST_F(PosturePathMotionTest, APostureThatTheGetUpReachedNeedsNoFurtherMotion) {
+  const auto graph = TransitionGraph::parse(nao_model(), R"(
+transitions:
+  - {name: up, from: belly, to: on-feet, keyframes: [{duration: 0.3, posture: StandInit}]}
+)");
+  const int knee = nao_motor("LKneePitch");
+  robot_.targets().position[knee] += 0.5;
+  robot_.sensors().position = robot_.targets().position;
+  lie();
+  motion_.emplace(graph, *nao_model().find_posture("StandInit"), 0.5);
+  motion_->start(robot_.context(), robot_.targets());
+  while (motion_->progress() < 0.45) {
+    const double before = robot_.targets().position[knee];
+    ASSERT_EQ(step(), Phase::kRunning);
+    robot_.targets().velocity[knee] = (robot_.targets().position[knee] - before) / 0.01;
+  }
+  stand();
+  int num_steps = 0;
+  for (; step() == Phase::kRunning; ++num_steps) ASSERT_LT(num_steps, 10);
+  EXPECT_LE(num_steps, 6);  // of which the transition takes up to four
+}
+
 TEST_F(PosturePathMotionTest, GetsUpFromItsStartUntilItIsOnItsFeetAlsoWhileItRests) {
   lie();
   start("StandInit");
