@@ -42,7 +42,9 @@ struct Network::Impl {
         congestion_control(options.congestion_control) {
     if (options.relay.empty()) return;
     relay = std::make_unique<RelayClient>(context, options.relay, options.relay_file);
-    loop->every(kInvitationPeriod, [this] { relay->step(); });
+    loop->every(kInvitationPeriod, [this] {
+      if (relay) relay->step();
+    });
   }
 
   std::function<void(Tcp::socket)> accepting(std::function<void(Tcp::socket)> serve) {
