@@ -53,6 +53,7 @@ class Visitor(threading.Thread):
         self.port, self.habit, self.rng = port, habit, rng
         self.key = secrets.token_hex(16)
         self.served = False
+        self.was_silent = False
         self.turns = []  # [first, last] obeyed walk of each turn, s
         self.is_driving = False
 
@@ -103,7 +104,7 @@ class Visitor(threading.Thread):
             phone.ask(attend=pb.Attend(visitor_key=self.key, leaves=True))
             self.served = True
         elif self.habit == "is silent":
-            self.habit = "drives"
+            self.habit, self.was_silent = "drives", True
             time.sleep(15)
         elif self.habit == "never returns":
             self.served = True
@@ -203,7 +204,8 @@ def judge(watch, visitors):
     stayed = [visitor for visitor in visitors if visitor.habit in ("drives", "scans twice", "is silent")]
     for visitor in stayed:
         driven = [turn for turn in visitor.turns if turn]
-        if visitor.is_alive() or not visitor.served or not driven:
+        # Whose turn begins in a silence loses it, as one that does nothing.
+        if visitor.is_alive() or not visitor.served or not (driven or visitor.was_silent):
             faults.append(f"a visitor that {visitor.habit} was not served")
         # A turn that the robot's absence or a restart interrupts goes on.
         if driven and driven[-1][1] - driven[0][0] > TURN + KILL_PERIOD:
