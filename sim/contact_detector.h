@@ -14,9 +14,10 @@ namespace nao::sim {
 /** Finds the contact candidates of a step between floor, robots, ball and goals, and keeps the
  * memory of every possible contact.
  *
- * Broad phase: bounding spheres, pair by pair. Narrow phase: against the floor each part's points
- * (CollisionModel::Point), between two parts closest_points(), unless the axis along which they
- * were apart in an earlier step shows that they cannot touch in this one. */
+ * Broad phase: bounding spheres, pair by pair, of a robot's own parts those that are near. Narrow
+ * phase: against the floor each part's points (CollisionModel::Point), between two parts
+ * closest_points(), unless the axis along which they were apart in an earlier step shows that they
+ * cannot touch in this one. */
 class ContactDetector {
  public:
   /** Collision margin: a candidate is made when surfaces will be nearer than this after the step,
@@ -68,9 +69,13 @@ class ContactDetector {
   struct RobotMemory {
     std::vector<ContactMemory> floor;
     std::vector<ContactMemory> self;
-    /** Squared distance of the centers of each pair of its own parts beyond which the pair's
-     * bounding spheres are apart, m^2. */
+    /** Distance of the centers of each pair of its own parts beyond which the pair's bounding
+     * spheres are apart, m. */
     std::vector<double> self_reach;
+    /** Pairs of its own parts that were near when the parts' centers, from the root and along W's
+     * axes, m, were these. */
+    std::vector<size_t> near_pairs;
+    std::vector<Eigen::Vector3d> listed_centers;
     std::vector<ContactMemory> statics;
     std::vector<ContactMemory> ball;
   };
@@ -83,6 +88,8 @@ class ContactDetector {
 
   void place_parts(int robot);
   const RoundedBox& part_shape(int robot, int part);
+  /** Pairs of a robot's own parts that may touch within the step: indices of self_pairs. */
+  const std::vector<size_t>& list_near_pairs(int robot);
   /** Whether parts of two robots, or of one, cannot touch within the step, as far as the axis tells
    * along which they were apart. false: their distance is to be measured. */
   bool are_apart(int robot_a, int part_a, int robot_b, int part_b, const ContactMemory& memory);

@@ -14,6 +14,7 @@
 
 #include "common/error.h"
 #include "common/rotation.h"
+#include "rendering/mesh.h"
 #include "robot_import/limited_process.h"
 
 namespace nao {
@@ -24,13 +25,23 @@ constexpr double kLeastEdge = 1e-3;
 // Least ratio of length to width of a capsule, and the greatest of its width to its depth.
 constexpr double kLongRatio = 1.6;
 constexpr double kRoundRatio = 1.5;
+// Bytes that a phone receives of all meshes of a robot at most, without the network's compression.
+// Chosen: a second at 40 Mbit/s.
+constexpr uintmax_t kMostBytes = 5'000'000;
+// Greatest error of meshes to which the bytes are reduced, m.
+constexpr double kCoarsestError = 0.016;
 
 // Meshes with all transforms of the file's node tree and the URDF's scale applied.
 const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::path& file,
                           const Eigen::Vector3d& scale) {
+  // Textures and colors of corners are drawn by no program here; normals follow from the triangles.
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
+                              aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
+                                  aiComponent_TEXCOORDS | aiComponent_COLORS |
+                                  aiComponent_TEXTURES);
   const aiScene* scene = importer.ReadFile(
-      file.string(), aiProcess_Triangulate | aiProcess_GenNormals | aiProcess_PreTransformVertices |
-                         aiProcess_JoinIdenticalVertices);
+      file.string(), aiProcess_RemoveComponent | aiProcess_Triangulate |
+                         aiProcess_PreTransformVertices | aiProcess_JoinIdenticalVertices);
   if (scene == nullptr || scene->mNumMeshes == 0) {
     throw ModelError(std::string("is not a mesh: ") + importer.GetErrorString());
   }
@@ -40,11 +51,13 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
   const bool is_turned = ending == ".dae";
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     aiMesh& mesh = *scene->mMeshes[i];
+    // A mirror image turns the corners of a triangle around.
+    for (unsigned k = 0; scale.prod() < 0 && k < mesh.mNumFaces; ++k) {
+      std::reverse(mesh.mFaces[k].mIndices, mesh.mFaces[k].mIndices + mesh.mFaces[k].mNumIndices);
+    }
     for (unsigned k = 0; is_turned && k < mesh.mNumVertices; ++k) {
-      for (aiVector3D* vectors : {mesh.mVertices, mesh.mNormals}) {
-        if (vectors == nullptr) continue;
-        vectors[k] = aiVector3D(vectors[k].x, -vectors[k].z, vectors[k].y);
-      }
+      const aiVector3D point = mesh.mVertices[k];
+      mesh.mVertices[k] = aiVector3D(point.x, -point.z, point.y);
     }
     for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
       aiVector3D& point = mesh.mVertices[k];
@@ -57,6 +70,48 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
     }
   }
   return *scene;
+}
+
+/** Replaces a part by one of fewer triangles. @param error  See simplified(), m. */
+void simplify(aiMesh& part, double error) {
+  Mesh fine;
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const aiVector3D& point = part.mVertices[i];
+    fine.vertices.emplace_back().position = {point.x, point.y, point.z};
+  }
+  for (unsigned i = 0; i < part.mNumFaces; ++i) {
+    const aiFace& face = part.mFaces[i];
+    if (face.mNumIndices != 3) continue;  // points and lines
+    fine.indices.insert(fine.indices.end(), face.mIndices, face.mIndices + 3);
+  }
+  if (fine.indices.empty()) return;
+  Mesh mesh = simplified(fine, static_cast<float>(error));
+  if (mesh.indices.empty()) {
+    // A part smaller than the error: one triangle, since a file's part has one at least.
+    fine.indices.resize(3);
+    mesh = simplified(fine, 0);
+  }
+  // The destructor of `old` frees what the part had.
+  aiMesh old;
+  std::swap(old.mVertices, part.mVertices);
+  std::swap(old.mNormals, part.mNormals);
+  std::swap(old.mFaces, part.mFaces);
+  std::swap(old.mNumFaces, part.mNumFaces);
+  part.mNumVertices = static_cast<unsigned>(mesh.vertices.size());
+  part.mVertices = new aiVector3D[part.mNumVertices];
+  part.mNormals = new aiVector3D[part.mNumVertices];
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const Vertex& vertex = mesh.vertices[i];
+    part.mVertices[i] = {vertex.position.x(), vertex.position.y(), vertex.position.z()};
+    part.mNormals[i] = {vertex.normal.x(), vertex.normal.y(), vertex.normal.z()};
+  }
+  part.mNumFaces = static_cast<unsigned>(mesh.indices.size() / 3);
+  part.mFaces = new aiFace[part.mNumFaces];
+  for (unsigned i = 0; i < part.mNumFaces; ++i) {
+    part.mFaces[i].mNumIndices = 3;
+    part.mFaces[i].mIndices = new unsigned[3];
+    std::copy_n(&mesh.indices[size_t{3} * i], 3, part.mFaces[i].mIndices);
+  }
 }
 
 /** Runs a use of a foreign file in a process of its own. @throws ModelError  naming the file. */
@@ -92,16 +147,28 @@ std::vector<Eigen::Vector3d> read_mesh_points(const std::filesystem::path& file,
 }
 
 void convert_mesh(const std::filesystem::path& source, const Eigen::Vector3d& scale,
-                  const std::filesystem::path& target) {
+                  const std::filesystem::path& target, double error) {
   run_with(source, [&] {
     Assimp::Importer importer;
     const aiScene& scene = read_scene(importer, source, scale);
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) simplify(*scene.mMeshes[i], error);
     Assimp::Exporter exporter;
     if (exporter.Export(&scene, "glb2", target.string()) != AI_SUCCESS) {
       throw ModelError(target.string() + " cannot be written: " + exporter.GetErrorString());
     }
     return std::string();
   });
+}
+
+void limit_meshes(const std::set<std::filesystem::path>& files) {
+  for (double error = 2 * kFinestError; error <= kCoarsestError; error *= 2) {
+    uintmax_t bytes = 0;
+    for (const std::filesystem::path& file : files) bytes += std::filesystem::file_size(file);
+    if (bytes <= kMostBytes) return;
+    for (const std::filesystem::path& file : files) {
+      convert_mesh(file, Eigen::Vector3d::Ones(), file, error);
+    }
+  }
 }
 
 // The axis-aligned bounding box in the mesh's own frame, or a capsule along its longest axis where

@@ -494,12 +494,14 @@ bool has_arms(const std::vector<Chain>& chains, const std::vector<Chain>& legs) 
   return false;
 }
 
-// The root's z axis is up in most files; otherwise another axis, along which legs hang: of a robot
-// that has arms, too, for these hang or point somewhere as well.
+// The root's z axis is up in most files; otherwise another axis, along which the longest legs hang:
+// of a robot that has arms, too, for these hang or point somewhere as well.
 FoundFrame find_frame(const RobotModel& model, const MeshPoints& mesh_points) {
   const Vector3d x = Vector3d::UnitX();
   const Vector3d y = Vector3d::UnitY();
   const Vector3d z = Vector3d::UnitZ();
+  FoundFrame best;
+  double longest = 0;
   for (const Vector3d& up : {z, y, x, Vector3d(-y), Vector3d(-x), Vector3d(-z)}) {
     Isometry3d frame = Isometry3d::Identity();
     if (up != z) {
@@ -519,14 +521,20 @@ FoundFrame find_frame(const RobotModel& model, const MeshPoints& mesh_points) {
     const std::vector<Chain> chains = find_chains(body);
     FoundFrame found{frame, find_legs(body, chains)};
     if (found.legs.empty() || (up != z && !has_arms(chains, found.legs))) continue;
+    const int hip = model.joints()[found.legs[0].joints.front()].child_link;
+    const double length = body.poses[hip].translation().z() - found.legs[0].point.z();
+    if (length < longest) continue;
+    longest = length;
     // Against x of the root only on clear evidence.
-    if (find_heading(body, found.legs) >= (up == z && normal == 1 ? -0.3 : 0)) return found;
-    found.frame.rotate(Eigen::AngleAxisd(M_PI, z));
-    const Body turned = make_body(model, mesh_points, found.frame);
-    found.legs = find_legs(turned, find_chains(turned));
-    return found;
+    if (find_heading(body, found.legs) < (up == z && normal == 1 ? -0.3 : 0)) {
+      found.frame.rotate(Eigen::AngleAxisd(M_PI, z));
+      const Body turned = make_body(model, mesh_points, found.frame);
+      found.legs = find_legs(turned, find_chains(turned));
+    }
+    best = std::move(found);
+    if (up == z) break;
   }
-  return {};
+  return best;
 }
 
 std::array<FoundSole, 2> find_feet(const Body& body, const std::vector<Chain>& legs,

@@ -63,6 +63,8 @@ class UrdfRepair {
                    const std::string& element);
   void repair_cylinder(TiXmlElement& shape, TiXmlElement& geometry, const std::string& element);
   fs::path find_mesh(const std::string& name) const;
+  /** @return The path of the converted mesh, from the robot's folder. @throws ModelError */
+  std::string convert(const fs::path& source, const Eigen::Vector3d& scale);
 
   fs::path file_;
   fs::path folder_;
@@ -70,7 +72,8 @@ class UrdfRepair {
   TiXmlDocument document_;
   TiXmlElement* robot_ = nullptr;
   double mass_ = 0;
-  int num_meshes_ = 0;
+  /** Converted meshes, by their sources and scales. */
+  std::map<std::pair<fs::path, std::vector<double>>, std::string> converted_;
   RepairedUrdf result_;
 };
 
@@ -350,6 +353,17 @@ fs::path UrdfRepair::find_mesh(const std::string& name) const {
   return {};
 }
 
+std::string UrdfRepair::convert(const fs::path& source, const Eigen::Vector3d& scale) {
+  const std::pair key(source, std::vector<double>(scale.begin(), scale.end()));
+  const auto found = converted_.find(key);
+  if (found != converted_.end()) return found->second;
+  const std::string target =
+      "meshes/" + std::to_string(converted_.size()) + "_" + source.stem().string() + ".glb";
+  fs::create_directories(folder_ / "meshes");
+  convert_mesh(source, scale, folder_ / target);
+  return converted_[key] = target;
+}
+
 bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool is_collision,
                              const std::string& element) {
   TiXmlElement& mesh = *geometry.FirstChildElement("mesh");
@@ -374,10 +388,7 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
       factors ? Eigen::Vector3d(factors->data()) : Eigen::Vector3d::Ones();
   try {
     if (!is_collision) {
-      const std::string target =
-          "meshes/" + std::to_string(num_meshes_++) + "_" + source.stem().string() + ".glb";
-      fs::create_directories(folder_ / "meshes");
-      convert_mesh(source, scale, folder_ / target);
+      const std::string target = convert(source, scale);
       if (shape.Parent()->FirstChildElement("collision") == nullptr) {
         add_points(-1, read_mesh_points(source, scale));
       }
@@ -479,6 +490,9 @@ RepairedUrdf UrdfRepair::run() {
     repair_shapes(*link, "visual", element);
     repair_shapes(*link, "collision", element);
   }
+  std::set<fs::path> meshes;
+  for (const auto& [key, target] : converted_) meshes.insert(folder_ / target);
+  limit_meshes(meshes);
   bool has_motor = false;
   for (const TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {

@@ -62,6 +62,46 @@ TEST_P(Incline, LetsABlockSlideAboveIt) {
 // Straight, along the diagonal, and in between: the friction cone is round.
 INSTANTIATE_TEST_SUITE_P(Directions, Incline, testing::Values(0.0, M_PI / 4, 1.0));
 
+/** A rod that swings from 1.4 rad into a plate below its torso. @param num_more  Shapes of the
+ * torso that the rod never comes near. */
+TreeState swing_into_a_plate(int num_more) {
+  const auto shape = [](const std::string& xyz, const std::string& size) {
+    return "<collision><origin xyz=\"" + xyz + "\"/><geometry><box size=\"" + size +
+           "\"/></geometry></collision>";
+  };
+  const std::string inertia =
+      "<inertia ixx=\"0.01\" iyy=\"0.01\" izz=\"0.01\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
+  std::string torso = shape("0 0 -0.45", "0.1 0.1 0.1");
+  for (int i = 0; i < num_more; ++i) torso += shape("0 0 2", "0.05 0.05 0.05");
+  const auto robot = make_robot(
+      "<robot name=\"rod\"><link name=\"torso\"><inertial><mass value=\"5\"/>" + inertia + torso +
+          "</link><joint name=\"Swing\" type=\"revolute\"><parent link=\"torso\"/><child "
+          "link=\"rod\"/><axis xyz=\"0 1 0\"/><limit lower=\"-1.5\" upper=\"1.5\" effort=\"3\" "
+          "velocity=\"6\"/></joint><link name=\"rod\"><inertial><origin xyz=\"0 0 -0.3\"/><mass "
+          "value=\"0.5\"/>" +
+          inertia + shape("0 0 -0.45", "0.05 0.05 0.05") + "</link></robot>",
+      "{Swing: motor}", ideal_motor(), "[[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1]]", "{Swing: 1.4}");
+  World world{SceneFile{}};
+  RobotOptions options;
+  options.posture = "Start";
+  options.is_on_stand = true;
+  options.height = 1;
+  const int index = world.add_robot(robot, options);
+  MotorTargets targets = world.targets(index);
+  targets.stiffness.setZero();
+  world.set_targets(index, targets);
+  for (int i = 0; i < 200; ++i) world.step_tick();
+  return world.robot(index).state();
+}
+
+TEST(Contact, OfARobotOfManyShapesIsThatOfOneWithFew) {
+  const TreeState few = swing_into_a_plate(0);
+  // The rod was stopped above 0 rad.
+  EXPECT_GT(few.coordinate[6], 0.1);
+  EXPECT_LT(few.coordinate[6], 0.4);
+  EXPECT_EQ(swing_into_a_plate(1200).coordinate, few.coordinate);
+}
+
 TEST(Contact, NeverAddsEnergy) {
   // In the last case a hand's edge slides over a shin: the contact's normal changes its direction
   // within a step.

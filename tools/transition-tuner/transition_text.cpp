@@ -12,10 +12,11 @@
 namespace nao {
 namespace {
 
-constexpr double kShortest = 0.03;       // s
-constexpr double kLongest = 3;           // s
-constexpr double kLongestPause = 1;      // s
-constexpr double kLeastStiffness = 0.1;  // fraction
+constexpr double kShortest = 0.03;        // s
+constexpr double kLongest = 3;            // s
+constexpr double kLongestPause = 1;       // s
+constexpr double kLeastStiffness = 0.1;   // fraction
+constexpr double kGreatestDamping = 0.3;  // s
 
 /** Motor of a joint; of the left joint if it is the name of a pair. */
 int find_motor(const RobotModel& model, const std::string& name) {
@@ -70,6 +71,7 @@ void TransitionText::read_line(const RobotModel& model, const std::string& seque
   };
   const size_t colon = text_.find(':', begin);
   if (starts("- duration:")) add("duration", colon + 1, kShortest, kLongest);
+  if (starts("ankle_damping:")) add("ankle_damping", colon + 1, 0, kGreatestDamping);
   if (starts("pause:")) add("pause", colon + 1, 0, kLongestPause);
   const bool is_stiffness = starts("stiffness:");
   if (!is_stiffness && !starts("joints:")) return;

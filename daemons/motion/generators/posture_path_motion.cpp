@@ -164,7 +164,12 @@ bool PosturePathMotion::must_rest(const MotionContext& context, const std::strin
 void PosturePathMotion::play(const MotionContext& context, const KeyframeSequence& sequence,
                              const JointTargets& targets) {
   segment_ = Segment::kTransition;
-  transition_ = {&sequence, KeyframePlayer(context.model, sequence, targets.position, 1.0), 0};
+  is_at_keyframe_ = false;
+  transition_ = {&sequence, KeyframePlayer(context.model, sequence, targets.position, 1.0)};
+  const bool is_damped =
+      std::any_of(sequence.keyframes.begin(), sequence.keyframes.end(),
+                  [](const Keyframe& keyframe) { return keyframe.ankle_damping > 0; });
+  if (is_damped) transition_.damping.emplace(context.model);
 }
 
 MotionGenerator::Phase PosturePathMotion::choose_segment(const MotionContext& context,
@@ -195,7 +200,13 @@ MotionGenerator::Phase PosturePathMotion::choose_segment_in_goal_state(
   }
   segment_ = Segment::kLine;
   line_.emplace(*goal_, speed_);
-  line_->start(context, targets);
+  JointTargets start = targets;
+  // The velocity of the last step is that of the spline before it comes to rest: a line that starts
+  // with it would swing beyond the posture that has been reached.
+  if (is_at_keyframe_ && is_standing_line_) {
+    std::fill(start.velocity.begin(), start.velocity.end(), 0.0);
+  }
+  line_->start(context, start);
   return Phase::kRunning;
 }
 
@@ -220,11 +231,20 @@ MotionGenerator::Phase PosturePathMotion::choose_transition(const MotionContext&
     reason_ = Reason("get-up-failed", {std::to_string(kMaxTries)});
     return Phase::kFailed;
   }
-  // The alternatives of a transition are tried in turn: a surface on which one fails may suit
-  // another.
-  const int num_failed = is_from_lying ? num_tries_ - 1 : 0;
+  // The alternatives of a transition that failed are tried in turn: a surface on which one fails
+  // may suit another. A roll that failed says nothing about the get-up motion after it.
+  const int num_failed = is_from_lying ? count_failures(*path.front()) : 0;
   play(context, graph_->find_alternative(*path.front(), num_failed), targets);
   return Phase::kRunning;
+}
+
+int PosturePathMotion::count_failures(const KeyframeSequence& sequence) const {
+  // What fell after it had got up fell by its last transition, which leads to the feet.
+  const int num_relapses = sequence.to == kOnFeet ? num_relapses_ : 0;
+  return num_relapses + static_cast<int>(std::count_if(
+                            all_failed_.begin(), all_failed_.end(), [&](const auto* failed) {
+                              return failed->from == sequence.from && failed->to == sequence.to;
+                            }));
 }
 
 bool PosturePathMotion::bring_feet_together(const MotionContext& context,
@@ -254,11 +274,15 @@ bool PosturePathMotion::approach_again(const MotionContext& context, const Joint
 MotionGenerator::Phase PosturePathMotion::step_transition(const MotionContext& context,
                                                           JointTargets& targets) {
   transition_.player.sample(time_, targets.position, targets.stiffness);
+  const int stage = transition_.player.stage_at(time_);
+  if (transition_.damping) {
+    const double gain = transition_.sequence->keyframes[static_cast<size_t>(stage)].ankle_damping;
+    transition_.damping->add_to(context.state, gain, context.dt, targets.position);
+  }
   const auto is_there = [&] { return body_state_in(context) == transition_.sequence->to; };
   // The last pause ends as soon as the body is in the state to which the transition leads.
   const bool is_over = time_ >= transition_.player.duration() ||
                        (time_ >= transition_.player.last_arrival() && is_there());
-  const int stage = transition_.player.stage_at(time_);
   bool has_failed = false;
   if (stage != transition_.stage || is_over) {
     // At the end of each keyframe the direction of up must be in the keyframe's range: a roll that
@@ -269,8 +293,12 @@ MotionGenerator::Phase PosturePathMotion::step_transition(const MotionContext& c
     transition_.stage = stage;
   }
   if (!is_over && !has_failed) return Phase::kRunning;
+  is_at_keyframe_ = is_over;
   is_on_path_ = !has_failed && is_there();
-  if (!is_on_path_) failed_.push_back(transition_.sequence);
+  if (!is_on_path_) {
+    failed_.push_back(transition_.sequence);
+    all_failed_.push_back(transition_.sequence);
+  }
   // The next segment is chosen from the measured state, whether the transition succeeded or not.
   std::fill(targets.stiffness.begin(), targets.stiffness.end(), 1.0);
   rest(context);

@@ -6,6 +6,7 @@
 
 #include "daemons/motion/generators/motion_generator.h"
 #include "daemons/motion/generators/posture_motion.h"
+#include "daemons/motion/transitions/ankle_damping.h"
 #include "daemons/motion/transitions/keyframes.h"
 #include "daemons/motion/transitions/transition_graph.h"
 
@@ -25,7 +26,12 @@ class PosturePathMotion : public MotionGenerator {
    * @param num_tries  Attempts to get up that have ended in a fall soon afterwards. */
   PosturePathMotion(const TransitionGraph& graph, const Posture& goal, double speed,
                     bool is_exact = false, int num_tries = 0)
-      : graph_(&graph), goal_(&goal), speed_(speed), is_exact_(is_exact), num_tries_(num_tries) {}
+      : graph_(&graph),
+        goal_(&goal),
+        speed_(speed),
+        is_exact_(is_exact),
+        num_tries_(num_tries),
+        num_relapses_(num_tries) {}
 
   void start(const MotionContext& context, const JointTargets& targets) override;
   Phase step(const MotionContext& context, JointTargets& targets) override;
@@ -54,6 +60,8 @@ class PosturePathMotion : public MotionGenerator {
   struct Transition {
     const KeyframeSequence* sequence = nullptr;
     KeyframePlayer player;
+    /** Of a transition with keyframes that damp. */
+    std::optional<AnkleDamping> damping{};
     int stage = 0;
   };
 
@@ -74,6 +82,8 @@ class PosturePathMotion : public MotionGenerator {
   void note_getting_up(const std::string& state);
   /** Whether the body must come to rest before it moves on from a state. */
   bool must_rest(const MotionContext& context, const std::string& state) const;
+  /** How often getting up failed by transitions between the same states as this one. */
+  int count_failures(const KeyframeSequence& sequence) const;
   /** Starts to bring the feet together, if that may free legs that did not reach the posture.
    * @return Whether it did. */
   bool bring_feet_together(const MotionContext& context, const JointTargets& targets);
@@ -98,13 +108,19 @@ class PosturePathMotion : public MotionGenerator {
   int num_segments_ = 0;
   /** Transitions that did not end where they should: other paths are preferred from then on. */
   std::vector<const KeyframeSequence*> failed_;
+  /** The same since the path began. */
+  std::vector<const KeyframeSequence*> all_failed_;
   int num_feet_together_ = 0;
   /** Attempts to get up: a roll and the get-up motion after it count as one. */
   int num_tries_ = 0;
+  /** Those before this path, each with a fall soon after it. */
+  int num_relapses_ = 0;
   /** The robot lay, and is neither on its feet yet nor in the goal's state. */
   bool is_getting_up_ = false;
   /** The last transition ended where it should. */
   bool is_on_path_ = false;
+  /** The targets rest at the last keyframe of a transition. */
+  bool is_at_keyframe_ = false;
   bool has_approached_ = false;
   bool has_approached_again_ = false;
   /** The segment is a line between two postures on the feet. */

@@ -25,6 +25,8 @@ struct Keyframe {
   /** Time for which the targets rest afterwards, at any speed, s. The pause of a transition's last
    * keyframe ends early, as soon as the body is in the state to which the transition leads. */
   double pause = 0;
+  /** Gain of AnkleDamping until its end, s. */
+  double ankle_damping = 0;
   /** Allowed range of a component of the direction of up. */
   struct Range {
     double least = -std::numeric_limits<double>::infinity();
@@ -43,6 +45,8 @@ struct KeyframeSequence {
   std::string from;
   std::string to;
   std::vector<Keyframe> keyframes;
+  /** A joint that cannot turn so fast arrives later; otherwise all joints wait for it. */
+  bool has_fixed_durations = false;
 
   /** s at full speed. */
   double duration() const;
@@ -69,7 +73,7 @@ class KeyframePlayer {
   KeyframePlayer() = default;
 
   /** @param start  rad, (num_motors). @param speed  (0, 1]: divides the durations, which are
-   * extended where a motor could not turn fast enough. */
+   * extended where a motor could not turn fast enough, unless they are fixed. */
   KeyframePlayer(const RobotModel& model, const KeyframeSequence& sequence,
                  const std::vector<double>& start, double speed);
 

@@ -64,7 +64,7 @@ void read_stiffness(const RobotModel& model, const YamlEntry& entry,
 }
 
 Keyframe read_keyframe(const RobotModel& model, const YamlEntry& entry, KeyframeLimits limits) {
-  entry.allow_only({"duration", "posture", "joints", "stiffness", "pause", "up"});
+  entry.allow_only({"duration", "posture", "joints", "stiffness", "pause", "ankle_damping", "up"});
   Keyframe keyframe;
   keyframe.duration = entry.at("duration").number();
   if (keyframe.duration < 0) entry.at("duration").fail("must not be negative");
@@ -79,6 +79,8 @@ Keyframe read_keyframe(const RobotModel& model, const YamlEntry& entry, Keyframe
   if (entry.has("stiffness")) read_stiffness(model, entry.at("stiffness"), keyframe.stiffness);
   if (entry.has("pause")) keyframe.pause = entry.at("pause").number();
   if (keyframe.pause < 0) entry.at("pause").fail("must not be negative");
+  if (entry.has("ankle_damping")) keyframe.ankle_damping = entry.at("ankle_damping").number();
+  if (keyframe.ankle_damping < 0) entry.at("ankle_damping").fail("must not be negative");
   if (entry.has("up")) {
     const YamlEntry up = entry.at("up");
     up.allow_only({"x", "y", "z"});
@@ -125,7 +127,7 @@ TransitionGraph TransitionGraph::read(const RobotModel& model, const YamlEntry& 
   for (const Posture& posture : model.postures()) states.insert(state_of(posture));
   // In the file's order: a mirrored transition must stand below its original.
   for (const YamlEntry& entry : root.at("transitions").items()) {
-    entry.allow_only({"name", "from", "to", "mirrors", "keyframes"});
+    entry.allow_only({"name", "from", "to", "mirrors", "fixed_durations", "keyframes"});
     KeyframeSequence sequence;
     if (entry.has("mirrors")) {
       const KeyframeSequence* original = graph.find(entry.at("mirrors").text());
@@ -133,6 +135,8 @@ TransitionGraph TransitionGraph::read(const RobotModel& model, const YamlEntry& 
       sequence = mirrored(model, *original);
     } else {
       sequence.keyframes = read_keyframes(model, entry.at("keyframes"));
+      sequence.has_fixed_durations =
+          entry.has("fixed_durations") && entry.at("fixed_durations").flag();
     }
     sequence.name = entry.at("name").text();
     sequence.from = entry.at("from").text();

@@ -66,6 +66,17 @@ TEST_F(ImportedStructure, HasAnotherRootWhereTheFrameIsTurnedOrMoved) {
   }
 }
 
+// Of a robot that is upside down in its root's frame, arms that point ahead hang along another
+// axis, as legs do.
+TEST_F(ImportedStructure, StandsOnTheLongestLimbsWhereTheRootsFrameIsTurned) {
+  for (const std::string side : {"left", "right"}) {
+    replace("<joint name=\"" + side + "_shoulder_pitch\"", "<origin ",
+            "<origin rpy=\"0 -1.57079632679 0\" ");
+  }
+  move_root("rpy=\"3.14159265358979 0 0\"");
+  EXPECT_EQ(foot_of(import(), 0), "left_foot");
+}
+
 TEST_F(ImportedStructure, StandsWithoutShapesOfTheFeet) {
   remove_shape("left_foot");
   remove_shape("right_foot");

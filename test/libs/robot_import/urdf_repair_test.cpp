@@ -7,6 +7,7 @@
 #include <random>
 #include <regex>
 
+#include "rendering/mesh_file.h"
 #include "robot_import/mesh_import.h"
 #include "sim/tree.h"
 #include "test/libs/robot_import/imported_urdf.h"
@@ -98,6 +99,68 @@ TEST_F(ImportedUrdf, FindsMeshesOfAPackageAndScalesThem) {
   EXPECT_EQ(trunk.collisions[0].kind, Shape::Kind::kBox);
   EXPECT_NEAR(trunk.collisions[0].size.x(), 0.1, 1e-6);
   EXPECT_THAT(lines_, Contains(HasSubstr("a box about it takes its place")));
+}
+
+/** A plate of n x n squares, 1 m wide, in OBJ, with hills of a height, m. */
+std::string make_plate(int n, double height) {
+  std::ostringstream text;
+  for (int i = 0; i <= n; ++i) {
+    for (int k = 0; k <= n; ++k) {
+      text << "v " << 1.0 * i / n << ' ' << 1.0 * k / n << ' ' << (i + k) % 2 * height << '\n';
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int k = 1; k <= n; ++k) {
+      const int corner = i * (n + 1) + k;
+      text << "f " << corner << ' ' << corner + n + 1 << ' ' << corner + n + 2 << ' ' << corner + 1
+           << '\n';
+    }
+  }
+  return text.str();
+}
+
+TEST_F(ImportedUrdf, HasMeshesOfFewBytesEachOnlyOnce) {
+  write_text(source() / "flat.obj", make_plate(50, 0));
+  write_text(source() / "rough.obj", make_plate(400, 0.003));
+  const auto visual = [](const std::string& file) {
+    return "<visual><geometry><mesh filename=\"" + file + "\"/></geometry></visual>";
+  };
+  add_to_link("trunk", visual("flat.obj") + visual("flat.obj"));
+  EXPECT_EQ(import().links().front().visuals.size(), 2u);
+  const std::filesystem::path flat = robot() / "meshes" / "0_flat.glb";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(flat.parent_path()), {}), 1);
+  // Two triangles need four corners.
+  EXPECT_LE(read_mesh_points(flat, Eigen::Vector3d::Ones()).size(), 8u);
+
+  // 320,000 triangles with hills that are higher than the finest error.
+  add_to_link("trunk", visual("rough.obj"));
+  import();
+  uintmax_t bytes = 0;
+  for (const auto& file : std::filesystem::directory_iterator(flat.parent_path())) {
+    bytes += file.file_size();
+  }
+  EXPECT_LE(bytes, 5'000'000u);
+}
+
+TEST_F(ImportedUrdf, KeepsTheOutsideOfAMirroredMesh) {
+  write_text(source() / "part.obj",
+             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  add_to_link(
+      "trunk",
+      "<visual><geometry><mesh filename=\"part.obj\" scale=\"1 -1 1\"/></geometry></visual>");
+  const RobotModel model = import();
+  const Mesh mesh = load_mesh(model.links().front().visuals.at(0).mesh);
+  // Signed volume of a closed surface: positive where its corners run counter-clockwise from
+  // outside.
+  float volume = 0;
+  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const auto corner = [&](size_t k) { return mesh.vertices[mesh.indices[i + k]].position; };
+    volume += corner(0).dot(corner(1).cross(corner(2))) / 6;
+    EXPECT_GT(mesh.vertices[mesh.indices[i]].normal.dot(corner(0) + corner(1) + corner(2) -
+                                                        3 * Eigen::Vector3f(0.2f, -0.2f, 0.2f)),
+              0);
+  }
+  EXPECT_NEAR(volume, 1.0 / 6, 1e-6);
 }
 
 TEST_F(ImportedUrdf, CollidesByCapsulesInThePlaceOfCylinders) {

@@ -27,6 +27,7 @@ const std::string kText =
     "        joints: {HeadYaw: 0, KneePitch: 2.1, LHipRoll: -0.2}\n"
     "        stiffness: {KneePitch: 0.3}\n"
     "        pause: 0.1\n"
+    "        ankle_damping: 0.1\n"
     "      - duration: 0.2\n"
     "        posture: Crouch\n"
     "        stiffness: {all: 1}\n"
@@ -41,9 +42,10 @@ TEST(TransitionText, FindsTheNumbersOfTheSelectedSequences) {
   const TransitionText text(nao_model(), kText, {"rise"}, {"HeadYaw"});
   std::vector<std::string> names;
   for (const auto& parameter : text.parameters()) names.push_back(parameter.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"rise 0 duration", "rise 0 KneePitch",
-                                             "rise 0 LHipRoll", "rise 0 stiffness KneePitch",
-                                             "rise 0 pause", "rise 1 duration"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"rise 0 duration", "rise 0 KneePitch", "rise 0 LHipRoll",
+                                      "rise 0 stiffness KneePitch", "rise 0 pause",
+                                      "rise 0 ankle_damping", "rise 1 duration"}));
   EXPECT_EQ(text.parameters()[1].value, 2.1);
 }
 
@@ -65,12 +67,13 @@ TEST(TransitionText, KnowsThePairsOfAnyRobot) {
 
 TEST(TransitionText, ChangesNumbersAndNothingElseWithinTheirRanges) {
   const TransitionText text(nao_model(), kText, {"rise"}, {"HeadYaw"});
-  Eigen::VectorXd values(6);
-  values << 0.25, 9, -0.1234, 0.05, 0, 0.4;
+  Eigen::VectorXd values(7);
+  values << 0.25, 9, -0.1234, 0.05, 0, 0.5, 0.4;
   const std::string changed = text.with(values);
   EXPECT_NE(changed.find("duration: 0.250  # s\n"), std::string::npos) << changed;
   EXPECT_NE(changed.find("{HeadYaw: 0, KneePitch: 2.112, LHipRoll: -0.123}"), std::string::npos);
   EXPECT_NE(changed.find("stiffness: {KneePitch: 0.100}"), std::string::npos);
+  EXPECT_NE(changed.find("ankle_damping: 0.300\n"), std::string::npos);
   EXPECT_NE(changed.find("joints: {KneePitch: 1.0}\n"), std::string::npos);
   // The new text loads: rounding moves no angle beyond its joint's limit.
   EXPECT_NO_THROW(motion::TransitionGraph::parse(nao_model(), changed));

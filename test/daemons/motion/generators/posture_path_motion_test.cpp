@@ -17,6 +17,7 @@ constexpr const char* kTransitions = R"(
 transitions:
   - {name: up, from: belly, to: on-feet, keyframes: [{duration: 0.5, joints: {HeadYaw: 0.3}}]}
   - {name: up-again, from: belly, to: on-feet, keyframes: [{duration: 0.5, joints: {HeadYaw: -0.3}}]}
+  - {name: roll, from: back, to: belly, keyframes: [{duration: 0.5}]}
   - {name: feet-together, from: on-feet, to: on-feet, keyframes: [{duration: 0.2}]}
 )";
 
@@ -31,7 +32,7 @@ class PosturePathMotionTest : public ::testing::Test {
     const Phase phase = motion_->step(robot_.context(0.01), robot_.targets());
     if (follows_) robot_.sensors().position = robot_.targets().position;
     robot_.measure();
-    if (is_lying_) robot_.lay_down({-1, 0, 0});
+    if (is_lying_) robot_.lay_down({is_on_back_ ? 1.0 : -1.0, 0, 0});
     return phase;
   }
   void lie() {
@@ -54,6 +55,7 @@ class PosturePathMotionTest : public ::testing::Test {
   RobotAtRest robot_;
   std::optional<PosturePathMotion> motion_;
   bool is_lying_ = false;
+  bool is_on_back_ = false;
   bool follows_ = true;
 };
 
@@ -96,6 +98,28 @@ TEST_F(PosturePathMotionTest, GetsUpAlongATransitionAndContinuesOnALine) {
 }
 
 // Commands that the mode refuses would otherwise end it while it rests.
+TEST_F(PosturePathMotionTest, APostureThatTheGetUpReachedNeedsNoFurtherMotion) {
+  const auto graph = TransitionGraph::parse(nao_model(), R"(
+transitions:
+  - {name: up, from: belly, to: on-feet, keyframes: [{duration: 0.3, posture: StandInit}]}
+)");
+  const int knee = nao_motor("LKneePitch");
+  robot_.targets().position[knee] += 0.5;
+  robot_.sensors().position = robot_.targets().position;
+  lie();
+  motion_.emplace(graph, *nao_model().find_posture("StandInit"), 0.5);
+  motion_->start(robot_.context(), robot_.targets());
+  while (motion_->progress() < 0.45) {
+    const double before = robot_.targets().position[knee];
+    ASSERT_EQ(step(), Phase::kRunning);
+    robot_.targets().velocity[knee] = (robot_.targets().position[knee] - before) / 0.01;
+  }
+  stand();
+  int num_steps = 0;
+  for (; step() == Phase::kRunning; ++num_steps) ASSERT_LT(num_steps, 10);
+  EXPECT_LE(num_steps, 6);  // of which the transition takes up to four
+}
+
 TEST_F(PosturePathMotionTest, GetsUpFromItsStartUntilItIsOnItsFeetAlsoWhileItRests) {
   lie();
   start("StandInit");
@@ -135,6 +159,26 @@ TEST_F(PosturePathMotionTest, TriesAnotherTransitionAfterAFailure) {
   }
   EXPECT_NEAR(greatest, 0.3, 1e-9);
   EXPECT_NEAR(least, -0.3, 1e-9);
+}
+
+TEST_F(PosturePathMotionTest, AFailedRollDoesNotChangeTheGetUpMotionAfterIt) {
+  const int head = nao_motor("HeadYaw");
+  is_on_back_ = true;
+  is_lying_ = true;
+  robot_.lay_down({1, 0, 0});
+  start("StandInit");
+  // A roll fails; the second one succeeds, and the get-up motion after it is played to its end.
+  for (int i = 0; i < 100; ++i) step();
+  is_on_back_ = false;
+  double least = 0;
+  double greatest = 0;
+  for (int i = 0; i < 75; ++i) {
+    step();
+    least = std::min(least, robot_.targets().position[head]);
+    greatest = std::max(greatest, robot_.targets().position[head]);
+  }
+  EXPECT_NEAR(greatest, 0.3, 1e-9);
+  EXPECT_EQ(least, 0);
 }
 
 TEST_F(PosturePathMotionTest, GivesUpAfterSixTries) {

@@ -36,8 +36,26 @@ TEST(TransitionGraph, AvoidsExcludedTransitions) {
   EXPECT_TRUE(graph.find_path("back", "on-feet", {graph.find("up"), graph.find("push")}).empty());
 }
 
+TEST(TransitionGraph, ReadsFeedbackAndFixedDurationsAlsoOfAMirrorImage) {
+  const auto graph = TransitionGraph::parse(nao_model(), R"(
+transitions:
+  - name: a
+    from: left
+    to: on-feet
+    fixed_durations: true
+    keyframes: [{duration: 1, ankle_damping: 0.1}, {duration: 1}]
+  - {name: b, from: right, to: on-feet, mirrors: a}
+)");
+  for (const char* name : {"a", "b"}) {
+    EXPECT_TRUE(graph.find(name)->has_fixed_durations) << name;
+    EXPECT_EQ(graph.find(name)->keyframes[0].ankle_damping, 0.1) << name;
+    EXPECT_EQ(graph.find(name)->keyframes[1].ankle_damping, 0) << name;
+  }
+}
+
 TEST(TransitionGraph, RefusesTimesBelowZero) {
-  for (const char* keyframe : {"{duration: -1}", "{duration: 1, pause: -0.5}"}) {
+  for (const char* keyframe :
+       {"{duration: -1}", "{duration: 1, pause: -0.5}", "{duration: 1, ankle_damping: -0.1}"}) {
     const std::string text = "transitions:\n  - {name: up, from: back, to: on-feet, keyframes: [" +
                              std::string(keyframe) + "]}\n";
     EXPECT_THROW(TransitionGraph::parse(nao_model(), text), Error) << keyframe;
