@@ -4,12 +4,14 @@ import {mkdtemp, rm} from "node:fs/promises";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 import {after, before, test} from "node:test";
+import {violations} from "./accessibility.mjs";
 import {kBluetoothOptions, Radio} from "./radio.mjs";
 import {setUp} from "./set_up.mjs";
 import {until} from "./stack.mjs";
 
 const {stack, openPhone} = setUp({scene: null, hasPhone: false, browserOptions: kBluetoothOptions});
 const radio = new Radio();
+const kIphone = "Mozilla/5.0 (iPhone; CPU iPhone OS 17_5 like Mac OS X) AppleWebKit/605.1.15 (KHTML, like Gecko) Version/17.5 Mobile/15E148 Safari/604.1";
 let folder;
 let phone;
 
@@ -37,6 +39,7 @@ test("a wrong pairing code is refused by Bluetooth", async () => {
   await phone.tap(".menu-button");
   await phone.tap(".menu-buttons button:last-child");
   await phone.sees("connection");
+  assert.deepEqual(await violations(phone), []);
   await field("token").fill("wrong");
   const before = radio.numWrites;
   await phone.tap(".bluetooth");
@@ -61,6 +64,15 @@ test("the phone drives the robot by Bluetooth", async (t) => {
     return Math.hypot(torso[0] - begin[0], torso[1] - begin[1]) > 0.2;
   });
   t.diagnostic(`latency ${(await phone.look("state.latencyMs")).toFixed(0)} ms`);
+});
+
+test("an iPhone is told why it has no Bluetooth", async () => {
+  const iphone = await openPhone(`http://127.0.0.1:${stack.httpPort}/`, {width: 360, height: 640}, {userAgent: kIphone});
+  await iphone.page.addInitScript(() => Object.defineProperty(navigator, "bluetooth", {value: undefined}));
+  await iphone.page.reload();
+  await iphone.page.locator(".no-bluetooth").waitFor({state: "attached"});
+  assert.equal(await iphone.page.locator(".bluetooth").count(), 0);
+  await iphone.close();
 });
 
 test("out of reach the robot stops and the app says so; back in reach it connects again", async () => {
