@@ -173,6 +173,7 @@ def parse_options(arguments=None):
     line.option("--relay", metavar="HOST[:PORT]",
                 help="a public server with nao-relay, over which phones that nao invite lets in drive or watch from anywhere: "
                      "docs/anywhere.md")
+    line.option("--bluetooth", action="store_true", help="also serve one phone at a time by Bluetooth, with BlueZ: docs/app.md")
     line.option("--token", metavar="TOKEN", help="access token for phones (default: a new random one)")
     line.option("--bin", metavar="DIR", default=os.environ.get("NAO_REMOTE_BIN") or None,
                 help="folder of built programs (default: NAO_REMOTE_BIN, or build them)")
@@ -394,6 +395,7 @@ def command_of(process, processes, stack, settings, options, robots):
                   "--audit-log", stack.logs / "phones.jsonl"]
         words += exhibition_options(stack, options.exhibition) if options.exhibition else []
         words += ["--relay", options.relay] if options.relay else []
+        words += ["--bluetooth"] if options.bluetooth else []
         # A camera program may run on another host.
         words += ["--overview"] if options.backend != "robot" and (CAMERA in options.programs or options.only) else []
     elif program == VISION:

@@ -19,6 +19,8 @@ struct GatewayOptions {
   std::string scene = "soccer";
   /** Offer the overview of a simulated world as a camera of every robot. */
   bool has_overview = false;
+  /** Serve a phone by Bluetooth, under the first robot's name. */
+  bool has_bluetooth = false;
   /** Pairing token; empty: a new one at each start. */
   std::string token;
   /** File of the token if `token` is empty, created if it does not exist; empty: none. */

@@ -102,6 +102,8 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
   app.add_option("--relay-file", network.relay_file,
                  "File of the robot's key at --relay and of the invitations of nao invite; "
                  "default: ~/.local/state/nao-remote/relay.json");
+  app.add_flag("--bluetooth", options.has_bluetooth,
+               "Also serve one phone at a time by Bluetooth, with BlueZ: docs/app.md");
   app.add_option("--exhibition", options.exhibition_file,
                  "Visitors drive in turn, by the settings in this file: docs/exhibition.md")
       ->existing_file();
@@ -294,6 +296,7 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
     options.network.relay_file = default_relay_file();
   }
   const std::vector<RobotOption> robots = parse_robot_options(options.robots, options.model);
+  if (options.has_bluetooth) options.network.bluetooth_name = robots.front().name;
   if (request_realtime_scheduling(RealtimePriority::kServing))
     logger::info("uses real-time scheduling (SCHED_RR)");
   Bus bus(common.lcm_url);

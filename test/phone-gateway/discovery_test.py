@@ -20,19 +20,6 @@ from hosts import Hosts, ip  # noqa: E402
 BIN_DIR = Path(os.environ["NAO_BIN_DIR"])
 DEADLINE = 60  # s
 
-DBUS_CONFIGURATION = """\
-<busconfig>
-  <type>system</type>
-  <listen>unix:path={socket}</listen>
-  <auth>EXTERNAL</auth>
-  <policy context="default">
-    <allow user="*"/>
-    <allow own="*"/>
-    <allow send_destination="*" eavesdrop="true"/>
-    <allow eavesdrop="true"/>
-  </policy>
-</busconfig>
-"""
 AVAHI_CONFIGURATION = """\
 [server]
 host-name={host}
@@ -77,9 +64,8 @@ class Host:
         log.close()
 
     def start_dbus(self):
-        configuration = self.folder / "dbus.conf"
-        configuration.write_text(DBUS_CONFIGURATION.format(socket=self.bus))
-        self.start("dbus", "dbus-daemon", "--nofork", f"--config-file={configuration}")
+        self.start("dbus", "dbus-daemon", "--nofork", f"--config-file={ROOT / 'test/support/system_bus.conf'}",
+                   f"--address=unix:path={self.bus}")
         wait_for(self.bus.exists, self)
 
     def start_avahi(self):

@@ -27,8 +27,8 @@ struct LoggedChannel {
 
   /** Mean rate between the first and the last message, Hz; 0 for a single message. */
   double rate() const;
-  /** Number of ticks between the first and the last one that the log lacks: at rest they are not sent,
-   * else their messages were lost. */
+  /** Number of ticks between the first and the last one that the log lacks: at rest they are not
+   * sent, else their messages were lost. */
   int64_t num_missing_ticks() const;
 };
 

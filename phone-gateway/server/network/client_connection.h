@@ -44,9 +44,11 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
   /** Everything has been sent: closes the sending direction. */
   virtual void shut_down() = 0;
   /** What is known of the connection with the client. */
-  virtual LinkMeasurement measure() { return measure_link(socket()); }
-  /** The TCP socket. */
-  virtual Tcp::socket& socket() = 0;
+  virtual LinkMeasurement measure() { return measure_link(*socket()); }
+  /** Bytes that were written and that the other end has not acknowledged. */
+  virtual size_t unacknowledged() { return count_unacknowledged(*socket()); }
+  /** The TCP socket; null: there is none, and measure() and unacknowledged() are overridden. */
+  virtual Tcp::socket* socket() { return nullptr; }
   /** Closes the socket; operations in progress end with an error. */
   virtual void close_socket() = 0;
 

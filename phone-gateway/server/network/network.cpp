@@ -1,3 +1,4 @@
+#include "phone-gateway/server/network/bluetooth_server.h"
 #include "phone-gateway/server/network/connection_context.h"
 #include "phone-gateway/server/network/relay_client.h"
 #include "phone-gateway/server/network/websocket_connection.h"
@@ -40,6 +41,9 @@ struct Network::Impl {
         tcp(loop->io(), options.bind, options.tcp_port, "--tcp-port",
             accepting([this](Tcp::socket socket) { serve_tcp(context, std::move(socket)); })),
         congestion_control(options.congestion_control) {
+    if (!options.bluetooth_name.empty()) {
+      bluetooth = std::make_unique<BluetoothServer>(context, options.bluetooth_name);
+    }
     if (options.relay.empty()) return;
     relay = std::make_unique<RelayClient>(context, options.relay, options.relay_file);
     loop->every(kInvitationPeriod, [this] {
@@ -64,6 +68,7 @@ struct Network::Impl {
   std::function<void()> on_accepted;
   std::string congestion_control;
   std::unique_ptr<RelayClient> relay;
+  std::unique_ptr<BluetoothServer> bluetooth;
 };
 
 Network::Network(const NetworkOptions& options, AccessRules rules, GatewayCore& core,
@@ -73,6 +78,7 @@ Network::Network(const NetworkOptions& options, AccessRules rules, GatewayCore& 
 
 Network::~Network() {
   impl_->relay.reset();
+  impl_->bluetooth.reset();
   impl_->context.is_shutting_down = true;
 }
 

@@ -34,6 +34,8 @@ struct NetworkOptions {
   /** HOST[:PORT] of the relay to dial, and the file of its invitations; empty: none. */
   std::string relay;
   std::string relay_file;
+  /** Name by which phones find it by Bluetooth; empty: no Bluetooth. */
+  std::string bluetooth_name;
 };
 
 /** The gateway's sockets and their loop: HTTP and WebSocket on one port, raw TCP on another. */

@@ -2,7 +2,6 @@
 //
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
-#include <deque>
 #include <optional>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "phone-gateway/secure_channel/secure_channel.h"
 #include "phone-gateway/server/core/gateway_reasons.h"
 #include "phone-gateway/server/network/client_connection.h"
+#include "phone-gateway/server/network/round_trip.h"
 
 namespace nao::gateway {
 namespace {
@@ -24,40 +24,6 @@ namespace websocket = beast::websocket;
 constexpr std::chrono::seconds kFetchTimeout{5};
 /** A phone is silent for 5 s at most (PROTOCOL.md, 6); the relay may be gone without a word. */
 constexpr std::chrono::seconds kPhoneSilence{15};
-/** Frames whose acknowledgement is awaited, to measure the round-trip time. Chosen: a second of
- * states. */
-constexpr size_t kMaxTimedFrames = 128;
-/** Weight of a new round-trip time in the mean (RFC 6298, 2: alpha). */
-constexpr double kNewRoundTripWeight = 0.125;
-
-/** Round-trip time between gateway and phone, by the numbers that frames acknowledge: the kernel
- * knows that of the way to the relay only. A phone sends at its own pace, up to which it is longer.
- */
-class RoundTrip {
- public:
-  void sent(uint64_t number, double now) {
-    frames_.emplace_back(number, now);
-    if (frames_.size() > kMaxTimedFrames) frames_.pop_front();
-  }
-  void acknowledged(uint64_t num_received, double now) {
-    std::optional<double> time;
-    while (!frames_.empty() && frames_.front().first < num_received) {
-      time = now - frames_.front().second;
-      frames_.pop_front();
-    }
-    if (!time) return;
-    least_ = least_ == 0 ? *time : std::min(least_, *time);
-    mean_ = mean_ == 0 ? *time : mean_ + kNewRoundTripWeight * (*time - mean_);
-  }
-  double mean() const { return mean_; }
-  double least() const { return least_; }
-
- private:
-  std::deque<std::pair<uint64_t, double>> frames_;
-  double mean_ = 0;
-  double least_ = 0;
-};
-
 class RelayedConnection : public ClientConnection, public RelayedPhone {
  public:
   RelayedConnection(ConnectionContext& context, FindInvitation find_invitation)
@@ -190,13 +156,13 @@ class RelayedConnection : public ClientConnection, public RelayedPhone {
   }
 
   LinkMeasurement measure() override {
-    LinkMeasurement link = measure_link(socket());
+    LinkMeasurement link = measure_link(*socket());
     link.mean = round_trip_.mean();
     link.least = round_trip_.least();
     return link;
   }
 
-  Tcp::socket& socket() override { return beast::get_lowest_layer(socket_).socket(); }
+  Tcp::socket* socket() override { return &beast::get_lowest_layer(socket_).socket(); }
 
   void close_socket() override { beast::get_lowest_layer(socket_).close(); }
 

@@ -70,7 +70,7 @@ class TcpConnection : public ClientConnection {
     socket_.shutdown(Tcp::socket::shutdown_send, ignored);
   }
 
-  Tcp::socket& socket() override { return socket_; }
+  Tcp::socket* socket() override { return &socket_; }
 
   void close_socket() override {
     error_code ignored;

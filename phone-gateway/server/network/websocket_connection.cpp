@@ -64,7 +64,7 @@ class WebSocketConnection : public ClientConnection {
         error.category() == make_error_code(websocket::error::closed).category();
     if (!is_websocket_error || error == websocket::error::closed) return;
     ++context_.counters.num_violations;
-    context_.core.note_refusal(make_endpoint(socket(), "").address,
+    context_.core.note_refusal(make_endpoint(*socket(), "").address,
                                "WebSocket: " + error.message());
   }
 
@@ -98,7 +98,7 @@ class WebSocketConnection : public ClientConnection {
     });
   }
 
-  Tcp::socket& socket() override { return beast::get_lowest_layer(socket_).socket(); }
+  Tcp::socket* socket() override { return &beast::get_lowest_layer(socket_).socket(); }
 
   void close_socket() override { beast::get_lowest_layer(socket_).close(); }
 

@@ -1,4 +1,5 @@
 /** The app: which screen is seen, and how the parts hang together. */
+import type {BluetoothPeer} from "./bluetooth/web_bluetooth";
 import {Commander} from "./commander";
 import {Connection} from "./connection";
 import {HeldControls} from "./controls/held_controls";
@@ -53,6 +54,9 @@ const kSoftware = "nao-phone-app 0.1.0";
 /** The screen's rate: a joint is seen to move 8 ms sooner than at half the rate, for 20 kB/s. */
 const kStateRateHz = 60;
 const kImageRateHz = 15;
+/** By Bluetooth, 100 kbit/s: 20 states a second also while an image is sent. */
+const kNarrowStateRateHz = 25;
+const kNarrowImage = {rate: 1, width: 160, quality: 30};
 
 /** Felt: a tap that did something, the end of a joint's range, a refusal; ms on, off, on. */
 const kTapPattern = 12;
@@ -64,6 +68,7 @@ type ScreenName = "loading" | "connection" | "lobby" | "controller";
 export class App {
   private readonly store = new Store();
   private readonly messages = new Messages(this.store);
+  private readonly transport = new GatewayTransport(new URL(location.href));
   private readonly connection: Connection;
   private readonly commander: Commander;
   private readonly walk: WalkSender;
@@ -94,7 +99,7 @@ export class App {
 
   constructor(private readonly root: HTMLElement, private settings: Settings) {
     this.connection = new Connection(
-        new GatewayTransport(new URL(location.href)), this.store, {
+        this.transport, this.store, {
           connected: () => void this.connected(),
           robotChanged: () => {
             this.lobby.robotChanged();
@@ -146,6 +151,7 @@ export class App {
     this.speech = new Speech(this.store, this.commander, this.stage, storage(), this.sound, () => this.subscribe());
     this.connectionScreen = new ConnectionScreen(this.store, {
       connect: (form) => this.connect(form),
+      connectByBluetooth: (form, peer) => this.connectByBluetooth(form, peer),
       cancel: () => this.connection.disconnect(),
       retryNow: () => this.connection.retryNow(),
     });
@@ -285,10 +291,18 @@ export class App {
   private connect({address, token, clientName}: ConnectionForm): void {
     this.keep({clientName});
     this.token = token;
+    this.transport.peer = null;
     const url = pageUrl(address, token);
     // Another robot's page comes from that robot: its gateway lets no foreign page in.
     if (url && url.host !== location.host) location.assign(url);
     else this.open();
+  }
+
+  private connectByBluetooth({token, clientName}: ConnectionForm, peer: BluetoothPeer): void {
+    this.keep({clientName});
+    this.token = token;
+    this.transport.peer = peer;
+    this.open();
   }
 
   private open(): void {
@@ -308,7 +322,8 @@ export class App {
   }
 
   private async connected(): Promise<void> {
-    this.keep(remember(this.settings, location.host, this.token));
+    // By Bluetooth it may be another robot than that of the page.
+    if (!this.transport.peer) this.keep(remember(this.settings, location.host, this.token));
     this.connectionScreen.fill(location.host, this.token, this.settings);
     await this.showRobot();
   }
@@ -330,10 +345,14 @@ export class App {
     if (this.store.get().phase !== "connected") return;
     // Nothing is seen of the robot in the list of robots either.
     const isHidden = document.visibilityState === "hidden" || this.store.get().isChoosingRobot;
-    const request = {camera: this.image.camera, width: this.image.isLarge ? 640 : 320};
-    void this.connection.request(useCases.subscribe(isHidden ? 0 : kStateRateHz,
-                                                    isHidden ? 0 : kImageRateHz, request,
-                                                    {audio: this.speech.isPlaying, playState: true,
+    const {isNarrow} = this.transport;
+    const {camera} = this.image;
+    const request = isNarrow ? {camera, width: kNarrowImage.width, quality: kNarrowImage.quality} :
+        {camera, width: this.image.isLarge ? 640 : 320};
+    const [stateRate, imageRate] = isNarrow ? [kNarrowStateRateHz, kNarrowImage.rate] : [kStateRateHz, kImageRateHz];
+    void this.connection.request(useCases.subscribe(isHidden ? 0 : stateRate,
+                                                    isHidden ? 0 : imageRate, request,
+                                                    {audio: this.speech.isPlaying && !isNarrow, playState: true,
                                                      vision: !isHidden}));
   }
 

@@ -18,12 +18,15 @@ import type {Transport} from "./transport";
 export const kSilenceMs = 5000;
 /** A transport that has not opened by then will not. */
 export const kOpenTimeoutMs = 5000;
+/** The same where a connection takes long. Chosen: a phone finds a device and its services by Bluetooth in some seconds. */
+const kNarrowOpenTimeoutMs = 20_000;
 /** Keeps the connection open and samples the latency. */
 export const kPingPeriodMs = 1000;
 const kCheckPeriodMs = 100;
 const kNumLatencySamples = 5;
 /** A state that waits behind this many bytes would come too late to be of use. */
 const kMaxBacklogBytes = 16384;
+const kNarrowMaxBacklogBytes = 256;
 
 /** Receives the events of a connection. */
 export interface ConnectionListener {
@@ -116,7 +119,7 @@ export class Connection {
 
   /** True while what is sent now would wait behind much else; repeated commands are left out then. */
   isCongested(): boolean {
-    return this.transport.backlogBytes() > kMaxBacklogBytes;
+    return this.transport.backlogBytes() > (this.transport.isNarrow ? kNarrowMaxBacklogBytes : kMaxBacklogBytes);
   }
 
   private open(): void {
@@ -125,7 +128,8 @@ export class Connection {
     this.closingReason = "";
     const attempt = ++this.attempt;
     this.store.set({phase: "connecting", nextAttemptMs: 0});
-    this.openTimer = setTimeout(() => void this.failed("unreachable"), kOpenTimeoutMs);
+    this.openTimer = setTimeout(() => void this.failed(this.unreachable()),
+                                this.transport.isNarrow ? kNarrowOpenTimeoutMs : kOpenTimeoutMs);
     this.transport.open({
       opened: () => void this.greet(attempt),
       received: (bytes) => this.received(bytes),
@@ -291,7 +295,11 @@ export class Connection {
       return;
     }
     const answers = await this.transport.somethingAnswers();
-    if (attempt === this.attempt) this.failed(answers ? "not-a-robot" : "unreachable");
+    if (attempt === this.attempt) this.failed(answers ? "not-a-robot" : this.unreachable());
+  }
+
+  private unreachable(): Problem {
+    return this.transport.isNarrow ? "no-bluetooth" : "unreachable";
   }
 
   private failed(problem: Problem, detail = ""): void {

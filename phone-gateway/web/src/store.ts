@@ -18,7 +18,7 @@ export type LinkPhase =
 
 /** Why there is no connection; each has a sentence and an advice in text/texts.ts. */
 export type Problem =
-    "unreachable" | "not-a-robot" | "wrong-token" | "wrong-version" | "too-many" | "silent" |
+    "unreachable" | "no-bluetooth" | "not-a-robot" | "wrong-token" | "wrong-version" | "too-many" | "silent" |
     "closed";
 
 /** A message to the user, shown for some seconds. */

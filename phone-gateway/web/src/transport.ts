@@ -1,7 +1,7 @@
+import type {BluetoothPeer} from "./bluetooth/web_bluetooth";
 import {timeLimit} from "./time_limit";
 
-/** How messages reach the gateway. WebSocket today; another transport (WebRTC, Bluetooth) implements
- * the same interface and is chosen in main.ts. */
+/** How messages reach the gateway. */
 export interface Transport {
   /** Starts to connect, by a token or an invitation; exactly one of the listener's calls follows in time. */
   open(listener: TransportListener, token?: string): void;
@@ -13,6 +13,8 @@ export interface Transport {
   backlogBytes(): number;
   /** Images come over this connection too. */
   readonly isSingle?: boolean;
+  /** It carries some kB a second, and takes seconds to open. */
+  readonly isNarrow?: boolean;
   /** Another connection to the same gateway, for images. */
   another?(): Transport;
   /** True if something answers at the address at all; asked after a failure, to say why. */
@@ -29,9 +31,11 @@ export interface TransportListener {
 /** An invitation over the relay is "ROBOT.ID.SECRET"; a pairing token has no dot. */
 export const isInvitation = (token: string): boolean => token.includes(".");
 
-/** The gateway, or where the token is an invitation, the relay that has served the page. */
+/** The gateway, by Bluetooth or by the network; where the token is an invitation, the relay that has served the page. */
 export class GatewayTransport implements Transport {
   isSingle = false;
+  /** By Bluetooth from the next open() on; null: by the network. */
+  peer: BluetoothPeer | null = null;
   private inner: Transport | null = null;
   private attempt = 0;
 
@@ -43,14 +47,24 @@ export class GatewayTransport implements Transport {
       this.inner = transport ?? new WebSocketTransport(this.pageUrl);
       this.inner.open(listener);
     };
-    this.isSingle = isInvitation(token);
+    this.isSingle = this.isNarrow || isInvitation(token);
     if (!this.isSingle) return start(null);
     const attempt = this.attempt;
-    import("./relay/sealed_transport").then(({openInvitation}) => {
-      if (attempt === this.attempt) start(openInvitation(token, (path) => new WebSocketTransport(this.pageUrl, path)));
+    this.load(token).then((transport) => {
+      if (attempt === this.attempt) start(transport);
     }, () => {
       if (attempt === this.attempt) listener.closed(false);
     });
+  }
+
+  get isNarrow(): boolean {
+    return this.peer !== null;
+  }
+
+  private async load(token: string): Promise<Transport | null> {
+    if (this.peer) return new (await import("./bluetooth/bluetooth_transport")).BluetoothTransport(this.peer);
+    const {openInvitation} = await import("./relay/sealed_transport");
+    return openInvitation(token, (path) => new WebSocketTransport(this.pageUrl, path));
   }
 
   send(bytes: Uint8Array): void {
@@ -72,6 +86,7 @@ export class GatewayTransport implements Transport {
   }
 
   somethingAnswers(): Promise<boolean> {
+    if (this.inner && this.isNarrow) return this.inner.somethingAnswers();
     return new WebSocketTransport(this.pageUrl).somethingAnswers();
   }
 }

@@ -12,9 +12,10 @@ export function requireFromApp(webDir) {
   return createRequire(`${webDir}/package.json`);
 }
 
-export async function openBrowser(webDir) {
+/** @param options  more options of Chromium. */
+export async function openBrowser(webDir, options = []) {
   const {chromium} = requireFromApp(webDir)("playwright-core");
-  return chromium.launch({executablePath: kChromium, args: kOptions});
+  return chromium.launch({executablePath: kChromium, args: [...kOptions, ...options]});
 }
 
 /** In the page: what the app remembers. */

@@ -12,9 +12,11 @@ export const kWebDir = process.env.NAO_WEB_SOURCE_DIR;
  * @param pace  simulated seconds per second, of several robots.
  * @param model  the robot, a folder of robots/.
  * @param hasPhone  true: `phone` sees the controller before the first test.
+ * @param browserOptions  more options of Chromium.
  * @param prepare  what it does then, still before the first test.
  * @return {stack, phone, openPhone}; openPhone(url, size, options) opens one more. */
-export function setUp({scene = "empty", model = "nao", robots = [], pace = 1, hasPhone = true, prepare = () => {}} = {}) {
+export function setUp({scene = "empty", model = "nao", robots = [], pace = 1, hasPhone = true, prepare = () => {},
+                       browserOptions = []} = {}) {
   const url = process.env.NAO_PHONE_URL;
   const stack = url ? {url, start: () => {}, stop: () => {}} : new Stack(process.env.NAO_BIN_DIR);
   const phone = new Phone();
@@ -22,7 +24,7 @@ export function setUp({scene = "empty", model = "nao", robots = [], pace = 1, ha
   before(async () => {
     if (robots.length > 0) await stack.startSeveral(robots, {scene, pace});
     else if (scene) await stack.start({scene, model});
-    browser = await openBrowser(kWebDir);
+    browser = await openBrowser(kWebDir, browserOptions);
     if (!hasPhone) return;
     await phone.open(browser, stack.url);
     await phone.sees("controller");

@@ -23,6 +23,7 @@ const kRemedies: Record<Problem, readonly [Remedy, TextKey]> = {
   "not-a-robot": ["form", "connection.typeCode"],
   "too-many": ["retry", "connection.now"],
   unreachable: ["retry", "connection.now"],
+  "no-bluetooth": ["retry", "connection.now"],
   silent: ["retry", "connection.now"],
   closed: ["retry", "connection.now"],
 };

@@ -1,4 +1,6 @@
 /** Where to connect to, and why it does not work just now. */
+import {chooseRobot, findBluetooth, isApple} from "../bluetooth/web_bluetooth";
+import type {BluetoothPeer} from "../bluetooth/web_bluetooth";
 import {el} from "../dom";
 import type {Gateway} from "../nearby";
 import {readForm} from "../settings";
@@ -15,6 +17,7 @@ export interface ConnectionForm {
 
 export interface ConnectionActions {
   connect(form: ConnectionForm): void;
+  connectByBluetooth(form: ConnectionForm, peer: BluetoothPeer): void;
   cancel(): void;
   retryNow(): void;
 }
@@ -46,7 +49,7 @@ export class ConnectionScreen {
       labelled(say("connection.address"), this.address),
       labelled(say("connection.token"), this.token, say("connection.tokenHelp")),
       labelled(say("connection.name"), this.clientName),
-      el("div", {class: "buttons"}, this.cancel, this.submit),
+      el("div", {class: "buttons"}, this.cancel, this.submit), this.bluetooth(),
       this.nearby, this.recent);
     this.element = el("section", {class: "screen connection-screen"}, form);
     store.watch((state) => `${state.phase} ${state.problem} ${state.nextAttemptMs}`,
@@ -77,6 +80,19 @@ export class ConnectionScreen {
           class: "button quiet", type: "button",
           onclick: () => this.actions.connect({address, token: "", clientName: this.clientName.value}),
         }, `${name} (${address})`))));
+  }
+
+  /** The second way; or the sentence why there is none. */
+  private bluetooth(): HTMLElement | null {
+    const bluetooth = findBluetooth();
+    if (!bluetooth) return isApple() ? el("p", {class: "quiet help no-bluetooth"}, say("connection.noBluetooth")) : null;
+    const connect = async () => {
+      const form = this.read();
+      const peer = await chooseRobot(bluetooth);
+      if (peer) this.actions.connectByBluetooth(form, peer);
+    };
+    return el("button", {class: "button quiet bluetooth", type: "button", onclick: () => void connect()},
+              say("connection.bluetooth"));
   }
 
   private submitted(event: Event): void {
