@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <memory>
 
 #include "common/error.h"
 #include "common/rotation.h"
@@ -150,10 +151,13 @@ void convert_mesh(const std::filesystem::path& source, const Eigen::Vector3d& sc
                   const std::filesystem::path& target, double error) {
   run_with(source, [&] {
     Assimp::Importer importer;
-    const aiScene& scene = read_scene(importer, source, scale);
-    for (unsigned i = 0; i < scene.mNumMeshes; ++i) simplify(*scene.mMeshes[i], error);
+    read_scene(importer, source, scale);
+    const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) simplify(*scene->mMeshes[i], error);
+    // With this flag the exporter gives each triangle corners of its own.
+    scene->mFlags &= ~static_cast<unsigned>(AI_SCENE_FLAGS_NON_VERBOSE_FORMAT);
     Assimp::Exporter exporter;
-    if (exporter.Export(&scene, "glb2", target.string()) != AI_SUCCESS) {
+    if (exporter.Export(scene.get(), "glb2", target.string()) != AI_SUCCESS) {
       throw ModelError(target.string() + " cannot be written: " + exporter.GetErrorString());
     }
     return std::string();
