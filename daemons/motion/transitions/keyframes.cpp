@@ -50,7 +50,6 @@ KeyframePlayer::KeyframePlayer(const RobotModel& model, const KeyframeSequence& 
     for (size_t i = 0; i < num_motors; ++i) {
       // NaN: the joint keeps its last target.
       if (!std::isnan(keyframe.position[i])) stage.to[i] = keyframe.position[i];
-      if (sequence.has_fixed_durations) continue;
       // No stage is faster than its slowest joint; all joints arrive together.
       const double distance = std::abs(stage.to[i] - stage.from[i]);
       duration = std::max(duration, kMinDurationRatio * distance /

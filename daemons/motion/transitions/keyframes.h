@@ -45,8 +45,6 @@ struct KeyframeSequence {
   std::string from;
   std::string to;
   std::vector<Keyframe> keyframes;
-  /** A joint that cannot turn so fast arrives later; otherwise all joints wait for it. */
-  bool has_fixed_durations = false;
 
   /** s at full speed. */
   double duration() const;
@@ -73,7 +71,7 @@ class KeyframePlayer {
   KeyframePlayer() = default;
 
   /** @param start  rad, (num_motors). @param speed  (0, 1]: divides the durations, which are
-   * extended where a motor could not turn fast enough, unless they are fixed. */
+   * extended where a motor could not turn fast enough. */
   KeyframePlayer(const RobotModel& model, const KeyframeSequence& sequence,
                  const std::vector<double>& start, double speed);
 

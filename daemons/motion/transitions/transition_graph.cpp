@@ -127,7 +127,7 @@ TransitionGraph TransitionGraph::read(const RobotModel& model, const YamlEntry& 
   for (const Posture& posture : model.postures()) states.insert(state_of(posture));
   // In the file's order: a mirrored transition must stand below its original.
   for (const YamlEntry& entry : root.at("transitions").items()) {
-    entry.allow_only({"name", "from", "to", "mirrors", "fixed_durations", "keyframes"});
+    entry.allow_only({"name", "from", "to", "mirrors", "keyframes"});
     KeyframeSequence sequence;
     if (entry.has("mirrors")) {
       const KeyframeSequence* original = graph.find(entry.at("mirrors").text());
@@ -135,8 +135,6 @@ TransitionGraph TransitionGraph::read(const RobotModel& model, const YamlEntry& 
       sequence = mirrored(model, *original);
     } else {
       sequence.keyframes = read_keyframes(model, entry.at("keyframes"));
-      sequence.has_fixed_durations =
-          entry.has("fixed_durations") && entry.at("fixed_durations").flag();
     }
     sequence.name = entry.at("name").text();
     sequence.from = entry.at("from").text();

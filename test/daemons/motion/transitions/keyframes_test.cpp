@@ -84,12 +84,6 @@ TEST_F(KeyframePlayerTest, TakesLongerWhereAMotorWouldBeTooSlow) {
               1e-9);
 }
 
-TEST_F(KeyframePlayerTest, WithFixedDurationsNoJointExtendsAKeyframe) {
-  KeyframeSequence sequence{"test", "", "", {keyframe(0.01, start_[head_] + 2)}};
-  sequence.has_fixed_durations = true;
-  EXPECT_DOUBLE_EQ(KeyframePlayer(nao_model(), sequence, start_, 1).duration(), 0.01);
-}
-
 TEST_F(KeyframePlayerTest, SetsStiffnessOnlyWhereAKeyframeDoes) {
   Keyframe soft = keyframe(1, 0.5);
   soft.stiffness[head_] = 0.3;
