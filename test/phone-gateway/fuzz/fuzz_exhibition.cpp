@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "phone-gateway/server/exhibition/exhibition_settings.h"
+#include "phone-gateway/server/exhibition/fence.h"
 #include "phone-gateway/server/exhibition/queue_file.h"
 
 namespace nao::gateway {
