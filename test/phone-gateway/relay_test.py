@@ -17,7 +17,8 @@ NUM_PHONES = 1000
 # kB, without the program itself, which is mapped from files.
 MAX_MEMORY = 100_000
 IMAGE = bytes(range(256)) * 60
-BINARY, CLOSE, PING = 0x82, 0x88, 0x89
+BINARY, CLOSE, PING, PONG = 0x82, 0x88, 0x89, 0x8A
+PING_PERIOD = 3  # s
 
 TLS = ssl.create_default_context()
 TLS.check_hostname = False
@@ -35,6 +36,17 @@ def robot_of(robot_key):
 class Socket:
     """A WebSocket to the relay: RFC 6455, whole messages below 64 kB."""
 
+    all = []
+
+    @classmethod
+    async def ping_all(cls):
+        """For all that open from now on: the relay closes who is silent."""
+        cls.all.clear()
+        while True:
+            await asyncio.sleep(PING_PERIOD)
+            for each in cls.all:
+                each.writer.write(bytes([PING, 0x80]) + bytes(4))
+
     @classmethod
     async def open(cls, port, target, tls=True, source="127.0.0.1"):
         self = cls()
@@ -43,6 +55,7 @@ class Socket:
                           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n".encode())
         head = await self.reader.readuntil(b"\r\n\r\n")
         assert head.startswith(b"HTTP/1.1 101"), head
+        cls.all.append(self)
         return self
 
     def send(self, payload):
@@ -62,7 +75,8 @@ class Socket:
             if kind == CLOSE:
                 return payload[2:].decode()
             if kind == PING:
-                self.writer.write(b"\x8a\x80" + bytes(4))
+                self.writer.write(bytes([PONG, 0x80]) + bytes(4))
+            if kind in (PING, PONG):
                 continue
             message += payload
             if kind & 0x80:
@@ -112,6 +126,7 @@ class Relay(unittest.TestCase):
         program, port = self.start()
 
         async def load():
+            pings = asyncio.create_task(Socket.ping_all())
             robots = [await Robot.start(port, number, f"127.0.1.{1 + number // 20}") for number in range(NUM_ROBOTS)]
             phones = []
             for first in range(0, NUM_PHONES, 50):
@@ -128,6 +143,7 @@ class Relay(unittest.TestCase):
             for phone in phones[::100]:
                 phone.send(b"again")
                 self.assertEqual(await phone.receive(), b"again")
+            pings.cancel()
             del robots
             return memory
 
