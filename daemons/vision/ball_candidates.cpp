@@ -12,6 +12,9 @@ namespace {
  * Chosen: each costs 0.04 ms to judge. */
 constexpr size_t kMostHints = 24;
 constexpr size_t kMostHintsWithPose = 14;
+/** Without a pose, this many of each radius at least: lines have many places that are as bright as
+ * a small ball on the field, and brighter than a large one on a line. */
+constexpr size_t kMostOfRadius = 2;
 /** Radii that are tried without a pose, pixels of the half-size image: each 1.4 times the last. */
 constexpr std::array<float, 9> kRadii = {2.5f, 3.5f, 5, 7, 10, 14, 20, 28, 38};
 /** Smallest radius, pixels of the half-size image: a ball at 5 m has a radius of 3. */
@@ -20,8 +23,8 @@ constexpr float kLeastRadius = 1.8f;
 constexpr float kInner = 0.65f;
 /** Weight of the side that looks least like field. */
 constexpr float kTouching = 0.4f;
-/** Levels of FieldView::other: least mean of the box inside, least score. Chosen low, since the
- * network rejects what is not a ball. */
+/** Levels of FieldView::other_or_yellow: least mean of the box inside, least score. Chosen low,
+ * since the network rejects what is not a ball. */
 constexpr float kInside = 60;
 constexpr float kLeastScore = 45;
 /** Distance between columns for which the expected radius is computed, pixels of the half-size
@@ -30,8 +33,10 @@ constexpr int kColumns = 40;
 
 struct BallHint {
   Circle circle;
-  /** Mean of FieldView::other inside less that outside. */
+  /** Mean of FieldView::other_or_yellow inside less that outside. */
   float score = 0;
+  /** Number of the radius in kRadii; 0 with a pose. */
+  size_t number = 0;
 };
 
 /** The nearest integer from 0 to a limit. std::lround takes a call for each; the sum is exact for
@@ -45,9 +50,11 @@ int round_within(float value, int limit) {
 // four look-ups, whatever its size.
 class Search {
  public:
-  explicit Search(const FieldView& view) : view_(view) { cv::integral(view.other, sum_, CV_32S); }
+  explicit Search(const FieldView& view) : view_(view) {
+    cv::integral(view.other_or_yellow, sum_, CV_32S);
+  }
 
-  void add(int x, int y, float r) {
+  void add(int x, int y, float r, size_t number = 0) {
     const auto fx = static_cast<float>(x);
     const auto fy = static_cast<float>(y);
     const float inside = mean(fx - kInner * r, fy - kInner * r, fx + kInner * r, fy + kInner * r);
@@ -63,24 +70,31 @@ class Search {
     const float score = inside - (sides[0] + sides[1] + kTouching * sides[2]) / (2 + kTouching);
     if (score < kLeastScore) return;
     // From pixels of the half-size image to pixels of the full one: centers are half a pixel off.
-    hints_.push_back({{{2 * fx + 0.5f, 2 * fy + 0.5f}, 2 * r}, score});
+    hints_.push_back({{{2 * fx + 0.5f, 2 * fy + 0.5f}, 2 * r}, score, number});
   }
 
-  /** Keeps the best ones; among overlapping ones of similar size, only the best. */
-  std::vector<Circle> best(size_t most) {
+  /** Keeps the best ones; among overlapping ones of similar size, only the best.
+   * @param most_of_radius  The best of each radius come first, so many. */
+  std::vector<Circle> best(size_t most, size_t most_of_radius) {
     std::sort(hints_.begin(), hints_.end(),
               [](const BallHint& a, const BallHint& b) { return a.score > b.score; });
     std::vector<Circle> kept;
-    for (const BallHint& hint : hints_) {
-      // Non-maximum suppression, best first.
-      const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Circle& b) {
-        const Circle& a = hint.circle;
-        const float ratio = a.radius / b.radius;
-        return cv::norm(a.center - b.center) < std::max(a.radius, b.radius) && ratio > 0.6f &&
-               ratio < 1.7f;
-      });
-      if (is_new) kept.push_back(hint.circle);
-      if (kept.size() == most) break;
+    std::array<size_t, kRadii.size()> counts{};
+    for (const size_t limit : {most_of_radius, most}) {
+      for (const BallHint& hint : hints_) {
+        if (kept.size() == most) return kept;
+        if (counts[hint.number] >= limit) continue;
+        // Non-maximum suppression, best first.
+        const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Circle& b) {
+          const Circle& a = hint.circle;
+          const float ratio = a.radius / b.radius;
+          return ratio > 0.6f && ratio < 1.7f &&
+                 cv::norm(a.center - b.center) < std::max(a.radius, b.radius);
+        });
+        if (!is_new) continue;
+        kept.push_back(hint.circle);
+        ++counts[hint.number];
+      }
     }
     return kept;
   }
@@ -112,15 +126,16 @@ std::vector<Circle> find_ball_hints(const FieldView& view, const CameraGeometry&
   const int height = view.other.rows;
   // Without a pose every radius is tried everywhere: slower, with more false hints.
   if (!geometry.has_pose()) {
-    for (const float r : kRadii) {
+    for (size_t number = 0; number < kRadii.size(); ++number) {
+      const float r = kRadii[number];
       const int step = std::max(2, static_cast<int>(0.35f * r));
       for (int y = 0; y < height + static_cast<int>(0.4f * r); y += step) {
         for (int x = 0; x < width; x += step) {
-          if (view.top[x] <= y) search.add(x, y, r);
+          if (view.top[x] <= y) search.add(x, y, r, number);
         }
       }
     }
-    return search.best(kMostHints);
+    return search.best(kMostHints, kMostOfRadius);
   }
   // With a pose the radius at a place is known: computed every few rows and in the middle of a
   // strip of columns, since it changes slowly across the image.
@@ -145,7 +160,7 @@ std::vector<Circle> find_ball_hints(const FieldView& view, const CameraGeometry&
       }
     }
   }
-  return search.best(kMostHintsWithPose);
+  return search.best(kMostHintsWithPose, 0);
 }
 
 }  // namespace nao::vision

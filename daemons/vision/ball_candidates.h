@@ -9,7 +9,8 @@
 
 namespace nao::vision {
 
-/** Searches FieldView::other for disks that are surrounded by field, by an integral image.
+/** Searches FieldView::other_or_yellow for disks that are surrounded by field, by an integral
+ * image.
  * @param ball_radius  m. @return The best ones, not overlapping. */
 std::vector<Circle> find_ball_hints(const FieldView& view, const CameraGeometry& geometry,
                                     double ball_radius);

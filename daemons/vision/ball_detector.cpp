@@ -1,7 +1,11 @@
 #include "daemons/vision/ball_detector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+
+#include "daemons/vision/checkerboard.h"
 
 namespace nao::vision {
 namespace {
@@ -10,14 +14,56 @@ namespace {
  * ball is rarely behind the third. */
 constexpr size_t kMostSecond = 3;
 constexpr float kLeastSecond = 0.05f;
+/** Half the width of what must not be a checkerboard, radii of the ball. */
+constexpr float kBoardRadii = 1.2f;
 /** Greatest factor between the seen radius and the one that the camera's pose gives. Chosen: 2
  * degrees of tilt change the radius at 3 m by a third. */
 constexpr double kRadiusRange = 1.6;
+/** Middle of a patch, pixels: half of its circle. */
+const cv::Rect kMiddle(12, 12, 8, 8);
+/** Least ratio of red and green of a ball of one color. */
+constexpr double kLeastRed = 0.9;
+/** Saturation above which no white ball is: only the network of balls of one color judges. */
+constexpr double kStrong = 0.2;
 
 }  // namespace
 
 NeuralNetwork::Shape BallDetector::shape() {
   return {{PatchSampler::kSize, PatchSampler::kSize}, kNumOutputs, {1, 1}};
+}
+
+double BallDetector::saturation(const cv::Mat& patch) {
+  cv::Vec3i bgr(0, 0, 0);
+  for (int y = kMiddle.y; y < kMiddle.br().y; ++y) {
+    const auto* row = patch.ptr<cv::Vec3b>(y);
+    for (int x = kMiddle.x; x < kMiddle.br().x; ++x) bgr += row[x];
+  }
+  if (bgr[2] < kLeastRed * bgr[1]) return 0;
+  return static_cast<double>(bgr[2] - std::min(bgr[0], bgr[1])) / (bgr[0] + bgr[1] + bgr[2] + 1);
+}
+
+cv::Mat_<float> BallDetector::run(const std::vector<cv::Mat>& patches) const {
+  std::array<std::vector<cv::Mat>, 2> parts;
+  std::array<std::vector<int>, 2> rows;
+  for (size_t i = 0; i < patches.size(); ++i) {
+    const double color = saturation(patches[i]);
+    for (const bool is_colored : {false, true}) {
+      if (is_colored ? color < kColored : color > kStrong) continue;
+      parts[is_colored].push_back(patches[i]);
+      rows[is_colored].push_back(static_cast<int>(i));
+    }
+  }
+  cv::Mat_<float> outputs = cv::Mat_<float>::zeros(static_cast<int>(patches.size()), kNumOutputs);
+  if (!patches.empty()) outputs.col(0) = -std::numeric_limits<float>::infinity();
+  for (const bool is_colored : {false, true}) {
+    const cv::Mat_<float> some =
+        (is_colored ? networks_.colored : networks_.patterned)->run(parts[is_colored]);
+    for (int i = 0; i < some.rows; ++i) {
+      const int row = rows[is_colored][static_cast<size_t>(i)];
+      if (some(i, 0) > outputs(row, 0)) some.row(i).copyTo(outputs.row(row));
+    }
+  }
+  return outputs;
 }
 
 std::vector<BallCandidate> BallDetector::judge(const PatchSampler& sampler,
@@ -32,7 +78,7 @@ std::vector<BallCandidate> BallDetector::judge(const PatchSampler& sampler,
     cv::flip(patches[i], mirrored, 1);
     patches.push_back(mirrored);
   }
-  cv::Mat_<float> outputs = network_->run(patches);
+  cv::Mat_<float> outputs = run(patches);
   const auto count = static_cast<int>(circles.size());
   if (with_mirrored && count > 0) {
     cv::Mat_<float> mirrored = outputs.rowRange(count, 2 * count);
@@ -80,7 +126,13 @@ std::optional<Detection> BallDetector::detect(const PatchSampler& sampler,
          std::abs(std::log(*expected / candidate.circle.radius)) > std::log(kRadiusRange))) {
       continue;
     }
-    if (!best || candidate.log_odds > best->log_odds) best = candidate;
+    if (best && candidate.log_odds <= best->log_odds) continue;
+    if (candidate.probability() >= kAccept &&
+        is_checkerboard(
+            sampler.sample(candidate.circle.center, kBoardRadii * candidate.circle.radius))) {
+      continue;
+    }
+    best = candidate;
   }
   if (!best) return std::nullopt;
   const auto& [center, r] = best->circle;

@@ -23,6 +23,14 @@ struct BallCandidate {
   float probability() const { return 1 / (1 + std::exp(-log_odds)); }
 };
 
+/** Networks that judge patches, of BallDetector::shape(). */
+struct BallNetworks {
+  /** Of balls with light and dark faces. */
+  std::shared_ptr<NeuralNetwork> patterned;
+  /** Of balls of one color. */
+  std::shared_ptr<NeuralNetwork> colored;
+};
+
 /** Decides which of the possible places has the ball.
  *
  * A network judges a patch around each place, and tells where in it the ball's circle lies. The
@@ -45,9 +53,16 @@ class BallDetector {
 
   static NeuralNetwork::Shape shape();
 
-  /** @param network  Network of shape(). @param radius  m. */
-  explicit BallDetector(std::shared_ptr<NeuralNetwork> network, double radius = kBallRadius)
-      : network_(std::move(network)), radius_(radius) {}
+  /** Saturation from red to yellow of the middle of a patch, (R - min(G, B)) / (R + G + B); 0 of
+   * other colors. */
+  static double saturation(const cv::Mat& patch);
+  /** From this saturation on the network of balls of one color judges a patch, too. Chosen on the
+   * tuning places: 98 % of orange balls are above, white ones in warm light reach it. */
+  static constexpr double kColored = 0.11;
+
+  /** @param radius  m. */
+  explicit BallDetector(BallNetworks networks, double radius = kBallRadius)
+      : networks_(std::move(networks)), radius_(radius) {}
 
   std::optional<Detection> detect(const PatchSampler& sampler, const CameraGeometry& geometry,
                                   const std::vector<Circle>& places) const;
@@ -58,7 +73,10 @@ class BallDetector {
                                    bool with_mirrored = false) const;
 
  private:
-  std::shared_ptr<NeuralNetwork> network_;
+  /** Outputs for patches in their order. */
+  cv::Mat_<float> run(const std::vector<cv::Mat>& patches) const;
+
+  BallNetworks networks_;
   double radius_;
 };
 

@@ -17,6 +17,12 @@ constexpr int kNumBins = 70;
 constexpr int kGap = 12;
 constexpr int kRowsPerGap = 6;
 
+/** redness_of() a yellow ball, and least difference of a ball's from the field's. */
+constexpr float kYellow = 0.02f;
+constexpr float kLeastAway = 0.08f;
+/** Distance between the pixels from which the field's redness is computed. */
+constexpr int kYellowStep = 4;
+
 using Histogram = std::array<int, kNumBins>;
 
 int bin_of(float index) {
@@ -26,6 +32,12 @@ int bin_of(float index) {
 
 float value_of(int bin) {
   return kLow + (static_cast<float>(bin) + 0.5f) * (kHigh - kLow) / kNumBins;
+}
+
+/** Saturation from green towards red, -1 to 1; 0 of greys and about 0 of yellow, which is as far
+ * from grey towards green as a field. */
+float redness_of(float blue, float green, float red) {
+  return (red - green) / (blue + green + red + 6);
 }
 
 // Returns the bin that divides the histogram into two classes with the largest variance between
@@ -79,6 +91,33 @@ void find_color(const cv::Mat_<cv::Vec3b>& half, const VisionParameters::FieldDe
   // If only field is in view, Otsu's method divides the field itself.
   view.threshold = std::clamp(view.threshold, least,
                               static_cast<float>(parameters.greatest_fraction) * view.index);
+}
+
+/** Sets other_or_yellow. */
+void add_yellow(const cv::Mat_<cv::Vec3b>& half, FieldView& view) {
+  view.other_or_yellow = view.other.clone();
+  std::array<int, 3> field{};
+  for (int y = 0; y < half.rows; y += kYellowStep) {
+    for (int x = 0; x < half.cols; x += kYellowStep) {
+      if (view.other(y, x) >= 128) continue;
+      for (int i = 0; i < 3; ++i) field[i] += half(y, x)[i];
+    }
+  }
+  const float redness = redness_of(static_cast<float>(field[0]), static_cast<float>(field[1]),
+                                   static_cast<float>(field[2]));
+  // Linear from the field's redness (0) to that of yellow (255), or of orange on a pale field.
+  const float slope = 255 / std::max(kYellow - redness, kLeastAway);
+  for (int y = 0; y < half.rows; ++y) {
+    const cv::Vec3b* source = half[y];
+    uint8_t* target = view.other_or_yellow[y];
+    for (int x = 0; x < half.cols; ++x) {
+      const cv::Vec3b& bgr = source[x];
+      // Most pixels are green or grey, and need no division.
+      if (8 * bgr[2] < 7 * bgr[1] || target[x] == 255) continue;
+      const float value = slope * (redness_of(bgr[0], bgr[1], bgr[2]) - redness);
+      target[x] = std::max(target[x], static_cast<uint8_t>(std::clamp(value, 0.0f, 255.0f)));
+    }
+  }
 }
 
 /** Upper convex hull of the points (column, row), rows counting downwards; interpolated. */
@@ -150,6 +189,7 @@ FieldView FieldDetector::detect(const cv::Mat& bgr, const CameraGeometry& geomet
     }
   }
   view.fraction = static_cast<double>(num_green) / static_cast<double>(half.total());
+  add_yellow(half, view);
   find_border(geometry, view);
   return view;
 }

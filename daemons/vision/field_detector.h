@@ -29,6 +29,8 @@ struct FieldView {
   /** Half the size: 255 where the pixel is not of the field's color, 0 where it is, between them
    * for a mixture; 8 bits. */
   cv::Mat_<uint8_t> other;
+  /** As `other`, where yellow is as far from the field as grey is. */
+  cv::Mat_<uint8_t> other_or_yellow;
   /** green_index() of the field, and the least one that counts as field. */
   float index = 0;
   float threshold = 0;

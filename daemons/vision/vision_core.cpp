@@ -47,7 +47,8 @@ const char* kind_name(Kind kind) {
 VisionNetworks VisionNetworks::load() {
   const std::filesystem::path folder = data_path() / "networks";
   return {std::make_shared<NeuralNetwork>(folder / "objects.onnx", ObjectDetector::shape()),
-          std::make_shared<NeuralNetwork>(folder / "ball.onnx", BallDetector::shape())};
+          {std::make_shared<NeuralNetwork>(folder / "ball.onnx", BallDetector::shape()),
+           std::make_shared<NeuralNetwork>(folder / "colored_ball.onnx", BallDetector::shape())}};
 }
 
 VisionCore::VisionCore(const VisionNetworks& networks, const VisionParameters& parameters)

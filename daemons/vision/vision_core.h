@@ -51,7 +51,7 @@ struct VisionResult {
 /** Networks of the detectors; cores may share them, in one thread. */
 struct VisionNetworks {
   std::shared_ptr<NeuralNetwork> objects;
-  std::shared_ptr<NeuralNetwork> ball;
+  BallNetworks ball;
 
   /** Loads the networks in data_path(). @throws Error  if one cannot be read. */
   static VisionNetworks load();

@@ -137,6 +137,71 @@ Eigen::Vector3f light_color(Random& random) {
                                 : random_color(random, 0.4, 0.9);
 }
 
+/** From red by orange to yellow. */
+Eigen::Vector3f orange_color(Random& random) {
+  const auto strong = static_cast<float>(random.uniform(0.5, 0.9));
+  return {strong, static_cast<float>(random.uniform(0.02, 0.8)) * strong,
+          static_cast<float>(random.uniform(0.01, 0.12))};
+}
+
+/** Posts, cones, flat markers, tapes, robots in shirts and people, of colors as an orange ball's,
+ * each at one of some places. */
+void add_orange_things(RandomScene& scene, const RobotModel& model,
+                       const std::vector<Eigen::Vector2d>& places, Random& random) {
+  for (const Eigen::Vector2d& place : places) {
+    const Eigen::Vector3f color =
+        scene.is_ball_plain && random.uniform() < 0.3 ? scene.ball_hexagons : orange_color(random);
+    const double yaw = random.uniform(-M_PI, M_PI);
+    Distractor thing;
+    thing.color = color;
+    switch (random.next() % 6) {
+      case 0:
+      case 1: {
+        // A post, a bottle or a cone of rings.
+        thing.kind = Distractor::Kind::kCylinder;
+        const double height = std::exp(random.uniform(std::log(0.05), std::log(0.9)));
+        const int rings = random.uniform() < 0.5 ? 1 : 5;
+        const double width = random.uniform(0.04, 0.2);
+        for (int i = 0; i < rings; ++i) {
+          const double narrowed = width * (1 - 0.18 * i);
+          thing.size = {narrowed, narrowed, height / rings};
+          thing.pose_in_world.translation() << place.x(), place.y(), height * (i + 0.5) / rings;
+          scene.distractors.push_back(thing);
+        }
+        break;
+      }
+      case 2: {
+        // A flat marker: half of an ellipsoid.
+        thing.kind = Distractor::Kind::kSphere;
+        const double width = random.uniform(0.1, 0.25);
+        thing.size = {width, width, random.uniform(0.15, 0.5) * width};
+        thing.pose_in_world.translation() << place.x(), place.y(), 0;
+        scene.distractors.push_back(thing);
+        break;
+      }
+      case 3:
+        add_box(scene, {place.x(), place.y(), 0.003}, yaw,
+                {random.uniform(0.05, 2), random.uniform(0.03, 0.1), 0.004}, color);
+        break;
+      case 4: {
+        const size_t count = scene.robots.size();
+        add_robot(scene, model, place, random);
+        if (scene.robots.size() > count) scene.robots.back().tint = color;
+        break;
+      }
+      default: {
+        const size_t first = scene.distractors.size();
+        add_person(scene, place, random);
+        // The body, or also shoes and trousers.
+        scene.distractors.back().color = color;
+        for (size_t i = first; i < scene.distractors.size(); ++i) {
+          if (random.uniform() < 0.4) scene.distractors[i].color = color;
+        }
+      }
+    }
+  }
+}
+
 /** A ball as toys and other leagues have them: orange, yellow, red, pink or blue, a half with dark
  * faces. The rules of 2026 name no color. */
 void color_ball(RandomScene& scene, Random& random) {
@@ -151,24 +216,9 @@ void color_ball(RandomScene& scene, Random& random) {
   if (hue > 0.85) scene.ball_hexagons = Eigen::Vector3f(weak, middle * strong, strong);
 }
 
-/** A board with dark squares, or dots, on a light ground: a half lies on the floor, others stand or
- * are held. */
-void add_checkerboard(RandomScene& scene, const Eigen::Vector2d& place, Random& random) {
-  const int columns = 3 + static_cast<int>(random.uniform(0, 9));
-  const int rows = 3 + static_cast<int>(random.uniform(0, 6));
-  const double cell = std::exp(random.uniform(std::log(0.02), std::log(0.18)));
-  Eigen::Isometry3d board = Eigen::Isometry3d::Identity();
-  double tilt = 0;
-  double height = 0.004;
-  if (random.uniform() < 0.5) {
-    tilt = random.uniform(20, 90) * kDegree;
-    height =
-        0.5 * rows * cell * std::sin(tilt) + (random.uniform() < 0.5 ? 0 : random.uniform(0, 0.9));
-  }
-  board.translation() << place.x(), place.y(), height;
-  board.linear() = (Eigen::AngleAxisd(random.uniform(-M_PI, M_PI), Eigen::Vector3d::UnitZ()) *
-                    Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX()))
-                       .matrix();
+/** A board with dark squares, or dots, on a light ground. @param cell  m. */
+void add_board(RandomScene& scene, const Eigen::Isometry3d& board, int columns, int rows,
+               double cell, Random& random) {
   const double margin = random.uniform(0, 1.5) * cell;
   Distractor ground;
   ground.pose_in_world = board;
@@ -189,6 +239,41 @@ void add_checkerboard(RandomScene& scene, const Eigen::Vector2d& place, Random& 
       scene.distractors.push_back(square);
     }
   }
+}
+
+/** A checkerboard: a half lies on the floor, others stand or are held. */
+void add_checkerboard(RandomScene& scene, const Eigen::Vector2d& place, Random& random) {
+  const int columns = 3 + static_cast<int>(random.uniform(0, 9));
+  const int rows = 3 + static_cast<int>(random.uniform(0, 6));
+  const double cell = std::exp(random.uniform(std::log(0.02), std::log(0.18)));
+  Eigen::Isometry3d board = Eigen::Isometry3d::Identity();
+  double tilt = 0;
+  double height = 0.004;
+  if (random.uniform() < 0.5) {
+    tilt = random.uniform(20, 90) * kDegree;
+    height =
+        0.5 * rows * cell * std::sin(tilt) + (random.uniform() < 0.5 ? 0 : random.uniform(0, 0.9));
+  }
+  board.translation() << place.x(), place.y(), height;
+  board.linear() = (Eigen::AngleAxisd(random.uniform(-M_PI, M_PI), Eigen::Vector3d::UnitZ()) *
+                    Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX()))
+                       .matrix();
+  add_board(scene, board, columns, rows, cell, random);
+}
+
+/** A board of a few large squares that stands on the floor and faces the camera. */
+void add_upright_board(RandomScene& scene, const Eigen::Vector2d& place, Random& random) {
+  const int columns = 3 + static_cast<int>(random.uniform(0, 3));
+  const int rows = 3 + static_cast<int>(random.uniform(0, 2));
+  const double cell = random.uniform(0.07, 0.18);
+  const Eigen::Vector2d way = place - scene.pose_camera_in_world.translation().head<2>();
+  const double yaw = std::atan2(way.y(), way.x()) + random.uniform(-35, 35) * kDegree + M_PI / 2;
+  Eigen::Isometry3d board = Eigen::Isometry3d::Identity();
+  board.translation() << place.x(), place.y(), 0.5 * rows * cell + 0.02;
+  board.linear() = (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+                    Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX()))
+                       .matrix();
+  add_board(scene, board, columns, rows, cell, random);
 }
 
 /** A person with stripes on shirt and stockings and light soles below dark shoes, or the reverse.
@@ -238,27 +323,32 @@ const std::vector<std::string>& scene_kind_names() {
       "mixed",         "ball-on-line",  "ball-on-mark",     "ball-at-shoe",      "ball-at-post",
       "ball-at-robot", "ball-in-glare", "ball-overexposed", "ball-underexposed", "ball-at-border",
       "checkerboard",  "stripes",       "goal-foot",        "crossing",          "robot-feet",
-      "ball-colored"};
+      "ball-colored",  "ball-orange",   "orange-things",    "board-upright"};
   return names;
 }
 
 bool has_ball(SceneKind kind) {
-  return kind < SceneKind::kCheckerboard || kind == SceneKind::kBallColored;
+  return kind < SceneKind::kCheckerboard || kind == SceneKind::kBallColored ||
+         kind == SceneKind::kBallOrange;
 }
 
 void add_hard_objects(RandomScene& scene, const RobotModel& model, const SceneFile& file,
                       SceneKind kind, Random& random) {
   const FieldDimensions& field = *file.field;
   const Eigen::Vector2d target = draw_target(file, kind, random);
-  const bool is_person = kind == SceneKind::kStripes;
+  const bool is_large = kind == SceneKind::kStripes || kind == SceneKind::kBoardUpright;
   const bool is_at_border = kind == SceneKind::kBallAtBorder;
   look_at(scene, target,
-          is_person      ? 0.8
+          is_large       ? 0.8
           : is_at_border ? 0.2
                          : 0.35,
           is_at_border ? 1.5 : 4.5, field, random);
   if (has_ball(kind)) place_ball(scene, target, file.ball->radius, random);
   if (kind == SceneKind::kBallColored) color_ball(scene, random);
+  if (kind == SceneKind::kBallOrange) {
+    scene.is_ball_plain = true;
+    scene.ball_hexagons = orange_color(random);
+  }
   if (is_at_border)
     turn_to_border(scene, model.cameras().front(), target, file.ball->radius, random);
   switch (kind) {
@@ -282,9 +372,23 @@ void add_hard_objects(RandomScene& scene, const RobotModel& model, const SceneFi
     case SceneKind::kCheckerboard:
       add_checkerboard(scene, target, random);
       break;
+    case SceneKind::kBoardUpright:
+      add_upright_board(scene, target, random);
+      break;
     case SceneKind::kStripes:
       add_striped_person(scene, target, random);
       break;
+    case SceneKind::kBallOrange:
+    case SceneKind::kOrangeThings: {
+      std::vector<Eigen::Vector2d> places;
+      const double nearest = has_ball(kind) ? 0.3 : 0;
+      const int count = static_cast<int>(random.uniform(has_ball(kind) ? 0 : 2, 5));
+      for (int i = 0; i < count; ++i) {
+        places.push_back(behind(scene, target, nearest, i > 0 ? 1.5 : nearest + 0.3, random));
+      }
+      add_orange_things(scene, model, places, random);
+      break;
+    }
     case SceneKind::kRobotFeet:
       add_robot(scene, model, target, random);
       for (int i = 0; i < 2; ++i) {

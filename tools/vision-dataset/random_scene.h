@@ -73,7 +73,10 @@ enum class SceneKind {
   kGoalFoot,
   kCrossing,
   kRobotFeet,
-  kBallColored
+  kBallColored,
+  kBallOrange,
+  kOrangeThings,
+  kBoardUpright
 };
 /** Names of the kinds, in their order: ball-on-line. */
 const std::vector<std::string>& scene_kind_names();

@@ -30,10 +30,16 @@ constexpr float kLeastSecond = 0.02f;
 }  // namespace
 
 BallPatches::BallPatches(PatchFile& file, std::shared_ptr<NeuralNetwork> objects,
-                         std::shared_ptr<NeuralNetwork> ball, uint64_t seed)
-    : file_(file), objects_(std::move(objects)), ball_network_(std::move(ball)), random_(seed) {}
+                         std::shared_ptr<NeuralNetwork> ball, bool is_colored, uint64_t seed)
+    : file_(file),
+      objects_(std::move(objects)),
+      ball_network_(std::move(ball)),
+      is_colored_(is_colored),
+      random_(seed) {}
 
 void BallPatches::add_circle(const PatchSampler& sampler, const Circle& circle, Source source) {
+  const cv::Mat patch = sampler.sample(circle.center, BallDetector::kPatchRadii * circle.radius);
+  if (is_colored_ && BallDetector::saturation(patch) < BallDetector::kColored) return;
   PatchFile::Numbers numbers{};
   if (ball_.radius > 0) {
     const cv::Point2f offset = (ball_.center - circle.center) * (1 / circle.radius);
@@ -54,7 +60,7 @@ void BallPatches::add_circle(const PatchSampler& sampler, const Circle& circle, 
   numbers[5] = circle.radius;
   numbers[6] = static_cast<float>(image_);
   numbers[7] = static_cast<float>(source);
-  file_.add(sampler.sample(circle.center, BallDetector::kPatchRadii * circle.radius), numbers);
+  file_.add(patch, numbers);
 }
 
 void BallPatches::add(const LabelledImage& image, const cv::Mat& bgr) {
@@ -106,7 +112,8 @@ void BallPatches::add(const LabelledImage& image, const cv::Mat& bgr) {
                Source::kRandom);
   }
   if (!ball_network_) return;
-  for (const BallCandidate& candidate : BallDetector(ball_network_).judge(sampler, places)) {
+  const BallDetector detector({ball_network_, ball_network_});
+  for (const BallCandidate& candidate : detector.judge(sampler, places)) {
     if (candidate.probability() > kLeastSecond) {
       add_circle(sampler, candidate.circle, Source::kSecond);
     }

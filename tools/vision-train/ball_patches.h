@@ -24,9 +24,9 @@ class BallPatches {
   /** @param objects  Network of ObjectDetector; its places of balls are judged.
    * @param ball  Network of BallDetector; adds the patches that it would judge a second time. May
    * be null.
-   */
+   * @param is_colored  Only patches that the network of balls of one color judges. */
   BallPatches(PatchFile& file, std::shared_ptr<NeuralNetwork> objects,
-              std::shared_ptr<NeuralNetwork> ball, uint64_t seed);
+              std::shared_ptr<NeuralNetwork> ball, bool is_colored, uint64_t seed);
 
   void add(const LabelledImage& image, const cv::Mat& bgr);
 
@@ -45,6 +45,7 @@ class BallPatches {
   PatchFile& file_;
   ObjectDetector objects_;
   std::shared_ptr<NeuralNetwork> ball_network_;
+  bool is_colored_;
   Random random_;
   PlaceRecall recall_;
   int image_ = -1;

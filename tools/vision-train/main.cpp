@@ -18,6 +18,7 @@ struct PatchOptions {
   std::string file;
   std::string objects;
   std::string ball;
+  bool is_colored = false;
 };
 
 void cut_patches(const PatchOptions& options) {
@@ -29,7 +30,7 @@ void cut_patches(const PatchOptions& options) {
   if (!options.ball.empty()) {
     ball = std::make_shared<NeuralNetwork>(options.ball, nao::vision::BallDetector::shape());
   }
-  nao::vision::BallPatches patches(file, objects, ball, 1);
+  nao::vision::BallPatches patches(file, objects, ball, options.is_colored, 1);
   for (const nao::vision::LabelledImage& image : images) {
     const cv::Mat bgr = cv::imread(image.file.string(), cv::IMREAD_COLOR);
     if (bgr.empty() || !image.labels || !image.calibration) {
@@ -64,5 +65,8 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--ball", options.ball,
                  "ball.onnx; adds the patches that this network judges a second time");
+  app.add_flag(
+      "--colored", options.is_colored,
+      "Only patches of the color of a ball of one color, for the network that judges those");
   return nao::run_program(app, common, argc, argv, [&] { cut_patches(options); });
 }

@@ -47,9 +47,10 @@ class VisionRecall : public testing::Test {
     return found;
   }
 
-  /** Fraction of the balls of hard scenes that are found, those visible at least to this fraction.
-   */
-  double recall(const std::vector<SceneKind>& kinds, double least_visible) {
+  /** Fraction of the balls of hard scenes that are found, those visible at least to this fraction
+   * and nearer than a distance, m. */
+  double recall(const std::vector<SceneKind>& kinds, double least_visible,
+                double most_distance = 10) {
     int num_balls = 0;
     int num_found = 0;
     for (const SceneKind kind : kinds) {
@@ -58,7 +59,8 @@ class VisionRecall : public testing::Test {
       render(kNumPlaces, options, [&](const cv::Mat& bgr, const LabelledImage& image) {
         const auto label =
             std::find_if(image.labels->begin(), image.labels->end(), [&](const Label& l) {
-              return l.object.kind == Kind::kBall && l.visible >= least_visible;
+              return l.object.kind == Kind::kBall && l.visible >= least_visible &&
+                     l.object.position.norm() < most_distance;
             });
         if (label == image.labels->end()) return;
         const Eigen::Vector4d& box = label->object.box_px;
@@ -74,6 +76,20 @@ class VisionRecall : public testing::Test {
     }
     EXPECT_GT(num_balls, 20);
     return static_cast<double>(num_found) / num_balls;
+  }
+
+  /** Number of balls that are seen in scenes of a kind that has none.
+   * @param has_pose  Whether the camera's pose, and so the size of a ball, is known. */
+  int num_false(SceneKind kind, int num_images, bool has_pose) {
+    SceneOptions options;
+    options.kind = kind;
+    int number = 0;
+    render(num_images, options, [&](const cv::Mat& bgr, const LabelledImage& image) {
+      VisionInput input = input_of(bgr, image);
+      if (!has_pose) input.pose_camera_in_heading.reset();
+      number += static_cast<int>(balls(input).size());
+    });
+    return number;
   }
 
   RobotModel model_ = RobotModel::load(data_path() / "robots" / "nao");
@@ -116,17 +132,17 @@ TEST_F(VisionRecall, FindsBallsThatTheBorderCuts) {
   EXPECT_GE(recall({SceneKind::kBallAtBorder}, 0.3), 0.85);
 }
 
+TEST_F(VisionRecall, FindsOrangeBallsNearThingsOfTheirColors) {
+  EXPECT_GE(recall({SceneKind::kBallOrange}, 0.6, 3), 0.7);
+}
+
 TEST_F(VisionRecall, TakesNoCheckerboardForABall) {
-  SceneOptions options;
-  options.kind = SceneKind::kCheckerboard;
-  int num_false = 0;
-  render(60, options, [&](const cv::Mat& bgr, const LabelledImage& image) {
-    VisionInput input = input_of(bgr, image);
-    // Without the pose, the size of a ball is not known.
-    input.pose_camera_in_heading.reset();
-    num_false += static_cast<int>(balls(input).size());
-  });
-  EXPECT_LE(num_false, 2);
+  EXPECT_LE(num_false(SceneKind::kCheckerboard, 60, false), 2);
+  EXPECT_LE(num_false(SceneKind::kBoardUpright, 60, false), 3);
+}
+
+TEST_F(VisionRecall, TakesNoOrangeThingForABall) {
+  EXPECT_LE(num_false(SceneKind::kOrangeThings, 60, true), 1);
 }
 
 TEST_F(VisionRecall, JudgesThePlacesOfAlmostAllBalls) {
