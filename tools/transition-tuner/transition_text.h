@@ -8,11 +8,12 @@
 
 namespace nao {
 
-/** Text of a transitions.yaml whose numbers are search parameters: durations, pauses, joint angles
- * and stiffness of single joints of selected sequences. Comments and order are preserved.
+/** Text of a transitions.yaml whose numbers are search parameters: durations, pauses, joint angles,
+ * stiffness of single joints and the ankles' damping of selected sequences. Comments and order are
+ * preserved.
  *
- * Required layout of the file: `duration`, `pause`, `joints` and `stiffness` each begin a line
- * of their own, the latter two as `{NAME: NUMBER, ...}`. */
+ * Required layout of the file: `duration`, `pause`, `ankle_damping`, `joints` and `stiffness` each
+ * begin a line of their own, the latter two as `{NAME: NUMBER, ...}`. */
 class TransitionText {
  public:
   struct Parameter {
@@ -21,7 +22,7 @@ class TransitionText {
     int keyframe;
     double value;
     /** Search range: the joint's limits; durations 0.03 to 3 s; pauses 0 to 1 s; stiffness 0.1
-     * to 1. */
+     * to 1; damping 0 to 0.3 s. */
     double lower;
     double upper;
     /** Position of the number in the text. */
