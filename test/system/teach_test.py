@@ -54,7 +54,7 @@ class Teaching(unittest.TestCase):
         self.stack.stop()
         self.start()
         self.assertEqual(self.obeyed("motion", "list"), "bow\n")
-        # nao-motion is told of a saved motion each half a second.
+        # nao-motion-files sends the saved motions to nao-motion twice a second.
         deadline = time.monotonic() + DEADLINE
         while "has no action" in self.stack.nao("motion", "play", "bow").stderr and time.monotonic() < deadline:
             time.sleep(0.1)

@@ -1,5 +1,5 @@
 /** The app: which screen is seen, and how the parts hang together. */
-import type {BluetoothPeer} from "./bluetooth/web_bluetooth";
+import type {BluetoothDevice} from "./bluetooth/web_bluetooth";
 import {Commander} from "./commander";
 import {Connection} from "./connection";
 import {HeldControls} from "./controls/held_controls";
@@ -151,7 +151,7 @@ export class App {
     this.speech = new Speech(this.store, this.commander, this.stage, storage(), this.sound, () => this.subscribe());
     this.connectionScreen = new ConnectionScreen(this.store, {
       connect: (form) => this.connect(form),
-      connectByBluetooth: (form, peer) => this.connectByBluetooth(form, peer),
+      connectByBluetooth: (form, device) => this.connectByBluetooth(form, device),
       cancel: () => this.connection.disconnect(),
       retryNow: () => this.connection.retryNow(),
     });
@@ -291,17 +291,17 @@ export class App {
   private connect({address, token, clientName}: ConnectionForm): void {
     this.keep({clientName});
     this.token = token;
-    this.transport.peer = null;
+    this.transport.device = null;
     const url = pageUrl(address, token);
     // Another robot's page comes from that robot: its gateway lets no foreign page in.
     if (url && url.host !== location.host) location.assign(url);
     else this.open();
   }
 
-  private connectByBluetooth({token, clientName}: ConnectionForm, peer: BluetoothPeer): void {
+  private connectByBluetooth({token, clientName}: ConnectionForm, device: BluetoothDevice): void {
     this.keep({clientName});
     this.token = token;
-    this.transport.peer = peer;
+    this.transport.device = device;
     this.open();
   }
 
@@ -323,7 +323,7 @@ export class App {
 
   private async connected(): Promise<void> {
     // By Bluetooth it may be another robot than that of the page.
-    if (!this.transport.peer) this.keep(remember(this.settings, location.host, this.token));
+    if (!this.transport.device) this.keep(remember(this.settings, location.host, this.token));
     this.connectionScreen.fill(location.host, this.token, this.settings);
     await this.showRobot();
   }

@@ -1,4 +1,4 @@
-import type {BluetoothPeer} from "./bluetooth/web_bluetooth";
+import type {BluetoothDevice} from "./bluetooth/web_bluetooth";
 import {timeLimit} from "./time_limit";
 
 /** How messages reach the gateway. */
@@ -35,7 +35,7 @@ export const isInvitation = (token: string): boolean => token.includes(".");
 export class GatewayTransport implements Transport {
   isSingle = false;
   /** By Bluetooth from the next open() on; null: by the network. */
-  peer: BluetoothPeer | null = null;
+  device: BluetoothDevice | null = null;
   private inner: Transport | null = null;
   private attempt = 0;
 
@@ -58,11 +58,11 @@ export class GatewayTransport implements Transport {
   }
 
   get isNarrow(): boolean {
-    return this.peer !== null;
+    return this.device !== null;
   }
 
   private async load(token: string): Promise<Transport | null> {
-    if (this.peer) return new (await import("./bluetooth/bluetooth_transport")).BluetoothTransport(this.peer);
+    if (this.device) return new (await import("./bluetooth/bluetooth_transport")).BluetoothTransport(this.device);
     const {openInvitation} = await import("./relay/sealed_transport");
     return openInvitation(token, (path) => new WebSocketTransport(this.pageUrl, path));
   }

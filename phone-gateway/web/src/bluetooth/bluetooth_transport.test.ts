@@ -9,7 +9,7 @@ const soon = () => new Promise((resolve) => setTimeout(resolve, 0));
 const messageOf = (length: number) => Uint8Array.from({length}, (_, i) => (i * 7) & 0xff);
 
 /** What navigator.bluetooth gives: a robot within reach, which the test speaks for. */
-class FakePeer extends EventTarget implements BluetoothCharacteristic {
+class FakeDevice extends EventTarget implements BluetoothCharacteristic {
   readonly written: Uint8Array[] = [];
   value?: DataView;
   isConnected = false;
@@ -65,17 +65,17 @@ class FakePeer extends EventTarget implements BluetoothCharacteristic {
   }
 }
 
-async function start(peer = new FakePeer()) {
+async function start(device = new FakeDevice()) {
   const events: string[] = [];
   const received: Uint8Array[] = [];
-  const transport = new BluetoothTransport(peer);
+  const transport = new BluetoothTransport(device);
   transport.open({
     opened: () => events.push("opened"),
     received: (bytes) => received.push(bytes),
     closed: (wasOpen) => events.push(`closed ${wasOpen}`),
   });
   for (let i = 0; i < 10; i++) await soon();
-  return {peer, transport, events, received};
+  return {device, transport, events, received};
 }
 
 describe("fragments", () => {
@@ -113,54 +113,54 @@ describe("fragments", () => {
 
 describe("a connection by Bluetooth", () => {
   it("sends requests as fragments, one write at a time", async () => {
-    const {peer, transport, events} = await start();
+    const {device, transport, events} = await start();
     expect(events).toEqual(["opened"]);
     transport.send(messageOf(400));
     transport.send(messageOf(10));
     expect(transport.backlogBytes()).toBeGreaterThan(200);
     for (let i = 0; i < 10; i++) await soon();
-    expect(peer.mostWrites).toBe(1);
-    expect(peer.written.map((value) => value.length)).toEqual([182, 182, 39, 11]);
-    expect(peer.written.map((value) => value[0])).toEqual([0, 1, 0x82, 0x83]);
+    expect(device.mostWrites).toBe(1);
+    expect(device.written.map((value) => value.length)).toEqual([182, 182, 39, 11]);
+    expect(device.written.map((value) => value[0])).toEqual([0, 1, 0x82, 0x83]);
     expect(transport.backlogBytes()).toBe(0);
   });
 
   it("hands on what comes, and acknowledges it before its own requests", async () => {
-    const {peer, transport, received} = await start();
+    const {device, transport, received} = await start();
     transport.send(messageOf(400));
     const gateway = new FragmentWriter(kValueBytes);
     for (let i = 0; i < 3; i++) {
-      for (const fragment of gateway.cut(messageOf(200))) peer.notify(fragment);
+      for (const fragment of gateway.cut(messageOf(200))) device.notify(fragment);
     }
     expect(received).toEqual([messageOf(200), messageOf(200), messageOf(200)]);
     for (let i = 0; i < 10; i++) await soon();
-    expect(peer.written.map((value) => value.length), "the newest acknowledgement alone").toEqual([182, 1, 182, 39]);
-    expect(peer.written[1]).toEqual(new Uint8Array([6]));
+    expect(device.written.map((value) => value.length), "the newest acknowledgement alone").toEqual([182, 1, 182, 39]);
+    expect(device.written[1]).toEqual(new Uint8Array([6]));
   });
 
   it("ends when the robot is out of reach, when the gateway ends it, and when a fragment is lost", async () => {
-    for (const end of [(peer: FakePeer) => peer.dispatchEvent(new Event("gattserverdisconnected")),
-                       (peer: FakePeer) => peer.notify(new Uint8Array([0xff])),
-                       (peer: FakePeer) => peer.notify(new Uint8Array([5, 1]))]) {
-      const {peer, events} = await start();
-      end(peer);
+    for (const end of [(device: FakeDevice) => device.dispatchEvent(new Event("gattserverdisconnected")),
+                       (device: FakeDevice) => device.notify(new Uint8Array([0xff])),
+                       (device: FakeDevice) => device.notify(new Uint8Array([5, 1]))]) {
+      const {device, events} = await start();
+      end(device);
       expect(events).toEqual(["opened", "closed true"]);
-      expect(peer.isConnected).toBe(false);
+      expect(device.isConnected).toBe(false);
     }
   });
 
   it("does not begin while the robot serves another phone", async () => {
-    const peer = new FakePeer();
-    peer.refuses = true;
-    const {events} = await start(peer);
+    const device = new FakeDevice();
+    device.refuses = true;
+    const {events} = await start(device);
     expect(events).toEqual(["closed false"]);
   });
 
   it("is left without a word, and begins again", async () => {
-    const {peer, transport, events} = await start();
+    const {device, transport, events} = await start();
     transport.close();
-    expect(peer.isConnected).toBe(false);
-    peer.notify(new Uint8Array([0xff]));
+    expect(device.isConnected).toBe(false);
+    device.notify(new Uint8Array([0xff]));
     expect(events).toEqual(["opened"]);
     const again: string[] = [];
     transport.open({opened: () => again.push("opened"), received: () => {}, closed: () => again.push("closed")});

@@ -2,16 +2,16 @@
 import type {Transport, TransportListener} from "../transport";
 import {FragmentReader, FragmentWriter} from "./fragments";
 import {kMessagesUuid, kServiceUuid} from "./web_bluetooth";
-import type {BluetoothCharacteristic, BluetoothPeer} from "./web_bluetooth";
+import type {BluetoothCharacteristic, BluetoothDevice} from "./web_bluetooth";
 
 export class BluetoothTransport implements Transport {
   private link: Link | null = null;
 
-  constructor(private readonly peer: BluetoothPeer) {}
+  constructor(private readonly device: BluetoothDevice) {}
 
   open(listener: TransportListener): void {
     this.close();
-    const link = new Link(this.peer, listener);
+    const link = new Link(this.device, listener);
     this.link = link;
     void link.start();
   }
@@ -48,7 +48,7 @@ class Link {
   private readonly lost = () => this.end();
   private readonly changed = () => this.take();
 
-  constructor(private readonly peer: BluetoothPeer, private readonly listener: TransportListener) {}
+  constructor(private readonly device: BluetoothDevice, private readonly listener: TransportListener) {}
 
   get backlogBytes(): number {
     return this.queue.reduce((sum, value) => sum + value.length, 0);
@@ -56,8 +56,8 @@ class Link {
 
   async start(): Promise<void> {
     try {
-      this.peer.addEventListener("gattserverdisconnected", this.lost);
-      const server = await this.peer.gatt?.connect();
+      this.device.addEventListener("gattserverdisconnected", this.lost);
+      const server = await this.device.gatt?.connect();
       const service = await server?.getPrimaryService(kServiceUuid);
       const messages = await service?.getCharacteristic(kMessagesUuid);
       if (!messages || this.isOver) return this.end();
@@ -83,9 +83,9 @@ class Link {
   leave(): void {
     if (this.isOver) return;
     this.isOver = true;
-    this.peer.removeEventListener("gattserverdisconnected", this.lost);
+    this.device.removeEventListener("gattserverdisconnected", this.lost);
     this.messages?.removeEventListener("characteristicvaluechanged", this.changed);
-    this.peer.gatt?.disconnect();
+    this.device.gatt?.disconnect();
   }
 
   private end(): void {

@@ -10,7 +10,7 @@ export interface BluetoothCharacteristic extends EventTarget {
   startNotifications(): Promise<unknown>;
 }
 
-export interface BluetoothPeer extends EventTarget {
+export interface BluetoothDevice extends EventTarget {
   readonly name?: string;
   readonly gatt?: {
     connect(): Promise<{
@@ -21,7 +21,7 @@ export interface BluetoothPeer extends EventTarget {
 }
 
 interface Bluetooth {
-  requestDevice(options: {filters: {services: string[]}[]}): Promise<BluetoothPeer>;
+  requestDevice(options: {filters: {services: string[]}[]}): Promise<BluetoothDevice>;
 }
 
 /** Null: the browser has none, or not for a page without https. */
@@ -30,7 +30,7 @@ export function findBluetooth(): Bluetooth | null {
 }
 
 /** The person chooses a robot within reach; null: none. To be called while a tap is handled. */
-export async function chooseRobot(bluetooth: Bluetooth): Promise<BluetoothPeer | null> {
+export async function chooseRobot(bluetooth: Bluetooth): Promise<BluetoothDevice | null> {
   return bluetooth.requestDevice({filters: [{services: [kServiceUuid]}]}).catch(() => null);
 }
 

@@ -84,8 +84,8 @@ export class Handshake {
   async finish(answer: Bytes): Promise<SecureChannel> {
     if (answer[0] !== kVersion) throw new Error("no answer");
     const publicKey = answer.slice(1, 1 + kPublicKeyBytes);
-    const peer = await crypto.subtle.importKey("raw", publicKey, kCurve, false, []);
-    const shared = await crypto.subtle.deriveBits({name: "ECDH", public: peer}, this.key, 256);
+    const other = await crypto.subtle.importKey("raw", publicKey, kCurve, false, []);
+    const shared = await crypto.subtle.deriveBits({name: "ECDH", public: other}, this.key, 256);
     const material = await crypto.subtle.importKey("raw", shared, "HKDF", false, ["deriveBits"]);
     const keys = await crypto.subtle.deriveBits(
         {name: "HKDF", hash: "SHA-256", salt: this.secret, info: join(kKeyLabel, this.hello, publicKey)}, material, 512);

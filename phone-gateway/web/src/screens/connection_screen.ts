@@ -1,6 +1,6 @@
 /** Where to connect to, and why it does not work just now. */
 import {chooseRobot, findBluetooth, isApple} from "../bluetooth/web_bluetooth";
-import type {BluetoothPeer} from "../bluetooth/web_bluetooth";
+import type {BluetoothDevice} from "../bluetooth/web_bluetooth";
 import {el} from "../dom";
 import type {Gateway} from "../nearby";
 import {readForm} from "../settings";
@@ -17,7 +17,7 @@ export interface ConnectionForm {
 
 export interface ConnectionActions {
   connect(form: ConnectionForm): void;
-  connectByBluetooth(form: ConnectionForm, peer: BluetoothPeer): void;
+  connectByBluetooth(form: ConnectionForm, device: BluetoothDevice): void;
   cancel(): void;
   retryNow(): void;
 }
@@ -88,8 +88,8 @@ export class ConnectionScreen {
     if (!bluetooth) return isApple() ? el("p", {class: "quiet help no-bluetooth"}, say("connection.noBluetooth")) : null;
     const connect = async () => {
       const form = this.read();
-      const peer = await chooseRobot(bluetooth);
-      if (peer) this.actions.connectByBluetooth(form, peer);
+      const device = await chooseRobot(bluetooth);
+      if (device) this.actions.connectByBluetooth(form, device);
     };
     return el("button", {class: "button quiet bluetooth", type: "button", onclick: () => void connect()},
               say("connection.bluetooth"));
