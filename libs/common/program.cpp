@@ -18,14 +18,18 @@ const char* version() {
   return NAO_REMOTE_VERSION;
 }
 
+void add_log_option(CommandLine& app, CommonOptions& options) {
+  app.add_option("--log-level", options.log_level, "Minimum severity of printed log lines")
+      ->one_of({"trace", "debug", "info", "warning", "error"})
+      ->show_default();
+}
+
 void add_bus_options(CommandLine& app, CommonOptions& options) {
   app.add_version_flag("--version", app.name() + " " + version());
   app.add_option("--lcm-url", options.lcm_url, "URL of the message bus")
       ->from_environment("LCM_DEFAULT_URL")
       ->show_default();
-  app.add_option("--log-level", options.log_level, "Minimum severity of printed log lines")
-      ->one_of({"trace", "debug", "info", "warning", "error"})
-      ->show_default();
+  add_log_option(app, options);
 }
 
 void add_common_options(CommandLine& app, CommonOptions& options) {

@@ -110,8 +110,6 @@ int main(int argc, char** argv) {
   // It has no bus, and so no --lcm-url.
   common.lcm_url = "memq://";
   app.add_version_flag("--version", app.name() + " " + nao::version());
-  app.add_option("--log-level", common.log_level, "Minimum severity of printed log lines")
-      ->one_of({"trace", "debug", "info", "warning", "error"})
-      ->show_default();
+  nao::add_log_option(app, common);
   return nao::run_program(app, common, argc, argv, [&options] { nao::relay::run(options); });
 }
