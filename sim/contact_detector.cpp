@@ -219,10 +219,21 @@ void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int bo
   // The distance is predicted to first order: d + h d'. Surfaces that may touch within the step
   // become constraints now, so that they cannot pass through each other before the next detection.
   if (proximity.distance - step_ * std::max(approach_speed, 0.0) > kMargin) return;
-  if (found.add({a, b, body_a, body_b, foot, proximity, approach_speed, &memory})) return;
-  // It is marked, so that it is counted once in a step.
-  memory = ContactMemory();
-  memory.last_step = step_number_;
+  ContactCandidate* candidate = found.add();
+  if (candidate == nullptr) {
+    // It is marked, so that it is counted once in a step.
+    memory = ContactMemory();
+    memory.last_step = step_number_;
+    return;
+  }
+  candidate->a = a;
+  candidate->b = b;
+  candidate->body_a = body_a;
+  candidate->body_b = body_b;
+  candidate->foot = foot;
+  candidate->proximity = proximity;
+  candidate->approach_speed = approach_speed;
+  candidate->memory = &memory;
 }
 
 // Distance of a sphere (a corner point with its radius) from the floor, and the point of contact in
