@@ -133,7 +133,7 @@ void TreeDynamics::calc_body_rows(int body_index, EntryPair* rows) const {
         if (is_in_series) break;
         continue;
       }
-      const SpatialVector& motion = bodies_[index].motion;
+      const SpatialVector motion = bodies_[index].motion;
       const EntryPair entry = inverse_row(dof)[pair];
       sum[0] += motion.angular[0] * entry;
       sum[1] += motion.angular[1] * entry;
