@@ -194,8 +194,9 @@ void ContactDetector::find(const Island& island, ContactCandidates& found) {
   if (island.has_ball) find_ball_contacts(island, found);
 }
 
-Vector3d ContactDetector::velocity_of(const Surface& surface, int body,
-                                      const Vector3d& point) const {
+[[gnu::always_inline]] inline Vector3d ContactDetector::velocity_of(const Surface& surface,
+                                                                    int body,
+                                                                    const Vector3d& point) const {
   // Velocity in W, m/s, of the surface's material point at `point`; the floor and goals do not
   // move.
   switch (surface.kind) {
@@ -208,9 +209,12 @@ Vector3d ContactDetector::velocity_of(const Surface& surface, int body,
   }
 }
 
-void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int body_b,
-                          const Proximity& proximity, int foot, ContactMemory& memory,
-                          ContactCandidates& found) const {
+// Inlined, so that the vectors stay in registers.
+[[gnu::always_inline]] inline void ContactDetector::add(const Surface& a, int body_a,
+                                                        const Surface& b, int body_b,
+                                                        const Proximity& proximity, int foot,
+                                                        ContactMemory& memory,
+                                                        ContactCandidates& found) const {
   const Vector3d relative =
       velocity_of(a, body_a, proximity.point) - velocity_of(b, body_b, proximity.point);
   const double approach_speed = -proximity.normal.dot(relative);
@@ -238,7 +242,8 @@ void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int bo
 
 // Distance of a sphere (a corner point with its radius) from the floor, and the point of contact in
 // W: on the sphere's surface when it penetrates, on the floor otherwise.
-Proximity ContactDetector::to_floor(const Vector3d& center, double radius) const {
+[[gnu::always_inline]] inline Proximity ContactDetector::to_floor(const Vector3d& center,
+                                                                  double radius) const {
   Proximity proximity;
   if (floor_.is_flat()) {
     proximity.distance = center.z() - radius;
@@ -285,12 +290,12 @@ bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& f
   bool has_missed = false;
   for (size_t p = 0; p < model.parts.size(); ++p) {
     const CollisionModel::Part& part = model.parts[p];
-    const Vector3d& origin = robot.dynamics().position(part.body);
     const Vector3d& part_center = placed_[index][p].shape.center;
     // Vertical speed of the part's center only; kMaxSweptRadius covers the rotation.
     const double speed = robot.dynamics().velocity_at(part.body, part_center).z();
     const double height = part_center.z() - floor_.max_height();
     if (height + step_ * speed > part.bounding_radius * kMaxSweptRadius) continue;
+    const Vector3d& origin = robot.dynamics().position(part.body);
     const Matrix3d& rotation = robot.dynamics().rotation(part.body);
     // A point at a distance d moves at |v| + |w| (bounding radius + d) at most: above this d it
     // cannot reach the floor within the step.

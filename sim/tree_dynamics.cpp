@@ -54,9 +54,19 @@ TreeDynamics::TreeDynamics(const Tree& tree, bool is_root_fixed)
   for (int dof = 0; dof < num_dofs_; ++dof) {
     depth = std::max(depth, tree.dof_ancestors(dof).size());
   }
-  pairs_of_row_ = num_pairs(static_cast<int>(depth) + 1);
+  // Four entries at a time.
+  pairs_of_row_ = 2 * static_cast<int>(depth / 4 + 1);
   for (std::vector<EntryPair>* rows : {&mass_, &factor_, &inverse_}) {
     rows->assign(static_cast<size_t>(num_dofs_) * pairs_of_row_, EntryPair::Zero());
+  }
+  const int row_length = 2 * pairs_of_row_;
+  matrix_rows_.resize(num_dofs_);
+  ancestor_rows_.reserve(num_dofs_ * depth);
+  for (int dof = 0; dof < num_dofs_; ++dof) {
+    const std::vector<int>& above = tree.dof_ancestors(dof);
+    matrix_rows_[dof] = {row_length * dof, static_cast<int>(above.size()),
+                         ancestor_rows_.data() + ancestor_rows_.size()};
+    for (const int ancestor : above) ancestor_rows_.push_back(row_length * ancestor);
   }
   for (int index = 0; index < tree.num_bodies(); ++index) {
     const TreeBody& body = tree.bodies()[index];
@@ -64,7 +74,7 @@ TreeDynamics::TreeDynamics(const Tree& tree, bool is_root_fixed)
     constants.parent = body.parent;
     constants.dof = body.dof;
     constants.is_parallel = body.is_parallel;
-    constants.row = 2 * pairs_of_row_ * body.dof;
+    constants.row = row_length * body.dof;
     constants.place = body.is_in_series ? static_cast<int>(body.chain.size()) - 1 : -1;
     constants.ratio = body.ratio;
     constants.offset = body.offset;

@@ -38,6 +38,26 @@ inline void add_diagonal(double value, Vec& x, Vec& y, Vec& z) {
   z.z += value;
 }
 
+typedef double Pair __attribute__((vector_size(16)));
+/** Four entries of a row. */
+struct Quad {
+  Pair low = {0, 0};
+  Pair high = {0, 0};
+};
+inline Quad load_quad(const double* from) {
+  Quad quad;
+  __builtin_memcpy(&quad.low, from, sizeof(Pair));
+  __builtin_memcpy(&quad.high, from + 2, sizeof(Pair));
+  return quad;
+}
+inline void store_quad(const Quad& quad, double* to) {
+  __builtin_memcpy(to, &quad.low, sizeof(Pair));
+  __builtin_memcpy(to + 2, &quad.high, sizeof(Pair));
+}
+inline Quad operator+(const Quad& a, const Quad& b) { return {a.low + b.low, a.high + b.high}; }
+inline Quad operator-(const Quad& a, const Quad& b) { return {a.low - b.low, a.high - b.high}; }
+inline Quad operator*(const Quad& a, double s) { return {a.low * s, a.high * s}; }
+
 #include "sim/tree_kernels.inl"
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "sim/constant_count.h"
+
 namespace nao::sim {
 
 /** A vector of three numbers and a 0: with AVX2 one instruction works on all of them. */
@@ -82,6 +84,15 @@ struct BodyState {
   PackedSpatial force;
 };
 
+/** A row of a matrix with the tree's pattern: entries for the dof's ancestors, rising, and for the
+ * dof itself, in doubles from the matrix' begin. Rows begin at multiples of 4 and are so long. */
+struct MatrixRow {
+  int first = 0;
+  /** Number of ancestors, and where their rows begin. */
+  int depth = 0;
+  const int* ancestors = nullptr;
+};
+
 /** The passes over a tree's bodies that take most of a step's time, compiled for processors with
  * AVX2 and for all: the same operations in the same order, and the same bits. All lists are by
  * body, the root first. */
@@ -101,6 +112,10 @@ struct TreeKernels {
    * the root's are its state's force. */
   void (*calc_bias)(const BodyConstants* bodies, int count, const double* gravity,
                     BodyState* states, double* bias);
+  /** L of M + diagonal = L^T L, and L^-1: see TreeDynamics::factorize().
+   * @param factor  M, becomes L. */
+  void (*factorize)(const MatrixRow* rows, int num_dofs, const double* diagonal, double* factor,
+                    double* inverse);
 };
 
 /** Those that are fastest on this processor. */

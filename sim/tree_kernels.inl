@@ -216,4 +216,83 @@ void calc_bias(const BodyConstants* bodies, int count, const double* gravity, Bo
   }
 }
 
-constexpr TreeKernels kKernels{update_kinematics, update_velocities, add_mass_rows, calc_bias};
+/** Most quads of a row whose depth is a constant of factorize(). */
+constexpr int kMostQuads = 3;
+
+template <class Depth>
+[[gnu::always_inline]] inline void eliminate(const MatrixRow& row, Depth depth, double diagonal,
+                                             double* factor) {
+  double* entries = factor + row.first;
+  const double root = __builtin_sqrt(entries[depth] + diagonal);
+  const double scale = 1 / root;
+  if constexpr (std::is_same_v<Depth, int>) {
+    for (int i = 0; i < depth; ++i) entries[i] *= scale;
+    entries[depth] = 0;
+    // Schur complement: subtracts the outer product of the row from the ancestors' block. What this
+    // adds behind the diagonal of an ancestor's row is never read.
+    for (int a = 0; a < depth; ++a) {
+      double* target = factor + row.ancestors[a];
+      for (int i = 0; i <= a; ++i) target[i] -= entries[a] * entries[i];
+    }
+  } else {
+    // The same, with the row in registers.
+    Quad quads[kMostQuads];
+    for (int q = 0; 4 * q < depth; ++q) {
+      quads[q] = load_quad(entries + 4 * q) * scale;
+      store_quad(quads[q], entries + 4 * q);
+    }
+    for (int a = 0; a < depth; ++a) {
+      double* target = factor + row.ancestors[a];
+      for (int q = 0; q <= a / 4; ++q) {
+        store_quad(load_quad(target + 4 * q) - quads[q] * entries[a], target + 4 * q);
+      }
+    }
+  }
+  entries[depth] = root;
+}
+
+template <class Depth>
+[[gnu::always_inline]] inline void invert(const MatrixRow& row, Depth depth, const double* factor,
+                                          double* inverse) {
+  const double* entries = factor + row.first;
+  double* result = inverse + row.first;
+  const double scale = 1 / entries[depth];
+  if constexpr (std::is_same_v<Depth, int>) {
+    for (int i = 0; i < depth; ++i) result[i] = 0;
+    for (int k = 0; k < depth; ++k) {
+      const double weight = -scale * entries[k];
+      const double* above = inverse + row.ancestors[k];
+      for (int i = 0; i <= k; ++i) result[i] += weight * above[i];
+    }
+  } else {
+    Quad sums[kMostQuads] = {};
+    for (int k = 0; k < depth; ++k) {
+      const double weight = -scale * entries[k];
+      const double* above = inverse + row.ancestors[k];
+      for (int q = 0; q <= k / 4; ++q) sums[q] = sums[q] + load_quad(above + 4 * q) * weight;
+    }
+    for (int q = 0; 4 * q < depth; ++q) store_quad(sums[q], result + 4 * q);
+  }
+  result[depth] = scale;
+}
+
+void factorize(const MatrixRow* rows, int num_dofs, const double* diagonal, double* factor,
+               double* inverse) {
+  // L^T L of a tree (Featherstone, table 6.3): eliminates the leaves first, so that no fill-in
+  // occurs. Row k of L is sqrt on the diagonal and M(k, j) / sqrt for its ancestors j. From the last
+  // dof to the first, each row changes those of its ancestors only, whose rows are as long as their
+  // places in the row: the entries of one are for the same dofs as the first ones of the other.
+  for (int k = num_dofs - 1; k >= 0; --k) {
+    with_constant<6, 11>(rows[k].depth,
+                         [&](auto depth) { eliminate(rows[k], depth, diagonal[k], factor); });
+  }
+  // L L^-1 = 1, row by row: L_dd (L^-1)_d = e_d - sum of L_da (L^-1)_a over the ancestors a of d,
+  // whose rows are beginnings of the row of d, as their ancestors are the first ones of d's.
+  for (int k = 0; k < num_dofs; ++k) {
+    with_constant<6, 11>(rows[k].depth,
+                         [&](auto depth) { invert(rows[k], depth, factor, inverse); });
+  }
+}
+
+constexpr TreeKernels kKernels{update_kinematics, update_velocities, add_mass_rows, calc_bias,
+                               factorize};

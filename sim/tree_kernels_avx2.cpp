@@ -52,6 +52,16 @@ inline void add_diagonal(double value, Vec& x, Vec& y, Vec& z) {
   z.v = _mm256_add_pd(z.v, _mm256_blend_pd(zero, all, 0b0100));
 }
 
+/** Four entries of a row. */
+struct Quad {
+  __m256d v = __m256d{0, 0, 0, 0};
+};
+inline Quad load_quad(const double* from) { return {_mm256_loadu_pd(from)}; }
+inline void store_quad(const Quad& quad, double* to) { _mm256_storeu_pd(to, quad.v); }
+inline Quad operator+(const Quad& a, const Quad& b) { return {_mm256_add_pd(a.v, b.v)}; }
+inline Quad operator-(const Quad& a, const Quad& b) { return {_mm256_sub_pd(a.v, b.v)}; }
+inline Quad operator*(const Quad& a, double s) { return {_mm256_mul_pd(a.v, _mm256_set1_pd(s))}; }
+
 #include "sim/tree_kernels.inl"
 
 }  // namespace

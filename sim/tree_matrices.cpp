@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/constant_count.h"
 #include "sim/tree_dynamics.h"
 
 namespace nao::sim {
@@ -28,66 +27,10 @@ void TreeDynamics::multiply_by_mass(const Eigen::VectorXd& factor, Eigen::Vector
   }
 }
 
-namespace {
-
-/** Numbers of ancestors of a NAO's and other humanoids' joints. */
-template <class Work>
-[[gnu::always_inline]] inline void with_constant_depth(int depth, Work work) {
-  with_constant<6, 11>(depth, work);
-}
-
-}  // namespace
-
 void TreeDynamics::factorize(const Eigen::VectorXd& diagonal) {
-  // From the last dof to the first, each row changes those of its ancestors only, so that entries
-  // outside the tree's pattern stay 0. The ancestors' rows are as long as their places in the row:
-  // the entries of one are for the same dofs as the first ones of the other.
   std::copy(mass_.begin(), mass_.end(), factor_.begin());
-  // L^T L of a tree (Featherstone, table 6.3): eliminates the leaves first, so that no fill-in
-  // occurs. Row k of L is sqrt on the diagonal and M(k, j) / sqrt for its ancestors j.
-  for (int k = num_dofs_ - 1; k >= 0; --k) {
-    const std::vector<int>& ancestors = tree_.dof_ancestors(k);
-    const int* above = ancestors.data();
-    with_constant_depth(static_cast<int>(ancestors.size()), [&](auto depth) {
-      double* row = row_of(factor_, k);
-      const double root = std::sqrt(row[depth] + diagonal[k]);
-      const double inverse = 1 / root;
-      // 0 instead of the diagonal entry while the row is subtracted, pair by pair.
-      row[depth] = 0;
-      EntryPair* pairs = &factor_[static_cast<size_t>(k) * pairs_of_row_];
-      for (int pair = 0; pair < num_pairs(depth); ++pair) pairs[pair] *= inverse;
-      // Schur complement: subtracts the outer product of the row from the ancestors' block. What
-      // this adds behind the diagonal of an ancestor's row is never read.
-      for (int a = 0; a < depth; ++a) {
-        EntryPair* target = &factor_[static_cast<size_t>(above[a]) * pairs_of_row_];
-        const double factor = row[a];
-        for (int pair = 0; pair <= a / 2; ++pair) target[pair] -= factor * pairs[pair];
-      }
-      row[depth] = root;
-    });
-  }
-  invert_factor();
-}
-
-// L L^-1 = 1, row by row: L_dd (L^-1)_d = e_d - sum of L_da (L^-1)_a over the ancestors a of d,
-// whose rows are beginnings of the row of d, as their ancestors are the first ones of d's.
-void TreeDynamics::invert_factor() {
-  for (int dof = 0; dof < num_dofs_; ++dof) {
-    const std::vector<int>& ancestors = tree_.dof_ancestors(dof);
-    const int* above = ancestors.data();
-    with_constant_depth(static_cast<int>(ancestors.size()), [&](auto depth) {
-      const double* factor = row_of(factor_, dof);
-      const double inverse = 1 / factor[depth];
-      EntryPair* row = &inverse_[static_cast<size_t>(dof) * pairs_of_row_];
-      for (int pair = 0; pair < num_pairs(depth + 1); ++pair) row[pair] = EntryPair::Zero();
-      for (int k = 0; k < depth; ++k) {
-        const EntryPair* row_above = inverse_row(above[k]);
-        const double weight = -inverse * factor[k];
-        for (int pair = 0; pair <= k / 2; ++pair) row[pair] += weight * row_above[pair];
-      }
-      row_of(inverse_, dof)[depth] = inverse;
-    });
-  }
+  kernels_.factorize(matrix_rows_.data(), num_dofs_, diagonal.data(), factor_.data()->data(),
+                     inverse_.data()->data());
 }
 
 // L^-T x: a sum of the rows of L^-1.
