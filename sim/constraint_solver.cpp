@@ -29,6 +29,13 @@ template <class Count>
   return (even + odd).sum();
 }
 
+// Eigenvalues of a symmetric 2 x 2 matrix are mean +- sqrt(mean^2 - determinant); rounding may make
+// the root's argument slightly negative.
+double calc_tangent_step(const ContactBlock& block) {
+  const double mean = block.tangent_mean;
+  return 1 / (mean + std::sqrt(std::max(0.0, mean * mean - block.tangent_determinant)));
+}
+
 // Solve one constraint. normal_impulse: of the block before, N s; for rolling blocks. z: of the
 // constraint's chain. They return the error of its velocity before, m/s or rad/s.
 
@@ -81,6 +88,7 @@ template <class Count>
     // It slides. Where the inertia is not the same in all directions, the Newton step is not
     // parallel to the residual, and its projection would not oppose the sliding. A gradient step is
     // parallel (projected gradient method, with the step length 1 / the largest eigenvalue).
+    if (block.tangent_step == 0) block.tangent_step = calc_tangent_step(block);
     const double step = block.tangent_step;
     x = block.impulse[1] - step * rx;
     y = block.impulse[2] - step * ry;
@@ -192,11 +200,8 @@ int ConstraintSolver::end_block() {
   block.tangent_inverse[1] = -xy / determinant;
   block.tangent_inverse[2] = xx / determinant;
   block.tangent_scale = 1 / std::max(block.tangent_inverse[0], block.tangent_inverse[2]);
-  // Eigenvalues of a symmetric 2 x 2 matrix are mean +- sqrt(mean^2 - determinant); rounding may
-  // make the root's argument slightly negative.
-  // One over the larger eigenvalue.
-  const double mean = (xx + yy) / 2;
-  block.tangent_step = 1 / (mean + std::sqrt(std::max(0.0, mean * mean - determinant)));
+  block.tangent_mean = (xx + yy) / 2;
+  block.tangent_determinant = determinant;
   return static_cast<int>(blocks_.size()) - 1;
 }
 

@@ -51,8 +51,11 @@ struct ContactBlock {
   double coupling[2] = {0, 0};
   /** Inverse of the tangential 2 x 2 block of J M^-1 J^T + softness: xx, xy, yy. */
   double tangent_inverse[3] = {0, 0, 0};
-  /** 1 / the larger eigenvalue of that block. */
+  /** 1 / the larger eigenvalue of that block, found when the contact slides first; 0 until then. */
   double tangent_step = 0;
+  /** Half the trace of that block, and its determinant. */
+  double tangent_mean = 0;
+  double tangent_determinant = 0;
   /** 1 / the larger diagonal entry of its inverse: change of velocity for a change of impulse. */
   double tangent_scale = 0;
 };

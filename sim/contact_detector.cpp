@@ -121,8 +121,7 @@ void ContactDetector::place_parts(int index) {
     // Part's center in W. The rotation is computed by part_shape() only where a narrow phase needs
     // it.
     placed.shape.center =
-        robot.dynamics().position(parts[i].body) +
-        product(robot.dynamics().rotation(parts[i].body), parts[i].center_in_body);
+        robot.dynamics().point_in_world(parts[i].body, parts[i].center_in_body);
   }
 }
 
@@ -268,11 +267,9 @@ void ContactDetector::find_floor_contacts(int index, ContactCandidates& found) {
     // Bounding sphere over the highest bump: most parts of a standing robot end here.
     const double height = placed_[index][p].shape.center.z() - floor_.max_height();
     if (height > part.bounding_radius + kReach) continue;
-    const Vector3d& origin = robot.dynamics().position(part.body);
-    const Matrix3d& rotation = robot.dynamics().rotation(part.body);
     for (int i = part.first_point; i < part.end_point; ++i) {
       const CollisionModel::Point& point = model.points[i];
-      const Vector3d center = origin + product(rotation, point.center_in_body);
+      const Vector3d center = robot.dynamics().point_in_world(part.body, point.center_in_body);
       const Proximity proximity = to_floor(center, point.radius);
       if (proximity.distance > kReach) continue;
       add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1, proximity, point.sole,
@@ -295,8 +292,6 @@ bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& f
     const double speed = robot.dynamics().velocity_at(part.body, part_center).z();
     const double height = part_center.z() - floor_.max_height();
     if (height + step_ * speed > part.bounding_radius * kMaxSweptRadius) continue;
-    const Vector3d& origin = robot.dynamics().position(part.body);
-    const Matrix3d& rotation = robot.dynamics().rotation(part.body);
     // A point at a distance d moves at |v| + |w| (bounding radius + d) at most: above this d it
     // cannot reach the floor within the step.
     const double turn = step_ * robot.dynamics().angular_velocity(part.body).norm();
@@ -307,7 +302,7 @@ bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& f
       ContactMemory& memory = robot_memory_[index].floor[i];
       if (memory.last_step == step_number_) continue;  // A constraint of this step already.
       const CollisionModel::Point& point = model.points[i];
-      const Vector3d center = origin + product(rotation, point.center_in_body);
+      const Vector3d center = robot.dynamics().point_in_world(part.body, point.center_in_body);
       const Proximity proximity = to_floor(center, point.radius);
       if (proximity.distance > safe_distance) continue;
       const Vector3d velocity = robot.dynamics().velocity_at(part.body, proximity.point);

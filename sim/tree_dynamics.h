@@ -86,6 +86,17 @@ class TreeDynamics {
   Eigen::Matrix3d rotation(int body) const { return bodies_[body].rotation; }
   Eigen::Vector3d position(int body) const { return bodies_[body].position; }
   Eigen::Isometry3d pose(int body) const;
+  /** A point fixed to a body, in W. @param point  In B, m. */
+  Eigen::Vector3d point_in_world(int body, const Eigen::Vector3d& point) const {
+    const BodyState& now = bodies_[body];
+    const Packed3* r = now.rotation.columns;
+    const double x = point.x();
+    const double y = point.y();
+    const double z = point.z();
+    return {now.position.x + (r[0].x * x + r[1].x * y + r[2].x * z),
+            now.position.y + (r[0].y * x + r[1].y * y + r[2].y * z),
+            now.position.z + (r[0].z * x + r[1].z * y + r[2].z * z)};
+  }
   /** Center of mass of a body in W, m. */
   Eigen::Vector3d body_center_of_mass(int body) const {
     return origin_ + Eigen::Vector3d(bodies_[body].com_from_O);

@@ -54,6 +54,9 @@ inline void store_quad(const Quad& quad, double* to) {
   __builtin_memcpy(to, &quad.low, sizeof(Pair));
   __builtin_memcpy(to + 2, &quad.high, sizeof(Pair));
 }
+inline void store_pair(const Quad& quad, double* to) {
+  __builtin_memcpy(to, &quad.low, sizeof(Pair));
+}
 inline Quad operator+(const Quad& a, const Quad& b) { return {a.low + b.low, a.high + b.high}; }
 inline Quad operator-(const Quad& a, const Quad& b) { return {a.low - b.low, a.high - b.high}; }
 inline Quad operator*(const Quad& a, double s) { return {a.low * s, a.high * s}; }

@@ -116,6 +116,11 @@ struct TreeKernels {
    * @param factor  M, becomes L. */
   void (*factorize)(const MatrixRow* rows, int num_dofs, const double* diagonal, double* factor,
                     double* inverse);
+  /** Rows of a body: see TreeDynamics::calc_body_rows(). @param inverse  L^-1, with 0 behind the
+   * diagonal. @param row_length  Of the result's rows, a multiple of 2. */
+  void (*calc_body_rows)(const BodyConstants* bodies, const BodyState* states,
+                         const MatrixRow* rows, const double* inverse, bool is_root_fixed, int body,
+                         int row_length, double* result);
 };
 
 /** Those that are fastest on this processor. */

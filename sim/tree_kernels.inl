@@ -221,7 +221,7 @@ constexpr int kMostQuads = 3;
 
 template <class Depth>
 [[gnu::always_inline]] inline void eliminate(const MatrixRow& row, Depth depth, double diagonal,
-                                             double* factor) {
+                                             double* factor, double* inverse) {
   double* entries = factor + row.first;
   const double root = __builtin_sqrt(entries[depth] + diagonal);
   const double scale = 1 / root;
@@ -249,6 +249,7 @@ template <class Depth>
     }
   }
   entries[depth] = root;
+  inverse[row.first + depth] = scale;
 }
 
 template <class Depth>
@@ -256,7 +257,7 @@ template <class Depth>
                                           double* inverse) {
   const double* entries = factor + row.first;
   double* result = inverse + row.first;
-  const double scale = 1 / entries[depth];
+  const double scale = result[depth];
   if constexpr (std::is_same_v<Depth, int>) {
     for (int i = 0; i < depth; ++i) result[i] = 0;
     for (int k = 0; k < depth; ++k) {
@@ -284,7 +285,7 @@ void factorize(const MatrixRow* rows, int num_dofs, const double* diagonal, doub
   // places in the row: the entries of one are for the same dofs as the first ones of the other.
   for (int k = num_dofs - 1; k >= 0; --k) {
     with_constant<6, 11>(rows[k].depth,
-                         [&](auto depth) { eliminate(rows[k], depth, diagonal[k], factor); });
+                         [&](auto depth) { eliminate(rows[k], depth, diagonal[k], factor, inverse); });
   }
   // L L^-1 = 1, row by row: L_dd (L^-1)_d = e_d - sum of L_da (L^-1)_a over the ancestors a of d,
   // whose rows are beginnings of the row of d, as their ancestors are the first ones of d's.
@@ -294,5 +295,42 @@ void factorize(const MatrixRow* rows, int num_dofs, const double* diagonal, doub
   }
 }
 
-constexpr TreeKernels kKernels{update_kinematics, update_velocities, add_mass_rows, calc_bias,
-                               factorize};
+void calc_body_rows(const BodyConstants* bodies, const BodyState* states, const MatrixRow* rows,
+                    const double* inverse, bool is_root_fixed, int body, int row_length,
+                    double* result) {
+  // Four entries at a time, so that the six sums stay in registers.
+  for (int first = 0; first < row_length; first += 4) {
+    Quad sum[6];
+    // The root's J is the unit matrix.
+    for (int axis = 0; axis < 6 && first < 6 && !is_root_fixed; ++axis) {
+      sum[axis] = load_quad(inverse + rows[axis].first + first);
+    }
+    // Joints between the body and the root: their motions, once for each of their entries.
+    for (int index = body; index > 0; index = bodies[index].parent) {
+      const MatrixRow& row = rows[bodies[index].dof];
+      if (row.depth < first) {
+        if (bodies[body].place >= 0) break;
+        continue;
+      }
+      const PackedSpatial& motion = states[index].motion;
+      const Quad entries = load_quad(inverse + row.first + first);
+      sum[0] = sum[0] + entries * motion.angular.x;
+      sum[1] = sum[1] + entries * motion.angular.y;
+      sum[2] = sum[2] + entries * motion.angular.z;
+      sum[3] = sum[3] + entries * motion.linear.x;
+      sum[4] = sum[4] + entries * motion.linear.y;
+      sum[5] = sum[5] + entries * motion.linear.z;
+    }
+    for (int axis = 0; axis < 6; ++axis) {
+      double* to = result + axis * row_length + first;
+      if (first + 4 <= row_length) {
+        store_quad(sum[axis], to);
+      } else {
+        store_pair(sum[axis], to);
+      }
+    }
+  }
+}
+
+constexpr TreeKernels kKernels{update_kinematics, update_velocities, add_mass_rows,
+                               calc_bias,         factorize,         calc_body_rows};

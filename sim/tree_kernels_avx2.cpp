@@ -58,6 +58,9 @@ struct Quad {
 };
 inline Quad load_quad(const double* from) { return {_mm256_loadu_pd(from)}; }
 inline void store_quad(const Quad& quad, double* to) { _mm256_storeu_pd(to, quad.v); }
+inline void store_pair(const Quad& quad, double* to) {
+  _mm_storeu_pd(to, _mm256_castpd256_pd128(quad.v));
+}
 inline Quad operator+(const Quad& a, const Quad& b) { return {_mm256_add_pd(a.v, b.v)}; }
 inline Quad operator-(const Quad& a, const Quad& b) { return {_mm256_sub_pd(a.v, b.v)}; }
 inline Quad operator*(const Quad& a, double s) { return {_mm256_mul_pd(a.v, _mm256_set1_pd(s))}; }

@@ -1,7 +1,6 @@
 // The linear algebra of TreeDynamics: its mass matrix, the factor, and the factor's inverse.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -57,36 +56,10 @@ void TreeDynamics::solve_lower(Eigen::VectorXd& vector) const {
   }
 }
 
-void TreeDynamics::calc_body_rows(int body_index, EntryPair* rows) const {
-  const std::vector<int>& chain = tree_.bodies()[body_index].chain;
-  const int count = num_pairs(static_cast<int>(chain.size()));
-  const bool is_in_series = tree_.bodies()[body_index].is_in_series;
-  // Pair by pair, so that the six sums stay in registers.
-  for (int pair = 0; pair < count; ++pair) {
-    std::array<EntryPair, 6> sum;
-    // The root's J is the unit matrix.
-    for (int axis = 0; axis < 6; ++axis) {
-      const bool has_entry = !is_root_fixed_ && 2 * pair <= axis;
-      sum[axis] = has_entry ? inverse_row(axis)[pair] : EntryPair::Zero();
-    }
-    // Joints between the body and the root: their motions, once for each of their entries.
-    for (int index = body_index; index > 0; index = tree_.bodies()[index].parent) {
-      const int dof = tree_.bodies()[index].dof;
-      if (static_cast<int>(tree_.dof_ancestors(dof).size()) < 2 * pair) {
-        if (is_in_series) break;
-        continue;
-      }
-      const SpatialVector motion = bodies_[index].motion;
-      const EntryPair entry = inverse_row(dof)[pair];
-      sum[0] += motion.angular[0] * entry;
-      sum[1] += motion.angular[1] * entry;
-      sum[2] += motion.angular[2] * entry;
-      sum[3] += motion.linear[0] * entry;
-      sum[4] += motion.linear[1] * entry;
-      sum[5] += motion.linear[2] * entry;
-    }
-    for (int axis = 0; axis < 6; ++axis) rows[axis * count + pair] = sum[axis];
-  }
+void TreeDynamics::calc_body_rows(int body, EntryPair* rows) const {
+  const int count = num_pairs(static_cast<int>(tree_.bodies()[body].chain.size()));
+  kernels_.calc_body_rows(constants_.data(), bodies_.data(), matrix_rows_.data(),
+                          inverse_.data()->data(), is_root_fixed_, body, 2 * count, rows->data());
 }
 
 double TreeDynamics::mass_matrix(int row, int column) const {
