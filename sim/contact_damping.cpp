@@ -8,9 +8,12 @@ using Eigen::Vector3d;
 
 void ContactDamping::add(int body_a, int body_b, const Vector3d& point,
                          const Eigen::Matrix3d& damping) {
-  Contact contact{body_a, body_b, point, damping, Eigen::Matrix3Xd::Zero(3, tree_.num_dofs())};
+  Contact contact{body_a, body_b, point, damping, Eigen::Matrix3Xd::Zero(3, tree_.num_dofs()), {}};
   if (body_a >= 0) add_rows(body_a, point, 1, contact.rows);
   if (body_b >= 0) add_rows(body_b, point, -1, contact.rows);
+  for (int dof = 0; dof < tree_.num_dofs(); ++dof) {
+    if (!contact.rows.col(dof).isZero(0)) contact.dofs.push_back(dof);
+  }
   contacts_.push_back(std::move(contact));
 }
 
@@ -31,7 +34,10 @@ void ContactDamping::add_rows(int body, const Vector3d& point, double sign,
 
 void ContactDamping::add_to_mass(double h, Eigen::MatrixXd& mass) const {
   for (const Contact& contact : contacts_) {
-    mass.noalias() += h * contact.rows.transpose() * (contact.damping * contact.rows);
+    for (const int column : contact.dofs) {
+      const Vector3d force = h * (contact.damping * contact.rows.col(column));
+      for (const int row : contact.dofs) mass(row, column) += contact.rows.col(row).dot(force);
+    }
   }
 }
 

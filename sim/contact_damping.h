@@ -28,6 +28,8 @@ class ContactDamping {
     Eigen::Matrix3d damping = Eigen::Matrix3d::Zero();
     /** J: from u to the velocity of a's point relative to b's, (3, num_dofs). */
     Eigen::Matrix3Xd rows;
+    /** Dofs whose column of J is not 0. */
+    std::vector<int> dofs;
   };
 
   /** @param tree, dynamics  Tree and dynamics of the robot. Must outlive this. */

@@ -81,6 +81,8 @@ class TreeDynamics {
    * After factorize(). */
   void calc_body_rows(int body, EntryPair* rows) const;
   double mass_matrix(int row, int column) const;
+  /** All of M, (num_dofs, num_dofs), which is allocated if it has another size. */
+  void copy_mass_matrix(Eigen::MatrixXd& mass) const;
 
   /** Body frame B in W: rotation and origin, m. */
   Eigen::Matrix3d rotation(int body) const { return bodies_[body].rotation; }

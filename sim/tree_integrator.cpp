@@ -83,6 +83,7 @@ Eigen::VectorXd TreeIntegrator::take_impulses() {
 void TreeIntegrator::set_state(const TreeState& state) {
   state_ = state;
   dynamics_.update_kinematics(state_);
+  dynamics_.update_mass_matrix();
 }
 
 void TreeIntegrator::begin_step(double h) {

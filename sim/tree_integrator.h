@@ -38,7 +38,7 @@ class TreeIntegrator {
   /** Generalized impulses of the pushes since the last step, N m s and N s, (num_dofs), for other
    * engines; they are removed. */
   Eigen::VectorXd take_impulses();
-  /** Takes over a state that another engine has computed. */
+  /** Takes over a state that another engine has computed, with its mass matrix. */
   void set_state(const TreeState& state);
 
   // A step of h seconds, in this order.

@@ -62,6 +62,17 @@ void TreeDynamics::calc_body_rows(int body, EntryPair* rows) const {
                           inverse_.data()->data(), is_root_fixed_, body, 2 * count, rows->data());
 }
 
+void TreeDynamics::copy_mass_matrix(Eigen::MatrixXd& mass) const {
+  mass.setZero(num_dofs_, num_dofs_);
+  for (int dof = 0; dof < num_dofs_; ++dof) {
+    const double* row = row_of(mass_, dof);
+    for (const int above : tree_.dof_ancestors(dof)) {
+      mass(dof, above) = mass(above, dof) = *row++;
+    }
+    mass(dof, dof) = *row;
+  }
+}
+
 double TreeDynamics::mass_matrix(int row, int column) const {
   if (row < column) std::swap(row, column);
   const std::vector<int>& above = tree_.dof_ancestors(row);
