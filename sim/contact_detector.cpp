@@ -120,8 +120,7 @@ void ContactDetector::place_parts(int index) {
     placed.has_rotation = false;
     // Part's center in W. The rotation is computed by part_shape() only where a narrow phase needs
     // it.
-    placed.shape.center =
-        robot.dynamics().point_in_world(parts[i].body, parts[i].center_in_body);
+    placed.shape.center = robot.dynamics().point_in_world(parts[i].body, parts[i].center_in_body);
   }
 }
 

@@ -43,11 +43,11 @@ SpatialVector motion_of(const SpatialInertia& body, const SpatialVector& momentu
 
 }  // namespace
 
-TreeDynamics::TreeDynamics(const Tree& tree, bool is_root_fixed)
+TreeDynamics::TreeDynamics(const Tree& tree, bool is_root_fixed, const TreeKernels& kernels)
     : tree_(tree),
       is_root_fixed_(is_root_fixed),
       num_dofs_(tree.num_dofs()),
-      kernels_(tree_kernels()),
+      kernels_(kernels),
       constants_(tree.num_bodies()),
       bodies_(tree.num_bodies()) {
   size_t depth = 0;

@@ -47,8 +47,10 @@ struct SpatialVector {
  * tree. */
 class TreeDynamics {
  public:
-  /** @param is_root_fixed  Whether the root is held fixed: its accelerations are 0. */
-  explicit TreeDynamics(const Tree& tree, bool is_root_fixed = false);
+  /** @param is_root_fixed  Whether the root is held fixed: its accelerations are 0.
+   * @param kernels  Must outlive this. */
+  explicit TreeDynamics(const Tree& tree, bool is_root_fixed = false,
+                        const TreeKernels& kernels = tree_kernels());
   TreeDynamics(const TreeDynamics&) = delete;
   TreeDynamics& operator=(const TreeDynamics&) = delete;
 

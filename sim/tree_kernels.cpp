@@ -12,17 +12,29 @@ struct Vec {
   double z = 0;
 };
 
-inline Vec load(const Packed3& v) { return {v.x, v.y, v.z}; }
+inline Vec load(const Packed3& v) {
+  return {v.x, v.y, v.z};
+}
 inline void store(const Vec& v, Packed3& to) {
   to.x = v.x;
   to.y = v.y;
   to.z = v.z;
 }
-inline Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec operator-(const Vec& a) { return {-a.x, -a.y, -a.z}; }
-inline Vec operator*(const Vec& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-inline double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec operator+(const Vec& a, const Vec& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Vec operator-(const Vec& a, const Vec& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Vec operator-(const Vec& a) {
+  return {-a.x, -a.y, -a.z};
+}
+inline Vec operator*(const Vec& a, double s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+inline double dot(const Vec& a, const Vec& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vec cross(const Vec& a, const Vec& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -57,16 +69,24 @@ inline void store_quad(const Quad& quad, double* to) {
 inline void store_pair(const Quad& quad, double* to) {
   __builtin_memcpy(to, &quad.low, sizeof(Pair));
 }
-inline Quad operator+(const Quad& a, const Quad& b) { return {a.low + b.low, a.high + b.high}; }
-inline Quad operator-(const Quad& a, const Quad& b) { return {a.low - b.low, a.high - b.high}; }
-inline Quad operator*(const Quad& a, double s) { return {a.low * s, a.high * s}; }
+inline Quad operator+(const Quad& a, const Quad& b) {
+  return {a.low + b.low, a.high + b.high};
+}
+inline Quad operator-(const Quad& a, const Quad& b) {
+  return {a.low - b.low, a.high - b.high};
+}
+inline Quad operator*(const Quad& a, double s) {
+  return {a.low * s, a.high * s};
+}
 
 #include "sim/tree_kernels.inl"
 
 }  // namespace
 }  // namespace generic
 
-const TreeKernels& generic_tree_kernels() { return generic::kKernels; }
+const TreeKernels& generic_tree_kernels() {
+  return generic::kKernels;
+}
 
 const TreeKernels& tree_kernels() {
   static const TreeKernels& kernels =

@@ -1,5 +1,5 @@
 // The bodies of tree_kernels.cpp and tree_kernels_avx2.cpp, which define in their own namespaces:
-// Vec, a vector of three numbers; load(), store(), dot(), cross(), splat(), and the operators.
+// Vec, a vector of three numbers, and Quad, four entries of a row, with the operations on them.
 
 /** a x. */
 inline Vec product(const Vec* a, const Packed3& x) {
@@ -11,7 +11,9 @@ struct Spatial {
   Vec linear;
 };
 
-inline Spatial load(const PackedSpatial& v) { return {load(v.angular), load(v.linear)}; }
+inline Spatial load(const PackedSpatial& v) {
+  return {load(v.angular), load(v.linear)};
+}
 inline void store(const Spatial& v, PackedSpatial& to) {
   store(v.angular, to.angular);
   store(v.linear, to.linear);
@@ -280,12 +282,14 @@ template <class Depth>
 void factorize(const MatrixRow* rows, int num_dofs, const double* diagonal, double* factor,
                double* inverse) {
   // L^T L of a tree (Featherstone, table 6.3): eliminates the leaves first, so that no fill-in
-  // occurs. Row k of L is sqrt on the diagonal and M(k, j) / sqrt for its ancestors j. From the last
-  // dof to the first, each row changes those of its ancestors only, whose rows are as long as their
-  // places in the row: the entries of one are for the same dofs as the first ones of the other.
+  // occurs. Row k of L is sqrt on the diagonal and M(k, j) / sqrt for its ancestors j. From the
+  // last dof to the first, each row changes those of its ancestors only, whose rows are as long as
+  // their places in the row: the entries of one are for the same dofs as the first ones of the
+  // other.
   for (int k = num_dofs - 1; k >= 0; --k) {
-    with_constant<6, 11>(rows[k].depth,
-                         [&](auto depth) { eliminate(rows[k], depth, diagonal[k], factor, inverse); });
+    with_constant<6, 11>(rows[k].depth, [&](auto depth) {
+      eliminate(rows[k], depth, diagonal[k], factor, inverse);
+    });
   }
   // L L^-1 = 1, row by row: L_dd (L^-1)_d = e_d - sum of L_da (L^-1)_a over the ancestors a of d,
   // whose rows are beginnings of the row of d, as their ancestors are the first ones of d's.

@@ -19,12 +19,24 @@ struct Vec {
   __m256d v = __m256d{0, 0, 0, 0};
 };
 
-inline Vec load(const Packed3& v) { return {_mm256_load_pd(&v.x)}; }
-inline void store(const Vec& v, Packed3& to) { _mm256_store_pd(&to.x, v.v); }
-inline Vec operator+(const Vec& a, const Vec& b) { return {_mm256_add_pd(a.v, b.v)}; }
-inline Vec operator-(const Vec& a, const Vec& b) { return {_mm256_sub_pd(a.v, b.v)}; }
-inline Vec operator-(const Vec& a) { return {_mm256_xor_pd(a.v, _mm256_set_pd(0, -0.0, -0.0, -0.0))}; }
-inline Vec operator*(const Vec& a, double s) { return {_mm256_mul_pd(a.v, _mm256_set1_pd(s))}; }
+inline Vec load(const Packed3& v) {
+  return {_mm256_load_pd(&v.x)};
+}
+inline void store(const Vec& v, Packed3& to) {
+  _mm256_store_pd(&to.x, v.v);
+}
+inline Vec operator+(const Vec& a, const Vec& b) {
+  return {_mm256_add_pd(a.v, b.v)};
+}
+inline Vec operator-(const Vec& a, const Vec& b) {
+  return {_mm256_sub_pd(a.v, b.v)};
+}
+inline Vec operator-(const Vec& a) {
+  return {_mm256_xor_pd(a.v, _mm256_set_pd(0, -0.0, -0.0, -0.0))};
+}
+inline Vec operator*(const Vec& a, double s) {
+  return {_mm256_mul_pd(a.v, _mm256_set1_pd(s))};
+}
 inline double dot(const Vec& a, const Vec& b) {
   const __m256d p = _mm256_mul_pd(a.v, b.v);
   const __m128d xy = _mm256_castpd256_pd128(p);
@@ -32,7 +44,9 @@ inline double dot(const Vec& a, const Vec& b) {
   return _mm_cvtsd_f64(_mm_add_sd(_mm_add_sd(xy, _mm_unpackhi_pd(xy, xy)), z));
 }
 /** y, z, x, 0. */
-inline __m256d rotate(__m256d v) { return _mm256_permute4x64_pd(v, 0b11001001); }
+inline __m256d rotate(__m256d v) {
+  return _mm256_permute4x64_pd(v, 0b11001001);
+}
 inline Vec cross(const Vec& a, const Vec& b) {
   return {rotate(_mm256_sub_pd(_mm256_mul_pd(a.v, rotate(b.v)), _mm256_mul_pd(rotate(a.v), b.v)))};
 }
@@ -56,14 +70,24 @@ inline void add_diagonal(double value, Vec& x, Vec& y, Vec& z) {
 struct Quad {
   __m256d v = __m256d{0, 0, 0, 0};
 };
-inline Quad load_quad(const double* from) { return {_mm256_loadu_pd(from)}; }
-inline void store_quad(const Quad& quad, double* to) { _mm256_storeu_pd(to, quad.v); }
+inline Quad load_quad(const double* from) {
+  return {_mm256_loadu_pd(from)};
+}
+inline void store_quad(const Quad& quad, double* to) {
+  _mm256_storeu_pd(to, quad.v);
+}
 inline void store_pair(const Quad& quad, double* to) {
   _mm_storeu_pd(to, _mm256_castpd256_pd128(quad.v));
 }
-inline Quad operator+(const Quad& a, const Quad& b) { return {_mm256_add_pd(a.v, b.v)}; }
-inline Quad operator-(const Quad& a, const Quad& b) { return {_mm256_sub_pd(a.v, b.v)}; }
-inline Quad operator*(const Quad& a, double s) { return {_mm256_mul_pd(a.v, _mm256_set1_pd(s))}; }
+inline Quad operator+(const Quad& a, const Quad& b) {
+  return {_mm256_add_pd(a.v, b.v)};
+}
+inline Quad operator-(const Quad& a, const Quad& b) {
+  return {_mm256_sub_pd(a.v, b.v)};
+}
+inline Quad operator*(const Quad& a, double s) {
+  return {_mm256_mul_pd(a.v, _mm256_set1_pd(s))};
+}
 
 #include "sim/tree_kernels.inl"
 
@@ -80,6 +104,8 @@ const TreeKernels* avx2_tree_kernels() {
 #else
 
 namespace nao::sim {
-const TreeKernels* avx2_tree_kernels() { return nullptr; }
+const TreeKernels* avx2_tree_kernels() {
+  return nullptr;
+}
 }  // namespace nao::sim
 #endif

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <random>
+#include <vector>
 
 #include "common/constants.h"
 #include "sim/simbody_model.h"
@@ -261,6 +262,46 @@ void TreeDynamicsTest::expect_rows_of_the_inverse_factor() {
       }
       expect_row(&rows[axis * count], chain, column);
     }
+  }
+}
+
+TEST_F(TreeDynamicsTest, HasTheSameBitsWithAndWithoutAvx2) {
+  if (avx2_tree_kernels() == nullptr) GTEST_SKIP() << "no AVX2";
+  const int n = tree_.num_dofs();
+  TreeDynamics generic(tree_, false, generic_tree_kernels());
+  TreeDynamics avx2(tree_, false, *avx2_tree_kernels());
+  for (int round = 0; round < 10; ++round) {
+    randomize();
+    std::vector<double> results[2];
+    for (int i = 0; i < 2; ++i) {
+      TreeDynamics& dynamics = i == 0 ? generic : avx2;
+      std::vector<double>& result = results[i];
+      const auto add = [&result](const auto& matrix) {
+        result.insert(result.end(), matrix.data(), matrix.data() + matrix.size());
+      };
+      dynamics.update_kinematics(state_);
+      dynamics.update_velocities(state_);
+      dynamics.update_mass_matrix();
+      Eigen::VectorXd vector = Eigen::VectorXd::Zero(n);
+      dynamics.calc_bias({0.1, 0.2, -9.8}, vector);
+      add(vector);
+      Eigen::MatrixXd mass;
+      dynamics.copy_mass_matrix(mass);
+      add(mass);
+      dynamics.factorize(Eigen::VectorXd::Constant(n, 0.01));
+      for (int dof = 0; dof < n; ++dof) {
+        const double* row = dynamics.inverse_row(dof)->data();
+        result.insert(result.end(), row, row + tree_.dof_ancestors(dof).size() + 1);
+      }
+      for (int body = 0; body < tree_.num_bodies(); ++body) {
+        add(dynamics.rotation(body));
+        add(dynamics.position(body));
+        std::vector<EntryPair> rows(6 * num_pairs(n));
+        dynamics.calc_body_rows(body, rows.data());
+        for (const EntryPair& pair : rows) add(pair);
+      }
+    }
+    EXPECT_EQ(results[0], results[1]);
   }
 }
 
