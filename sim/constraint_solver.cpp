@@ -46,52 +46,43 @@ template <class Count>
   const EntryPair* row_x = row_n + count;
   const EntryPair* row_y = row_x + count;
   // Velocities of the rows, J u = y . z.
-  EntryPair sum_n = row_n[0] * z[0];
-  EntryPair sum_x = row_x[0] * z[0];
-  EntryPair sum_y = row_y[0] * z[0];
-  for (int i = 1; i < count; ++i) {
-    sum_n += row_n[i] * z[i];
-    sum_x += row_x[i] * z[i];
-    sum_y += row_y[i] * z[i];
-  }
-  const double vn = sum_n.sum();
-  double vx = sum_x.sum();
-  double vy = sum_y.sum();
-  double change_n = 0;
-  // A rolling block has no normal impulse of its own: it takes that of the pressing block before.
-  // Radius of the friction cone.
-  double bound = block.friction * normal_impulse;
-  if (block.is_rolling) {
-    // Torsional (spinning) resistance about the normal: brings the rotation about the normal to 0,
-    // with a torque impulse of at most `limit`.
-    const double limit = block.spinning * normal_impulse;
-    const double unbounded = block.impulse[0] - (vn + block.bias[0]) * block.normal_inverse;
-    change_n = std::clamp(unbounded, -limit, limit) - block.impulse[0];
-  } else {
-    // Residual of the complementarity problem's equality v + softness * p + bias = 0, and one
-    // Gauss-Seidel step with the diagonal entry; projection on p >= 0 opens the contact.
-    const double residual = vn + block.normal_softness * block.impulse[0] + block.bias[0];
-    const double normal = std::max(0.0, block.impulse[0] - residual * block.normal_inverse);
-    change_n = normal - block.impulse[0];
-    // The cone of the new normal impulse, not of the last iteration's.
-    bound = block.friction * normal;
-    // The change of the normal impulse changes the tangential velocities.
-    vx += block.coupling[0] * change_n;
-    vy += block.coupling[1] * change_n;
-  }
-  // Tangential impulse that would stop the sliding: Newton step with the 2 x 2 block.
-  const double rx = vx + block.tangent_softness * block.impulse[1] + block.bias[1];
-  const double ry = vy + block.tangent_softness * block.impulse[2] + block.bias[2];
-  double x = block.impulse[1] - (block.tangent_inverse[0] * rx + block.tangent_inverse[1] * ry);
-  double y = block.impulse[2] - (block.tangent_inverse[1] * rx + block.tangent_inverse[2] * ry);
+  const double vn = dot(row_n, z, count);
+  const double vx = dot(row_x, z, count);
+  const double vy = dot(row_y, z, count);
+  const double before_n = block.impulse[0];
+  const double before_x = block.impulse[1];
+  const double before_y = block.impulse[2];
+  // What the normal impulse would be without bounds: one Gauss-Seidel step with the diagonal entry,
+  // for the equality v + softness * p + bias = 0. The velocity comes last in all sums here, since
+  // the next constraint waits for what follows from it.
+  const double unbounded =
+      before_n - (block.normal_softness * before_n + block.bias[0]) * block.normal_inverse -
+      vn * block.normal_inverse;
+  // A pressing contact opens where it would pull (projection on p >= 0). A rolling block has no
+  // normal impulse of its own: it takes that of the pressing block before, and brings the rotation
+  // about the normal to 0 with a bounded torque impulse.
+  const double limit = block.spinning * normal_impulse;
+  const double normal =
+      block.is_rolling ? std::clamp(unbounded, -limit, limit) : std::max(0.0, unbounded);
+  const double change_n = normal - before_n;
+  // Radius of the friction cone, of the new normal impulse and not of the last iteration's.
+  const double bound = block.friction * (block.is_rolling ? normal_impulse : normal);
+  // Tangential impulse that would stop the sliding: Newton step with the 2 x 2 block. The change of
+  // the normal impulse changes the tangential velocities.
+  const double rx = vx + (block.tangent_softness * before_x + block.bias[1]);
+  const double ry = vy + (block.tangent_softness * before_y + block.bias[2]);
+  double x = before_x - (block.tangent_inverse[0] * rx + block.tangent_inverse[1] * ry) -
+             block.coupling_step[0] * change_n;
+  double y = before_y - (block.tangent_inverse[1] * rx + block.tangent_inverse[2] * ry) -
+             block.coupling_step[1] * change_n;
   if (x * x + y * y > bound * bound) {
     // It slides. Where the inertia is not the same in all directions, the Newton step is not
     // parallel to the residual, and its projection would not oppose the sliding. A gradient step is
     // parallel (projected gradient method, with the step length 1 / the largest eigenvalue).
     if (block.tangent_step == 0) block.tangent_step = calc_tangent_step(block);
     const double step = block.tangent_step;
-    x = block.impulse[1] - step * rx;
-    y = block.impulse[2] - step * ry;
+    x = before_x - step * (rx + block.coupling[0] * change_n);
+    y = before_y - step * (ry + block.coupling[1] * change_n);
     const double square = x * x + y * y;
     if (square > bound * bound) {
       const double scale = bound / std::sqrt(square);
@@ -101,12 +92,14 @@ template <class Count>
   }
   // The new impulses are known; z takes their change, so that the next row sees it (Gauss-Seidel,
   // in contrast to Jacobi).
-  const double change_x = x - block.impulse[1];
-  const double change_y = y - block.impulse[2];
+  const double change_x = x - before_x;
+  const double change_y = y - before_y;
   for (int i = 0; i < count; ++i) {
-    z[i] += row_n[i] * change_n + row_x[i] * change_x + row_y[i] * change_y;
+    z[i] = z[i] + row_n[i] * change_n + row_x[i] * change_x + row_y[i] * change_y;
   }
-  block.impulse += Eigen::Vector3d(change_n, change_x, change_y);
+  block.impulse[0] = normal;
+  block.impulse[1] = x;
+  block.impulse[2] = y;
   // The change of impulse in terms of velocity: by how much the rows were off.
   const double tangent = (std::abs(change_x) + std::abs(change_y)) * block.tangent_scale;
   return std::max(std::abs(change_n) * block.normal_scale, tangent);
@@ -117,9 +110,11 @@ template <class Count>
   const EntryPair* entries = row.entries;
   // J u = y . z.
   const double velocity = dot(entries, z, count);
-  const double residual = row.measure * velocity + row.softness * row.impulse + row.bias;
-  // Gauss-Seidel step on the row's own impulse, projected onto [lower, upper].
-  const double impulse = std::clamp(row.impulse - residual * row.inverse, row.lower, row.upper);
+  // Gauss-Seidel step on the row's own impulse, projected onto [lower, upper]. The velocity comes
+  // last, as the next constraint waits for it.
+  const double unbounded =
+      row.impulse - (row.softness * row.impulse + row.bias) * row.inverse - velocity * row.gain;
+  const double impulse = std::clamp(unbounded, row.lower, row.upper);
   const double change = impulse - row.impulse;
   if (change == 0) return 0;
   row.impulse = impulse;
@@ -199,6 +194,12 @@ int ConstraintSolver::end_block() {
   block.tangent_inverse[0] = yy / determinant;
   block.tangent_inverse[1] = -xy / determinant;
   block.tangent_inverse[2] = xx / determinant;
+  // The change of the normal impulse does not turn what rolls.
+  if (block.is_rolling) block.coupling[0] = block.coupling[1] = 0;
+  for (int k = 0; k < 2; ++k) {
+    block.coupling_step[k] = block.tangent_inverse[k] * block.coupling[0] +
+                             block.tangent_inverse[k + 1] * block.coupling[1];
+  }
   block.tangent_scale = 1 / std::max(block.tangent_inverse[0], block.tangent_inverse[2]);
   block.tangent_mean = (xx + yy) / 2;
   block.tangent_determinant = determinant;
@@ -223,6 +224,7 @@ void ConstraintSolver::complete(JointRow& row) {
   // -softness.
   row.scale = row.measure * row.apply * diagonal + row.softness;
   row.inverse = 1 / row.scale;
+  row.gain = row.measure * row.inverse;
 }
 
 void ConstraintSolver::change_chain(int chain, double* z) {

@@ -51,6 +51,8 @@ struct ContactBlock {
   double coupling[2] = {0, 0};
   /** Inverse of the tangential 2 x 2 block of J M^-1 J^T + softness: xx, xy, yy. */
   double tangent_inverse[3] = {0, 0, 0};
+  /** The inverse times the coupling. */
+  double coupling_step[2] = {0, 0};
   /** 1 / the larger eigenvalue of that block, found when the contact slides first; 0 until then. */
   double tangent_step = 0;
   /** Half the trace of that block, and its determinant. */
@@ -81,9 +83,10 @@ struct JointRow {
   double impulse = 0;
 
   // Filled in by the solver.
-  /** J M^-1 J^T + softness, and its inverse. */
+  /** J M^-1 J^T + softness, its inverse, and `measure` times that. */
   double scale = 0;
   double inverse = 0;
+  double gain = 0;
 };
 
 /** Finds the impulses of all contacts and joint rows by projected Gauss-Seidel iterations, starting

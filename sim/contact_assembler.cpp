@@ -164,7 +164,8 @@ ContactAssembler::BodyRows& ContactAssembler::rows_of_body(int robot, int body) 
 namespace {
 
 /** Rows of the velocity of a body's point along the axes of a frame. @param rows  Rows of the
- * body's spatial velocity. @param is_level  Whether the frame is kFloorFrame. @param arm  Vector from the rows' reference point to the point, m. */
+ * body's spatial velocity. @param is_level  Whether the frame is kFloorFrame. @param arm  Vector
+ * from the rows' reference point to the point, m. */
 void calc_point_rows(const EntryPair* rows, int count, const Vector3d& arm, const Matrix3d& frame,
                      bool is_level, EntryPair* result) {
   for (int i = 0; i < count; ++i) {
