@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
+#include "common/unused_memory.h"
 #include "common/wall_clock.h"
 #include "daemons/head-camera/image_message.h"
 #include "daemons/head-camera/rendered_source.h"
@@ -24,6 +25,8 @@ constexpr double kStatusPeriod = 0.5;
 /** An unchanged state is rendered and published again after this time, s, for receivers that have
  * started since. */
 constexpr double kRepeatPeriod = 0.5;
+/** After this many images every shader has been compiled. Chosen: two seconds of a phone's. */
+constexpr int kNumFirstFrames = 30;
 
 std::unique_ptr<ImageSource> make_source(Bus& bus, const RobotModel& model,
                                          const HeadCameraOptions& options) {
@@ -64,6 +67,7 @@ HeadCameraDaemon::HeadCameraDaemon(Bus& bus, const RobotModel& model,
       channels_.head_camera_command, Bus::Queue::kAll,
       [this](const naolcm::camera_command_t& command) { receive_command(command); });
   update_state(0, false);
+  release_unused_memory();
 }
 
 void HeadCameraDaemon::attach(EventLoop& loop) {
@@ -142,8 +146,8 @@ void HeadCameraDaemon::send_images(const std::string& camera, const std::vector<
         std::max(figures_.largest_message_bytes, static_cast<double>(image.getEncodedSize()));
   }
   if (is_for_webots) webots_->send(frame, now);
-  ++num_frames_;
   ++figures_.num_frames;
+  if (++num_frames_ == kNumFirstFrames) release_unused_memory();
 }
 
 void HeadCameraDaemon::report_problems() {

@@ -1,10 +1,18 @@
 #include "common/bus.h"
 
+#include <poll.h>
+
+#include <cmath>
+
 #include "common/logger.h"
 #include "common/wall_clock.h"
 
 namespace nao {
 namespace {
+
+/** Messages that are taken from the kernel before the first of them is handled. Chosen: more than
+ * arrive between two ticks. */
+constexpr size_t kMostWaiting = 64;
 
 /** @return The subscription, which LCM refuses by nullptr. @throws BusError  then. */
 lcm_subscription_t* require_subscription(lcm_subscription_t* subscription,
@@ -27,12 +35,51 @@ Bus::Bus(const std::string& url) : url_(url), lcm_(url) {
 
 // All messages that have arrived, without waiting; handlers run here.
 void Bus::handle() {
-  while (handle_for(0)) {
+  while (handle_one()) {
   }
 }
 
 bool Bus::handle_for(double timeout) {
-  const bool has_handled = lcm_.handleTimeout(static_cast<int>(timeout * 1e3)) > 0;
+  const double end = monotonic_seconds() + timeout;
+  while (!handle_one()) {
+    const double left = end - monotonic_seconds();
+    pollfd polled{descriptor(), POLLIN, 0};
+    // What has arrived may be a fragment only.
+    if (left <= 0 || poll(&polled, 1, static_cast<int>(std::ceil(left * 1e3))) < 0) return false;
+  }
+  return true;
+}
+
+// Of a message for several receivers each has a copy, which waits by the rule of its queue.
+void Bus::take_in() {
+  while (waiting_.size() < kMostWaiting) {
+    const auto message = socket_.receive();
+    if (!message) return;
+    for (const auto& receiver : receivers_) {
+      if (receiver->channel.empty() || receiver->channel != message->channel) continue;
+      if (receiver->queue_capacity == 1) {
+        std::erase_if(waiting_,
+                      [&](const Waiting& each) { return each.receiver == receiver.get(); });
+      }
+      waiting_.push_back(
+          {receiver.get(), {message->bytes.begin(), message->bytes.end()}, nao::wall_utime()});
+    }
+  }
+}
+
+bool Bus::handle_one() {
+  open_socket();
+  if (waiting_.empty()) take_in();
+  bool has_handled = false;
+  if (waiting_.empty()) {
+    has_handled = lcm_.handleTimeout(0) > 0;
+  } else {
+    has_handled = true;
+    // The handler may receive others.
+    const Waiting next = std::move(waiting_.front());
+    waiting_.pop_front();
+    next.receiver->receive({next.receiver->channel, next.bytes, next.wall_utime});
+  }
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
   return has_handled;
 }
@@ -60,15 +107,15 @@ void Bus::publish_raw(const std::string& channel, std::span<const uint8_t> messa
 
 void Bus::subscribe_raw(const std::string& pattern, std::function<void(const RawMessage&)> handler,
                         int queue_capacity) {
-  add_receiver(pattern, queue_capacity, std::move(handler));
-  filter_.pass_all();
+  add_receiver(pattern, "", queue_capacity, std::move(handler));
+  socket_.leave_to_lcm();
 }
 
-void Bus::add_receiver(const std::string& pattern, int queue_capacity,
+void Bus::add_receiver(const std::string& pattern, const std::string& channel, int queue_capacity,
                        std::function<void(const RawMessage&)> handler) {
   open_socket();
-  const auto& receiver =
-      receivers_.emplace_back(std::make_unique<Receiver>(Receiver{this, std::move(handler)}));
+  const auto& receiver = receivers_.emplace_back(
+      std::make_unique<Receiver>(Receiver{this, channel, queue_capacity, std::move(handler)}));
   const auto receive = [](const lcm_recv_buf_t* buffer, const char* channel, void* user) {
     const auto* data = static_cast<const uint8_t*>(buffer->data);
     static_cast<Receiver*>(user)->receive({channel, {data, buffer->data_size}, buffer->recv_utime});

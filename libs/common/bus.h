@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
@@ -10,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/channel_filter.h"
+#include "common/bus_socket.h"
 #include "common/error.h"
 #include "common/rate_limiter.h"
 
@@ -41,14 +42,14 @@ bool decode_message(std::span<const uint8_t> bytes, Message& message) {
 
 /** The message bus: LCM, with protection against malformed messages.
  *
- * Messages on channels that nobody has subscribed to do not wake the process (ChannelFilter).
+ * Messages on channels that nobody has subscribed to do not wake the process (BusSocket).
  * A message that does not decode, or whose handler throws a MessageError, is counted, reported at
  * most once a second, and dropped. Any other exception of a handler ends handle(), and so the
  * program, which its supervisor restarts. Not thread-safe. */
 class Bus {
  public:
-  /** Queue of one subscription: with kLatest one message waits for handle(), and LCM drops those
-   * that arrive meanwhile; with kAll every message waits. */
+  /** Queue of one subscription: with kLatest one message waits for handle(), and others that arrive
+   * meanwhile are dropped; with kAll every message waits. */
   enum class Queue { kLatest, kAll };
 
   /** @param url  LCM URL: "udpm://239.255.76.67:7667?ttl=0"; "memq://" for tests in one process.
@@ -85,15 +86,15 @@ class Bus {
   /** As subscribe(), with messages undecoded: for receivers that decode few of many. */
   void subscribe_encoded(const std::string& channel, Queue queue,
                          std::function<void(const RawMessage&)> handler) {
-    add_receiver(channel, queue == Queue::kLatest ? 1 : 0, std::move(handler));
-    filter_.add(channel);
+    add_receiver(channel, channel, queue == Queue::kLatest ? 1 : 0, std::move(handler));
+    socket_.add(channel);
   }
 
   /** Whether messages on a subscribed channel wake the process: what is not needed for a while is
    * left to the kernel's filter. Without it, as on "memq://", they still come. */
   void set_awake(const std::string& channel, bool is_awake) {
-    filter_.remove(channel);
-    if (is_awake) filter_.add(channel);
+    socket_.remove(channel);
+    if (is_awake) socket_.add(channel);
   }
 
   /** Calls `handler` for every message on the channels whose whole name matches a regular
@@ -107,7 +108,7 @@ class Bus {
   /** Descriptor that is readable while a message is queued; for EventLoop::on_readable(). */
   int descriptor() {
     open_socket();
-    return lcm_.getFileno();
+    return socket_.descriptor() >= 0 ? socket_.descriptor() : lcm_.getFileno();
   }
 
   /** Handles every queued message without blocking. @throws What a handler throws. */
@@ -122,23 +123,36 @@ class Bus {
  private:
   struct Receiver {
     Bus* bus;
+    /** Empty: of a pattern. */
+    std::string channel;
+    /** 0: any number. */
+    int queue_capacity;
     std::function<void(const RawMessage&)> handler;
     void receive(const RawMessage& message) const;
   };
 
   /** LCM opens its socket when it first has to receive. */
   void open_socket() {
-    filter_.open_socket([this] { (void)lcm_.getFileno(); });
+    socket_.open([this] { return lcm_.getFileno(); });
   }
-  void add_receiver(const std::string& pattern, int queue_capacity,
+  void add_receiver(const std::string& pattern, const std::string& channel, int queue_capacity,
                     std::function<void(const RawMessage&)> handler);
+  void take_in();
+  bool handle_one();
   void count_sent(const std::string& channel, bool sent);
   void drop(const std::string& channel, const std::string& why);
 
   std::string url_;
   lcm::LCM lcm_;
-  ChannelFilter filter_;
+  BusSocket socket_;
   std::vector<std::unique_ptr<Receiver>> receivers_;
+  /** Messages that wait, in the order of their arrival. */
+  struct Waiting {
+    Receiver* receiver;
+    std::vector<uint8_t> bytes;
+    int64_t wall_utime;
+  };
+  std::deque<Waiting> waiting_;
   /** What a handler has thrown, while it waits for LCM's C code to return. */
   std::exception_ptr failure_;
   BusCounters counters_;

@@ -1,14 +1,6 @@
 #include "common/channel_filter.h"
 
-#include <netinet/in.h>
-#include <sys/socket.h>
-
-#include <algorithm>
 #include <cstdint>
-#include <filesystem>
-#include <iterator>
-#include <set>
-#include <system_error>
 
 namespace nao {
 namespace {
@@ -60,34 +52,6 @@ std::vector<sock_filter> test_of(const std::string& channel) {
   return code;
 }
 
-/** Whether a descriptor is a UDP socket whose port others may use, too: LCM's receiving socket, in
- * contrast to its sending one, of which the kernel has chosen the port. */
-bool is_receiving_socket(int descriptor) {
-  int value = 0;
-  socklen_t size = sizeof value;
-  if (getsockopt(descriptor, SOL_SOCKET, SO_TYPE, &value, &size) != 0 || value != SOCK_DGRAM) {
-    return false;
-  }
-  size = sizeof value;
-  if (getsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &value, &size) != 0 || value == 0) {
-    return false;
-  }
-  sockaddr_in address{};
-  size = sizeof address;
-  if (getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) != 0) return false;
-  return address.sin_family == AF_INET && address.sin_port != 0;
-}
-
-std::set<int> receiving_sockets() {
-  std::set<int> result;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
-    const int descriptor = std::stoi(entry.path().filename());
-    if (is_receiving_socket(descriptor)) result.insert(descriptor);
-  }
-  return result;
-}
-
 }  // namespace
 
 std::vector<sock_filter> make_channel_filter(const std::vector<std::string>& channels) {
@@ -103,46 +67,6 @@ std::vector<sock_filter> make_channel_filter(const std::vector<std::string>& cha
   program.push_back(BPF_STMT(BPF_RET | BPF_K, kDrop));
   if (program.size() > BPF_MAXINSNS) program.clear();
   return program;
-}
-
-void ChannelFilter::open_socket(const std::function<void()>& open) {
-  if (is_open_) return;
-  is_open_ = true;
-  const std::set<int> before = receiving_sockets();
-  open();
-  std::vector<int> opened;
-  const std::set<int> after = receiving_sockets();
-  std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
-                      std::back_inserter(opened));
-  // Two, where another thread opened one at the same time: no filter rather than the wrong one's.
-  if (opened.size() == 1) socket_ = opened.front();
-}
-
-void ChannelFilter::add(const std::string& channel) {
-  channels_.push_back(channel);
-  attach();
-}
-
-void ChannelFilter::remove(const std::string& channel) {
-  std::erase(channels_, channel);
-  attach();
-}
-
-void ChannelFilter::pass_all() {
-  passes_all_ = true;
-  if (!socket_) return;
-  int unused = 0;
-  // It fails if there is no filter yet.
-  (void)setsockopt(*socket_, SOL_SOCKET, SO_DETACH_FILTER, &unused, sizeof unused);
-}
-
-void ChannelFilter::attach() {
-  if (passes_all_ || !socket_) return;
-  std::vector<sock_filter> code = make_channel_filter(channels_);
-  if (code.empty()) return pass_all();
-  const sock_fprog program{static_cast<unsigned short>(code.size()), code.data()};
-  // A kernel without the filter passes all, as LCM alone does.
-  (void)setsockopt(*socket_, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof program);
 }
 
 }  // namespace nao

@@ -111,6 +111,12 @@ void GatewayCore::set_repeated_packets(uint32_t client, uint32_t number, double 
   if (ClientSession* session = sessions_.find(client)) session->note_repeated_packets(number, now);
 }
 
+bool GatewayCore::paces_image(uint32_t client) const {
+  const Sender sender = find_sender(client);
+  if (sender.client == nullptr || sender.part == Outbox::Part::kShort) return false;
+  return sender.client->outbox.is_image_due() || sender.client->streams.image_pacer.is_under_way();
+}
+
 void GatewayCore::set_unacknowledged(uint32_t client, size_t bytes, double now) {
   const Sender sender = find_sender(client);
   // That of the connection which carries the images.

@@ -58,6 +58,9 @@ class GatewayCore {
   void set_round_trip_time(uint32_t client, double round_trip_time, double least = 0);
   /** Packets that the transport has repeated on this connection until now. */
   void set_repeated_packets(uint32_t client, uint32_t number, double now);
+  /** Whether next_message() depends on set_unacknowledged(): an image waits for its turn, or the
+   * time of the last one is measured. */
+  bool paces_image(uint32_t client) const;
   /** Bytes that the client has not acknowledged: next_message() gives no image while there are
    * many. */
   void set_unacknowledged(uint32_t client, size_t bytes, double now);

@@ -90,7 +90,8 @@ void ClientConnection::flush() {
   // One message is sent at a time; the next is made when this one has left.
   if (is_writing_ || is_finished_) return;
   const double now = monotonic_seconds();
-  context_.core.set_unacknowledged(id_, unacknowledged(), now);
+  // It takes two system calls.
+  if (context_.core.paces_image(id_)) context_.core.set_unacknowledged(id_, unacknowledged(), now);
   const auto message = context_.core.next_message(id_, now);
   if (message) {
     is_writing_ = true;

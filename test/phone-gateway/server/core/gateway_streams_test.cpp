@@ -81,6 +81,20 @@ TEST_F(GatewayStreams, AreEncodedOnceForAllClientsWithTheirAge) {
   }
 }
 
+TEST_F(GatewayStreams, NeedTheLinkMeasuredForImagesOnly) {
+  Client ana = connect("Ana");
+  subscribe(ana, 50, 10);
+  pass(0.1);
+  EXPECT_FALSE(core_->paces_image(ana.id)) << "states alone";
+  receive_image(1);
+  EXPECT_TRUE(core_->paces_image(ana.id)) << "it waits";
+  while (core_->next_message(ana.id, now_)) {
+  }
+  EXPECT_TRUE(core_->paces_image(ana.id)) << "its time is measured";
+  core_->set_unacknowledged(ana.id, 0, now_);
+  EXPECT_FALSE(core_->paces_image(ana.id));
+}
+
 TEST_F(GatewayStreams, SkipStatesForASlowClientAndSendNoOldOnes) {
   Client ana = connect("Ana");
   subscribe(ana, 50, 0);
