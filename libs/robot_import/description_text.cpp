@@ -30,6 +30,8 @@ constexpr double kAnkleLoad = 0.25;
 // Stiffness of both ankles, in units of m g h: an inverted pendulum of the mass m and the height h
 // falls below 1. Chosen: below 3 published robots sag and sway, from 4 on they stand.
 constexpr double kPendulumStiffness = 5;
+// Bounds of a stance are above 0 also where the legs' geometry was not understood, m.
+constexpr double kLeastLength = 1e-3;
 // Froude number v^2 / (g l) of the walk limits' forward velocity. Chosen: v / sqrt(g l) = 0.17, a
 // slow walk that every biped of these proportions should reach.
 constexpr double kFroudeVelocity = 0.17;
@@ -359,10 +361,10 @@ std::string make_description_text(const RobotModel& model) {
   text << "\n# Joints as people name them.\n" << make_groups(model);
   const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
   const double height = -poses[model.left_sole()].translation().z();
-  const double width =
-      poses[model.left_sole()].translation().y() - poses[model.right_sole()].translation().y();
+  const double width = std::max(kLeastLength, poses[model.left_sole()].translation().y() -
+                                                  poses[model.right_sole()].translation().y());
   const auto legs = find_leg_kinematics(model);
-  const double length = legs ? legs->reach() : height;
+  const double length = std::max(kLeastLength, legs ? legs->reach() : height);
   // 0 for a robot that cannot walk.
   const bool walks = legs && legs->roles(Leg::kLeft).ankle_pitch >= 0;
   const double speed = walks ? kFroudeVelocity * std::sqrt(kGravity * length) : 0;

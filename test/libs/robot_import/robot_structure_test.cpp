@@ -66,6 +66,19 @@ TEST_F(ImportedStructure, HasAnotherRootWhereTheFrameIsTurnedOrMoved) {
   }
 }
 
+// A world below which the robot stands is no part of it.
+TEST_F(ImportedStructure, HasLegsWhereverAWorldIs) {
+  for (const char* z : {"1", "-3"}) {
+    urdf_ = make_biped_urdf(TestBiped{});
+    replace("<link name=\"trunk\">", "<link name=\"trunk\">",
+            "<link name=\"world\"/><joint name=\"world_mount\" type=\"floating\"><parent "
+            "link=\"world\"/><child link=\"trunk\"/><origin xyz=\"0 0 " +
+                std::string(z) + "\"/></joint><link name=\"trunk\">");
+    EXPECT_EQ(foot_of(import(), 0), "left_foot") << z;
+    EXPECT_THAT(lines_, testing::Not(Contains(HasSubstr("no two legs")))) << z;
+  }
+}
+
 // Of a robot that is upside down in its root's frame, arms that point ahead hang along another
 // axis, as legs do.
 TEST_F(ImportedStructure, StandsOnTheLongestLimbsWhereTheRootsFrameIsTurned) {
