@@ -78,6 +78,7 @@ class UrdfRepair {
    * @param key  Visuals of the same key share one. */
   void draw(TiXmlElement& shape, TiXmlElement& geometry, const std::string& name,
             const std::string& key, const std::function<void(const fs::path&)>& make);
+  void draw_by_collisions(TiXmlElement& link);
   void draw_primitive(TiXmlElement& shape, TiXmlElement& geometry);
   std::optional<Color> color_of(const TiXmlElement& shape) const {
     const auto found = colors_.find(&shape);
@@ -584,6 +585,46 @@ void UrdfRepair::repair_shapes(TiXmlElement& link, const char* kind, const std::
   }
 }
 
+/** Whether a file has a visual or a mesh at all; scripts draw the shells of a robot without. */
+bool has_drawing(const TiXmlElement& element) {
+  for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (child->ValueStr() == "visual" || child->ValueStr() == "mesh" || has_drawing(*child)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// A body between others that are seen must be seen, too.
+void UrdfRepair::draw_by_collisions(TiXmlElement& link) {
+  if (link.FirstChildElement("visual") != nullptr ||
+      link.FirstChildElement("inertial") == nullptr) {
+    return;
+  }
+  for (const TiXmlElement* shape = link.FirstChildElement("collision"); shape != nullptr;
+       shape = shape->NextSiblingElement("collision")) {
+    const TiXmlElement* geometry = shape->FirstChildElement("geometry");
+    if (geometry == nullptr || geometry->FirstChildElement() == nullptr) continue;
+    const TiXmlElement* mesh = geometry->FirstChildElement("mesh");
+    const char* name = mesh == nullptr ? nullptr : mesh->Attribute("filename");
+    // The collision itself reports what is wrong with its mesh.
+    if (mesh != nullptr && (name == nullptr || find_mesh(name).empty())) continue;
+    TiXmlElement visual("visual");
+    if (shape->Attribute("name") != nullptr) visual.SetAttribute("name", shape->Attribute("name"));
+    for (const char* part : {"origin", "geometry"}) {
+      if (const TiXmlElement* found = shape->FirstChildElement(part)) visual.InsertEndChild(*found);
+    }
+    link.InsertEndChild(visual);
+  }
+  // What is found here is found again in the collisions.
+  const size_t num_findings = log_.findings.size();
+  const bool had_odd_mesh = has_odd_mesh_;
+  repair_shapes(link, "visual", std::string("link ") + link.Attribute("name"));
+  log_.findings.resize(num_findings);
+  has_odd_mesh_ = had_odd_mesh;
+}
+
 RepairedUrdf UrdfRepair::run() {
   load();
   open_loops();
@@ -598,10 +639,12 @@ RepairedUrdf UrdfRepair::run() {
     repair_inertial(*link, std::string("link ") + link->Attribute("name"));
   }
   repair_mechanism(*robot_, log_);
+  const bool is_drawn = has_drawing(*robot_);
   for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
     const std::string element = std::string("link ") + link->Attribute("name");
     repair_shapes(*link, "visual", element);
+    if (is_drawn) draw_by_collisions(*link);
     repair_shapes(*link, "collision", element);
   }
   std::set<fs::path> meshes;

@@ -129,7 +129,8 @@ TEST_F(ImportedUrdf, HasMeshesOfFewBytesEachOnlyOnce) {
   add_to_link("trunk", visual("flat.obj") + visual("flat.obj"));
   EXPECT_EQ(import().links().front().visuals.size(), 2u);
   const std::filesystem::path flat = robot() / "meshes" / "0_flat.glb";
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(flat.parent_path()), {}), 1);
+  // The other one is that of both feet.
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(flat.parent_path()), {}), 2);
   // Of two triangles, which share two of their four corners.
   EXPECT_THAT(read_file(flat), HasSubstr("\"count\":4,"));
 
@@ -389,6 +390,15 @@ TEST_F(ImportedUrdf, DrawsPrimitivesAsMeshesInTheirColors) {
   EXPECT_EQ(box.vertices.front().encoded_color, encode_color(Color(1, 0, 0, 1)));
   EXPECT_EQ(mesh_of("trunk", 1).vertices.front().encoded_color, encode_color(Color(0, 1, 0, 1)));
   EXPECT_GT(mesh_of("left_foot", 0).indices.size(), 100u);
+}
+
+TEST_F(ImportedUrdf, IsSeenByItsCollisionShapesWhereItHasNoVisual) {
+  const auto is_seen = [](const RobotModel& model) {
+    return !model.links()[model.find_link("right_foot")].visuals.empty();
+  };
+  EXPECT_FALSE(is_seen(import())) << "nothing is drawn: shells are made for it";
+  add_to_link("trunk", "<visual><geometry><sphere radius=\"0.1\"/></geometry></visual>");
+  EXPECT_TRUE(is_seen(import()));
 }
 
 TEST_F(ImportedUrdf, HasRangesAndRotationsInRadians) {
