@@ -71,9 +71,10 @@ class UrdfRepair {
                    const std::string& element);
   void repair_cylinder(TiXmlElement& shape, TiXmlElement& geometry, const std::string& element);
   fs::path find_mesh(const std::string& name) const;
-  /** @return The scale with which a mesh has the robot's size. @throws ModelError */
-  Eigen::Vector3d find_scale(const TiXmlElement& mesh, const fs::path& source,
-                             const std::string& element);
+  /** Diagonal of the box about a mesh as its file has it; 0: it cannot be read. */
+  double measure_mesh(const fs::path& source);
+  void find_mesh_units(const TiXmlElement& element);
+  void report_mesh_units();
   /** A visual becomes a mesh, whatever it is. @param make  Writes it to a file.
    * @param key  Visuals of the same key share one. */
   void draw(TiXmlElement& shape, TiXmlElement& geometry, const std::string& name,
@@ -98,7 +99,13 @@ class UrdfRepair {
   std::map<std::string, std::string> converted_;
   /** Diagonals of the boxes about meshes, as the files have them. */
   std::map<fs::path, double> extents_;
-  bool has_odd_mesh_ = false;
+  struct LargestMesh {
+    double extent = 0;
+    fs::path source{};
+    int line = 0;
+  };
+  /** Of the meshes of each scale, the largest one with that scale. */
+  std::map<std::string, LargestMesh> largest_;
   RepairedUrdf result_;
 };
 
@@ -455,29 +462,52 @@ void UrdfRepair::draw_primitive(TiXmlElement& shape, TiXmlElement& geometry) {
        [&](const fs::path& file) { write_mesh(mesh, color, file); });
 }
 
-Eigen::Vector3d UrdfRepair::find_scale(const TiXmlElement& mesh, const fs::path& source,
-                                       const std::string& element) {
-  const auto factors = read_numbers(mesh, "scale", 3);
-  const Eigen::Vector3d scale =
-      factors ? Eigen::Vector3d(factors->data()) : Eigen::Vector3d::Ones();
-  auto extent = extents_.find(source);
-  if (extent == extents_.end()) {
-    Eigen::AlignedBox3d box;
+double UrdfRepair::measure_mesh(const fs::path& source) {
+  const auto [extent, is_new] = extents_.try_emplace(source, 0);
+  if (!is_new) return extent->second;
+  Eigen::AlignedBox3d box;
+  try {
     for (const Eigen::Vector3d& corner : read_mesh_points(source, Eigen::Vector3d::Ones())) {
       box.extend(corner);
     }
-    extent = extents_.emplace(source, box.isEmpty() ? 0 : box.sizes().norm()).first;
+  } catch (const ModelError&) {
+    return 0;  // reported where the mesh is used
   }
-  const double unit = mesh_unit(extent->second * scale.cwiseAbs().maxCoeff(), chain_);
-  if (unit != 1 && !has_odd_mesh_) {
-    has_odd_mesh_ = true;
-    note(Severity::kRepaired, mesh, element,
-         "mesh \"" + source.filename().string() + "\" is " +
-             to_text(extent->second * scale.cwiseAbs().maxCoeff()) + " m large",
-         std::string("it, and all like it, is taken for one in ") +
-             (unit < 1 ? "millimetres" : "metres") + ": write its scale");
+  return extent->second = box.isEmpty() ? 0 : box.sizes().norm();
+}
+
+Eigen::Vector3d read_scale(const TiXmlElement& mesh) {
+  const auto factors = read_numbers(mesh, "scale", 3);
+  return factors ? Eigen::Vector3d(factors->data()) : Eigen::Vector3d::Ones();
+}
+
+// Meshes of one scale have one unit, which the largest one shows: small parts could be in either.
+void UrdfRepair::find_mesh_units(const TiXmlElement& element) {
+  for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    find_mesh_units(*child);
+    const char* name = child->Attribute("filename");
+    if (child->ValueStr() != "mesh" || name == nullptr) continue;
+    const fs::path source = find_mesh(name);
+    if (source.empty()) continue;
+    const Eigen::Vector3d scale = read_scale(*child);
+    LargestMesh& largest = largest_[to_text(scale)];
+    const double extent = measure_mesh(source) * scale.cwiseAbs().maxCoeff();
+    if (extent <= largest.extent) continue;
+    largest = {extent, source, child->Row()};
   }
-  return unit * scale;
+}
+
+void UrdfRepair::report_mesh_units() {
+  for (const auto& [scale, largest] : largest_) {
+    const double unit = mesh_unit(largest.extent, chain_);
+    if (unit == 1) continue;
+    log_.findings.push_back({Severity::kRepaired, log_.file, largest.line,
+                             "mesh \"" + largest.source.filename().string() + "\"",
+                             "is " + to_text(largest.extent) + " m large",
+                             "it, and all of the scale " + scale + ", is taken for one in " +
+                                 (unit < 1 ? "millimetres" : "metres") + ": write its scale"});
+  }
 }
 
 bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool is_collision,
@@ -500,7 +530,8 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
     for (const Eigen::Vector3d& corner : corners) points.push_back(pose * corner);
   };
   try {
-    const Eigen::Vector3d scale = find_scale(mesh, source, element);
+    Eigen::Vector3d scale = read_scale(mesh);
+    scale *= mesh_unit(largest_[to_text(scale)].extent, chain_);
     if (!is_collision) {
       if (shape.Parent()->FirstChildElement("collision") == nullptr) {
         add_points(-1, read_mesh_points(source, scale));
@@ -619,10 +650,8 @@ void UrdfRepair::draw_by_collisions(TiXmlElement& link) {
   }
   // What is found here is found again in the collisions.
   const size_t num_findings = log_.findings.size();
-  const bool had_odd_mesh = has_odd_mesh_;
   repair_shapes(link, "visual", std::string("link ") + link.Attribute("name"));
   log_.findings.resize(num_findings);
-  has_odd_mesh_ = had_odd_mesh;
 }
 
 RepairedUrdf UrdfRepair::run() {
@@ -639,6 +668,8 @@ RepairedUrdf UrdfRepair::run() {
     repair_inertial(*link, std::string("link ") + link->Attribute("name"));
   }
   repair_mechanism(*robot_, log_);
+  find_mesh_units(*robot_);
+  report_mesh_units();
   const bool is_drawn = has_drawing(*robot_);
   for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
