@@ -402,7 +402,7 @@ fs::path UrdfRepair::find_mesh(const std::string& name) const {
       if (first > 0) ++first;
       fs::path base = start;
       for (int level = 0; level < 4; ++level) {
-        const fs::path found = find_file(base, written.substr(first));
+        fs::path found = find_file(base, written.substr(first));
         if (!found.empty()) return found;
         if (base == base.parent_path()) break;
         base = base.parent_path();
