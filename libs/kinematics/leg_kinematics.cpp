@@ -79,50 +79,55 @@ LegKinematics::CoupledLeg LegKinematics::read_coupled(const RobotModel& model, L
   // The hip's parent is the root, or fixed to it.
   int parent = model.joints()[description.joints[0]].parent_link;
   require(model.find_body(parent) == 0, "its first joint is not at the root");
-  Eigen::Vector3d base = Eigen::Vector3d::Zero();
-  for (int link = parent; link != 0;) {
-    const Joint& mount = model.joints()[model.links()[link].parent_joint];
-    require(mount.pose_in_parent.linear().isIdentity(kLegTolerance),
-            mount.name + " has a turned frame");
-    base += mount.pose_in_parent.translation();
-    link = mount.parent_link;
+  std::vector<const Joint*> mounts;
+  for (int link = parent; link != 0; link = mounts.back()->parent_link) {
+    mounts.push_back(&model.joints()[model.links()[link].parent_joint]);
   }
+  // At the angles 0 in T: places of the joints from one another, and axes. Joint frames may be
+  // turned; without turns the rotation is exactly the identity.
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d base = Eigen::Vector3d::Zero();
+  for (auto mount = mounts.rbegin(); mount != mounts.rend(); ++mount) {
+    base += turn * (*mount)->pose_in_parent.translation();
+    turn = turn * (*mount)->pose_in_parent.linear();
+  }
+  std::array<Eigen::Vector3d, 6> origin;
+  std::array<Eigen::Vector3d, 6> axis;
   for (size_t i = 0; i < joints.size(); ++i) {
     joints[i] = &model.joints()[description.joints[i]];
     require(joints[i]->parent_link == parent, joints[i]->name + " is not where it belongs");
-    require(joints[i]->pose_in_parent.linear().isIdentity(kLegTolerance),
-            joints[i]->name + " has a turned frame");
+    origin[i] = turn * joints[i]->pose_in_parent.translation();
+    turn = turn * joints[i]->pose_in_parent.linear();
+    axis[i] = turn * joints[i]->axis;
     parent = joints[i]->child_link;
   }
-  const auto is_axis = [&](int i, const Eigen::Vector3d& axis) {
-    return joints[i]->axis.isApprox(axis, kLegTolerance);
+  const auto is_axis = [&](int i, int direction) {
+    return std::abs(std::abs(axis[i][direction]) - 1) < kLegTolerance;
   };
-  const auto origin = [&](int i) -> Eigen::Vector3d {
-    return joints[i]->pose_in_parent.translation();
-  };
-  require(std::abs(joints[0]->axis.x()) < kLegTolerance && is_axis(1, Eigen::Vector3d::UnitX()) &&
-              is_axis(2, Eigen::Vector3d::UnitY()) && is_axis(3, Eigen::Vector3d::UnitY()) &&
-              is_axis(4, Eigen::Vector3d::UnitY()) && is_axis(5, Eigen::Vector3d::UnitX()),
+  require(std::abs(axis[0].x()) < kLegTolerance && is_axis(1, 0) && is_axis(2, 1) &&
+              is_axis(3, 1) && is_axis(4, 1) && is_axis(5, 0),
           "its axes are other than yaw-pitch, x, y, y, y, x");
-  require(origin(1).norm() < kLegTolerance && origin(2).norm() < kLegTolerance,
+  require(origin[1].norm() < kLegTolerance && origin[2].norm() < kLegTolerance,
           "its hip axes do not meet");
-  require(origin(5).norm() < kLegTolerance, "its ankle axes do not meet");
-  require(origin(3).head<2>().norm() < kLegTolerance && origin(4).head<2>().norm() < kLegTolerance,
+  require(origin[5].norm() < kLegTolerance, "its ankle axes do not meet");
+  require(origin[3].head<2>().norm() < kLegTolerance && origin[4].head<2>().norm() < kLegTolerance,
           "its knee or ankle is off the line of the leg");
   const Joint& sole_joint = model.joints()[model.links()[description.sole].parent_joint];
   require(sole_joint.parent_link == parent && sole_joint.kind == Joint::Kind::kFixed &&
-              sole_joint.pose_in_parent.linear().isIdentity(kLegTolerance),
+              (turn * sole_joint.pose_in_parent.linear()).isIdentity(kLegTolerance),
           "its sole is not fixed to the foot");
 
   CoupledLeg result{};
-  result.hip = base + origin(0);
-  result.thigh = -origin(3).z();
-  result.tibia = -origin(4).z();
-  result.sole_offset = sole_joint.pose_in_parent.translation();
+  result.hip = base + origin[0];
+  result.thigh = -origin[3].z();
+  result.tibia = -origin[4].z();
+  result.sole_offset = turn * sole_joint.pose_in_parent.translation();
   // Axis of HipYawPitch in T: z rotated by `tilt` about x, with the joint's sense as `sign`.
-  const Eigen::Vector3d axis = joints[0]->axis;
-  result.sign = axis.z() < 0 ? -1 : 1;
-  result.tilt = std::atan2(-result.sign * axis.y(), result.sign * axis.z());
+  result.sign = axis[0].z() < 0 ? -1 : 1;
+  result.tilt = std::atan2(-result.sign * axis[0].y(), result.sign * axis[0].z());
+  for (size_t i = 0; i < axis.size(); ++i) {
+    result.senses[i] = i == 0 || axis[i].sum() > 0 ? 1 : -1;
+  }
   return result;
 }
 
@@ -167,7 +172,8 @@ LegSolution LegKinematics::solve_coupled(const CoupledLeg& c,
   const double hip_yaw_pitch = c.sign * std::atan2(-N(0, 1), N(1, 1));
   const double hip_roll = std::asin(std::clamp(N(2, 1), -1.0, 1.0)) + c.tilt;
   const double hip_pitch = std::atan2(-N(2, 0), N(2, 2));
-  solution.angles = {hip_yaw_pitch, hip_roll, hip_pitch, knee, ankle_pitch, ankle_roll};
+  solution.angles =
+      c.with_senses({hip_yaw_pitch, hip_roll, hip_pitch, knee, ankle_pitch, ankle_roll});
   return solution;
 }
 
@@ -198,7 +204,8 @@ LegSolution LegKinematics::solve_with_hip_yaw_pitch(Leg leg, const Eigen::Isomet
   const Eigen::Vector3d n = R_T_tibia.transpose() * R_TF.col(2);
   const double ankle_roll = std::asin(std::clamp(-n.y(), -1.0, 1.0));
   const double ankle_pitch = std::atan2(n.x(), n.z());
-  solution.angles = {hip_yaw_pitch, hip_roll, hip_pitch, knee, ankle_pitch, ankle_roll};
+  solution.angles =
+      c.with_senses({hip_yaw_pitch, hip_roll, hip_pitch, knee, ankle_pitch, ankle_roll});
   return solution;
 }
 

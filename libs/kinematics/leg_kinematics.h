@@ -101,6 +101,13 @@ class LegKinematics {
     double sign;
     double thigh;
     double tibia;
+    /** -1 for joints that turn about -x or -y. */
+    std::array<double, 6> senses;
+
+    LegAngles with_senses(LegAngles angles) const {
+      for (size_t i = 0; i < senses.size(); ++i) angles[i] *= senses[i];
+      return angles;
+    }
   };
 
   static int index(Leg leg) { return leg == Leg::kLeft ? 0 : 1; }

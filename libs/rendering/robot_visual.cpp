@@ -1,5 +1,6 @@
 #include "rendering/robot_visual.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -57,8 +58,15 @@ std::vector<std::array<Eigen::Vector3f, 3>> make_triangles(const RobotLight::Dis
 }  // namespace
 
 RobotVisual::RobotVisual(const RobotModel& model, SceneRenderer& renderer) : model_(model) {
+  const bool has_visuals = std::any_of(model.links().begin(), model.links().end(),
+                                       [](const Link& link) { return !link.visuals.empty(); });
   for (size_t link = 0; link < model.links().size(); ++link) {
     const Link& description = model.links()[link];
+    for (const Shape& shape : description.collisions) {
+      if (!has_visuals && shape.kind != Shape::Kind::kMesh) {
+        add_shape(renderer, static_cast<int>(link), shape);
+      }
+    }
     try {
       for (const Shape& shape : description.visuals) {
         add_shape(renderer, static_cast<int>(link), shape);
@@ -122,6 +130,7 @@ void RobotVisual::make_torso_shirt(SceneRenderer& renderer) {
       if (shape.kind != Shape::Kind::kMesh) add(shape);
     }
   }
+  if (torso.indices.empty()) return;
   shirt_ = make_shirt(torso);
   if (!shirt_.band.indices.empty()) shirt_mesh_ = renderer.add_mesh(shirt_.band);
 }

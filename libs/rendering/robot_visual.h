@@ -15,7 +15,8 @@ class SceneRenderer;
 
 /** Appearance of a robot: the meshes of its links, stored by a renderer.
  *
- * A link whose mesh cannot be read is drawn by its collision shapes; problems() reports it. */
+ * A link whose mesh cannot be read is drawn by its collision shapes, which problems() reports, as
+ * is a robot without any visual. */
 class RobotVisual {
  public:
   /** @param model, renderer  Must outlive this. */

@@ -30,6 +30,8 @@ constexpr double kAnkleLoad = 0.25;
 // Stiffness of both ankles, in units of m g h: an inverted pendulum of the mass m and the height h
 // falls below 1. Chosen: below 3 published robots sag and sway, from 4 on they stand.
 constexpr double kPendulumStiffness = 5;
+// Bounds of a stance are above 0 also where the legs' geometry was not understood, m.
+constexpr double kLeastLength = 1e-3;
 // Froude number v^2 / (g l) of the walk limits' forward velocity. Chosen: v / sqrt(g l) = 0.17, a
 // slow walk that every biped of these proportions should reach.
 constexpr double kFroudeVelocity = 0.17;
@@ -185,7 +187,8 @@ std::string make_groups(const RobotModel& model) {
 
 /** Angles that bend the knees and put the center of mass over the soles; nothing if the legs do not
  * reach. */
-std::optional<std::vector<double>> find_stance(const RobotModel& model, double bend) {
+std::optional<std::vector<double>> find_stance(const RobotModel& model, double bend,
+                                               double foot_distance) {
   const auto legs = find_leg_kinematics(model);
   if (!legs) return std::nullopt;
   std::vector<double> position(model.num_motors(), 0.0);
@@ -197,7 +200,12 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
   kinematics.update(std::vector<double>(model.num_motors(), 0.0));
   std::array<Eigen::Isometry3d, 2> straight = {kinematics.left_sole(), kinematics.right_sole()};
   // Level, also where the feet are not at the angles 0.
-  for (Eigen::Isometry3d& sole : straight) sole.linear().setIdentity();
+  const double middle = 0.5 * (straight[0].translation().y() + straight[1].translation().y());
+  for (Eigen::Isometry3d& sole : straight) {
+    sole.linear().setIdentity();
+    double& y = sole.translation().y();
+    y = middle + foot_distance * (y - middle);
+  }
   // The center of mass is brought over the center of the outline, in the sole's frame, or as near
   // to it as the ankles hold it there.
   Eigen::AlignedBox2d outline;
@@ -241,8 +249,9 @@ std::optional<std::vector<double>> find_stance(const RobotModel& model, double b
   return position;
 }
 
-std::optional<std::vector<double>> find_any_stance(const RobotModel& model, double bend) {
-  const auto stance = find_stance(model, bend);
+std::optional<std::vector<double>> find_any_stance(const RobotModel& model, double bend,
+                                                   double foot_distance) {
+  const auto stance = find_stance(model, bend, foot_distance);
   return stance ? stance : find_level_stance(model, bend);
 }
 
@@ -359,10 +368,10 @@ std::string make_description_text(const RobotModel& model) {
   text << "\n# Joints as people name them.\n" << make_groups(model);
   const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
   const double height = -poses[model.left_sole()].translation().z();
-  const double width =
-      poses[model.left_sole()].translation().y() - poses[model.right_sole()].translation().y();
+  const double width = std::max(kLeastLength, poses[model.left_sole()].translation().y() -
+                                                  poses[model.right_sole()].translation().y());
   const auto legs = find_leg_kinematics(model);
-  const double length = legs ? legs->reach() : height;
+  const double length = std::max(kLeastLength, legs ? legs->reach() : height);
   // 0 for a robot that cannot walk.
   const bool walks = legs && legs->roles(Leg::kLeft).ankle_pitch >= 0;
   const double speed = walks ? kFroudeVelocity * std::sqrt(kGravity * length) : 0;
@@ -389,10 +398,10 @@ std::string make_description_text(const RobotModel& model) {
 }
 
 std::optional<std::vector<double>> find_ready_stance(const RobotModel& model) {
-  return find_any_stance(model, kReadyBend);
+  return find_any_stance(model, kReadyBend, 1);
 }
 
-std::string make_postures_text(const RobotModel& model, Findings& findings) {
+std::string make_postures_text(const RobotModel& model, Findings& findings, double foot_distance) {
   std::ostringstream text = make_stream();
   text.precision(12);
   std::vector<double> zero(model.num_motors(), 0.0);
@@ -401,7 +410,7 @@ std::string make_postures_text(const RobotModel& model, Findings& findings) {
   }
   text << "# Angles of the motors, rad.\npostures:\n";
   const auto add = [&](const std::string& name, const std::string& family, double bend) {
-    auto stance = find_any_stance(model, bend);
+    auto stance = find_any_stance(model, bend, foot_distance);
     // A robot without legs has one stance.
     if (model.legs()[0].joints.empty()) stance = zero;
     if (!stance) {

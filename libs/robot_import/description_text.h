@@ -28,7 +28,10 @@ std::string make_description_text(const RobotModel& model);
 std::optional<std::vector<double>> find_ready_stance(const RobotModel& model);
 
 /** postures.yaml: zero; ready, with bent knees and the center of mass over the soles; crouch.
- * @param findings  Receives which postures are beyond the legs' reach. */
-std::string make_postures_text(const RobotModel& model, Findings& findings);
+ * @param findings  Receives which postures are beyond the legs' reach.
+ * @param foot_distance  Distance of the feet, fraction of that at the angles 0, where the legs have
+ *   the joints for it. */
+std::string make_postures_text(const RobotModel& model, Findings& findings,
+                               double foot_distance = 1);
 
 }  // namespace nao

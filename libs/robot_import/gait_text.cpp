@@ -211,7 +211,7 @@ struct Sizes {
   }
 };
 
-Sizes measure(const RobotModel& model, const LegKinematics& legs) {
+Sizes measure(const RobotModel& model, const LegKinematics& legs, double foot_distance) {
   const auto poses = model.link_poses(std::vector<double>(model.num_motors(), 0.0));
   const Eigen::Vector3d left = poses[model.left_sole()].translation();
   const Eigen::Vector3d right = poses[model.right_sole()].translation();
@@ -224,7 +224,7 @@ Sizes measure(const RobotModel& model, const LegKinematics& legs) {
                        (model.total_mass() * kGravity * 0.5 * legs.reach());
   const double height = std::sqrt(1 - std::min(1.0, lever * lever));
   Sizes sizes{legs.reach(),
-              left.y() - right.y(),
+              foot_distance * (left.y() - right.y()),
               stretched * std::clamp(height, kBentHeight, kStretchedHeight),
               0,
               {},
@@ -269,7 +269,7 @@ std::string make_gait_text(const RobotModel& model, const GaitFactors& factors) 
     const LegKinematics legs(model);
     // A walk begins with a stand, which needs an ankle.
     if (legs.roles(Leg::kLeft).ankle_pitch < 0) return "";
-    const Sizes sizes = measure(model, legs);
+    const Sizes sizes = measure(model, legs, factors.foot_distance);
     std::string group;
     for (const Row& row : kRows) {
       if (row.upper == 0) {

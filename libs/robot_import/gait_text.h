@@ -14,6 +14,7 @@ struct GaitFactors {
   double swing_height = 1;
   double hip_height = 1;
   double step_duration = 1;
+  double foot_distance = 1;
 };
 
 /** gait.yaml of a robot that has not walked yet, scaled by its leg length l and foot size: lengths

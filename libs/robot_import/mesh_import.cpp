@@ -1,5 +1,6 @@
 #include "robot_import/mesh_import.h"
 
+#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -73,6 +74,25 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
   return *scene;
 }
 
+/** Gives a part without corners those of a mesh. */
+void fill(aiMesh& part, const Mesh& mesh) {
+  part.mNumVertices = static_cast<unsigned>(mesh.vertices.size());
+  part.mVertices = new aiVector3D[part.mNumVertices];
+  part.mNormals = new aiVector3D[part.mNumVertices];
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const Vertex& vertex = mesh.vertices[i];
+    part.mVertices[i] = {vertex.position.x(), vertex.position.y(), vertex.position.z()};
+    part.mNormals[i] = {vertex.normal.x(), vertex.normal.y(), vertex.normal.z()};
+  }
+  part.mNumFaces = static_cast<unsigned>(mesh.indices.size() / 3);
+  part.mFaces = new aiFace[part.mNumFaces];
+  for (unsigned i = 0; i < part.mNumFaces; ++i) {
+    part.mFaces[i].mNumIndices = 3;
+    part.mFaces[i].mIndices = new unsigned[3];
+    std::copy_n(&mesh.indices[size_t{3} * i], 3, part.mFaces[i].mIndices);
+  }
+}
+
 /** Replaces a part by one of fewer triangles. @param error  See simplified(), m. */
 void simplify(aiMesh& part, double error) {
   Mesh fine;
@@ -98,20 +118,19 @@ void simplify(aiMesh& part, double error) {
   std::swap(old.mNormals, part.mNormals);
   std::swap(old.mFaces, part.mFaces);
   std::swap(old.mNumFaces, part.mNumFaces);
-  part.mNumVertices = static_cast<unsigned>(mesh.vertices.size());
-  part.mVertices = new aiVector3D[part.mNumVertices];
-  part.mNormals = new aiVector3D[part.mNumVertices];
-  for (unsigned i = 0; i < part.mNumVertices; ++i) {
-    const Vertex& vertex = mesh.vertices[i];
-    part.mVertices[i] = {vertex.position.x(), vertex.position.y(), vertex.position.z()};
-    part.mNormals[i] = {vertex.normal.x(), vertex.normal.y(), vertex.normal.z()};
-  }
-  part.mNumFaces = static_cast<unsigned>(mesh.indices.size() / 3);
-  part.mFaces = new aiFace[part.mNumFaces];
-  for (unsigned i = 0; i < part.mNumFaces; ++i) {
-    part.mFaces[i].mNumIndices = 3;
-    part.mFaces[i].mIndices = new unsigned[3];
-    std::copy_n(&mesh.indices[size_t{3} * i], 3, part.mFaces[i].mIndices);
+  fill(part, mesh);
+}
+
+void set_color(aiMaterial& material, const Color& color) {
+  const aiColor4D value(color.x(), color.y(), color.z(), color.w());
+  material.AddProperty(&value, 1, AI_MATKEY_BASE_COLOR);
+  material.AddProperty(&value, 1, AI_MATKEY_COLOR_DIFFUSE);
+}
+
+void write_scene(const aiScene& scene, const std::filesystem::path& target) {
+  Assimp::Exporter exporter;
+  if (exporter.Export(&scene, "glb2", target.string()) != AI_SUCCESS) {
+    throw ModelError(target.string() + " cannot be written: " + exporter.GetErrorString());
   }
 }
 
@@ -148,20 +167,38 @@ std::vector<Eigen::Vector3d> read_mesh_points(const std::filesystem::path& file,
 }
 
 void convert_mesh(const std::filesystem::path& source, const Eigen::Vector3d& scale,
-                  const std::filesystem::path& target, double error) {
+                  const std::optional<Color>& color, const std::filesystem::path& target,
+                  double error) {
   run_with(source, [&] {
     Assimp::Importer importer;
     read_scene(importer, source, scale);
     const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) simplify(*scene->mMeshes[i], error);
+    for (unsigned i = 0; color && i < scene->mNumMaterials; ++i) {
+      aiMaterial& material = *scene->mMaterials[i];
+      if (material.GetName() == aiString(AI_DEFAULT_MATERIAL_NAME)) set_color(material, *color);
+    }
     // With this flag the exporter gives each triangle corners of its own.
     scene->mFlags &= ~static_cast<unsigned>(AI_SCENE_FLAGS_NON_VERBOSE_FORMAT);
-    Assimp::Exporter exporter;
-    if (exporter.Export(scene.get(), "glb2", target.string()) != AI_SUCCESS) {
-      throw ModelError(target.string() + " cannot be written: " + exporter.GetErrorString());
-    }
+    write_scene(*scene, target);
     return std::string();
   });
+}
+
+void write_mesh(const Mesh& mesh, const Color& color, const std::filesystem::path& target) {
+  // The destructor of a scene frees all that it has.
+  aiScene scene;
+  scene.mRootNode = new aiNode;
+  scene.mRootNode->mNumMeshes = 1;
+  scene.mRootNode->mMeshes = new unsigned[1]{0};
+  scene.mNumMeshes = 1;
+  scene.mMeshes = new aiMesh* [1] { new aiMesh };
+  scene.mMeshes[0]->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+  fill(*scene.mMeshes[0], mesh);
+  scene.mNumMaterials = 1;
+  scene.mMaterials = new aiMaterial* [1] { new aiMaterial };
+  set_color(*scene.mMaterials[0], color);
+  write_scene(scene, target);
 }
 
 void limit_meshes(const std::set<std::filesystem::path>& files) {
@@ -170,7 +207,7 @@ void limit_meshes(const std::set<std::filesystem::path>& files) {
     for (const std::filesystem::path& file : files) bytes += std::filesystem::file_size(file);
     if (bytes <= kMostBytes) return;
     for (const std::filesystem::path& file : files) {
-      convert_mesh(file, Eigen::Vector3d::Ones(), file, error);
+      convert_mesh(file, Eigen::Vector3d::Ones(), std::nullopt, file, error);
     }
   }
 }

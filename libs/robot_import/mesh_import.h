@@ -2,9 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "rendering/mesh.h"
 
 namespace nao {
 
@@ -20,9 +23,14 @@ std::vector<Eigen::Vector3d> read_mesh_points(const std::filesystem::path& file,
 constexpr double kFinestError = 0.0005;
 
 /** Writes a mesh in metres as GLB, with its materials' colors, simplified.
+ * @param color  Of parts whose file states no material, such as all of an STL.
  * @param error  m. @throws ModelError  as above, or if the file cannot be written. */
 void convert_mesh(const std::filesystem::path& source, const Eigen::Vector3d& scale,
-                  const std::filesystem::path& target, double error = kFinestError);
+                  const std::optional<Color>& color, const std::filesystem::path& target,
+                  double error = kFinestError);
+
+/** Writes a mesh in metres as GLB, in one color. @throws ModelError  if it cannot be written. */
+void write_mesh(const Mesh& mesh, const Color& color, const std::filesystem::path& target);
 
 /** Simplifies converted meshes in place, with an error that is doubled up to 16 mm, until they have
  * 5 MB together. @throws ModelError  as convert_mesh(). */

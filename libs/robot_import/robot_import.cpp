@@ -1,7 +1,5 @@
 #include "robot_import/robot_import.h"
 
-#include <tinyxml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -21,6 +19,7 @@
 #include "robot_import/robot_structure.h"
 #include "robot_import/touching_bodies.h"
 #include "robot_import/urdf_repair.h"
+#include "robot_import/yaml_name.h"
 #include "robot_model/robot_model.h"
 
 namespace nao {
@@ -44,15 +43,7 @@ double calc_leg_height(const RobotModel& model, const RobotStructure& structure)
 
 /** Gives findings about joints and links their lines in the file: they were found in a text that
  * repairs had changed. */
-void find_lines(const fs::path& urdf, size_t first, Findings& findings) {
-  TiXmlDocument document;
-  if (!document.LoadFile(urdf.string())) return;
-  std::map<std::string, int> lines;
-  for (const TiXmlElement* element = document.RootElement()->FirstChildElement();
-       element != nullptr; element = element->NextSiblingElement()) {
-    if (element->Attribute("name") == nullptr) continue;
-    lines[element->ValueStr() + " " + element->Attribute("name")] = element->Row();
-  }
+void find_lines(const std::map<std::string, int>& lines, size_t first, Findings& findings) {
   for (size_t i = first; i < findings.size(); ++i) {
     const auto line = lines.find(findings[i].element);
     if (findings[i].line > 0) findings[i].line = line == lines.end() ? 0 : line->second;
@@ -67,7 +58,7 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
   findings = repaired.findings;
   replace_file(folder / name, repaired.text);
   // First as a robot whose soles are its root: that is enough to see its structure.
-  const std::string root = "\"" + repaired.root + "\"";
+  const std::string root = in_yaml(repaired.root);
   const std::string sole = "{link: " + root + ", outline: [[0, 0], [1, 0], [0, 1]]}";
   replace_file(folder / "robot.yaml", "urdf: " + name + "\ninertial_unit: {accelerometer: " + root +
                                           ", gyroscope: " + root + "}\nsoles: {left: " + sole +
@@ -91,7 +82,7 @@ void import_into(const fs::path& urdf, const fs::path& folder, Findings& finding
   replace_file(folder / "robot.yaml", text);
   repaired.text = with_plausible_legs(repaired.text, RobotModel::load(folder),
                                       urdf.filename().string(), findings);
-  find_lines(urdf, num_found, findings);
+  find_lines(repaired.lines, num_found, findings);
   replace_file(folder / name, repaired.text);
   const RobotModel limbs = RobotModel::load(folder);
   replace_file(folder / "postures.yaml", make_postures_text(limbs, findings));

@@ -44,6 +44,8 @@ constexpr double kLeastHeel = 0.15;
 constexpr double kLeastBend = 0.03;
 // Mass of each half of the plate that holds a robot without legs, fraction of the robot's.
 constexpr double kBaseMass = 5;
+// Legs along another axis than z weigh more by this factor. Chosen: arms weigh less than legs.
+constexpr double kClearlyGreater = 1.5;
 // The origin of the root's frame may be off the plane of symmetry by as much, m.
 constexpr double kPlaneTolerance = 1e-3;
 
@@ -60,10 +62,12 @@ struct Body {
   /** Corners of each link's surface, in that frame, m. */
   std::vector<std::vector<Vector3d>> points;
 
+  /** Of a link's surface, or of its center of mass; infinity for a frame, which is nowhere. */
   double lowest(int link) const {
-    double z = poses[link].translation().z();
+    double z = std::numeric_limits<double>::infinity();
     for (const Vector3d& point : points[link]) z = std::min(z, point.z());
-    return z;
+    const Link& part = model.links()[link];
+    return points[link].empty() && part.mass > 0 ? (poses[link] * part.center_of_mass).z() : z;
   }
 };
 
@@ -342,14 +346,16 @@ bool are_legs(const Body& body, const Legs& legs) {
   Vector3d com;
   if (find_rest(body, legs, com) > 0 && com.z() < top - 0.1 * drop) return false;
   // They reach lower than everything else.
-  const double sole = body.lowest(legs[0]->end);
+  double sole = legs[0]->point.z();
+  double rest = sole;
   for (size_t link = 0; link < body.model.links().size(); ++link) {
     const bool is_leg = std::any_of(legs.begin(), legs.end(), [&](const Chain* leg) {
       return body.model.moves(leg->joints.front(), static_cast<int>(link));
     });
-    if (!is_leg && body.lowest(static_cast<int>(link)) < sole - 0.02 * drop) return false;
+    double& lowest = is_leg ? sole : rest;
+    lowest = std::min(lowest, body.lowest(static_cast<int>(link)));
   }
-  return true;
+  return rest >= sole - 0.02 * drop;
 }
 
 /** Without the joints that both chains share. */
@@ -376,7 +382,7 @@ std::vector<Chain> find_legs(const Body& body, const std::vector<Chain>& chains)
       if (!is_pair(left, right)) continue;
       const std::array<Chain, 2> own = own_parts(left, right);
       if (own[0].joints.size() < 3 || !are_legs(body, {&own[0], &own[1]})) continue;
-      const double z = body.lowest(left.end);
+      const double z = std::min(left.point.z(), body.lowest(left.end));
       if (z >= lowest) continue;
       lowest = z;
       legs = {own[0], own[1]};
@@ -494,14 +500,25 @@ bool has_arms(const std::vector<Chain>& chains, const std::vector<Chain>& legs) 
   return false;
 }
 
-// The root's z axis is up in most files; otherwise another axis, along which the longest legs hang:
-// of a robot that has arms, too, for these hang or point somewhere as well.
+/** Length of two legs, m, by their mass, kg: of limbs that hang the legs are longer and heavier. */
+double weigh_legs(const Body& body, const std::vector<Chain>& legs) {
+  double mass = 0;
+  for (size_t link = 0; link < body.model.links().size(); ++link) {
+    const bool is_leg = body.model.moves(legs[0].joints.front(), static_cast<int>(link));
+    mass += is_leg ? body.model.links()[link].mass : 0;
+  }
+  const int hip = body.model.joints()[legs[0].joints.front()].child_link;
+  return mass * (body.poses[hip].translation().z() - legs[0].point.z());
+}
+
+// The root's z axis is up in most files; otherwise another axis, along which clearly greater legs
+// hang: of a robot that has arms, too, for these hang or point somewhere as well.
 FoundFrame find_frame(const RobotModel& model, const MeshPoints& mesh_points) {
   const Vector3d x = Vector3d::UnitX();
   const Vector3d y = Vector3d::UnitY();
   const Vector3d z = Vector3d::UnitZ();
   FoundFrame best;
-  double longest = 0;
+  double greatest = 0;
   for (const Vector3d& up : {z, y, x, Vector3d(-y), Vector3d(-x), Vector3d(-z)}) {
     Isometry3d frame = Isometry3d::Identity();
     if (up != z) {
@@ -521,10 +538,9 @@ FoundFrame find_frame(const RobotModel& model, const MeshPoints& mesh_points) {
     const std::vector<Chain> chains = find_chains(body);
     FoundFrame found{frame, find_legs(body, chains)};
     if (found.legs.empty() || (up != z && !has_arms(chains, found.legs))) continue;
-    const int hip = model.joints()[found.legs[0].joints.front()].child_link;
-    const double length = body.poses[hip].translation().z() - found.legs[0].point.z();
-    if (length < longest) continue;
-    longest = length;
+    const double weight = weigh_legs(body, found.legs);
+    if (weight <= greatest) continue;
+    greatest = (up == z ? kClearlyGreater : 1) * weight;
     // Against x of the root only on clear evidence.
     if (find_heading(body, found.legs) < (up == z && normal == 1 ? -0.3 : 0)) {
       found.frame.rotate(Eigen::AngleAxisd(M_PI, z));
@@ -532,7 +548,6 @@ FoundFrame find_frame(const RobotModel& model, const MeshPoints& mesh_points) {
       found.legs = find_legs(turned, find_chains(turned));
     }
     best = std::move(found);
-    if (up == z) break;
   }
   return best;
 }

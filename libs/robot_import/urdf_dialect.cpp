@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <vector>
 
 #include "robot_import/urdf_values.h"
 
@@ -29,6 +30,23 @@ const std::map<std::string, std::set<std::string>>& known_elements() {
   return known;
 }
 
+/** Attributes that are numbers, and how many, by their elements. */
+const std::map<std::string, std::vector<std::pair<const char*, size_t>>>& number_attributes() {
+  static const std::map<std::string, std::vector<std::pair<const char*, size_t>>> numbers = {
+      {"origin", {{"xyz", 3}, {"rpy", 3}}},
+      {"axis", {{"xyz", 3}}},
+      {"limit", {{"lower", 1}, {"upper", 1}, {"effort", 1}, {"velocity", 1}}},
+      {"mass", {{"value", 1}}},
+      {"inertia", {{"ixx", 1}, {"iyy", 1}, {"izz", 1}, {"ixy", 1}, {"ixz", 1}, {"iyz", 1}}},
+      {"mimic", {{"multiplier", 1}, {"offset", 1}}},
+      {"box", {{"size", 3}}},
+      {"sphere", {{"radius", 1}}},
+      {"cylinder", {{"radius", 1}, {"length", 1}}},
+      {"capsule", {{"radius", 1}, {"length", 1}}},
+      {"mesh", {{"scale", 3}}}};
+  return numbers;
+}
+
 /** Elements that are common in URDFs, and say nothing that is used here. */
 bool is_common(const std::string& name) {
   static const std::set<std::string> common = {
@@ -48,6 +66,7 @@ class DialectRepair {
   void run(TiXmlElement& robot) {
     check_xacro(robot, false);
     clean(robot, "");
+    remove_duplicates(robot);
     for (const auto& [place, found] : foreign_) {
       const std::string times =
           found.count > 1 ? " (" + std::to_string(found.count) + " times)" : "";
@@ -111,21 +130,86 @@ class DialectRepair {
       }
       child = next;
     }
-    if (kind == "origin") repair_numbers(element, owner, {"xyz", "rpy"}, 3);
-    if (kind == "mimic") repair_numbers(element, owner, {"multiplier", "offset"}, 1);
-    if (kind == "mesh") repair_numbers(element, owner, {"scale"}, 3);
+    repair_numbers(element, owner);
+    for (const char* name : {"name", "link", "joint"}) repair_name(element, name);
     if (kind == "visual" || kind == "collision") repair_geometry(element, owner);
   }
 
-  void repair_numbers(TiXmlElement& element, const std::string& owner,
-                      std::initializer_list<const char*> names, size_t count) {
-    for (const char* name : names) {
+  void repair_numbers(TiXmlElement& element, const std::string& owner) {
+    const std::string kind = element.Value();
+    const auto attributes = number_attributes().find(kind);
+    if (attributes == number_attributes().end()) return;
+    for (const auto& [name, count] : attributes->second) {
       if (element.Attribute(name) == nullptr || read_numbers(element, name, count)) continue;
-      log_.note(Severity::kRepaired, element, owner,
-                std::string(name) + "=\"" + element.Attribute(name) + "\" is not a number of " +
-                    element.Value(),
-                "it is left out, as if the file did not state it");
-      element.RemoveAttribute(name);
+      const std::string repaired = repaired_numbers(element, name, count);
+      const std::string problem =
+          std::string(name) + "=\"" + element.Attribute(name) + "\" is not ";
+      if (!repaired.empty()) {
+        if (num_spellings_++ == 0) {
+          log_.note(Severity::kRepaired, element, owner,
+                    problem + "numbers with points and spaces between them",
+                    "this, and all like it, is read as \"" + repaired + "\"");
+        }
+        element.SetAttribute(name, repaired.c_str());
+      } else if (kind == "origin" || kind == "mimic" || kind == "mesh") {
+        log_.note(Severity::kRepaired, element, owner, problem + "a number of " + kind,
+                  "it is left out, as if the file did not state it");
+        element.RemoveAttribute(name);
+      }
+    }
+  }
+
+  // Names are written into files of lines.
+  void repair_name(TiXmlElement& element, const char* attribute) {
+    const char* value = element.Attribute(attribute);
+    if (value == nullptr) return;
+    std::string name = value;
+    std::replace_if(
+        name.begin(), name.end(), [](char letter) { return (letter & 0xff) < ' '; }, ' ');
+    const size_t first = name.find_first_not_of(' ');
+    name = first == std::string::npos ? ""
+                                      : name.substr(first, name.find_last_not_of(' ') + 1 - first);
+    if (name != value) element.SetAttribute(attribute, name.c_str());
+  }
+
+  void remove_duplicates(TiXmlElement& robot) {
+    std::map<std::string, TiXmlElement*> links;
+    std::set<std::string> joints;
+    for (TiXmlElement* element = robot.FirstChildElement(); element != nullptr;) {
+      TiXmlElement* next = element->NextSiblingElement();
+      const std::string kind = element->Value();
+      const std::string name =
+          element->Attribute("name") == nullptr ? "" : element->Attribute("name");
+      if (kind == "joint" && !name.empty() && !joints.insert(name).second) {
+        std::string other = name;
+        while (!joints.insert(other).second) other += "_2";
+        log_.note(Severity::kRepaired, *element, "joint " + name, "is a second one of this name",
+                  "it is called " + other);
+        element->SetAttribute("name", other.c_str());
+      } else if (kind == "link" && !name.empty() && !links.emplace(name, element).second) {
+        // The one with more in it stays.
+        if (links[name]->FirstChildElement() == nullptr) std::swap(links[name], element);
+        log_.note(Severity::kRepaired, *element, "link " + name, "is a second one of this name",
+                  "it is left out");
+        robot.RemoveChild(element);
+      }
+      element = next;
+    }
+    // Joints of links that are not there.
+    for (TiXmlElement* joint = robot.FirstChildElement("joint"); joint != nullptr;) {
+      TiXmlElement* next = joint->NextSiblingElement("joint");
+      for (const char* end : {"parent", "child"}) {
+        const TiXmlElement* element = joint->FirstChildElement(end);
+        const char* link = element == nullptr ? nullptr : element->Attribute("link");
+        if (link == nullptr || links.count(link) > 0) continue;
+        const char* name = joint->Attribute("name");
+        log_.note(Severity::kMissing, *joint, std::string("joint ") + (name == nullptr ? "" : name),
+                  std::string("its ") + end + " \"" + link + "\" is not a link",
+                  "the joint is left out, and what it would carry: write the link");
+        robot.RemoveChild(joint);
+        break;
+      }
+      joint = next;
     }
   }
 
@@ -165,6 +249,7 @@ class DialectRepair {
 
   RepairLog& log_;
   int num_owners_ = 0;
+  int num_spellings_ = 0;
   std::map<std::pair<std::string, std::string>, Foreign> foreign_;
 };
 

@@ -5,15 +5,21 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <vector>
 
+#include "rendering/primitives.h"
 #include "robot_import/mesh_import.h"
+#include "robot_import/urdf_colors.h"
 #include "robot_import/urdf_dialect.h"
 #include "robot_import/urdf_mechanism.h"
+#include "robot_import/urdf_text.h"
+#include "robot_import/urdf_units.h"
 #include "robot_import/urdf_values.h"
 
 namespace nao {
@@ -26,6 +32,8 @@ namespace fs = std::filesystem;
 constexpr double kRange = 3.14;
 constexpr double kVelocity = 6;
 constexpr double kTorquePerMass = 1.5;
+// Of a visual without a color: light grey plastic, linear.
+const Color kPrimitiveColor(0.62f, 0.62f, 0.64f, 1);
 // Mass of each link of a robot without masses, kg.
 constexpr double kAssumedMass = 1;
 
@@ -63,8 +71,20 @@ class UrdfRepair {
                    const std::string& element);
   void repair_cylinder(TiXmlElement& shape, TiXmlElement& geometry, const std::string& element);
   fs::path find_mesh(const std::string& name) const;
-  /** @return The path of the converted mesh, from the robot's folder. @throws ModelError */
-  std::string convert(const fs::path& source, const Eigen::Vector3d& scale);
+  /** Diagonal of the box about a mesh as its file has it; 0: it cannot be read. */
+  double measure_mesh(const fs::path& source);
+  void find_mesh_units(const TiXmlElement& element);
+  void report_mesh_units();
+  /** A visual becomes a mesh, whatever it is. @param make  Writes it to a file.
+   * @param key  Visuals of the same key share one. */
+  void draw(TiXmlElement& shape, TiXmlElement& geometry, const std::string& name,
+            const std::string& key, const std::function<void(const fs::path&)>& make);
+  void draw_by_collisions(TiXmlElement& link);
+  void draw_primitive(TiXmlElement& shape, TiXmlElement& geometry);
+  std::optional<Color> color_of(const TiXmlElement& shape) const {
+    const auto found = colors_.find(&shape);
+    return found == colors_.end() ? std::nullopt : std::optional(found->second);
+  }
 
   fs::path file_;
   fs::path folder_;
@@ -72,8 +92,20 @@ class UrdfRepair {
   TiXmlDocument document_;
   TiXmlElement* robot_ = nullptr;
   double mass_ = 0;
-  /** Converted meshes, by their sources and scales. */
-  std::map<std::pair<fs::path, std::vector<double>>, std::string> converted_;
+  /** Longest chain of joints, m. */
+  double chain_ = 0;
+  std::map<const TiXmlElement*, Color> colors_;
+  /** Converted meshes, by what they were made from. */
+  std::map<std::string, std::string> converted_;
+  /** Diagonals of the boxes about meshes, as the files have them. */
+  std::map<fs::path, double> extents_;
+  struct LargestMesh {
+    double extent = 0;
+    fs::path source{};
+    int line = 0;
+  };
+  /** Of the meshes of each scale, the largest one with that scale. */
+  std::map<std::string, LargestMesh> largest_;
   RepairedUrdf result_;
 };
 
@@ -82,8 +114,9 @@ void UrdfRepair::load() {
   if (!stream) fail(nullptr, "the file cannot be read", "check its path");
   std::stringstream text;
   text << stream.rdbuf();
-  check_xml_size(text.str(), log_);
-  document_.Parse(text.str().c_str());
+  const std::string xml = to_xml_text(text.str(), log_);
+  check_xml_size(xml, log_);
+  document_.Parse(xml.c_str(), nullptr, TIXML_ENCODING_UTF8);
   robot_ = document_.FirstChildElement("robot");
   if (document_.Error() || robot_ == nullptr) {
     throw ModelError(
@@ -93,7 +126,15 @@ void UrdfRepair::load() {
   // The reader of the result wants a name, and knows one version.
   if (robot_->Attribute("name") == nullptr) robot_->SetAttribute("name", "robot");
   robot_->RemoveAttribute("version");
+  for (const TiXmlElement* element = robot_->FirstChildElement(); element != nullptr;
+       element = element->NextSiblingElement()) {
+    const char* name = element->Attribute("name");
+    if (name != nullptr) result_.lines.emplace(element->ValueStr() + " " + name, element->Row());
+  }
+  colors_ = read_colors(*robot_);
   repair_dialect(*robot_, log_);
+  repair_units(*robot_, log_);
+  chain_ = measure_chain(*robot_);
 }
 
 // A link has one joint above it: the first one counts.
@@ -253,7 +294,12 @@ void UrdfRepair::repair_joint(TiXmlElement& joint) {
   if (name == nullptr) fail(&joint, "a joint has no name", "give it one");
   const std::string element = std::string("joint ") + name;
   const std::string kind = type == nullptr ? "" : type;
-  if (kind == "fixed") return;
+  if (kind == "fixed") {
+    for (const char* part : {"limit", "axis"}) {
+      if (TiXmlElement* unused = joint.FirstChildElement(part)) joint.RemoveChild(unused);
+    }
+    return;
+  }
   if (kind == "prismatic" || kind == "floating" || kind == "planar") {
     return hold_joint(joint, 0, "is " + kind, log_);
   }
@@ -329,39 +375,139 @@ fs::path find_file(const fs::path& folder, const fs::path& ending) {
   return fs::is_regular_file(found, error) ? found : fs::path();
 }
 
+/** Bytes of a text with %20 and the like; as it is where none follow. */
+std::string without_percent(const std::string& text) {
+  std::string plain;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const bool is_escape = text[i] == '%' && i + 2 < text.size() &&
+                           std::isxdigit(text[i + 1] & 0xff) && std::isxdigit(text[i + 2] & 0xff) &&
+                           text.substr(i + 1, 2) != "00";
+    plain += is_escape ? static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16)) : text[i];
+    i += is_escape ? 2 : 0;
+  }
+  return plain;
+}
+
 fs::path UrdfRepair::find_mesh(const std::string& name) const {
-  // The scheme says how a path is found; the rest is searched beside the file.
   std::string path = name;
   std::replace(path.begin(), path.end(), '\\', '/');
-  for (const char* scheme : {"package://", "model://", "file://"}) {
-    if (path.rfind(scheme, 0) == 0) path = path.substr(std::string(scheme).size());
-  }
-  // package://NAME/meshes/x.stl: NAME is the URDF's folder or one above it, or lies in one of them.
-  std::vector<fs::path> endings = {path};
-  const size_t slash = path.find('/');
-  if (slash != std::string::npos) endings.emplace_back(path.substr(slash + 1));
+  // The scheme says how a path is found; the rest is searched beside the file.
+  const size_t scheme = path.find("://");
+  if (scheme != std::string::npos) path = path.substr(scheme + 3);
   const fs::path start = fs::absolute(file_).parent_path();
-  fs::path base = start;
-  for (int level = 0; level < 4; ++level) {
-    for (const fs::path& ending : endings) {
-      fs::path found = find_file(base, ending);
-      if (!found.empty()) return found;
+  for (const std::string& written : {path, without_percent(path)}) {
+    // Without its first folders, one after the other: a package is the URDF's folder, or one above
+    // it, or lies in one of them; a path may be that of another computer.
+    for (size_t first = 0; first < written.size(); first = written.find('/', first)) {
+      if (first > 0) ++first;
+      fs::path base = start;
+      for (int level = 0; level < 4; ++level) {
+        fs::path found = find_file(base, written.substr(first));
+        if (!found.empty()) return found;
+        if (base == base.parent_path()) break;
+        base = base.parent_path();
+      }
+      if (first == 0 && written[0] == '/') ++first;
     }
-    if (base == base.parent_path()) break;
-    base = base.parent_path();
   }
   return {};
 }
 
-std::string UrdfRepair::convert(const fs::path& source, const Eigen::Vector3d& scale) {
-  const std::pair key(source, std::vector<double>(scale.begin(), scale.end()));
-  const auto found = converted_.find(key);
-  if (found != converted_.end()) return found->second;
-  const std::string target =
-      "meshes/" + std::to_string(converted_.size()) + "_" + source.stem().string() + ".glb";
-  fs::create_directories(folder_ / "meshes");
-  convert_mesh(source, scale, folder_ / target);
-  return converted_[key] = target;
+void UrdfRepair::draw(TiXmlElement& shape, TiXmlElement& geometry, const std::string& name,
+                      const std::string& key, const std::function<void(const fs::path&)>& make) {
+  const auto color = color_of(shape);
+  std::string whole_key = key;
+  if (color) whole_key += " " + to_text(color->head<3>().cast<double>());
+  std::string& target = converted_[whole_key];
+  if (target.empty()) {
+    const std::string file =
+        "meshes/" + std::to_string(converted_.size() - 1) + "_" + name + ".glb";
+    fs::create_directories(folder_ / "meshes");
+    try {
+      make(folder_ / file);
+    } catch (...) {
+      converted_.erase(whole_key);
+      throw;
+    }
+    target = file;
+  }
+  geometry.Clear();
+  TiXmlElement mesh("mesh");
+  mesh.SetAttribute("filename", target.c_str());
+  geometry.InsertEndChild(mesh);
+}
+
+// The phone's app draws meshes only.
+void UrdfRepair::draw_primitive(TiXmlElement& shape, TiXmlElement& geometry) {
+  const TiXmlElement& form = *geometry.FirstChildElement();
+  const std::string kind = form.Value();
+  const auto radius = static_cast<float>(read_number(form, "radius", 0));
+  const auto length = static_cast<float>(read_number(form, "length", 0));
+  const char* name = shape.Attribute("name");
+  const Color color = color_of(shape).value_or(kPrimitiveColor);
+  Mesh mesh;
+  if (kind == "box") {
+    const auto size = read_numbers(form, "size", 3);
+    mesh = make_box(Eigen::Vector3d(size->data()).cast<float>(), color);
+  } else if (kind == "sphere") {
+    mesh = make_sphere(radius, color);
+  } else if (name != nullptr && std::string(name).ends_with("_capsule")) {
+    mesh = make_capsule(radius, length, color);
+  } else {
+    mesh = make_cylinder(radius, length, color);
+  }
+  TiXmlPrinter key;
+  form.Accept(&key);
+  draw(shape, geometry, kind, key.Str() + (name == nullptr ? "" : name),
+       [&](const fs::path& file) { write_mesh(mesh, color, file); });
+}
+
+double UrdfRepair::measure_mesh(const fs::path& source) {
+  const auto [extent, is_new] = extents_.try_emplace(source, 0);
+  if (!is_new) return extent->second;
+  Eigen::AlignedBox3d box;
+  try {
+    for (const Eigen::Vector3d& corner : read_mesh_points(source, Eigen::Vector3d::Ones())) {
+      box.extend(corner);
+    }
+  } catch (const ModelError&) {
+    return 0;  // reported where the mesh is used
+  }
+  return extent->second = box.isEmpty() ? 0 : box.sizes().norm();
+}
+
+Eigen::Vector3d read_scale(const TiXmlElement& mesh) {
+  const auto factors = read_numbers(mesh, "scale", 3);
+  return factors ? Eigen::Vector3d(factors->data()) : Eigen::Vector3d::Ones();
+}
+
+// Meshes of one scale have one unit, which the largest one shows: small parts could be in either.
+void UrdfRepair::find_mesh_units(const TiXmlElement& element) {
+  for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    find_mesh_units(*child);
+    const char* name = child->Attribute("filename");
+    if (child->ValueStr() != "mesh" || name == nullptr) continue;
+    const fs::path source = find_mesh(name);
+    if (source.empty()) continue;
+    const Eigen::Vector3d scale = read_scale(*child);
+    LargestMesh& largest = largest_[to_text(scale)];
+    const double extent = measure_mesh(source) * scale.cwiseAbs().maxCoeff();
+    if (extent <= largest.extent) continue;
+    largest = {extent, source, child->Row()};
+  }
+}
+
+void UrdfRepair::report_mesh_units() {
+  for (const auto& [scale, largest] : largest_) {
+    const double unit = mesh_unit(largest.extent, chain_);
+    if (unit == 1) continue;
+    log_.findings.push_back({Severity::kRepaired, log_.file, largest.line,
+                             "mesh \"" + largest.source.filename().string() + "\"",
+                             "is " + to_text(largest.extent) + " m large",
+                             "it, and all of the scale " + scale + ", is taken for one in " +
+                                 (unit < 1 ? "millimetres" : "metres") + ": write its scale"});
+  }
 }
 
 bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool is_collision,
@@ -383,17 +529,15 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
     const Eigen::Isometry3d pose = read_origin(shape);
     for (const Eigen::Vector3d& corner : corners) points.push_back(pose * corner);
   };
-  const auto factors = read_numbers(mesh, "scale", 3);
-  const Eigen::Vector3d scale =
-      factors ? Eigen::Vector3d(factors->data()) : Eigen::Vector3d::Ones();
   try {
+    Eigen::Vector3d scale = read_scale(mesh);
+    scale *= mesh_unit(largest_[to_text(scale)].extent, chain_);
     if (!is_collision) {
-      const std::string target = convert(source, scale);
       if (shape.Parent()->FirstChildElement("collision") == nullptr) {
         add_points(-1, read_mesh_points(source, scale));
       }
-      mesh.SetAttribute("filename", target.c_str());
-      mesh.RemoveAttribute("scale");
+      draw(shape, geometry, source.stem().string(), source.string() + " " + to_text(scale),
+           [&](const fs::path& file) { convert_mesh(source, scale, color_of(shape), file); });
       return true;
     }
     const std::vector<Eigen::Vector3d> corners = read_mesh_points(source, scale);
@@ -464,10 +608,50 @@ void UrdfRepair::repair_shapes(TiXmlElement& link, const char* kind, const std::
       stays = repair_mesh(*shape, *geometry, is_collision, element);
     } else if (is_collision && geometry->FirstChildElement("cylinder") != nullptr) {
       repair_cylinder(*shape, *geometry, element);
+    } else if (!is_collision) {
+      draw_primitive(*shape, *geometry);
     }
     if (!stays) link.RemoveChild(shape);
     shape = next;
   }
+}
+
+/** Whether a file has a visual or a mesh at all; scripts draw the shells of a robot without. */
+bool has_drawing(const TiXmlElement& element) {
+  for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (child->ValueStr() == "visual" || child->ValueStr() == "mesh" || has_drawing(*child)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// A body between others that are seen must be seen, too.
+void UrdfRepair::draw_by_collisions(TiXmlElement& link) {
+  if (link.FirstChildElement("visual") != nullptr ||
+      link.FirstChildElement("inertial") == nullptr) {
+    return;
+  }
+  for (const TiXmlElement* shape = link.FirstChildElement("collision"); shape != nullptr;
+       shape = shape->NextSiblingElement("collision")) {
+    const TiXmlElement* geometry = shape->FirstChildElement("geometry");
+    if (geometry == nullptr || geometry->FirstChildElement() == nullptr) continue;
+    const TiXmlElement* mesh = geometry->FirstChildElement("mesh");
+    const char* name = mesh == nullptr ? nullptr : mesh->Attribute("filename");
+    // The collision itself reports what is wrong with its mesh.
+    if (mesh != nullptr && (name == nullptr || find_mesh(name).empty())) continue;
+    TiXmlElement visual("visual");
+    if (shape->Attribute("name") != nullptr) visual.SetAttribute("name", shape->Attribute("name"));
+    for (const char* part : {"origin", "geometry"}) {
+      if (const TiXmlElement* found = shape->FirstChildElement(part)) visual.InsertEndChild(*found);
+    }
+    link.InsertEndChild(visual);
+  }
+  // What is found here is found again in the collisions.
+  const size_t num_findings = log_.findings.size();
+  repair_shapes(link, "visual", std::string("link ") + link.Attribute("name"));
+  log_.findings.resize(num_findings);
 }
 
 RepairedUrdf UrdfRepair::run() {
@@ -484,10 +668,14 @@ RepairedUrdf UrdfRepair::run() {
     repair_inertial(*link, std::string("link ") + link->Attribute("name"));
   }
   repair_mechanism(*robot_, log_);
+  find_mesh_units(*robot_);
+  report_mesh_units();
+  const bool is_drawn = has_drawing(*robot_);
   for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
     const std::string element = std::string("link ") + link->Attribute("name");
     repair_shapes(*link, "visual", element);
+    if (is_drawn) draw_by_collisions(*link);
     repair_shapes(*link, "collision", element);
   }
   std::set<fs::path> meshes;

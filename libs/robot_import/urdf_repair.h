@@ -22,6 +22,8 @@ struct RepairedUrdf {
   /** Name of the root link. */
   std::string root;
   MeshPoints mesh_points;
+  /** Lines of the file's links and joints, by "link NAME" and "joint NAME". */
+  std::map<std::string, int> lines;
   Findings findings;
 };
 

@@ -9,10 +9,9 @@
 
 namespace nao {
 
-std::optional<std::vector<double>> read_numbers(const TiXmlElement& element, const char* name,
-                                                size_t count) {
-  const char* text = element.Attribute(name);
-  if (text == nullptr) return std::nullopt;
+namespace {
+
+std::optional<std::vector<double>> to_numbers(const std::string& text, size_t count) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   std::vector<double> numbers;
@@ -22,6 +21,27 @@ std::optional<std::vector<double>> read_numbers(const TiXmlElement& element, con
                         std::all_of(numbers.begin(), numbers.end(),
                                     [](double number) { return std::isfinite(number); });
   return is_right ? std::optional(numbers) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> read_numbers(const TiXmlElement& element, const char* name,
+                                                size_t count) {
+  const char* text = element.Attribute(name);
+  return text == nullptr ? std::nullopt : to_numbers(text, count);
+}
+
+std::string repaired_numbers(const TiXmlElement& element, const char* name, size_t count) {
+  std::string spaces = element.Attribute(name);
+  std::string points = spaces;
+  for (const char separator : {',', ';'})
+    std::replace(spaces.begin(), spaces.end(), separator, ' ');
+  if (to_numbers(spaces, count)) return spaces;
+  std::replace(points.begin(), points.end(), ',', '.');
+  if (to_numbers(points, count)) return points;
+  // MuJoCo and some exporters write one scale for all axes.
+  if (count == 3 && to_numbers(points, 1)) return points + " " + points + " " + points;
+  return "";
 }
 
 double read_number(const TiXmlElement& element, const char* name, double otherwise) {

@@ -13,6 +13,10 @@ namespace nao {
 /** Numbers of an attribute such as "0 0 1". @return Nothing unless they are `count` finite ones. */
 std::optional<std::vector<double>> read_numbers(const TiXmlElement& element, const char* name,
                                                 size_t count);
+/** The numbers of an attribute that read_numbers() refuses, in a form that it reads: with commas or
+ * semicolons between them, with decimal commas, or one number for all. @return Empty: it is none.
+ */
+std::string repaired_numbers(const TiXmlElement& element, const char* name, size_t count);
 double read_number(const TiXmlElement& element, const char* name, double otherwise);
 
 /** The `origin` of an element; the identity if it has none. */

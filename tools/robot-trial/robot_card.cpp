@@ -17,9 +17,11 @@ std::string to_text(const RobotCard& card) {
   const RobotSettings& settings = card.settings;
   text += fmt::format(
       "settings: servos' peak error {} rad; speed x {}, swing height x {}, hip height x {}, step "
-      "duration x {}\n",
+      "duration x {}, distance of the feet x {}\n",
       settings.peak_error, settings.speed, settings.swing_height, settings.hip_height,
-      settings.step_duration);
+      settings.step_duration, settings.foot_distance);
+  for (const std::string& picture : card.pictures) text += "picture: " + picture + "\n";
+  if (!card.no_pictures.empty()) text += "no pictures: " + card.no_pictures + "\n";
   for (const Finding& finding : card.missing) text += "missing: " + to_line(finding) + "\n";
   return text;
 }
@@ -46,7 +48,12 @@ std::string to_json(const RobotCard& card) {
   json.add("swing_height", card.settings.swing_height);
   json.add("hip_height", card.settings.hip_height);
   json.add("step_duration", card.settings.step_duration);
+  json.add("foot_distance", card.settings.foot_distance);
   json.end();
+  json.begin_array("pictures");
+  for (const std::string& picture : card.pictures) json.add("", picture);
+  json.end();
+  json.add("no_pictures", card.no_pictures);
   json.begin_array("missing");
   for (const Finding& finding : card.missing) json.add("", to_line(finding));
   json.end();

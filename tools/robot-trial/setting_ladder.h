@@ -10,11 +10,13 @@ namespace nao {
 struct RobotSettings {
   /** Error of the angle at which the servos give their greatest torque, rad. */
   double peak_error = 0.1;
-  /** Factors of what the import writes: velocity, swing height, hip height, step duration. */
+  /** Factors of what the import writes: velocity, swing height, hip height, step duration, distance
+   * of the feet. */
   double speed = 1;
   double swing_height = 1;
   double hip_height = 1;
   double step_duration = 1;
+  double foot_distance = 1;
 
   bool operator==(const RobotSettings&) const = default;
 };
@@ -36,7 +38,8 @@ struct SettingsResult {
 };
 
 /** Climbs a short ladder of settings: the first ones that the robot stands and walks with, or else
- * the best. One setting after the other takes its values while the others keep their best ones.
+ * the best. One setting after the other takes its values while the others keep their best ones;
+ * then two or three at a time, drawn at random, the same each time.
  * @param evaluate      Called once for each settings.
  * @param is_time_over  Asked before each call but the first.
  * @param result        Receives the result of the best settings. */

@@ -2,10 +2,15 @@
 
 #include "robot_import/robot_structure.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <numeric>
 
+#include "kinematics/kinematics.h"
 #include "kinematics/leg_kinematics.h"
+#include "robot_import/description_text.h"
+#include "robot_import/gait_text.h"
 #include "sim/closed_loop/closed_loop.h"
 #include "test/libs/robot_import/imported_urdf.h"
 
@@ -63,6 +68,19 @@ TEST_F(ImportedStructure, HasAnotherRootWhereTheFrameIsTurnedOrMoved) {
     EXPECT_NEAR(poses[model.find_link("trunk")].translation().y(), 0, 1e-6) << origin;
     EXPECT_THAT(lines_, Contains(HasSubstr("a new root with the robot's frame"))) << origin;
     EXPECT_NO_THROW(LegKinematics{model}) << origin;
+  }
+}
+
+// A world below which the robot stands is no part of it.
+TEST_F(ImportedStructure, HasLegsWhereverAWorldIs) {
+  for (const char* z : {"1", "-3"}) {
+    urdf_ = make_biped_urdf(TestBiped{});
+    replace("<link name=\"trunk\">", "<link name=\"trunk\">",
+            "<link name=\"world\"/><joint name=\"world_mount\" type=\"floating\"><parent "
+            "link=\"world\"/><child link=\"trunk\"/><origin xyz=\"0 0 " +
+                std::string(z) + "\"/></joint><link name=\"trunk\">");
+    EXPECT_EQ(foot_of(import(), 0), "left_foot") << z;
+    EXPECT_THAT(lines_, testing::Not(Contains(HasSubstr("no two legs")))) << z;
   }
 }
 
@@ -145,6 +163,21 @@ TEST_F(ImportedStructure, StandsWithKneesBentOnLegsOfFiveJoints) {
   const RobotModel model = import();
   EXPECT_GT(model.ready_posture().position[model.find_motor("left_knee")], 0.2);
   EXPECT_TRUE(stands(model));
+}
+
+TEST_F(ImportedStructure, StandsWithTheFeetAsFarApartAsAsked) {
+  RobotModel model = import();
+  const auto distance_in = [](const RobotModel& robot, const std::vector<double>& position) {
+    Kinematics kinematics(robot);
+    kinematics.update(position);
+    return (kinematics.left_sole().translation() - kinematics.right_sole().translation()).norm();
+  };
+  const double straight = distance_in(model, std::vector<double>(model.num_motors(), 0.0));
+  write_text(robot() / "postures.yaml", make_postures_text(model, findings_, 0.8));
+  model = RobotModel::load(robot());
+  EXPECT_NEAR(distance_in(model, model.find_posture("ready")->position), 0.8 * straight, 1e-4);
+  EXPECT_THAT(make_gait_text(model, {.foot_distance = 0.8}),
+              HasSubstr(fmt::format("foot_separation: {{value: {:.4g},", 0.8 * straight)));
 }
 
 TEST_F(ImportedStructure, StandsOnAPlateWithoutLegs) {

@@ -129,7 +129,8 @@ TEST_F(ImportedUrdf, HasMeshesOfFewBytesEachOnlyOnce) {
   add_to_link("trunk", visual("flat.obj") + visual("flat.obj"));
   EXPECT_EQ(import().links().front().visuals.size(), 2u);
   const std::filesystem::path flat = robot() / "meshes" / "0_flat.glb";
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(flat.parent_path()), {}), 1);
+  // The other one is that of both feet.
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(flat.parent_path()), {}), 2);
   // Of two triangles, which share two of their four corners.
   EXPECT_THAT(read_file(flat), HasSubstr("\"count\":4,"));
 
@@ -366,6 +367,163 @@ TEST_F(ImportedUrdf, MayHaveNamesOfAnyLettersAndLength) {
   urdf_ =
       std::regex_replace(urdf_, std::regex("left_"), "\xe5\xb7\xa6&quot; [" + std::string(60, 'x'));
   urdf_ = std::regex_replace(urdf_, std::regex("right_"), "1: {#");
+  EXPECT_EQ(import().num_motors(), 12 + 6);
+}
+
+TEST_F(ImportedUrdf, DrawsPrimitivesAsMeshesInTheirColors) {
+  write_text(source() / "part.stl",
+             "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+             "endloop\nendfacet\nendsolid x\n");
+  add_to_link("trunk",
+              "<visual><geometry><box size=\"0.1 0.2 0.3\"/></geometry><material name=\"red\"/>"
+              "</visual><visual><geometry><mesh filename=\"part.stl\"/></geometry><material "
+              "name=\"own\"><color rgba=\"0 1 0 1\"/></material></visual>");
+  add_to_link("left_foot",
+              "<visual><geometry><cylinder radius=\"0.1\" length=\"1\"/></geometry></visual>");
+  replace("<link", "<link", "<material name=\"red\"><color rgba=\"1 0 0 1\"/></material><link");
+  const RobotModel model = import();
+  const auto mesh_of = [&](const std::string& link, size_t visual) {
+    return load_mesh(model.links()[model.find_link(link)].visuals.at(visual).mesh);
+  };
+  const Mesh box = mesh_of("trunk", 0);
+  EXPECT_NEAR(bounding_sphere(box).radius, 0.5 * std::sqrt(0.14), 1e-3);
+  EXPECT_EQ(box.vertices.front().encoded_color, encode_color(Color(1, 0, 0, 1)));
+  EXPECT_EQ(mesh_of("trunk", 1).vertices.front().encoded_color, encode_color(Color(0, 1, 0, 1)));
+  EXPECT_GT(mesh_of("left_foot", 0).indices.size(), 100u);
+}
+
+TEST_F(ImportedUrdf, IsSeenByItsCollisionShapesWhereItHasNoVisual) {
+  const auto is_seen = [](const RobotModel& model) {
+    return !model.links()[model.find_link("right_foot")].visuals.empty();
+  };
+  EXPECT_FALSE(is_seen(import())) << "nothing is drawn: shells are made for it";
+  add_to_link("trunk", "<visual><geometry><sphere radius=\"0.1\"/></geometry></visual>");
+  EXPECT_TRUE(is_seen(import()));
+}
+
+TEST_F(ImportedUrdf, HasRangesAndRotationsInRadians) {
+  const std::string whole = urdf_;
+  // Not of one joint: what it means is not known.
+  replace("name=\"left_elbow\"", "lower=\"-2\"", "lower=\"-90\"");
+  RobotModel model = import();
+  EXPECT_NEAR(model.motor_joint(model.find_motor("left_elbow")).lower, -3.14, 1e-9);
+  EXPECT_THAT(lines_, Contains(HasSubstr("joint left_elbow: has a range of more than a turn")));
+
+  urdf_ = whole;
+  const RobotModel radians = import();
+  std::string degrees;
+  const std::regex limit("(lower|upper)=\"([^\"]+)\"");
+  auto last = urdf_.cbegin();
+  for (std::sregex_iterator match(urdf_.begin(), urdf_.end(), limit), end; match != end; ++match) {
+    degrees.append(last, urdf_.cbegin() + match->position());
+    degrees += match->str(1) + "=\"" + std::to_string(std::stod(match->str(2)) * 180 / M_PI) + "\"";
+    last = urdf_.cbegin() + match->position() + match->length();
+  }
+  urdf_ = degrees.append(last, urdf_.cend());
+  add_to_link("trunk",
+              "<collision><origin rpy=\"0 0 90\"/><geometry><sphere radius=\"0.01\"/>"
+              "</geometry></collision>");
+  model = import();
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    EXPECT_NEAR(model.motor_joint(motor).upper, radians.motor_joint(motor).upper, 1e-5);
+  }
+  EXPECT_NEAR(model.links().front().collisions.front().pose_in_link.linear()(1, 0), 1, 1e-6);
+  EXPECT_THAT(lines_, Contains(HasSubstr("the ranges are taken for degrees")));
+  EXPECT_THAT(lines_, Contains(HasSubstr("rpy is more than a turn")));
+}
+
+/** Multiplies the numbers of all attributes of a name. */
+std::string multiply(const std::string& text, const std::string& attribute, double factor) {
+  std::string result;
+  auto last = text.cbegin();
+  const std::regex all("\\b" + attribute + "=\"([^\"]+)\"");
+  for (std::sregex_iterator match(text.begin(), text.end(), all), end; match != end; ++match) {
+    result.append(last, text.cbegin() + match->position());
+    result += attribute + "=\"";
+    std::istringstream numbers(match->str(1));
+    for (double number = 0; numbers >> number;) result += std::to_string(number * factor) + " ";
+    result += "\"";
+    last = text.cbegin() + match->position() + match->length();
+  }
+  return result.append(last, text.cend());
+}
+
+TEST_F(ImportedUrdf, IsInMetresAndKilograms) {
+  const RobotModel metres = import();
+  for (const char* length : {"xyz", "size", "radius", "length"}) {
+    urdf_ = multiply(urdf_, length, 1000);
+  }
+  // Axes have no unit.
+  urdf_ = std::regex_replace(urdf_, std::regex("1000\\.000000"), "1");
+  urdf_ = multiply(urdf_, "value", 1000);
+  const RobotModel model = import();
+  EXPECT_NEAR(model.total_mass(), metres.total_mass(), 1e-3);
+  EXPECT_NEAR(model.references().heights.standing, metres.references().heights.standing, 1e-3);
+  EXPECT_THAT(lines_, Contains(HasSubstr("the lengths are taken for millimetres")));
+  EXPECT_THAT(lines_, Contains(HasSubstr("the masses are taken for grams")));
+}
+
+TEST_F(ImportedUrdf, FindsMeshesByOtherPathsAndInOtherUnits) {
+  std::filesystem::create_directories(source() / "my meshes");
+  write_text(source() / "my meshes" / "part.obj",
+             "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  for (const std::string path :
+       {"my meshes/part.obj", "package://a/my%20meshes/part.obj", "$(find a)/my meshes/part.obj",
+        "file:///home/a/b/c/d/e/my meshes/part.obj", "C:\\a\\my meshes\\part.obj"}) {
+    urdf_ = make_biped_urdf(TestBiped{});
+    add_to_link("trunk",
+                "<collision><geometry><mesh filename=\"" + path + "\"/></geometry></collision>");
+    const RobotModel model = import();
+    ASSERT_EQ(model.links().front().collisions.size(), 1u) << path;
+    EXPECT_NEAR(model.links().front().collisions[0].size.x(), 0.1, 1e-6) << path;
+    EXPECT_THAT(lines_, Contains(HasSubstr("is taken for one in millimetres"))) << path;
+  }
+}
+
+TEST_F(ImportedUrdf, MayBeInOtherEncodings) {
+  const std::string whole = urdf_;
+  std::string wide = "\xff\xfe";
+  for (const char letter : whole) wide += std::string(1, letter) + std::string(1, '\0');
+  for (const std::string& text :
+       {"\xef\xbb\xbf" + whole, wide, "[INFO] expanded\n" + whole,
+        "<!DOCTYPE robot [<!ENTITY a \"b\">]>\n" + whole, whole + std::string(3, '\0')}) {
+    urdf_ = text;
+    EXPECT_EQ(import().num_motors(), 12 + 6);
+  }
+  // e with an acute accent, in ISO 8859-1.
+  urdf_ = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>" +
+          std::regex_replace(whole, std::regex("left_elbow"), "\xe9");
+  EXPECT_GE(import().find_motor("\xc3\xa9"), 0);
+  EXPECT_THAT(lines_, Contains(HasSubstr("is not UTF-8; it is read as ISO-8859-1")));
+  urdf_ = std::regex_replace(whole, std::regex("left_elbow"), "&#233;&apos;&quot;&lt;");
+  EXPECT_GE(import().find_motor("\xc3\xa9'\"<"), 0);
+}
+
+TEST_F(ImportedUrdf, ReadsNumbersWithCommas) {
+  replace("name=\"left_elbow\"", "lower=\"-2\"", "lower=\"-1,5\"");
+  urdf_ = std::regex_replace(urdf_, std::regex("<axis xyz=\"(\\S+) (\\S+) (\\S+)\""),
+                             "<axis xyz=\"$1, $2,$3\"");
+  const RobotModel model = import();
+  EXPECT_EQ(model.num_motors(), 12 + 6);
+  EXPECT_EQ(model.motor_joint(model.find_motor("left_elbow")).lower, -1.5);
+  EXPECT_THAT(lines_, Contains(HasSubstr("is not numbers with points and spaces")));
+}
+
+TEST_F(ImportedUrdf, MayHaveNamesTwiceAndJointsOfNoLink) {
+  replace("<joint name=\"left_elbow\"", "left_elbow", "right_elbow");
+  replace("<link", "<link",
+          "<link name=\"left_foot\"/><joint name=\"none\" type=\"fixed\"><parent link=\"trunk\"/>"
+          "<child link=\"no\"/></joint><link");
+  EXPECT_EQ(import().num_motors(), 12 + 6);
+  EXPECT_THAT(lines_, Contains(HasSubstr("it is called right_elbow_2")));
+  EXPECT_THAT(lines_, Contains(HasSubstr("link left_foot: is a second one of this name")));
+  EXPECT_THAT(lines_, Contains(HasSubstr("its child \"no\" is not a link")));
+}
+
+TEST_F(ImportedUrdf, IgnoresLimitsOfFixedJoints) {
+  replace("</robot>", "</robot>",
+          "<link name=\"frame\"/><joint name=\"mount\" type=\"fixed\"><parent link=\"trunk\"/>"
+          "<child link=\"frame\"/><limit lower=\"nan\" upper=\"inf\"/></joint></robot>");
   EXPECT_EQ(import().num_motors(), 12 + 6);
 }
 

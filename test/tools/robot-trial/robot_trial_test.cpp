@@ -4,7 +4,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "daemons/motion/walk/gait.h"
+#include "rendering/image.h"
 #include "robot_import/robot_import.h"
 #include "test/support/temporary_folder.h"
 #include "test/support/test_biped.h"
@@ -30,6 +33,14 @@ TEST(RobotTrial, WritesSettingsThatHoldAndACard) {
   EXPECT_DOUBLE_EQ(RobotModel::load(robot).walk_limits().forward, card.commanded_speed);
   (void)motion::Gait::load(robot / "gait.yaml");
   EXPECT_EQ(read_text(robot / "card.json"), to_json(card));
+  // Without OpenGL the card says so.
+  EXPECT_NE(card.pictures.empty(), card.no_pictures.empty());
+  for (const std::string& picture : card.pictures) {
+    const Image image = read_png(robot / picture);
+    // The robot is in the middle of the picture, the sky at its top.
+    const auto [darkest, brightest] = std::minmax_element(image.rgb.begin(), image.rgb.end());
+    EXPECT_GT(*brightest - *darkest, 50) << picture;
+  }
   EXPECT_THAT(to_text(card), testing::HasSubstr("walks " + std::to_string(card.walks) + " of 5"));
 }
 
