@@ -1,0 +1,288 @@
+#!/usr/bin/python3
+"""Trains a policy in simulation, by PPO, and writes it as ONNX beside its manifest.
+
+    python3 tools/policy-train/train_policy.py data/robots/t1/policies/NAME --minutes 90 --seed 1
+
+The folder holds policy.yaml (docs/policies.md): what the policy sees and moves. An optional training.yaml beside it changes the
+defaults below. Method: J. Schulman et al., "Proximal Policy Optimization Algorithms", 2017, with an adaptive learning rate and
+an asymmetric critic as in N. Rudin et al., "Learning to Walk in Minutes", CoRL 2021, and a loss for the mirror symmetry of the
+robot (W. Yu et al., "Learning Symmetric and Low-energy Locomotion", SIGGRAPH 2018). Needs python3-torch.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+import yaml
+from torch import nn
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+
+from batch import Batch  # noqa: E402
+from onnx_writer import write_mlp  # noqa: E402
+from output_file import replace_file  # noqa: E402
+
+# Weights of the reward's terms (tools/policy-train/reward_terms.h), for a second. Chosen on seeds below 100000.
+WEIGHTS = {
+    "walk": {"velocity_tracking": 3.0, "turn_tracking": 1.0, "alive": 0.5, "gait": 0.5, "clearance": 5.0, "tilt": -5.0,
+             "height": -20.0, "vertical_speed": -0.5, "tilt_rate": -0.05, "torque": -0.3, "joint_speed": -0.2,
+             "joint_acceleration": -0.5, "action_rate": -3.0, "range": -10.0, "lateral_posture": -2.5, "posture": -0.1,
+             "slip": -0.3, "sole_angle": -0.5, "foot_distance": -20.0, "fallen": -50.0},
+    "get-up": {"alive": 0.0, "tilt": -2.0, "height": -4.0, "torque": -0.1, "joint_acceleration": -0.1, "action_rate": -1.0,
+               "range": -5.0, "posture": -0.5},
+}
+DEFAULTS: dict[str, Any] = {
+    "hidden": [128, 128], "size": 256, "horizon": 32, "epochs": 4, "minibatches": 4, "discount": 0.99, "trace": 0.95,
+    "clip": 0.2, "entropy": 0.003, "divergence": 0.01, "rate": 1e-3, "symmetry": 0.5, "deviation": 0.6, "push": 0.0,
+    "episode": 20.0, "disturbances": "default",
+}
+
+
+def mlp(sizes: list[int]) -> nn.Sequential:
+    """Fully connected layers with ELU between them."""
+    layers: list[nn.Module] = []
+    for n, m in zip(sizes, sizes[1:]):
+        layers += [nn.Linear(n, m), nn.ELU()]
+    return nn.Sequential(*layers[:-1])
+
+
+class Normalization:
+    """Running mean and variance of rows."""
+
+    def __init__(self, size: int) -> None:
+        self.mean, self.variance, self.count = torch.zeros(size), torch.ones(size), 1e-4
+
+    def update(self, rows: torch.Tensor) -> None:
+        n = len(rows)
+        mean, variance = rows.mean(0), rows.var(0, unbiased=False)
+        total = self.count + n
+        change = mean - self.mean
+        self.variance = (self.variance * self.count + variance * n + change ** 2 * self.count * n / total) / total
+        self.mean = self.mean + change * n / total
+        self.count = min(total, 5e6)
+
+    def __call__(self, rows: torch.Tensor) -> torch.Tensor:
+        return ((rows - self.mean) / (self.variance.sqrt() + 1e-2)).clamp(-10, 10)
+
+
+class Reflection:
+    """Mirror image of rows of numbers."""
+
+    def __init__(self, reflection: dict[str, list[float]]) -> None:
+        self.index = torch.tensor(reflection["index"], dtype=torch.long)
+        self.sign = torch.tensor(reflection["sign"])
+
+    def __call__(self, rows: torch.Tensor) -> torch.Tensor:
+        return rows[..., self.index] * self.sign
+
+
+class Trainer:
+    """One training: networks, optimizer, and the batch of robots."""
+
+    def __init__(self, folder: Path, model: str, settings: dict[str, Any], weights: dict[str, float], seed: int,
+                 threads: int) -> None:
+        torch.manual_seed(seed)
+        self.settings = settings
+        self.batch = Batch(policy=folder / "policy.yaml", model=model, size=settings["size"], seed=1000 * seed, threads=threads,
+                           disturbances=settings["disturbances"], push=settings["push"], episode=settings["episode"])
+        self.weights = self.batch.weights(weights) * self.batch.period
+        num_observations = self.batch.observations.shape[1]
+        num_actions = self.batch.actions.shape[1]
+        num_critic = num_observations + self.batch.privileged.shape[1]
+        self.actor = mlp([num_observations, *settings["hidden"], num_actions])
+        with torch.no_grad():
+            self.actor[-1].weight *= 0.01
+            self.actor[-1].bias.zero_()
+        self.critic = mlp([num_critic, *settings["hidden"], 1])
+        self.deviation = nn.Parameter(torch.full((num_actions,), math.log(settings["deviation"])))
+        self.normalize = Normalization(num_critic)
+        self.reflect_observation = Reflection(self.batch.reflections["observations"])
+        self.reflect_action = Reflection(self.batch.reflections["actions"])
+        self.rate = settings["rate"]
+        self.optimizer = torch.optim.Adam([*self.actor.parameters(), *self.critic.parameters(), self.deviation], lr=self.rate)
+        self.num_iterations = 0
+        self.num_samples = 0
+        self.batch.reset()
+        self.observe()
+
+    def observe(self) -> None:
+        self.state = torch.cat([torch.from_numpy(self.batch.observations), torch.from_numpy(self.batch.privileged)], 1)
+
+    def actor_of(self, observations: torch.Tensor) -> torch.Tensor:
+        mean, variance = self.normalize.mean, self.normalize.variance
+        n = observations.shape[-1]
+        rows = ((observations - mean[:n]) / (variance[:n].sqrt() + 1e-2)).clamp(-10, 10)
+        return self.actor(rows)
+
+    @torch.no_grad()
+    def collect(self) -> dict[str, torch.Tensor]:
+        """Moves the robots for `horizon` steps."""
+        horizon, size = self.settings["horizon"], self.settings["size"]
+        num_observations = self.batch.observations.shape[1]
+        states, actions, logs, values, rewards, ends = [], [], [], [], [], []
+        self.term_sum = np.zeros(len(self.batch.term_names))
+        self.num_falls = 0
+        deviation = self.deviation.exp()
+        for _ in range(horizon):
+            mean = self.actor_of(self.state[:, :num_observations])
+            action = mean + deviation * torch.randn_like(mean)
+            value = self.critic(self.normalize(self.state))[:, 0]
+            states.append(self.state)
+            actions.append(action)
+            logs.append(torch.distributions.Normal(mean, deviation).log_prob(action).sum(1))
+            values.append(value)
+            self.batch.actions[:] = action.numpy()
+            self.batch.step()
+            self.observe()
+            terminated = torch.from_numpy(self.batch.terminated[:, 0] != 0)
+            truncated = torch.from_numpy(self.batch.truncated[:, 0] != 0)
+            reward = torch.from_numpy(self.batch.reward_terms @ self.weights)
+            # An episode whose time is over goes on, for the return.
+            rewards.append(reward + self.settings["discount"] * value * truncated)
+            ends.append(terminated | truncated)
+            self.term_sum += self.batch.reward_terms.mean(0)
+            self.num_falls += int(terminated.sum())
+        value = self.critic(self.normalize(self.state))[:, 0]
+        advantages, advantage = [], torch.zeros(size)
+        for k in reversed(range(horizon)):
+            goes_on = (~ends[k]).float()
+            change = rewards[k] + self.settings["discount"] * goes_on * value - values[k]
+            advantage = change + self.settings["discount"] * self.settings["trace"] * goes_on * advantage
+            value = values[k]
+            advantages.insert(0, advantage)
+        rows = {"state": torch.cat(states), "action": torch.cat(actions), "log": torch.cat(logs),
+                "advantage": torch.cat(advantages)}
+        rows["return"] = rows["advantage"] + torch.cat(values)
+        rows["mean"] = self.actor_of(rows["state"][:, :num_observations])
+        self.mean_reward = float(torch.stack(rewards).mean()) / self.batch.period
+        return rows
+
+    def update(self, rows: dict[str, torch.Tensor]) -> None:
+        settings = self.settings
+        num_observations = self.batch.observations.shape[1]
+        old_deviation = self.deviation.detach().exp()
+        advantage = (rows["advantage"] - rows["advantage"].mean()) / (rows["advantage"].std() + 1e-8)
+        count = len(advantage)
+        for _ in range(settings["epochs"]):
+            for index in torch.randperm(count).chunk(settings["minibatches"]):
+                state, action = rows["state"][index], rows["action"][index]
+                observation = state[:, :num_observations]
+                mean = self.actor_of(observation)
+                deviation = self.deviation.exp()
+                normal = torch.distributions.Normal(mean, deviation)
+                ratio = (normal.log_prob(action).sum(1) - rows["log"][index]).exp()
+                gain = advantage[index]
+                surrogate = torch.min(ratio * gain, ratio.clamp(1 - settings["clip"], 1 + settings["clip"]) * gain).mean()
+                value_loss = (self.critic(self.normalize(state))[:, 0] - rows["return"][index]).pow(2).mean()
+                mirrored = self.actor_of(self.reflect_observation(observation))
+                asymmetry = (mirrored - self.reflect_action(mean).detach()).pow(2).mean()
+                loss = (-surrogate + value_loss - settings["entropy"] * normal.entropy().sum(1).mean()
+                        + settings["symmetry"] * asymmetry)
+                self.optimizer.zero_grad()
+                loss.backward()
+                nn.utils.clip_grad_norm_([*self.actor.parameters(), *self.critic.parameters(), self.deviation], 1.0)
+                self.optimizer.step()
+                with torch.no_grad():
+                    divergence = (torch.log(deviation / old_deviation) + (old_deviation ** 2 + (rows["mean"][index] - mean) ** 2)
+                                  / (2 * deviation ** 2) - 0.5).sum(1).mean()
+                    if divergence > 2 * settings["divergence"]:
+                        self.rate = max(1e-5, self.rate / 1.5)
+                    elif divergence < settings["divergence"] / 2:
+                        self.rate = min(1e-2, self.rate * 1.5)
+                    for group in self.optimizer.param_groups:
+                        group["lr"] = self.rate
+        self.asymmetry = float(asymmetry)
+
+    def iterate(self) -> dict[str, float]:
+        """Collects and learns once. @return what the log says of it."""
+        rows = self.collect()
+        self.update(rows)
+        self.normalize.update(rows["state"])
+        self.num_iterations += 1
+        self.num_samples += len(rows["state"])
+        terms = dict(zip(self.batch.term_names, self.term_sum / self.settings["horizon"]))
+        return {"iteration": self.num_iterations, "samples": self.num_samples, "reward": self.mean_reward,
+                "deviation": float(self.deviation.exp().mean()), "rate": self.rate, "asymmetry": self.asymmetry,
+                "falls_per_minute": self.num_falls / (len(rows["state"]) * self.batch.period / 60), **terms}
+
+    def layers(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Weights and biases of the actor, for observations that are not normalized."""
+        n = self.batch.observations.shape[1]
+        linear = [layer for layer in self.actor if isinstance(layer, nn.Linear)]
+        layers = [(layer.weight.detach().numpy(), layer.bias.detach().numpy()) for layer in linear]
+        scale = 1 / (self.normalize.variance[:n].sqrt().numpy() + 1e-2)
+        weight, bias = layers[0][0] * scale, layers[0][1]
+        layers[0] = (weight, bias - weight @ self.normalize.mean[:n].numpy())
+        return layers
+
+    def save(self, file: Path) -> None:
+        state = {"actor": self.actor.state_dict(), "critic": self.critic.state_dict(), "deviation": self.deviation.data,
+                 "optimizer": self.optimizer.state_dict(), "normalization": vars(self.normalize), "rate": self.rate,
+                 "iterations": self.num_iterations, "samples": self.num_samples, "random": torch.get_rng_state()}
+        temporary = file.with_suffix(".new")
+        torch.save(state, temporary)
+        temporary.replace(file)
+
+    def load(self, file: Path) -> None:
+        state = torch.load(file)
+        self.actor.load_state_dict(state["actor"])
+        self.critic.load_state_dict(state["critic"])
+        self.deviation.data = state["deviation"]
+        self.optimizer.load_state_dict(state["optimizer"])
+        vars(self.normalize).update(state["normalization"])
+        self.rate, self.num_iterations, self.num_samples = state["rate"], state["iterations"], state["samples"]
+        torch.set_rng_state(state["random"])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, help="holds policy.yaml; receives policy.onnx, training.log and training.pt")
+    parser.add_argument("--model", default="t1")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--minutes", type=float, default=90.0, help="of the training")
+    parser.add_argument("--iterations", type=int, default=1_000_000, help="at the most")
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--resume", action="store_true", help="go on from training.pt")
+    options = parser.parse_args()
+    manifest = yaml.safe_load((options.folder / "policy.yaml").read_text())
+    file = options.folder / "training.yaml"
+    changes = yaml.safe_load(file.read_text()) if file.exists() else {}
+    weights = {**WEIGHTS[manifest["kind"]], **changes.pop("weights", {})}
+    unknown = set(changes) - set(DEFAULTS)
+    if unknown:
+        sys.exit(f"{file}: unknown settings {sorted(unknown)}; there are {', '.join(DEFAULTS)}, weights")
+    torch.set_num_threads(options.threads)
+    trainer = Trainer(options.folder, options.model, {**DEFAULTS, **changes}, weights, options.seed, options.threads)
+    checkpoint, log_file = options.folder / "training.pt", options.folder / "training.log"
+    if options.resume:
+        trainer.load(checkpoint)
+    begin = last = time.monotonic()
+    with open(log_file, "a" if options.resume else "w") as log:
+        while trainer.num_iterations < options.iterations and time.monotonic() - begin < 60 * options.minutes:
+            figures = trainer.iterate()
+            figures["seconds"] = time.monotonic() - begin
+            log.write(json.dumps({name: round(float(value), 6) for name, value in figures.items()}) + "\n")
+            log.flush()
+            if time.monotonic() - last > 30 or trainer.num_iterations == 1:
+                last = time.monotonic()
+                print(f"{figures['seconds'] / 60:.1f} min, {trainer.num_samples / 1e6:.2f} million steps: reward "
+                      f"{figures['reward']:.2f}, velocity {figures['velocity_tracking']:.2f}, "
+                      f"{figures['falls_per_minute']:.2f} falls a minute", flush=True)
+                trainer.save(checkpoint)
+                write_mlp(options.folder / "policy.onnx", trainer.layers())
+    trainer.save(checkpoint)
+    write_mlp(options.folder / "policy.onnx", trainer.layers())
+    trainer.batch.close()
+
+
+if __name__ == "__main__":
+    main()
