@@ -8,10 +8,9 @@
 namespace nao::policy_train {
 namespace {
 
-// Squares of the errors of velocity, m/s, and turn, rad/s, at which their rewards have fallen to
-// 1/e. Chosen: a quarter of what legged_gym has for its faster robots; the same as there.
-constexpr double kVelocityError = 0.1;
-constexpr double kTurnError = 0.25;
+// Square of the error of velocity, m/s, or turn, rad/s, at which its reward has fallen to 1/e: as
+// in legged_gym.
+constexpr double kSquaredError = 0.25;
 // Load of a foot that carries, as a fraction of the weight. Chosen: above the sensors' noise.
 constexpr double kCarries = 0.05;
 // Half of the time for which a foot swings, cycles: as in Booster Gym.
@@ -77,8 +76,8 @@ void calc_reward_terms(const RobotModel& model, const PolicyManifest& manifest,
       world_from_heading.transpose() * after.torso.linear() * after.linear_velocity;
   const Eigen::Vector3d turn = after.torso.linear() * after.angular_velocity;
   put(RewardTerm::kVelocityTracking,
-      std::exp(-(velocity.head<2>() - command.head<2>()).squaredNorm() / kVelocityError));
-  put(RewardTerm::kTurnTracking, std::exp(-square(turn.z() - command.z()) / kTurnError));
+      std::exp(-(velocity.head<2>() - command.head<2>()).squaredNorm() / kSquaredError));
+  put(RewardTerm::kTurnTracking, std::exp(-square(turn.z() - command.z()) / kSquaredError));
   put(RewardTerm::kTilt,
       1 - square(after.torso.linear()(2, 2)) + (after.torso.linear()(2, 2) < 0 ? 1 : 0));
   const double height = start.torso.translation().z();

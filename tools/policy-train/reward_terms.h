@@ -12,8 +12,7 @@ namespace nao::policy_train {
 /** Terms of a reward, each without its weight; names in reward_term_names(). Most are those of
  * legged_gym and Booster Gym. */
 enum class RewardTerm {
-  /** exp(-error^2 / 0.1) of the horizontal velocity, m/s, and exp(-error^2 / 0.25) of the turn,
-   * rad/s. */
+  /** exp(-error^2 / 0.25) of the horizontal velocity, m/s, and of the turn, rad/s. */
   kVelocityTracking,
   kTurnTracking,
   /** Squares of: the horizontal part of the unit vector down, of the torso; its height, as a

@@ -5,8 +5,8 @@
 
 The folder holds policy.yaml (docs/policies.md): what the policy sees and moves. An optional training.yaml beside it changes the
 defaults below. Method: J. Schulman et al., "Proximal Policy Optimization Algorithms", 2017, with an adaptive learning rate and
-an asymmetric critic as in N. Rudin et al., "Learning to Walk in Minutes", CoRL 2021, and a loss for the mirror symmetry of the
-robot (W. Yu et al., "Learning Symmetric and Low-energy Locomotion", SIGGRAPH 2018). Needs python3-torch.
+a critic that sees more than the actor, as in N. Rudin et al., "Learning to Walk in Minutes", CoRL 2021, and networks that are
+symmetric as the robot is (F. Abdolhosseini et al., "On Learning Symmetric Locomotion", MIG 2019). Needs python3-torch.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ WEIGHTS = {
 }
 DEFAULTS: dict[str, Any] = {
     "hidden": [128, 128], "size": 256, "horizon": 32, "epochs": 4, "minibatches": 4, "discount": 0.99, "trace": 0.95,
-    "clip": 0.2, "entropy": 0.003, "divergence": 0.01, "rate": 1e-3, "symmetry": 0.5, "deviation": 0.6, "push": 0.0,
+    "clip": 0.2, "entropy": 0.003, "divergence": 0.01, "rate": 1e-3, "deviation": 0.6, "push": 0.0,
     "episode": 20.0, "disturbances": "default",
 }
 
@@ -55,34 +55,72 @@ def mlp(sizes: list[int]) -> nn.Sequential:
     return nn.Sequential(*layers[:-1])
 
 
-class Normalization:
-    """Running mean and variance of rows."""
-
-    def __init__(self, size: int) -> None:
-        self.mean, self.variance, self.count = torch.zeros(size), torch.ones(size), 1e-4
-
-    def update(self, rows: torch.Tensor) -> None:
-        n = len(rows)
-        mean, variance = rows.mean(0), rows.var(0, unbiased=False)
-        total = self.count + n
-        change = mean - self.mean
-        self.variance = (self.variance * self.count + variance * n + change ** 2 * self.count * n / total) / total
-        self.mean = self.mean + change * n / total
-        self.count = min(total, 5e6)
-
-    def __call__(self, rows: torch.Tensor) -> torch.Tensor:
-        return ((rows - self.mean) / (self.variance.sqrt() + 1e-2)).clamp(-10, 10)
-
-
 class Reflection:
     """Mirror image of rows of numbers."""
 
-    def __init__(self, reflection: dict[str, list[float]]) -> None:
-        self.index = torch.tensor(reflection["index"], dtype=torch.long)
-        self.sign = torch.tensor(reflection["sign"])
+    def __init__(self, *reflections: dict[str, list[float]]) -> None:
+        """@param reflections  Of parts of a row, one after the other."""
+        index: list[float] = []
+        for reflection in reflections:
+            index += [len(index) + i for i in reflection["index"]]
+        self.index = torch.tensor(index, dtype=torch.long)
+        self.sign = torch.tensor([sign for reflection in reflections for sign in reflection["sign"]])
 
     def __call__(self, rows: torch.Tensor) -> torch.Tensor:
         return rows[..., self.index] * self.sign
+
+
+class Normalization:
+    """Running mean and variance of rows and their mirror images."""
+
+    def __init__(self, reflection: Reflection) -> None:
+        size = len(reflection.sign)
+        self.reflection = reflection
+        self.mean, self.variance, self.count = torch.zeros(size), torch.ones(size), 1e-4
+
+    def update(self, rows: torch.Tensor) -> None:
+        rows = torch.cat([rows, self.reflection(rows)])
+        mean, variance = rows.mean(0), rows.var(0, unbiased=False)
+        total = self.count + len(rows)
+        change = mean - self.mean
+        share = len(rows) / total
+        self.variance = (1 - share) * self.variance + share * variance + change ** 2 * share * (1 - share)
+        self.mean = self.mean + change * share
+        self.count = min(total, 1e7)
+
+    def scale(self) -> torch.Tensor:
+        return 1 / (self.variance.sqrt() + 1e-2)
+
+    def __call__(self, rows: torch.Tensor) -> torch.Tensor:
+        n = rows.shape[-1]
+        return (rows - self.mean[:n]) * self.scale()[:n]
+
+
+class Symmetric(nn.Module):
+    """A network whose output for a mirror image is the mirror image of its output: the mean of both."""
+
+    def __init__(self, network: nn.Sequential, reflect_input: Reflection, reflect_output: Reflection) -> None:
+        super().__init__()
+        self.network, self.reflect_input, self.reflect_output = network, reflect_input, reflect_output
+
+    def forward(self, rows: torch.Tensor) -> torch.Tensor:
+        both = self.network(torch.stack([rows, self.reflect_input(rows)]))
+        return (both[0] + self.reflect_output(both[1])) / 2
+
+    def layers(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Weights and biases of the same function as one network: its halves side by side."""
+        linear = [layer for layer in self.network if isinstance(layer, nn.Linear)]
+        pairs = [(layer.weight.detach(), layer.bias.detach()) for layer in linear]
+        first, last = pairs[0], pairs[-1]
+        # The weights for a reflected input: sign[i] input[index[i]] goes to column i.
+        mirrored = torch.zeros_like(first[0])
+        mirrored.index_add_(1, self.reflect_input.index, first[0] * self.reflect_input.sign)
+        reflect = self.reflect_output
+        layers = [(torch.cat([first[0], mirrored]), torch.cat([first[1], first[1]]))]
+        layers += [(torch.block_diag(weight, weight), torch.cat([bias, bias])) for weight, bias in pairs[1:-1]]
+        reflected = last[0][reflect.index] * reflect.sign[:, None]
+        layers.append((torch.cat([last[0], reflected], 1) / 2, (last[1] + reflect(last[1])) / 2))
+        return [(weight.numpy(), bias.numpy()) for weight, bias in layers]
 
 
 class Trainer:
@@ -97,16 +135,16 @@ class Trainer:
         self.weights = self.batch.weights(weights) * self.batch.period
         num_observations = self.batch.observations.shape[1]
         num_actions = self.batch.actions.shape[1]
-        num_critic = num_observations + self.batch.privileged.shape[1]
-        self.actor = mlp([num_observations, *settings["hidden"], num_actions])
+        reflections = self.batch.reflections
+        reflect_state = Reflection(reflections["observations"], reflections["privileged"])
+        network = mlp([num_observations, *settings["hidden"], num_actions])
         with torch.no_grad():
-            self.actor[-1].weight *= 0.01
-            self.actor[-1].bias.zero_()
-        self.critic = mlp([num_critic, *settings["hidden"], 1])
+            network[-1].weight *= 0.01
+        self.actor = Symmetric(network, Reflection(reflections["observations"]), Reflection(reflections["actions"]))
+        self.critic = Symmetric(mlp([len(reflect_state.sign), *settings["hidden"], 1]), reflect_state,
+                                Reflection({"index": [0], "sign": [1.0]}))
         self.deviation = nn.Parameter(torch.full((num_actions,), math.log(settings["deviation"])))
-        self.normalize = Normalization(num_critic)
-        self.reflect_observation = Reflection(self.batch.reflections["observations"])
-        self.reflect_action = Reflection(self.batch.reflections["actions"])
+        self.normalize = Normalization(reflect_state)
         self.rate = settings["rate"]
         self.optimizer = torch.optim.Adam([*self.actor.parameters(), *self.critic.parameters(), self.deviation], lr=self.rate)
         self.num_iterations = 0
@@ -118,10 +156,7 @@ class Trainer:
         self.state = torch.cat([torch.from_numpy(self.batch.observations), torch.from_numpy(self.batch.privileged)], 1)
 
     def actor_of(self, observations: torch.Tensor) -> torch.Tensor:
-        mean, variance = self.normalize.mean, self.normalize.variance
-        n = observations.shape[-1]
-        rows = ((observations - mean[:n]) / (variance[:n].sqrt() + 1e-2)).clamp(-10, 10)
-        return self.actor(rows)
+        return self.actor(self.normalize(observations))
 
     @torch.no_grad()
     def collect(self) -> dict[str, torch.Tensor]:
@@ -183,10 +218,7 @@ class Trainer:
                 gain = advantage[index]
                 surrogate = torch.min(ratio * gain, ratio.clamp(1 - settings["clip"], 1 + settings["clip"]) * gain).mean()
                 value_loss = (self.critic(self.normalize(state))[:, 0] - rows["return"][index]).pow(2).mean()
-                mirrored = self.actor_of(self.reflect_observation(observation))
-                asymmetry = (mirrored - self.reflect_action(mean).detach()).pow(2).mean()
-                loss = (-surrogate + value_loss - settings["entropy"] * normal.entropy().sum(1).mean()
-                        + settings["symmetry"] * asymmetry)
+                loss = -surrogate + value_loss - settings["entropy"] * normal.entropy().sum(1).mean()
                 self.optimizer.zero_grad()
                 loss.backward()
                 nn.utils.clip_grad_norm_([*self.actor.parameters(), *self.critic.parameters(), self.deviation], 1.0)
@@ -200,7 +232,6 @@ class Trainer:
                         self.rate = min(1e-2, self.rate * 1.5)
                     for group in self.optimizer.param_groups:
                         group["lr"] = self.rate
-        self.asymmetry = float(asymmetry)
 
     def iterate(self) -> dict[str, float]:
         """Collects and learns once. @return what the log says of it."""
@@ -211,22 +242,21 @@ class Trainer:
         self.num_samples += len(rows["state"])
         terms = dict(zip(self.batch.term_names, self.term_sum / self.settings["horizon"]))
         return {"iteration": self.num_iterations, "samples": self.num_samples, "reward": self.mean_reward,
-                "deviation": float(self.deviation.exp().mean()), "rate": self.rate, "asymmetry": self.asymmetry,
+                "deviation": float(self.deviation.exp().mean()), "rate": self.rate,
                 "falls_per_minute": self.num_falls / (len(rows["state"]) * self.batch.period / 60), **terms}
 
     def layers(self) -> list[tuple[np.ndarray, np.ndarray]]:
         """Weights and biases of the actor, for observations that are not normalized."""
+        layers = self.actor.layers()
         n = self.batch.observations.shape[1]
-        linear = [layer for layer in self.actor if isinstance(layer, nn.Linear)]
-        layers = [(layer.weight.detach().numpy(), layer.bias.detach().numpy()) for layer in linear]
-        scale = 1 / (self.normalize.variance[:n].sqrt().numpy() + 1e-2)
-        weight, bias = layers[0][0] * scale, layers[0][1]
-        layers[0] = (weight, bias - weight @ self.normalize.mean[:n].numpy())
+        weight = layers[0][0] * self.normalize.scale()[:n].numpy()
+        layers[0] = (weight, layers[0][1] - weight @ self.normalize.mean[:n].numpy())
         return layers
 
     def save(self, file: Path) -> None:
         state = {"actor": self.actor.state_dict(), "critic": self.critic.state_dict(), "deviation": self.deviation.data,
-                 "optimizer": self.optimizer.state_dict(), "normalization": vars(self.normalize), "rate": self.rate,
+                 "optimizer": self.optimizer.state_dict(), "rate": self.rate,
+                 "normalization": (self.normalize.mean, self.normalize.variance, self.normalize.count),
                  "iterations": self.num_iterations, "samples": self.num_samples, "random": torch.get_rng_state()}
         temporary = file.with_suffix(".new")
         torch.save(state, temporary)
@@ -238,7 +268,7 @@ class Trainer:
         self.critic.load_state_dict(state["critic"])
         self.deviation.data = state["deviation"]
         self.optimizer.load_state_dict(state["optimizer"])
-        vars(self.normalize).update(state["normalization"])
+        self.normalize.mean, self.normalize.variance, self.normalize.count = state["normalization"]
         self.rate, self.num_iterations, self.num_samples = state["rate"], state["iterations"], state["samples"]
         torch.set_rng_state(state["random"])
 

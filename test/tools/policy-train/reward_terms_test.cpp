@@ -52,7 +52,7 @@ TEST_F(RewardTerms, TrackTheVelocityInTheFrameOfTheHeading) {
   after_.torso.linear() = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   after_.linear_velocity = {0.3, 0, 0};
   EXPECT_NEAR(term(RewardTerm::kVelocityTracking, {0.3, 0, 0}), 1, 1e-6);
-  EXPECT_NEAR(term(RewardTerm::kVelocityTracking, {0, 0, 0}), std::exp(-0.09 / 0.1), 1e-6);
+  EXPECT_NEAR(term(RewardTerm::kVelocityTracking, {0, 0, 0}), std::exp(-0.09 / 0.25), 1e-6);
   after_.angular_velocity = {0, 0, 0.5};
   EXPECT_NEAR(term(RewardTerm::kTurnTracking, {0.3, 0, 0.5}), 1, 1e-6);
   EXPECT_NEAR(term(RewardTerm::kTurnTracking, {0.3, 0, 0}), std::exp(-1.0), 1e-6);
