@@ -9,6 +9,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import subprocess
@@ -44,7 +45,11 @@ class Batch:
             values = value if isinstance(value, (tuple, list)) else (value,)
             command += ["--" + name.replace("_", "-"), *(str(v) for v in values)]
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        description = json.loads(self._read())
+        try:
+            description = json.loads(self._read())
+        except RuntimeError:
+            self.close()
+            raise
         memory = np.memmap(self._file.name, mode="r+", dtype=np.uint8)
         for name, array in description["arrays"].items():
             setattr(self, name, np.ndarray(array["shape"], array["type"], memory, array["offset"]))
@@ -86,7 +91,8 @@ class Batch:
 
     def close(self) -> None:
         """Ends the program."""
-        self._process.communicate()
+        with contextlib.suppress(BrokenPipeError):
+            self._process.communicate()
         self._file.close()
 
     def __enter__(self) -> Batch:

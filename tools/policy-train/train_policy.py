@@ -14,10 +14,14 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import os
 import sys
 import time
 from pathlib import Path
 from typing import Any
+
+# Small matrices: more threads are not faster, and wait in a loop for the simulation.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 import torch
@@ -25,12 +29,11 @@ import yaml
 from torch import nn
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
 from batch import Batch  # noqa: E402
 from onnx_writer import write_mlp  # noqa: E402
-from output_file import replace_file  # noqa: E402
 
+CHECKPOINT = "training.pt"
 # Weights of the reward's terms (tools/policy-train/reward_terms.h), for a second. Chosen on seeds below 100000.
 WEIGHTS = {
     "walk": {"velocity_tracking": 3.0, "turn_tracking": 1.0, "alive": 0.5, "gait": 0.5, "clearance": 5.0, "tilt": -5.0,
@@ -273,44 +276,70 @@ class Trainer:
         torch.set_rng_state(state["random"])
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="holds policy.yaml; receives policy.onnx, training.log and training.pt")
-    parser.add_argument("--model", default="t1")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--minutes", type=float, default=90.0, help="of the training")
-    parser.add_argument("--iterations", type=int, default=1_000_000, help="at the most")
-    parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--resume", action="store_true", help="go on from training.pt")
-    options = parser.parse_args()
-    manifest = yaml.safe_load((options.folder / "policy.yaml").read_text())
-    file = options.folder / "training.yaml"
-    changes = yaml.safe_load(file.read_text()) if file.exists() else {}
-    weights = {**WEIGHTS[manifest["kind"]], **changes.pop("weights", {})}
+def read_settings(folder: Path) -> tuple[dict[str, Any], dict[str, float]]:
+    """@return Settings and weights of the policy in a folder. Ends the program if a file is missing or wrong."""
+    manifest, file = folder / "policy.yaml", folder / "training.yaml"
+    if not manifest.exists():
+        sys.exit(f"{manifest} is missing: docs/policies.md says what it holds")
+    kind = yaml.safe_load(manifest.read_text()).get("kind")
+    if kind not in WEIGHTS:
+        sys.exit(f"{manifest}: kind {kind!r} cannot be trained, only {' and '.join(WEIGHTS)}")
+    changes = yaml.safe_load(file.read_text()) or {} if file.exists() else {}
+    weights = {**WEIGHTS[kind], **changes.pop("weights", {})}
     unknown = set(changes) - set(DEFAULTS)
     if unknown:
         sys.exit(f"{file}: unknown settings {sorted(unknown)}; there are {', '.join(DEFAULTS)}, weights")
-    torch.set_num_threads(options.threads)
-    trainer = Trainer(options.folder, options.model, {**DEFAULTS, **changes}, weights, options.seed, options.threads)
-    checkpoint, log_file = options.folder / "training.pt", options.folder / "training.log"
-    if options.resume:
-        trainer.load(checkpoint)
+    return {**DEFAULTS, **changes}, weights
+
+
+def train(trainer: Trainer, folder: Path, options: argparse.Namespace) -> None:
+    """Iterates until the time is over, or Ctrl-C, and writes what the folder receives."""
     begin = last = time.monotonic()
-    with open(log_file, "a" if options.resume else "w") as log:
-        while trainer.num_iterations < options.iterations and time.monotonic() - begin < 60 * options.minutes:
-            figures = trainer.iterate()
-            figures["seconds"] = time.monotonic() - begin
-            log.write(json.dumps({name: round(float(value), 6) for name, value in figures.items()}) + "\n")
-            log.flush()
-            if time.monotonic() - last > 30 or trainer.num_iterations == 1:
+
+    def write() -> None:
+        trainer.save(folder / CHECKPOINT)
+        write_mlp(folder / "policy.onnx", trainer.layers())
+
+    try:
+        with open(folder / "training.log", "a" if options.resume else "w") as log:
+            while trainer.num_iterations < options.iterations and time.monotonic() - begin < 60 * options.minutes:
+                figures = trainer.iterate()
+                figures["seconds"] = time.monotonic() - begin
+                log.write(json.dumps({name: round(float(value), 6) for name, value in figures.items()}) + "\n")
+                log.flush()
+                if time.monotonic() - last < 30 and trainer.num_iterations > 1:
+                    continue
                 last = time.monotonic()
                 print(f"{figures['seconds'] / 60:.1f} min, {trainer.num_samples / 1e6:.2f} million steps: reward "
-                      f"{figures['reward']:.2f}, velocity {figures['velocity_tracking']:.2f}, "
+                      f"{figures['reward']:.2f}, tracking of the velocity {figures['velocity_tracking']:.2f}, "
                       f"{figures['falls_per_minute']:.2f} falls a minute", flush=True)
-                trainer.save(checkpoint)
-                write_mlp(options.folder / "policy.onnx", trainer.layers())
-    trainer.save(checkpoint)
-    write_mlp(options.folder / "policy.onnx", trainer.layers())
+                write()
+    except KeyboardInterrupt:
+        print("ended; --resume goes on")
+    write()
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, help=f"holds policy.yaml; receives policy.onnx, training.log and {CHECKPOINT}")
+    parser.add_argument("--model", default="t1", help="the robot (default: t1)")
+    parser.add_argument("--seed", type=int, default=1, help="of networks and robots (default: 1)")
+    parser.add_argument("--minutes", type=float, default=90.0, help="of the training (default: 90)")
+    parser.add_argument("--iterations", type=int, default=1_000_000, help="at the most")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of the simulation (default: all cores)")
+    parser.add_argument("--resume", action="store_true", help=f"go on from {CHECKPOINT}")
+    options = parser.parse_args()
+    settings, weights = read_settings(options.folder)
+    if options.resume and not (options.folder / CHECKPOINT).exists():
+        sys.exit(f"{options.folder / CHECKPOINT} is missing: there is no training to go on with")
+    torch.set_num_threads(1)
+    try:
+        trainer = Trainer(options.folder, options.model, settings, weights, options.seed, options.threads)
+    except (RuntimeError, ValueError) as error:
+        sys.exit(str(error))
+    if options.resume:
+        trainer.load(options.folder / CHECKPOINT)
+    train(trainer, options.folder, options)
     trainer.batch.close()
 
 
