@@ -85,20 +85,21 @@ void Ball::add_rolling_resistance(const Matrix3d& frame, double deceleration, do
                                   ConstraintSolver& solver) const {
   // A block whose entries are the ball's three rotations only: rolling resistance is a torque.
   // Spinning about the normal gets the same arm.
-  ContactBlock rolling;
-  rolling.is_rolling = true;
-  rolling.friction = rolling.spinning = rolling_arm(deceleration, gravity);
   constexpr std::array<int, 3> kRotations{0, 1, 2};
-  rolling.chain = solver.add_chain(kRotations.data(), 3, first_dof_);
-  EntryPair* entries = rolling.chain < 0 ? nullptr : solver.add_entries(6);
-  if (entries == nullptr) return;
+  const int chain = solver.add_chain(kRotations.data(), 3, first_dof_);
+  EntryPair* entries = chain < 0 ? nullptr : solver.add_entries(6);
+  ContactBlock* rolling = entries == nullptr ? nullptr : solver.begin_block();
+  if (rolling == nullptr) return;
+  rolling->is_rolling = true;
+  rolling->friction = rolling->spinning = rolling_arm(deceleration, gravity);
+  rolling->chain = chain;
   for (int k = 0; k < 3; ++k) {
     const Vector3d row = frame.col(k) / std::sqrt(inertia_);
     entries[2 * k] = {row.x(), row.y()};
     entries[2 * k + 1] = {row.z(), 0};
   }
-  rolling.entries = entries;
-  solver.add_block(rolling);
+  rolling->entries = entries;
+  solver.end_block();
 }
 
 void Ball::end_step(double h, const Eigen::VectorXd& scaled_velocity) {

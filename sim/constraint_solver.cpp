@@ -3,12 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/constant_count.h"
+
 namespace nao::sim {
 namespace {
 
+/** Of a NAO's and other humanoids' limbs. */
+template <class Work>
+[[gnu::always_inline]] inline auto with_constant_pairs(int count, Work work) {
+  return with_constant<4, 6>(count, work);
+}
+
 /** Two sums side by side, so that additions need not wait for each other. @param count  1 or more.
  */
-[[gnu::always_inline]] inline double dot(const EntryPair* a, const EntryPair* b, int count) {
+template <class Count>
+[[gnu::always_inline]] inline double dot(const EntryPair* a, const EntryPair* b, Count count) {
   EntryPair even = a[0] * b[0];
   EntryPair odd = EntryPair::Zero();
   int i = 1;
@@ -20,143 +29,19 @@ namespace {
   return (even + odd).sum();
 }
 
-}  // namespace
-
-void ConstraintSolver::reserve(int max_blocks, int max_rows, int max_chains, int max_chain,
-                               int max_pairs) {
-  blocks_.reserve(max_blocks);
-  rows_.reserve(max_rows);
-  chains_.reserve(max_chains);
-  chain_dofs_.reserve(static_cast<size_t>(max_chains) * max_chain);
-  entries_.resize(max_pairs);
-  local_.resize(num_pairs(max_chain));
+// Eigenvalues of a symmetric 2 x 2 matrix are mean +- sqrt(mean^2 - determinant); rounding may make
+// the root's argument slightly negative.
+double calc_tangent_step(const ContactBlock& block) {
+  const double mean = block.tangent_mean;
+  return 1 / (mean + std::sqrt(std::max(0.0, mean * mean - block.tangent_determinant)));
 }
 
-void ConstraintSolver::clear() {
-  blocks_.clear();
-  rows_.clear();
-  chains_.clear();
-  chain_dofs_.clear();
-  num_entries_ = 0;
-}
+// Solve one constraint. normal_impulse: of the block before, N s; for rolling blocks. z: of the
+// constraint's chain. They return the error of its velocity before, m/s or rad/s.
 
-// If the memory is full, the caller leaves its constraint out, and the stepper counts it as
-// dropped. No memory is allocated while the simulation runs.
-int ConstraintSolver::add_chain(const int* dofs, int count, int first_dof) {
-  if (chains_.size() == chains_.capacity() || chain_dofs_.size() + count > chain_dofs_.capacity() ||
-      num_pairs(count) > static_cast<int>(local_.size())) {
-    return -1;
-  }
-  chains_.push_back({static_cast<int>(chain_dofs_.size()), count});
-  for (int i = 0; i < count; ++i) chain_dofs_.push_back(first_dof + dofs[i]);
-  return static_cast<int>(chains_.size()) - 1;
-}
-
-EntryPair* ConstraintSolver::add_entries(int num_pairs) {
-  if (num_entries_ + num_pairs > static_cast<int>(entries_.size())) return nullptr;
-  EntryPair* first = &entries_[num_entries_];
-  num_entries_ += num_pairs;
-  return first;
-}
-
-int ConstraintSolver::add_block(const ContactBlock& added) {
-  if (blocks_.size() == blocks_.capacity()) return -1;
-  ContactBlock& block = blocks_.emplace_back(added);
-  // The block's part of J M^-1 J^T = y^T y. n is the normal row, x and y are the two tangent rows.
-  const int count = num_pairs_of(block.chain);
-  const EntryPair* n = block.entries;
-  const EntryPair* x = n + count;
-  const EntryPair* y = x + count;
-  block.coupling[0] = dot(n, x, count);
-  block.coupling[1] = dot(n, y, count);
-  const double xx = dot(x, x, count) + block.tangent_softness;
-  const double xy = dot(x, y, count);
-  const double yy = dot(y, y, count) + block.tangent_softness;
-  // Inverse of the symmetric 2 x 2 matrix [xx, xy; xy, yy].
-  const double determinant = xx * yy - xy * xy;
-  block.normal_scale = dot(n, n, count) + block.normal_softness;
-  block.normal_inverse = 1 / block.normal_scale;
-  block.tangent_inverse[0] = yy / determinant;
-  block.tangent_inverse[1] = -xy / determinant;
-  block.tangent_inverse[2] = xx / determinant;
-  block.tangent_scale = 1 / std::max(block.tangent_inverse[0], block.tangent_inverse[2]);
-  // Eigenvalues of a symmetric 2 x 2 matrix are mean +- sqrt(mean^2 - determinant); rounding may
-  // make the root's argument slightly negative.
-  // One over the larger eigenvalue.
-  const double mean = (xx + yy) / 2;
-  block.tangent_step = 1 / (mean + std::sqrt(std::max(0.0, mean * mean - determinant)));
-  return static_cast<int>(blocks_.size()) - 1;
-}
-
-int ConstraintSolver::add_row(const JointRow& row) {
-  if (rows_.size() == rows_.capacity()) return -1;
-  rows_.push_back(row);
-  const int index = static_cast<int>(rows_.size()) - 1;
-  replace_row(index, row);
-  return index;
-}
-
-void ConstraintSolver::replace_row(int index, const JointRow& other) {
-  // The impulse is kept: the solver is in the middle of its iterations, and z contains this impulse
-  // already. The row's entries must be the same as before.
-  const double impulse = rows_[index].impulse;
-  JointRow& row = rows_[index];
-  row = other;
-  row.impulse = impulse;
-  const double diagonal = dot(row.entries, row.entries, row.num_pairs);
-  // Diagonal entry of the regularized row. A torque bound measures against the direction in which
-  // it acts; its entry is positive in both cases: softness is 1 / (h slope), and the joint has h
-  // slope on the diagonal of the implicit mass matrix, so that measure * apply * diagonal >=
-  // -softness.
-  row.scale = row.measure * row.apply * diagonal + row.softness;
-  row.inverse = 1 / row.scale;
-}
-
-void ConstraintSolver::enter(int chain, double* z) {
-  if (chain == entered_) return;
-  leave(z);
-  const Chain& entered = chains_[chain];
-  const int* dofs = &chain_dofs_[entered.first];
-  double* local = local_.data()->data();
-  // The partner of a last odd entry, which the rows' entries multiply by 0.
-  local_[num_pairs(entered.count) - 1].setZero();
-  for (int i = 0; i < entered.count; ++i) local[i] = z[dofs[i]];
-  entered_ = chain;
-}
-
-void ConstraintSolver::leave(double* z) {
-  if (entered_ < 0) return;
-  const Chain& entered = chains_[entered_];
-  const int* dofs = &chain_dofs_[entered.first];
-  const double* local = local_.data()->data();
-  for (int i = 0; i < entered.count; ++i) z[dofs[i]] = local[i];
-  entered_ = -1;
-}
-
-void ConstraintSolver::warm_start(Eigen::VectorXd& scaled_velocity) {
-  // z := z + y p for all start values p; afterwards z and the impulses belong together, which every
-  // solve_block() and solve_row() keeps.
-  double* z = scaled_velocity.data();
-  EntryPair* local = local_.data();
-  for (const ContactBlock& block : blocks_) {
-    enter(block.chain, z);
-    const int count = num_pairs_of(block.chain);
-    const EntryPair* entries = block.entries;
-    for (int i = 0; i < count; ++i) {
-      local[i] += entries[i] * block.impulse[0] + entries[count + i] * block.impulse[1] +
-                  entries[2 * count + i] * block.impulse[2];
-    }
-  }
-  for (const JointRow& row : rows_) {
-    enter(row.chain, z);
-    const double applied = row.apply * row.impulse;
-    for (int i = 0; i < row.num_pairs; ++i) local[i] += row.entries[i] * applied;
-  }
-  leave(z);
-}
-
-double ConstraintSolver::solve_block(ContactBlock& block, int count, double normal_impulse,
-                                     EntryPair* z) {
+template <class Count>
+[[gnu::always_inline]] inline double solve_block(ContactBlock& block, Count count,
+                                                 double normal_impulse, EntryPair* z) {
   const EntryPair* row_n = block.entries;
   const EntryPair* row_x = row_n + count;
   const EntryPair* row_y = row_x + count;
@@ -203,6 +88,7 @@ double ConstraintSolver::solve_block(ContactBlock& block, int count, double norm
     // It slides. Where the inertia is not the same in all directions, the Newton step is not
     // parallel to the residual, and its projection would not oppose the sliding. A gradient step is
     // parallel (projected gradient method, with the step length 1 / the largest eigenvalue).
+    if (block.tangent_step == 0) block.tangent_step = calc_tangent_step(block);
     const double step = block.tangent_step;
     x = block.impulse[1] - step * rx;
     y = block.impulse[2] - step * ry;
@@ -226,9 +112,9 @@ double ConstraintSolver::solve_block(ContactBlock& block, int count, double norm
   return std::max(std::abs(change_n) * block.normal_scale, tangent);
 }
 
-double ConstraintSolver::solve_row(JointRow& row, EntryPair* z) {
+template <class Count>
+[[gnu::always_inline]] inline double solve_row(JointRow& row, Count count, EntryPair* z) {
   const EntryPair* entries = row.entries;
-  const int count = row.num_pairs;
   // J u = y . z.
   const double velocity = dot(entries, z, count);
   const double residual = row.measure * velocity + row.softness * row.impulse + row.bias;
@@ -241,6 +127,152 @@ double ConstraintSolver::solve_row(JointRow& row, EntryPair* z) {
   for (int i = 0; i < count; ++i) z[i] += entries[i] * applied;
   return std::abs(change) * row.scale;
 }
+}  // namespace
+
+void ConstraintSolver::reserve(int max_blocks, int max_rows, int max_chains, int max_chain,
+                               int max_pairs) {
+  blocks_.reserve(max_blocks);
+  rows_.reserve(max_rows);
+  chains_.reserve(max_chains);
+  chain_dofs_.reserve(static_cast<size_t>(max_chains) * max_chain);
+  entries_.resize(max_pairs);
+  local_.resize(num_pairs(max_chain));
+}
+
+void ConstraintSolver::clear() {
+  blocks_.clear();
+  rows_.clear();
+  chains_.clear();
+  chain_dofs_.clear();
+  num_entries_ = 0;
+}
+
+// If the memory is full, the caller leaves its constraint out, and the stepper counts it as
+// dropped. No memory is allocated while the simulation runs.
+int ConstraintSolver::add_chain(const int* dofs, int count, int first_dof) {
+  if (chains_.size() == chains_.capacity() || chain_dofs_.size() + count > chain_dofs_.capacity() ||
+      num_pairs(count) > static_cast<int>(local_.size())) {
+    return -1;
+  }
+  const int first = static_cast<int>(chain_dofs_.size());
+  for (int i = 0; i < count; ++i) chain_dofs_.push_back(first_dof + dofs[i]);
+  const int most = chains_.empty() ? count : std::min(count, chains_[0].count);
+  int num_shared = 0;
+  while (num_shared < most && chain_dofs_[first + num_shared] == chain_dofs_[num_shared]) {
+    ++num_shared;
+  }
+  chains_.push_back({first, count, num_shared});
+  return static_cast<int>(chains_.size()) - 1;
+}
+
+EntryPair* ConstraintSolver::add_entries(int num_pairs) {
+  if (num_entries_ + num_pairs > static_cast<int>(entries_.size())) return nullptr;
+  EntryPair* first = &entries_[num_entries_];
+  num_entries_ += num_pairs;
+  return first;
+}
+
+ContactBlock* ConstraintSolver::begin_block() {
+  return blocks_.size() == blocks_.capacity() ? nullptr : &blocks_.emplace_back();
+}
+
+int ConstraintSolver::end_block() {
+  ContactBlock& block = blocks_.back();
+  // The block's part of J M^-1 J^T = y^T y. n is the normal row, x and y are the two tangent rows.
+  const EntryPair* n = block.entries;
+  double xx = block.tangent_softness;
+  double xy = 0;
+  double yy = block.tangent_softness;
+  with_constant_pairs(num_pairs_of(block.chain), [&](auto count) {
+    const EntryPair* x = n + count;
+    const EntryPair* y = x + count;
+    block.coupling[0] = dot(n, x, count);
+    block.coupling[1] = dot(n, y, count);
+    block.normal_scale = dot(n, n, count) + block.normal_softness;
+    xx += dot(x, x, count);
+    xy = dot(x, y, count);
+    yy += dot(y, y, count);
+  });
+  // Inverse of the symmetric 2 x 2 matrix [xx, xy; xy, yy].
+  const double determinant = xx * yy - xy * xy;
+  block.normal_inverse = 1 / block.normal_scale;
+  block.tangent_inverse[0] = yy / determinant;
+  block.tangent_inverse[1] = -xy / determinant;
+  block.tangent_inverse[2] = xx / determinant;
+  block.tangent_scale = 1 / std::max(block.tangent_inverse[0], block.tangent_inverse[2]);
+  block.tangent_mean = (xx + yy) / 2;
+  block.tangent_determinant = determinant;
+  return static_cast<int>(blocks_.size()) - 1;
+}
+
+JointRow* ConstraintSolver::begin_row() {
+  return rows_.size() == rows_.capacity() ? nullptr : &rows_.emplace_back();
+}
+
+int ConstraintSolver::end_row() {
+  complete(rows_.back());
+  return static_cast<int>(rows_.size()) - 1;
+}
+
+void ConstraintSolver::complete(JointRow& row) {
+  const double diagonal = with_constant_pairs(
+      row.num_pairs, [&](auto count) { return dot(row.entries, row.entries, count); });
+  // Diagonal entry of the regularized row. A torque bound measures against the direction in which
+  // it acts; its entry is positive in both cases: softness is 1 / (h slope), and the joint has h
+  // slope on the diagonal of the implicit mass matrix, so that measure * apply * diagonal >=
+  // -softness.
+  row.scale = row.measure * row.apply * diagonal + row.softness;
+  row.inverse = 1 / row.scale;
+}
+
+void ConstraintSolver::change_chain(int chain, double* z) {
+  const Chain& entered = chains_[chain];
+  const int* dofs = &chain_dofs_[entered.first];
+  double* local = local_.data()->data();
+  int i = 0;
+  if (entered_ >= 0) {
+    const Chain& left = chains_[entered_];
+    const int* left_dofs = &chain_dofs_[left.first];
+    i = std::min(entered.num_shared, left.num_shared);
+    for (int k = i; k < left.count; ++k) z[left_dofs[k]] = local[k];
+  }
+  for (; i < entered.count; ++i) local[i] = z[dofs[i]];
+  // The partner of a last odd entry, which the rows' entries multiply by 0.
+  if (entered.count % 2 != 0) local[entered.count] = 0;
+  entered_ = chain;
+}
+
+void ConstraintSolver::leave(double* z) {
+  if (entered_ < 0) return;
+  const Chain& entered = chains_[entered_];
+  const int* dofs = &chain_dofs_[entered.first];
+  const double* local = local_.data()->data();
+  for (int i = 0; i < entered.count; ++i) z[dofs[i]] = local[i];
+  entered_ = -1;
+}
+
+void ConstraintSolver::warm_start(Eigen::VectorXd& scaled_velocity) {
+  // z := z + y p for all start values p; afterwards z and the impulses belong together, which every
+  // solve_block() and solve_row() keeps.
+  double* z = scaled_velocity.data();
+  EntryPair* local = local_.data();
+  for (const ContactBlock& block : blocks_) {
+    enter(block.chain, z);
+    const EntryPair* entries = block.entries;
+    with_constant_pairs(num_pairs_of(block.chain), [&](auto count) {
+      for (int i = 0; i < count; ++i) {
+        local[i] += entries[i] * block.impulse[0] + entries[count + i] * block.impulse[1] +
+                    entries[2 * count + i] * block.impulse[2];
+      }
+    });
+  }
+  for (const JointRow& row : rows_) {
+    enter(row.chain, z);
+    const double applied = row.apply * row.impulse;
+    for (int i = 0; i < row.num_pairs; ++i) local[i] += row.entries[i] * applied;
+  }
+  leave(z);
+}
 
 // Joint rows first: torque bounds and dry friction settle before contacts see the velocities, and a
 // rolling block follows the pressing block that gives its normal impulse. Stops at the first
@@ -249,19 +281,23 @@ double ConstraintSolver::solve_row(JointRow& row, EntryPair* z) {
 int ConstraintSolver::solve(Eigen::VectorXd& scaled_velocity, const Options& options) {
   if (blocks_.empty() && rows_.empty()) return 0;
   double* z = scaled_velocity.data();
+  EntryPair* local = local_.data();
   int iteration = 0;
   double worst = 0;
   do {
     worst = 0;
     for (JointRow& row : rows_) {
       enter(row.chain, z);
-      worst = std::max(worst, solve_row(row, local_.data()));
+      worst = std::max(worst, with_constant_pairs(row.num_pairs, [&](auto count) {
+                         return solve_row(row, count, local);
+                       }));
     }
     double normal_impulse = 0;
     for (ContactBlock& block : blocks_) {
       enter(block.chain, z);
-      worst = std::max(
-          worst, solve_block(block, num_pairs_of(block.chain), normal_impulse, local_.data()));
+      worst = std::max(worst, with_constant_pairs(num_pairs_of(block.chain), [&](auto count) {
+                         return solve_block(block, count, normal_impulse, local);
+                       }));
       normal_impulse = block.impulse[0];
     }
   } while (++iteration < options.max_iterations && !(worst < options.tolerance));

@@ -51,8 +51,11 @@ struct ContactBlock {
   double coupling[2] = {0, 0};
   /** Inverse of the tangential 2 x 2 block of J M^-1 J^T + softness: xx, xy, yy. */
   double tangent_inverse[3] = {0, 0, 0};
-  /** 1 / the larger eigenvalue of that block. */
+  /** 1 / the larger eigenvalue of that block, found when the contact slides first; 0 until then. */
   double tangent_step = 0;
+  /** Half the trace of that block, and its determinant. */
+  double tangent_mean = 0;
+  double tangent_determinant = 0;
   /** 1 / the larger diagonal entry of its inverse: change of velocity for a change of impulse. */
   double tangent_scale = 0;
 };
@@ -120,11 +123,19 @@ class ConstraintSolver {
   /** Memory for entries, or null if it is used up. */
   EntryPair* add_entries(int num_pairs);
 
-  /** Adds a constraint; its entries must be complete. @return Index, or -1 without memory. */
-  int add_block(const ContactBlock& block);
-  int add_row(const JointRow& row);
-  /** Changes the values of a row; it keeps its impulse. */
-  void replace_row(int index, const JointRow& row);
+  // Constraints are filled in where they stay: a copy right after single values were written would
+  // wait for these.
+
+  /** Adds a constraint with the default values. @return null without memory. */
+  ContactBlock* begin_block();
+  JointRow* begin_row();
+  /** Completes the constraint that was added last, or removes it. @return Index. */
+  int end_block();
+  int end_row();
+  void cancel_block() { blocks_.pop_back(); }
+  /** A row whose values are to be changed, except its impulse and entries; complete() follows. */
+  JointRow& row(int index) { return rows_[index]; }
+  static void complete(JointRow& row);
 
   /** Applies the start values to the scaled velocity. Call once, before solve(); rows added later
    * must start at impulse 0. */
@@ -139,20 +150,19 @@ class ConstraintSolver {
   struct Chain {
     int first = 0;
     int count = 0;
+    /** Of its first dofs, so many are the first ones of the step's first chain: those of the root.
+     */
+    int num_shared = 0;
   };
 
   int num_pairs_of(int chain) const { return num_pairs(chains_[chain].count); }
-  /** Makes local_ the part of z that belongs to a chain. */
-  void enter(int chain, double* z);
+  /** Makes local_ the part of z that belongs to a chain. What two chains share stays in it. */
+  void enter(int chain, double* z) {
+    if (chain != entered_) change_chain(chain, z);
+  }
+  void change_chain(int chain, double* z);
   /** Writes local_ back to z. */
   void leave(double* z);
-  /** Solve one constraint. @param normal_impulse  Normal impulse of the block before, N s; for
-   * rolling blocks.
-   * @param z  Of its chain. @return Error of its velocity before, m/s or rad/s. */
-  static double solve_block(ContactBlock& block, int num_pairs, double normal_impulse,
-                            EntryPair* z);
-  static double solve_row(JointRow& row, EntryPair* z);
-
   std::vector<ContactBlock> blocks_;
   std::vector<JointRow> rows_;
   std::vector<Chain> chains_;

@@ -96,14 +96,21 @@ void ContactAssembler::set_normal_law(const ContactCandidate& candidate,
 bool ContactAssembler::add(const ContactCandidate& candidate, ConstraintSolver& solver) {
   const Materials& materials = options_.materials;
   const double h = options_.step;
-  ActiveContact contact;
+  ContactBlock* new_block = solver.begin_block();
+  if (new_block == nullptr) return false;
+  ContactBlock& block = *new_block;
+  ActiveContact& contact = active_.emplace_back();
   contact.candidate = &candidate;
   const Vector3d& normal = candidate.proximity.normal;
   // On a level floor all contacts have the same axes, which saves their computation.
   const bool is_level = candidate.b.kind == Surface::Kind::kFloor && normal.z() == 1;
+  contact.is_level = is_level;
   contact.frame = is_level ? kFloorFrame : frame_of(normal);
-  ContactBlock block;
-  if (!set_entries(contact, block, solver)) return false;
+  if (!set_entries(contact, block, solver)) {
+    solver.cancel_block();
+    active_.pop_back();
+    return false;
+  }
   block.friction = friction_between(candidate.a, candidate.b, bodies_, options_.materials);
   set_normal_law(candidate, block);
 
@@ -124,9 +131,7 @@ bool ContactAssembler::add(const ContactCandidate& candidate, ConstraintSolver& 
   // turned.
   block.impulse = contact.frame.transpose() * memory.impulse;
   block.impulse[0] = std::max(0.0, block.impulse[0]);
-  contact.block = solver.add_block(block);
-  if (contact.block < 0) return false;
-  active_.push_back(contact);
+  contact.block = solver.end_block();
 
   // The solver takes the normal impulse for a rolling block from the block before it.
   if (candidate.a.kind == Surface::Kind::kBall && candidate.b.kind == Surface::Kind::kFloor) {
@@ -159,9 +164,9 @@ ContactAssembler::BodyRows& ContactAssembler::rows_of_body(int robot, int body) 
 namespace {
 
 /** Rows of the velocity of a body's point along the axes of a frame. @param rows  Rows of the
- * body's spatial velocity. @param arm  Vector from the rows' reference point to the point, m. */
+ * body's spatial velocity. @param is_level  Whether the frame is kFloorFrame. @param arm  Vector from the rows' reference point to the point, m. */
 void calc_point_rows(const EntryPair* rows, int count, const Vector3d& arm, const Matrix3d& frame,
-                     EntryPair* result) {
+                     bool is_level, EntryPair* result) {
   for (int i = 0; i < count; ++i) {
     const EntryPair wx = rows[i];
     const EntryPair wy = rows[count + i];
@@ -170,6 +175,12 @@ void calc_point_rows(const EntryPair* rows, int count, const Vector3d& arm, cons
     const EntryPair x = rows[3 * count + i] + wy * arm.z() - wz * arm.y();
     const EntryPair y = rows[4 * count + i] + wz * arm.x() - wx * arm.z();
     const EntryPair z = rows[5 * count + i] + wx * arm.y() - wy * arm.x();
+    if (is_level) {
+      result[i] = z;
+      result[count + i] = x;
+      result[2 * count + i] = y;
+      continue;
+    }
     for (int k = 0; k < 3; ++k) {
       result[k * count + i] = frame(0, k) * x + frame(1, k) * y + frame(2, k) * z;
     }
@@ -190,7 +201,7 @@ bool ContactAssembler::set_entries_of_body(const ActiveContact& contact, Contact
   EntryPair* entries = body.chain < 0 ? nullptr : solver.add_entries(3 * count);
   if (entries == nullptr) return false;
   calc_point_rows(body.rows.data(), count, candidate.proximity.point - robot.dynamics().origin(),
-                  contact.frame, entries);
+                  contact.frame, contact.is_level, entries);
   block.chain = body.chain;
   block.entries = entries;
   return true;
@@ -249,7 +260,7 @@ void ContactAssembler::add_surface_entries(const Surface& surface, int body, dou
   const std::vector<int>& dofs = robot.tree().bodies()[body].chain;
   calc_point_rows(rows_of_body(surface.robot, body).rows.data(),
                   num_pairs(static_cast<int>(dofs.size())), point - robot.dynamics().origin(),
-                  contact.frame, surface_rows_.data());
+                  contact.frame, contact.is_level, surface_rows_.data());
   add(dofs, robot.first_dof());
 }
 

@@ -55,9 +55,11 @@ class ContactAssembler {
 
  private:
   struct ActiveContact {
-    const ContactCandidate* candidate;
+    const ContactCandidate* candidate = nullptr;
     /** Normal and tangents in W, as columns. */
     Eigen::Matrix3d frame;
+    /** Whether these are those of a level floor. */
+    bool is_level = false;
     /** Index of its block in the solver. */
     int block = -1;
     /** Bias velocity per deflection of the tangential spring, 1/s: k / (h k + c). */

@@ -16,14 +16,13 @@ class ContactCandidates {
   void clear() { list_.clear(); }
   void reset_count() { num_dropped_ = 0; }
 
-  /** @return false if there was no room. */
-  bool add(const ContactCandidate& candidate) {
+  /** Adds a candidate to be filled in. @return null if there was no room. */
+  ContactCandidate* add() {
     if (list_.size() == list_.capacity()) {
       ++num_dropped_;
-      return false;
+      return nullptr;
     }
-    list_.push_back(candidate);
-    return true;
+    return &list_.emplace_back();
   }
 
   /** In the order in which they were added. They stay where they are until clear(). */

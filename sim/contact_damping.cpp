@@ -19,7 +19,7 @@ void ContactDamping::add_rows(int body, const Vector3d& point, double sign,
                               Eigen::Matrix3Xd& rows) const {
   const Vector3d arm = point - dynamics_.origin();
   for (; body > 0; body = tree_.bodies()[body].parent) {
-    const SpatialVector& motion = dynamics_.motion(body);
+    const SpatialVector motion = dynamics_.motion(body);
     rows.col(tree_.bodies()[body].dof) += sign * (motion.linear + motion.angular.cross(arm));
   }
   // The root: its angular velocity, and the velocity of its origin.

@@ -121,8 +121,7 @@ void ContactDetector::place_parts(int index) {
     // Part's center in W. The rotation is computed by part_shape() only where a narrow phase needs
     // it.
     placed.shape.center =
-        robot.dynamics().position(parts[i].body) +
-        product(robot.dynamics().rotation(parts[i].body), parts[i].center_in_body);
+        robot.dynamics().point_in_world(parts[i].body, parts[i].center_in_body);
   }
 }
 
@@ -194,8 +193,9 @@ void ContactDetector::find(const Island& island, ContactCandidates& found) {
   if (island.has_ball) find_ball_contacts(island, found);
 }
 
-Vector3d ContactDetector::velocity_of(const Surface& surface, int body,
-                                      const Vector3d& point) const {
+[[gnu::always_inline]] inline Vector3d ContactDetector::velocity_of(const Surface& surface,
+                                                                    int body,
+                                                                    const Vector3d& point) const {
   // Velocity in W, m/s, of the surface's material point at `point`; the floor and goals do not
   // move.
   switch (surface.kind) {
@@ -208,9 +208,12 @@ Vector3d ContactDetector::velocity_of(const Surface& surface, int body,
   }
 }
 
-void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int body_b,
-                          const Proximity& proximity, int foot, ContactMemory& memory,
-                          ContactCandidates& found) const {
+// Inlined, so that the vectors stay in registers.
+[[gnu::always_inline]] inline void ContactDetector::add(const Surface& a, int body_a,
+                                                        const Surface& b, int body_b,
+                                                        const Proximity& proximity, int foot,
+                                                        ContactMemory& memory,
+                                                        ContactCandidates& found) const {
   const Vector3d relative =
       velocity_of(a, body_a, proximity.point) - velocity_of(b, body_b, proximity.point);
   const double approach_speed = -proximity.normal.dot(relative);
@@ -219,15 +222,27 @@ void ContactDetector::add(const Surface& a, int body_a, const Surface& b, int bo
   // The distance is predicted to first order: d + h d'. Surfaces that may touch within the step
   // become constraints now, so that they cannot pass through each other before the next detection.
   if (proximity.distance - step_ * std::max(approach_speed, 0.0) > kMargin) return;
-  if (found.add({a, b, body_a, body_b, foot, proximity, approach_speed, &memory})) return;
-  // It is marked, so that it is counted once in a step.
-  memory = ContactMemory();
-  memory.last_step = step_number_;
+  ContactCandidate* candidate = found.add();
+  if (candidate == nullptr) {
+    // It is marked, so that it is counted once in a step.
+    memory = ContactMemory();
+    memory.last_step = step_number_;
+    return;
+  }
+  candidate->a = a;
+  candidate->b = b;
+  candidate->body_a = body_a;
+  candidate->body_b = body_b;
+  candidate->foot = foot;
+  candidate->proximity = proximity;
+  candidate->approach_speed = approach_speed;
+  candidate->memory = &memory;
 }
 
 // Distance of a sphere (a corner point with its radius) from the floor, and the point of contact in
 // W: on the sphere's surface when it penetrates, on the floor otherwise.
-Proximity ContactDetector::to_floor(const Vector3d& center, double radius) const {
+[[gnu::always_inline]] inline Proximity ContactDetector::to_floor(const Vector3d& center,
+                                                                  double radius) const {
   Proximity proximity;
   if (floor_.is_flat()) {
     proximity.distance = center.z() - radius;
@@ -252,11 +267,9 @@ void ContactDetector::find_floor_contacts(int index, ContactCandidates& found) {
     // Bounding sphere over the highest bump: most parts of a standing robot end here.
     const double height = placed_[index][p].shape.center.z() - floor_.max_height();
     if (height > part.bounding_radius + kReach) continue;
-    const Vector3d& origin = robot.dynamics().position(part.body);
-    const Matrix3d& rotation = robot.dynamics().rotation(part.body);
     for (int i = part.first_point; i < part.end_point; ++i) {
       const CollisionModel::Point& point = model.points[i];
-      const Vector3d center = origin + product(rotation, point.center_in_body);
+      const Vector3d center = robot.dynamics().point_in_world(part.body, point.center_in_body);
       const Proximity proximity = to_floor(center, point.radius);
       if (proximity.distance > kReach) continue;
       add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1, proximity, point.sole,
@@ -274,13 +287,11 @@ bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& f
   bool has_missed = false;
   for (size_t p = 0; p < model.parts.size(); ++p) {
     const CollisionModel::Part& part = model.parts[p];
-    const Vector3d& origin = robot.dynamics().position(part.body);
     const Vector3d& part_center = placed_[index][p].shape.center;
     // Vertical speed of the part's center only; kMaxSweptRadius covers the rotation.
     const double speed = robot.dynamics().velocity_at(part.body, part_center).z();
     const double height = part_center.z() - floor_.max_height();
     if (height + step_ * speed > part.bounding_radius * kMaxSweptRadius) continue;
-    const Matrix3d& rotation = robot.dynamics().rotation(part.body);
     // A point at a distance d moves at |v| + |w| (bounding radius + d) at most: above this d it
     // cannot reach the floor within the step.
     const double turn = step_ * robot.dynamics().angular_velocity(part.body).norm();
@@ -291,7 +302,7 @@ bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& f
       ContactMemory& memory = robot_memory_[index].floor[i];
       if (memory.last_step == step_number_) continue;  // A constraint of this step already.
       const CollisionModel::Point& point = model.points[i];
-      const Vector3d center = origin + product(rotation, point.center_in_body);
+      const Vector3d center = robot.dynamics().point_in_world(part.body, point.center_in_body);
       const Proximity proximity = to_floor(center, point.radius);
       if (proximity.distance > safe_distance) continue;
       const Vector3d velocity = robot.dynamics().velocity_at(part.body, proximity.point);

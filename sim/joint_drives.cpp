@@ -176,31 +176,33 @@ void JointDrives::plan_free_motor(double h, size_t motor) {
 
 // A row L^-T e_dof: a unit velocity of the joint. Rows of a limb's joints share the chain of its
 // last joint, of which each acts on the first dofs.
-bool JointDrives::set_entries(int dof, const TreeDynamics& dynamics, int first_dof,
-                              ConstraintSolver& solver, JointRow& row) {
+JointRow* JointDrives::begin_row(int dof, const TreeDynamics& dynamics, int first_dof,
+                                 ConstraintSolver& solver) {
   const int end = end_of_limb_[dof];
   int& chain = chain_of_limb_[end];
   if (chain < 0) {
     const std::vector<int>& dofs = tree_.bodies()[tree_.body_of_dof(end)].chain;
     chain = solver.add_chain(dofs.data(), static_cast<int>(dofs.size()), first_dof);
-    if (chain < 0) return false;
+    if (chain < 0) return nullptr;
   }
-  row.chain = chain;
-  row.num_pairs = num_pairs(static_cast<int>(tree_.dof_ancestors(dof).size()) + 1);
-  row.entries = dynamics.inverse_row(dof);
-  return true;
+  JointRow* row = solver.begin_row();
+  if (row == nullptr) return nullptr;
+  row->chain = chain;
+  row->num_pairs = num_pairs(static_cast<int>(tree_.dof_ancestors(dof).size()) + 1);
+  row->entries = dynamics.inverse_row(dof);
+  return row;
 }
 
 void JointDrives::add_friction_row(double h, Drive& drive, const TreeDynamics& dynamics,
                                    int first_dof, ConstraintSolver& solver) {
   // Holds the joint still with an impulse up to h times the dry friction.
   // bias = softness = 0: within its bounds the impulse brings the joint's speed to exactly 0.
-  JointRow row;
-  if (!set_entries(drive.dof, dynamics, first_dof, solver, row)) return;
-  row.upper = h * drive.motor.dry_friction;
-  row.lower = -row.upper;
-  row.impulse = drive.friction.impulse;
-  drive.friction.index = solver.add_row(row);
+  JointRow* row = begin_row(drive.dof, dynamics, first_dof, solver);
+  if (row == nullptr) return;
+  row->upper = h * drive.motor.dry_friction;
+  row->lower = -row->upper;
+  row->impulse = drive.friction.impulse;
+  drive.friction.index = solver.end_row();
 }
 
 void JointDrives::add_stop_row(double h, const TreeState& state, Drive& drive,
@@ -219,24 +221,28 @@ void JointDrives::add_stop_row(double h, const TreeState& state, Drive& drive,
     drive.stop.impulse = 0;
     return;
   }
-  JointRow row;
-  if (!set_entries(drive.dof, dynamics, first_dof, solver, row)) return;
+  JointRow* row = begin_row(drive.dof, dynamics, first_dof, solver);
+  if (row == nullptr) return;
   // Spring and damper, implicit; the same law as a contact's, see ContactAssembler.
   const double strength = h * kStopStiffness + kStopDamping;
-  row.apply = row.measure = is_low ? 1 : -1;
-  row.softness = 1 / (h * strength);
-  row.bias = distance > 0 ? distance / h : kStopStiffness * distance / strength;
-  row.upper = kInfinity;
-  row.impulse = drive.stop.impulse;
-  drive.stop.index = solver.add_row(row);
+  row->apply = row->measure = is_low ? 1 : -1;
+  row->softness = 1 / (h * strength);
+  row->bias = distance > 0 ? distance / h : kStopStiffness * distance / strength;
+  row->upper = kInfinity;
+  row->impulse = drive.stop.impulse;
+  drive.stop.index = solver.end_row();
 }
 
 void JointDrives::add_torque_bound(double h, Drive& drive, bool is_upper, bool is_braking,
                                    const TreeDynamics& dynamics, int first_dof,
                                    ConstraintSolver& solver) {
+  Drive::Row& bound = is_upper ? drive.upper_bound : drive.lower_bound;
+  // A bound that changes from driving to braking keeps its place and impulse.
+  const bool is_new = bound.index < 0;
+  JointRow* row =
+      is_new ? begin_row(drive.dof, dynamics, first_dof, solver) : &solver.row(bound.index);
   // Without memory the bound is missing in this step, and the motor may exceed its limit in it.
-  JointRow row;
-  if (!set_entries(drive.dof, dynamics, first_dof, solver, row)) return;
+  if (row == nullptr) return;
   // The bounded torque is demand - slope * v': the servo's demand u, less back-EMF when braking.
   // The row's impulse p >= 0 takes from it what exceeds the limit: demand - slope * v' - p / h =
   // limit  =>  v' + p / (h slope) + (limit - demand) / slope = 0, and the mirror image for the
@@ -244,18 +250,16 @@ void JointDrives::add_torque_bound(double h, Drive& drive, bool is_upper, bool i
   // emf and line are the two parts of the back-EMF, emf + line * v', see Drive::Plan.
   const double slope = drive.plan.slope + (is_braking ? drive.plan.line : 0);
   const double demand = drive.plan.demand - (is_braking ? drive.plan.emf : 0);
-  row.apply = is_upper ? -1 : 1;
-  row.measure = is_upper ? 1 : -1;
-  row.softness = 1 / (h * slope);
-  row.bias = (is_upper ? drive.plan.limit - demand : drive.plan.limit + demand) / slope;
-  row.upper = kInfinity;
-  Drive::Row& bound = is_upper ? drive.upper_bound : drive.lower_bound;
-  row.impulse = bound.impulse;
-  // A bound that changes from driving to braking keeps its place and impulse.
-  if (bound.index < 0) {
-    bound.index = solver.add_row(row);
+  row->apply = is_upper ? -1 : 1;
+  row->measure = is_upper ? 1 : -1;
+  row->softness = 1 / (h * slope);
+  row->bias = (is_upper ? drive.plan.limit - demand : drive.plan.limit + demand) / slope;
+  row->upper = kInfinity;
+  if (is_new) {
+    row->impulse = bound.impulse;
+    bound.index = solver.end_row();
   } else {
-    solver.replace_row(bound.index, row);
+    ConstraintSolver::complete(*row);
   }
   bound.is_braking = is_braking;
 }

@@ -86,10 +86,10 @@ class JointDrives {
  private:
   /** The commanded gains, or the servos' own. */
   void set_gains(const MotorTargets& targets);
-  /** Sets chain and entries of a row on one degree of freedom. @return false if the solver's memory
-   * is used up. */
-  bool set_entries(int dof, const TreeDynamics& dynamics, int first_dof, ConstraintSolver& solver,
-                   JointRow& row);
+  /** Adds a row on one degree of freedom, with chain and entries, to be ended. @return null if the
+   * solver's memory is used up. */
+  JointRow* begin_row(int dof, const TreeDynamics& dynamics, int first_dof,
+                      ConstraintSolver& solver);
   void plan_free_motor(double h, size_t motor);
   void end_gear_step(double h, double torque, double speed, Drive& drive) const;
   void add_friction_row(double h, Drive& drive, const TreeDynamics& dynamics, int first_dof,

@@ -12,18 +12,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/** Rotation by an angle about a unit axis (Rodrigues' formula). */
-Matrix3d rotation_about(const Vector3d& a, double angle) {
-  const double s = std::sin(angle);
-  const double c = std::cos(angle);
-  const Vector3d t = (1 - c) * a;
-  Matrix3d r;
-  r << t.x() * a.x() + c, t.x() * a.y() - s * a.z(), t.x() * a.z() + s * a.y(),  //
-      t.x() * a.y() + s * a.z(), t.y() * a.y() + c, t.y() * a.z() - s * a.x(),   //
-      t.x() * a.z() - s * a.y(), t.y() * a.z() + s * a.x(), t.z() * a.z() + c;
-  return r;
-}
-
 /** Momentum of a body with a velocity. */
 // Spatial inertia times spatial velocity, both about O: angular momentum I w + h x v and linear
 // momentum m v - h x w, with the first moment h = m c.
@@ -59,17 +47,44 @@ TreeDynamics::TreeDynamics(const Tree& tree, bool is_root_fixed)
     : tree_(tree),
       is_root_fixed_(is_root_fixed),
       num_dofs_(tree.num_dofs()),
+      kernels_(tree_kernels()),
+      constants_(tree.num_bodies()),
       bodies_(tree.num_bodies()) {
   size_t depth = 0;
   for (int dof = 0; dof < num_dofs_; ++dof) {
     depth = std::max(depth, tree.dof_ancestors(dof).size());
   }
-  pairs_of_row_ = num_pairs(static_cast<int>(depth) + 1);
+  // Four entries at a time.
+  pairs_of_row_ = 2 * static_cast<int>(depth / 4 + 1);
   for (std::vector<EntryPair>* rows : {&mass_, &factor_, &inverse_}) {
     rows->assign(static_cast<size_t>(num_dofs_) * pairs_of_row_, EntryPair::Zero());
   }
-  rows_above_.resize(depth);
-  factors_above_.resize(depth);
+  const int row_length = 2 * pairs_of_row_;
+  matrix_rows_.resize(num_dofs_);
+  ancestor_rows_.reserve(num_dofs_ * depth);
+  for (int dof = 0; dof < num_dofs_; ++dof) {
+    const std::vector<int>& above = tree.dof_ancestors(dof);
+    matrix_rows_[dof] = {row_length * dof, static_cast<int>(above.size()),
+                         ancestor_rows_.data() + ancestor_rows_.size()};
+    for (const int ancestor : above) ancestor_rows_.push_back(row_length * ancestor);
+  }
+  for (int index = 0; index < tree.num_bodies(); ++index) {
+    const TreeBody& body = tree.bodies()[index];
+    BodyConstants& constants = constants_[index];
+    constants.parent = body.parent;
+    constants.dof = body.dof;
+    constants.is_parallel = body.is_parallel;
+    constants.row = row_length * body.dof;
+    constants.place = body.is_in_series ? static_cast<int>(body.chain.size()) - 1 : -1;
+    constants.ratio = body.ratio;
+    constants.offset = body.offset;
+    constants.mass = body.mass;
+    constants.axis = body.axis;
+    constants.origin_in_parent = body.origin_in_parent;
+    constants.rotation_in_parent = body.rotation_in_parent;
+    constants.center_of_mass = body.center_of_mass;
+    constants.inertia = body.inertia;
+  }
 }
 
 void TreeDynamics::update_kinematics(const TreeState& state) {
@@ -77,95 +92,29 @@ void TreeDynamics::update_kinematics(const TreeState& state) {
   // O is the root's origin at this state: all spatial vectors of the step are about this fixed
   // point.
   origin_ = state.position;
-  // Parents come before their children, so that one pass from the root outwards suffices.
-  for (int index = 0; index < tree_.num_bodies(); ++index) {
-    const TreeBody& body = tree_.bodies()[index];
-    BodyState& now = bodies_[index];
-    if (body.parent < 0) {
-      now.rotation = state.orientation.toRotationMatrix();
-      now.position = state.position;
-      now.velocity.angular = state.velocity.head<3>();
-      now.velocity.linear = state.velocity.segment<3>(3);
-    } else {
-      const BodyState& parent = bodies_[body.parent];
-      const double angle = body.ratio * state.coordinate[body.dof] + body.offset;
-      const Matrix3d turn = rotation_about(body.axis, angle);
-      if (body.is_parallel) {
-        now.rotation = product(parent.rotation, turn);
-      } else {
-        now.rotation = product(product(parent.rotation, body.rotation_in_parent), turn);
-      }
-      // R_WB = R_WP R_PB(0) R(axis, angle) above, p_WB = p_WP + R_WP p_PB here.
-      now.position = parent.position + product(parent.rotation, body.origin_in_parent);
-      // The joint's axis is the same in B at all angles.
-      const Vector3d axis = body.ratio * product(now.rotation, body.axis);
-      // Spatial motion S of a revolute joint about O: angular part the axis, linear part the
-      // velocity of the point at O, which is (p_WB - O) x axis. The ratio is 1 unless the joint is
-      // a mimic.
-      now.motion.angular = axis;
-      now.motion.linear = (now.position - origin_).cross(axis);
-      const double rate = now.rate = state.velocity[body.dof];
-      now.velocity.angular = parent.velocity.angular + rate * axis;
-      now.velocity.linear = parent.velocity.linear + rate * now.motion.linear;
-    }
-    // Inertia about O in W's axes: rotated, and moved by the parallel axis theorem.
-    now.com_from_O = product(now.rotation, body.center_of_mass) + (now.position - origin_);
-    const Vector3d& c = now.com_from_O;
-    now.inertia.mass = body.mass;
-    now.inertia.moment = body.mass * c;
-    Matrix3d turned = rotated(now.rotation, body.inertia);
-    turned.diagonal().array() += body.mass * c.squaredNorm();
-    now.inertia.inertia = minus_outer(turned, now.inertia.moment, c);
-  }
+  BodyState& root = bodies_[0];
+  root.rotation = Matrix3d(state.orientation.toRotationMatrix());
+  root.position = state.position;
+  root.velocity = SpatialVector(state.velocity.head<3>(), state.velocity.segment<3>(3));
+  kernels_.update_kinematics(constants_.data(), tree_.num_bodies(), state.coordinate.data(),
+                             state.velocity.data(), bodies_.data());
 }
 
-// With the poses unchanged the motions S are unchanged: velocities are sums of rate * S.
 void TreeDynamics::update_velocities(const TreeState& state) {
-  bodies_[0].velocity.angular = state.velocity.head<3>();
-  bodies_[0].velocity.linear = state.velocity.segment<3>(3);
-  for (int index = 1; index < tree_.num_bodies(); ++index) {
-    BodyState& now = bodies_[index];
-    const BodyState& parent = bodies_[tree_.bodies()[index].parent];
-    now.rate = state.velocity[tree_.bodies()[index].dof];
-    now.velocity.angular = parent.velocity.angular + now.rate * now.motion.angular;
-    now.velocity.linear = parent.velocity.linear + now.rate * now.motion.linear;
-  }
+  bodies_[0].velocity = SpatialVector(state.velocity.head<3>(), state.velocity.segment<3>(3));
+  kernels_.update_velocities(constants_.data(), tree_.num_bodies(), state.velocity.data(),
+                             bodies_.data());
 }
 
 void TreeDynamics::update_mass_matrix() {
   if (has_mass_matrix_) return;
   has_mass_matrix_ = true;
-  // Composite rigid bodies: M(i, j) = S_j . (I_i S_i), where I_i is the inertia of everything that
-  // joint i carries, and j is an ancestor of i.
-  for (BodyState& now : bodies_) now.composite = now.inertia;
   // The root's rows are set at the end.
   std::fill(mass_.begin() + 6 * pairs_of_row_, mass_.end(), EntryPair::Zero());
+  kernels_.add_mass_rows(constants_.data(), tree_.num_bodies(), is_root_fixed_, bodies_.data(),
+                         mass_.data()->data());
   for (int index = tree_.num_bodies() - 1; index > 0; --index) {
-    const TreeBody& body = tree_.bodies()[index];
-    const BodyState& now = bodies_[index];
-    bodies_[body.parent].composite += now.composite;
-    // A mimic's body adds to the row of its leader's dof: the sum over both bodies, with their
-    // ratios in S, is T^T M T of the coupled system.
-    // Force for a unit acceleration of this joint.
-    const SpatialVector force = multiply(now.composite, now.motion);
-    double* row = row_of(mass_, body.dof);
-    if (body.is_in_series) {
-      // The body's chain: the root's six, then a joint for each body on the way.
-      auto place = body.chain.size() - 1;
-      row[place] += dot(now.motion, force);
-      for (int above = body.parent; above > 0; above = tree_.bodies()[above].parent) {
-        row[--place] += dot(bodies_[above].motion, force);
-      }
-    } else {
-      add_coupled_body(index, force);
-    }
-    if (is_root_fixed_) continue;
-    // Row of the joint, columns of the root: for the root S is the unit matrix, so that the entries
-    // are the force itself.
-    for (int k = 0; k < 3; ++k) {
-      row[k] += force.angular[k];
-      row[3 + k] += force.linear[k];
-    }
+    if (!tree_.bodies()[index].is_in_series) add_coupled_body(index);
   }
   if (is_root_fixed_) {
     // The root's rows are those of the unit matrix: it is decoupled from all joints.
@@ -173,7 +122,7 @@ void TreeDynamics::update_mass_matrix() {
     return;
   }
   // The root's block: [I, h x; -h x, m 1] of the whole tree, h its first moment.
-  const SpatialInertia& whole = bodies_[0].composite;
+  const SpatialInertia whole = bodies_[0].composite;
   const Vector3d& h = whole.moment;
   // -[h]x, the block that couples linear rows with angular columns.
   const double linear_angular[3][3] = {{0, h.z(), -h.y()}, {-h.z(), 0, h.x()}, {h.y(), -h.x(), 0}};
@@ -188,7 +137,8 @@ void TreeDynamics::update_mass_matrix() {
 
 // A dof may move several bodies of one chain, and a body's dof may come before those of the bodies
 // above it.
-void TreeDynamics::add_coupled_body(int index, const SpatialVector& force) {
+void TreeDynamics::add_coupled_body(int index) {
+  const SpatialVector force = bodies_[index].unit_force;
   const int dof = tree_.bodies()[index].dof;
   for (int above = index; above > 0; above = tree_.bodies()[above].parent) {
     const int other = tree_.bodies()[above].dof;
@@ -202,59 +152,24 @@ void TreeDynamics::add_coupled_body(int index, const SpatialVector& force) {
 }
 
 void TreeDynamics::calc_bias(const Vector3d& gravity, Eigen::VectorXd& bias) {
-  // Recursive Newton-Euler with generalized accelerations of 0. Outwards: velocity-product
-  // accelerations, and the forces that they need. Gravity is an upward acceleration of the root. A
-  // root whose velocity is constant has the spatial acceleration -omega x v (Featherstone 2.11).
   bias.setZero();
-  for (int index = 0; index < tree_.num_bodies(); ++index) {
-    const TreeBody& body = tree_.bodies()[index];
-    BodyState& now = bodies_[index];
-    const SpatialVector& v = now.velocity;
-    if (body.parent < 0) {
-      now.acceleration.angular.setZero();
-      now.acceleration.linear = -v.angular.cross(v.linear) - gravity;
-    } else {
-      // a = a_parent + v x (S q'): the time derivative of S q' in a fixed frame, as spatial cross
-      // product (w x w_s, w x v_s + v x w_s).
-      const BodyState& parent = bodies_[body.parent];
-      const double rate = now.rate;
-      const Vector3d turning = rate * now.motion.angular;
-      const Vector3d moving = rate * now.motion.linear;
-      now.acceleration.angular = parent.acceleration.angular + v.angular.cross(turning);
-      now.acceleration.linear =
-          parent.acceleration.linear + v.angular.cross(moving) + v.linear.cross(turning);
-    }
-    // f = I a + v x* (I v): the momentum's rate of change, with the force cross product (w x n + v
-    // x f, w x f).
-    const SpatialVector momentum = multiply(now.inertia, v);
-    now.force = multiply(now.inertia, now.acceleration);
-    now.force.angular += v.angular.cross(momentum.angular) + v.linear.cross(momentum.linear);
-    now.force.linear += v.angular.cross(momentum.linear);
-  }
-  // Inwards: forces through the joints.
-  for (int index = tree_.num_bodies() - 1; index > 0; --index) {
-    const TreeBody& body = tree_.bodies()[index];
-    const BodyState& now = bodies_[index];
-    // Generalized bias force: power of the joint's motion.
-    bias[body.dof] += dot(now.motion, now.force);
-    bodies_[body.parent].force.angular += now.force.angular;
-    bodies_[body.parent].force.linear += now.force.linear;
-  }
+  kernels_.calc_bias(constants_.data(), tree_.num_bodies(), gravity.data(), bodies_.data(),
+                     bias.data());
   if (is_root_fixed_) return;
-  bias.head<3>() = bodies_[0].force.angular;
-  bias.segment<3>(3) = bodies_[0].force.linear;
+  bias.head<3>() = Vector3d(bodies_[0].force.angular);
+  bias.segment<3>(3) = Vector3d(bodies_[0].force.linear);
 }
 
 Eigen::Isometry3d TreeDynamics::pose(int body) const {
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.linear() = bodies_[body].rotation;
-  result.translation() = bodies_[body].position;
+  result.linear() = rotation(body);
+  result.translation() = position(body);
   return result;
 }
 
 Vector3d TreeDynamics::center_of_mass_from_origin() const {
   Vector3d moment = Vector3d::Zero();
-  for (const BodyState& now : bodies_) moment += now.inertia.moment;
+  for (const BodyState& now : bodies_) moment += Vector3d(now.inertia.moment);
   return moment / tree_.total_mass();
 }
 
@@ -298,8 +213,8 @@ SpatialVector TreeDynamics::set_momentum(const SpatialVector& target, Eigen::Vec
   SpatialVector change =
       rigid_motion({target.angular - present.angular, target.linear - present.linear});
   for (BodyState& now : bodies_) {
-    now.velocity.angular += change.angular;
-    now.velocity.linear += change.linear;
+    const SpatialVector before = now.velocity;
+    now.velocity = SpatialVector(before.angular + change.angular, before.linear + change.linear);
   }
   velocity.head<3>() += change.angular;
   velocity.segment<3>(3) += change.linear;

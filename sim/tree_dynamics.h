@@ -5,6 +5,7 @@
 
 #include "sim/constraint_solver.h"
 #include "sim/tree.h"
+#include "sim/tree_kernels.h"
 
 namespace nao::sim {
 
@@ -16,18 +17,21 @@ struct SpatialInertia {
   /** About the origin, kg m^2. */
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
 
-  SpatialInertia& operator+=(const SpatialInertia& other) {
-    mass += other.mass;
-    moment += other.moment;
-    inertia += other.inertia;
-    return *this;
-  }
+  SpatialInertia() = default;
+  SpatialInertia(const PackedInertia& packed)
+      : mass(packed.mass), moment(packed.moment), inertia(packed.inertia) {}
 };
 
 /** Angular and linear part of a motion or a force, about some origin, W's axes. */
 struct SpatialVector {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+
+  SpatialVector() = default;
+  SpatialVector(const Eigen::Vector3d& angular_part, const Eigen::Vector3d& linear_part)
+      : angular(angular_part), linear(linear_part) {}
+  SpatialVector(const PackedSpatial& packed) : angular(packed.angular), linear(packed.linear) {}
+  operator PackedSpatial() const { return {angular, linear}; }
 };
 
 /** Poses, mass matrix and bias forces of a tree in one state, and linear systems with its mass
@@ -45,6 +49,8 @@ class TreeDynamics {
  public:
   /** @param is_root_fixed  Whether the root is held fixed: its accelerations are 0. */
   explicit TreeDynamics(const Tree& tree, bool is_root_fixed = false);
+  TreeDynamics(const TreeDynamics&) = delete;
+  TreeDynamics& operator=(const TreeDynamics&) = delete;
 
   /** Computes poses, joint axes and body velocities of a state. Call before all other methods. */
   void update_kinematics(const TreeState& state);
@@ -77,20 +83,38 @@ class TreeDynamics {
   double mass_matrix(int row, int column) const;
 
   /** Body frame B in W: rotation and origin, m. */
-  const Eigen::Matrix3d& rotation(int body) const { return bodies_[body].rotation; }
-  const Eigen::Vector3d& position(int body) const { return bodies_[body].position; }
+  Eigen::Matrix3d rotation(int body) const { return bodies_[body].rotation; }
+  Eigen::Vector3d position(int body) const { return bodies_[body].position; }
   Eigen::Isometry3d pose(int body) const;
+  /** A point fixed to a body, in W. @param point  In B, m. */
+  Eigen::Vector3d point_in_world(int body, const Eigen::Vector3d& point) const {
+    const BodyState& now = bodies_[body];
+    const Packed3* r = now.rotation.columns;
+    const double x = point.x();
+    const double y = point.y();
+    const double z = point.z();
+    return {now.position.x + (r[0].x * x + r[1].x * y + r[2].x * z),
+            now.position.y + (r[0].y * x + r[1].y * y + r[2].y * z),
+            now.position.z + (r[0].z * x + r[1].z * y + r[2].z * z)};
+  }
   /** Center of mass of a body in W, m. */
-  Eigen::Vector3d body_center_of_mass(int body) const { return origin_ + bodies_[body].com_from_O; }
+  Eigen::Vector3d body_center_of_mass(int body) const {
+    return origin_ + Eigen::Vector3d(bodies_[body].com_from_O);
+  }
   /** Velocity of the point fixed to a body that is at `point` now; both in W. */
   Eigen::Vector3d velocity_at(int body, const Eigen::Vector3d& point) const {
-    const SpatialVector& v = bodies_[body].velocity;
-    return v.linear + v.angular.cross(point - origin_);
+    // v + w x arm, written out: faster than Eigen's.
+    const Packed3& w = bodies_[body].velocity.angular;
+    const Packed3& v = bodies_[body].velocity.linear;
+    const double x = point.x() - origin_.x();
+    const double y = point.y() - origin_.y();
+    const double z = point.z() - origin_.z();
+    return {v.x + (w.y * z - w.z * y), v.y + (w.z * x - w.x * z), v.z + (w.x * y - w.y * x)};
   }
-  const Eigen::Vector3d& angular_velocity(int body) const { return bodies_[body].velocity.angular; }
+  Eigen::Vector3d angular_velocity(int body) const { return bodies_[body].velocity.angular; }
   const Eigen::Vector3d& origin() const { return origin_; }
   /** Motion of a body per unit of its joint's dof. Bodies other than the root. */
-  const SpatialVector& motion(int body) const { return bodies_[body].motion; }
+  SpatialVector motion(int body) const { return bodies_[body].motion; }
 
   /** Momentum of the whole tree about O. */
   SpatialVector momentum() const;
@@ -114,28 +138,8 @@ class TreeDynamics {
   double kinetic_energy() const;
 
  private:
-  struct BodyState {
-    /** Body frame B in W. */
-    Eigen::Matrix3d rotation;
-    Eigen::Vector3d position;
-    /** Center of mass, from O. */
-    Eigen::Vector3d com_from_O;
-    /** Motion of the body per unit of its joint's dof (Featherstone's S), and the dof's rate. */
-    SpatialVector motion;
-    double rate = 0;
-    SpatialVector velocity;
-    /** Inertia of the body, and of the body with all its descendants. */
-    SpatialInertia inertia;
-    SpatialInertia composite;
-    /** Terms of the recursive Newton-Euler algorithm with generalized accelerations of 0. */
-    SpatialVector acceleration;
-    SpatialVector force;
-  };
-
-  void invert_factor();
-  /** Adds to the mass matrix what a body contributes that is not in series. @param force  For a
-   * unit acceleration of its joint. */
-  void add_coupled_body(int body, const SpatialVector& force);
+  /** Adds to the mass matrix what a body contributes that is not in series. */
+  void add_coupled_body(int body);
   /** A row of one of the matrices below. */
   double* row_of(std::vector<EntryPair>& matrix, int dof) const {
     return matrix[static_cast<size_t>(dof) * pairs_of_row_].data();
@@ -151,15 +155,17 @@ class TreeDynamics {
   /** Length of a row in memory: that of the longest. */
   int pairs_of_row_ = 0;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  const TreeKernels& kernels_;
+  std::vector<BodyConstants> constants_;
+  std::vector<MatrixRow> matrix_rows_;
+  /** The lists of matrix_rows_, one after the other. */
+  std::vector<int> ancestor_rows_;
   std::vector<BodyState> bodies_;
   /** Lower triangles of M, L and L^-1, row by row, without the entries outside the tree's pattern:
    * a row has entries for the dof's ancestors, rising, and for the dof itself. */
   std::vector<EntryPair> mass_;
   std::vector<EntryPair> factor_;
   std::vector<EntryPair> inverse_;
-  /** Workspace of invert_factor(), for the ancestors of a dof. */
-  std::vector<const EntryPair*> rows_above_;
-  std::vector<double> factors_above_;
 };
 
 }  // namespace nao::sim

@@ -1,7 +1,6 @@
 // The linear algebra of TreeDynamics: its mass matrix, the factor, and the factor's inverse.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -28,54 +27,9 @@ void TreeDynamics::multiply_by_mass(const Eigen::VectorXd& factor, Eigen::Vector
 }
 
 void TreeDynamics::factorize(const Eigen::VectorXd& diagonal) {
-  // From the last dof to the first, each row changes those of its ancestors only, so that entries
-  // outside the tree's pattern stay 0. The ancestors' rows are as long as their places in the row:
-  // the entries of one are for the same dofs as the first ones of the other.
   std::copy(mass_.begin(), mass_.end(), factor_.begin());
-  // L^T L of a tree (Featherstone, table 6.3): eliminates the leaves first, so that no fill-in
-  // occurs. Row k of L is sqrt on the diagonal and M(k, j) / sqrt for its ancestors j.
-  for (int k = num_dofs_ - 1; k >= 0; --k) {
-    const std::vector<int>& above = tree_.dof_ancestors(k);
-    const int depth = static_cast<int>(above.size());
-    double* row = row_of(factor_, k);
-    const double root = std::sqrt(row[depth] + diagonal[k]);
-    const double inverse = 1 / root;
-    // 0 instead of the diagonal entry while the row is subtracted, pair by pair.
-    row[depth] = 0;
-    EntryPair* pairs = &factor_[static_cast<size_t>(k) * pairs_of_row_];
-    for (int pair = 0; pair < num_pairs(depth); ++pair) pairs[pair] *= inverse;
-    // Schur complement: subtracts the outer product of the row from the ancestors' block. What this
-    // adds behind the diagonal of an ancestor's row is never read.
-    for (int a = 0; a < depth; ++a) {
-      EntryPair* target = &factor_[static_cast<size_t>(above[a]) * pairs_of_row_];
-      const double factor = row[a];
-      for (int pair = 0; pair <= a / 2; ++pair) target[pair] -= factor * pairs[pair];
-    }
-    row[depth] = root;
-  }
-  invert_factor();
-}
-
-// L L^-1 = 1, row by row: L_dd (L^-1)_d = e_d - sum of L_da (L^-1)_a over the ancestors a of d,
-// whose rows are beginnings of the row of d, as their ancestors are the first ones of d's.
-void TreeDynamics::invert_factor() {
-  for (int dof = 0; dof < num_dofs_; ++dof) {
-    const std::vector<int>& above = tree_.dof_ancestors(dof);
-    const int depth = static_cast<int>(above.size());
-    const double* factor = row_of(factor_, dof);
-    const double inverse = 1 / factor[depth];
-    for (int k = 0; k < depth; ++k) {
-      rows_above_[k] = inverse_row(above[k]);
-      factors_above_[k] = -inverse * factor[k];
-    }
-    EntryPair* row = &inverse_[static_cast<size_t>(dof) * pairs_of_row_];
-    for (int pair = 0; pair < num_pairs(depth + 1); ++pair) {
-      EntryPair sum = EntryPair::Zero();
-      for (int k = 2 * pair; k < depth; ++k) sum += factors_above_[k] * rows_above_[k][pair];
-      row[pair] = sum;
-    }
-    row_of(inverse_, dof)[depth] = inverse;
-  }
+  kernels_.factorize(matrix_rows_.data(), num_dofs_, diagonal.data(), factor_.data()->data(),
+                     inverse_.data()->data());
 }
 
 // L^-T x: a sum of the rows of L^-1.
@@ -102,36 +56,10 @@ void TreeDynamics::solve_lower(Eigen::VectorXd& vector) const {
   }
 }
 
-void TreeDynamics::calc_body_rows(int body_index, EntryPair* rows) const {
-  const std::vector<int>& chain = tree_.bodies()[body_index].chain;
-  const int count = num_pairs(static_cast<int>(chain.size()));
-  const bool is_in_series = tree_.bodies()[body_index].is_in_series;
-  // Pair by pair, so that the six sums stay in registers.
-  for (int pair = 0; pair < count; ++pair) {
-    std::array<EntryPair, 6> sum;
-    // The root's J is the unit matrix.
-    for (int axis = 0; axis < 6; ++axis) {
-      const bool has_entry = !is_root_fixed_ && 2 * pair <= axis;
-      sum[axis] = has_entry ? inverse_row(axis)[pair] : EntryPair::Zero();
-    }
-    // Joints between the body and the root: their motions, once for each of their entries.
-    for (int index = body_index; index > 0; index = tree_.bodies()[index].parent) {
-      const int dof = tree_.bodies()[index].dof;
-      if (static_cast<int>(tree_.dof_ancestors(dof).size()) < 2 * pair) {
-        if (is_in_series) break;
-        continue;
-      }
-      const SpatialVector& motion = bodies_[index].motion;
-      const EntryPair entry = inverse_row(dof)[pair];
-      sum[0] += motion.angular[0] * entry;
-      sum[1] += motion.angular[1] * entry;
-      sum[2] += motion.angular[2] * entry;
-      sum[3] += motion.linear[0] * entry;
-      sum[4] += motion.linear[1] * entry;
-      sum[5] += motion.linear[2] * entry;
-    }
-    for (int axis = 0; axis < 6; ++axis) rows[axis * count + pair] = sum[axis];
-  }
+void TreeDynamics::calc_body_rows(int body, EntryPair* rows) const {
+  const int count = num_pairs(static_cast<int>(tree_.bodies()[body].chain.size()));
+  kernels_.calc_body_rows(constants_.data(), bodies_.data(), matrix_rows_.data(),
+                          inverse_.data()->data(), is_root_fixed_, body, 2 * count, rows->data());
 }
 
 double TreeDynamics::mass_matrix(int row, int column) const {
