@@ -20,7 +20,7 @@ constexpr double kLyingTime = 1;
 constexpr double kLyingHeight = 0.01;
 // Share of the commanded velocities that are 0, and of those with a single component. Chosen: a
 // phone's sticks give such ones mostly.
-constexpr double kRestShare = 0.15;
+constexpr double kRestShare = 0.2;
 constexpr double kSingleShare = 0.3;
 // Mean time between two pushes, s.
 constexpr double kPushTime = 4;

@@ -41,6 +41,7 @@ const std::array<const char*, kNumRewardTerms>& reward_term_names() {
                                                                  "range",
                                                                  "lateral_posture",
                                                                  "posture",
+                                                                 "rest_posture",
                                                                  "gait",
                                                                  "clearance",
                                                                  "slip",
@@ -51,11 +52,13 @@ const std::array<const char*, kNumRewardTerms>& reward_term_names() {
   return names;
 }
 
+bool is_at_rest(const PolicyManifest& manifest, const Eigen::Vector3d& command) {
+  return command.isZero(0) && manifest.phase_at_rest != PolicyManifest::PhaseAtRest::kContinues;
+}
+
 bool is_swing(const PolicyManifest& manifest, const Eigen::Vector3d& command, double phase,
               int foot) {
-  const bool rests =
-      command.isZero(0) && manifest.phase_at_rest != PolicyManifest::PhaseAtRest::kContinues;
-  if (rests || manifest.phase_frequency == 0) return false;
+  if (is_at_rest(manifest, command) || manifest.phase_frequency == 0) return false;
   return std::abs(phase - (foot == 0 ? 0.25 : 0.75)) < kHalfSwing;
 }
 
@@ -107,6 +110,7 @@ void calc_reward_terms(const RobotModel& model, const PolicyManifest& manifest,
   put(RewardTerm::kRange, range / count);
   put(RewardTerm::kLateralPosture, lateral / count);
   put(RewardTerm::kPosture, posture / count);
+  put(RewardTerm::kRestPosture, is_at_rest(manifest, command) ? posture / count : 0);
 
   double gait = 0, clearance = 0, slip = 0, angle = 0;
   for (size_t foot = 0; foot < 2; ++foot) {

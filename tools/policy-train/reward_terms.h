@@ -33,6 +33,8 @@ enum class RewardTerm {
    * (roll, yaw), and of all joints, rad. */
   kLateralPosture,
   kPosture,
+  /** The last one while the robot is to stand: command 0, and the phase rests. */
+  kRestPosture,
   /** Feet, 0 to 2, that carry the robot, or do not, as the phase says. */
   kGait,
   /** Height of the sole that swings, as a fraction of the standing height, up to kClearance. */
@@ -86,8 +88,11 @@ void calc_reward_terms(const RobotModel& model, const PolicyManifest& manifest,
                        const MotionSample& after, const Eigen::Vector3d& command, double phase,
                        bool fallen, float* terms);
 
+/** Whether the robot is to stand: at command 0, unless the phase goes on. */
+bool is_at_rest(const PolicyManifest& manifest, const Eigen::Vector3d& command);
+
 /** Whether a foot is to swing. The left one swings about a quarter of the cycle, the right one
- * about three quarters, each for 0.4 of it; at command 0 none does, unless the phase goes on.
+ * about three quarters, each for 0.4 of it; at rest none does.
  * @param foot  0 left, 1 right. */
 bool is_swing(const PolicyManifest& manifest, const Eigen::Vector3d& command, double phase,
               int foot);
