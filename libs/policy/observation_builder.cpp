@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace nao {
 namespace {
@@ -17,100 +16,118 @@ double wave(PolicyQuantity quantity, double cycles) {
 
 }  // namespace
 
-ObservationBuilder::ObservationBuilder(const PolicyManifest& manifest)
-    : manifest_(&manifest), steps_(manifest.terms.size()) {
+ObservationBuilder::ObservationBuilder(const PolicyManifest& manifest) : manifest_(&manifest) {
+  for (const PolicyTerm& term : manifest.terms) {
+    steps_.emplace_back(static_cast<size_t>(term.num_steps) * static_cast<size_t>(term.size));
+  }
   observation_.reserve(static_cast<size_t>(manifest.num_observations()));
+  reset();
 }
 
 void ObservationBuilder::reset() {
-  for (auto& steps : steps_) steps.clear();
+  has_begun_ = false;
+  phase_ = manifest_->phase_start;
 }
 
-std::vector<float> ObservationBuilder::calc_term(const PolicyTerm& term, const PolicyInput& input,
-                                                 double phase,
-                                                 const std::vector<float>& last_action) const {
-  std::vector<double> raw;
-  const auto take = [&raw](const auto& numbers) { raw.assign(numbers.begin(), numbers.end()); };
+void ObservationBuilder::advance_phase(const PolicyInput& input) {
+  if (manifest_->phase_at_rest != Rest::kContinues && input.command.isZero(0)) {
+    phase_ = manifest_->phase_start;
+    return;
+  }
+  phase_ = std::fmod(phase_ + manifest_->period * manifest_->phase_frequency, 1.0);
+}
+
+void ObservationBuilder::calc_term(const PolicyTerm& term, const PolicyInput& input,
+                                   const std::vector<float>& last_action, float* scaled) const {
+  size_t count = 0;
+  const auto put = [&](double value) {
+    value = term.scale[count] * std::clamp(value, -term.clip, term.clip);
+    scaled[count++] = static_cast<float>(
+        std::clamp(value, -manifest_->observation_clip, manifest_->observation_clip));
+  };
+  const auto put_all = [&put](const auto& numbers) {
+    std::for_each(numbers.begin(), numbers.end(), put);
+  };
   switch (term.quantity) {
     case PolicyQuantity::kAngularVelocity:
-      take(input.angular_velocity);
+      put_all(input.angular_velocity);
       break;
     case PolicyQuantity::kLinearVelocity:
-      take(input.linear_velocity);
+      put_all(input.linear_velocity);
       break;
     case PolicyQuantity::kProjectedGravity:
-      take(input.projected_gravity);
+      put_all(input.projected_gravity);
       break;
     case PolicyQuantity::kVelocityCommand:
-      take(input.command);
+      put_all(input.command);
       break;
     case PolicyQuantity::kLinearCommand:
-      raw = {input.command.x(), input.command.y()};
+      put_all(input.command.head<2>());
       break;
     case PolicyQuantity::kTurnCommand:
-      raw = {input.command.z()};
+      put(input.command.z());
       break;
     case PolicyQuantity::kPhaseSine:
     case PolicyQuantity::kPhaseCosine: {
       const bool rests = input.command.isZero(0);
       for (const double lead : term.values) {
-        double value = wave(term.quantity, phase + lead);
+        double value = wave(term.quantity, phase_ + lead);
         if (rests && manifest_->phase_at_rest == Rest::kZeros) value = 0;
         if (rests && manifest_->phase_at_rest == Rest::kHalfCycle) value = wave(term.quantity, 0.5);
-        raw.push_back(value);
+        put(value);
       }
       break;
     }
     case PolicyQuantity::kJointPosition:
       for (const int motor : manifest_->observed_motors) {
-        raw.push_back(input.joint_position[motor] - manifest_->default_position[motor]);
+        put(input.joint_position[motor] - manifest_->default_position[motor]);
       }
       break;
     case PolicyQuantity::kJointVelocity:
-      for (const int motor : manifest_->observed_motors) raw.push_back(input.joint_velocity[motor]);
+      for (const int motor : manifest_->observed_motors) put(input.joint_velocity[motor]);
       break;
     case PolicyQuantity::kLastAction:
-      take(last_action);
+      put_all(last_action);
       break;
     case PolicyQuantity::kConstant:
-      raw = term.values;
+      put_all(term.values);
       break;
   }
-  std::vector<float> scaled(raw.size());
-  for (size_t i = 0; i < raw.size(); ++i) {
-    const double value = term.scale[i] * std::clamp(raw[i], -term.clip, term.clip);
-    scaled[i] = static_cast<float>(
-        std::clamp(value, -manifest_->observation_clip, manifest_->observation_clip));
-  }
-  return scaled;
 }
 
-const std::vector<float>& ObservationBuilder::build(const PolicyInput& input, double phase,
+const std::vector<float>& ObservationBuilder::build(const PolicyInput& input,
                                                     const std::vector<float>& last_action) {
+  if (has_begun_) advance_phase(input);
   const std::vector<PolicyTerm>& terms = manifest_->terms;
   for (size_t i = 0; i < terms.size(); ++i) {
-    auto& steps = steps_[i];
-    std::vector<float> newest = calc_term(terms[i], input, phase, last_action);
-    const std::vector<float> before =
-        manifest_->starts_with_first ? newest : std::vector<float>(newest.size(), 0.0F);
-    const auto count = static_cast<size_t>(terms[i].num_steps);
-    while (steps.size() + 1 < count) steps.push_front(before);
-    steps.push_back(std::move(newest));
-    if (steps.size() > count) steps.pop_front();
+    std::vector<float>& steps = steps_[i];
+    const auto newest = steps.end() - terms[i].size;
+    if (has_begun_) std::copy(steps.begin() + terms[i].size, steps.end(), steps.begin());
+    calc_term(terms[i], input, last_action, &*newest);
+    if (has_begun_) continue;
+    // Before the first step.
+    for (auto step = steps.begin(); step != newest; step += terms[i].size) {
+      if (manifest_->starts_with_first) {
+        std::copy(newest, steps.end(), step);
+      } else {
+        std::fill_n(step, terms[i].size, 0.0F);
+      }
+    }
   }
+  has_begun_ = true;
   observation_.clear();
-  const auto append = [this](const std::deque<std::vector<float>>& steps, size_t index) {
-    const std::vector<float>& step =
-        steps[manifest_->is_newest_first ? steps.size() - 1 - index : index];
-    observation_.insert(observation_.end(), step.begin(), step.end());
+  const auto append = [&](size_t term, int index) {
+    const int k = manifest_->is_newest_first ? terms[term].num_steps - 1 - index : index;
+    const auto step = steps_[term].begin() + k * terms[term].size;
+    observation_.insert(observation_.end(), step, step + terms[term].size);
   };
   if (manifest_->is_by_step) {
-    for (size_t k = 0; k < steps_.front().size(); ++k) {
-      for (const auto& steps : steps_) append(steps, k);
+    for (int k = 0; k < terms.front().num_steps; ++k) {
+      for (size_t i = 0; i < terms.size(); ++i) append(i, k);
     }
   } else {
-    for (const auto& steps : steps_) {
-      for (size_t k = 0; k < steps.size(); ++k) append(steps, k);
+    for (size_t i = 0; i < terms.size(); ++i) {
+      for (int k = 0; k < terms[i].num_steps; ++k) append(i, k);
     }
   }
   return observation_;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <deque>
 #include <vector>
 
 #include "policy/policy_manifest.h"
@@ -21,29 +20,35 @@ struct PolicyInput {
   std::vector<double> joint_velocity;
 };
 
-/** Builds a policy's observation from what the robot measures, as its manifest says. */
+/** Builds a policy's observation, step by step, from what the robot measures, as its manifest says.
+ * It allocates only when it is constructed. */
 class ObservationBuilder {
  public:
   /** @param manifest  Must outlive this. */
   explicit ObservationBuilder(const PolicyManifest& manifest);
 
-  /** Forgets all steps. */
+  /** Forgets all steps; the phase is at its start. */
   void reset();
 
-  /** One step. @param phase  Cycles. @param last_action  Of the step before, (num_actions()).
-   * @return (num_observations()), valid until the next call. */
-  const std::vector<float>& build(const PolicyInput& input, double phase,
-                                  const std::vector<float>& last_action);
+  /** One step, which moves the phase on unless it is the first. @param last_action  Of the step
+   * before, (num_actions()). @return (num_observations()), valid until the next call. */
+  const std::vector<float>& build(const PolicyInput& input, const std::vector<float>& last_action);
+
+  /** Phase of the gait in the last step, cycles, 0 to 1. */
+  double phase() const { return phase_; }
 
  private:
-  /** The scaled numbers of one step. */
-  std::vector<float> calc_term(const PolicyTerm& term, const PolicyInput& input, double phase,
-                               const std::vector<float>& last_action) const;
+  void advance_phase(const PolicyInput& input);
+  /** Writes the scaled numbers of one step, (term.size). */
+  void calc_term(const PolicyTerm& term, const PolicyInput& input,
+                 const std::vector<float>& last_action, float* scaled) const;
 
   const PolicyManifest* manifest_;
-  /** Steps of each term, the oldest first. */
-  std::vector<std::deque<std::vector<float>>> steps_;
+  /** Steps of each term, (num_steps x size), the oldest first. */
+  std::vector<std::vector<float>> steps_;
   std::vector<float> observation_;
+  double phase_ = 0;
+  bool has_begun_ = false;
 };
 
 }  // namespace nao

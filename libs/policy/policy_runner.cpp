@@ -39,7 +39,6 @@ void PolicyRunner::start() {
   num_fast_steps_.assign(targets_.size(), 0);
   num_slow_inferences_ = 0;
   inference_time_ = 0;
-  phase_ = manifest_->phase_start;
   time_left_ = 0;
   num_steps_ = 0;
 }
@@ -49,8 +48,7 @@ std::optional<std::string> PolicyRunner::step(const PolicyInput& input, double d
   if (num_steps_ > 0 && time_left_ > kRounding) return std::nullopt;
   // After a gap longer than a step, one step is enough.
   time_left_ = std::max(0.0, manifest_->period + (num_steps_ > 0 ? time_left_ : 0));
-  if (num_steps_ > 0) advance_phase(input);
-  observation_ = builder_.build(input, phase_, action_);
+  observation_ = builder_.build(input, action_);
   std::vector<float> action;
   inference_time_ = network_->run(observation_, action);
   ++num_steps_;
@@ -58,15 +56,6 @@ std::optional<std::string> PolicyRunner::step(const PolicyInput& input, double d
   if (auto fault = find_fault()) return fault;
   last_targets_ = targets_;
   return std::nullopt;
-}
-
-void PolicyRunner::advance_phase(const PolicyInput& input) {
-  using Rest = PolicyManifest::PhaseAtRest;
-  if (manifest_->phase_at_rest != Rest::kContinues && input.command.isZero(0)) {
-    phase_ = manifest_->phase_start;
-    return;
-  }
-  phase_ = std::fmod(phase_ + manifest_->period * manifest_->phase_frequency, 1.0);
 }
 
 std::optional<std::string> PolicyRunner::find_fault() {

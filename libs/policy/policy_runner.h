@@ -37,7 +37,6 @@ class PolicyRunner {
   int64_t num_steps() const { return num_steps_; }
 
  private:
-  void advance_phase(const PolicyInput& input);
   std::optional<std::string> find_fault();
 
   const RobotModel* model_;
@@ -52,7 +51,6 @@ class PolicyRunner {
   std::vector<int> num_fast_steps_;
   int num_slow_inferences_ = 0;
   double inference_time_ = 0;
-  double phase_ = 0;
   /** Time until the next step of the policy, s. */
   double time_left_ = 0;
   int64_t num_steps_ = 0;

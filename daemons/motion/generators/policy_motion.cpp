@@ -26,15 +26,25 @@ const Eigen::Vector3d kAcceleration(1, 1, 2);
 // Duration of the return to the stand, s, at least.
 constexpr double kReturnTime = 0.3;
 // A walk ends when the robot has been commanded to stand for the first time, s, and both feet carry
-// it at less than this velocity, m/s; after the second time in any case.
+// it at less than this velocity, m/s, with every joint of the policy this near its default angle,
+// rad; after the second time in any case. Measured: with one foot ahead of the other a robot tips
+// over on the way to its default angles.
 constexpr double kStopTime = 0.5;
 constexpr double kLongestStopTime = 2.5;
 constexpr double kStill = 0.15;
+constexpr double kNearDefault = 0.2;
 // A get-up ends when the torso has been upright, rad, for so long, s.
 constexpr double kUpright = 0.25;
 constexpr double kUprightTime = 0.5;
 // s without weight on any foot after which the robot has been lifted: longer than any hop.
 constexpr double kLongestFlight = 0.5;
+
+bool is_near_default(const PolicyManifest& manifest, const std::vector<double>& position) {
+  return std::all_of(manifest.joints.begin(), manifest.joints.end(), [&](const PolicyJoint& joint) {
+    const double angle = position[static_cast<size_t>(joint.motor)];
+    return std::abs(angle - joint.default_angle) < kNearDefault;
+  });
+}
 
 double tilt_of(const RobotState& state) {
   return std::acos(std::clamp(state.torso_in_odometry.linear()(2, 2), -1.0, 1.0));
@@ -189,7 +199,8 @@ bool PolicyMotion::is_over(const MotionContext& context) {
     case Kind::kWalk: {
       time_at_rest_ = velocity_.isZero(0) ? time_at_rest_ + context.dt : 0;
       const bool stands = state.left_foot_carries && state.right_foot_carries &&
-                          state.velocity_torso_in_heading.head<2>().norm() < kStill;
+                          state.velocity_torso_in_heading.head<2>().norm() < kStill &&
+                          is_near_default(*policy_->manifest, context.sensors.position);
       return time_at_rest_ > kLongestStopTime || (time_at_rest_ > kStopTime && stands);
     }
     case Kind::kGetUp:

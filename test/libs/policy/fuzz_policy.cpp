@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     nao::ObservationBuilder builder(manifest);
     const std::vector<float> action(manifest.joints.size());
     const auto count = static_cast<size_t>(manifest.num_observations());
-    if (builder.build(input, 0, action).size() != count) std::abort();
+    if (builder.build(input, action).size() != count) std::abort();
   } catch (const nao::Error&) {
     return 0;
   }

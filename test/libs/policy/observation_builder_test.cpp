@@ -23,10 +23,10 @@ PolicyInput input_of_t1() {
   return input;
 }
 
-std::vector<float> build(const PolicyManifest& manifest, const PolicyInput& input,
-                         double phase = 0) {
+std::vector<float> build(PolicyManifest manifest, const PolicyInput& input, double phase = 0) {
+  manifest.phase_start = phase;
   ObservationBuilder builder(manifest);
-  return builder.build(input, phase, std::vector<float>(manifest.joints.size(), 0.25F));
+  return builder.build(input, std::vector<float>(manifest.joints.size(), 0.25F));
 }
 
 constexpr const char* kJoints = R"(joints:
@@ -115,7 +115,7 @@ observations:
   for (const double turn : {1.0, 2.0, 3.0}) {
     PolicyInput input = input_of_t1();
     input.command.z() = turn;
-    last = builder.build(input, 0, {0});
+    last = builder.build(input, {0});
   }
   return last;
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Trains a small network to walk as the model-based walk does, and writes it as ONNX in the layout of unitree_rl_gym.
 
-    python3 tools/policy-clone/clone_walk.py data/robots/t1/policies/clone --seed 1
+    python3 tools/policy-train/clone_walk.py data/robots/t1/policies/clone --seed 1
 
 The network sees what such policies see: no velocity of the body, no contacts, one step of 20 ms. Method: DAgger (S. Ross,
 G. Gordon, D. Bagnell, "A reduction of imitation learning and structured prediction to no-regret online learning", AISTATS
@@ -213,7 +213,7 @@ def write_manifest(file: Path, default: np.ndarray, command: str) -> None:
 #   {command}
 kind: walk
 network: policy.onnx
-source: trained by tools/policy-clone
+source: trained by tools/policy-train
 rate: {1 / STEP:g}
 observations:
   - {{quantity: angular_velocity, scale: {ANGULAR_VELOCITY_SCALE:g}}}
@@ -250,7 +250,7 @@ def main() -> None:
     network = Network([3 + 3 + 3 + 3 * len(LEG_JOINTS) + 2, 128, 128, len(LEG_JOINTS)], random)
     options.folder.mkdir(parents=True, exist_ok=True)
     write_manifest(options.folder / "policy.yaml", course.default,
-                   f"tools/policy-clone/clone_walk.py {options.folder} --seed {options.seed} --rounds {options.rounds} "
+                   f"tools/policy-train/clone_walk.py {options.folder} --seed {options.seed} --rounds {options.rounds} "
                    f"--episodes {options.episodes} --duration {options.duration:g} --updates {options.updates}")
     observations, actions = np.zeros((0, network.weights[0].shape[0])), np.zeros((0, len(LEG_JOINTS)))
     for i in range(options.rounds):

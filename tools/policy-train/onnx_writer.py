@@ -67,4 +67,4 @@ def write_mlp(file: Path, layers: Sequence[tuple[np.ndarray, np.ndarray]]) -> No
         name = output
     graph += data(2, "main_graph") + tensors
     graph += data(11, value_info("obs", layers[0][0].shape[1])) + data(12, value_info("actions", layers[-1][0].shape[0]))
-    replace_file(file, number(1, 7) + data(2, "clone_walk") + data(7, graph) + data(8, data(1, "") + number(2, OPSET)))
+    replace_file(file, number(1, 7) + data(2, "nao-remote") + data(7, graph) + data(8, data(1, "") + number(2, OPSET)))

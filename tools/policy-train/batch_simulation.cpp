@@ -1,0 +1,52 @@
+#include "tools/policy-train/batch_simulation.h"
+
+#include <atomic>
+#include <thread>
+
+namespace nao::policy_train {
+
+BatchSimulation::BatchSimulation(const EnvironmentOptions& options, int size, int num_threads,
+                                 uint64_t seed)
+    : num_observations_(options.manifest->num_observations()),
+      num_actions_(options.manifest->num_actions()),
+      num_threads_(num_threads) {
+  for (int i = 0; i < size; ++i) {
+    environments_.push_back(
+        std::make_unique<PolicyEnvironment>(options, seed + static_cast<uint64_t>(i)));
+  }
+}
+
+StepOutput BatchSimulation::output_of(const BatchArrays& arrays, int i) const {
+  StepOutput output;
+  output.observation = arrays.observations + i * num_observations_;
+  output.privileged = arrays.privileged + i * kNumPrivileged;
+  output.reward_terms = arrays.reward_terms + i * kNumRewardTerms;
+  output.terminated = arrays.terminated + i;
+  output.truncated = arrays.truncated + i;
+  return output;
+}
+
+// Each thread takes the next environment: episodes that begin with a fall take longer.
+template <class Work>
+void BatchSimulation::for_each(Work work) {
+  std::atomic<int> next{0};
+  const auto run = [&] {
+    for (int i = next++; i < size(); i = next++) work(i);
+  };
+  std::vector<std::jthread> threads;
+  for (int i = 1; i < num_threads_; ++i) threads.emplace_back(run);
+  run();
+}
+
+void BatchSimulation::reset(const BatchArrays& arrays) {
+  for_each([&](int i) { environments_[static_cast<size_t>(i)]->reset(output_of(arrays, i)); });
+}
+
+void BatchSimulation::step(const BatchArrays& arrays) {
+  for_each([&](int i) {
+    environments_[static_cast<size_t>(i)]->step(arrays.actions + i * num_actions_,
+                                                output_of(arrays, i));
+  });
+}
+
+}  // namespace nao::policy_train

@@ -1,0 +1,238 @@
+#include "tools/policy-train/policy_environment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/disturbance_draw.h"
+
+namespace nao::policy_train {
+namespace {
+
+// Tilt of a torso that has fallen, rad, and its height, as a fraction of the start's. Chosen: no
+// walk comes back from there.
+constexpr double kFallenTilt = 0.9;
+constexpr double kFallenHeight = 0.6;
+// Greatest difference of a lying robot's joints from the ready posture, rad. Chosen.
+constexpr double kLyingSpread = 0.5;
+// Time for which a lying robot comes to rest, s, and the height that it is laid down from, m.
+constexpr double kLyingTime = 1;
+constexpr double kLyingHeight = 0.01;
+// Share of the commanded velocities that are 0, and of those with a single component. Chosen: a
+// phone's sticks give such ones mostly.
+constexpr double kRestShare = 0.2;
+constexpr double kSingleShare = 0.3;
+// Mean time between two pushes, s.
+constexpr double kPushTime = 4;
+
+sim::WorldOptions world_options(const EnvironmentOptions& options, uint64_t seed) {
+  sim::WorldOptions result;
+  result.engine = options.engine;
+  result.seed = seed;
+  draw_world(*options.disturbances, seed, result);
+  return result;
+}
+
+}  // namespace
+
+PolicyEnvironment::PolicyEnvironment(const EnvironmentOptions& options, uint64_t seed)
+    : options_(options),
+      random_(seed),
+      world_(std::make_unique<sim::World>(options.scene, world_options(options, seed))),
+      builder_(*options.manifest),
+      action_(options.manifest->joints.size()) {
+  sim::RobotOptions robot;
+  draw_robot(*options.disturbances, seed, 0, *options.model, world_->options(), robot);
+  world_->add_robot(options.model, robot);
+  for (int i = 0; i < sim::kNumSharedDraws; ++i) random_.next();
+  const PolicyManifest& manifest = *options.manifest;
+  const double period = world_->options().period();
+  ticks_per_step_ = std::max(1, static_cast<int>(std::lround(manifest.period / period)));
+  max_steps_ = static_cast<int>(std::lround(options.episode_time / manifest.period));
+  const int num_motors = options.model->num_motors();
+  targets_.position.resize(num_motors);
+  targets_.stiffness = Eigen::VectorXd::Ones(num_motors);
+  targets_.kp = Eigen::VectorXd::Map(manifest.kp.data(), static_cast<long>(manifest.kp.size()));
+  targets_.kd = Eigen::VectorXd::Map(manifest.kd.data(), static_cast<long>(manifest.kd.size()));
+  input_.joint_position.resize(static_cast<size_t>(num_motors));
+  input_.joint_velocity = input_.joint_position;
+  // The start of every episode of a walk, and what height and stance are compared with.
+  std::fill(action_.begin(), action_.end(), 0.0F);
+  set_targets();
+  place();
+  start_ = sample();
+}
+
+void PolicyEnvironment::reset(const StepOutput& output) {
+  world_->reset();
+  std::fill(action_.begin(), action_.end(), 0.0F);
+  set_targets();
+  if (options_.manifest->kind == PolicyManifest::Kind::kGetUp) {
+    lay_down();
+  } else {
+    place();
+  }
+  builder_.reset();
+  num_steps_ = 0;
+  draw_command();
+  before_ = sample();
+  observe(output);
+}
+
+void PolicyEnvironment::place() {
+  Posture posture;
+  posture.position = options_.manifest->default_position;
+  for (const PolicyJoint& joint : options_.manifest->joints) {
+    double& angle = posture.position[static_cast<size_t>(joint.motor)];
+    const Joint& limits = options_.model->motor_joint(joint.motor);
+    const double drawn = angle + (start_ ? options_.start_spread * random_.uniform(-1, 1) : 0);
+    angle = std::clamp(drawn, limits.lower, std::max(limits.lower, limits.upper));
+  }
+  world_->place_robot(0, &posture, Eigen::Vector3d::Zero());
+  world_->set_targets(0, targets_);
+}
+
+void PolicyEnvironment::lay_down() {
+  const RobotModel& model = *options_.model;
+  Posture posture = model.ready_posture();
+  for (int motor = 0; motor < model.num_motors(); ++motor) {
+    const Joint& joint = model.motor_joint(motor);
+    double& angle = posture.position[static_cast<size_t>(motor)];
+    angle =
+        std::clamp(angle + random_.uniform(-kLyingSpread, kLyingSpread), joint.lower, joint.upper);
+  }
+  // Horizontal, then turned about its long axis to any side.
+  const Eigen::Quaterniond orientation =
+      Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()) *
+      Eigen::AngleAxisd(random_.uniform(-M_PI, M_PI), Eigen::Vector3d::UnitZ());
+  world_->place_robot(0, &posture, {0, 0, kLyingHeight}, &orientation);
+  sim::MotorTargets held = targets_;
+  held.position =
+      Eigen::VectorXd::Map(posture.position.data(), static_cast<long>(posture.position.size()));
+  world_->set_targets(0, held);
+  const double period = world_->options().period();
+  for (double t = 0; t < kLyingTime; t += period) world_->step_tick();
+}
+
+void PolicyEnvironment::step(const float* action, const StepOutput& output) {
+  const PolicyManifest& manifest = *options_.manifest;
+  const auto clip = static_cast<float>(manifest.action_clip);
+  for (size_t i = 0; i < action_.size(); ++i) {
+    action_[i] = std::isfinite(action[i]) ? std::clamp(action[i], -clip, clip) : 0.0F;
+  }
+  set_targets();
+  maybe_push();
+  for (int i = 0; i < ticks_per_step_; ++i) {
+    world_->set_targets(0, targets_);
+    world_->step_tick();
+  }
+  ++num_steps_;
+  const MotionSample after = sample();
+  const bool is_get_up = manifest.kind == PolicyManifest::Kind::kGetUp;
+  const double up = after.torso.linear()(2, 2);
+  const bool fallen = !is_get_up && (up < std::cos(kFallenTilt) ||
+                                     after.torso.translation().z() <
+                                         kFallenHeight * start_->torso.translation().z());
+  calc_reward_terms(*options_.model, manifest, *start_, before_, after, input_.command,
+                    builder_.phase(), fallen, output.reward_terms);
+  *output.terminated = fallen ? 1 : 0;
+  *output.truncated = !fallen && num_steps_ >= max_steps_ ? 1 : 0;
+  if (*output.terminated != 0 || *output.truncated != 0) {
+    reset(output);
+    return;
+  }
+  if (random_.uniform() < manifest.period / options_.command_time) draw_command();
+  before_ = after;
+  observe(output);
+}
+
+void PolicyEnvironment::set_targets() {
+  const PolicyManifest& manifest = *options_.manifest;
+  targets_.position = Eigen::VectorXd::Map(manifest.default_position.data(),
+                                           static_cast<long>(manifest.default_position.size()));
+  for (size_t i = 0; i < action_.size(); ++i) {
+    const PolicyJoint& joint = manifest.joints[i];
+    targets_.position[joint.motor] =
+        joint.default_angle + joint.scale * static_cast<double>(action_[i]);
+  }
+}
+
+void PolicyEnvironment::draw_command() {
+  const PolicyManifest& manifest = *options_.manifest;
+  if (options_.command || manifest.kind != PolicyManifest::Kind::kWalk) {
+    input_.command = options_.command.value_or(Eigen::Vector3d::Zero());
+    return;
+  }
+  input_.command = {random_.uniform(manifest.vx.lower, manifest.vx.upper),
+                    random_.uniform(manifest.vy.lower, manifest.vy.upper),
+                    random_.uniform(manifest.wz.lower, manifest.wz.upper)};
+  const double kind = random_.uniform();
+  const auto single = static_cast<long>(random_.uniform(0, 3));
+  if (kind < kRestShare) {
+    input_.command.setZero();
+  } else if (kind < kRestShare + kSingleShare) {
+    for (long i = 0; i < 3; ++i) {
+      if (i != single) input_.command[i] = 0;
+    }
+  }
+}
+
+void PolicyEnvironment::maybe_push() {
+  if (options_.push <= 0 || random_.uniform() > options_.manifest->period / kPushTime) return;
+  const double impulse = random_.uniform(0, options_.push) * options_.model->total_mass();
+  const double angle = random_.uniform(-M_PI, M_PI);
+  world_->push(0, 0, {impulse * std::cos(angle), impulse * std::sin(angle), 0});
+}
+
+MotionSample PolicyEnvironment::sample() const {
+  const sim::SimRobot& robot = world_->robot(0);
+  const RobotModel& model = *options_.model;
+  MotionSample sample;
+  sample.torso = robot.link_pose(0);
+  const Eigen::Matrix3d torso_from_world = sample.torso.linear().transpose();
+  sample.angular_velocity = torso_from_world * robot.state().velocity.head<3>();
+  sample.linear_velocity = torso_from_world * robot.state().velocity.segment<3>(3);
+  const std::array<int, 2> soles = {model.left_sole(), model.right_sole()};
+  for (size_t foot = 0; foot < 2; ++foot) sample.soles[foot] = robot.link_pose(soles[foot]);
+  for (const sim::Contact& contact : world_->contacts()) {
+    for (size_t foot = 0; foot < 2; ++foot) {
+      if (contact.a.kind != sim::Surface::Kind::kRobot ||
+          contact.b.kind != sim::Surface::Kind::kFloor ||
+          model.find_body(contact.a.link) != model.find_body(soles[foot])) {
+        continue;
+      }
+      sample.load[foot] += contact.force_on_a.z() / (kGravity * model.total_mass());
+    }
+  }
+  sample.position = robot.motor_position();
+  sample.velocity = robot.motor_velocity();
+  sample.torque = robot.motor_torque();
+  sample.target = targets_.position;
+  return sample;
+}
+
+void PolicyEnvironment::observe(const StepOutput& output) {
+  const sim::SensorReadings& readings = world_->sensors(0);
+  const auto count = static_cast<long>(input_.joint_position.size());
+  input_.angular_velocity = readings.gyroscope;
+  input_.projected_gravity = -(readings.orientation.conjugate() * Eigen::Vector3d::UnitZ());
+  // nao-motion estimates it; the truth stands for that here.
+  input_.linear_velocity = before_.linear_velocity;
+  Eigen::VectorXd::Map(input_.joint_position.data(), count) = readings.position;
+  Eigen::VectorXd::Map(input_.joint_velocity.data(), count) = readings.velocity;
+  const std::vector<float>& observation = builder_.build(input_, action_);
+  std::copy(observation.begin(), observation.end(), output.observation);
+  const double height = before_.torso.translation().z() / start_->torso.translation().z() - 1;
+  const std::array<double, kNumPrivileged> privileged = {before_.linear_velocity.x(),
+                                                         before_.linear_velocity.y(),
+                                                         before_.linear_velocity.z(),
+                                                         before_.angular_velocity.x(),
+                                                         before_.angular_velocity.y(),
+                                                         before_.angular_velocity.z(),
+                                                         height,
+                                                         before_.load[0],
+                                                         before_.load[1]};
+  std::copy(privileged.begin(), privileged.end(), output.privileged);
+}
+
+}  // namespace nao::policy_train

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/random.h"
+#include "policy/observation_builder.h"
+#include "policy/policy_manifest.h"
+#include "robot_model/robot_model.h"
+#include "robot_model/scene_file.h"
+#include "sim/disturbances.h"
+#include "sim/world.h"
+#include "tools/policy-train/reward_terms.h"
+
+namespace nao::policy_train {
+
+/** What the episodes of a policy are. */
+struct EnvironmentOptions {
+  std::shared_ptr<const RobotModel> model;
+  std::shared_ptr<const PolicyManifest> manifest;
+  std::shared_ptr<const sim::DisturbanceSet> disturbances;
+  SceneFile scene;
+  /** Physics engine, see sim::WorldOptions::engine. */
+  std::string engine = "fast";
+  /** Longest episode, and mean time between two commanded velocities, s. */
+  double episode_time = 20;
+  double command_time = 5;
+  /** Greatest horizontal impulse that hits the torso about every four seconds, N s for each kg of
+   * the robot. */
+  double push = 0;
+  /** Greatest difference of each moved joint from its default angle at the start, rad. Chosen. */
+  double start_spread = 0.05;
+  /** m/s, m/s, rad/s; nothing: drawn from the manifest's ranges. */
+  std::optional<Eigen::Vector3d> command;
+};
+
+/** Numbers that only the trainer's critic sees: linear velocity of the torso in its own frame, m/s
+ * (3); its angular velocity, rad/s (3); its height as a fraction of the start's, less 1; the load
+ * on both feet as a fraction of the weight (2). */
+inline constexpr int kNumPrivileged = 9;
+
+/** What one step of an environment writes. */
+struct StepOutput {
+  /** (manifest.num_observations()), (kNumPrivileged), (kNumRewardTerms). */
+  float* observation = nullptr;
+  float* privileged = nullptr;
+  float* reward_terms = nullptr;
+  /** 1 if the episode ended in this step: the robot fell; or its time was over. The observation is
+   * then the next episode's first one. */
+  uint8_t* terminated = nullptr;
+  uint8_t* truncated = nullptr;
+};
+
+/** One robot whose joints a policy that is being trained moves, in episodes.
+ *
+ * The seed draws the robot, once, and everything random in its episodes. The same seed and actions
+ * on the same build give the same bits. */
+class PolicyEnvironment {
+ public:
+  /** @throws ConfigError, ModelError  as sim::World does. */
+  PolicyEnvironment(const EnvironmentOptions& options, uint64_t seed);
+
+  /** Begins an episode: the robot at its default angles, at rest; a get-up's robot lies. */
+  void reset(const StepOutput& output);
+  /** One step of the policy. @param action  (manifest.num_actions()), finite: others count as 0. */
+  void step(const float* action, const StepOutput& output);
+
+ private:
+  void place();
+  void lay_down();
+  void set_targets();
+  void draw_command();
+  void maybe_push();
+  void observe(const StepOutput& output);
+  MotionSample sample() const;
+
+  EnvironmentOptions options_;
+  Random random_;
+  std::unique_ptr<sim::World> world_;
+  ObservationBuilder builder_;
+  PolicyInput input_;
+  std::vector<float> action_;
+  sim::MotorTargets targets_;
+  /** At the default angles; present from the end of the constructor on. */
+  std::optional<MotionSample> start_;
+  MotionSample before_;
+  int ticks_per_step_ = 1;
+  int num_steps_ = 0;
+  int max_steps_ = 0;
+};
+
+}  // namespace nao::policy_train
