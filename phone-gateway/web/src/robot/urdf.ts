@@ -4,6 +4,8 @@
 export interface UrdfVisual {
   /** As written in the file, relative to it. */
   mesh: string;
+  /** Factors of the mesh's own axes. */
+  scale: Triple;
   /** Shape frame in the link frame: m, and roll, pitch, yaw in rad. */
   xyz: Triple;
   rpy: Triple;
@@ -65,7 +67,7 @@ function parseLink(element: Element): UrdfLink {
   for (const visual of children(element, "visual")) {
     const geometry = children(visual, "geometry")[0];
     const mesh = geometry && children(geometry, "mesh")[0];
-    if (mesh) visuals.push({mesh: required(mesh, "filename"), ...parseOrigin(visual)});
+    if (mesh) visuals.push({mesh: required(mesh, "filename"), scale: triple(mesh.getAttribute("scale"), [1, 1, 1]), ...parseOrigin(visual)});
   }
   return {name: required(element, "name"), visuals};
 }
