@@ -262,8 +262,8 @@ export class App {
     if (this.isVisiting) return;
     this.isVisiting = true;
     const {Visit} = await import("./exhibition/visit");
-    new Visit(this.store, this.commander, this.root, this.root.querySelector<HTMLElement>(".notes")!, storage(),
-              () => this.leaveControls());
+    await Visit.begin(this.store, this.commander, this.root, this.root.querySelector<HTMLElement>(".notes")!, storage(),
+                      () => this.leaveControls());
   }
 
   /** The stage has the colors of the style sheet. */

@@ -159,7 +159,7 @@ describe("Commander", () => {
 
   it("translates the gateway's error codes", async () => {
     store.set({control: mine});
-    setLanguage("de");
+    await setLanguage("de");
     commander.notice(create(NoticeSchema, {kind: Notice_Kind.COMPONENT_CHANGED,
                                           component: Notice_Component.MOTION, message: "away"}));
     for (const error of [ErrorCode.STOPPED, ErrorCode.CONTROL_TAKEN, ErrorCode.ROBOT_UNAVAILABLE]) {

@@ -5,8 +5,7 @@ import {ErrorCode, Notice_Component, Notice_Kind, Notice_Status} from "./protoco
 import type {Notice, Response} from "./protocol/generated/remote_pb";
 import * as useCases from "./protocol/use_cases";
 import type {Store} from "./store";
-import {reasonInWords} from "./text/reasons";
-import {say} from "./text/texts";
+import {reasonInWords, say} from "./text/texts";
 
 /** The part of Connection that commands need. */
 export interface Requester {

@@ -10,8 +10,7 @@ import type {
 import * as useCases from "./protocol/use_cases";
 import {SecondConnection} from "./second_connection";
 import type {Problem, Store} from "./store";
-import {reasonInWords} from "./text/reasons";
-import {setLabels} from "./text/texts";
+import {reasonInWords, setLabels} from "./text/texts";
 import type {Transport} from "./transport";
 
 /** Silence after which the link counts as lost, both here and in the gateway. */

@@ -9,7 +9,7 @@ import {ErrorCode, RunExhibitionSchema} from "../protocol/generated/remote_pb";
 import type {Exhibition} from "../protocol/generated/remote_pb";
 import * as useCases from "../protocol/use_cases";
 import {Store} from "../store";
-import {reasonInWords} from "../text/reasons";
+import {reasonInWords} from "../text/texts";
 import {GatewayTransport, isInvitation} from "../transport";
 import {tell} from "./exhibition_texts";
 import type {ExhibitionKey} from "./exhibition_texts";
@@ -111,7 +111,11 @@ class OperatorPage {
 
   private show(exhibition: Exhibition | null): void {
     if (!exhibition) return;
-    if (takeLanguage(exhibition.language)) this.fill();
+    void takeLanguage(exhibition.language).then((isNew) => {
+      if (!isNew) return;
+      this.fill();
+      this.show(exhibition);
+    });
     setText(this.driver, driverInWords(exhibition));
     setText(this.time, exhibition.driver ? clock(exhibition.turnLeft) : "");
     this.time.classList.toggle("warned", exhibition.isWarned);
@@ -122,5 +126,5 @@ class OperatorPage {
   }
 }
 
-takeLanguage("en");
+await takeLanguage("");
 new OperatorPage(document.getElementById("app")!, new Store());

@@ -6,7 +6,8 @@ import {el, setText} from "../dom";
 import {AttendSchema, ErrorCode, Exhibition_Phase as Phase} from "../protocol/generated/remote_pb";
 import type {Exhibition} from "../protocol/generated/remote_pb";
 import type {Store} from "../store";
-import {tell} from "./exhibition_texts";
+import {getLanguage} from "../text/texts";
+import {setWords, tell} from "./exhibition_texts";
 import {challengeInWords, challengeTime, clock, driverInWords, waitInWords} from "./words";
 import css from "./visit.css?inline";
 
@@ -48,6 +49,11 @@ export class Visit {
   private isKnown = false;
 
   /** @param notes  where messages to the driver are. @param letGo  releases what is held. */
+  static async begin(...parts: ConstructorParameters<typeof Visit>): Promise<void> {
+    await setWords(getLanguage());
+    new Visit(...parts);
+  }
+
   constructor(private readonly store: Store, private readonly commander: Commander, private readonly root: HTMLElement, notes: HTMLElement,
               memory: Storage | null, private readonly letGo: () => void) {
     const sheet = new CSSStyleSheet();

@@ -1,10 +1,9 @@
 /** Settings and help: one sheet, over everything. */
 import {TiltSensor} from "../controls/tilt_sensor";
 import {el, icon} from "../dom";
-import {getLanguage, kLanguages, say} from "../text/texts";
+import {getLanguage, kLanguageNames, kLanguages, say} from "../text/texts";
 import type {Language, TextKey} from "../text/texts";
 
-const kLanguageNames: Record<Language, string> = {en: "English", pt: "Português", de: "Deutsch"};
 const kHelp: readonly TextKey[] = ["menu.helpWalk", "menu.helpView", "menu.helpImage",
                                    "menu.helpGround", "menu.helpKeys", "menu.helpPad"];
 
